@@ -152,11 +152,47 @@ test('a context that is suspended: what happens meanwhile is not felt later, and
     assert.ok(context.recorded[0].some(sample => sample !== 0) && output.status.late === 0);
 });
 
+test('an audio thread that ends is told once, and nobody waits for it', async () => {
+    const context = new Context(8), output = await play(physvib, context, { layout: 'phone4', fieldWidth: 1, fieldHeight: 1 }), lines = [], { error } = console;
+    console.error = line => lines.push(line);
+    try {
+        assert.equal(output.error, null);
+        output.node.onprocessorerror();
+        output.node.onprocessorerror();
+        await assert.rejects(output.arrived(), /audio thread has ended/);
+        output.strike([]);
+    } finally { console.error = error; }
+    assert.match(output.error.message, /play anew/);
+    assert.equal(lines.length, 1);
+
+    const other = new Context(8), second = await play(physvib, other, { layout: 'phone4', fieldWidth: 1, fieldHeight: 1 }), waiting = second.arrived();
+    console.error = line => lines.push(line);
+    try {
+        other.processor.lib = { malloc() { throw new Error('memory'); } };
+        other.run(1);
+        await waiting.catch(() => {});
+    } finally { console.error = error; }
+    await null;
+    assert.ok(!other.isAlive && /memory/.test(second.error?.message), `${second.error}`);
+    assert.equal(lines.length, 2);
+});
+
 test('modules that cannot be had are named, with what to do', async () => {
     const context = new Context(2);
     context.audioWorklet.addModule = async () => { throw new Error('Not found'); };
     await assert.rejects(play(physvib, context, { worklet: '/there/worklet.js' }), /\/there\/worklet.js: .*Not found.*option worklet/);
     await assert.rejects(load(folder, 'physvib').then(({ load: code }) => code('file:///nowhere/physvib.wasm')), /file:\/\/\/nowhere\/physvib.wasm: .*no such file.*physvib\/inline/);
+    const { load: code } = await load(folder, 'physvib');
+    globalThis.document = { baseURI: 'https://example.org/game/' };
+    const { fetch } = globalThis, asked = [];
+    globalThis.fetch = async address => { asked.push(String(address)); return new Response('', { status: 404 }); };
+    try {
+        await assert.rejects(code('assets/physvib.wasm'), /https:\/\/example.org\/game\/assets\/physvib.wasm: .*the server answers 404/);
+    } finally {
+        globalThis.fetch = fetch;
+        delete globalThis.document;
+    }
+    assert.deepEqual(asked, ['https://example.org/game/assets/physvib.wasm'], 'a relative address is the page\'s');
     const inside = await (await load(folder, 'physvib/inline')).load();
     assert.equal(inside.version, physvib.version);
     assert.match(inside.worklet, /registerProcessor/);

@@ -33,6 +33,55 @@ for (const name of Object.keys(engines)) test(name, async () => {
     if (name === 'matter' || name === 'planck') step(1 / 240); // their own loop goes on
 });
 
+/** What the console is told while `run` runs. */
+function toldBy(run) {
+    const told = [], { error } = console;
+    console.error = line => told.push(line);
+    try { run(); } finally { console.error = error; }
+    return told;
+}
+
+for (const name of Object.keys(engines)) test(`${name}: errors of haptics are not the game's`, async () => {
+    const make = async () => {
+        const made = await engines[name](folder, physvib, world, 240), ids = [1, 2].map(id => made.haptics.set(made.bodies.get(id), { isSource: true, frequencyHz: 200, decayPerSecond: 30 }));
+        return { ...made, ids, run(count) { for (let i = 0; i < count; ++i) made.step(1 / 240); return made.haptics.take(true); } };
+    };
+    const one = await make(), { journal } = one.haptics, { move, touch } = journal, [bad] = one.ids;
+    journal.move = (id, x, ...rest) => move.call(journal, id, id === bad ? NaN : x, ...rest);
+    journal.touch = (a, b, contact) => touch.call(journal, a, b, a === bad || b === bad ? { ...contact, x: NaN } : contact);
+    assert.deepEqual([...new Set(one.run(120).map(event => event.fixture))], [one.ids[1]], 'a body with a place that is none is left out alone');
+    assert.match(one.haptics.explain(), new RegExp(`Body ${bad} is left out while`));
+    assert.equal(one.haptics.error, null);
+    one.haptics.free();
+    one.haptics.free();
+
+    const two = await make(), heard = [];
+    two.haptics.follow(() => { throw new Error('mine'); });
+    two.haptics.follow(events => heard.push(...events));
+    assert.equal(toldBy(() => two.run(120)).length, 1, 'a follower is told once');
+    assert.ok(heard.length > 0, 'another goes on');
+    assert.match(two.haptics.explain(), /A follower has ended by an error: mine/);
+
+    two.haptics.world.take = two.haptics.world.endStep = () => { throw new Error('broken'); };
+    const told = toldBy(() => two.run(3));
+    assert.equal(told.length, 1);
+    assert.match(told[0], /haptics have ended, the game goes on: broken/);
+    assert.equal(two.haptics.set(two.bodies.get(1), { isSource: true }), -1);
+    assert.equal(two.haptics.id(two.bodies.get(1)), -1);
+    two.haptics.remove(two.bodies.get(1));
+    assert.deepEqual(two.haptics.take(true), []);
+    assert.match(two.haptics.explain(), /ended by an error: broken/);
+    two.haptics.free();
+    two.step(1 / 240);
+});
+
+test('a scene of Phaser that ends has taken the events off', async () => {
+    const engine = { world: { bodies: [], composites: [] }, pairs: { list: [] }, timing: { lastDelta: 16 }, gravity: { x: 0, y: 1, scale: 0.001 } }, { attach } = await load(folder, 'physvib/matter'), haptics = attach(physvib, engine);
+    engine.events = {}; // Events.off(engine)
+    assert.match(haptics.explain(), /no longer reach these haptics/);
+    haptics.free();
+});
+
 const none = { category: 1, mask: 0, group: 0 };
 const hinder = {
     matter: { sensor: body => { body.isSensor = true; }, filtered: body => { body.collisionFilter = none; } },

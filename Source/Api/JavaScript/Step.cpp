@@ -1,84 +1,93 @@
 // SPDX-License-Identifier: MIT
-// What an attachment observes in a step, told in one call: package/journal.js writes it.
-#include "Api/C/physvib.h"
+// What an attachment observes in a step, told in one call: package/journal.js writes it. Thousands of entries
+// a step are usual, so they go to the feed without the C functions' structures.
+#include "Api/C/Convert.h"
+#include "Api/C/Objects.h"
 #include "Api/JavaScript/Exports.h"
+#include <optional>
+#include <string>
 
 namespace physvib::js {
 
 namespace {
 
-constexpr double leftOut = -2.0e300; // as in journal.js: the default of physvib_contact_init
+constexpr double leftOut = -2.0e300; // as in journal.js: a default
 
-/// The next numbers of a list.
-class Numbers {
-public:
-    Numbers(const double* first, int count) noexcept
-        : at_{first}
-        , end_{first + count} {}
-    bool isEmpty() const noexcept { return at_ == end_; }
-    double next() noexcept { return *at_++; }
-    int nextInt() noexcept { return static_cast<int>(next()); }
-    const double* next(int count) noexcept { return (at_ += count) - count; }
-    void into(double& member) noexcept {
-        if (const double value = next(); value != leftOut) member = value;
+Vector3 vectorOf(const double* at) noexcept {
+    return {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
+}
+double orElse(double value, double other) noexcept { return value == leftOut ? other : value; }
+std::optional<double> known(double value) noexcept { return api::optional(orElse(value, PHYSVIB_UNKNOWN)); }
+
+/// Of the numbers after those of both bodies, in the order of journal.js.
+FedContact contactOf(const double* at) noexcept {
+    FedContact contact;
+    contact.a = static_cast<int>(at[0]);
+    contact.b = static_cast<int>(at[1]);
+    contact.point = {static_cast<float>(orElse(at[2], 0.0)), static_cast<float>(orElse(at[3], 0.0)),
+                     static_cast<float>(orElse(at[4], 0.0))};
+    contact.normal = {static_cast<float>(orElse(at[5], 0.0)), static_cast<float>(orElse(at[6], 1.0)),
+                      static_cast<float>(orElse(at[7], 0.0))};
+    contact.impulseNewtonSeconds = known(at[8]);
+    contact.approachMetresPerSecond = known(at[9]);
+    contact.restitution = orElse(at[10], 0.0);
+    contact.fraction = known(at[11]);
+    contact.gapMetres = orElse(at[12], 0.0);
+    contact.gapFraction = orElse(at[13], 0.0);
+    contact.alongAMetresPerSecond = known(at[14]);
+    contact.alongBMetresPerSecond = known(at[15]);
+    const int soft = static_cast<int>(orElse(at[16], 0.0));
+    contact.isSoft = soft != 0;
+    contact.isPushWhole = soft == PHYSVIB_SOFT_WHOLE;
+    contact.pointId = static_cast<int>(orElse(at[17], PHYSVIB_POINT_NONE));
+    return contact;
+}
+
+/// An entry by its kind in journal.js. Returns how many numbers it has; `fault`: what is wrong with it.
+int tell(ContactFeed& feed, const double* entry, std::string_view& fault) {
+    const int body = static_cast<int>(entry[1]);
+    const double* at = entry + 2;
+    switch (static_cast<int>(entry[0])) {
+    case 0:
+        fault =
+            feed.move(body, {static_cast<float>(at[0]), static_cast<float>(at[1])},
+                      {{static_cast<float>(at[2]), static_cast<float>(at[3])}, static_cast<float>(at[4])});
+        return 7;
+    case 1:
+        fault = feed.moved(
+            body, {{static_cast<float>(at[0]), static_cast<float>(at[1])}, static_cast<float>(at[2])});
+        return 5;
+    case 2: fault = feed.touch(contactOf(entry + 1)); return 19;
+    case 3: {
+        const bool hasInertia = at[9] != 0.0;
+        std::optional<InverseInertia> inverse;
+        if (hasInertia) inverse = {at[10], at[11], at[12], at[13], at[14], at[15]};
+        fault = feed.moveInSpace(body, vectorOf(at), {vectorOf(at + 3), vectorOf(at + 6)}, inverse);
+        return hasInertia ? 18 : 12;
     }
-    void into(int& member) noexcept {
-        if (const double value = next(); value != leftOut) member = static_cast<int>(value);
+    default: fault = feed.movedInSpace(body, {vectorOf(at), vectorOf(at + 3)}); return 8;
     }
-
-private:
-    const double *at_, *end_;
-};
-
-int touch(physvib_world world, Numbers& from) noexcept {
-    physvib_contact contact;
-    physvib_contact_init(&contact, sizeof contact);
-    for (int* member : {&contact.a, &contact.b}) from.into(*member);
-    for (double* member :
-         {&contact.x_m, &contact.y_m, &contact.z_m, &contact.normal_x, &contact.normal_y, &contact.normal_z,
-          &contact.impulse_n_s, &contact.approach_m_per_s, &contact.restitution, &contact.fraction,
-          &contact.gap_m, &contact.gap_fraction, &contact.along_a_m_per_s, &contact.along_b_m_per_s})
-        from.into(*member);
-    for (int* member : {&contact.is_soft, &contact.point_id}) from.into(*member);
-    return physvib_world_touch(world, &contact);
 }
-
-int move(physvib_world world, Numbers& from) noexcept {
-    const int body = from.nextInt();
-    const double* to = from.next(5);
-    return physvib_world_move(world, body, to[0], to[1], to[2], to[3], to[4]);
-}
-
-int moved(physvib_world world, Numbers& from) noexcept {
-    const int body = from.nextInt();
-    const double* to = from.next(3);
-    return physvib_world_moved(world, body, to[0], to[1], to[2]);
-}
-
-int moveInSpace(physvib_world world, Numbers& from) noexcept {
-    const int body = from.nextInt();
-    const double *centre = from.next(3), *velocity = from.next(3), *spin = from.next(3);
-    const bool hasInertia = from.next() != 0.0;
-    return physvib_world_move_in_space(world, body, centre, velocity, spin,
-                                       hasInertia ? from.next(6) : nullptr);
-}
-
-int movedInSpace(physvib_world world, Numbers& from) noexcept {
-    const int body = from.nextInt();
-    const double *velocity = from.next(3), *spin = from.next(3);
-    return physvib_world_moved_in_space(world, body, velocity, spin);
-}
-
-// By their numbers in journal.js.
-constexpr int (*kinds[])(physvib_world, Numbers&) noexcept {move, moved, touch, moveInSpace, movedInSpace};
 
 } // namespace
 
+/// Leaves out what has numbers that are none, so that one body does not end the haptics of all. Returns 0, or
+/// the first such body's number + 1 with the error in text(), or another error.
 extern "C" int PHYSVIB_JS(observe)(physvib_world world, const double* first, int count) {
-    Numbers numbers{first, count};
-    int code = PHYSVIB_OK;
-    while (code >= PHYSVIB_OK && !numbers.isEmpty()) code = kinds[numbers.nextInt()](world, numbers);
-    return code;
+    return api::in(world, [&](api::World& of) -> int {
+        int refused = 0;
+        std::string_view fault;
+        for (const double *entry = first, *end = first + count; entry < end;) {
+            const int length = tell(of.feed, entry, fault);
+            if (fault.starts_with("step:")) return api::fail(PHYSVIB_ERROR_ORDER, fault);
+            if (!fault.empty() && refused == 0) {
+                refused = static_cast<int>(entry[1]) + 1; // of a contact, its first
+                text() = fault;
+            }
+            entry += length;
+        }
+        return refused;
+    });
 }
 
 } // namespace physvib::js

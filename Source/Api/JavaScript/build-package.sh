@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Builds the JavaScript packages physvib and jspsych-physvib: build/web/physvib-VERSION.tgz and the like, which `npm install` takes. What compiles it comes from Debian; npm
 # (Node 20 or newer), which packs it, from you.
-# usage: Source/Api/JavaScript/build-package.sh
+# usage: Source/Api/JavaScript/build-package.sh; PHYSVIB_HOMEPAGE, PHYSVIB_REPOSITORY, PHYSVIB_BUGS and PHYSVIB_AUTHOR are fields of package.json
 set -eu
 cd "$(dirname "$0")/../../.."
 . .ci/packages.sh
@@ -21,15 +21,27 @@ fi
 Source/Api/JavaScript/shrink.sh "$work/physvib.wasm" "$work/package/physvib.wasm" -O2 # it renders; 7 KB less, compressed
 Source/Api/JavaScript/shrink.sh "$work/files.wasm" "$work/package/files.wasm" # 13 KB
 node - "$work/package" <<'END'
-const { readFileSync, writeFileSync } = require('node:fs'), folder = process.argv[2];
-const text = readFileSync('Source/Api/JavaScript/package/inline.js', 'utf8');
-writeFileSync(`${folder}/inline.js`, text.replace(/'{(.*?)}'/g, (_, name) => `'${readFileSync(`${folder}/${name}`).toString('base64')}'`));
+const { readdirSync, readFileSync, writeFileSync } = require('node:fs'), folder = process.argv[2];
+// Lines of comments stay in the sources and in the types: no page needs them.
+const text = readFileSync('Source/Api/JavaScript/package/inline.js', 'utf8'), bare = from => from.replace(/^ *\/\/(?! SPDX).*\n/gm, '').replace(/^ *\/\*\*[^]*?\*\/\n/gm, '');
+for (const file of readdirSync(folder)) if (file.endsWith('.js')) writeFileSync(`${folder}/${file}`, bare(readFileSync(`${folder}/${file}`, 'utf8')));
+// Addresses that npm shows: those that are given.
+const { PHYSVIB_HOMEPAGE: homepage, PHYSVIB_BUGS: bugs, PHYSVIB_REPOSITORY: url, PHYSVIB_AUTHOR: author } = process.env;
+for (const file of [`${folder}/package.json`, `${folder}/../jspsych/package.json`]) {
+    const fields = { ...JSON.parse(readFileSync(file, 'utf8')), ...(author && { author }), ...(homepage && { homepage }), ...(bugs && { bugs }), ...(url && { repository: { type: 'git', url } }) };
+    writeFileSync(file, `${JSON.stringify(fields, null, 2)}\n`);
+}
+writeFileSync(`${folder}/inline.js`, bare(text).replace(/'{(.*?)}'/g, (_, name) => `'${readFileSync(`${folder}/${name}`).toString('base64')}'`));
 END
 rm -f build/web/*.tgz
+mkdir -p "$work/again"
 for package in package jspsych; do
     cp LICENSES/MIT.txt "$work/$package/LICENSE"
     (cd "$work/$package" && npm pack --silent --pack-destination ../.. >/dev/null)
+    touch "$work/$package"/* # and again: who builds it from the same sources gets the same bytes
+    (cd "$work/$package" && npm pack --silent --pack-destination ../again >/dev/null)
 done
+for file in build/web/*.tgz; do cmp "$file" "$work/again/$(basename "$file")" || { say "expected npm pack to give the same bytes twice"; exit 1; }; done
 # What a page loads that reads no clips; inline.js is instead of physvib.wasm.
 bytes=$(tar -C "$work/package" --exclude=files.wasm --exclude=inline.js -cz . | wc -c)
 file=$(ls build/web/physvib-*.tgz)

@@ -18,6 +18,8 @@ export interface Output {
     readonly latency: number;
     /** Frames that the browser left out while its audio thread stood still. */
     readonly skipped: number;
+    /** What ended the audio thread, told once on the console; null: nothing did. Close the output, and play anew. */
+    readonly error: Error | null;
     /** How often a game stood still for longer than the latency, or changed its pace, and was aligned anew. */
     readonly moves: number;
     /** Of the audio thread, four times a second: `late` counts events that came after their time. */

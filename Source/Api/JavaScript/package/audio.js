@@ -15,6 +15,8 @@ class Output {
     status = { liveModes: 0, pending: 0, frames: 0, played: 0, late: 0, rejected: 0, refused: 0 };
     /** Frames that the browser left out, while its audio thread stood still: they are over, and nothing is late for them. */
     skipped = 0;
+    /** What ended the audio thread, told once on the console; null: nothing did. */
+    error = null;
 
     constructor(physvib, context, { worklet, latency, level = firstLevel, ...settings }) {
         const { bytes, channels } = physvib.settingsBytes({ ...settings, rate: context.sampleRate });
@@ -27,13 +29,14 @@ class Output {
         this.#node = new AudioWorkletNode(context, 'physvib', { numberOfInputs: 0, outputChannelCount: [Math.min(32, channels)],
             processorOptions: { module: physvib.module, settings: bytes, channels, eventBytes: this.#size.event, statusBytes: this.#size.renderer_status } });
         this.opened = new Promise((done, failed) => {
-            this.#node.onprocessorerror = () => failed(new PhysVibError(-8, 'audio: the audio thread has ended'));
+            this.#node.onprocessorerror = () => failed(this.#ended('it stopped'));
             this.#node.port.onmessage = ({ data }) => {
-                if (data.status) {
+                if (data.error !== undefined) failed(this.#ended(data.error));
+                else if (data.status) {
                     Object.assign(this.status, physvib.statusOf(data.status));
                     this.skipped = data.skipped;
                 }
-                else if (data.hasArrived) this.#arrivals.shift()();
+                else if (data.hasArrived) this.#arrivals.shift().done();
                 else if (data.isOpen) {
                     this.latencyFrames = data.latencyFrames;
                     done(this);
@@ -45,6 +48,16 @@ class Output {
         this.#node.connect(this.#mix);
         this.#level = new GainNode(context, { gain: level });
         this.#connect(settings.layout ?? 'phone4');
+    }
+
+    // Nothing is felt from then on, and nobody waits for it.
+    #ended(why) {
+        if (this.error === null) {
+            this.error = new PhysVibError(-8, `audio: the audio thread has ended (${why}): close this output, and play anew`);
+            console.error(`PhysVib: ${this.error.message}`);
+            for (const { failed } of this.#arrivals.splice(0)) failed(this.error);
+        }
+        return this.error;
     }
 
     /** Whether each actuator has an output of its own. */
@@ -99,8 +112,9 @@ class Output {
 
     /** Resolves when what was struck so far is on the audio thread: wait for it before an OfflineAudioContext renders, which may be faster than messages. */
     arrived() {
-        return new Promise(done => {
-            this.#arrivals.push(done);
+        return new Promise((done, failed) => {
+            if (this.error) return failed(this.error);
+            this.#arrivals.push({ done, failed });
             this.#tell({ isAsked: true });
         });
     }

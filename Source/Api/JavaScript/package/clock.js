@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: MIT
-// When a world's time is felt: a line from its time to another clock's. It keeps its slope: a game that steps 1/60 s at each of 45 pictures a second lasts a third
-// longer than its own time, and so does what is felt of it.
+// When a world's time is felt: a line from its time to another clock's, and a latency. A game that steps 1/60 s at each of 45 pictures a second lasts a third longer
+// than its own time, and so does what is felt of it. The line is learned in a second, and anew when the game's pace changes or it has stood still.
 const nsPerMs = 1e6;
-const learningNs = 1000 * nsPerMs; // until then each step may move the line; later by no more than a frame of audio
-const frameNs = 15e3; // less than one
-const usualLatencyNs = 60 * nsPerMs, mostLatencyNs = 250 * nsPerMs, reserveNs = 8 * nsPerMs;
-const leastToFit = 8;
-
-/** The line through points { world, now } that is nearest to all: its rate, and the other clock's time at the last point; and how far points lie beside it. */
-function fitted(points) {
-    const { length: n } = points, last = points[n - 1];
-    const mean = name => points.reduce((sum, point) => sum + point[name] - last[name], 0) / n, world = mean('world'), now = mean('now');
-    const product = (a, b) => points.reduce((sum, point) => sum + (point[a] - last[a] - (a === 'world' ? world : now)) * (point[b] - last[b] - (b === 'world' ? world : now)), 0);
-    const spread = product('world', 'world'), rate = n >= leastToFit && spread > 0 ? product('world', 'now') / spread : 1, offset = now - rate * world;
-    const beside = points.map(point => point.now - last.now - offset - rate * (point.world - last.world));
-    return { rate, now: last.now + offset, early: -Math.min(...beside), late: Math.max(...beside) };
-}
+const frameNs = 15e3; // less than one of audio: by so much a picture may move a line that is learned
+const firstLearningNs = 1000 * nsPerMs, learningNs = 700 * nsPerMs; // meanwhile each picture may move it
+const usualLatencyNs = 60 * nsPerMs, mostLatencyNs = 250 * nsPerMs, reserveNs = 8 * nsPerMs, lessNs = 16 * nsPerMs;
+const leastPictures = 5; // to fit a line, and to find that it is wrong
+const suddenNs = 60 * nsPerMs; // from one picture to the next: the game stood still
+const calmNs = 750 * nsPerMs; // a latency that is too large is made smaller after as long
+const room = 160; // pictures: a second of 144 and more
 
 export class Clock {
-    #points = []; #world = null; #now = 0; #rate = 1; #since = 0; #isFixed;
-    /** How often the line was begun anew: a game that stood still, or whose pace changed. */
+    #worlds = new Float64Array(room); #nows = new Float64Array(room); #olds = new Float64Array(room); #count = 0; #next = 0; // pictures, the last of them before #next
+    #world = null; #now = 0; #rate = 1; // the line: at that time of the world, and how fast it goes
+    #step = null; #before = null; #old = 0; #lastNow = 0; // the world's time after the last step, and after the one before; of this picture, the oldest that becomes final
+    #learnsUntil = Infinity; #spread = 0; #wasSudden = false; #changed = 0; #patience = calmNs; #isFixed;
+    /** How often the line was begun anew, or the latency changed: a game that stood still, or whose pace changed. */
     moves = 0;
 
     /** `latency`: from a collision to its vibration, s; undefined: 0.06, or more if the game's steps or its pictures want it. */
@@ -30,34 +26,138 @@ export class Clock {
 
     /** After a step: the world's time and the other's. */
     align(worldNs, nowNs) {
-        if (this.#world !== null && worldNs === this.#world) return;
-        const expected = this.#now + (worldNs - this.#world) * this.#rate, error = nowNs - expected;
-        if (this.#world === null || worldNs < this.#world || Math.abs(error) > (nowNs - this.#since < learningNs ? learningNs / 2 : this.latencyNs)) {
-            if (this.#world !== null) ++this.moves;
-            this.#points = [];
-            this.#since = nowNs;
-        }
-        const step = worldNs - this.#world;
-        this.#world = worldNs;
-        if (nowNs - this.#since < learningNs) this.#learn(nowNs);
-        else {
-            this.#points = [];
-            this.#now = expected + (Math.abs(error) > frameNs ? Math.max(-frameNs, Math.min(frameNs, 0.02 * error)) : 0);
-            this.#rate += Math.abs(error) > frameNs ? Math.max(-1e-4, Math.min(1e-4, 2e-4 * error / step)) : 0;
-        }
-    }
-    #learn(nowNs) {
-        this.#points.push({ world: this.#world, now: nowNs });
-        const [first] = this.#points, { length } = this.#points, starts = this.#points.map(({ world, now }) => now - world), beside = Math.max(...starts) - Math.min(...starts);
-        const keepsPace = beside < frameNs, { rate, now, early, late } = keepsPace ? { rate: 1, now: first.now - first.world + this.#world, early: 0, late: beside } : fitted(this.#points);
-        const step = length > 1 ? rate * (this.#world - first.world) / (length - 1) : 0;
-        [this.#rate, this.#now] = [rate, now];
-        // Events are final a step after they happened; pictures come late, and clocks of pages stand still between blocks of audio.
-        if (!this.#isFixed && length >= leastToFit) this.latencyNs = Math.max(this.latencyNs, Math.min(mostLatencyNs, 2 * step + 2 * late + early + reserveNs));
+        if (worldNs === this.#step) return;
+        if (this.#step === null || worldNs < this.#step) this.#begin(worldNs, nowNs);
+        else if (nowNs !== this.#lastNow) this.#end(nowNs);
+        if (nowNs !== this.#lastNow) this.#old = this.#before ?? worldNs;
+        [this.#before, this.#step, this.#lastNow] = [this.#step, worldNs, nowNs];
     }
 
     /** When what happened at that time of the world is felt. */
-    at(worldNs) { return this.#now + (worldNs - this.#world) * this.#rate + this.latencyNs; }
+    at(worldNs) { return this.#lineAt(worldNs) + this.latencyNs; }
+    #lineAt(worldNs) { return this.#now + (worldNs - this.#world) * this.#rate; }
+
+    #begin(worldNs, nowNs) {
+        if (this.#step !== null) ++this.moves;
+        [this.#world, this.#now, this.#rate, this.#count, this.#before] = [worldNs, nowNs, 1, 0, null];
+        this.#learnsUntil = nowNs + firstLearningNs;
+    }
+
+    // A picture has ended: its last step says where the game is, since some catch up in several.
+    #end(nowNs) {
+        const world = this.#step, now = this.#lastNow, error = now - this.#lineAt(world), last = (this.#next + room - 1) % room;
+        const isSudden = this.#count > 0 && Math.abs(error - (this.#nows[last] - this.#lineAt(this.#worlds[last]))) > suddenNs;
+        if (isSudden) {
+            if (this.#wasSudden) this.#rate = (now - this.#nows[last]) / (world - this.#worlds[last]); // so it is the pace
+            this.#learnAnew(now, 0);
+            this.#old = this.#before = world; // what was before is over
+        }
+        this.#wasSudden = isSudden;
+        [this.#worlds[this.#next], this.#nows[this.#next], this.#olds[this.#next]] = [world, now, this.#old];
+        this.#next = (this.#next + 1) % room;
+        this.#count = Math.min(room, this.#count + 1);
+        if (isSudden) [this.#world, this.#now] = [world, now];
+        else if (nowNs < this.#learnsUntil) this.#learn();
+        else this.#follow(world, now, error);
+    }
+
+    #learnAnew(nowNs, kept) {
+        ++this.moves;
+        this.#count = Math.min(this.#count, kept);
+        this.#learnsUntil = Math.max(nowNs + learningNs, Math.min(this.#learnsUntil, nowNs + firstLearningNs));
+    }
+
+    #at(i) { return (this.#next - this.#count + i + 2 * room) % room; }
+
+    // The line that is nearest to all pictures; a pace of one is the rule.
+    #learn() {
+        const n = this.#count, origin = this.#at(n - 1), world0 = this.#worlds[origin], now0 = this.#nows[origin];
+        let world = 0, now = 0, least = Infinity, most = -Infinity;
+        for (let i = 0; i < n; ++i) {
+            const at = this.#at(i), start = this.#nows[at] - this.#worlds[at];
+            world += (this.#worlds[at] - world0) / n;
+            now += (this.#nows[at] - now0) / n;
+            least = Math.min(least, start);
+            most = Math.max(most, start);
+        }
+        let spread = 0, product = 0;
+        for (let i = 0; i < n; ++i) {
+            const at = this.#at(i), from = this.#worlds[at] - world0 - world;
+            spread += from * from;
+            product += from * (this.#nows[at] - now0 - now);
+        }
+        if (most - least < frameNs) [this.#world, this.#now, this.#rate] = [this.#worlds[this.#at(0)], this.#nows[this.#at(0)], 1];
+        else {
+            if (n >= leastPictures && spread > 0) this.#rate = product / spread;
+            if (Math.abs(this.#rate - 1) < 0.01) this.#rate = 1;
+            [this.#world, this.#now] = [world0 + world, now0 + now];
+        }
+        this.#spread = this.#spreadOf(n);
+        if (!this.#isFixed && n >= leastPictures) this.latencyNs = this.#wanted(n);
+        this.#changed = this.#lastNow;
+    }
+
+    // How far the last n pictures lie from one another beside the line; or how coarse the clock is, which a second need not show.
+    #spreadOf(n) {
+        let least = Infinity, most = -Infinity, grain = Infinity, before = 0;
+        for (let i = this.#count - n; i < this.#count; ++i) {
+            const at = this.#at(i), error = this.#nows[at] - this.#lineAt(this.#worlds[at]);
+            least = Math.min(least, error);
+            most = Math.max(most, error);
+            if (i === this.#count - n) continue;
+            const passed = this.#nows[at] - this.#nows[this.#at(i - 1)], other = Math.abs(passed - before);
+            if (other > 1e3) grain = Math.min(grain, i > this.#count - n + 1 ? other : passed);
+            before = passed;
+        }
+        return Math.max(most - least, grain < 30 * nsPerMs ? grain : 0);
+    }
+
+    // Events are final a step after they happened; pictures come late, and clocks of pages stand still between blocks of audio.
+    #wanted(n) {
+        let most = 0;
+        for (let i = this.#count - n; i < this.#count; ++i) most = Math.max(most, this.#neededAt(this.#at(i)));
+        return Math.min(mostLatencyNs, Math.max(usualLatencyNs, most + this.#spreadOf(n) + reserveNs));
+    }
+    #neededAt(at) { return this.#nows[at] - this.#lineAt(this.#olds[at]); }
+
+    #follow(world, now, error) {
+        let least = Infinity, most = -Infinity, late = 0;
+        for (let i = Math.max(0, this.#count - leastPictures); i < this.#count; ++i) {
+            const at = this.#at(i), each = this.#nows[at] - this.#lineAt(this.#worlds[at]);
+            least = Math.min(least, each);
+            most = Math.max(most, each);
+            if (this.#neededAt(at) > this.latencyNs - reserveNs / 2) ++late;
+        }
+        const bound = this.#spread + reserveNs / 2;
+        if (this.#count >= leastPictures && (least > bound || most < -bound)) {
+            this.#learnAnew(now, leastPictures);
+            this.#learn();
+            return;
+        }
+        // From picture to picture as little as nobody feels.
+        const by = Math.abs(error) > frameNs ? Math.max(-frameNs, Math.min(frameNs, 0.02 * error)) : 0;
+        [this.#now, this.#world] = [this.#lineAt(world) + by, world];
+        if (by !== 0) this.#rate += Math.max(-1e-4, Math.min(1e-4, 2e-4 * error / (16 * nsPerMs)));
+        if (!this.#isFixed) this.#suit(now, late);
+    }
+
+    // A latency for the game's pictures as they are now: larger when three of five were late, smaller when none wants it for a while, and ever less readily.
+    #suit(now, late) {
+        if (late >= 3) {
+            if (this.latencyNs >= mostLatencyNs) return;
+            this.#patience = Math.min(16e9, 2 * this.#patience);
+            this.latencyNs = Math.max(this.latencyNs, this.#wanted(Math.min(this.#count, leastPictures)));
+        } else {
+            const n = Math.min(this.#count, room - 1);
+            if (this.latencyNs <= usualLatencyNs + lessNs || now - this.#changed < this.#patience || this.#nows[this.#at(this.#count - 1)] - this.#nows[this.#at(this.#count - n)] < calmNs) return;
+            const wanted = this.#wanted(n);
+            if (wanted > this.latencyNs - lessNs) return;
+            this.latencyNs = wanted;
+        }
+        this.#spread = this.#spreadOf(this.#count);
+        ++this.moves;
+        this.#changed = now;
+    }
 }
 
 /** Calls `act(events)` for each step of `source`, an attachment, or of a world whose events are struck by hand; their times are `nowNs`'s, which is undefined while

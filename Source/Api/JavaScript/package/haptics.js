@@ -4,12 +4,13 @@ import { Journal } from './journal.js';
 import { PhysVibError } from './module.js';
 
 const mostKept = 10000; // events that nobody takes
+const wrongArgument = -2; // PHYSVIB_ERROR_ARGUMENT
 
 // As Box2D and Matter decide.
 const mayTouch = (a, b) => (a.group === b.group && a.group !== 0 ? a.group > 0 : (a.mask & b.category) !== 0 && (a.category & b.mask) !== 0);
 
 export class Haptics {
-    #known = new Map(); #away = new WeakMap(); #lastAway = null; #next = 0; #followers = new Set(); #waiting = []; #journal = new Journal(); #isFree = false; #isInStep = false;
+    #known = new Map(); #away = new WeakMap(); #lastAway = null; #next = 0; #followers = new Set(); #waiting = []; #journal = new Journal(); #isFree = false; #isInStep = false; #unsound = null; #unfollowed = null;
     /** Events that nobody took, and that have made room for newer ones. */
     forgotten = 0;
     /** What ended haptics; null: nothing did. The game goes on without them. */
@@ -23,14 +24,16 @@ export class Haptics {
         this.world = physvib.world(settings);
     }
 
-    /** Work of the attachment's own. What it throws ends haptics, is told once, and does not reach the game. */
-    guarded(work) {
-        if (this.error || this.#isFree) return undefined;
+    /** Work of the attachment's own. What it throws ends haptics, is told once, and does not reach the game. `isCalled`: the game has called it, so a wrong argument is
+     * thrown; and so is the use of what was freed. */
+    guarded(work, isCalled = false) {
+        if (this.error || (this.#isFree && !isCalled)) return undefined;
         try {
             return work();
         } catch (error) {
+            if (isCalled && (this.#isFree || error.code === wrongArgument)) throw error;
             this.error = error;
-            this.detach?.();
+            try { this.detach?.(); } catch { /* the engine is in no state for it */ }
             console.error(`PhysVib: haptics have ended, the game goes on: ${error.message}`);
             return undefined;
         }
@@ -39,20 +42,22 @@ export class Haptics {
     /** How a body feels and sounds: { frequencyHz, decayPerSecond, isSource, ... }; its masses are the engine's. Its number in events, which it keeps when it leaves
      * the engine's world and comes back. */
     set(body, values = {}) {
-        const known = this.know(body);
-        const before = known.values;
-        Object.assign(known, { values, isGone: false });
-        try {
-            this.#tell(known, this.engine.massesOf(known.body));
-        } catch (error) {
-            known.values = before;
-            throw error;
-        }
-        return known.id;
+        return this.guarded(() => {
+            const known = this.know(body);
+            const before = known.values;
+            Object.assign(known, { values, isGone: false });
+            try {
+                this.#tell(known, this.engine.massesOf(known.body));
+            } catch (error) {
+                known.values = before;
+                throw error;
+            }
+            return known.id;
+        }, true) ?? -1;
     }
 
-    /** The number of a body in events. */
-    id(body) { return this.know(body).id; }
+    /** The number of a body in events; -1: haptics have ended. */
+    id(body) { return this.guarded(() => this.know(body).id, true) ?? -1; }
 
     #bodyOf(thing) {
         const body = this.engine.bodyOf(thing);
@@ -62,9 +67,11 @@ export class Haptics {
 
     /** A body that is to be felt no more, from the next step on. One that leaves the engine's world need not be named. */
     remove(thing) {
-        const body = this.#bodyOf(thing), known = this.#known.get(this.engine.keyOf(body));
-        if (known !== undefined) known.isGone = true;
-        this.#away.delete(body);
+        this.guarded(() => {
+            const body = this.#bodyOf(thing), known = this.#known.get(this.engine.keyOf(body));
+            if (known !== undefined) known.isGone = true;
+            this.#away.delete(body);
+        }, true);
     }
 
     /** What is known of a body; a body that has not been set gets a number when it first touches. */
@@ -73,7 +80,8 @@ export class Haptics {
         let known = this.#known.get(key);
         if (known === undefined) {
             const { id = this.#next++, values = {} } = this.#away.get(body) ?? {};
-            known = { id, body, values, isStatic: true, x: 0, y: 0, vx: 0, vy: 0, spin: 0, isRound: false };
+            known = { id, body, values, isStatic: true, isGone: false, isRound: false, massKg: 0, inertia: 0, gravityScale: 1, x: 0.5, y: 0.5, vx: 0.5, vy: 0.5, spin: 0.5 }; // fractions: engines keep such members without allocating
+            known.x = known.y = known.vx = known.vy = known.spin = 0;
             this.#tell(known, this.engine.massesOf(body));
             this.#known.set(key, known);
             this.#away.delete(body);
@@ -84,9 +92,13 @@ export class Haptics {
     // Masses may change while a game runs.
     #tell(known, masses) {
         this.#observed();
-        this.world.setBody(known.id, { ...known.values, ...masses });
         Object.assign(known, { massKg: masses.massKg, inertia: masses.inertia, gravityScale: masses.gravityScale, isStatic: !(masses.massKg > 0) });
+        const isSound = masses.massKg >= 0 && masses.massKg < Infinity && masses.inertia >= 0 && masses.inertia < Infinity && Number.isFinite(masses.gravityScale);
+        if (!isSound) this.#leftOut(known.id, `mass ${masses.massKg} kg, inertia ${masses.inertia} kg m2`);
+        this.world.setBody(known.id, { ...known.values, ...(isSound ? masses : { massKg: 0, inertia: 0, gravityScale: 1 }) });
     }
+    // A body with numbers that are none is left out as long as it has them.
+    #leftOut(id, found) { this.#unsound ??= { id, found }; }
 
     /** All that are known. */
     each() { return this.#known.values(); }
@@ -103,21 +115,27 @@ export class Haptics {
                 if (known.values.isSource) this.#lastAway = known.isGone ? null : known.id;
                 continue;
             }
-            const masses = this.engine.massesOf(known.body);
-            if (masses.massKg !== known.massKg || masses.inertia !== known.inertia || masses.gravityScale !== known.gravityScale) this.#tell(known, masses);
+            const { massKg, inertia, gravityScale } = this.engine.massesOf(known.body);
+            if (!(massKg === known.massKg && inertia === known.inertia && gravityScale === known.gravityScale) && !(Object.is(massKg, known.massKg) && Object.is(inertia, known.inertia) && Object.is(gravityScale, known.gravityScale)))
+                this.#tell(known, { massKg, inertia, gravityScale });
         }
     }
 
     /** Motion as the solver finds it. */
     move(known, x, y, vx, vy, spin) {
-        Object.assign(known, { x, y, vx, vy, spin });
-        this.journal.move(known.id, x, y, vx, vy, spin);
+        known.x = x;
+        known.y = y;
+        known.vx = vx;
+        known.vy = vy;
+        known.spin = spin;
+        this.#journal.move(known.id, x, y, vx, vy, spin);
     }
     /** What is observed in a step. */
     get journal() { return this.#journal; }
     #observed() {
         const numbers = this.#journal.take();
-        if (numbers.length > 0) this.world.observe(numbers);
+        const refused = numbers.length > 0 ? this.world.observe(numbers) : null;
+        if (refused !== null) this.#leftOut(refused.body, refused.line);
     }
 
     /** Before the engine steps. */
@@ -140,7 +158,17 @@ export class Haptics {
             if (this.#waiting.length > mostKept) this.forgotten += this.#waiting.splice(0, this.#waiting.length - mostKept).length;
             return taken;
         });
-        if (events) for (const follower of this.#followers) follower(events, this.world);
+        if (events) for (const follower of this.#followers) this.#hand(events, follower);
+    }
+    // A follower is called within the engine's step: what it throws ends it alone.
+    #hand(events, follower) {
+        try {
+            follower(events, this.world);
+        } catch (error) {
+            this.#followers.delete(follower);
+            this.#unfollowed ??= error;
+            console.error(`PhysVib: a follower has ended, the game goes on: ${error?.message ?? error}`);
+        }
     }
 
     /** A step that `advance` makes of the engine, between two looks at it. */
@@ -165,17 +193,23 @@ export class Haptics {
     take(atOnce = false) {
         const events = this.#waiting;
         this.#waiting = [];
-        return atOnce ? [...events, ...this.world.take(true)] : events;
+        return atOnce ? [...events, ...this.guarded(() => this.world.take(true), true) ?? []] : events;
     }
 
     /** Why nothing is felt of what happened since the last call; see World.explain. */
     explain(output) {
-        if (this.error) return `Haptics have ended by an error: ${this.error.message}. Free these, and attach anew.`;
+        const why = this.guarded(() => this.#explained(output), true);
+        return this.error ? `Haptics have ended by an error: ${this.error.message}. Free these, and attach anew.` : why;
+    }
+    #explained(output) {
         for (const known of this.#known.values()) {
             const note = known.values.isSource && !known.isGone ? this.#noteOf(known.body) : undefined;
             if (note !== undefined) this.world.note(known.id, note);
         }
-        const said = this.world.explain(output);
+        const unsound = this.#unsound, hints = [this.hint?.(), unsound && `Body ${unsound.id} is left out while the engine gives it numbers that are none (${unsound.found}).`,
+            this.#unfollowed && `A follower has ended by an error: ${this.#unfollowed.message}.`];
+        const said = [...hints.filter(Boolean), this.world.explain(output)].join(' ');
+        this.#unsound = this.#unfollowed = null;
         return this.#lastAway === null || [...this.each()].some(known => known.values.isSource) ? said
             : `No haptic source is in the engine's world: body ${this.#lastAway} was not added to it, or has left it. Before: ${said}`;
     }
@@ -193,6 +227,7 @@ export class Haptics {
 
     /** Ends it: the engine is as it was. */
     free() {
+        if (this.#isFree) return;
         if (!this.error) this.detach?.();
         this.#isFree = true;
         this.#followers.clear();
@@ -204,9 +239,8 @@ export class Haptics {
 export function motionAt(a, b, x, y, nx, ny) {
     const ax = a.vx - a.spin * (y - a.y), ay = a.vy + a.spin * (x - a.x), bx = b.vx - b.spin * (y - b.y), by = b.vy + b.spin * (x - b.x);
     // The point itself goes with a round body's centre, or with the corner of what moves.
-    const [ux, uy] = b.isRound ? [b.vx, b.vy] : a.isRound ? [a.vx, a.vy] : b.isStatic ? [ax, ay] : [bx, by];
-    const along = (vx, vy) => (ux - vx) * -ny + (uy - vy) * nx;
-    return { approach: (ax - bx) * nx + (ay - by) * ny, alongA: along(ax, ay), alongB: along(bx, by) };
+    const ux = b.isRound ? b.vx : a.isRound ? a.vx : b.isStatic ? ax : bx, uy = b.isRound ? b.vy : a.isRound ? a.vy : b.isStatic ? ay : by;
+    return { approach: (ax - bx) * nx + (ay - by) * ny, alongA: (ux - ax) * -ny + (uy - ay) * nx, alongB: (ux - bx) * -ny + (uy - by) * nx };
 }
 
 /** How fast two surfaces meet that close with `speed` across a `gap`, while `pull` (m/s^2) draws them together; and when, in steps. */

@@ -1,35 +1,92 @@
 // SPDX-License-Identifier: MIT
-// What an attachment observes in a step, in order, as a list of numbers that is told in one call; Step.cpp reads it.
+// What an attachment observes in a step, in order, as a list of numbers that is told in one call; Step.cpp reads it. Thousands a step are usual, so nothing is allocated.
 const leftOut = -2e300, unknown = -1e300; // a default; PHYSVIB_UNKNOWN
 const numberOf = value => (value === undefined ? leftOut : value === null ? unknown : value);
-const points = { none: -1, place: -2 }, soft = { whole: 2 };
+const pointOf = point => (point === 'place' ? -2 : point === 'none' ? -1 : numberOf(point));
+const mostOfEntry = 19;
 
 export class Journal {
     #numbers = new Float64Array(4096); #count = 0;
 
-    #write(...values) {
-        if (this.#count + values.length > this.#numbers.length) {
+    // The place of an entry of that kind; there is room for the largest.
+    #begin(kind, id) {
+        if (this.#count + mostOfEntry > this.#numbers.length) {
             const larger = new Float64Array(2 * this.#numbers.length);
             larger.set(this.#numbers);
             this.#numbers = larger;
         }
-        for (let i = 0; i < values.length; ++i) this.#numbers[this.#count++] = values[i];
+        const at = this.#count, numbers = this.#numbers;
+        numbers[at] = kind;
+        numbers[at + 1] = id;
+        return at + 2;
     }
 
-    move(id, x, y, vx, vy, spin) { this.#write(0, id, x, y, vx, vy, spin); }
-    moved(id, vx, vy, spin) { this.#write(1, id, vx, vy, spin); }
+    move(id, x, y, vx, vy, spin) {
+        const at = this.#begin(0, id), numbers = this.#numbers;
+        numbers[at] = x;
+        numbers[at + 1] = y;
+        numbers[at + 2] = vx;
+        numbers[at + 3] = vy;
+        numbers[at + 4] = spin;
+        this.#count = at + 5;
+    }
+    moved(id, vx, vy, spin) {
+        const at = this.#begin(1, id), numbers = this.#numbers;
+        numbers[at] = vx;
+        numbers[at + 1] = vy;
+        numbers[at + 2] = spin;
+        this.#count = at + 3;
+    }
     /** A contact as World.touch takes it. */
     touch(a, b, c) {
-        this.#write(2, a, b, numberOf(c.x), numberOf(c.y), numberOf(c.z), numberOf(c.normalX), numberOf(c.normalY), numberOf(c.normalZ), numberOf(c.impulse), numberOf(c.approach),
-            numberOf(c.restitution), numberOf(c.fraction), numberOf(c.gap), numberOf(c.gapFraction), numberOf(c.alongA), numberOf(c.alongB), numberOf(soft[c.isSoft] ?? c.isSoft),
-            numberOf(points[c.point] ?? c.point));
+        const at = this.#begin(2, a), numbers = this.#numbers, { isSoft } = c;
+        numbers[at] = b;
+        numbers[at + 1] = numberOf(c.x);
+        numbers[at + 2] = numberOf(c.y);
+        numbers[at + 3] = numberOf(c.z);
+        numbers[at + 4] = numberOf(c.normalX);
+        numbers[at + 5] = numberOf(c.normalY);
+        numbers[at + 6] = numberOf(c.normalZ);
+        numbers[at + 7] = numberOf(c.impulse);
+        numbers[at + 8] = numberOf(c.approach);
+        numbers[at + 9] = numberOf(c.restitution);
+        numbers[at + 10] = numberOf(c.fraction);
+        numbers[at + 11] = numberOf(c.gap);
+        numbers[at + 12] = numberOf(c.gapFraction);
+        numbers[at + 13] = numberOf(c.alongA);
+        numbers[at + 14] = numberOf(c.alongB);
+        numbers[at + 15] = isSoft === 'whole' ? 2 : isSoft === undefined ? leftOut : Number(isSoft);
+        numbers[at + 16] = pointOf(c.point);
+        this.#count = at + 17;
+    }
+    #vector(at, { x, y, z }) {
+        const numbers = this.#numbers;
+        numbers[at] = x;
+        numbers[at + 1] = y;
+        numbers[at + 2] = z;
+        return at + 3;
     }
     /** Vectors with x, y and z; `inertia`: as World.moveInSpace, or null. */
     moveInSpace(id, centre, v, spin, inertia) {
-        this.#write(3, id, centre.x, centre.y, centre.z, v.x, v.y, v.z, spin.x, spin.y, spin.z, inertia ? 1 : 0);
-        if (inertia) this.#write(...inertia);
+        let at = this.#vector(this.#vector(this.#vector(this.#begin(3, id), centre), v), spin);
+        this.#numbers[at++] = inertia ? 1 : 0;
+        if (inertia) for (let i = 0; i < 6; ++i) this.#numbers[at++] = inertia[i];
+        this.#count = at;
     }
-    movedInSpace(id, v, spin) { this.#write(4, id, v.x, v.y, v.z, spin.x, spin.y, spin.z); }
+    movedInSpace(id, v, spin) { this.#count = this.#vector(this.#vector(this.#begin(4, id), v), spin); }
+
+    /** How much was written so far; copies of what was written from there on, and such a copy again. */
+    get place() { return this.#count; }
+    copy(place) { return this.#numbers.slice(place, this.#count); }
+    again(copy) {
+        while (this.#count + copy.length > this.#numbers.length) {
+            const larger = new Float64Array(2 * this.#numbers.length);
+            larger.set(this.#numbers);
+            this.#numbers = larger;
+        }
+        this.#numbers.set(copy, this.#count);
+        this.#count += copy.length;
+    }
 
     /** What was written since; empties it. */
     take() {

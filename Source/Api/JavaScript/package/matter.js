@@ -23,7 +23,12 @@ class MatterHaptics extends Haptics {
         const events = engine.events ??= {};
         for (const [name, handler] of Object.entries(this.#handlers)) events[name] = [...events[name] ?? [], handler];
     }
-    detach() { for (const [name, handler] of Object.entries(this.#handlers)) this.#engine.events[name] = this.#engine.events[name].filter(other => other !== handler); }
+    // Events.off(engine), and a scene of Phaser that ends, leave none of its events.
+    detach() {
+        const { events } = this.#engine;
+        for (const [name, handler] of Object.entries(this.#handlers)) if (events?.[name]) events[name] = events[name].filter(other => other !== handler);
+    }
+    hint() { return this.#engine.events?.afterUpdate?.includes(this.#handlers.afterUpdate) ? '' : "Matter's events no longer reach these haptics (Events.off, or the scene has ended): attach anew."; }
 
     /** Matter's events do the work. */
     step(seconds, advance) { advance(seconds); }
@@ -34,10 +39,14 @@ class MatterHaptics extends Haptics {
         return all;
     }
 
-    #stateOf({ body }) {
-        const unit = this.metresPerUnit, perSecond = 1000 / (body.deltaTime || 1000 / 60);
-        return [body.position.x * unit, -body.position.y * unit, (body.position.x - body.positionPrev.x) * unit * perSecond,
-            -(body.position.y - body.positionPrev.y) * unit * perSecond, -(body.angle - body.anglePrev) * perSecond];
+    // Of a body as it moves now, into one object for all.
+    #state = { vx: 0.5, vy: 0.5, spin: 0.5 };
+    #stateOf(body) {
+        const unit = this.metresPerUnit, perSecond = 1000 / (body.deltaTime || 1000 / 60), state = this.#state, { position, positionPrev } = body;
+        state.vx = (position.x - positionPrev.x) * unit * perSecond;
+        state.vy = -(position.y - positionPrev.y) * unit * perSecond;
+        state.spin = -(body.angle - body.anglePrev) * perSecond;
+        return state;
     }
 
     #begin({ delta }) {
@@ -46,36 +55,42 @@ class MatterHaptics extends Haptics {
         this.#there = this.#bodies();
         for (const body of this.#there) if (!body.isSensor) this.know(body); // what it will touch, too
         this.begin(this.#seconds, this.#pull(gravity));
-        for (const known of this.each()) this.#moveAs(known, this.#stateOf(known), known.body.ignoreGravity ? 0 : this.#seconds);
+        for (const known of this.each()) this.#moveAs(known, known.body.ignoreGravity ? 0 : this.#seconds);
     }
     #pull({ x, y, scale }) { return Math.hypot(x, y) * scale * 1e6 * this.metresPerUnit; }
 
     // What Matter's own damping takes of a step is left out where it does not say when it solves.
-    #moveAs(known, [x, y, vx, vy, spin], falls) {
-        const { gravity } = this.#engine, add = falls * gravity.scale * 1e6 * this.metresPerUnit, moves = !known.isStatic && !known.body.isSleeping;
-        known.isRound = known.body.circleRadius > 0;
-        this.move(known, x, y, moves ? vx + add * gravity.x : 0, moves ? vy - add * gravity.y : 0, moves ? spin : 0);
+    #moveAs(known, falls) {
+        const { body } = known, { gravity } = this.#engine, unit = this.metresPerUnit, add = falls * gravity.scale * 1e6 * unit, moves = !known.isStatic && !body.isSleeping, { vx, vy, spin } = this.#stateOf(body);
+        known.isRound = body.circleRadius > 0;
+        this.move(known, body.position.x * unit, -body.position.y * unit, moves ? vx + add * gravity.x : 0, moves ? vy - add * gravity.y : 0, moves ? spin : 0);
     }
 
     #look() {
-        for (const known of this.each()) this.#moveAs(known, this.#stateOf(known), 0);
+        for (const known of this.each()) this.#moveAs(known, 0);
     }
 
     #end() {
         const isThere = ({ parentA, parentB }) => this.#there.has(parentA) && this.#there.has(parentB); // pairs outlive a world that was cleared
-        const pairs = this.#engine.pairs.list.filter(pair => pair.isActive && !pair.isSensor && isThere(pair.collision)).map(pair => ({ pair, a: this.know(pair.collision.parentA), b: this.know(pair.collision.parentB) }));
+        const { list } = this.#engine.pairs, meets = pair => pair.isActive && !pair.isSensor && isThere(pair.collision);
+        for (const pair of list) if (meets(pair)) { this.know(pair.collision.parentA); this.know(pair.collision.parentB); }
         for (const known of this.each()) {
-            const [, , vx, vy, spin] = this.#stateOf(known);
-            if (!known.isStatic) this.journal.moved(known.id, vx, vy, spin);
+            if (known.isStatic) continue;
+            const { vx, vy, spin } = this.#stateOf(known.body);
+            this.journal.moved(known.id, vx, vy, spin);
         }
-        for (const { pair, a, b } of pairs) if (!(a.isStatic && b.isStatic)) this.#touch(pair, a, b);
+        for (const pair of list) {
+            if (!meets(pair)) continue;
+            const a = this.know(pair.collision.parentA), b = this.know(pair.collision.parentB);
+            if (!(a.isStatic && b.isStatic)) this.#touch(pair, a, b);
+        }
     }
 
     #touch(pair, a, b) {
         const unit = this.metresPerUnit, { normal, depth } = pair.collision, nx = -normal.x, ny = normal.y, isRound = a.isRound || b.isRound;
-        const contacts = pair.activeContacts ?? pair.contacts.slice(0, pair.contactCount);
-        for (const { vertex } of isRound ? contacts.slice(0, 1) : contacts) {
-            const x = vertex.x * unit, y = -vertex.y * unit, { alongA, alongB } = motionAt(a, b, x, y, nx, ny);
+        const contacts = pair.activeContacts ?? pair.contacts, count = pair.activeContacts ? contacts.length : pair.contactCount;
+        for (let i = 0; i < (isRound ? Math.min(1, count) : count); ++i) {
+            const { vertex } = contacts[i], x = vertex.x * unit, y = -vertex.y * unit, { alongA, alongB } = motionAt(a, b, x, y, nx, ny);
             this.journal.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, restitution: Math.min(1, Math.max(0, pair.restitution)), gap: -depth * unit, gapFraction: 1,
                 point: isRound ? 0 : 'place' });
         }

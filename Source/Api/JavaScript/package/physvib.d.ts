@@ -321,6 +321,6 @@ export class PhysVib {
     writeClip(events: readonly HapticEvent[], name: string, settings?: RendererSettings & { error?: number }): Promise<{ name: string; bytes: Uint8Array }[]>;
 }
 
-/** `source`: physvib.wasm, if it is not beside the package's files; `files`: the same of files.wasm; `worklet`: the text of worklet.js. Rejects with the address and
+/** `source`: physvib.wasm, if it is not beside the package's files (an address relative to the page, in Node to the working folder); `files`: the same of files.wasm; `worklet`: the text of worklet.js. Rejects with the address and
  * the server's status. */
 export function load(source?: Source, options?: { files?: Source; worklet?: string }): Promise<PhysVib>;

@@ -100,20 +100,27 @@ function placeOf(beside, name) {
     try { return beside(); } catch { throw refusal('import.meta.url', name, 'this script has no address'); }
 }
 
+// An address that is not whole is relative to the page, or to the script of a worker; in Node to the working folder.
+function addressOf(text, name) {
+    const folder = () => globalThis.process?.getBuiltinModule?.('node:url').pathToFileURL('./');
+    try { return new URL(text, globalThis.document?.baseURI ?? globalThis.location?.href ?? folder()); } catch { throw refusal(text, name, 'found no address'); }
+}
+
 // Bytes of an address, or of a Response that the page has fetched.
 async function bytesOf(source, name) {
     const fs = source instanceof URL && source.protocol === 'file:' && globalThis.process?.getBuiltinModule?.('node:fs/promises'); // Node's fetch takes no files
     if (fs) return fs.readFile(source).catch(error => { throw refusal(source, name, error.message); });
     const answer = source instanceof URL ? await fetch(source).catch(error => { throw refusal(source, name, `could not be fetched (${error.message})`); }) : source;
-    if (!answer.ok) throw refusal(answer.url, name, `the server answers ${answer.status}`);
+    const where = answer.url || source;
+    if (!answer.ok) throw refusal(where, name, `the server answers ${answer.status}`);
     const bytes = new Uint8Array(await answer.arrayBuffer());
-    if (![0x00, 0x61, 0x73, 0x6d].every((byte, i) => bytes[i] === byte)) throw refusal(answer.url, name, `found ${answer.headers?.get('content-type') ?? 'something else'}`);
+    if (![0x00, 0x61, 0x73, 0x6d].every((byte, i) => bytes[i] === byte)) throw refusal(where, name, `found ${answer.headers?.get('content-type') ?? 'something else'}`);
     return bytes;
 }
 
 async function compile(given, name) {
     if (given instanceof WebAssembly.Module) return given;
-    const source = typeof given === 'string' ? new URL(given, URL.canParse(given) ? undefined : placeOf(codeBeside, name)) : await given;
+    const source = typeof given === 'string' ? addressOf(given, name) : await given;
     return WebAssembly.compile(source instanceof ArrayBuffer || ArrayBuffer.isView(source) ? source : await bytesOf(source, name)); // whatever type a server gives it
 }
 

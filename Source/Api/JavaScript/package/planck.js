@@ -8,8 +8,10 @@ const listed = first => {
     return all;
 };
 
+const pointOf = () => ({ x: 0.5, y: 0.5, normalX: 0.5, normalY: 0.5, approach: 0.5, alongA: 0.5, alongB: 0.5, fraction: undefined, gap: undefined, gapFraction: undefined, impulse: 0.5, restitution: 0.5, point: 0 });
+
 class PlanckHaptics extends Haptics {
-    #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #new = new Set(); #looks = new Map();
+    #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #new = new Set(); #looks = new Map(); #spare = []; #used = 0; #manifold = null;
 
     constructor(physvib, engine, options) {
         const unit = options.metresPerUnit ?? 1;
@@ -55,6 +57,7 @@ class PlanckHaptics extends Haptics {
         if (!this.#isStepping) return;
         this.#isStepping = false;
         this.#looks.clear();
+        this.#used = 0;
         this.finish();
     }
 
@@ -66,24 +69,55 @@ class PlanckHaptics extends Haptics {
 
     // Continuous collision looks again, within the step: gravity is in the speeds then.
     #look(contact) {
-        const fixtures = [contact.getFixtureA(), contact.getFixtureB()], bodies = fixtures.map(fixture => fixture.getBody()), unit = this.metresPerUnit;
-        if (fixtures.some(fixture => fixture.isSensor())) return;
-        const alpha = Math.max(...bodies.map(body => body.m_sweep?.alpha0 ?? 0)), [a, b] = bodies.map(body => this.know(body));
-        [a, b].forEach((known, i) => this.#observe(known, fixtures[i].getType() === 'circle', alpha === 0));
-        const { normal, points, separations } = contact.getWorldManifold();
-        const meet = points.slice(0, contact.getManifold().pointCount).map((point, i) => ({ x: point.x * unit, y: point.y * unit, normalX: normal.x, normalY: normal.y,
-            ...motionAt(a, b, point.x * unit, point.y * unit, normal.x, normal.y), ...(alpha > 0 ? { fraction: Math.min(1, alpha) } : { gap: (separations[i] ?? 0) * unit, gapFraction: 0 }) }));
-        this.#looks.set(contact, { a, b, normal, alpha, meet });
+        const fixtureA = contact.getFixtureA(), fixtureB = contact.getFixtureB(), bodyA = fixtureA.getBody(), bodyB = fixtureB.getBody(), unit = this.metresPerUnit;
+        if (fixtureA.isSensor() || fixtureB.isSensor()) return;
+        const alpha = Math.max(bodyA.m_sweep?.alpha0 ?? 0, bodyB.m_sweep?.alpha0 ?? 0), a = this.know(bodyA), b = this.know(bodyB);
+        this.#observe(a, fixtureA.getType() === 'circle', alpha === 0);
+        this.#observe(b, fixtureB.getType() === 'circle', alpha === 0);
+        const { normal, points, separations } = this.#manifold = contact.getWorldManifold(this.#manifold), look = this.#lookOf(contact);
+        look.a = a;
+        look.b = b;
+        look.nx = normal.x;
+        look.ny = normal.y;
+        look.alpha = alpha;
+        look.count = contact.getManifold().pointCount;
+        for (let i = 0; i < look.count; ++i) {
+            const point = look.points[i], x = points[i].x * unit, y = points[i].y * unit, { approach, alongA, alongB } = motionAt(a, b, x, y, normal.x, normal.y);
+            point.x = x;
+            point.y = y;
+            point.normalX = normal.x;
+            point.normalY = normal.y;
+            point.approach = approach;
+            point.alongA = alongA;
+            point.alongB = alongB;
+            point.fraction = alpha > 0 ? Math.min(1, alpha) : undefined;
+            point.gap = alpha > 0 ? undefined : (separations[i] ?? 0) * unit;
+            point.gapFraction = alpha > 0 ? undefined : 0;
+        }
+    }
+    // Of a contact in this step; those of steps before are used again.
+    #lookOf(contact) {
+        let look = this.#looks.get(contact);
+        if (look !== undefined) return look;
+        look = this.#spare[this.#used] ??= { a: null, b: null, nx: 0.5, ny: 0.5, alpha: 0.5, count: 0, points: [pointOf(), pointOf()] };
+        ++this.#used;
+        this.#looks.set(contact, look);
+        return look;
     }
 
     #push(contact, { normalImpulses }) {
         const look = this.#looks.get(contact);
         if (look === undefined || !this.#isStepping) return;
-        const { a, b, normal, alpha, meet } = look, unit = this.metresPerUnit;
-        const pull = this.#seconds * (this.#gravity.x * normal.x + this.#gravity.y * normal.y), isOne = a.isStatic !== b.isStatic;
+        const { a, b, nx, ny, alpha, count, points } = look, unit = this.metresPerUnit;
+        const pull = this.#seconds * (this.#gravity.x * nx + this.#gravity.y * ny), isOne = a.isStatic !== b.isStatic;
         const load = this.#new.has(contact) && alpha === 0 && isOne ? Math.max(0, a.isStatic ? -pull * b.massKg * b.gravityScale : pull * a.massKg * a.gravityScale) : 0;
-        meet.forEach((point, i) => this.journal.touch(a.id, b.id, { ...point, impulse: normalImpulses[i] * unit - load / meet.length,
-            restitution: Math.min(1, Math.max(0, contact.getRestitution())), point: a.isRound || b.isRound ? 0 : 'place' }));
+        for (let i = 0; i < count; ++i) {
+            const point = points[i];
+            point.impulse = normalImpulses[i] * unit - load / count;
+            point.restitution = Math.min(1, Math.max(0, contact.getRestitution()));
+            point.point = a.isRound || b.isRound ? 0 : 'place';
+            this.journal.touch(a.id, b.id, point);
+        }
         this.#new.delete(contact);
     }
 }

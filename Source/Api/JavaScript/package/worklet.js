@@ -24,8 +24,19 @@ class PhysVibProcessor extends AudioWorkletProcessor {
         this.pulled = this.skipped = 0; // frames, since the first
         this.toldFrame = 0;
         this.isOpen = this.renderer !== 0;
-        this.port.onmessage = ({ data }) => this.obey(data);
+        this.port.onmessage = ({ data }) => this.guarded(() => this.obey(data));
         this.port.postMessage({ isOpen: this.isOpen, latencyFrames: this.isOpen ? this.lib.physvib_renderer_latency_frames(this.renderer) : 0 });
+    }
+
+    // What goes wrong here is told, and ends this processor.
+    guarded(work) {
+        try {
+            return work();
+        } catch (error) {
+            this.isOpen = false;
+            this.port.postMessage({ error: error.message });
+            return false;
+        }
     }
 
     given(bytes, use) {
@@ -76,8 +87,9 @@ class PhysVibProcessor extends AudioWorkletProcessor {
         this.pulled += frames;
     }
 
-    process(inputs, [out]) {
-        if (!this.isOpen) return false;
+    process(inputs, [out]) { return this.isOpen && this.guarded(() => this.play(out)); }
+
+    play(out) {
         const frames = out[0].length;
         this.firstFrame ??= currentFrame;
         if (frames !== this.quantum) this.makeRoom(frames);

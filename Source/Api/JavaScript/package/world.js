@@ -7,7 +7,7 @@ import { Renderer } from './renderer.js';
 const eventsAtOnce = 64;
 
 export class World {
-    #module; #name; #contact; #contactBytes; #room; #forget;
+    #module; #name; #contact; #contactBytes; #room; #journal = { at: 0, length: 0 }; #forget;
 
     constructor(module, registry, { fieldHeight, ...settings } = {}) {
         this.#module = module;
@@ -15,11 +15,12 @@ export class World {
         this.fieldHeight = fieldHeight ?? this.fieldWidth;
         this.#name = module.filled('world_settings', settings, at => module.handleOf(to => module.call('world_create', at, to)));
         this.#contactBytes = module.sizeOf('contact');
-        const name = this.#name, contact = this.#contact = module.room(this.#contactBytes), room = this.#room = module.room(eventsAtOnce * module.sizeOf('event'));
+        const name = this.#name, journal = this.#journal, contact = this.#contact = module.room(this.#contactBytes), room = this.#room = module.room(eventsAtOnce * module.sizeOf('event'));
         this.#forget = registry(this, () => {
             module.call('world_free', name);
             module.free(contact);
             module.free(room);
+            if (journal.at) module.free(journal.at);
         });
     }
 
@@ -77,13 +78,17 @@ export class World {
     push(a, b, contact = {}) { this.#tell('world_push', a, b, contact); }
     end(a, b) { this.#module.call('world_end', this.#name, a, b); }
 
-    /** What a Journal has of this step. */
+    /** What a Journal has of this step. What is refused of it is left out; the first: { body, line }, or null. */
     observe(numbers) {
-        const { length } = numbers;
-        this.#module.borrow(8 * length, at => {
-            this.#module.doubles(at, length).set(numbers);
-            this.#module.check('js_observe', this.#name, at, length);
-        });
+        const { length } = numbers, module = this.#module;
+        if (length > this.#journal.length) {
+            if (this.#journal.at) module.free(this.#journal.at);
+            Object.assign(this.#journal, { at: 0, length: 0 });
+            Object.assign(this.#journal, { at: module.room(8 * 2 * length), length: 2 * length });
+        }
+        module.doubles(this.#journal.at, length).set(numbers);
+        const body = module.check('js_observe', this.#name, this.#journal.at, length) - 1;
+        return body < 0 ? null : { body, line: module.text(module.run('js_text')) };
     }
 
     get timeNs() { return Number(this.#module.call('world_time_ns', this.#name)); }

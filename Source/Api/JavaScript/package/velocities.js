@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Engines that tell velocities and boxes, but no impulses and maybe no contacts: Phaser's Arcade, Excalibur, Kaplay, or a game's own. What a step changed of two bodies
+// whose boxes or circles meet is their impact; masses say how strong. What changed without a neighbour, as a jump does, is no impact.
+import { PhysVibError } from './module.js';
+import { expectEngine, Haptics, motionAt } from './haptics.js';
+
+const skin = 0.02; // m: bodies that are nearer touch, if their velocities say so
+const numbers = ['x', 'y', 'vx', 'vy'];
+
+const pairOf = (a, b) => Math.min(a, b) * 2 ** 26 + Math.max(a, b);
+
+/** How far two bodies are apart, and the normal from a to b; boxes are not turned. */
+function apart(a, b, out) {
+    const dx = b.x - a.x, dy = b.y - a.y;
+    if (a.radius > 0 && b.radius > 0) {
+        const length = Math.hypot(dx, dy);
+        return Object.assign(out, { gap: length - a.radius - b.radius, nx: length > 0 ? dx / length : 0, ny: length > 0 ? dy / length : 1 });
+    }
+    const outX = Math.abs(dx) - a.halfWidth - b.halfWidth, outY = Math.abs(dy) - a.halfHeight - b.halfHeight;
+    const [box, circle, way] = a.radius > 0 ? [b, a, -1] : [a, b, 1];
+    if (circle.radius > 0 && outX > -circle.radius && outY > -circle.radius) { // at a corner
+        const cx = circle.x - box.x, cy = circle.y - box.y, px = cx - Math.sign(cx) * box.halfWidth, py = cy - Math.sign(cy) * box.halfHeight, length = Math.hypot(px, py);
+        if (px * cx > 0 && py * cy > 0 && length > 0) return Object.assign(out, { gap: length - circle.radius, nx: way * px / length, ny: way * py / length });
+    }
+    return outX > outY ? Object.assign(out, { gap: outX, nx: Math.sign(dx) || 1, ny: 0 }) : Object.assign(out, { gap: outY, nx: 0, ny: Math.sign(dy) || 1 });
+}
+
+class VelocityHaptics extends Haptics {
+    #engine; #turn; #there = new Map(); #order = []; #told = []; #walls = [{}, {}, {}, {}]; #seconds = 0; #was = new Set(); #touching = new Set(); #before = {}; #after = {};
+
+    constructor(physvib, engine, { metresPerUnit = 0.01, yDown = true, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
+        const height = fieldHeight ?? fieldWidth;
+        super(physvib, {
+            bodyOf: thing => { const body = engine.bodyOf ? engine.bodyOf(thing) : thing; return body !== null && typeof body === 'object' ? body : undefined; },
+            keyOf: body => body, massesOf: body => { const { massKg, gravityScale } = this.#there.get(body) ?? this.#read(body, {}); return { massKg, inertia: 0, gravityScale }; },
+            isThere: body => this.#there.has(body), bodies: () => this.#there.keys(), look: () => ({ filters: [] }),
+        }, { metresPerUnit, fieldWidth, fieldHeight: height, fieldY: yDown ? -(fieldY ?? height) : fieldY, ...settings });
+        this.#engine = engine;
+        this.#turn = yDown ? -1 : 1;
+        this.look();
+    }
+
+    // In metres, y upwards.
+    #read(body, state) {
+        const unit = this.metresPerUnit, turn = unit * this.#turn;
+        Object.assign(state, { width: 0, height: 0, radius: 0, spin: 0, massKg: 1, gravityScale: 1 });
+        if (this.#walls.includes(body)) Object.assign(state, body, { vx: 0, vy: 0, massKg: 0 });
+        else this.#engine.read(body, state);
+        for (const name of numbers) if (typeof state[name] !== 'number') throw new PhysVibError(-2, `attachVelocities: expected that read gives ${numbers.join(', ')}, found ${name}: ${state[name]}`);
+        state.x *= unit; state.y *= turn; state.vx *= unit; state.vy *= turn; state.spin *= this.#turn;
+        state.radius *= unit;
+        state.halfWidth = state.radius || state.width * unit / 2;
+        state.halfHeight = state.radius || state.height * unit / 2;
+        return state;
+    }
+
+    /** Where bodies are, and how fast, before a step: call it behind what the game itself does to velocities. Left out, the last update is what was before. */
+    look() {
+        this.guarded(() => {
+            for (const [body, state] of this.#lookAtAll()) if (state.before) this.#read(body, state.before);
+        });
+    }
+    // With the sides of bounds as bodies.
+    #all() {
+        const bounds = this.#engine.bounds?.();
+        if (!bounds) return this.#engine.bodies();
+        const { x, y, width, height } = bounds, deep = Math.max(width, height);
+        for (const [i, wall] of this.#walls.entries()) {
+            const isSide = i < 2, way = i % 2 ? 1 : -1;
+            Object.assign(wall, { x: x + width / 2 + (isSide ? way * (width + deep) / 2 : 0), y: y + height / 2 + (isSide ? 0 : way * (height + deep) / 2), width: isSide ? deep : width + 2 * deep, height: isSide ? height : deep });
+        }
+        return [...this.#engine.bodies(), ...this.#walls];
+    }
+    #lookAtAll() {
+        const there = new Map();
+        for (const body of this.#all()) {
+            const state = this.#there.get(body) ?? { before: {} };
+            if (!this.#there.has(body)) this.#read(body, state.before);
+            there.set(body, this.#read(body, state));
+        }
+        return this.#there = there;
+    }
+
+    /** Two bodies have touched in this step: for engines that tell; any pair of which this is said replaces what boxes say. `normal`: { x, y } of length 1 from a to b. */
+    touch(a, b, { normal, x, y } = {}) { this.#told.push({ a: this.engine.bodyOf(a), b: this.engine.bodyOf(b), normal, x, y }); }
+
+    /** The engine has made a step of so many seconds. */
+    update(seconds) {
+        this.guarded(() => this.#observe(seconds));
+        this.finish();
+    }
+    /** `advance` makes the engine's step. */
+    step(seconds, advance) {
+        this.look();
+        this.around(() => advance(seconds), undefined, () => this.#observe(seconds));
+    }
+
+    #observe(seconds) {
+        const { gravity } = this.#engine, { x = 0, y = 0 } = (typeof gravity === 'function' ? gravity() : gravity) ?? {}, unit = this.metresPerUnit, gx = x * unit, gy = y * unit * this.#turn;
+        this.#lookAtAll();
+        for (const body of this.#there.keys()) this.know(body);
+        this.begin(seconds, Math.hypot(gx, gy));
+        this.#seconds = seconds;
+        for (const known of this.each()) {
+            const after = this.#there.get(known.body), { before } = after, falls = known.isStatic ? 0 : seconds * after.gravityScale;
+            known.isRound = after.radius > 0;
+            this.move(known, before.x, before.y, before.vx + falls * gx, before.vy + falls * gy, before.spin);
+            if (!known.isStatic) this.journal.moved(known.id, after.vx, after.vy, after.spin);
+        }
+        [this.#was, this.#touching] = [this.#touching, this.#was];
+        this.#touching.clear();
+        if (this.#engine.tells) for (const pair of this.#told) this.#pair(pair.a, pair.b, pair);
+        else this.#eachNear((a, b) => this.#pair(a, b));
+        this.#told.length = 0;
+        for (const after of this.#there.values()) Object.assign(after.before, after, { before: undefined });
+    }
+
+    // Along x, in order; few change their place in it.
+    #eachNear(use) {
+        const isThere = body => Number.isFinite(this.#there.get(body)?.x + this.#there.get(body)?.before.x);
+        const reach = state => state.halfWidth + skin + Math.abs(state.x - state.before.x), order = this.#order = this.#order.filter(isThere), listed = new Set(order);
+        for (const body of this.#there.keys()) if (!listed.has(body) && isThere(body)) order.push(body);
+        const left = new Map(order.map(body => { const state = this.#there.get(body); return [body, state.x - reach(state)]; }));
+        order.sort((a, b) => left.get(a) - left.get(b));
+        for (let i = 0; i < order.length; ++i) {
+            const a = this.#there.get(order[i]), end = a.x + reach(a);
+            for (let j = i + 1; j < order.length && left.get(order[j]) < end; ++j) use(order[i], order[j]);
+        }
+    }
+
+    #pair(bodyA, bodyB, { normal, x, y } = {}) {
+        const stateA = this.#there.get(bodyA), stateB = this.#there.get(bodyB);
+        if (!stateA || !stateB || !(stateA.massKg > 0 || stateB.massKg > 0)) return;
+        const a = this.know(bodyA), b = this.know(bodyB), before = apart(stateA.before, stateB.before, this.#before), after = apart(stateA, stateB, this.#after);
+        const unit = this.metresPerUnit, { nx, ny } = normal ? { nx: normal.x, ny: normal.y * this.#turn } : before.gap > 0 ? before : after;
+        const closing = (a.vx - b.vx) * nx + (a.vy - b.vy) * ny, parting = (stateB.vx - stateA.vx) * nx + (stateB.vy - stateA.vy) * ny;
+        // What passes by, or through, keeps its velocity. An engine that solves before it moves has moved them apart again.
+        const isMet = parting + closing > 1e-3 && Math.min(before.gap, after.gap) < skin + this.#seconds * Math.max(0, closing, parting), key = pairOf(a.id, b.id);
+        if (!normal && !isMet && !(this.#was.has(key) && Math.min(before.gap, after.gap) < skin)) return;
+        this.#touching.add(key);
+        const place = x === undefined ? this.#between(stateA, stateB, nx, ny) : { x: x * unit, y: y * unit * this.#turn }, { alongA, alongB } = motionAt(a, b, place.x, place.y, nx, ny);
+        this.journal.touch(a.id, b.id, { ...place, normalX: nx, normalY: ny, alongA, alongB, gap: Math.max(0, before.gap), gapFraction: 0, point: 0 });
+    }
+
+    // On the surface of the round one, or in the middle of the sides that meet.
+    #between(a, b, nx, ny) {
+        if (a.radius > 0) return { x: a.x + a.radius * nx, y: a.y + a.radius * ny };
+        if (b.radius > 0) return { x: b.x - b.radius * nx, y: b.y - b.radius * ny };
+        const middle = (p, q, halfP, halfQ) => (Math.max(p - halfP, q - halfQ) + Math.min(p + halfP, q + halfQ)) / 2;
+        return nx !== 0 ? { x: a.x + nx * a.halfWidth, y: middle(a.y, b.y, a.halfHeight, b.halfHeight) } : { x: middle(a.x, b.x, a.halfWidth, b.halfWidth), y: a.y + ny * a.halfHeight };
+    }
+}
+
+/** `engine`: { bodies(), read(body, to), gravity, bounds, bodyOf, tells }; see velocities.d.ts. */
+export function attachVelocities(physvib, engine, options = {}) {
+    expectEngine(typeof engine?.bodies === 'function' && typeof engine.read === 'function', 'functions bodies and read', engine);
+    return new VelocityHaptics(physvib, engine, options);
+}
