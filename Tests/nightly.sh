@@ -36,6 +36,7 @@ step() {
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh ;;
         studies) Tests/Studies/recorded.sh $bin ;;
+        coverage) $bin/physvib-study-coverage ;;
         hours) Tests/ten-hours.sh ;;
         realtime) Tests/Realtime/rtsan.sh ;;
         projucer) Tests/House/projucer.sh ;;

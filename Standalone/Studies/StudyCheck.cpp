@@ -7,8 +7,10 @@
 #include "Core/Decibels.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/CsvTable.h"
+#include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
+#include "Lab/Report/LevelChain.h"
 #include "Lab/Report/ReportPage.h"
 #include "Lab/Study/MakeStimulus.h"
 #include "Lab/Study/StudyPlan.h"
@@ -21,6 +23,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <set>
 
 namespace physvib {
 namespace {
@@ -243,9 +246,9 @@ void judgePlan(const Protocol& protocol, int participants, StudyCheck& check) {
                                  minutes(time.longestStretchSeconds) + " without");
     if (protocol.conditions.size() < 2 || participants < 1) return;
     const OrderBalance balance = orderBalance(protocol, participants);
-    const std::string words = std::to_string(participants) + " participants: a condition is at one place " +
-                              std::to_string(balance.fewestAtPlace) + " to " +
-                              std::to_string(balance.mostAtPlace) + " times; " +
+    const std::string words = counted(static_cast<std::size_t>(participants), "participant") +
+                              ": a condition is at one place " + std::to_string(balance.fewestAtPlace) +
+                              " to " + std::to_string(balance.mostAtPlace) + " times; " +
                               std::to_string(balance.successions) + " of " +
                               std::to_string(balance.possibleSuccessions) + " successions occur";
     check.facts.push_back("orders: " + words);
@@ -297,10 +300,19 @@ std::string levelFault(const Protocol& protocol, const PlannedStimulus& planned)
 
 StudyCheck checkStudy(const Protocol& protocol, int participants, const std::function<bool()>& goesOn) {
     StudyCheck check;
+    std::set<std::string> spreadParts;
     for (const PlannedStimulus& planned : plannedStimuli(protocol)) {
         if (goesOn && !goesOn()) return check;
+        if (planned.isSpread) spreadParts.insert(cleanLine(planned.part));
         check.stimuli.push_back(checkStimulus(protocol, planned));
     }
+    check.facts.push_back(levelChain(protocol, "as rendered, without the limiter"));
+    if (!spreadParts.empty())
+        check.facts.push_back("levels: sessions can reach more than " + std::to_string(mostPlannedLevels) +
+                              " of " +
+                              listed(std::vector<std::string>{spreadParts.begin(), spreadParts.end()}) +
+                              ", so " + std::to_string(mostPlannedLevels + 1) +
+                              " were rendered, evenly spread from the lowest to the highest");
     for (const CheckedStimulus& s : check.stimuli) judge(protocol, s, check);
     judgePlan(protocol, participants, check);
     judgeBreaks(protocol, check);

@@ -43,8 +43,10 @@ TEST_F(AnalyseTests, TheTableIsTidy) {
     EXPECT_EQ(outcome.out.rfind("SIMULATED", 0), 0u);
     EXPECT_NE(outcome.out.find("\nType III sums of squares"), std::string::npos) << outcome.out;
     const std::string table = read("e.csv");
-    EXPECT_NE(table.find("\neffect,df1,df2,statistic,p,p_corrected,epsilon,effect_size,n\n"),
-              std::string::npos)
+    EXPECT_NE(
+        table.find("\neffect,df1,df2,statistic,p,p_corrected,epsilon,effect_size,n,effect_least,effect_most,"
+                   "difference,difference_least,difference_most\n"),
+        std::string::npos)
         << table;
     for (const char* effect : {"\ngroup,1,6,", "\nlaw,2,12,", "\ngroup:law,2,12,", "\ndevice,1,6,",
                                "\nlaw:device,2,12,", "\ngroup:law:device,2,12,"})

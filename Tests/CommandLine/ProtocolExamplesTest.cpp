@@ -69,6 +69,15 @@ TEST_F(ProtocolExamples, TimesOfAPersonAreTold) {
                   "outputs 1 2; noise on outputs 5 6."),
         std::string::npos)
         << read("r/index.html");
+    // a window that was closed in a break: one break, which goes on
+    write("t/strength-numbers-P01.times.txt",
+          head + "2026-11-24T14:00:00Z,start,0,,1 2,\n2026-11-24T14:10:00Z,break,9,,,\n"
+                 "2026-11-24T14:11:00Z,pause,9,,,\n2026-11-24T14:13:00Z,go-on,9,,,\n"
+                 "2026-11-24T14:14:00Z,go-on,9,,,\n2026-11-24T14:20:00Z,end,18,,,\n");
+    ASSERT_EQ(call(report + "r0").exitCode, 0);
+    EXPECT_NE(read("r0/index.html").find("1 break of 4.0 min in all, 1 pause by closing the window;"),
+              std::string::npos)
+        << read("r0/index.html");
     // rows of which it must not be true
     write("t/strength-numbers-P01.times.txt", head + "2026-11-24T14:00:00Z,start,0,,1 2,\n");
     ASSERT_EQ(call(report + "r2").exitCode, 0);

@@ -194,10 +194,14 @@ TEST_F(Report, LevelsThatAnswersChoseTellNoSlope) {
 TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
     const std::string kept = "Protocol, number of participants and tests are as planned.";
     for (const std::string name : {"phantom-grids", "eight-methods", "magnitudes"}) {
-        ASSERT_EQ(call("study plan " + name + " --participants 4 --out plan.txt").exitCode, 0) << name;
+        const auto planned = call("study plan " + name + " --participants 4 --out plan.txt");
+        ASSERT_EQ(planned.exitCode, 0) << name;
+        const std::string hash = planned.out.substr(planned.out.rfind(' ') + 1, 16);
+        EXPECT_TRUE(has(planned.out, "\nplan.txt  hash " + hash + "\n")) << planned.out;
         simulate(name, 4);
         const std::string files = "report " + name + "-P*.csv --plan plan.txt --out ";
         ASSERT_EQ(call(files + name).exitCode, 0) << name;
+        EXPECT_TRUE(has(page(name), "The plan has the hash " + hash + ".")) << hash;
         EXPECT_TRUE(has(page(name), kept))
             << name << page(name).substr(page(name).find("Planned and done"), 400);
     }

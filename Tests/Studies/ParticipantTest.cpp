@@ -48,6 +48,15 @@ protected:
         ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
         EXPECT_NE(p->find("Tabs"), nullptr) << "the mixer is back";
     }
+    /// The events of the file of times.
+    juce::String events() const {
+        juce::StringArray events;
+        const auto times = folder.getChildFile("short-P01.times.txt").loadFileAsString();
+        for (const auto& line : juce::StringArray::fromLines(times.trim()))
+            events.add(
+                line.fromFirstOccurrenceOf(",", false, false).upToFirstOccurrenceOf(",", false, false));
+        return events.joinIntoString(" ");
+    }
     CsvTable rows() const { return test::shortTrials(folder); }
     /// A column of the rows of a task.
     std::vector<std::string> column(const std::string& name, const std::string& task) const {
@@ -187,11 +196,24 @@ TEST_F(ByAParticipant, AClosedWindowPausesSaysSoAndThenLeaves) {
     EXPECT_TRUE(pauseStudy(p->view));
     EXPECT_TRUE(pauseStudy(p->view)) << "again";
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
-    const auto times = folder.getChildFile("short-P01.times.txt").loadFileAsString();
-    juce::StringArray events;
-    for (const auto& line : juce::StringArray::fromLines(times.trim()))
-        events.add(line.fromFirstOccurrenceOf(",", false, false).upToFirstOccurrenceOf(",", false, false));
-    EXPECT_EQ(events.joinIntoString(" "), "event start pause go-on pause leave") << times;
+    EXPECT_EQ(events(), "event start pause go-on pause leave");
+}
+
+TEST_F(ByAParticipant, AWindowClosedInABreakDoesNotBeginTheBreakAnew) {
+    begin(R"({"name": "main", "task": "identify", "break_before_s": 3})",
+          R"("layout": "phone2", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
+    EXPECT_TRUE(p->screen()->getDescription().contains("A break"));
+    EXPECT_TRUE(pauseStudy(p->view));
+    ASSERT_EQ(p->screen()->page(), StudyScreen::Page::paused);
+    test::runFor(3.0);
+    p->click("Next");
+    EXPECT_FALSE(p->screen()->getDescription().contains("A break")) << "it went on meanwhile";
+    passPage();
+    for (int n = 0; n < 2; ++n) p->feel(), p->click("Row 1, column 1"), p->click("Next");
+    close();
+    goOn();
+    close();
+    EXPECT_EQ(events(), "event start break pause go-on go-on end") << "it ended once";
 }
 
 TEST_F(ByAParticipant, FeelsAPairByOnePressAndIsToldWhatWasRight) {
@@ -212,6 +234,22 @@ TEST_F(ByAParticipant, FeelsAPairByOnePressAndIsToldWhatWasRight) {
     EXPECT_TRUE(p->screen()->getDescription().contains(isRight ? "That was right." : "That was wrong."))
         << p->screen()->getDescription();
     EXPECT_EQ(column("correct", "choose"), Texts{isRight ? "1" : "0"});
+}
+
+TEST_F(ByAParticipant, FeedbackStandsOnThePageAfterTheAnswerAndNotInAnotherSession) {
+    begin(
+        R"({"name": "a", "task": "choose", "feedback": true, "alternatives": [{"name": "a"}, {"name": "b"}],
+            "staircase": {"alternative": "b", "most_db": 10, "most_trials": 1}}, {"name": "b", "task": "identify"})",
+        R"("layout": "phone2", "level_g": 0.2, "stimuli": "grid", "columns": 1, "rows": 1, "seconds": 0.05)");
+    passPage();
+    p->feel();
+    p->feel();
+    p->click("Answer: number 1");
+    p->click("Next");
+    ASSERT_EQ(p->screen()->page(), StudyScreen::Page::pause);
+    EXPECT_TRUE(p->screen()->getDescription().contains("That was")) << p->screen()->getDescription();
+    passPage();
+    EXPECT_FALSE(p->screen()->getDescription().contains("That was")) << "it was of the session before";
 }
 
 TEST_F(ByAParticipant, FindingsOfTheCheckStandBesideTheProtocol) {

@@ -55,6 +55,36 @@ TEST(ProtocolLanguage, EveryLevelOfAVariableIsPlannedAndOfAGainTheEnds) {
     EXPECT_EQ(levels["stronger"], (std::set<double>{0.0, 12.0}));
 }
 
+TEST(ProtocolLanguage, MoreThan512LevelsAreSpreadEvenlyOverTheirRange) {
+    Protocol protocol = readProtocol(frequencies(), "own").value;
+    StaircasePlan& stairs = *protocol.sessions.front().staircase;
+    stairs.upRatio = 2.7182818; // steps that do not divide one another
+    std::vector<double> levels;
+    for (const PlannedStimulus& s : plannedStimuli(protocol)) {
+        EXPECT_EQ(s.isSpread, s.part == "higher");
+        if (s.part == "higher") levels.push_back(s.levelDb);
+    }
+    ASSERT_EQ(levels.size(), 513u);
+    EXPECT_EQ(levels.front(), 0.0);
+    EXPECT_EQ(levels.back(), 4.0);
+    for (std::size_t i = 1; i < levels.size(); ++i) EXPECT_NEAR(levels[i] - levels[i - 1], 4.0 / 512, 1e-12);
+    for (const PlannedStimulus& s : plannedStimuli(readProtocol(frequencies(), "own").value))
+        EXPECT_FALSE(s.isSpread);
+}
+
+TEST(ProtocolLanguage, LevelsThatWereSetMayBeAnyBetweenTheirEnds) {
+    Protocol protocol = findProtocol("model-or-sound").value;
+    for (ConditionPlan& condition : protocol.conditions) {
+        auto& set = std::get<WorldSet>(condition.stimuli);
+        set.call += " --frequency {hz}";
+        set.variables = {{"hz", 100.0}};
+    }
+    std::set<double> levels;
+    for (const PlannedStimulus& s : plannedStimuli(protocol))
+        if (s.part != "SV") levels.insert(s.levelDb);
+    EXPECT_GE(levels.size(), 513u) << "a mean of what was set is between its steps";
+}
+
 TEST(ProtocolLanguage, NamesAndFieldsThatCannotBeAreRefusedWithTheirPlace) {
     const auto refused = [](std::string text, const std::string& from, const std::string& to) {
         text.replace(text.find(from), from.size(), to);
@@ -176,6 +206,34 @@ TEST_F(TimesOfAStudy, OtherOutputsAreRefusedAndTheTrialFileHasNoTimes) {
     EXPECT_EQ(times.value[2].language, "ko");
     for (const StudyMoment& m : times.value) EXPECT_GT(secondsOf(m.timeUtc), 1.7e9) << m.timeUtc;
     EXPECT_EQ(readFile(run().trialFile().string(), 1'000'000).value.find("5 6"), std::string::npos);
+}
+
+TEST_F(TimesOfAStudy, ABreakGoesOnWhileTheWindowIsClosedAndAStudyEndsOnce) {
+    StudyRun one = run();
+    one.protocol.sessions.front().breakBeforeSeconds = 600.0;
+    const auto timesWith = [&](std::vector<std::pair<std::string, std::string>> events) {
+        std::vector<StudyMoment> moments;
+        for (auto& [time, event] : events) moments.push_back({time, event, 0, {}, {}, {}});
+        ASSERT_EQ(writeStudyTimes(timesPathOf(one.trialFile()), moments), "");
+    };
+    EXPECT_EQ(StudyInProgress{one}.restLeft(), 600.0);
+    EXPECT_FALSE(StudyInProgress{one}.hasRested());
+    timesWith({{utcNow(), "start"}, {utcNow(), "break"}, {utcNow(), "pause"}});
+    EXPECT_NEAR(StudyInProgress{one}.restLeft(), 595.0, 5.0);
+    EXPECT_TRUE(StudyInProgress{one}.isResting());
+    timesWith(
+        {{utcNow(), "start"}, {"2026-01-01T00:00:00Z", "break"}, {utcNow(), "pause"}, {utcNow(), "go-on"}});
+    EXPECT_EQ(StudyInProgress{one}.restLeft(), 0.0);
+    EXPECT_TRUE(StudyInProgress{one}.isResting()) << "that go-on ended the pause";
+    StudyInProgress study{one};
+    ASSERT_EQ(study.note(studyEvents::goOn), "");
+    EXPECT_FALSE(study.isResting());
+    while (!study.experiment().isDone()) answer(study);
+    for (const std::string_view event : {studyEvents::end, studyEvents::resume, studyEvents::end})
+        ASSERT_EQ(study.note(event), "");
+    const auto times = loadStudyTimes(timesPathOf(one.trialFile()));
+    ASSERT_EQ(times.value.size(), 6u);
+    EXPECT_EQ(times.value.back().event, "end");
 }
 
 TEST(StudyTimes, SecondsAreThoseOfTheCalendar) {

@@ -2,6 +2,7 @@
 // Tests over participants against R (the tables in R/ and the script that made them), and bad designs, which
 // are refused by name.
 #include "Lab/Statistics/Distributions.h"
+#include "Lab/Statistics/EffectIntervals.h"
 #include "Lab/Statistics/LongTable.h"
 #include "Lab/Statistics/Pairs.h"
 #include "Lab/Statistics/RankTests.h"
@@ -256,6 +257,32 @@ TEST(Statistics, FirstLevelMeansFirstInTheFile) {
     const auto report = mannWhitney(Design::of(table));
     EXPECT_EQ(*report.lines[0].statistic, 9.0);
     EXPECT_EQ(*report.lines[0].effectSize, 1.0);
+}
+
+TEST(Statistics, EffectSizesHaveIntervals) {
+    const auto t = noncentralityOfT(2.83, 126.0); // as R's MBESS::conf.limits.nct
+    ASSERT_TRUE(t);
+    EXPECT_NEAR(t->least, 0.8337502, 1e-5);
+    EXPECT_NEAR(t->most, 4.815359, 1e-5);
+    EXPECT_NEAR(noncentralityOfT(-2.83, 126.0)->least, -t->most, 1e-9) << "the other way round";
+    EXPECT_NEAR(noncentralityOfT(100.1, 10.0)->least, noncentralityOfT(99.9, 10.0)->least, 0.3)
+        << "by another way from 100 on";
+    const auto f = noncentralityOfF(16.0, 1.0, 20.0), of = noncentralityOfT(4.0, 20.0);
+    EXPECT_NEAR(std::sqrt(f->least), of->least, 1e-3) << "F of one degree is t squared";
+    EXPECT_NEAR(std::sqrt(f->most), of->most, 1e-3);
+    EXPECT_EQ(noncentralityOfF(0.5, 2.0, 20.0)->least, 0.0);
+    EXPECT_FALSE(intervalOfR(1.0, 0.1)) << "nothing is known of how far beyond";
+    // a mean difference of 1
+    const auto pair =
+        pairs(oneFactor({{1, 1}, {2, 0.5}, {3, 3}, {4, 1.5}}), PairTest::student, Correction::none).lines[0];
+    ASSERT_TRUE(pair.differenceInterval && pair.effectInterval);
+    EXPECT_NEAR(*pair.difference, 1.0, 1e-12);
+    const double half = studentQuantile(0.975, 3.0) * *pair.difference / *pair.statistic;
+    EXPECT_NEAR(pair.differenceInterval->least, 1.0 - half, 1e-9);
+    EXPECT_LT(pair.effectInterval->least, *pair.effectSize);
+    EXPECT_GT(pair.effectInterval->most, *pair.effectSize);
+    const auto ranks = wilcoxon(oneFactor({{1, 2}, {2, 1}, {3, 1.5}, {4, 1}, {5, 1}})).lines[0];
+    EXPECT_FALSE(ranks.difference) << "ranks have none in the measure's unit";
 }
 
 TEST(Statistics, ThirteenOfTwentyIsNoMajorityOfPeople) {

@@ -2,6 +2,7 @@
 // Statistical tests over participants: one line per effect, as text and as a tidy table.
 #include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Analysis/FitCharts.h"
 #include "Lab/Files/LongTableCsv.h"
 #include "Lab/Statistics/Pairs.h"
 #include "Lab/Statistics/RankTests.h"
@@ -40,18 +41,35 @@ void tell(std::ostream& out, const TestReport& report, const TestLine& line) {
         line.pCorrected && !report.correction.empty() && (line.sphericity || report.statistic != "F");
     if (isCorrected) out << ", " << report.correction << ' ' << chanceWords(*line.pCorrected);
     if (line.sphericity) out << sphericityWords(line);
+    if (line.differenceInterval) {
+        const auto& [least, most] = *line.differenceInterval;
+        const int decimals = decimalsOf(most - least);
+        out << ", difference " << fixedNumber(*line.difference, decimals) << " (95 % interval "
+            << fixedNumber(least, decimals) << " to " << fixedNumber(most, decimals) << ")";
+    }
     if (line.effectSize) out << ", " << report.effectSize << " = " << fixedNumber(*line.effectSize, 3);
+    if (line.effectInterval)
+        out << " (95 % interval " << fixedNumber(line.effectInterval->least, 3) << " to "
+            << fixedNumber(line.effectInterval->most, 3) << ")";
     out << ", n = " << line.n << '\n';
 }
 
 std::string exported(const std::string& name, bool isSimulated, const TestReport& report) {
-    ExportTable table{name, isSimulated, "effect,df1,df2,statistic,p,p_corrected,epsilon,effect_size,n"};
+    ExportTable table{name, isSimulated,
+                      "effect,df1,df2,statistic,p,p_corrected,epsilon,effect_size,n,effect_least,effect_most,"
+                      "difference,difference_least,difference_most"};
+    const auto bound = [](const std::optional<Interval95>& interval, double Interval95::*end) {
+        return interval ? std::optional{(*interval).*end} : std::nullopt;
+    };
     for (const TestLine& line : report.lines) {
         table.cell(line.effect);
         for (const auto& number :
              {line.df1, line.df2, line.statistic, line.p, line.pCorrected, line.epsilon, line.effectSize})
             table.cell(number);
-        table.cell(line.n).endRow();
+        table.row(line.n, bound(line.effectInterval, &Interval95::least),
+                  bound(line.effectInterval, &Interval95::most), line.difference,
+                  bound(line.differenceInterval, &Interval95::least),
+                  bound(line.differenceInterval, &Interval95::most));
     }
     return table.text();
 }

@@ -125,6 +125,7 @@ AnalysisReport analyseLevels(const AnalysisJob& o) {
     ExportTable table{
         "levels", data.value.isSimulated,
         "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation,half_interval"};
+    ExportTable each{"thresholds", data.value.isSimulated, "method,condition,participant,threshold"};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
     for (const LevelSummary& s : summaries) {
@@ -134,11 +135,15 @@ AnalysisReport analyseLevels(const AnalysisJob& o) {
                                       (s.flatRuns == 1 ? " staircase has" : " staircases have") +
                                       " fewer than two reversals: the level of the last trial "
                                       "stands for a threshold");
+        for (const auto& [participant, threshold] : s.thresholds)
+            each.row(s.kind == LevelTrial::Kind::quest ? "quest" : "staircase", s.condition, participant,
+                     threshold);
         table.row(kindWord(s.kind), s.condition, s.stimulus, s.trials, s.participants, s.reversals,
                   s.estimate, s.deviation, s.halfInterval);
     }
     report.words = out.str();
     report.table = table.text();
+    report.participants = each.text();
     report.picture = [summaries, isSimulated = report.isSimulated] {
         return chartSheet(levelCharts(summaries, isSimulated));
     };

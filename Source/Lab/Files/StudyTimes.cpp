@@ -33,6 +33,13 @@ StudyMoment momentOf(const detail::StudyRows& rows, const CsvRow& row) {
 
 } // namespace
 
+void StudyRests::take(const StudyMoment& m) noexcept {
+    namespace events = studyEvents;
+    if (m.event == events::rest) isResting = true;
+    if (m.event == events::end || (m.event == events::goOn && !isPaused)) isResting = false;
+    isPaused = m.event == events::pause; // which go-on and resume end
+}
+
 std::filesystem::path timesPathOf(const std::filesystem::path& trialFile) {
     return std::filesystem::path{trialFile}.replace_extension(".times.txt");
 }

@@ -25,6 +25,12 @@ struct StudyMoment {
     bool isBegin() const { return event == studyEvents::start || event == studyEvents::resume; }
 };
 
+/// Breaks and pauses, followed event by event. A break stays open while the window is closed in it.
+struct StudyRests {
+    bool isResting = false, isPaused = false;
+    void take(const StudyMoment& moment) noexcept;
+};
+
 /// Path of the times of a trial file. Any thread (allocates).
 std::filesystem::path timesPathOf(const std::filesystem::path& trialFile);
 

@@ -4,6 +4,7 @@
 #include "Core/RenderingMethod.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFields.h"
+#include "Lab/Report/LevelChain.h"
 #include <algorithm>
 
 namespace physvib {
@@ -126,6 +127,7 @@ std::vector<std::string> protocolSentences(const Protocol& protocol) {
         "Protocol " + protocol.name + (protocol.title.empty() ? std::string{} : ": " + protocol.title) + ".",
         "Every participant does each session in each condition; the order of conditions is " +
             std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)]) + "."};
+    sentences.push_back(levelChain(protocol, "as planned"));
     if (protocol.conditionBreakSeconds > 0.0)
         sentences.push_back("A break of " + secondsWords(protocol.conditionBreakSeconds) +
                             " lies before each condition but the first.");

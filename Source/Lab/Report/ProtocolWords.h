@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-/// Sentences on the protocol as a whole. Any thread (allocates).
+/// Sentences on the protocol as a whole. Message thread only.
 std::vector<std::string> protocolSentences(const Protocol& protocol);
 
 /// One line on the stimuli of a condition. Any thread (allocates).

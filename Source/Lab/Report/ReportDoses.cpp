@@ -3,6 +3,7 @@
 #include "Io/Text/CsvText.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/TrialColumns.h"
+#include "Lab/Report/LevelChain.h"
 #include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Statistics/Moments.h"
@@ -30,12 +31,19 @@ std::string meaningOf(std::string_view column) {
     if (column == trialColumns::peakG)
         return "peak_g: the peak of the signal that left for the strongest actuator, of each part of a "
                "trial, "
-               "times the full scale that its layout states, in g. This is assumed: no row says that an "
-               "accelerometer measured it, or that the actuator was calibrated. ";
-    if (column == trialColumns::rmsG) return "rms_g: its root mean square, as assumed, in g. ";
+               "times the full scale that its layout states, in g. ";
+    if (column == trialColumns::rmsG) return "rms_g: its root mean square, likewise. ";
     if (column == trialColumns::exposure)
         return "a8_m_per_s2: the participant's exposure up to there, A(8) by ISO 5349-1. ";
     return {};
+}
+
+/// How the columns in g come about.
+std::string chainOf(const ReportTrials& trials) {
+    if (trials.protocol) return levelChain(*trials.protocol, "as they left (measured)");
+    return "Levels in g are samples as they left (measured), times a full scale that is assumed, as the "
+           "layouts are "
+           "not known here: no accelerometer measured them.";
 }
 
 /// Table of the levels of every part of every stimulus, where they are in the rows.
@@ -97,6 +105,7 @@ void tellDoses(ReportBuilder& report) {
     if (meanings.empty())
         return report.page.paragraph("Every trial had the level of its call; nobody measured what was felt.");
     report.addTable("levels-and-exposure.csv", table.text());
+    if (meanings.find(trialColumns::peakG) != std::string::npos) meanings += chainOf(report.trials) + " ";
     report.page.paragraph(meanings.substr(0, meanings.size() - 1));
     report.page.table(table.text(), "levels-and-exposure.csv");
     tellStimuli(report);

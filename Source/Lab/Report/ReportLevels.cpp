@@ -108,6 +108,21 @@ std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>&
     return bars.size() < 2 ? std::string{} : barsChart(frame, "stimulus", "level (dB)", bars);
 }
 
+/// Compares the conditions' thresholds within participants, methods apart, as each has a threshold of its
+/// own.
+void tellDifferences(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
+    if (report.people() < 2) return;
+    for (const auto& [kind, method] :
+         {std::pair{LevelTrial::Kind::staircase, "staircase"}, {LevelTrial::Kind::quest, "quest"}}) {
+        if (std::ranges::count(summaries, kind, &LevelSummary::kind) < 2) continue;
+        AnalysisJob test = report.optionsFor("thresholds.csv");
+        test.measure = "threshold";
+        test.within = {"condition"};
+        test.where = {std::string("method=").append(method)};
+        report.test("pairs", test, std::string("pairs-thresholds-").append(method).append(".csv"));
+    }
+}
+
 /// Warns about adjustments at the end of their range, which may have been limited by it.
 void tellEndsOfRanges(ReportBuilder& report) {
     const CsvTable& all = report.trials.all;
@@ -145,11 +160,14 @@ void tellLevels(ReportBuilder& report) {
     const auto has = [&](LevelTrial::Kind kind) {
         return std::ranges::any_of(trials, [=](const LevelTrial& trial) { return trial.kind == kind; });
     };
-    if (const auto words = report.analysis("levels", report.optionsFor(trialsTable), "levels.csv");
-        !words.error.empty())
-        return;
+    const auto words = report.analysis("levels", report.optionsFor(trialsTable), "levels.csv");
+    if (!words.error.empty()) return;
+    const auto summaries = summariseLevels(trials);
+    if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest))
+        report.addTable("thresholds.csv", words.participants);
+    tellDifferences(report, summaries);
     tellEndsOfRanges(report);
-    if (const std::string chart = matchesChart(report, summariseLevels(trials)); !chart.empty())
+    if (const std::string chart = matchesChart(report, summaries); !chart.empty())
         report.page.figure({chart}, "Levels that were set until both were equally strong: means" +
                                         report.intervals() + ".");
     if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest)) tellThresholds(report);

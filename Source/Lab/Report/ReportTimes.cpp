@@ -27,15 +27,19 @@ std::string timesSentence(const std::string& participant, const std::vector<Stud
     namespace events = studyEvents;
     std::size_t sittings = 0, cutOff = 0, breaks = 0, pauses = 0;
     double awaySeconds = 0.0, restSeconds = 0.0;
+    StudyRests rests;
     for (std::size_t i = 0; i < moments.size(); ++i) {
         const StudyMoment& m = moments[i];
         const double since = i > 0 ? secondsOf(m.timeUtc) - secondsOf(moments[i - 1].timeUtc) : 0.0;
         sittings += m.isBegin() ? 1 : 0;
-        breaks += m.event == events::rest ? 1 : 0;
+        breaks += m.event == events::rest && !rests.isResting ? 1 : 0;
         pauses += m.event == events::pause ? 1 : 0;
         if (m.isBegin()) awaySeconds += since;
-        if (m.isBegin() && i > 0 && moments[i - 1].event != events::leave) ++cutOff;
-        if (m.event == events::goOn && moments[i - 1].event == events::rest) restSeconds += since;
+        if (m.isBegin() && i > 0 && moments[i - 1].event != events::leave &&
+            moments[i - 1].event != events::end)
+            ++cutOff;
+        if (rests.isResting && !m.isBegin()) restSeconds += since;
+        rests.take(m);
     }
     const bool isOver = moments.back().event == events::end;
     std::string words = participant + " began at " + moments.front().timeUtc +

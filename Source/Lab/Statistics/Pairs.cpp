@@ -2,6 +2,7 @@
 // Pairwise comparisons: paired and Welch's t as in R's t.test; rank tests as in RankTests.
 #include "Lab/Statistics/Pairs.h"
 #include "Lab/Statistics/Distributions.h"
+#include "Lab/Statistics/EffectIntervals.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Statistics/RankTests.h"
 #include <algorithm>
@@ -29,6 +30,17 @@ std::vector<double> differencesOf(const std::vector<double>& first, const std::v
     return differences;
 }
 
+/// Of the difference by Student's t, of d by the noncentrality, which is as much larger as t is than d.
+void addIntervals(TestLine& line, double difference, double standardError) {
+    const double half = studentQuantile(0.975, *line.df1) * standardError;
+    line.difference = difference;
+    line.differenceInterval = {difference - half, difference + half};
+    const double ratio = difference != 0.0 ? *line.effectSize / *line.statistic : 0.0;
+    if (ratio > 0.0)
+        if (const auto bounds = noncentralityOfT(*line.statistic, *line.df1))
+            line.effectInterval = {bounds->least * ratio, bounds->most * ratio};
+}
+
 TestLine pairedT(const std::vector<double>& first, const std::vector<double>& second) {
     TestLine line;
     line.n = first.size();
@@ -38,6 +50,7 @@ TestLine pairedT(const std::vector<double>& first, const std::vector<double>& se
     line.statistic = sample.mean / std::sqrt(sample.variance / sample.n);
     line.p = studentTwoSided(*line.statistic, *line.df1);
     line.effectSize = sample.mean / std::sqrt(sample.variance);
+    addIntervals(line, sample.mean, std::sqrt(sample.variance / sample.n));
     return line;
 }
 
@@ -52,6 +65,7 @@ TestLine welchT(const std::vector<double>& first, const std::vector<double>& sec
     line.statistic = (a.mean - b.mean) / std::sqrt(error);
     line.p = studentTwoSided(*line.statistic, *line.df1);
     line.effectSize = (a.mean - b.mean) / std::sqrt(0.5 * (a.variance + b.variance));
+    addIntervals(line, a.mean - b.mean, std::sqrt(error));
     return line;
 }
 

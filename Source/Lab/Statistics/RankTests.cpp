@@ -3,6 +3,7 @@
 // package.
 #include "Lab/Statistics/RankTests.h"
 #include "Lab/Statistics/Distributions.h"
+#include "Lab/Statistics/EffectIntervals.h"
 #include "Lab/Statistics/Ranks.h"
 #include <algorithm>
 #include <cmath>
@@ -115,6 +116,7 @@ TestLine signedRank(std::span<const double> differences) {
                      : correctedNormal(v - 0.5 * all,
                                        n * (n + 1.0) * (2.0 * n + 1.0) / 24.0 - ranking.tieTerm / 48.0);
     line.effectSize = 2.0 * v / all - 1.0;
+    line.effectInterval = intervalOfR(*line.effectSize, 2.0 * (2.0 * n + 1.0) / (3.0 * n * (n + 1.0)));
     return line;
 }
 
@@ -135,6 +137,7 @@ TestLine rankSum(std::span<const double> first, std::span<const double> second) 
     line.p = isExact ? rankSumTwoSided(w, first.size(), second.size())
                      : correctedNormal(w - m * n / 2.0, variance);
     line.effectSize = 2.0 * w / (m * n) - 1.0;
+    line.effectInterval = intervalOfR(*line.effectSize, (all + 1.0) / (3.0 * m * n));
     return line;
 }
 

@@ -7,6 +7,7 @@
 #include "Lab/Statistics/RepeatedMeasures.h"
 #include "Lab/Statistics/DesignEffects.h"
 #include "Lab/Statistics/Distributions.h"
+#include "Lab/Statistics/EffectIntervals.h"
 #include "Lab/Statistics/Moments.h"
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -178,8 +179,17 @@ TestReport repeatedMeasures(const Design& design) {
         if (effect.within != 0) addSphericity(error, df, static_cast<double>(design.cells()), line);
         report.lines.push_back(std::move(line));
     }
-    for (std::size_t i = 0; i < squares.size(); ++i)
-        report.lines[i].effectSize = squares[i] / (squares[i] + allErrors);
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+        TestLine& line = report.lines[i];
+        line.effectSize = squares[i] / (squares[i] + allErrors);
+        const double epsilon = line.sphericity ? *line.epsilon : 1.0;
+        if (const auto bounds = noncentralityOfF(*line.statistic, epsilon * *line.df1, epsilon * *line.df2)) {
+            const double unit = squares[i] / (*line.df1 * *line.statistic * epsilon); // squares per
+                                                                                      // noncentrality
+            const auto share = [&](double n) { return n * unit / (n * unit + allErrors); };
+            line.effectInterval = {share(bounds->least), share(bounds->most)};
+        }
+    }
     return report;
 }
 

@@ -18,11 +18,19 @@ struct Sphericity {
     double pHuynhFeldt = 1.0;
 };
 
+/// 95 % interval.
+struct Interval95 {
+    double least = 0.0, most = 0.0;
+};
+
 struct TestLine {
     std::string effect;
     std::optional<double> df1, df2, statistic, p, pCorrected, epsilon, effectSize;
     std::size_t n = 0; ///< number of participants
     std::optional<Sphericity> sphericity{};
+    std::optional<Interval95> effectInterval{};
+    std::optional<double> difference{}; ///< pairs by t: of the means, over participants
+    std::optional<Interval95> differenceInterval{};
 };
 
 struct TestReport {

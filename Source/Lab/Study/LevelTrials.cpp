@@ -78,6 +78,7 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
             own.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary)
                                                                   : staircaseThreshold(run, summary));
         thresholds.push_back(meanOf(own));
+        summary.thresholds.emplace_back(participant, thresholds.back());
         summary.halfInterval /= static_cast<double>(own.size());
     }
     const Moments moments{thresholds};

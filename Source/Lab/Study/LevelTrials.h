@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace physvib {
@@ -30,6 +31,8 @@ struct LevelSummary {
                             ///< for one value
     double halfInterval = 0.0; ///< 95 % half-interval of thresholds and adjustments over participants; for
                                ///< one QUEST+ participant from the posterior; else 0
+    std::vector<std::pair<std::string, double>> thresholds{}; ///< staircase, QUEST+: of each participant, in
+                                                              ///< dB
 };
 
 /// Sorted by kind, condition and stimulus. A staircase threshold is the mean level of the later half of the

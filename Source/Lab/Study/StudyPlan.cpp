@@ -14,11 +14,20 @@ namespace {
 
 using Levels = std::set<double>; // in dB
 
-/// `start` and all that `steps` lead to within the range, up and down.
+/// One more than mostPlannedLevels from `least` to `most`, evenly spread.
+Levels spread(double least, double most) {
+    Levels levels{most};
+    for (std::size_t i = 0; i < mostPlannedLevels; ++i)
+        levels.insert(least + (most - least) * static_cast<double>(i) / mostPlannedLevels);
+    return levels;
+}
+
+/// `start` and all that `steps` lead to within the range, up and down. Steps that do not divide one another
+/// reach ever more: then the range is spread.
 Levels reachedFrom(double start, std::vector<double> steps, double least, double most) {
-    constexpr std::size_t mostLevels = 4096; // steps that do not divide one another reach ever more
     Levels reached{start};
-    for (std::vector<double> next{start}; !next.empty() && reached.size() < mostLevels;) {
+    for (std::vector<double> next{start}; !next.empty();) {
+        if (reached.size() > mostPlannedLevels) return spread(least, most);
         const double level = next.back();
         next.pop_back();
         for (const double step : steps)
@@ -57,7 +66,7 @@ Levels levelsOf(const Protocol& protocol, const SessionPlan& session, const Alte
     const auto from = std::ranges::find(protocol.sessions, session.levelsFrom, &SessionPlan::name);
     Levels added;
     if (!session.levelsFrom.empty() && from != protocol.sessions.end() && moves(from->adjustment))
-        added = {from->adjustment->leastDb, from->adjustment->mostDb}; // means of these, and all between
+        added = spread(from->adjustment->leastDb, from->adjustment->mostDb); // means of what was set
     else if (moves(session.staircase))
         added = levelsOf(*session.staircase);
     else if (moves(session.quest))
@@ -152,17 +161,29 @@ std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
             for (const double db : levels) parts[name].try_emplace(db, s);
     // sessions without alternatives play the same stimuli
     if (parts.size() > 1) parts.erase(std::string{});
+    std::set<std::string> spreadParts;
+    for (auto& [name, levels] : parts) {
+        if (levels.size() <= mostPlannedLevels) continue;
+        spreadParts.insert(name);
+        std::map<double, std::size_t> even;
+        for (const double db : spread(levels.begin()->first, levels.rbegin()->first))
+            even[db] = std::prev(levels.upper_bound(db))->second;
+        levels = std::move(even);
+    }
     std::vector<PlannedStimulus> planned;
-    for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
+    for (std::size_t c = 0; c < protocol.conditions.size(); ++c) {
+        const bool scales = isGain(protocol.conditions[c]);
         for (const StimulusItem& item : stimuliOf(protocol.conditions[c]))
             for (const auto& [name, levels] : parts)
                 for (const auto& [db, session] : levels) {
                     const bool isHighest = db == levels.rbegin()->first;
-                    if (!isGain(protocol.conditions[c]))
-                        planned.push_back({c, session, item.label, name, db});
+                    if (!scales)
+                        planned.push_back(
+                            {c, session, item.label, name, db, true, spreadParts.contains(name)});
                     else if (isHighest || db == levels.begin()->first)
                         planned.push_back({c, session, item.label, name, db, isHighest});
                 }
+    }
     return planned;
 }
 

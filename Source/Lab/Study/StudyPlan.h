@@ -15,10 +15,15 @@ struct PlannedStimulus {
     std::string label, part;                ///< part is empty if trials have none
     double levelDb = 0.0;
     bool isHighest = true; ///< false: a lower level of the same samples
+    bool isSpread = false; ///< one of levels that are spread evenly, as sessions can reach more
 
     /// The job that creates the stimulus. Any thread (allocates).
     TrialJob job(const Protocol& protocol) const;
 };
+
+/// Of a part that can have more levels than these, one more is planned, evenly spread from its lowest level
+/// to its highest.
+inline constexpr std::size_t mostPlannedLevels = 512;
 
 /// All planned stimuli in the order of conditions, each with its levels from the lowest. A level that is only
 /// a gain scales the samples, so its lowest and its highest stand for all; any other use of it is listed

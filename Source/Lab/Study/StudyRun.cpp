@@ -57,6 +57,7 @@ StudyInProgress::StudyInProgress(StudyRun run)
     error_ = times.error;
     times_ = std::move(times.value);
     if (!error_.empty()) return;
+    for (const StudyMoment& moment : times_) rests_.take(moment);
     for (const TrialRecord& record : log_.records()) {
         const std::string fault = experiment_.redo(record);
         if (fault.empty()) continue;
@@ -74,9 +75,25 @@ std::string StudyInProgress::begin(const Apparatus& now) {
 }
 
 std::string StudyInProgress::note(std::string_view event, const Apparatus& now) {
+    if (!times_.empty() && times_.back().event == studyEvents::end) return {};
     times_.push_back({utcNow(), std::string(event), experiment_.trialsTaken(), now.language, now.outputs,
                       now.noiseOutputs});
+    rests_.take(times_.back());
     return writeStudyTimes(timesPathOf(path_), times_);
+}
+
+const StudyMoment* StudyInProgress::restBegan() const {
+    const auto found = std::ranges::find_if(times_, [&](const StudyMoment& m) {
+        return m.event == studyEvents::rest && m.trials == experiment_.trialsTaken();
+    });
+    return found != times_.end() ? &*found : nullptr;
+}
+
+double StudyInProgress::restLeft() const {
+    const double planned = experiment_.trial().restSeconds;
+    const StudyMoment* const began = restBegan();
+    if (began == nullptr) return planned;
+    return std::clamp(planned - (secondsOf(utcNow()) - secondsOf(began->timeUtc)), 0.0, planned);
 }
 
 std::string StudyInProgress::apparatusFault(const Apparatus& now) const {

@@ -50,7 +50,13 @@ public:
     /// Writes the start or resume with this apparatus into the file of times. Empty, or why not.
     std::string begin(const Apparatus& now);
     /// Adds an event (studyEvents) with the current time. Empty, or why not.
+    /// After the end nothing is added, however often the study is opened again.
     std::string note(std::string_view event, const Apparatus& now = {});
+    /// Seconds left of the break before the current trial: it goes on while the window is closed.
+    double restLeft() const;
+    bool isResting() const noexcept { return rests_.isResting; } ///< true until a go-on after a break
+    /// True if the break before the current trial has begun, in this sitting or an earlier one.
+    bool hasRested() const { return restBegan() != nullptr; }
     /// A(8) in m/s^2 after these trials, if the last of them is of today.
     double exposureToday() const noexcept { return exposureToday_; }
 
@@ -70,11 +76,14 @@ public:
     std::string keepComment(const std::string& words) const;
 
 private:
+    const StudyMoment* restBegan() const; // the break before the current trial; null if none was noted
+
     StudyRun run_;
     std::filesystem::path path_;
     bool isOfToday_;
     TrialLogFile log_;
     std::vector<StudyMoment> times_; // of the file of times
+    StudyRests rests_;               // of these
     Experiment experiment_;
     int before_ = 0;
     double exposureToday_ = 0.0;

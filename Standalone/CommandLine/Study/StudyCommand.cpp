@@ -4,6 +4,7 @@
 #include "Calls/RenderWords.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
+#include "Io/Disk/ContentHash.h"
 #include "Lab/Files/LevelsFile.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/StudyCsv.h"
@@ -166,6 +167,8 @@ int plan(const StudyOptions& o) {
     if (const int code = writeStudyFiles({StudyFile{o.planPath, planned.value}}); code != exitDone)
         return code;
     std::cout << planned.value;
+    if (!o.planPath.empty()) // as the report prints it
+        std::cout << '\n' << o.planPath << "  hash " << contentHash(planned.value) << '\n';
     return exitDone;
 }
 

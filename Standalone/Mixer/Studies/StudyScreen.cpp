@@ -112,8 +112,8 @@ void StudyScreen::showNext() {
     const Trial& trial = experiment().trial();
     const bool isFirstSeen = !answers_;
     if (!isFirstSeen && trial.number > 1 && trial.restSeconds <= 0.0) return showTrial();
-    restEndsMs_ = nowMs() + 1e3 * trial.restSeconds;
-    if (trial.restSeconds > 0.0) note(studyEvents::rest);
+    restEndsMs_ = nowMs() + 1e3 * study_->restLeft();
+    if (trial.restSeconds > 0.0 && !study_->hasRested()) note(studyEvents::rest);
     showPage(Page::pause);
 }
 
@@ -218,7 +218,8 @@ void StudyScreen::goOn() {
     switch (page_) {
     case Page::pause:
         if (restLeft() > 0.0) return;
-        if (experiment().trial().restSeconds > 0.0) note(studyEvents::goOn);
+        if (study_->isResting()) note(studyEvents::goOn);
+        wasRight_.reset(); // it stood on this page
         return showTrial();
     case Page::paused: return note(studyEvents::goOn), showNext();
     case Page::trial: return;

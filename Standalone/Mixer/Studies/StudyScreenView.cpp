@@ -77,24 +77,29 @@ juce::String StudyScreen::headline() const {
     switch (page_) {
     case Page::trial: return say_.question(experiment().session(), experiment().condition());
     case Page::comment: return say_(study_->protocol().closingQuestion);
-    case Page::done: return say_("Thank you. That was everything.");
+    case Page::done: return feedback() + say_("Thank you. That was everything.");
     case Page::exposed: return say_("That is enough vibration for today: the study pauses.");
     case Page::fault: return say_("The study cannot go on.");
     case Page::paused: return say_("The study is paused.");
     case Page::pause: break;
     }
     const Trial& trial = experiment().trial();
-    if (restLeft() > 0.0) return say_("A break: rest your hands.") + "  " + minutesText(restLeft());
-    if (trial.number > 1) return say_("Ready to go on?");
-    return say_(experiment().session().isTraining ? "Training" : "The study");
+    if (restLeft() > 0.0)
+        return feedback() + say_("A break: rest your hands.") + "  " + minutesText(restLeft());
+    if (trial.number > 1) return feedback() + say_("Ready to go on?");
+    return feedback() + say_(experiment().session().isTraining ? "Training" : "The study");
+}
+
+/// On the answer before, for the page that follows it.
+juce::String StudyScreen::feedback() const {
+    return wasRight_ ? say_(*wasRight_ ? "That was right." : "That was wrong.") + "  " : juce::String{};
 }
 
 juce::String StudyScreen::body() const {
     switch (page_) {
     case Page::trial:
         if (desk_.isSilent()) return say_("Everything is silent. Press the button to feel again.");
-        if (wasRight_ && plays() == 0 && desk_.trouble().isEmpty())
-            return say_(*wasRight_ ? "That was right." : "That was wrong.");
+        if (wasRight_ && plays() == 0 && desk_.trouble().isEmpty()) return feedback().trimEnd();
         return desk_.trouble().isNotEmpty()
                    ? juce::String{desk_.trouble()}
                    : say_.instruction(experiment().session(), experiment().condition()).replace("\n", " ");

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// How often 95 % intervals hold, and how often studies without any difference find one, by simulation: the
+// figures of Docs/statistics.md. Minutes; by hand and every night. Exit code 1 beyond 93 to 97 %, or above 5
+// % of false findings by more than chance.
+#include "Lab/Statistics/Bootstrap.h"
+#include "Lab/Statistics/Pairs.h"
+#include "Lab/Statistics/Psychometric.h"
+#include "Lab/Statistics/RepeatedMeasures.h"
+#include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/LevelTrials.h"
+#include "Lab/Study/ResponseMap.h"
+#include "Stimuli/SeededRandom.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+constexpr double meanThreshold = 10.0, width = 6.0, lapse = 0.02;
+constexpr double perPersonDb = 1.5; // standard deviation of thresholds over participants
+
+enum class Method { constant, staircase, quest };
+constexpr const char* methodNames[] = {"constant stimuli", "staircase", "QUEST+"};
+
+PsychometricFunction person(SeededRandom& random, bool isOfPrior) {
+    // one person's interval of QUEST+ is Bayesian: it holds for people of its prior
+    const double threshold =
+        isOfPrior ? 20.25 * random.uniform() - 0.125 : meanThreshold + perPersonDb * random.normal();
+    return {PsychometricShape::weibull, threshold, isOfPrior ? 2.0 + 18.0 * random.uniform() : width, 0.5,
+            lapse};
+}
+
+SessionPlan sessionOf(Method method) {
+    SessionPlan session;
+    session.alternatives = {{"a", 0.0}, {"b", 0.0}};
+    if (method == Method::staircase) {
+        session.staircase.emplace();
+        session.staircase->startDb = 16.0;
+        session.staircase->leastDb = -10.0;
+        session.staircase->reversals = 12;
+    } else if (method == Method::quest)
+        session.quest.emplace();
+    return session;
+}
+
+/// True if a study's interval of the mean threshold holds the true one.
+bool holds(Method method, int people, SeededRandom& random) {
+    const SessionPlan session = sessionOf(method);
+    std::vector<LevelTrial> trials;
+    std::vector<double> fitted;
+    double truth = meanThreshold;
+    for (int p = 0; p < people; ++p) {
+        const PsychometricFunction observer = person(random, people == 1);
+        if (people == 1) truth = observer.threshold;
+        if (method == Method::constant) {
+            std::vector<LevelCount> counts;
+            for (int i = 0; i < 8; ++i) {
+                LevelCount& count = counts.emplace_back(LevelCount{4.0 + 1.75 * i, 0, 30});
+                for (int t = 0; t < 30; ++t) count.hits += random.chance(observer.probability(count.level));
+            }
+            if (const auto fit = fitPsychometric(counts, {observer.shape, 0.5, lapse}); fit.fault.empty())
+                fitted.push_back(fit.function.threshold);
+            continue;
+        }
+        for (AdaptiveLevel level{session}; !level.isDone();) {
+            const bool isCorrect = random.chance(observer.probability(level.levelDb()));
+            trials.push_back({method == Method::quest ? LevelTrial::Kind::quest : LevelTrial::Kind::staircase,
+                              std::to_string(p), "c", "", level.levelDb(), isCorrect ? 1.0 : 0.0, "s",
+                              session.quest ? questWords(*session.quest, 0.5) : std::string{}});
+            level.answer(isCorrect);
+        }
+        if (method == Method::staircase) // two down, one up comes to 70.7 %
+            truth = meanThreshold + observer.levelOf(std::sqrt(0.5)) - observer.threshold;
+    }
+    if (method == Method::constant) {
+        const BootstrapInterval interval = bootstrapMean(fitted);
+        return interval.least <= truth && truth <= interval.most;
+    }
+    const LevelSummary summary = summariseLevels(trials).front();
+    return std::abs(summary.estimate - truth) <= summary.halfInterval;
+}
+
+/// Intervals of differences and effect sizes of one study: true where they hold.
+struct Effects {
+    int difference = 0, d = 0, r = 0, eta = 0;
+};
+
+void countEffects(int people, SeededRandom& random, Effects& held) {
+    constexpr double d = 0.6, level[] = {-0.5, 0.0, 0.5}, personal = 1.0;
+    LongTable two{"y", {"a"}, ""}, three{"y", {"a"}, ""};
+    for (int p = 0; p < people; ++p) {
+        const std::string who = "P" + std::to_string(p);
+        const double own = personal * random.normal();
+        two.add(who, {"1"}, "", own + d + std::numbers::sqrt2 / 2.0 * random.normal());
+        two.add(who, {"2"}, "", own + std::numbers::sqrt2 / 2.0 * random.normal());
+        for (int i = 0; i < 3; ++i)
+            three.add(who, {std::to_string(i + 1)}, "", own + level[i] + random.normal());
+    }
+    const auto within = [](const std::optional<Interval95>& interval, double truth) {
+        return interval && interval->least <= truth && truth <= interval->most;
+    };
+    const TestLine t = pairs(Design::of(two), PairTest::student, Correction::none).lines.front(),
+                   ranks = pairs(Design::of(two), PairTest::ranks, Correction::none).lines.front(),
+                   f = repeatedMeasures(Design::of(three)).lines.front();
+    held.difference += within(t.differenceInterval, d);
+    held.d += within(t.effectInterval, d);
+    // r of two normal differences' mean: how much more often it is above 0 than below
+    held.r += within(ranks.effectInterval, std::erf(d)) || !ranks.effectInterval;
+    const double squares = level[0] * level[0] + level[1] * level[1] + level[2] * level[2];
+    held.eta += within(f.effectInterval, squares / (squares + 3.0 * personal * personal + 3.0));
+}
+
+std::vector<LocationTrial> pointing(const std::string& who, int each, SeededRandom& random) {
+    std::vector<LocationTrial> trials;
+    for (int column = 1; column <= 8; ++column)
+        for (int row = 1; row <= 6; ++row)
+            for (int i = 0; i < each; ++i)
+                trials.push_back({column, row, (column - 0.5) / 8.0 + 0.3 * random.normal(),
+                                  (row - 0.5) / 6.0 + 0.3 * random.normal(), who});
+    return trials;
+}
+
+/// Studies of conditions with one blur that find a difference of sizes.
+int falseFindings(int people, std::size_t conditions, int studies, SeededRandom& random) {
+    int found = 0;
+    for (int study = 0; study < studies; ++study) {
+        std::vector<std::vector<LocationTrial>> trials(conditions);
+        std::vector<double> cells;
+        for (auto& own : trials) {
+            for (int p = 0; p < people; ++p) {
+                const auto more = pointing("P" + std::to_string(p), people > 1 ? 1 : 12, random);
+                own.insert(own.end(), more.begin(), more.end());
+            }
+            const auto made = resolveCondition("", own).resolution;
+            cells.push_back(static_cast<double>(made.columns * made.rows));
+        }
+        found += std::ranges::max(cells) - std::ranges::min(cells) > cellChance(trials).cells;
+    }
+    return found;
+}
+
+int run(int studies, int nullStudies) {
+    bool isGood = true;
+    SeededRandom random{1, "coverage"};
+    const auto say = [&](const char* what, int people, int held) {
+        const double percent = 100.0 * held / studies, slack = 2.0 * std::sqrt(95.0 * 5.0 / studies);
+        isGood &= percent >= 93.0 - slack && percent <= 97.0 + slack;
+        std::printf("%-28s %3d people  %5.1f %% of %d\n", what, people, percent, studies),
+            std::fflush(stdout);
+    };
+    for (const auto& [method, all] : std::map<Method, std::vector<int>>{{Method::constant, {2, 6, 12, 60}},
+                                                                        {Method::staircase, {2, 6, 12, 60}},
+                                                                        {Method::quest, {1, 6, 12, 60}}})
+        for (const int people : all) {
+            int held = 0;
+            for (int study = 0; study < studies; ++study) held += holds(method, people, random);
+            say(methodNames[static_cast<int>(method)], people, held);
+        }
+    for (const int people : {6, 20}) {
+        Effects held;
+        for (int study = 0; study < studies; ++study) countEffects(people, random, held);
+        say("difference of two", people, held.difference);
+        say("d", people, held.d);
+        std::printf("%-28s %3d people  %5.1f %% (approximate)\n%-28s %3d people  %5.1f %% (approximate)\n",
+                    "rank-biserial r", people, 100.0 * held.r / studies, "generalised eta squared", people,
+                    100.0 * held.eta / studies);
+    }
+    for (const int people : {1, 8}) {
+        const int found = falseFindings(people, 3, nullStudies, random);
+        isGood &= found <= 0.05 * nullStudies + 2.0 * std::sqrt(0.05 * 0.95 * nullStudies);
+        std::printf("false findings of grids      %3d people  %d of %d studies of three conditions\n", people,
+                    found, nullStudies);
+    }
+    std::puts(isGood ? "intervals hold, and findings need a chance" : "BEYOND what is said");
+    return isGood ? 0 : 1;
+}
+
+} // namespace
+} // namespace physvib
+
+int main(int count, char** words) {
+    return physvib::run(count > 1 ? std::atoi(words[1]) : 1000, count > 2 ? std::atoi(words[2]) : 100);
+}
