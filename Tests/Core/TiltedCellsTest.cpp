@@ -146,15 +146,13 @@ TEST(TiltedCells, WhatIsInNoPlaneGoesByDistanceAndNamesCanAskForCells) {
               gainsFor(pannerOn(upright, PanningLaw::neighbours), {0.3, 0.2, 0.03}));
 }
 
-// A hand: a tilted row of four along the fingers, and a thumb.
+/// Tips of a hand, which are in no plane, and two more on the index, in a row with its tip.
 Places hand() {
-    Places places;
-    const Frame frame{{}, {0.6, 0.8, 0.0}, {0.0, 0.0, 1.0}};
-    for (ActuatorPlace place : frame.of(row(4))) {
-        place.zMetres += 0.5 * place.xMetres, place.part = partNamed("fingers");
-        places.push_back(place);
-    }
-    places.push_back({0.2, 0.4, -0.2, partNamed("thumb")});
+    ActuatorLayout tips;
+    EXPECT_TRUE(layoutPreset("glove5", tips));
+    Places places{tips.places.begin(), tips.places.begin() + tips.count};
+    for (int j = 1; j < 3; ++j)
+        places.push_back({0.06 - 0.01 * j, 0.085 - 0.03 * j, -0.01 - 0.005 * j, partNamed("index")});
     return places;
 }
 
@@ -163,13 +161,13 @@ TEST(TiltedCells, APartChoosesTheLawOfItsOwnShape) {
     const PhantomPanner panner = pannerOn(places);
     ASSERT_EQ(panner.law(), PanningLaw::distance);
     EXPECT_EQ(panner.partLaw(), PanningLaw::automatic);
-    EXPECT_EQ(panner.onPart(partNamed("fingers")).law(), PanningLaw::neighbours);
-    const ActuatorPlace between = sumOf(sumOf({}, places[0], 0.7), places[1], 0.3);
-    const auto gains = gainsFor(panner, between, partNamed("fingers"));
-    EXPECT_NEAR(gains[0] * gains[0], 0.7, 1e-9);
-    EXPECT_NEAR(gains[1] * gains[1], 0.3, 1e-9);
-    EXPECT_EQ(gains[2], 0.0);
-    EXPECT_EQ(pannerOn(places, PanningLaw::distance).onPart(partNamed("fingers")).law(), PanningLaw::distance)
+    EXPECT_EQ(panner.onPart(partNamed("index")).law(), PanningLaw::neighbours);
+    const ActuatorPlace between = sumOf(sumOf({}, places[1], 0.7), places[5], 0.3);
+    const auto gains = gainsFor(panner, between, partNamed("index"));
+    EXPECT_NEAR(gains[1] * gains[1], 0.7, 1e-9);
+    EXPECT_NEAR(gains[5] * gains[5], 0.3, 1e-9);
+    for (const std::size_t other : {0U, 2U, 3U, 4U, 6U}) EXPECT_EQ(gains[other], 0.0);
+    EXPECT_EQ(pannerOn(places, PanningLaw::distance).onPart(partNamed("index")).law(), PanningLaw::distance)
         << "a law that is named holds for parts too";
 }
 
