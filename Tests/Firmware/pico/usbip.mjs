@@ -55,8 +55,8 @@ function control(request) {
     const { setup: words, isIn, data } = request;
     if (words[0] === 0 && words[1] === 5) return answer(request, 0, Buffer.alloc(0), 0); // it has its address
     const got = board.control(Uint8Array.from(words), Uint8Array.from(data));
-    const [type, request, channel, selector, , unit] = words;
-    if (got !== null && type === 0x21 && request === 1 && selector === 2 && unit === 2)
+    const [type, code, channel, selector, , unit] = words;
+    if (got !== null && type === 0x21 && code === 1 && selector === 2 && unit === 2)
         volumes.set(channel, Math.min(volumes.get(channel) ?? 0, data.readInt16LE(0)));
     if (got === null) return answer(request, pipe, Buffer.alloc(0), 0);
     answer(request, 0, isIn ? Buffer.from(got) : Buffer.alloc(0), isIn ? got.length : data.length);
