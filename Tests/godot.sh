@@ -12,7 +12,7 @@ mkdir -p "$2"
 tree=$(cd "$2" && pwd)
 if [ ! -x "$tree/usr/bin/godot-template-release" ]; then
     [ -x "$tree/usr/bin/apt-get" ] || debootstrap --variant=minbase sid "$tree" >"$tree.log"
-    chroot "$tree" apt-get install -y --no-install-recommends godot godot-template-release xvfb xauth libgl1-mesa-dri >>"$tree.log"
+    chroot "$tree" apt-get install -y --no-install-recommends godot godot-template-release xvfb xauth libgl1-mesa-dri jackd2 >>"$tree.log"
 fi
 project=$tree/physvib
 rm -rf "$project" "$tree/editor"
@@ -79,6 +79,16 @@ for script in outputs life nodes; do
 done
 godot -s orders.gd --fixed-fps 60 -- changes=2000 >"$project/out" 2>&1 || failed=1
 grep -E '^[0-9]+ (orders|scenes)' "$project/out" || failed=1
+godot -s motors.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1
+PYTHONPATH=$root/Source/Api/Python PYTHONDONTWRITEBYTECODE=1 PHYSVIB_LIBRARY=$build/godot/addons/physvib/bin/libphysvib.so.0 /usr/bin/python3 "$root/Tests/Godot/motors.py" "$project/out" || failed=1
+# A JACK server of the tree, a recorder of its outputs, and the session that the world has written, rendered here.
+if [ -x "$build/bin/physvib-jack-recorder" ] && [ -x "$build/bin/physvib" ]; then
+    cp "$build/bin/physvib-jack-recorder" "$root/Tests/Godot/played.sh" "$project"
+    unshare -m sh -c 'mount -t tmpfs none "$0/dev/shm" && mount -t proc proc "$0/proc" && exec chroot "$0" sh /physvib/played.sh' "$tree" >"$project/out" 2>&1 || { cat "$project/out" && failed=1; }
+    "$build/bin/physvib" render "$project/played.json" --seconds 8 --out "$project/played.wav" >"$project/log"
+    tail -c +"$(($(grep -abo data "$project/played.wav" | head -n 1 | cut -d: -f1) + 9))" "$project/played.wav" >"$project/expected.raw"
+    "$build/bin/physvib-compare-recording" "$project/live.raw" "$project/expected.raw" 4 256 "$(sed -n 's/xruns //p' "$project/ready")" || failed=1
+fi
 for demo in "$project"/addons/physvib/demos/*.tscn; do
     name=${demo##*/}
     godot -s "demos.gd" --fixed-fps 60 -- "demo=res://addons/physvib/demos/$name" >"$project/out" 2>&1 || failed=1

@@ -6,6 +6,7 @@ extends SceneTree
 
 const FRAMES := 240
 var clock := 1.0
+var told := [] # since the last frame's commands
 
 
 func box(kind: String, at: Vector2, size: Vector2, bounce: float):
@@ -24,7 +25,7 @@ func _initialize():
 	var world := HapticWorld2D.new()
 	world.full_scale_n_s = 20.0
 	world.felt.connect(func(hit):
-		print("h %.9f %.9f %.6f %.6f %.9f" % [clock - (world.time_s() - hit.time_s), hit.frequency_hz,
+		told.append("h %.9f %.9f %.6f %.6f %.9f" % [clock + 1.0 / 60 - (world.time_s() - hit.time_s), hit.frequency_hz,
 			hit.position.x * 0.01, (648 - hit.position.y) * 0.01, hit.amplitude]))
 	root.add_child(world)
 	root.add_child(box("StaticBody2D", Vector2(500, 600), Vector2(1000, 20), 0))
@@ -42,4 +43,6 @@ func _initialize():
 			clock += 1.0 / 60
 			var weak_and_strong := Input.get_joy_vibration_strength(0)
 			print("m %.9f %.4f %.4f" % [clock, weak_and_strong.y, weak_and_strong.x])
+			for line in told: print(line) # which the world got after these commands
+			told.clear()
 	quit()

@@ -151,6 +151,26 @@ func hostile():
 	world.free()
 
 
+# A body of thousands of shapes, a body at no place, and one without any shape.
+func shapes():
+	var hits := []
+	var many = felt_box(Vector2(500, 300))
+	for i in 3000:
+		var shape := CollisionShape2D.new()
+		shape.shape = CircleShape2D.new()
+		shape.position = Vector2(i % 50, i / 50)
+		many.add_child(shape)
+	var nowhere = felt_box(Vector2(NAN, INF))
+	nowhere.mass = 1e30
+	var empty := RigidBody2D.new()
+	empty.add_child(HapticBody.new())
+	empty.add_child(HapticBody.new()) # a second one of the same body
+	var scene := scene_of([world_of(hits), many, nowhere, empty])
+	await ticks(90)
+	check(hits.all(func(hit): return is_finite(hit.strength_n_s) and hit.position.is_finite()), "hits of strange bodies are finite: %d" % hits.size())
+	scene.free()
+
+
 # Programs of OSC get one message per hit and receiver, and as many receivers as outputs were opened.
 func reopened():
 	var server := PacketPeerUDP.new()
@@ -218,6 +238,7 @@ func _initialize():
 	await again()
 	await materials()
 	hostile()
+	await shapes()
 	await reopened()
 	await motors()
 	print("%d wrong" % wrong)

@@ -69,6 +69,26 @@ func _initialize():
 		check(absf(got.level - hits[0].amplitude) < 1e-6, "it is as strong as the hit")
 		check(server.get_available_packet_count() == hits.size() - 1, "one message a hit")
 
+	# What the camera sees is the field: one that looks 100 pixels to the right moves hits as far to the left.
+	var camera := Camera2D.new()
+	camera.position = Vector2(576 + 100, 324)
+	scene.add_child(camera)
+	world.field_from_camera = true
+	root.size = Vector2i(1152, 648)
+	servers[0].close()
+	servers[0].bind(19571)
+	hits.clear()
+	await physics_frame
+	scene.get_child(1).linear_velocity = Vector2(0, -300)
+	for i in 60: await physics_frame
+	var seen := message(servers[0].get_packet())
+	check(hits.size() > 0 and seen.size() > 0, "a hit is played while the camera is the field")
+	if hits and seen:
+		var share: Vector2 = root.get_canvas_transform() * hits[0].position / root.get_visible_rect().size
+		check(Vector2(seen.place, seen.y).distance_to(Vector2(share.x, 1 - share.y) * Vector2(11.52, 6.48)) < 1e-3 and absf(seen.place - hits[0].position.x * 0.01) > 0.5,
+			"it is where the screen shows it: %s of %s, %s" % [Vector2(seen.place, seen.y), share, root.get_visible_rect()])
+	world.field_from_camera = false
+
 	world.outputs = ["osc:127.0.0.1", "osc:127.0.0.1:99999", "osc::", "osc", "no such device", "", "controllers", "controllers"]
 	for i in 3: await physics_frame
 	check(hits.size() > 0, "outputs that are not there are reported, and the others play")

@@ -77,22 +77,40 @@ Watched* HapticWorld::moving(std::uint64_t id, std::uint64_t rid, const Vector& 
     return found;
 }
 
+// Jolt lists what comes near before it touches. Those contacts count of which one gets there in this tick,
+// and only if the solver has changed the velocity along them.
+bool HapticWorld::getsThere(const Watched& each, const Watched& met, const Surface& surface) const {
+    if (!(surface.gap > 0.0)) return true;
+    const Vector own = velocityAt(each, surface.at), its = velocityAt(met, surface.at);
+    return surface.gap <= seconds * dot(minus(own, its), surface.normal);
+}
+
+Surface HapticWorld::surfaceOf(const Watched& each, int i) const {
+    const Vector at = place(each.state.contactPlace(i)), there = place(each.state.contactOtherPlace(i));
+    Vector normal = direction(each.state.contactNormal(i));
+    const double length = std::sqrt(dot(normal, normal));
+    for (double& part : normal) part /= -length;
+    return {at, there, normal, dot(minus(there, at), normal), length > 0.0};
+}
+
 void HapticWorld::touch(const Watched& each, int i) {
     const BodyState& state = each.state;
-    const Vector at = place(state.contactPlace(i)), there = place(state.contactOtherPlace(i));
-    Vector normal = direction(state.contactNormal(i)); // away from the other
-    const double length = std::sqrt(dot(normal, normal));
-    if (!(length > 0.0)) return;
-    for (double& part : normal) part /= -length;
-    const double gap = dot(minus(there, at), normal), before = dot(each.before, normal);
+    const Surface surface = surfaceOf(each, i);
+    const auto& [at, there, normal, gap, isOne] = surface;
+    const double before = dot(each.before, normal);
     const bool isPushed = std::abs(dot(each.change, normal)) > 1e-3 * std::abs(before) + 1e-4;
-    if (gap > 0.0 && !isPushed) return; // Jolt lists what comes near before it touches
+    if (!isOne || (gap > 0.0 && !isPushed)) return;
     const Watched* met = other(each, i, there);
     if (met == nullptr) return;
+    bool isThere = getsThere(each, *met, surface);
+    for (int j = 0; !isThere && j < state.contacts(); ++j) // a box that lands turns, and its other corners
+                                                           // follow
+        isThere =
+            state.contactObject(j) == state.contactObject(i) && getsThere(each, *met, surfaceOf(each, j));
+    if (!isThere) return;
     const Vector own = velocityAt(each, at), its = velocityAt(*met, at);
-    const double closing = dot(minus(own, its), normal);
-    if (gap > 0.0 && gap > seconds * closing) return; // pushed by something else, it does not get there yet
-    const Meeting meeting = meetingOf(closing, gap, dot(minus(each.pull, met->pull), normal), seconds);
+    const Meeting meeting =
+        meetingOf(dot(minus(own, its), normal), gap, dot(minus(each.pull, met->pull), normal), seconds);
     const double bounce = bounceOf(each.rid) + bounceOf(state.contactBody(i));
     physvib_contact contact = contactOf(each, *met, at, normal);
     contact.restitution = std::clamp(bounce, 0.0, 1.0);

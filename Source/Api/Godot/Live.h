@@ -16,9 +16,10 @@ public:
     Live(const Live&) = delete;
     Live& operator=(const Live&) = delete;
 
-    /// Returns the error; empty: it is open. Waits for the device.
+    /// Returns the error; empty: it is open. Waits for the device. `sessionFile`: where all of its events are
+    /// written; empty: nowhere.
     std::string open(const std::string& device, const physvib_layout& layout, double levelDb,
-                     double fieldWidthMetres, double fieldHeightMetres);
+                     double fieldWidthMetres, double fieldHeightMetres, const std::string& sessionFile);
     void setLevel(double levelDb);
     void play(physvib_world world, const physvib_event& event);
 

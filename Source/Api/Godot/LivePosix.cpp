@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Api/Godot/Live.h"
 
+#include <algorithm>
 #include <dlfcn.h>
 
 namespace physvib::godot {
@@ -45,7 +46,7 @@ Live::~Live() {
 }
 
 std::string Live::open(const std::string& device, const physvib_layout& layout, double levelDb,
-                       double fieldWidthMetres, double fieldHeightMetres) {
+                       double fieldWidthMetres, double fieldHeightMetres, const std::string& sessionFile) {
     if (!library().missing.empty()) return library().missing;
     physvib_renderer_settings renderer;
     physvib_renderer_settings_init(&renderer, sizeof renderer);
@@ -54,6 +55,8 @@ std::string Live::open(const std::string& device, const physvib_layout& layout, 
     physvib_live_settings settings;
     library().initialise(&settings, sizeof settings);
     settings.level_db = levelDb;
+    if (sessionFile.size() >= sizeof settings.save) return "session_file: its name is too long";
+    std::copy(sessionFile.begin(), sessionFile.end(), settings.save);
     return library().open(device.c_str(), &renderer, &settings, &live) == PHYSVIB_OK ? "" : library().error();
 }
 

@@ -20,10 +20,10 @@ Outputs::~Outputs() { close(); }
 
 void Outputs::configure(const OutputSettings& wanted) {
     const auto differs = [&](auto OutputSettings::*member) { return settings.*member != wanted.*member; };
-    const bool isOther = !isOpen || differs(&OutputSettings::names) ||
-                         differs(&OutputSettings::fieldWidthMetres) ||
-                         differs(&OutputSettings::fieldHeightMetres) ||
-                         std::memcmp(&settings.layout, &wanted.layout, sizeof wanted.layout) != 0;
+    const bool isOther =
+        !isOpen || differs(&OutputSettings::names) || differs(&OutputSettings::sessionFile) ||
+        differs(&OutputSettings::fieldWidthMetres) || differs(&OutputSettings::fieldHeightMetres) ||
+        std::memcmp(&settings.layout, &wanted.layout, sizeof wanted.layout) != 0;
     settings = wanted;
     if (settings.isSilent) rest();
     for (const auto& device : devices) device->setLevel(settings.levelDb);
@@ -53,8 +53,9 @@ std::string Outputs::open(const std::string& name) {
     }
     if (settings.layout.count == 0) return ""; // which was reported
     auto device = std::make_unique<Live>();
-    const std::string error = device->open(name, settings.layout, settings.levelDb, settings.fieldWidthMetres,
-                                           settings.fieldHeightMetres);
+    const std::string error =
+        device->open(name, settings.layout, settings.levelDb, settings.fieldWidthMetres,
+                     settings.fieldHeightMetres, devices.empty() ? settings.sessionFile : "");
     if (error.empty()) devices.push_back(std::move(device));
     return error;
 }

@@ -20,6 +20,7 @@ struct OutputSettings {
     bool isSilent;
     physvib_layout layout;
     double levelDb, fieldWidthMetres, fieldHeightMetres;
+    std::string sessionFile; ///< of the first device; empty: none
 };
 
 class Outputs {

@@ -11,7 +11,8 @@ constexpr auto text = GDEXTENSION_VARIANT_TYPE_STRING, boolean = GDEXTENSION_VAR
 constexpr auto texts = GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY;
 constexpr auto places = GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR2_ARRAY;
 constexpr auto dictionary = GDEXTENSION_VARIANT_TYPE_DICTIONARY;
-constexpr int hintRange = 1, hintEnumSuggestion = 3, hintElements = 23, hintKeys = 38; // Godot's PropertyHint
+constexpr int hintRange = 1, hintEnumSuggestion = 3, hintElements = 23, hintKeys = 38,
+              hintSaveFile = 28; // Godot's PropertyHint
 
 Value controllersAlone() {
     const Value list = Value::empty(texts);
@@ -51,7 +52,8 @@ std::vector<Property> propertiesOf(bool isSpace) {
          "phone1,phone2,phone3,phone4,ring4,cabinet4,pico4,pico8,glove5,sleeve8,vest16"},
         {"actuators", places, [] { return Value::empty(places); }, 0, 0, "Output"},
         {"level_db", real, [] { return Value(-12.0); }, -90, 0, "Output", hintRange, "-90,0,0.1,suffix:dB"},
-        {"silent", boolean, [] { return Value(false); }, 0, 0, "Output"}};
+        {"silent", boolean, [] { return Value(false); }, 0, 0, "Output"},
+        {"session_file", text, [] { return Value(""); }, 0, 0, "Output", hintSaveFile, "*.json"}};
 }
 } // namespace
 

@@ -91,7 +91,9 @@ void HapticWorld::configureOutputs() {
     if (const std::string error = findLayout(placed); !error.empty()) report("HapticWorld: " + error);
     const Vector size = get(fieldSize).vector();
     OutputSettings settings{
-        {}, get(silent).isTrue(), placed, get(levelDb).real(), size[0] * unit, size[1] * unit};
+        {}, get(silent).isTrue(), placed, get(levelDb).real(), size[0] * unit, size[1] * unit, {}};
+    if (const std::string file = get(sessionFile).text(); !file.empty()) // user:// and res://
+        settings.sessionFile = singleton("ProjectSettings").call("globalize_path", file.c_str()).text();
     for (const Value& name : get(godot::outputs).elements()) settings.names.push_back(name.text());
     outputs.configure(settings);
 }

@@ -17,7 +17,8 @@ enum WorldProperty {
     layout,
     actuators,
     levelDb,
-    silent
+    silent,
+    sessionFile
 };
 const std::vector<Property>& worldProperties(bool isSpace);
 } // namespace physvib::godot

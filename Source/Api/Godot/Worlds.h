@@ -35,6 +35,13 @@ struct Watched {
     bool wasAt = false;            ///< of a CharacterBody: `at` is known
 };
 
+/// Where a body touches another one, or nearly does: a place on each, m, a unit normal from it to the other.
+struct Surface {
+    Vector at, there, normal;
+    double gap; ///< m, below 0: they overlap
+    bool isOne; ///< false: Godot gave no normal
+};
+
 class HapticWorld final : public Instance {
 public:
     HapticWorld(GDExtensionObjectPtr object, bool isSpace);
@@ -70,6 +77,8 @@ private:
     void touchAll(const Watched& watched);
     bool isOfInterest(const Watched& watched, int contact) const;
     void touch(const Watched& watched, int contact);
+    Surface surfaceOf(const Watched& watched, int contact) const;
+    bool getsThere(const Watched& watched, const Watched& met, const Surface& surface) const;
     Watched* other(const Watched& watched, int contact, const Vector& place);
     Watched* moving(std::uint64_t id, std::uint64_t rid, const Vector& velocity, const Vector& place);
     void slideAll(Watched& watched);
