@@ -80,7 +80,7 @@ export class Haptics {
         let known = this.#known.get(key);
         if (known === undefined) {
             const { id = this.#next++, values = {} } = this.#away.get(body) ?? {};
-            known = { id, body, values, isStatic: true, isGone: false, isRound: false, isAtRest: false, massKg: 0, inertia: 0, gravityScale: 1, x: 0.5, y: 0.5, vx: 0.5, vy: 0.5, spin: 0.5 }; // fractions: engines keep such members without allocating
+            known = { id, body, values, isStatic: true, isGone: false, isRound: false, isAtRest: false, isOut: false, step: 0, massKg: 0, inertia: 0, gravityScale: 1, x: 0.5, y: 0.5, vx: 0.5, vy: 0.5, spin: 0.5 }; // fractions: engines keep such members without allocating
             known.x = known.y = known.vx = known.vy = known.spin = 0;
             this.#tell(known, this.engine.massesOf(body));
             this.#known.set(key, known);
@@ -113,6 +113,7 @@ export class Haptics {
         for (const [key, known] of this.#known) {
             if (known.isGone || !this.engine.isThere(known.body)) {
                 this.#known.delete(key);
+                known.isOut = true;
                 this.world.removeBody(known.id);
                 if (!known.isGone) this.#away.set(known.body, known);
                 if (known.values.isSource) this.#lastAway = known.isGone ? null : known.id;

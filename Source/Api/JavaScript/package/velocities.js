@@ -92,7 +92,8 @@ class VelocityHaptics extends Haptics {
     /** `advance` makes the engine's step. */
     step(seconds, advance) {
         this.look();
-        this.around(() => advance(seconds), undefined, () => this.#observe(seconds));
+        advance(seconds);
+        this.update(seconds);
     }
 
     #observe(seconds) {
