@@ -83,7 +83,7 @@ for (const [name, make] of Object.entries(cases)) {
 }
 // What a server renders before a browser has it: importing must ask for nothing that only pages have.
 mkdirSync(join(work, 'server'));
-const parts = ['', '/inline', '/audio', '/gamepad', '/matter', '/planck', '/rapier2d', '/rapier3d', '/box2d3'];
+const parts = ['', '/inline', '/audio', '/gamepad', '/matter', '/planck', '/rapier2d', '/rapier3d', '/box2d3', '/velocities'];
 writeFileSync(join(work, 'server/all.mjs'), parts.map((part, i) => `import * as part${i} from 'physvib${part}';\n`).join('') + `export default [${parts.map((_, i) => `part${i}`)}];\n`);
 bin('esbuild', join(work, 'server/all.mjs'), '--bundle', '--platform=node', '--format=esm', `--outfile=${join(work, 'server/bundle.mjs')}`);
 for (const name of ['all', 'bundle']) await import(join(work, `server/${name}.mjs`)).catch(error => failures.push(`a server does not import it (${name}): ${error.message}`));

@@ -61,6 +61,30 @@ const engines = {
             step: () => world.step(seconds), within: act => act(), // it is locked within a step
         };
     },
+    async velocities() { // a game's own physics
+        const { attachVelocities } = await load(folder, 'physvib/velocities'), bodies = new Set(), floor = { x: 10, y: -0.5, vx: 0, vy: 0, width: 40, height: 1, massKg: 0 };
+        bodies.add(floor);
+        let inStep = [];
+        const advance = () => {
+            for (const body of bodies) {
+                if (!(body.massKg > 0) || body.isAsleep) continue;
+                body.vy -= 9.81 * seconds;
+                body.y += body.vy * seconds;
+                if (!body.isSensor && bodies.has(floor) && body.y < radius && body.y > -radius && body.vy < 0) { body.y = radius; body.vy *= -0.3; }
+            }
+            for (const act of inStep.splice(0)) act();
+        };
+        return {
+            attach: () => attachVelocities(physvib, { bodies: () => [...bodies].filter(body => !body.isSensor), read: (body, to) => Object.assign(to, body), gravity: { x: 0, y: -9.81 }, bodyOf: thing => thing.whole ?? thing }, { ...options, metresPerUnit: 1, yDown: false }),
+            pools: true,
+            make(x) { const body = { x, y: 2, vx: 0, vy: 0, radius, massKg: 0.1 }; bodies.add(body); return body; },
+            partOf: body => ({ whole: body }), remove: body => bodies.delete(body), add: body => bodies.add(body),
+            clear() { bodies.clear(); bodies.add(floor); },
+            sleep: body => { body.isAsleep = true; }, sensor: (body, is) => { body.isSensor = is; },
+            place: (body, x) => Object.assign(body, { x, y: height + radius, vx: 0, vy: 0, isAsleep: false }),
+            step: haptics => haptics.step(seconds, advance), within: act => inStep.push(act),
+        };
+    },
     rapier2d: () => rapier('2d', (x, y) => ({ x, y }), 0),
     rapier3d: () => rapier('3d', (x, y) => ({ x, y, z: 0 }), { x: 0, y: 0, z: 0, w: 1 }),
     async box2d3() {

@@ -19,6 +19,7 @@ import { rumble } from 'physvib/gamepad';
 import { attach as box2d3 } from 'physvib/box2d3';
 import { attach as planck } from 'physvib/planck';
 import { attach as rapier3d } from 'physvib/rapier3d';
+import { attachVelocities } from 'physvib/velocities';
 import { load as loadInline } from 'physvib/inline';
 import wasm from 'physvib/physvib.wasm';
 import worklet from 'physvib/worklet.js';
@@ -28,6 +29,9 @@ rumble(physvib, { profile: 'pad-xbox' }).follow(haptics);
 box2d3(physvib, {}, { b2: {}, metresPerUnit: 1 }).update(0.01);
 planck(physvib, {}).update(1 / 60);
 rapier3d(physvib, {}).update(1 / 60);
+const own = attachVelocities(physvib, { bodies: () => [{ at: 1 }], read: (body: { at: number }, to) => Object.assign(to, { x: body.at, y: 0, vx: 0, vy: 0 }), gravity: { x: 0, y: 9.81 } }, { fieldWidth: 8, yDown: false });
+own.look();
+own.update(1 / 60);
 const inside: Promise<typeof physvib> = loadInline(), elsewhere = load(wasm);
 await play(physvib, new AudioContext(), { worklet });
 // @ts-expect-error: Matter steps itself

@@ -80,7 +80,7 @@ export class Haptics {
         let known = this.#known.get(key);
         if (known === undefined) {
             const { id = this.#next++, values = {} } = this.#away.get(body) ?? {};
-            known = { id, body, values, isStatic: true, isGone: false, isRound: false, massKg: 0, inertia: 0, gravityScale: 1, x: 0.5, y: 0.5, vx: 0.5, vy: 0.5, spin: 0.5 }; // fractions: engines keep such members without allocating
+            known = { id, body, values, isStatic: true, isGone: false, isRound: false, isAtRest: false, isOut: false, step: 0, massKg: 0, inertia: 0, gravityScale: 1, x: 0.5, y: 0.5, vx: 0.5, vy: 0.5, spin: 0.5 }; // fractions: engines keep such members without allocating
             known.x = known.y = known.vx = known.vy = known.spin = 0;
             this.#tell(known, this.engine.massesOf(body));
             this.#known.set(key, known);
@@ -88,6 +88,9 @@ export class Haptics {
         }
         return known;
     }
+
+    /** What is known of a body already, or undefined. */
+    known(body) { return this.#known.get(this.engine.keyOf(body)); }
 
     // Masses may change while a game runs.
     #tell(known, masses) {
@@ -110,11 +113,13 @@ export class Haptics {
         for (const [key, known] of this.#known) {
             if (known.isGone || !this.engine.isThere(known.body)) {
                 this.#known.delete(key);
+                known.isOut = true;
                 this.world.removeBody(known.id);
                 if (!known.isGone) this.#away.set(known.body, known);
                 if (known.values.isSource) this.#lastAway = known.isGone ? null : known.id;
                 continue;
             }
+            if (known.isAtRest) continue; // its engine will say when it moves again
             const { massKg, inertia, gravityScale } = this.engine.massesOf(known.body);
             if (!(massKg === known.massKg && inertia === known.inertia && gravityScale === known.gravityScale) && !(Object.is(massKg, known.massKg) && Object.is(inertia, known.inertia) && Object.is(gravityScale, known.gravityScale)))
                 this.#tell(known, { massKg, inertia, gravityScale });

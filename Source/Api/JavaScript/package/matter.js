@@ -11,7 +11,7 @@ const massesOf = unit => body => (body.isStatic || !Number.isFinite(body.mass)
 const bodyOf = thing => (thing?.type === 'body' ? thing.parent ?? thing : thing?.body?.type === 'body' ? bodyOf(thing.body) : undefined);
 
 class MatterHaptics extends Haptics {
-    #engine; #handlers; #seconds = 0; #there = new Set();
+    #engine; #handlers; #seconds = 0; #there = new Set(); #byNumber = []; #step = 0;
 
     constructor(physvib, engine, { metresPerUnit = 0.01, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
         const height = fieldHeight ?? fieldWidth;
@@ -53,9 +53,19 @@ class MatterHaptics extends Haptics {
         const { gravity, timing } = this.#engine;
         this.#seconds = (delta ?? timing.lastDelta) / 1000;
         this.#there = this.#bodies();
-        for (const body of this.#there) if (!body.isSensor) this.know(body); // what it will touch, too
+        ++this.#step;
+        for (const body of this.#there) if (!body.isSensor) this.#knownOf(body).step = this.#step; // what it will touch, too
         this.begin(this.#seconds, this.#pull(gravity));
         for (const known of this.each()) this.#moveAs(known, known.body.ignoreGravity ? 0 : this.#seconds);
+    }
+    // Numbers of bodies are small in Matter, and a look into a list is faster than one into a map: there are thousands a step.
+    #knownOf(body) {
+        const known = this.#byNumber[body.id];
+        return known?.body === body && !known.isOut ? known : this.#byNumber[body.id] = this.know(body);
+    }
+    #isThere(body) {
+        const known = this.#byNumber[body.id];
+        return (known?.body === body && known.step === this.#step) || this.#there.has(body);
     }
     #pull({ x, y, scale }) { return Math.hypot(x, y) * scale * 1e6 * this.metresPerUnit; }
 
@@ -71,9 +81,9 @@ class MatterHaptics extends Haptics {
     }
 
     #end() {
-        const isThere = ({ parentA, parentB }) => this.#there.has(parentA) && this.#there.has(parentB); // pairs outlive a world that was cleared
-        const { list } = this.#engine.pairs, meets = pair => pair.isActive && !pair.isSensor && isThere(pair.collision);
-        for (const pair of list) if (meets(pair)) { this.know(pair.collision.parentA); this.know(pair.collision.parentB); }
+        // Pairs outlive a world that was cleared.
+        const { list } = this.#engine.pairs, meets = ({ isActive, isSensor, collision }) => isActive && !isSensor && this.#isThere(collision.parentA) && this.#isThere(collision.parentB);
+        for (const pair of list) if (meets(pair)) { this.#knownOf(pair.collision.parentA); this.#knownOf(pair.collision.parentB); }
         for (const known of this.each()) {
             if (known.isStatic) continue;
             const { vx, vy, spin } = this.#stateOf(known.body);
@@ -81,7 +91,7 @@ class MatterHaptics extends Haptics {
         }
         for (const pair of list) {
             if (!meets(pair)) continue;
-            const a = this.know(pair.collision.parentA), b = this.know(pair.collision.parentB);
+            const a = this.#knownOf(pair.collision.parentA), b = this.#knownOf(pair.collision.parentB);
             if (!(a.isStatic && b.isStatic)) this.#touch(pair, a, b);
         }
     }

@@ -8,9 +8,11 @@ const nearMetres = 0.005; // what lies within goes on touching, though Rapier pu
 /** Whose contacts a collider's are: its body's, or its own where it has none, as a ground often has not. */
 const ownerOf = collider => collider.parent() ?? collider;
 
+const pairOf = (a, b) => (a < b ? a * 2 ** 26 + b : b * 2 ** 26 + a);
+
 /** What both have; physvib/rapier3d says otherwise what space changes. */
 export class RapierHaptics extends Haptics {
-    #engine; #touching = new Set(); #was = new Set();
+    #engine; #touching = new Set(); #was = new Set(); #kept = new Map(); #count = 0; #done = new Set();
 
     constructor(physvib, engine, options) {
         const unit = options.metresPerUnit ?? 1;
@@ -36,46 +38,90 @@ export class RapierHaptics extends Haptics {
         this.around(() => advance(seconds), () => this.#before(seconds), () => this.#after(seconds));
     }
     #before(seconds) {
+        this.#rest();
         this.begin(seconds, this.size(this.#engine.gravity) * this.metresPerUnit);
         this.#meetAll();
         for (const known of this.each()) this.#observe(known, seconds);
     }
     #observe(known, seconds) {
-        if (known.body.isDynamic) this.observe(known, this.#pullOf(known, seconds));
+        if (known.isAtRest) this.observeAgain(known);
+        else if (known.body.isDynamic) this.observe(known, this.#pullOf(known, seconds));
         else this.observeStill(known, known.body.translation());
     }
     #after(seconds) {
-        for (const known of this.eachThere()) if (!known.isStatic) this.moved(known, known.body.linvel(), known.body.angvel());
-        [this.#was, this.#touching] = [this.#touching, new Set()];
+        for (const known of this.eachThere()) {
+            if (known.isStatic) continue;
+            if (known.isAtRest && !known.body.isSleeping()) known.isAtRest = false; // something has woken it
+            if (known.isAtRest) this.movedAgain(known);
+            else this.moved(known, known.body.linvel(), known.body.angvel());
+        }
+        [this.#was, this.#touching] = [this.#touching, this.#was];
+        this.#touching.clear();
         this.#eachPair((one, other) => this.#look(one, other, seconds));
     }
     update(seconds) { this.step(seconds); }
 
+    // What is known of a collider: its number, and its contacts as they were observed while its body slept.
+    #keptOf(collider) {
+        let kept = this.#kept.get(collider);
+        if (kept === undefined) this.#kept.set(collider, kept = { number: ++this.#count, isSeen: false, contacts: null, pairs: [], touching: [] });
+        return kept;
+    }
     #eachPair(use) {
-        const done = new Set(), engine = this.#engine;
+        const done = this.#done, engine = this.#engine;
+        done.clear();
         engine.forEachCollider(one => {
-            if (!one.parent()?.isDynamic() || one.isSensor()) return;
+            const parent = one.parent(), kept = this.#keptOf(one);
+            kept.isSeen = true;
+            if (!parent?.isDynamic()) return;
+            const { isAtRest } = this.know(one);
+            if (isAtRest && kept.contacts !== null) {
+                for (const key of kept.pairs) done.add(key);
+                for (const key of kept.touching) this.#touching.add(key);
+                this.journal.again(kept.contacts);
+                return;
+            }
+            kept.contacts = null;
+            if (one.isSensor()) return;
+            const { place } = this.journal, pairs = [], before = this.#touching.size;
             engine.contactPairsWith(one, other => {
-                const key = one.handle < other.handle ? `${one.handle},${other.handle}` : `${other.handle},${one.handle}`;
+                const { number } = this.#keptOf(other), key = pairOf(kept.number, number);
                 if (done.has(key) || other.isSensor()) return;
                 done.add(key);
-                use(one, other, key);
+                pairs.push(key);
+                use(one, other);
             });
+            if (isAtRest) Object.assign(kept, { contacts: this.journal.copy(place), pairs, touching: [...this.#touching].slice(before) });
         });
+        for (const [collider, kept] of this.#kept) if (kept.isSeen) kept.isSeen = false; else this.#kept.delete(collider);
     }
 
+    // A body that sleeps lies where it lay, with its masses, until something wakes it.
+    #rest() {
+        for (const known of this.eachThere()) {
+            const isAsleep = !known.isStatic && known.body.isSleeping();
+            known.isAtRest = isAsleep && known.hasSlept === true && known.poses?.size === known.body.numColliders();
+            known.hasSlept = isAsleep;
+            if (!known.isAtRest) known.poses?.clear();
+        }
+    }
     // A body that touches for the first time is known before the step that it touches in.
     #meetAll() {
-        for (const known of this.each()) known.poses?.clear();
         this.#engine.forEachCollider(collider => {
+            const known = this.#known(collider);
+            if (known?.isAtRest) return;
             if (collider.isSensor()) return;
-            const known = this.know(collider);
-            known.isRound = collider.shapeType() === 0; // ShapeType.Ball
-            known.poses = (known.poses ?? new Map()).set(collider, { at: collider.translation(), turned: collider.rotation(), radius: known.isRound ? collider.radius() : 0 });
+            this.#pose(known ?? this.know(collider), collider);
         });
     }
+    // Of what is known already: a sensor need not be.
+    #known(collider) { const known = this.known(ownerOf(collider)); return known?.isGone ? undefined : known; }
+    #pose(known, collider) {
+        known.isRound = collider.shapeType() === 0; // ShapeType.Ball
+        known.poses = (known.poses ?? new Map()).set(collider, { at: collider.translation(), turned: collider.rotation(), radius: known.isRound ? collider.radius() : 0 });
+    }
 
-    #fall(known) { return known.isStatic || known.body.isSleeping() ? 0 : known.gravityScale; }
+    #fall(known) { return known.isStatic || known.isAtRest || known.body.isSleeping() ? 0 : known.gravityScale; }
     #pullOf(known, seconds) {
         const { x, y, z } = this.#engine.gravity, pull = seconds * this.#fall(known) * this.metresPerUnit;
         return { x: pull * x, y: pull * y, z: pull * z };
@@ -90,6 +136,8 @@ export class RapierHaptics extends Haptics {
         Object.assign(known, { x: at.x * unit, y: at.y * unit, vx: v.x * unit, vy: v.y * unit, spin: body.angvel() });
         this.journal.move(known.id, known.x, known.y, known.vx + pull.x, known.vy + pull.y, known.spin);
     }
+    observeAgain(known) { this.journal.move(known.id, known.x, known.y, known.vx, known.vy, known.spin); }
+    movedAgain(known) { this.journal.moved(known.id, known.vx, known.vy, known.spin); }
     observeStill(known, { x, y }) { this.move(known, x * this.metresPerUnit, y * this.metresPerUnit, 0, 0, 0); }
     moved(known, { x, y }, spin) { this.journal.moved(known.id, x * this.metresPerUnit, y * this.metresPerUnit, spin); }
     /** Where contact i of a manifold is, across which gap, and how both surfaces run there. `poses`: of its first and its second collider. */
@@ -103,8 +151,9 @@ export class RapierHaptics extends Haptics {
         const a = this.know(one), b = this.know(other);
         if (a === b) return;
         this.#engine.contactPair(one, other, (manifold, isFlipped) => {
+            if (manifold.numContacts() === 0) return;
             const turn = isFlipped ? -1 : 1, { x, y, z } = manifold.normal(), normal = { x: turn * x, y: turn * y, z: turn * z };
-            const both = [a.poses?.get(one), b.poses?.get(other)], poses = isFlipped ? both.reverse() : both, key = `${a.id},${b.id}`;
+            const both = [a.poses?.get(one), b.poses?.get(other)], poses = isFlipped ? both.reverse() : both, key = a.id * 2 ** 26 + b.id;
             for (let i = 0; i < manifold.numContacts(); ++i) this.#point(manifold, i, { a, b, normal, poses, key, seconds });
         });
     }

@@ -21,8 +21,11 @@ class RapierHaptics3D extends RapierHaptics {
         const { body } = known, unit = this.metresPerUnit, { m11, m22, m33, m12, m13, m23 } = body.effectiveWorldInvInertia();
         const inverse = known.isStatic ? null : [m11, m22, m33, m12, m13, m23].map(m => m / (unit * unit));
         Object.assign(known, { at: plus(nowhere, body.worldCom(), unit), v: plus(nowhere, body.linvel(), unit), turns: body.angvel() });
+        known.inverse = inverse;
         this.journal.moveInSpace(known.id, known.at, plus(known.v, pull), known.turns, inverse);
     }
+    observeAgain(known) { this.journal.moveInSpace(known.id, known.at, known.v, known.turns, known.inverse); }
+    movedAgain(known) { this.journal.movedInSpace(known.id, known.v, known.turns); }
     observeStill(known, at) {
         Object.assign(known, { at: plus(nowhere, at, this.metresPerUnit), v: nowhere, turns: nowhere });
         this.journal.moveInSpace(known.id, known.at, nowhere, nowhere, null);

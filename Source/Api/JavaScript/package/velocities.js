@@ -4,8 +4,7 @@
 import { PhysVibError } from './module.js';
 import { expectEngine, Haptics, motionAt } from './haptics.js';
 
-const skin = 0.02; // m: bodies that are nearer touch, if their velocities say so
-const numbers = ['x', 'y', 'vx', 'vy'];
+const none = {}, skin = 0.02; // m: bodies that are nearer touch, if their velocities say so
 
 const pairOf = (a, b) => Math.min(a, b) * 2 ** 26 + Math.max(a, b);
 
@@ -13,26 +12,46 @@ const pairOf = (a, b) => Math.min(a, b) * 2 ** 26 + Math.max(a, b);
 function apart(a, b, out) {
     const dx = b.x - a.x, dy = b.y - a.y;
     if (a.radius > 0 && b.radius > 0) {
-        const length = Math.hypot(dx, dy);
-        return Object.assign(out, { gap: length - a.radius - b.radius, nx: length > 0 ? dx / length : 0, ny: length > 0 ? dy / length : 1 });
+        const length = Math.sqrt(dx * dx + dy * dy);
+        return filled(out, length - a.radius - b.radius, length > 0 ? dx / length : 0, length > 0 ? dy / length : 1);
     }
     const outX = Math.abs(dx) - a.halfWidth - b.halfWidth, outY = Math.abs(dy) - a.halfHeight - b.halfHeight;
-    const [box, circle, way] = a.radius > 0 ? [b, a, -1] : [a, b, 1];
+    const box = a.radius > 0 ? b : a, circle = a.radius > 0 ? a : b, way = a.radius > 0 ? -1 : 1;
     if (circle.radius > 0 && outX > -circle.radius && outY > -circle.radius) { // at a corner
         const cx = circle.x - box.x, cy = circle.y - box.y, px = cx - Math.sign(cx) * box.halfWidth, py = cy - Math.sign(cy) * box.halfHeight, length = Math.hypot(px, py);
-        if (px * cx > 0 && py * cy > 0 && length > 0) return Object.assign(out, { gap: length - circle.radius, nx: way * px / length, ny: way * py / length });
+        if (px * cx > 0 && py * cy > 0 && length > 0) return filled(out, length - circle.radius, way * px / length, way * py / length);
     }
-    return outX > outY ? Object.assign(out, { gap: outX, nx: Math.sign(dx) || 1, ny: 0 }) : Object.assign(out, { gap: outY, nx: 0, ny: Math.sign(dy) || 1 });
+    return outX > outY ? filled(out, outX, Math.sign(dx) || 1, 0) : filled(out, outY, 0, Math.sign(dy) || 1);
+}
+function filled(out, gap, nx, ny) {
+    out.gap = gap;
+    out.nx = nx;
+    out.ny = ny;
+    return out;
+}
+
+const stateOf = () => ({ x: 0.5, y: 0.5, vx: 0.5, vy: 0.5, spin: 0.5, width: 0, height: 0, radius: 0.5, massKg: 1, gravityScale: 1, halfWidth: 0.5, halfHeight: 0.5, body: null, before: null, left: 0.5, right: 0.5, turn: 0 });
+function copy(from, to) {
+    to.x = from.x;
+    to.y = from.y;
+    to.vx = from.vx;
+    to.vy = from.vy;
+    to.spin = from.spin;
+    to.radius = from.radius;
+    to.halfWidth = from.halfWidth;
+    to.halfHeight = from.halfHeight;
+    to.massKg = from.massKg;
+    to.gravityScale = from.gravityScale;
 }
 
 class VelocityHaptics extends Haptics {
-    #engine; #turn; #there = new Map(); #order = []; #told = []; #walls = [{}, {}, {}, {}]; #seconds = 0; #was = new Set(); #touching = new Set(); #before = {}; #after = {};
+    #engine; #turn; #there = new Map(); #order = []; #turns = 0; #told = []; #walls = [{}, {}, {}, {}]; #seconds = 0; #was = new Set(); #touching = new Set(); #before = {}; #after = {};
 
     constructor(physvib, engine, { metresPerUnit = 0.01, yDown = true, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
         const height = fieldHeight ?? fieldWidth;
         super(physvib, {
             bodyOf: thing => { const body = engine.bodyOf ? engine.bodyOf(thing) : thing; return body !== null && typeof body === 'object' ? body : undefined; },
-            keyOf: body => body, massesOf: body => { const { massKg, gravityScale } = this.#there.get(body) ?? this.#read(body, {}); return { massKg, inertia: 0, gravityScale }; },
+            keyOf: body => body, massesOf: body => { const { massKg, gravityScale } = this.#there.get(body) ?? this.#read(body, this.#newState(body)); return { massKg, inertia: 0, gravityScale }; },
             isThere: body => this.#there.has(body), bodies: () => this.#there.keys(), look: () => ({ filters: [] }),
         }, { metresPerUnit, fieldWidth, fieldHeight: height, fieldY: yDown ? -(fieldY ?? height) : fieldY, ...settings });
         this.#engine = engine;
@@ -40,13 +59,22 @@ class VelocityHaptics extends Haptics {
         this.look();
     }
 
+    #newState(body) {
+        const state = stateOf(), given = {};
+        if (!this.#walls.includes(body)) {
+            this.#engine.read(body, given);
+            for (const name of ['x', 'y', 'vx', 'vy']) if (typeof given[name] !== 'number') throw new PhysVibError(-2, `attachVelocities: expected that read gives x, y, vx and vy, found ${name}: ${given[name]}`);
+        }
+        state.body = body;
+        return state;
+    }
     // In metres, y upwards.
     #read(body, state) {
         const unit = this.metresPerUnit, turn = unit * this.#turn;
-        Object.assign(state, { width: 0, height: 0, radius: 0, spin: 0, massKg: 1, gravityScale: 1 });
-        if (this.#walls.includes(body)) Object.assign(state, body, { vx: 0, vy: 0, massKg: 0 });
+        state.width = state.height = state.radius = state.spin = 0;
+        state.massKg = state.gravityScale = 1;
+        if (this.#engine.bounds && this.#walls.includes(body)) Object.assign(state, body, { vx: 0, vy: 0, massKg: 0 });
         else this.#engine.read(body, state);
-        for (const name of numbers) if (typeof state[name] !== 'number') throw new PhysVibError(-2, `attachVelocities: expected that read gives ${numbers.join(', ')}, found ${name}: ${state[name]}`);
         state.x *= unit; state.y *= turn; state.vx *= unit; state.vy *= turn; state.spin *= this.#turn;
         state.radius *= unit;
         state.halfWidth = state.radius || state.width * unit / 2;
@@ -57,7 +85,8 @@ class VelocityHaptics extends Haptics {
     /** Where bodies are, and how fast, before a step: call it behind what the game itself does to velocities. Left out, the last update is what was before. */
     look() {
         this.guarded(() => {
-            for (const [body, state] of this.#lookAtAll()) if (state.before) this.#read(body, state.before);
+            this.#lookAtAll();
+            for (const state of this.#order) copy(state, state.before);
         });
     }
     // With the sides of bounds as bodies.
@@ -72,13 +101,21 @@ class VelocityHaptics extends Haptics {
         return [...this.#engine.bodies(), ...this.#walls];
     }
     #lookAtAll() {
-        const there = new Map();
+        const there = this.#there, turn = ++this.#turns;
         for (const body of this.#all()) {
-            const state = this.#there.get(body) ?? { before: {} };
-            if (!this.#there.has(body)) this.#read(body, state.before);
-            there.set(body, this.#read(body, state));
+            let state = there.get(body);
+            if (state !== undefined) this.#read(body, state);
+            else {
+                state = this.#newState(body);
+                state.before = stateOf();
+                copy(this.#read(body, state), state.before);
+                there.set(body, state);
+                this.#order.push(state);
+            }
+            state.turn = turn;
         }
-        return this.#there = there;
+        if (this.#order.every(state => state.turn === turn)) return;
+        this.#order = this.#order.filter(state => state.turn === turn || (there.delete(state.body), false));
     }
 
     /** Two bodies have touched in this step: for engines that tell; any pair of which this is said replaces what boxes say. `normal`: { x, y } of length 1 from a to b. */
@@ -92,13 +129,14 @@ class VelocityHaptics extends Haptics {
     /** `advance` makes the engine's step. */
     step(seconds, advance) {
         this.look();
-        this.around(() => advance(seconds), undefined, () => this.#observe(seconds));
+        advance(seconds);
+        this.update(seconds);
     }
 
     #observe(seconds) {
         const { gravity } = this.#engine, { x = 0, y = 0 } = (typeof gravity === 'function' ? gravity() : gravity) ?? {}, unit = this.metresPerUnit, gx = x * unit, gy = y * unit * this.#turn;
         this.#lookAtAll();
-        for (const body of this.#there.keys()) this.know(body);
+        for (const { body } of this.#order) this.know(body);
         this.begin(seconds, Math.hypot(gx, gy));
         this.#seconds = seconds;
         for (const known of this.each()) {
@@ -109,29 +147,34 @@ class VelocityHaptics extends Haptics {
         }
         [this.#was, this.#touching] = [this.#touching, this.#was];
         this.#touching.clear();
-        if (this.#engine.tells) for (const pair of this.#told) this.#pair(pair.a, pair.b, pair);
+        if (this.#engine.tells) for (const pair of this.#told) this.#pair(this.#there.get(pair.a), this.#there.get(pair.b), pair);
         else this.#eachNear((a, b) => this.#pair(a, b));
         this.#told.length = 0;
-        for (const after of this.#there.values()) Object.assign(after.before, after, { before: undefined });
+        for (const state of this.#order) copy(state, state.before);
     }
 
-    // Along x, in order; few change their place in it.
+    // Along x, in order, which few leave from one step to the next.
     #eachNear(use) {
-        const isThere = body => Number.isFinite(this.#there.get(body)?.x + this.#there.get(body)?.before.x);
-        const reach = state => state.halfWidth + skin + Math.abs(state.x - state.before.x), order = this.#order = this.#order.filter(isThere), listed = new Set(order);
-        for (const body of this.#there.keys()) if (!listed.has(body) && isThere(body)) order.push(body);
-        const left = new Map(order.map(body => { const state = this.#there.get(body); return [body, state.x - reach(state)]; }));
-        order.sort((a, b) => left.get(a) - left.get(b));
-        for (let i = 0; i < order.length; ++i) {
-            const a = this.#there.get(order[i]), end = a.x + reach(a);
-            for (let j = i + 1; j < order.length && left.get(order[j]) < end; ++j) use(order[i], order[j]);
+        const order = this.#order, { length } = order;
+        for (const state of order) {
+            const reach = state.halfWidth + skin + Math.abs(state.x - state.before.x);
+            state.left = state.x - reach;
+            state.right = state.x + reach;
+            if (!(state.left - state.right < Infinity)) state.left = state.right = Infinity; // no numbers
         }
+        for (let i = 1; i < length; ++i) {
+            const state = order[i];
+            let at = i;
+            for (; at > 0 && order[at - 1].left > state.left; --at) order[at] = order[at - 1];
+            order[at] = state;
+        }
+        for (let i = 0; i < length; ++i) for (let j = i + 1; j < length && order[j].left < order[i].right; ++j) this.#mayMeet(order[i], order[j]) && use(order[i], order[j]);
     }
+    #mayMeet(a, b) { return Math.abs(a.y - b.y) < a.halfHeight + b.halfHeight + skin + Math.abs(a.y - a.before.y) + Math.abs(b.y - b.before.y); }
 
-    #pair(bodyA, bodyB, { normal, x, y } = {}) {
-        const stateA = this.#there.get(bodyA), stateB = this.#there.get(bodyB);
+    #pair(stateA, stateB, { normal, x, y } = none) {
         if (!stateA || !stateB || !(stateA.massKg > 0 || stateB.massKg > 0)) return;
-        const a = this.know(bodyA), b = this.know(bodyB), before = apart(stateA.before, stateB.before, this.#before), after = apart(stateA, stateB, this.#after);
+        const a = this.known(stateA.body) ?? this.know(stateA.body), b = this.known(stateB.body) ?? this.know(stateB.body), before = apart(stateA.before, stateB.before, this.#before), after = apart(stateA, stateB, this.#after);
         const unit = this.metresPerUnit, { nx, ny } = normal ? { nx: normal.x, ny: normal.y * this.#turn } : before.gap > 0 ? before : after;
         const closing = (a.vx - b.vx) * nx + (a.vy - b.vy) * ny, parting = (stateB.vx - stateA.vx) * nx + (stateB.vy - stateA.vy) * ny;
         // What passes by, or through, keeps its velocity. An engine that solves before it moves has moved them apart again.
