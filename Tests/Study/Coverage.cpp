@@ -93,7 +93,7 @@ void countEffects(int people, SeededRandom& random, Effects& held) {
     constexpr double d = 0.6, level[] = {-0.5, 0.0, 0.5}, personal = 1.0;
     LongTable two{"y", {"a"}, ""}, three{"y", {"a"}, ""};
     for (int p = 0; p < people; ++p) {
-        const std::string who = "P" + std::to_string(p);
+        const std::string who = std::string("P").append(std::to_string(p));
         const double own = personal * random.normal();
         two.add(who, {"1"}, "", own + d + std::numbers::sqrt2 / 2.0 * random.normal());
         two.add(who, {"2"}, "", own + std::numbers::sqrt2 / 2.0 * random.normal());
@@ -132,7 +132,8 @@ int falseFindings(int people, std::size_t conditions, int studies, SeededRandom&
         std::vector<double> cells;
         for (auto& own : trials) {
             for (int p = 0; p < people; ++p) {
-                const auto more = pointing("P" + std::to_string(p), people > 1 ? 1 : 12, random);
+                const auto more =
+                    pointing(std::string("P").append(std::to_string(p)), people > 1 ? 1 : 12, random);
                 own.insert(own.end(), more.begin(), more.end());
             }
             const auto made = resolveCondition("", own).resolution;
