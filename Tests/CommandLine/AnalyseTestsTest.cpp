@@ -17,11 +17,13 @@ TEST_F(AnalyseTests, StudentsSleepersAsInR) {
     write("s.csv", sleep);
     const std::string columns = "s.csv --measure extra --within drug --participant ID";
     EXPECT_EQ(call("analyse pairs " + columns).out,
-              "drug: 1 - 2: t(9) = -4.062, p = 0.003, Holm p = 0.003, d = -1.285, n = 10\n");
+              "drug: 1 - 2: t(9) = -4.062, p = 0.003, Holm p = 0.003, difference -1.58 (95 % interval -2.46 "
+              "to -0.70), d = -1.285 (95 % interval -2.118 to -0.415), n = 10\n");
     EXPECT_EQ(call("analyse wilcoxon " + columns).out,
               "drug: V = 0.000, p = 0.009, rank-biserial r = -1.000, n = 10\n");
     EXPECT_EQ(call("analyse anova " + columns).out,
-              "drug: F(1, 9) = 16.501, p = 0.003, generalised eta squared = 0.161, n = 10\n");
+              "drug: F(1, 9) = 16.501, p = 0.003, generalised eta squared = 0.161 (95 % interval 0.020 to "
+              "0.343), n = 10\n");
     EXPECT_EQ(call("analyse shapiro " + columns).out,
               "drug=1: W = 0.926, p = 0.408, n = 10\ndrug=2: W = 0.919, p = 0.351, n = 10\n");
     EXPECT_EQ(call("analyse mann-whitney s.csv --measure extra --between drug").err.find("participant ID"),

@@ -159,6 +159,18 @@ std::vector<PlantedField> plantedFields() {
              s.factors = {{"method", {"AF-FV-DRF", "SV"}}};
          }),
          "(AF-FV-DRF: amplitude fixed, frequency varied, decay fixed; SV: the recorded contact)"},
+        {"factor.labels", stimuli<CallSet>([](CallSet& s) {
+             s.factors = {{"db", {"-80", "0"}, {"no", "yes"}}};
+         }),
+         "(-80; 0, called no; yes)"},
+        {"factor.alternative", stimuli<CallSet>([](CallSet& s) {
+             s.factors = {{"hz", {"220"}, {}, "higher", "200"}};
+         }),
+         "hz (220) of higher"},
+        {"factor.otherwise", stimuli<CallSet>([](CallSet& s) {
+             s.factors = {{"hz", {"220"}, {}, "higher", "200"}};
+         }),
+         "of higher, otherwise 200"},
         {"world.hands", stimuli<WorldSet>([](WorldSet& s) { s.hasHands = true; }),
          "the participant drags and tilts it", stimuli<WorldSet>([](WorldSet&) {})},
         {"world.display_scale", stimuli<WorldSet>([](WorldSet& s) { s.displayScale = 50; }),
@@ -228,6 +240,14 @@ std::vector<PlantedField> plantedFields() {
          "after the page \u201cFeel both.\u201d"},
         {"session.feedback", session([](SessionPlan& s) { s.givesFeedback = true; }),
          "each answer is followed by whether it was right"},
+        {"session.correct", session([](SessionPlan& s) { s.correct = "other"; }), "; other is right", two},
+        {"session.until_correct", session([](SessionPlan& s) { s.untilCorrect = 6; }),
+         "until 6 right answers in a row"},
+        {"session.rove_db", session([](SessionPlan& s) { s.roveDb = 3.5; }), "by up to 3.5 dB, at random"},
+        {"session.modulus", session([](SessionPlan& s) { s.modulus = "0.4"; }),
+         "begins with 0.4, which counts as 10"},
+        {"session.modulus_number", session([](SessionPlan& s) { s.modulusNumber = 7; }), "which counts as 7",
+         session([](SessionPlan& s) { s.modulus = "0.4"; })},
         {"session.interval_s", session([](SessionPlan& s) { s.intervalSeconds = 0.7; }),
          "one after the other, 0.7 s apart", two},
         {"calls.variables", variables({{"hz", 200.0}}), "; hz is 200 at a level of 0 dB", variables({})},

@@ -3,12 +3,15 @@
 // equal energy, the schema; and the times of a study.
 #include "Io/Disk/ReadFile.h"
 #include "Lab/Files/ProtocolFile.h"
+#include "Lab/Files/StudyCsv.h"
+#include "Lab/Files/TrialLog.h"
 #include "Lab/Study/AdaptiveLevel.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyRun.h"
 #include "Stimuli/SeededRandom.h"
 #include "Study/StaircaseThreshold.h"
 #include "Support/FileTesting.h"
+#include "TestPlaces.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <set>
@@ -154,6 +157,121 @@ TEST(ProtocolLanguage, TheSchemaHasEveryFieldThatIsReadAndItsRange) {
           "\"latin-square\"", "\"estimate\"", "\"if\"", "\"then\""})
         EXPECT_NE(schema.find(words), std::string::npos) << words;
     EXPECT_TRUE(readProtocol("{\"$schema\": \"protocol.schema.json\", " + frequencies().substr(1), "own"));
+}
+
+/// An example of the pages.
+Protocol example(const std::string& name) {
+    const auto read = loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/" + name + ".json");
+    EXPECT_TRUE(read) << read.error;
+    return read.value;
+}
+
+std::vector<std::string> wordsOf(const Protocol& protocol, const TrialRecord& record) {
+    std::vector<std::string> words;
+    for (const TrialJob& job : jobsOf(protocol, record)) words.push_back(std::get<WrittenCall>(job).words);
+    return words;
+}
+
+bool holds(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+
+TEST(ProtocolLanguage, ConstantStimuliMoveOneAlternativeAndHaveARightOne) {
+    const Protocol protocol = example("frequency-constant");
+    EXPECT_EQ(readProtocol(protocolJson(protocol), "again").value, protocol);
+    Experiment experiment{protocol, {}};
+    std::string rows = trialHeader(protocol, {}, "0");
+    std::set<double> roved;
+    while (!experiment.isDone()) {
+        const Trial trial = experiment.trial();
+        const auto calls = wordsOf(protocol, {trial, {}});
+        for (std::size_t i = 0; i < 2; ++i)
+            EXPECT_TRUE(
+                holds(calls[i], "--frequency " + (trial.parts[i] == "higher" ? trial.stimulus : "200")))
+                << calls[i];
+        EXPECT_EQ(trial.partLevelsDb[0], trial.partLevelsDb[1]) << "both rove together";
+        EXPECT_LE(std::abs(trial.partLevelsDb[0]), 3.0);
+        roved.insert(trial.partLevelsDb[0]);
+        Answer answer;
+        answer.response = trial.number % 4 ? "higher" : "standard";
+        const auto record = experiment.take(answer);
+        EXPECT_EQ(isCorrect(protocol, record), trial.number % 4 != 0);
+        rows += trialRow(protocol, {}, record);
+    }
+    EXPECT_GT(roved.size(), 20u);
+    const NamedText file{rows, "rows.csv"};
+    EXPECT_FALSE(readLevels({&file, 1})) << "nothing is adaptive";
+    const auto answers = readLevelAnswers({&file, 1}, {"stimulus", "correct", false});
+    ASSERT_TRUE(answers) << answers.error;
+    EXPECT_EQ(answers.value.conditions.front().trials.size(), 100u);
+    EXPECT_FALSE(answers.value.conditions.front().trials.front().isAdaptive);
+    std::set<double> levels;
+    for (const PlannedStimulus& s : plannedStimuli(protocol)) levels.insert(s.levelDb);
+    EXPECT_EQ(*levels.begin(), -3.0);
+    EXPECT_EQ(*levels.rbegin(), 3.0);
+}
+
+TEST(ProtocolLanguage, PracticeEndsAfterSoManyRightAnswersInARow) {
+    const Protocol protocol = example("yes-no");
+    Experiment experiment{protocol, {}};
+    int trials = 0;
+    for (; !experiment.isDone() && experiment.session().isTraining; ++trials) {
+        EXPECT_EQ(experiment.sessionTrials(), 0) << "nobody knows";
+        const std::string shown = experiment.trial().stimulus;
+        ASSERT_TRUE(shown == "yes" || shown == "no") << shown;
+        EXPECT_TRUE(holds(wordsOf(protocol, {experiment.trial(), {}})[0],
+                          shown == "yes" ? "--level-g 0.05" : "--level-g 0.001"));
+        Answer answer;
+        answer.response = trials == 3 ? (shown == "yes" ? "no" : "yes") : shown;
+        experiment.take(answer);
+    }
+    EXPECT_EQ(trials, 4 + 6) << "the fourth answer was wrong";
+    EXPECT_EQ(experiment.sessionTrials(), 80);
+}
+
+TEST(ProtocolLanguage, AModulusComesFirstInEachTrial) {
+    const Protocol protocol = example("strength-modulus");
+    Experiment experiment{protocol, {}};
+    for (; !experiment.isDone();) {
+        const Trial trial = experiment.trial();
+        const auto calls = wordsOf(protocol, {trial, {}});
+        ASSERT_EQ(calls.size(), 2u);
+        EXPECT_TRUE(holds(calls[0], "--level-g 0.2")) << calls[0];
+        EXPECT_TRUE(holds(calls[1], "--level-g " + trial.stimulus)) << calls[1];
+        Answer answer;
+        answer.value = 10.0;
+        experiment.take(answer);
+    }
+    double plays = 0.0;
+    for (const PlannedTrials& planned : plannedTrials(protocol)) plays += planned.count;
+    EXPECT_EQ(plays, 40.0) << "of 20 trials, each with the modulus";
+}
+
+TEST(ProtocolLanguage, FactorsMayBeLeftOutAndFieldsThatDoNotFitAreRefused) {
+    std::string text = frequencies();
+    const std::string factors = R"("factors": [{"name": "s", "values": ["0.3"]}], )";
+    text.erase(text.find(factors), factors.size());
+    text.replace(text.find("{s}"), 3, "0.3");
+    const auto read = readProtocol(text, "own");
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_EQ(stimuliOf(read.value.conditions.front()).size(), 1u);
+    Protocol wrong = example("frequency-constant");
+    const auto fault = [&](auto edit) {
+        Protocol edited = wrong;
+        edit(edited.sessions.front(), std::get<CallSet>(edited.conditions.front().stimuli));
+        return validate(edited);
+    };
+    using S = SessionPlan;
+    using C = CallSet;
+    EXPECT_TRUE(holds(fault([](S& s, C&) { s.correct = "lower"; }), "correct: expected the name"));
+    EXPECT_TRUE(
+        holds(fault([](S&, C& c) { c.call.replace(c.call.find("{g}"), 3, "0.2"), c.variables.clear(); }),
+              "expected {level_db} or a variable"));
+    EXPECT_TRUE(holds(fault([](S& s, C&) { s.modulus = "210"; }), "modulus: expected it of"));
+    EXPECT_TRUE(
+        holds(fault([](S& s, C&) { s.correct = {}, s.untilCorrect = 3; }), "until_correct: expected"));
+    EXPECT_TRUE(holds(fault([](S&, C& c) { c.factors[0].otherwise = {}; }), "alternative and otherwise"));
+    EXPECT_TRUE(holds(fault([](S&, C& c) { c.factors[0].labels = {"a"}; }), "a label of each value"));
+    wrong = example("strength-modulus");
+    EXPECT_TRUE(holds(fault([](S& s, C&) { s.modulus = "9"; }), "expected the modulus of session main"));
 }
 
 class TimesOfAStudy : public ::testing::Test {

@@ -69,13 +69,14 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
     std::set<std::string> found;
     const auto has = [&](std::string_view column) { return table.column(column).has_value(); };
     if (const auto task = table.column(trialColumns::task)) {
-        const auto phase = table.column(trialColumns::phase), correct = table.column("correct");
+        const auto phase = table.column(trialColumns::phase), correct = table.column("correct"),
+                   level = table.column("level_db");
         for (const CsvRow& row : table.rows) {
             const StudyTaskDescription* const did = studyTaskNamed(row.cells[*task]);
             if (did == nullptr) continue;
             const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
-            const bool isAdapted =
-                did->answer == AnswerKind::choice && correct && !row.cells[*correct].empty();
+            const bool isAdapted = did->answer == AnswerKind::choice && correct &&
+                                   !row.cells[*correct].empty() && !(level && row.cells[*level].empty());
             if (isAdapted || did->analysis == "levels")
                 found.insert("levels"); // including training
             else if (!isTraining)

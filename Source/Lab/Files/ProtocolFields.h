@@ -43,6 +43,9 @@ void visitFields(auto& v, FieldsOf<GridSet>) {
 void visitFields(auto& v, FieldsOf<StudyFactor>) {
     v.field("name", &StudyFactor::name, anyText, Need::required);
     v.field("values", &StudyFactor::values, items(1, 256), Need::required);
+    v.field("labels", &StudyFactor::labels, items(0, 256), Need::optional);
+    v.field("alternative", &StudyFactor::alternative, anyText, Need::optional);
+    v.field("otherwise", &StudyFactor::otherwise, anyText, Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<StudyVariable>) {
@@ -52,8 +55,8 @@ void visitFields(auto& v, FieldsOf<StudyVariable>) {
 
 template <class Set>
 void visitCalls(auto& v) {
-    v.field("factors", static_cast<std::vector<StudyFactor> Set::*>(&Set::factors), items(1, 16),
-            Need::required);
+    v.field("factors", static_cast<std::vector<StudyFactor> Set::*>(&Set::factors), items(0, 16),
+            Need::optional);
     v.field("call", static_cast<std::string Set::*>(&Set::call), studyBounds::call, Need::required);
     v.field("variables", static_cast<std::vector<StudyVariable> Set::*>(&Set::variables), items(0, 8),
             Need::optional);
@@ -160,6 +163,11 @@ void visitFields(auto& v, FieldsOf<SessionPlan>) {
     v.field("adjustment", &S::adjustment, {}, Need::optional);
     v.field("staircase", &S::staircase, {}, Need::optional);
     v.field("quest", &S::quest, {}, Need::optional);
+    v.field("correct", &S::correct, anyText, Need::optional);
+    v.field("until_correct", &S::untilCorrect, studyBounds::count, Need::optional);
+    v.field("rove_db", &S::roveDb, Bounds{0.0, 40.0}, Need::optional);
+    v.field("modulus", &S::modulus, anyText, Need::optional);
+    v.field("modulus_number", &S::modulusNumber, Bounds{1e-6, 1e6}, Need::optional);
     v.field("levels_from", &S::levelsFrom, anyText, Need::optional);
     v.field("levels_file", &S::levelsFile, anyText, Need::optional);
 }

@@ -8,6 +8,7 @@
 #include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/StimulusJob.h"
 #include "Lab/Study/Trial.h"
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -243,7 +244,8 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
         trial.kind = LevelTrial::Kind::adjustment;
     else if (answer == AnswerKind::number)
         trial.kind = LevelTrial::Kind::magnitude;
-    else if (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty())
+    else if (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty() ||
+             (tasks && row.cells[rows.required("level_db")].empty()))
         return std::nullopt;
     if (trial.kind == LevelTrial::Kind::staircase) {
         trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
@@ -281,11 +283,17 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     const auto level = detail::FactorSource::of(rows.table(), columns.level);
     if (!level) rows.required(columns.level);
     const auto condition = rows.optional("condition"), participant = rows.optional("participant");
-    // Only adaptive sessions of our own files have right and wrong choices.
-    const bool isAdaptive = rows.optional(trialColumns::task) && columns.measure == "correct";
+    // Of our own files' right and wrong choices those with a level are adaptive.
+    const auto moved = rows.optional("level_db");
+    const bool isOwn = rows.optional(trialColumns::task) && columns.measure == "correct" && moved;
+    const bool hasFixed = isOwn && std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
+                              return !row.cells[measure].empty() && row.cells[*moved].empty();
+                          });
     std::size_t taken = 0;
     rows.each(columns.isMagnitude ? AnswerKind::number : AnswerKind::choice, [&](const CsvRow& row) {
         if (row.cells[measure].empty()) return;
+        const bool isAdaptive = isOwn && !row.cells[*moved].empty();
+        if (isOwn && (columns.level == "level_db" ? !isAdaptive : isAdaptive && hasFixed)) return;
         const auto at = parseNumber<double>(level->level(row));
         if (!at || std::abs(*at) > largestLevel)
             throw StudyFault{rows.table().fault(row, level->column,

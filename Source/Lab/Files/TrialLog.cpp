@@ -75,7 +75,8 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     if (const auto correct = isCorrect(protocol, record)) cells["correct"] = *correct ? "1" : "0";
     cells["replays"] = std::to_string(answer.plays - 1);
     cells["response_s"] = numberText(answer.seconds);
-    cells["level_db"] = numberText(trial.levelDb);
+    // no level is moved where the protocol says what is right: empty tells these rows from adaptive ones
+    if (session.correct.empty()) cells["level_db"] = numberText(trial.levelDb);
     cells["render"] = callsOf(protocol, record);
     if (session.quest) cells[columns::quest] = questWords(*session.quest, session.guessRate());
     for (const FeltLevel& felt : answer.felt) {
@@ -124,7 +125,8 @@ public:
         trial.task = session.task;
         trial.number = rows_.wholeNumber(row, rows_.required("trial"), 1, std::numeric_limits<int>::max());
         trial.stimulus = cell(row, "stimulus");
-        trial.levelDb = rows_.number(row, rows_.required("level_db"), -1000.0, 1000.0);
+        if (session.correct.empty())
+            trial.levelDb = rows_.number(row, rows_.required("level_db"), -1000.0, 1000.0);
         record.answer.response = cell(row, session.answer() == AnswerKind::choice ? "choice" : "response");
         record.answer.plays = 1 + rows_.wholeNumber(row, rows_.required("replays"), 0, 1'000'000);
         record.answer.seconds = rows_.number(row, rows_.required("response_s"), 0.0, 1e9);

@@ -57,7 +57,15 @@ std::string setWords(const CallSet& set) {
                            return factor.name + " (" +
                                   joinedWords(factor.values, "; ",
                                               [](const std::string& value) { return inFull(value); }) +
-                                  ")";
+                                  (factor.labels.empty()
+                                       ? ")"
+                                       : ", called " +
+                                             joinedWords(factor.labels, "; ",
+                                                         [](const std::string& label) { return label; }) +
+                                             ")") +
+                                  (factor.alternative.empty()
+                                       ? std::string{}
+                                       : " of " + factor.alternative + ", otherwise " + factor.otherwise);
                        }) +
            joinedWords(set.variables, "", [](const StudyVariable& variable) {
                return "; " + variable.name + " is " + numberText(variable.at0Db) +
@@ -187,6 +195,15 @@ std::string sessionWords(const SessionPlan& session) {
         words +=
             "; parts are played one after the other, " + secondsWords(session.intervalSeconds) + " apart";
     if (session.givesFeedback) words += "; each answer is followed by whether it was right";
+    if (!session.correct.empty()) words += "; " + session.correct + " is right";
+    if (session.untilCorrect > 0)
+        words += "; until " + std::to_string(session.untilCorrect) + " right answers in a row, or all trials";
+    if (session.roveDb > 0.0)
+        words +=
+            "; each trial is louder or softer as a whole by up to " + dbWords(session.roveDb) + ", at random";
+    if (!session.modulus.empty())
+        words += "; each trial begins with " + session.modulus + ", which counts as " +
+                 numberText(session.modulusNumber);
     if (session.mostPlays > 0) words += "; felt at most " + std::to_string(session.mostPlays) + " times";
     if (session.breakBeforeSeconds > 0.0)
         words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";

@@ -58,7 +58,7 @@ bool hasAdaptiveRows(const ReportTrials& trials) {
     return trials.knowTasks() && std::ranges::any_of(trials.all.rows, [&](const CsvRow& row) {
                return cell(row, trialColumns::phase) != trialColumns::training &&
                       answerOf(cell(row, trialColumns::task)) == AnswerKind::choice &&
-                      !cell(row, "correct").empty();
+                      !cell(row, "correct").empty() && !cell(row, "level_db").empty();
            });
 }
 
@@ -200,7 +200,9 @@ std::string trainingWords(const CsvTable& all) {
         if (cell(row, trialColumns::phase) != trialColumns::training) continue;
         isAny = true;
         const StudyTaskDescription* const did = studyTaskNamed(cell(row, trialColumns::task));
-        isLevel |= did != nullptr && (did->analysis == "levels" || !cell(row, "correct").empty());
+        isLevel |= did != nullptr && (did->analysis == "levels" ||
+                                      (did->answer == AnswerKind::choice && !cell(row, "correct").empty() &&
+                                       !cell(row, "level_db").empty()));
     }
     if (!isAny) return {};
     return isLevel ? "Trainings are left out of all analyses but that of levels."
@@ -297,7 +299,8 @@ void tellProvenance(ReportBuilder& report) {
         if (const std::string value = report.trials.common(key); !value.empty())
             facts.push_back(words + value);
     const auto has = [&](const char* table) { return report.tables().contains(table); };
-    if (report.people() > 1 && (has("psychometric.csv") || has("power-law.csv")))
+    if (report.people() > 1 &&
+        (has("psychometric.csv") || has("psychometric-stimuli.csv") || has("power-law.csv")))
         facts.push_back("intervals of thresholds and exponents over " + std::to_string(fewestDrawn) +
                         " participants or more: " + std::to_string(bootstrapDraws) +
                         " draws of participants, seed 1; all other intervals over participants: Student's t");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Report sections on forced choices and ratings.
 #include "Io/Text/CsvText.h"
+#include "Lab/Analysis/FitCharts.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ConditionAxes.h"
@@ -129,6 +130,28 @@ std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<s
     return charts;
 }
 
+/// Psychometric functions over the stimuli, where these are numbers and an alternative is right.
+void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
+    const auto data = readLevelAnswers({&file, 1}, {"stimulus", "correct", false});
+    if (!data || !report.trials.knowTasks()) return;
+    AnalysisJob fit = report.optionsFor(trialsTable);
+    fit.level = "stimulus";
+    if (report.trials.protocol)
+        for (const SessionPlan& session : report.trials.protocol->sessions)
+            if (!session.correct.empty()) fit.model.guess = session.guessRate();
+    report.page.subheading("Psychometric functions");
+    if (const auto words = report.analysis("psychometric", fit, "psychometric-stimuli.csv");
+        !words.error.empty())
+        return;
+    std::vector<std::string> charts;
+    for (const auto& condition : data.value.conditions)
+        charts.push_back(psychometricChart(report.frame("Right answers: " + condition.name), condition.trials,
+                                           fit.model, fitWords(report.trials.columns, fit.level)));
+    report.page.figure(
+        charts, "Share of right answers by stimulus. Circles: all participants' trials; thin lines: the "
+                "function of each participant; thick: their mean threshold and width.");
+}
+
 } // namespace
 
 void tellChoices(ReportBuilder& report) {
@@ -139,6 +162,7 @@ void tellChoices(ReportBuilder& report) {
     if (const auto words = report.analysis("choices", report.optionsFor(trialsTable), "choices.csv");
         !words.error.empty())
         return;
+    tellConstantStimuli(report, file);
     const auto& trials = data.value.conditions.front().trials;
     const auto summaries = summariseChoices(trials);
     std::vector<std::string> groups{"all"};

@@ -15,6 +15,10 @@ using Answers = std::vector<bool>;
 using RunKey = std::tuple<std::string, std::string, std::string>; // participant, condition, session
 
 bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t planned) {
+    if (plan.untilCorrect > 0) { // the last so many are right
+        const auto wrong = std::ranges::find(answers.rbegin(), answers.rend(), false);
+        if (wrong - answers.rbegin() >= plan.untilCorrect) return false;
+    }
     if (!plan.adaptedAlternative()) return answers.size() < planned;
     AdaptiveLevel level{plan};
     for (const bool answer : answers) level.answer(answer);

@@ -56,7 +56,7 @@ SeededRandom Experiment::randomFor(const std::string& purpose) const {
 
 void Experiment::beginSession() {
     items_ = stimuliOf(protocol_.conditions[conditionIndex()]);
-    inSession_ = 0;
+    inSession_ = inARow_ = 0;
     explored_.clear();
     isEnded_ = false;
     adaptive_.reset();
@@ -67,6 +67,7 @@ void Experiment::beginSession() {
 
 bool Experiment::isSessionOver() const {
     if (adaptive_) return adaptive_->isDone();
+    if (plan().untilCorrect > 0 && inARow_ >= plan().untilCorrect) return true;
     if (plan().answer() != AnswerKind::wish) return inSession_ >= static_cast<int>(order_.size());
     return isEnded_ || (!explorersEnd_ && hasExplored());
 }
@@ -82,7 +83,8 @@ void Experiment::endSession() {
 
 int Experiment::sessionTrials() const noexcept {
     if (adaptive_) return adaptive_->trials();
-    return plan().answer() == AnswerKind::wish ? 0 : static_cast<int>(order_.size());
+    return plan().answer() == AnswerKind::wish || plan().untilCorrect > 0 ? 0
+                                                                          : static_cast<int>(order_.size());
 }
 
 void Experiment::advance() {
@@ -118,6 +120,7 @@ Trial Experiment::nextTrial() {
                                            : PlannedTrial{random.below(items_.size()), random.chance(0.5)};
     trial.stimulus = items_[planned.stimulus].label;
     if (!s.alternatives.empty()) addAlternatives(trial, planned.isSwapped);
+    if (!s.modulus.empty()) trial.parts = {"modulus", "stimulus"};
     if (!s.objects.empty()) {
         trial.parts = s.objects;
         random.shuffle(trial.parts);
@@ -143,8 +146,13 @@ void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
     const std::string moved = adaptive_      ? *s.adaptedAlternative()
                               : s.adjustment ? s.adjustment->alternative
                                              : std::string{};
+    double rovedDb = 0.0;
+    if (s.roveDb > 0.0) // in steps of 0.1 dB
+        rovedDb = std::round(10.0 * s.roveDb *
+                             (2.0 * randomFor("rove " + std::to_string(trial.number)).uniform() - 1.0)) /
+                  10.0;
     for (const Alternative& button : buttons) {
-        double db = button.levelDb + (button.name == moved ? trial.levelDb : 0.0);
+        double db = rovedDb + button.levelDb + (button.name == moved ? trial.levelDb : 0.0);
         if (!s.levelsFrom.empty()) {
             const auto from = std::ranges::find(protocol_.sessions, s.levelsFrom, &SessionPlan::name);
             if (button.name == from->adjustment->alternative) {
@@ -208,6 +216,7 @@ TrialRecord Experiment::take(Answer answer) {
         adjusted_[{record.trial.condition, plan().name}][record.trial.stimulus].push_back(
             record.answer.value);
     if (adaptive_) adaptive_->answer(record.answer.response == *plan().adaptedAlternative());
+    inARow_ = isCorrect(protocol_, record).value_or(false) ? inARow_ + 1 : 0;
     ++inSession_;
     ++taken_;
     advance();

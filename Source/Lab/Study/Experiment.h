@@ -114,6 +114,7 @@ private:
     bool isEnded_ = false; // the participant ended the exploration
     std::optional<AdaptiveLevel> adaptive_;
     int inSession_ = 0; // trials answered
+    int inARow_ = 0;    // right answers
 
     // (condition, session), stimulus
     std::map<std::pair<std::size_t, std::string>, std::map<std::string, std::vector<double>>> adjusted_;

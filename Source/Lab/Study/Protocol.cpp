@@ -77,8 +77,18 @@ std::string taskFault(const SessionPlan& s) {
         return "task: expected " + std::string{describe(s.task).name} + " in a training session only";
     if (s.givesFeedback && !s.hasCorrectAnswers())
         return "feedback: expected it where answers are right or wrong: of a label, a staircase or QUEST+";
-    if (s.intervalSeconds > 0.0 && s.alternatives.size() < 2 && s.objects.size() < 2)
-        return "interval_s: expected two or more alternatives or objects, which follow one another";
+    if (s.intervalSeconds > 0.0 && s.alternatives.size() < 2 && s.objects.size() < 2 && s.modulus.empty())
+        return "interval_s: expected two or more alternatives or objects, or a modulus, which follow one "
+               "another";
+    if (!s.correct.empty() &&
+        (answer != Kind::choice || s.adaptedAlternative() || !hasAlternative(s, s.correct)))
+        return "correct: expected the name of an alternative to choose, without a staircase or QUEST+";
+    if (s.untilCorrect > 0 && (s.adaptedAlternative() || !s.hasCorrectAnswers()))
+        return "until_correct: expected it where answers are right or wrong, without a staircase or QUEST+";
+    if (s.roveDb > 0.0 && answer != Kind::choice)
+        return "rove_db: expected it of " + tasksThatAnswer({Kind::choice}) + " only";
+    if (!s.modulus.empty() && answer != Kind::number)
+        return "modulus: expected it of " + tasksThatAnswer({Kind::number}) + " only";
     if (answer != Kind::wish && s.fewestTouches > 0)
         return "fewest_touches: expected it of " + tasksThatAnswer({Kind::wish}) + " only";
     return {};
@@ -96,6 +106,10 @@ std::string valuesFault(const CallSet& calls) {
     for (const StudyFactor& factor : calls.factors)
         if (!isPlain(factor.name) || !std::ranges::all_of(factor.values, isPlain))
             return "factors: expected names and values without braces";
+        else if (!factor.labels.empty() && factor.labels.size() != factor.values.size())
+            return "factors: expected a label of each value, or none";
+        else if (!isPlain(factor.otherwise) || factor.alternative.empty() != factor.otherwise.empty())
+            return "factors: expected alternative and otherwise together, or neither";
     std::set<std::string> names{"alternative", "object", "level_db"};
     for (const StudyFactor& factor : calls.factors) names.insert(factor.name);
     for (const StudyVariable& variable : calls.variables)
@@ -106,8 +120,10 @@ std::string valuesFault(const CallSet& calls) {
 
 /// Possible values of {alternative} and {object} in a call.
 std::set<std::string> namedPartsOf(const Protocol& p, const CallSet& calls) {
-    const bool namesParts = calls.call.find("{alternative}") != std::string::npos ||
-                            calls.call.find("{object}") != std::string::npos;
+    const bool namesParts =
+        calls.call.find("{alternative}") != std::string::npos ||
+        calls.call.find("{object}") != std::string::npos ||
+        std::ranges::any_of(calls.factors, [](const auto& f) { return !f.alternative.empty(); });
     return namesParts ? callPartsOf(p) : std::set<std::string>{""};
 }
 
@@ -133,6 +149,13 @@ std::string stimulusFault(const ConditionPlan& c, const SessionPlan& s) {
     if (s.answer() == AnswerKind::place && !isGrid)
         return "stimuli: expected a grid, which the task " + std::string{describe(s.task).name} + " needs";
     if (s.fewestTouches > 0 && !isGrid) return "stimuli: expected a grid, which free touches need";
+    if (const CallSet* const calls = callSetOf(c.stimuli);
+        s.roveDb > 0.0 && calls != nullptr && calls->variables.empty() &&
+        calls->call.find("{level_db}") == std::string::npos)
+        return "call: expected {level_db} or a variable in it, which rove_db moves";
+    const auto items = stimuliOf(c);
+    if (!s.modulus.empty() && std::ranges::find(items, s.modulus, &StimulusItem::label) == items.end())
+        return "stimuli: expected the modulus of session " + s.name + " among them, " + s.modulus;
     return {};
 }
 
@@ -176,27 +199,21 @@ std::vector<StimulusItem> itemsOf(const GridSet& set) {
     return items;
 }
 
-/// "pair=wood size=small"; the value alone if there is one factor.
-std::string labelOf(const StimulusItem& item) {
-    std::string label;
-    if (item.values.size() == 1) return item.values.front().second;
-    for (const auto& [name, value] : item.values)
-        label.append(label.empty() ? "" : " ").append(name).append("=").append(value);
-    return label;
-}
-
 std::vector<StimulusItem> itemsOf(const CallSet& set) {
+    if (set.factors.empty()) return {StimulusItem{"stimulus", {}}};
     std::vector<StimulusItem> items{{}};
     for (const StudyFactor& factor : set.factors) {
         std::vector<StimulusItem> longer;
         for (const StimulusItem& item : items)
-            for (const std::string& value : factor.values) {
-                longer.push_back(item);
-                longer.back().values.emplace_back(factor.name, value);
+            for (std::size_t i = 0; i < factor.values.size(); ++i) {
+                StimulusItem& next = longer.emplace_back(item);
+                next.values.emplace_back(factor.name, factor.values[i]);
+                // "pair=wood size=small"; the label alone if there is one factor
+                if (set.factors.size() > 1) next.label += (item.label.empty() ? "" : " ") + factor.name + "=";
+                next.label += i < factor.labels.size() ? factor.labels[i] : factor.values[i];
             }
         items = std::move(longer);
     }
-    for (StimulusItem& item : items) item.label = labelOf(item);
     return items;
 }
 
@@ -330,7 +347,11 @@ std::set<std::string> callPartsOf(const Protocol& p) {
 
 std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb) {
     std::string words = set.call;
-    for (const auto& [name, value] : item.values) replaceAll(words, "{" + name + "}", value);
+    for (const auto& [name, value] : item.values) {
+        const StudyFactor& factor = *std::ranges::find(set.factors, name, &StudyFactor::name);
+        const bool isOfPart = factor.alternative.empty() || factor.alternative == part;
+        replaceAll(words, "{" + name + "}", isOfPart ? value : factor.otherwise);
+    }
     replaceAll(words, "{alternative}", part);
     replaceAll(words, "{object}", part);
     replaceAll(words, "{level_db}", numberWord(levelDb));

@@ -44,6 +44,9 @@ struct GridSet {
 struct StudyFactor {
     std::string name;
     std::vector<std::string> values;
+    std::vector<std::string> labels{}; ///< what answers and rows call the values; empty: as they are
+    std::string alternative{};         ///< the values are of this alternative alone; empty: of every part
+    std::string otherwise{};           ///< what all other parts have instead
     bool operator==(const StudyFactor&) const = default;
 };
 
@@ -169,8 +172,13 @@ struct SessionPlan {
     std::optional<Adjustment> adjustment;
     std::optional<StaircasePlan> staircase;
     std::optional<QuestMethod> quest;
-    std::string levelsFrom; ///< an earlier session whose adjusted levels apply here
-    std::string levelsFile; ///< or a file with the levels of other participants (Lab/Files/LevelsFile.h)
+    std::string correct;  ///< choose: the alternative that is right; empty: a staircase's, or none
+    int untilCorrect = 0; ///< ends after so many right answers in a row; 0: after all trials
+    double roveDb = 0.0;  ///< all parts of a trial are raised or lowered together by up to this, at random
+    std::string modulus;  ///< estimate: the stimulus that each trial begins with
+    double modulusNumber = 10.0; ///< and what it counts as
+    std::string levelsFrom;      ///< an earlier session whose adjusted levels apply here
+    std::string levelsFile;      ///< or a file with the levels of other participants (Lab/Files/LevelsFile.h)
     bool operator==(const SessionPlan&) const = default;
 
     AnswerKind answer() const noexcept { return describe(task).answer; }
@@ -180,7 +188,7 @@ struct SessionPlan {
     }
     /// True if answers are correct or not.
     bool hasCorrectAnswers() const noexcept {
-        return answer() == AnswerKind::label || adaptedAlternative() != nullptr;
+        return answer() == AnswerKind::label || adaptedAlternative() != nullptr || !correct.empty();
     }
     /// Chance of a correct guess in a choice.
     double guessRate() const noexcept { return 1.0 / static_cast<double>(alternatives.size()); }

@@ -188,6 +188,7 @@ std::string SimulatedObserver::chosen(const SessionPlan& session, const Trial& t
             }
         return trial.parts[strongest];
     }
+    if (!session.correct.empty() && random.chance(0.5)) return session.correct; // knows half of them
     if (random.chance(settings_.firstAlternativePreference)) return session.alternatives.front().name;
     return session.alternatives[1 + random.below(session.alternatives.size() - 1)].name;
 }

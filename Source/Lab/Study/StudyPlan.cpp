@@ -84,7 +84,13 @@ Levels levelsOf(const Protocol& protocol, const SessionPlan& session, const Alte
 std::map<std::string, Levels> partsOf(const Protocol& protocol, const SessionPlan& session) {
     std::map<std::string, Levels> parts;
     for (const Alternative& alternative : session.alternatives)
-        parts[alternative.name] = levelsOf(protocol, session, alternative);
+        for (const double db : levelsOf(protocol, session, alternative)) {
+            Levels& levels = parts[alternative.name];
+            levels.insert(db);
+            for (int tenth = 1; tenth <= std::lround(10.0 * session.roveDb); ++tenth)
+                levels.insert(
+                    {std::round((db - 0.1 * tenth) * 1e6) / 1e6, std::round((db + 0.1 * tenth) * 1e6) / 1e6});
+        }
     for (const std::string& object : session.objects) parts[object] = {0.0};
     if (parts.empty()) parts[{}] = {0.0};
     return parts;
@@ -133,6 +139,8 @@ std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
             for (const StimulusItem& item : items)
                 for (const auto& [part, levels] : partsOf(protocol, protocol.sessions[s]))
                     planned.felt.push_back({c, item.label, part, each});
+            if (const std::string& modulus = protocol.sessions[s].modulus; !modulus.empty())
+                planned.felt.push_back({c, modulus, {}, static_cast<double>(planned.trials)});
         }
     }
     return all;

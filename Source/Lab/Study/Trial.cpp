@@ -5,6 +5,7 @@
 #include "Lab/Study/NumberWord.h"
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace physvib {
 namespace {
@@ -60,7 +61,9 @@ std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& recor
     const SessionPlan& session = protocol.sessions[record.trial.session];
     if (!session.hasCorrectAnswers()) return std::nullopt;
     const std::string* const adapted = session.adaptedAlternative();
-    return record.answer.response == (adapted != nullptr ? *adapted : record.trial.stimulus);
+    return record.answer.response == (adapted != nullptr         ? *adapted
+                                      : !session.correct.empty() ? session.correct
+                                                                 : record.trial.stimulus);
 }
 
 std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record) {
@@ -68,6 +71,16 @@ std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record
     const JobMaker maker{protocol, condition, record};
     const SessionPlan& session = protocol.sessions[record.trial.session];
     std::vector<TrialJob> jobs;
+    TrialRecord first = record;
+    first.trial.stimulus = session.modulus;
+    if (!session.modulus.empty() && record.trial.parts.size() == 2) // the modulus, and the stimulus
+        for (const TrialRecord& one : {std::cref(first), std::cref(record)})
+            jobs.push_back(std::visit(
+                [&](const auto& set) {
+                    return JobMaker{protocol, condition, one}(set, Part{});
+                },
+                condition.stimuli));
+    if (!jobs.empty()) return jobs;
     const auto add = [&](const Part& part) {
         jobs.push_back(std::visit([&](const auto& set) { return maker(set, part); }, condition.stimuli));
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Texts and layout of the study screen.
+#include "Io/Text/NumberText.h"
 #include "Mixer/Studies/StudyScreen.h"
 #include "Mixer/Window/Parts.h"
 
@@ -46,6 +47,7 @@ void StudyScreen::updateParts() {
         if (!session.objects.empty() && worldSet() == nullptr) words += "   " + say_(trial.parts[i]);
         if (session.adjustment && session.adjustment->alternative == trial.parts[i])
             words += "   " + say_("to be matched");
+        if (i == 0 && !session.modulus.empty()) words += "   = " + utf8(numberText(session.modulusNumber));
         juce::StringArray remarks;
         if (isPlaying)
             remarks.add(say_("feel it now"));
