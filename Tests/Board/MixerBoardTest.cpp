@@ -33,14 +33,11 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     auto* ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Four-channel board"));
     ASSERT_NE(ports, nullptr);
     ports->setSelectedItemIndex(ports->getNumItems() - 1); // another port
-    juce::AlertWindow* asked = nullptr;
-    ASSERT_TRUE(runUntil([&] {
-        return (asked = dynamic_cast<juce::AlertWindow*>(juce::Component::getCurrentlyModalComponent())) !=
-               nullptr;
-    }));
-    asked->getTextEditor("answer")->setText(board.port());
-    ASSERT_NE(buttonOf(*asked, "Connect"), nullptr);
-    buttonOf(*asked, "Connect")->triggerClick();
+    ASSERT_TRUE(runUntil([&] { return window.view().question() != nullptr; }));
+    auto* connect = buttonOf(*window.view().question(), "Connect");
+    ASSERT_NE(connect, nullptr);
+    window.view().question()->setValue("Serial port", board.port());
+    connect->triggerClick();
 
     ASSERT_TRUE(runUntil([&] { return beside(window.desk()).isReady; }));
     ASSERT_TRUE(runUntil([&] { return beside(window.desk()).sent > 5 && board.last("sound") > 0; }));

@@ -107,7 +107,22 @@ TEST(DeskRouting, ARefusedOutputIsNeitherShownNorSaved) {
     EXPECT_TRUE(routed.desk.trouble().contains("output 7")) << routed.desk.trouble();
     EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 2, 3}));
     EXPECT_EQ(routed.desk.saved().mix->strips[0].output, 0);
+    EXPECT_FALSE(routed.desk.undoManager().canUndo()) << "nothing to take back";
+    EXPECT_EQ(routed.desk.edits(), 0U) << "nothing to save";
     routed.expectAsShown("refused");
+    routed.desk.change("Output and level", [](Mix& mix) {
+        giveOutput(mix.strips, 0, 6);
+        mix.levelDb = -30.0;
+    });
+    EXPECT_EQ(routed.desk.undoManager().getUndoDescription(), "Output and level") << "half of it was done";
+    EXPECT_EQ(routed.desk.mix().levelDb, -30.0);
+    ASSERT_EQ(routed.desk.device().listening().hear({}), ""); // the study ends
+    routed.give(0, 6);
+    EXPECT_EQ(routed.outputs(), (std::vector{6, 1, 2, 3}));
+    routed.desk.undoManager().undo();
+    ASSERT_EQ(routed.desk.device().listening().hear(ofStudy), "");
+    routed.desk.undoManager().redo();
+    EXPECT_TRUE(routed.desk.undoManager().canUndo()) << "a redo that is refused forgets no step";
 }
 
 TEST(DeskRouting, ASessionWithAConflictPlaysWhatItCanAndHealsByOneClick) {

@@ -90,6 +90,57 @@ TEST(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
     EXPECT_NE(board.desk.world().drawing().find("ball 1"), nullptr);
 }
 
+TEST(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
+    Board board;
+    const auto before = board.drawn().bodies.size();
+    board.pane.setRainCount(10);
+    board.key('n');
+    board.drag(board.share(0.2, 0.5), board.share(0.4, 0.7));
+    ASSERT_EQ(board.drawn().bodies.size(), before + 10);
+    for (int k = 1; k <= 10; ++k)
+        EXPECT_NE(board.desk.world().drawing().find("rain " + std::to_string(k)), nullptr) << k;
+    board.pane.eraseAll({"rain 1"});
+    board.key('n');
+    board.drag(board.share(0.5, 0.5), board.share(0.7, 0.7));
+    EXPECT_EQ(board.drawn().bodies.size(), before + 19) << board.desk.trouble();
+    EXPECT_NE(board.desk.world().drawing().find("rain 20"), nullptr);
+    board.desk.undoManager().undo();
+    EXPECT_EQ(board.drawn().bodies.size(), before + 9) << "one rain, one step";
+}
+
+TEST(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
+    Board board;
+    const auto before = board.drawn().bodies.size();
+    board.pane.setRainCount(10);
+    board.pane.setRainWay({20, true});
+    board.key('n');
+    board.drag(board.share(0.4, 0.4), board.share(0.6, 0.6));
+    EXPECT_EQ(board.drawn().bodies.size(), before + 1) << "the world stands";
+    const auto* first = board.desk.world().drawing().find("rain 1");
+    ASSERT_NE(first, nullptr);
+    EXPECT_GT(first->velocityMetresPerSecond.y, 0.0) << "a fountain";
+    board.desk.setSlowness(1);
+    const auto from = board.desk.session().world().sceneNs();
+    ASSERT_TRUE(runUntil([&] { return board.view.refresh(), board.drawn().bodies.size() == before + 10; }));
+    const double seconds = 1e-9 * static_cast<double>(board.desk.session().world().sceneNs() - from);
+    EXPECT_GT(seconds, 0.4) << "20 a second";
+    EXPECT_LT(seconds, 1.5);
+    EXPECT_NE(board.desk.world().drawing().find("rain 10"), nullptr);
+    board.desk.undoManager().undo();
+    EXPECT_EQ(board.drawn().bodies.size(), before);
+}
+
+TEST(Drawing, ARefusedEditLeavesNoStepAndNoHalf) {
+    Board board;
+    const auto before = board.drawn().bodies.size();
+    const auto steps = board.desk.undoManager().getUndoDescriptions().size();
+    BodyDescription ball = board.drawn().bodies.front();
+    ball.name = "twice";
+    EXPECT_NE(board.desk.world().edit("Two", {SpawnAction{ball, {}}, RemoveAction{"nobody"}}), "");
+    EXPECT_EQ(board.drawn().bodies.size(), before);
+    EXPECT_EQ(board.desk.undoManager().getUndoDescriptions().size(), steps);
+}
+
 TEST(Drawing, ASeesawIsPinnedToTheFieldAndStartsAnewAsItWasDrawn) {
     Board board;
     board.key('x');
@@ -315,6 +366,25 @@ TEST(FirstStart, TestsFromTheLevelOfBeforeIfThatIsLower) {
     EXPECT_EQ(desk.mix().levelDb, -40.0);
     card.end(true);
     EXPECT_EQ(desk.session().world().slowness(), 0) << "as it was";
+}
+
+TEST(FirstStart, HeadphonesByNameComeBeforeAControllerAndOtherSpeakersBehindIt) {
+    FakeInterface speakers, ears, hands;
+    speakers.name = "Monitor speakers";
+    ears.name = "USB Headset";
+    speakers.outputs = ears.outputs = 2;
+    const std::vector<SinkOffer> pad{{&kindOf({"PAD", {}}), {"DualSense"}}};
+    const auto first = [](const std::vector<FeltChoice>& choices, std::size_t k) { return choices[k].title; };
+    const auto plain = feltChoices(fakeDrivers({&speakers}), pad);
+    EXPECT_TRUE(first(plain, 0).startsWith("Game controller")) << first(plain, 0);
+    EXPECT_TRUE(first(plain, 1).startsWith("Headphones: ")) << first(plain, 1);
+    const auto named = feltChoices(fakeDrivers({&speakers, &ears}), pad);
+    EXPECT_EQ(first(named, 0), "Headphones: Fake:USB Headset");
+    EXPECT_TRUE(named[0].isHeard);
+    EXPECT_TRUE(first(named, 1).startsWith("Game controller")) << first(named, 1);
+    const auto many = feltChoices(fakeDrivers({&hands, &ears}), pad); // eight outputs
+    EXPECT_EQ(many[0].outputs, 8);
+    EXPECT_EQ(first(many, 1), "Headphones: Fake:USB Headset");
 }
 
 TEST(FirstStart, ABoardIsOfferedBeforeControllers) {

@@ -334,8 +334,88 @@ TEST(MixerView, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {
     EXPECT_EQ(desk.trouble(), "four");
     desk.report({});
     EXPECT_EQ(desk.trouble(), "three") << "nobody has acted on it yet";
-    desk.messages().withdraw("three");
+    desk.report("five"); // "three" still waits for its button
+    desk.report({});
+    desk.report({});
     EXPECT_TRUE(desk.trouble().isEmpty());
+}
+
+TEST(MixerView, AMessageIsFoundByItsLabel) {
+    Desk desk{onlyNoDevice(), noDevice};
+    auto& messages = desk.messages();
+    messages.show({"the device is gone", false, {}, "device"});
+    messages.show({"the board is gone", false, {}, "board"});
+    EXPECT_EQ(desk.trouble(), "the board is gone");
+    messages.show({"the board answers slowly", false, {}, "board"}); // of a label there is one
+    messages.add({"the device is gone: searched for", false, {}, "device"});
+    messages.withdraw("board");
+    EXPECT_EQ(desk.trouble(), "the device is gone: searched for") << "in place of what waited";
+    messages.add({"saved", true});
+    messages.withdraw("board");
+    EXPECT_EQ(desk.trouble(), "the device is gone: searched for");
+    messages.withdraw("device");
+    EXPECT_EQ(desk.trouble(), "saved");
+    EXPECT_EQ(desk.device().trouble(), "") << "whatever is shown";
+}
+
+TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    view.setVisible(true);
+    view.setShow(true);
+    desk.messages().add(
+        {juce::String::repeatedString("a long message ", 30), false, {"Do it", [] {}}, "long"});
+    desk.dispatchPendingMessages();
+    view.setHint(true);
+    auto* silence = dynamic_cast<juce::Button*>(find(view, "Silence"));
+    ASSERT_NE(silence, nullptr);
+    for (const auto& [width, height] :
+         {std::pair{MixerView::leastWidth, MixerView::leastHeight}, {1280, 720}, {1440, 900}, {3840, 2160}})
+        for (const bool hasCard : {false, true}) {
+            view.setSize(width, height);
+            view.setCard(
+                hasCard ? std::make_unique<QuestionCard>("Save?", "It would be lost.",
+                                                         std::vector<QuestionCard::Answer>{{"Yes", [] {}}})
+                        : nullptr);
+            const auto at = view.getLocalArea(silence, silence->getLocalBounds());
+            for (const auto& corner : {at.getTopLeft(), at.getBottomRight() - juce::Point<int>{1, 1}})
+                EXPECT_EQ(view.getComponentAt(corner), silence) << width << corner.toString();
+            EXPECT_FALSE(find(view, "Trouble")->getBounds().intersects(at)) << width;
+        }
+    silence->onClick();
+    desk.dispatchPendingMessages();
+    EXPECT_TRUE(desk.isSilent());
+    EXPECT_EQ(silence->getButtonText(), "SILENT: press");
+}
+
+TEST(MixerView, NoToolIsChosenWhereNoneIsShown) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    auto& pane = view.world().drawing();
+    view.setShow(true);
+    view.keyPressed(juce::KeyPress{'B', {}, 'b'});
+    EXPECT_EQ(pane.tool(), DrawTool::hand);
+    pane.use(DrawTool::ball); // as a new scene does
+    EXPECT_EQ(pane.tool(), DrawTool::hand);
+    view.setShow(false);
+    view.keyPressed(juce::KeyPress{'B', {}, 'b'});
+    EXPECT_EQ(pane.tool(), DrawTool::ball);
+}
+
+TEST(MixerView, TheStatesOfDeviceAndBoardAreShownAtEverySize) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    for (const int width : {MixerView::leastWidth, 1280, 1359, 1360, 1395, 1439, 1440, 1920, 3840}) {
+        view.setSize(width, std::max(MixerView::leastHeight, width * 9 / 16));
+        int right = 0;
+        for (const char* title : {"Device state", "Board state", "Load"}) {
+            const auto* state = find(view, title);
+            ASSERT_NE(state, nullptr);
+            EXPECT_GE(state->getWidth(), 100) << title << " at " << width;
+            EXPECT_GE(state->getX(), right) << title << " at " << width;
+            right = state->getRight();
+        }
+    }
 }
 
 TEST(MixerView, IsDrawnWhileStripsGo) { // the window is told a moment later; its timer may come first

@@ -79,6 +79,15 @@ inline bool isSame(const EnchanterLayout& a, const EnchanterLayout& b) noexcept 
            std::equal(a.places.begin(), a.places.begin() + a.count, b.places.begin(), equal);
 }
 
+/// True if both play the same, and say so in the same words. Any thread.
+inline bool isSame(const Mix& a, const Mix& b) {
+    return (a.scene == b.scene || *a.scene == *b.scene) && a.seed == b.seed &&
+           a.layout.name == b.layout.name && isSame(a.layout.geometry, b.layout.geometry) &&
+           a.layout.enchanters == b.layout.enchanters && a.law == b.law && a.exponent == b.exponent &&
+           a.strips == b.strips && a.groups == b.groups && a.levelDb == b.levelDb &&
+           a.dragNewtonSecondsPerScreenMetre == b.dragNewtonSecondsPerScreenMetre;
+}
+
 /// Factor that all channels are multiplied by last. Any thread.
 inline float masterGain(const Mix& mix) noexcept {
     return mix.levelDb <= leastStripDb ? 0.0f : static_cast<float>(fromDecibels(mix.levelDb));

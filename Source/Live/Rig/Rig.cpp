@@ -12,12 +12,6 @@ RigSettings withLog(RigSettings settings) {
     return settings;
 }
 
-void add(std::string& line, const std::string& more) {
-    if (more.empty()) return;
-    if (!line.empty()) line += "; ";
-    line += more;
-}
-
 } // namespace
 
 Rig::Rig(RigSettings settings, AudioDrivers drivers, const std::atomic<bool>* isEnded)
@@ -83,14 +77,24 @@ std::vector<SinkState> Rig::sinkStates() const {
     return states;
 }
 
-std::string Rig::trouble() const {
-    std::string line = deviceTrouble_;
+std::vector<RigTrouble> Rig::troubles() const {
+    std::vector<RigTrouble> all;
+    const auto add = [&all](const std::string& source, const std::string& words) {
+        if (!words.empty()) all.push_back({source, words});
+    };
+    add("device", deviceTrouble_);
     const bool isPatient =
         !settings_.awaitsSinks && std::chrono::steady_clock::now() - connectedAt_ < patience;
     if (!isPatient)
-        for (const SinkState& sink : sinkStates()) add(line, sink.trouble);
-    if (journal_) add(line, journal_->news());
-    if (recording_) add(line, recording_->error());
+        for (const SinkState& sink : sinkStates()) add(sink.name, sink.trouble);
+    if (journal_) add("journal", journal_->news());
+    if (recording_) add("recording", recording_->error());
+    return all;
+}
+
+std::string Rig::trouble() const {
+    std::string line;
+    for (const RigTrouble& trouble : troubles()) line += (line.empty() ? "" : "; ") + trouble.words;
     return line;
 }
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace physvib {
 
@@ -23,6 +24,13 @@ struct RigSettings {
     std::string recordPath{}; ///< WAV file; empty: none
     std::string savePath{};   ///< session as JSON, with its event list beside it; empty: none
     Provenance provenance{};  ///< of the event list
+};
+
+/// What does not work, and its one-line error.
+struct RigTrouble {
+    std::string source; ///< "device", the name of a sink, "journal" or "recording"
+    std::string words;
+    bool operator==(const RigTrouble&) const = default;
 };
 
 /// All methods M only, except session() and those methods of it that any thread may call.
@@ -64,8 +72,9 @@ public:
 
     /// Supervises the device; call about once a second.
     void maintain() { deviceTrouble_ = output_.maintain(); }
-    /// Errors of the device (from the last maintain()), the sinks, the journal and the recording, in one
-    /// line; empty: none.
+    /// Errors of the device (from the last maintain()), the sinks, the journal and the recording.
+    std::vector<RigTrouble> troubles() const;
+    /// The same in one line; empty: none.
     std::string trouble() const;
     /// State of each sink.
     std::vector<SinkState> sinkStates() const;

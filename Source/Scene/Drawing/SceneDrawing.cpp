@@ -5,6 +5,7 @@
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace physvib {
@@ -22,11 +23,6 @@ std::vector<Action> ofFixtures(const BodyDescription* body, Make make) {
     for (std::size_t i = 0; body != nullptr && i < body->fixtures.size(); ++i)
         back.push_back(make(static_cast<int>(i), body->fixtures[i]));
     return back;
-}
-
-template <class Named>
-bool has(const std::vector<Named>& all, const std::string& name) {
-    return std::ranges::find(all, name, &Named::name) != all.end();
 }
 
 } // namespace
@@ -57,17 +53,17 @@ const BodyDescription* SceneDrawing::find(std::string_view body) const noexcept 
     return found == drawn_.bodies.end() ? nullptr : &*found;
 }
 
-std::string SceneDrawing::freeName(const std::string& stem) const {
-    const auto cast = sceneCast(cast_);
-    const auto isTaken = [&](const std::string& name) {
-        const auto isJoint = [&](const LiveInput& input) {
-            const auto* join = std::get_if<JoinAction>(&input.action);
-            return join != nullptr && join->joint.name == name;
-        };
-        return has(cast, name) || has(drawn_.joints, name) || std::ranges::any_of(cast_.inputs, isJoint);
-    };
-    for (int n = 1;; ++n)
-        if (std::string name = stem + " " + std::to_string(n); !isTaken(name)) return name;
+std::vector<std::string> SceneDrawing::freeNames(const std::string& stem, std::size_t count) const {
+    std::set<std::string> taken;
+    for (const BodyDescription& body : sceneCast(cast_)) taken.insert(body.name);
+    for (const JointDescription& joint : drawn_.joints) taken.insert(joint.name);
+    for (const LiveInput& input : cast_.inputs)
+        if (const auto* join = std::get_if<JoinAction>(&input.action)) taken.insert(join->joint.name);
+    std::vector<std::string> names;
+    for (int n = 1; names.size() < count; ++n)
+        if (std::string name = stem + " " + std::to_string(n); !taken.contains(name))
+            names.push_back(std::move(name));
+    return names;
 }
 
 std::vector<Action> SceneDrawing::undoOf(const Action& action, const PoseNow& now) const {

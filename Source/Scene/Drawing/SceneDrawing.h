@@ -37,7 +37,9 @@ public:
 
     const BodyDescription* find(std::string_view body) const noexcept; ///< in drawn(); nullptr: none
     /// "ball 1", "ball 2"...: the first name that was never used.
-    std::string freeName(const std::string& stem) const;
+    std::string freeName(const std::string& stem) const { return freeNames(stem, 1).front(); }
+    /// The first so many of them.
+    std::vector<std::string> freeNames(const std::string& stem, std::size_t count) const;
 
 private:
     Scene drawn_, cast_;

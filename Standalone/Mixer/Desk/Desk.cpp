@@ -11,7 +11,8 @@ namespace physvib {
 namespace {
 
 constexpr int stepsPerSecond = 100;
-constexpr double newStripDb = -12.0; // quiet, because people may be holding the actuators
+constexpr const char* deviceLabel = "device"; // as Rig names it
+constexpr double newStripDb = -12.0;          // quiet, because people may be holding the actuators
 
 Mix shakeTheBox() {
     Mix mix;
@@ -60,17 +61,25 @@ public:
         : desk_{desk}
         , before_{std::move(before)}
         , after_{std::move(after)} {}
-    bool perform() override { return desk_.apply(after_), true; }
+    // JUCE keeps no step of an action that fails at first, but forgets all steps if one fails later
+    bool perform() override {
+        const bool isDone = desk_.apply(after_);
+        return std::exchange(isRepeated_, true) || isDone;
+    }
     bool undo() override { return desk_.apply(before_), true; }
     int getSizeInUnits() override { return 1; }
     juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
         const auto* other = dynamic_cast<MixEdit*>(next);
-        return other != nullptr ? new MixEdit{desk_, before_, other->after_} : nullptr;
+        if (other == nullptr) return nullptr;
+        auto* both = new MixEdit{desk_, before_, other->after_};
+        both->isRepeated_ = true;
+        return both;
     }
 
 private:
     Desk& desk_;
     Mix before_, after_;
+    bool isRepeated_ = false;
 };
 
 Desk::Desk(AudioDrivers drivers, const DeviceChoice& device, Mix mix, DeskStart start)
@@ -126,8 +135,9 @@ void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
     reportWithout(*this, without);
 }
 
-void Desk::apply(const Mix& next) {
+bool Desk::apply(const Mix& next) {
     const Mix before = std::exchange(mix_, next);
+    bool isRefused = false;
     ++edits_;
     mostEnchanters_ = std::max(mostEnchanters_, mix_.count());
     if (mix_.scene != before.scene || mix_.seed != before.seed) beginWorld(mix_.scene == before.scene);
@@ -140,9 +150,12 @@ void Desk::apply(const Mix& next) {
         if (const auto error = device_.assign(); !error.empty()) {
             takeOutputs(output().channelMap(), mix_.strips); // a refused output is neither shown nor saved
             report(utf8(error));
+            isRefused = isSame(mix_, before);
         }
     output().setLevel(masterGain(mix_));
+    if (isRefused) --edits_;
     sendChangeMessage();
+    return !isRefused;
 }
 
 bool Desk::attach(double shareX, double shareY) {
@@ -200,7 +213,10 @@ std::string Desk::open(const DeviceChoice& choice) {
     const int slowness = session().world().slowness();
     auto error = device_.open(choice);
     session().world().setSlowness(slowness); // the first device resets it
-    report(deviceTrouble_ = utf8(error));
+    if (!error.empty())
+        messages_.show({utf8(error), false, {}, deviceLabel});
+    else
+        messages_.withdraw(deviceLabel);
     signals_.setRate(output().sampleRateHz());
     return error;
 }
@@ -222,13 +238,14 @@ void Desk::watchOutput() {
     const int slowness = session().world().slowness();
     device_.maintain();
     session().world().setSlowness(slowness);
-    const auto trouble = device_.trouble();
-    if (trouble == deviceTrouble_) return;
-    const auto before = std::exchange(deviceTrouble_, trouble);
-    if (trouble.isNotEmpty())
-        report(trouble);
-    else
-        messages_.withdraw(before);
+    // each source of errors has a message of its own
+    const auto before = std::exchange(troubles_, device_.troubles());
+    for (const RigTrouble& old : before)
+        if (std::ranges::find(troubles_, old.source, &RigTrouble::source) == troubles_.end())
+            messages_.withdraw(utf8(old.source));
+    for (const RigTrouble& trouble : troubles_)
+        if (std::ranges::find(before, trouble) == before.end())
+            messages_.show({utf8(trouble.words), false, {}, utf8(trouble.source)});
 }
 
 void Desk::restart(std::uint32_t seed) {

@@ -94,7 +94,7 @@ private:
 
     void watchOutput();
     void beginWorld(bool isSameScene);
-    void apply(const Mix& next);
+    bool apply(const Mix& next); // false: it was refused, and nothing has changed
     void showSilence();
     void takePlayed();
     void takeFelt(const Result<std::string>& note);
@@ -108,7 +108,7 @@ private:
     juce::UndoManager undo_;
     DeskWorld world_;
     DeskMessages messages_{[this] { sendChangeMessage(); }};
-    juce::String deviceTrouble_; // the device's last error
+    std::vector<RigTrouble> troubles_; // as shown
     double displayWidthMetres_ = 0.0;
     bool isSilent_ = false;
     std::uint64_t edits_ = 0;

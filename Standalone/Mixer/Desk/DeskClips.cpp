@@ -23,8 +23,20 @@ DeskClips::~DeskClips() {
 }
 
 void DeskClips::feel(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone) {
-    reader_.addJob([=, this] {
-        auto result = strike(file, atMetres, isAlone);
+    PlainMessage clip{"clip",
+                      {{"file", file.getFullPathName().toStdString()},
+                       {"place", std::vector{atMetres.xMetres, atMetres.yMetres}}}};
+    if (isAlone) clip.values.push_back({"law", std::string{nameOf(Spread::alone)}});
+    read(std::move(clip));
+}
+
+void DeskClips::play(const juce::File& file) {
+    read({"clip", {{"file", file.getFullPathName().toStdString()}}});
+}
+
+void DeskClips::read(PlainMessage clip) {
+    reader_.addJob([this, clip = std::move(clip)] {
+        auto result = strike(clip);
         const std::lock_guard lock{mutex_};
         results_.push_back(std::move(result));
         triggerAsyncUpdate();
@@ -32,11 +44,7 @@ void DeskClips::feel(const juce::File& file, const EnchanterPlace& atMetres, boo
 }
 
 // Runs on the reader's thread.
-Result<std::string> DeskClips::strike(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone) {
-    PlainMessage clip{"clip",
-                      {{"file", file.getFullPathName().toStdString()},
-                       {"place", std::vector{atMetres.xMetres, atMetres.yMetres}}}};
-    if (isAlone) clip.values.push_back({"law", std::string{nameOf(Spread::alone)}});
+Result<std::string> DeskClips::strike(const PlainMessage& clip) {
     const auto unlessLent = [this](const std::string& path) { // a study may have borrowed the output while
                                                               // earlier clips were read
         return output_.isLent() ? Result<LoadedClip>{Failure{"a study is running"}} : loadWholeClip(path);

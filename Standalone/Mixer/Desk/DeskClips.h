@@ -27,9 +27,12 @@ public:
     /// Plays the clip when it has been read: at that place of the field, or only on the actuator there. Clips
     /// are read one after the other.
     void feel(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone);
+    /// The same, each channel on the actuator of its number.
+    void play(const juce::File& file);
 
 private:
-    Result<std::string> strike(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone);
+    void read(PlainMessage clip);
+    Result<std::string> strike(const PlainMessage& clip);
     void handleAsyncUpdate() override;
 
     const AudioOutput& output_;

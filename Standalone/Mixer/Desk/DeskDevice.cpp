@@ -50,6 +50,11 @@ void DeskDevice::maintain() {
     rig_.maintain();
 }
 
-juce::String DeskDevice::trouble() const { return utf8(rig_.trouble()); }
+std::vector<RigTrouble> DeskDevice::troubles() const { return rig_.troubles(); }
+
+juce::String DeskDevice::trouble() const {
+    const auto all = troubles();
+    return all.empty() ? juce::String{} : utf8(all.front().words);
+}
 
 } // namespace physvib

@@ -17,7 +17,7 @@ public:
         , mix_{mix}
         , listening_{rig.output(), mix, choice_, std::move(onChange)} {}
 
-    /// Opens a device. Empty, or an error, which trouble() has too.
+    /// Opens a device. Empty, or an error, which troubles() has too.
     std::string open(const DeviceChoice& choice);
 
     /// The chosen device and the available ones. outputs(): number of its outputs.
@@ -42,8 +42,10 @@ public:
     /// restarted.
     std::function<void(const DeviceChoice&)> onSinksWanted;
 
-    /// Checks the sinks; to be called often. trouble(): error in one line.
+    /// Checks the sinks; to be called often.
     void maintain();
+    std::vector<RigTrouble> troubles() const; ///< see Rig
+    /// Why the device, or else a sink, does not play, whatever message is shown; empty: it plays.
     juce::String trouble() const;
 
 private:

@@ -18,6 +18,7 @@ struct DeskMessage {
     juce::String words;  ///< one line; empty: none
     bool isNews = false; ///< a success; else an error
     DeskAct act{};
+    juce::String label{}; ///< what it is about: there is one message of a label; empty: nothing that lasts
 };
 
 /// Message thread only.
@@ -29,16 +30,19 @@ public:
 
     const DeskMessage& shown() const noexcept { return shown_; }
 
-    /// Replaces the message. Without words the next one that waits is shown.
+    /// Replaces the message. Without words the next one that waits is shown. An error waits if it has a label
+    /// or a button, since it still stands.
     void show(DeskMessage message);
 
-    /// Shows the message after those that are there.
+    /// Shows the message after those that are there, or in the place of the one of its label.
     void add(DeskMessage message);
 
-    /// Removes messages that begin with these words, since they are no longer true.
-    void withdraw(const juce::String& words);
+    /// Removes the message of this label, since it is no longer true.
+    void withdraw(const juce::String& label);
 
 private:
+    void put(DeskMessage message);
+
     std::function<void()> onChange_;
     DeskMessage shown_;
     std::deque<DeskMessage> waiting_;

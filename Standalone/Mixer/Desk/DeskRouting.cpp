@@ -45,7 +45,8 @@ void reportWithout(Desk& desk, const std::vector<std::size_t>& strips) {
                                               : " have no outputs: other actuators have them"),
          false,
          {isOne ? "Give a free output" : "Give free outputs",
-          [&desk, strips] { giveFreeOutputs(desk, strips); }}});
+          [&desk, strips] { giveFreeOutputs(desk, strips); }},
+         "outputs"});
 }
 
 } // namespace physvib

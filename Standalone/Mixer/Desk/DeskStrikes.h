@@ -26,6 +26,8 @@ public:
     /// Plays a dropped clip at a place of the field, or on one actuator only, when it has been read.
     void feelAt(const juce::StringArray& files, double shareX, double shareY);
     void feelOn(const juce::StringArray& files, int enchanter);
+    /// Plays a recording, each channel on the actuator of its number, when it has been read.
+    void playTake(const juce::File& file) { clips_.play(file); }
 
 private:
     bool strike(std::vector<CollisionEvent> strikes, const EnchanterPlace& at);

@@ -16,7 +16,12 @@ public:
     Edit(DeskWorld& world, SceneEdit edit)
         : world_{world}
         , edit_{std::move(edit)} {}
-    bool perform() override { return run(true); }
+    // refused in the middle: what was done of it is taken back, and JUCE keeps no step
+    bool perform() override {
+        const bool isDone = run(true);
+        if (!isDone && !isRepeated_) run(false);
+        return std::exchange(isRepeated_, true) || isDone;
+    }
     bool undo() override { return run(false); }
     int getSizeInUnits() override { return 1; }
     // merges successive changes of a sound or texture by one control
@@ -24,7 +29,9 @@ public:
         const auto* other = dynamic_cast<Edit*>(next);
         if (other == nullptr || !(isTurned<SoundAction>(*other) || isTurned<TextureAction>(*other)))
             return nullptr;
-        return new Edit{world_, edit_.followedBy(other->edit_)};
+        auto* both = new Edit{world_, edit_.followedBy(other->edit_)};
+        both->isRepeated_ = true;
+        return both;
     }
 
 private:
@@ -37,12 +44,15 @@ private:
     }
     bool run(bool isForth) {
         const auto now = [this](const std::string& body) { return world_.poseNow(body); };
-        return edit_
-            .run(isForth, world_.drawing_, now, [this](const Action& action) { return world_.act(action); })
-            .empty();
+        auto fault = edit_.run(isForth, world_.drawing_, now,
+                               [this](const Action& action) { return world_.act(action); });
+        const bool isDone = fault.empty();
+        if (!isDone) world_.refused_ = std::move(fault);
+        return isDone;
     }
     DeskWorld& world_;
     SceneEdit edit_;
+    bool isRepeated_ = false;
 };
 
 DeskWorld::DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo,
@@ -95,8 +105,9 @@ std::string DeskWorld::edit(const juce::String& name, std::vector<Action> action
     if (actions.empty()) return {};
     if (auto fault = drawing_.check(actions); !fault.empty()) return fault;
     if (!goesOn || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
+    refused_.clear();
     undo_.perform(new Edit{*this, SceneEdit{std::move(actions)}});
-    return {};
+    return std::exchange(refused_, {});
 }
 
 juce::String DeskWorld::tooMuch(std::int64_t sessionNs, std::int64_t posesNs,

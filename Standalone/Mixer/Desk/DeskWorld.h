@@ -56,6 +56,7 @@ private:
     juce::UndoManager& undo_;
     std::function<void(bool isShown)> onInput_;
     SceneDrawing drawing_;
+    std::string refused_; // why the last edit was refused
     std::uint64_t edits_ = 0;
     PaceWatch pace_;
     bool isTooMuch_ = false;

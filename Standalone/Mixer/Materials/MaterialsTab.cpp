@@ -5,6 +5,7 @@
 #include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Materials/FeltRange.h"
 #include "Mixer/Materials/MaterialColumns.h"
+#include "Mixer/Window/CardHost.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/SceneLimits.h"
 #include <cmath>
@@ -236,13 +237,10 @@ void MaterialsTab::visibilityChanged() {
 }
 
 void MaterialsTab::browse() {
-    chooser_ = std::make_unique<juce::FileChooser>(
-        "A recording of one hit", juce::SharedResourcePointer<UserFolder> {} -> place(), "*.wav;*.flac;*.ogg",
-        false);
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
-                          [this](const juce::FileChooser& chooser) {
-                              if (const auto file = chooser.getResult(); file != juce::File{}) measure(file);
-                          });
+    const auto folder = juce::SharedResourcePointer<UserFolder> {
+        } -> place();
+    askForFile(*this, {"A recording of one hit", ".wav", folder, false, {}, {".flac", ".ogg"}},
+               [this](const juce::File& file) { measure(file); });
 }
 
 void MaterialsTab::measure(const juce::File& file) {

@@ -106,7 +106,6 @@ private:
     SpectrumPlot spectrum_;
     CoursePlot course_;
     juce::Rectangle<int> headArea_;
-    std::unique_ptr<juce::FileChooser> chooser_;
     std::deque<Job> waiting_;
     std::unique_ptr<Measuring> measuring_;
 };

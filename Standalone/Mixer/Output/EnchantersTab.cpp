@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // List of actuators, and controls of the panner.
 #include "Mixer/Output/EnchantersTab.h"
+#include "Mixer/Window/CardHost.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/ActuatorFile.h"
 
@@ -152,41 +153,38 @@ void EnchantersTab::choose(int enchanter) {
 void EnchantersTab::editRow(int enchanter) {
     const auto i = static_cast<std::size_t>(enchanter);
     const auto& e = desk_.mix().layout.enchanters[i];
-    auto* window =
-        new juce::AlertWindow{"Actuator " + utf8(e.label), {}, juce::MessageBoxIconType::NoIcon, this};
-    window->addTextEditor("label", utf8(e.label), "Label");
     juce::StringArray profiles{"none"};
     for (const auto& profile : builtInActuators()) profiles.add(utf8(profile.name));
-    window->addComboBox("actuator", profiles, "Actuator");
-    auto* actuator = window->getComboBoxComponent("actuator");
-    actuator->setText(utf8(e.actuator), juce::dontSendNotification);
-    actuator->onChange = [window, actuator] {
-        const auto profile = findActuator(actuator->getText().toStdString());
+    constexpr const char* fullScale = "Full scale in g";
+    QuestionCard::Field actuator{"Actuator", utf8(e.actuator), {}, profiles};
+    actuator.onChoice = [](QuestionCard& card, const juce::String& name) {
+        const auto profile = findActuator(name.toStdString());
         if (profile && profile.value.fullScaleG)
-            window->getTextEditor("g")->setText(juce::String{*profile.value.fullScaleG}, false);
+            card.setValue(fullScale, juce::String{*profile.value.fullScaleG});
     };
-    window->addTextEditor("g", juce::String{e.fullScaleG}, "Full scale in g");
-    window->addButton("Take", 1, juce::KeyPress{juce::KeyPress::returnKey});
-    window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
-    window->enterModalState(
-        true, juce::ModalCallbackFunction::create([this, i, window](int answer) {
-            const auto label = window->getTextEditorContents("label").trim().toStdString();
-            const auto profile = window->getComboBoxComponent("actuator")->getText().toStdString();
-            const double g = window->getTextEditorContents("g").getDoubleValue();
-            const auto& all = desk_.mix().layout.enchanters;
-            if (answer == 0 || i >= all.size()) return;
-            for (std::size_t k = 0; k < all.size(); ++k)
-                if (label.empty() || (k != i && all[k].label == label))
-                    return desk_.report("Label: expected one that no other actuator has");
-            if (!(g > 0.0 && g <= 100.0))
-                return desk_.report("Full scale: expected a number of g above 0, at most 100");
-            desk_.change("Actuator " + utf8(label), [&](Mix& mix) {
-                mix.layout.enchanters[i].label = label;
-                mix.layout.enchanters[i].actuator = profile;
-                mix.layout.enchanters[i].fullScaleG = g;
-            });
-        }),
-        true);
+    askForValues(*this, "Actuator " + utf8(e.label), "Take",
+                 {{"Label", utf8(e.label)},
+                  std::move(actuator),
+                  {fullScale, juce::String{e.fullScaleG}, "0123456789.,"}},
+                 [this, i](const juce::StringArray& values) {
+                     takeRow(i, values[0].toStdString(), values[1].toStdString(),
+                             values[2].replaceCharacter(',', '.').getDoubleValue());
+                 });
+}
+
+void EnchantersTab::takeRow(std::size_t i, const std::string& label, const std::string& profile, double g) {
+    const auto& all = desk_.mix().layout.enchanters;
+    if (i >= all.size()) return; // it was detached meanwhile
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (label.empty() || (k != i && all[k].label == label))
+            return desk_.report("Label: expected one that no other actuator has");
+    if (!(g > 0.0 && g <= 100.0))
+        return desk_.report("Full scale: expected a number of g above 0, at most 100");
+    desk_.change("Actuator " + utf8(label), [&](Mix& mix) {
+        mix.layout.enchanters[i].label = label;
+        mix.layout.enchanters[i].actuator = profile;
+        mix.layout.enchanters[i].fullScaleG = g;
+    });
 }
 
 void EnchantersTab::takePreset() {

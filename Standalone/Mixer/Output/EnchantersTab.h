@@ -45,6 +45,7 @@ private:
     };
     void choose(int enchanter);
     void takePreset();
+    void takeRow(std::size_t i, const std::string& label, const std::string& profile, double fullScaleG);
 
     Desk& desk_;
     WorldView& world_;

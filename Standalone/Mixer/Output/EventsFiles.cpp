@@ -2,6 +2,7 @@
 // Exports the selected contacts of the events list to files.
 #include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Output/EventsTab.h"
+#include "Mixer/Window/CardHost.h"
 #include <algorithm>
 #include <limits>
 
@@ -27,15 +28,13 @@ juce::String EventsTab::fileName() const {
 
 void EventsTab::saveAs() {
     if (chosen_.empty()) return;
-    using B = juce::FileBrowserComponent;
-    chooser_ = std::make_unique<juce::FileChooser>(
-        "Save the chosen contacts as a clip",
-        juce::SharedResourcePointer<UserFolder> {} -> place().getChildFile(fileName()),
-        "*" + hitEndings().joinIntoString(";*"), false);
-    chooser_->launchAsync(B::saveMode | B::warnAboutOverwriting | B::canSelectFiles,
-                          [this](const juce::FileChooser& chooser) {
-                              if (chooser.getResult() != juce::File{}) saveTo(chooser.getResult());
-                          });
+    const auto folder = juce::SharedResourcePointer<UserFolder> {
+        } -> place();
+    const auto name = juce::File::createFileWithoutCheckingPath("/" + fileName());
+    askForFile(*this,
+               {"Save the chosen contacts as a clip", name.getFileExtension(), folder, true,
+                name.getFileNameWithoutExtension(), hitEndings()},
+               [this](const juce::File& file) { saveTo(file); });
 }
 
 std::vector<juce::File> EventsTab::write(const juce::File& file, bool tellsHow) {

@@ -64,7 +64,6 @@ private:
     juce::Label choice_;
     juce::ComboBox format_;
     std::unique_ptr<juce::TextButton> save_;
-    std::unique_ptr<juce::FileChooser> chooser_;
     juce::SharedResourcePointer<DraggedFiles> files_;
     std::uint64_t seen_ = 0;
     double shownAtMs_ = 0.0;

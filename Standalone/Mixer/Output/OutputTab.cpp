@@ -2,6 +2,7 @@
 // Controls for the device, and its status text.
 #include "Mixer/Output/OutputTab.h"
 #include "Live/Devices/NoDevice.h"
+#include "Mixer/Window/CardHost.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {
@@ -227,18 +228,10 @@ juce::String OutputTab::heardWords() const {
 
 void OutputTab::ask(const juce::String& title, const juce::String& what, const juce::String& now,
                     std::function<void(const juce::String&)> use) {
-    auto* window = new juce::AlertWindow{title, {}, juce::MessageBoxIconType::NoIcon, this};
-    window->addTextEditor("answer", now, what);
-    window->addButton("Connect", 1, juce::KeyPress{juce::KeyPress::returnKey});
-    window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
-    window->enterModalState(
-        true,
-        juce::ModalCallbackFunction::create(
-            [safe = juce::Component::SafePointer<OutputTab>{this}, window, use = std::move(use)](int answer) {
-                const auto words = window->getTextEditorContents("answer").trim();
-                if (answer == 1 && safe != nullptr && words.isNotEmpty()) use(words);
-            }),
-        true);
+    askForValues(*this, title, "Connect", {{what, now}},
+                 [use = std::move(use)](const juce::StringArray& values) {
+                     if (values[0].isNotEmpty()) use(values[0]);
+                 });
 }
 
 std::vector<Fact> OutputTab::sinkFacts() const {

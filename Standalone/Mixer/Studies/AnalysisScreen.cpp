@@ -3,6 +3,7 @@
 #include "Mixer/Studies/AnalysisScreen.h"
 #include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Studies/StudyParts.h"
+#include "Mixer/Window/CardHost.h"
 
 namespace physvib {
 
@@ -112,13 +113,10 @@ void AnalysisScreen::browse() {
     const auto folder = files_.empty() ? juce::SharedResourcePointer<UserFolder> {
         } -> place()
             : files_.front().getParentDirectory();
-    chooser_ = std::make_unique<juce::FileChooser>("Trials of a study", folder, "*.csv", false);
-    constexpr int which = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles |
-                          juce::FileBrowserComponent::canSelectMultipleItems;
-    chooser_->launchAsync(which, [this](const juce::FileChooser& chooser) {
-        const auto chosen = chooser.getResults();
-        if (!chosen.isEmpty()) analyse({chosen.begin(), chosen.end()});
-    });
+    askForFiles(*this, {"Trials of a study", ".csv", folder, false, {}, {}, true},
+                [this](const juce::Array<juce::File>& files) {
+                    analyse({files.begin(), files.end()});
+                });
 }
 
 void AnalysisScreen::analyse(const std::vector<juce::File>& files) {

@@ -46,7 +46,6 @@ private:
     juce::TextEditor words_;
     std::unique_ptr<juce::TextButton> choose_, close_;
     juce::TextButton silence_; // the world continues behind this screen
-    std::unique_ptr<juce::FileChooser> chooser_;
     juce::Rectangle<int> titleArea_, pictureArea_;
 };
 

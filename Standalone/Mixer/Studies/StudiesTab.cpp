@@ -8,6 +8,7 @@
 #include "Live/Devices/NoDevice.h"
 #include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Studies/StudyLooks.h"
+#include "Mixer/Window/CardHost.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
 
@@ -148,25 +149,17 @@ void StudiesTab::pickProtocol() {
 }
 
 void StudiesTab::browseProtocol() {
-    chooser_ = std::make_unique<juce::FileChooser>("A protocol", juce::File{}, "*.json", false);
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
-                          [this](const juce::FileChooser& chooser) {
-                              if (const auto file = chooser.getResult(); file != juce::File{})
-                                  chooseProtocol(file.getFullPathName().toStdString());
-                              else if (protocol_)
-                                  choice_.setText(titleOf(protocol_->name), juce::dontSendNotification);
-                          });
+    askForFile(
+        *this, {"A protocol", ".json", juce::File{folder_.getText()}},
+        [this](const juce::File& file) { chooseProtocol(file.getFullPathName().toStdString()); },
+        [this] {
+            if (protocol_) choice_.setText(titleOf(protocol_->name), juce::dontSendNotification);
+        });
 }
 
 void StudiesTab::browseFolder() {
-    chooser_ = std::make_unique<juce::FileChooser>("The folder of the trial files",
-                                                   juce::File{folder_.getText()}, "*", false);
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode |
-                              juce::FileBrowserComponent::canSelectDirectories,
-                          [this](const juce::FileChooser& chooser) {
-                              if (const auto file = chooser.getResult(); file != juce::File{})
-                                  setFolder(file);
-                          });
+    askForFile(*this, {"The folder of the trial files", {}, juce::File{folder_.getText()}},
+               [this](const juce::File& folder) { setFolder(folder); });
 }
 
 std::string StudiesTab::chooseWords(const std::string& nameOrPath) {
@@ -197,14 +190,12 @@ void StudiesTab::pickWords() {
 }
 
 void StudiesTab::browseWords() {
-    chooser_ = std::make_unique<juce::FileChooser>("Words of a language", juce::File{}, "*.json", false);
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
-                          [this](const juce::FileChooser& chooser) {
-                              if (const auto file = chooser.getResult();
-                                  file == juce::File{} ||
-                                  !chooseWords(file.getFullPathName().toStdString()).empty())
-                                  chooseWords(wordsPath_);
-                          });
+    askForFile(
+        *this, {"Words of a language", ".json", juce::File{folder_.getText()}},
+        [this](const juce::File& file) {
+            if (!chooseWords(file.getFullPathName().toStdString()).empty()) chooseWords(wordsPath_);
+        },
+        [this] { chooseWords(wordsPath_); });
 }
 
 void StudiesTab::setAnswersElsewhere(bool areElsewhere) {

@@ -98,7 +98,6 @@ private:
     std::optional<StudyCheck> check_; // of protocol_
     juce::TextButton begin_{"Begin"};
     juce::Rectangle<int> aboutArea_, levelArea_, wordsArea_;
-    std::unique_ptr<juce::FileChooser> chooser_;
     std::unique_ptr<StudyFont> font_; // of the study screen
     std::unique_ptr<StudyScreen> screen_;
     std::unique_ptr<AnalysisScreen> analysis_;

@@ -86,7 +86,7 @@ private:
     void drawMaterials(juce::Graphics& g) const;
     /// Materials of the session's worlds, by the names of stimuli and objects.
     std::vector<MaterialLegend> materialsSeen() const;
-    juce::String headline() const, body() const, progressWords() const, feedback() const;
+    juce::String headline() const, body() const, wrong() const, progressWords() const, feedback() const;
     const Experiment& experiment() const noexcept { return study_->experiment(); }
 
     Desk& desk_;

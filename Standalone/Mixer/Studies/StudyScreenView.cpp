@@ -97,13 +97,18 @@ juce::String StudyScreen::feedback() const {
     return wasRight_ ? say_(*wasRight_ ? "That was right." : "That was wrong.") + "  " : juce::String{};
 }
 
+// News is no reason why a participant feels nothing.
+juce::String StudyScreen::wrong() const {
+    return desk_.isNews() ? desk_.device().trouble() : desk_.trouble();
+}
+
 juce::String StudyScreen::body() const {
     switch (page_) {
     case Page::trial:
         if (desk_.isSilent()) return say_("Everything is silent. Press the button to feel again.");
-        if (wasRight_ && plays() == 0 && desk_.trouble().isEmpty()) return feedback().trimEnd();
-        return desk_.trouble().isNotEmpty()
-                   ? juce::String{desk_.trouble()}
+        if (wasRight_ && plays() == 0 && wrong().isEmpty()) return feedback().trimEnd();
+        return wrong().isNotEmpty()
+                   ? wrong()
                    : say_.instruction(experiment().session(), experiment().condition()).replace("\n", " ");
     case Page::comment: return say_("In your own words, if you like.");
     case Page::done: return say_("Your answers are in") + "\n" + utf8(study_->path().string());
@@ -160,7 +165,7 @@ void StudyScreen::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::text));
     g.setFont(juce::Font{page_ == Page::trial ? text::large : 30.0f, juce::Font::bold});
     g.drawFittedText(headline(), questionArea_, juce::Justification::centred, 2, 1.0f);
-    const bool isTrouble = page_ == Page::trial && (desk_.isSilent() || desk_.trouble().isNotEmpty());
+    const bool isTrouble = page_ == Page::trial && (desk_.isSilent() || wrong().isNotEmpty());
     g.setColour(shade(*this, isTrouble ? Shade::limit : Shade::muted));
     g.setFont(juce::Font{page_ == Page::trial ? text::medium : text::large});
     g.drawFittedText(body(), bodyArea_, juce::Justification::centred, page_ == Page::trial ? 2 : 5, 1.0f);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lists folders and files, and checks a typed name.
 #include "Mixer/Window/FileCard.h"
+#include <algorithm>
 
 namespace physvib {
 
@@ -15,6 +16,7 @@ FileCard::FileCard(const Choice& choice)
     words_.setTitle("What is wrong");
     list_.setTitle("Files of the folder");
     list_.setRowHeight(rowHeight);
+    list_.setMultipleSelectionEnabled(choice.areSeveral);
     name_.setTitle("Name of the file");
     name_.setFont(juce::Font{text::medium});
     name_.setText(choice.name, false);
@@ -23,12 +25,12 @@ FileCard::FileCard(const Choice& choice)
     name_.onEscapeKey = [this] { onCancel(); };
     name_.onTextChange = [this] {
         replaced_ = juce::File{};
-        take_.setButtonText(choice_.isSaving ? "Save" : "Open");
+        take_.setButtonText(takeWords());
         tell({}, Shade::text);
     };
     up_.setTitle("Parent folder");
     up_.onClick = [this] { enter(folder_.getParentDirectory()); };
-    take_.setTitle(choice.isSaving ? "Save" : "Open");
+    take_.setTitle(takeWords());
     take_.setButtonText(take_.getTitle());
     take_.setToggleState(true, juce::dontSendNotification); // Return presses it
     take_.onClick = [this] { take(); };
@@ -42,19 +44,32 @@ FileCard::FileCard(const Choice& choice)
     enter(choice.folder);
 }
 
+juce::String FileCard::takeWords() const {
+    return isFolder() ? "Take this folder" : choice_.isSaving ? "Save" : "Open";
+}
+
+bool FileCard::hasEnding(const juce::File& file) const {
+    return !isFolder() && (file.hasFileExtension(choice_.ending) ||
+                           std::ranges::any_of(choice_.endings, [&](const juce::String& ending) {
+                               return file.hasFileExtension(ending);
+                           }));
+}
+
 void FileCard::enter(const juce::File& folder) {
     folder_ = folder.isDirectory() ? folder : juce::File::getSpecialLocation(juce::File::userHomeDirectory);
     entries_ = folder_.findChildFiles(juce::File::findDirectories | juce::File::ignoreHiddenFiles, false);
-    auto files = folder_.findChildFiles(juce::File::findFiles | juce::File::ignoreHiddenFiles, false,
-                                        "*" + choice_.ending);
     entries_.sort();
+    auto files = folder_.findChildFiles(juce::File::findFiles | juce::File::ignoreHiddenFiles, false);
     files.sort();
-    entries_.addArray(files);
+    for (const auto& file : files)
+        if (hasEnding(file)) entries_.add(file);
     place_.setText(folder_.getFullPathName(), juce::dontSendNotification);
     list_.deselectAllRows();
     list_.updateContent();
     list_.repaint();
-    tell(entries_.isEmpty() ? "No folders or " + choice_.ending + " files here" : juce::String{},
+    tell(!entries_.isEmpty() ? juce::String{}
+         : isFolder()        ? juce::String{"No folders here"}
+                             : "No folders or " + choice_.ending + " files here",
          Shade::muted);
 }
 
@@ -65,14 +80,19 @@ void FileCard::selectedRowsChanged(int row) {
 
 void FileCard::take() {
     const int row = list_.getSelectedRow();
+    if (list_.getNumSelectedRows() > 1) {
+        juce::Array<juce::File> files;
+        for (int k = 0; k < entries_.size(); ++k)
+            if (list_.isRowSelected(k) && !entries_[k].isDirectory()) files.add(entries_[k]);
+        if (files.size() > 1) return onFiles(files);
+    }
     if (juce::isPositiveAndBelow(row, entries_.size()) && entries_[row].isDirectory())
         return enter(entries_[row]);
-    if (name().isEmpty()) return tell("Expected a name", Shade::limit);
+    if (name().isEmpty()) return isFolder() ? onFile(folder_) : tell("Expected a name", Shade::limit);
     const auto typed = folder_.getChildFile(name()); // or an absolute path
     if (typed.isDirectory()) return enter(typed);
-    const auto file = typed.hasFileExtension(choice_.ending)
-                          ? typed
-                          : typed.getSiblingFile(typed.getFileName() + choice_.ending);
+    if (isFolder()) return tell(typed.getFullPathName() + ": expected a folder that is there", Shade::limit);
+    const auto file = hasEnding(typed) ? typed : typed.getSiblingFile(typed.getFileName() + choice_.ending);
     if (!choice_.isSaving)
         return file.existsAsFile()
                    ? onFile(file)

@@ -10,15 +10,18 @@ namespace physvib {
 class FileCard final : public juce::Component, private juce::ListBoxModel {
 public:
     struct Choice {
-        juce::String title, ending; ///< with its dot
+        juce::String title, ending; ///< with its dot; a name without an ending gets it. Empty: a folder
         juce::File folder;
         bool isSaving = false;
-        juce::String name{}; ///< suggested, without its ending
+        juce::String name{};         ///< suggested, without its ending
+        juce::StringArray endings{}; ///< others that are taken as well
+        bool areSeveral = false;     ///< several files can be selected, with Shift and Ctrl
     };
 
     explicit FileCard(const Choice& choice);
 
     std::function<void(const juce::File&)> onFile;
+    std::function<void(const juce::Array<juce::File>&)> onFiles; ///< two or more
     std::function<void()> onCancel;
 
     void enter(const juce::File& folder);
@@ -42,6 +45,9 @@ private:
     void returnKeyPressed(int) override { take(); }
     juce::String getNameForRow(int row) override { return entries_[row].getFileName(); }
     void tell(const juce::String& words, Shade which);
+    bool isFolder() const { return choice_.ending.isEmpty(); }
+    juce::String takeWords() const;
+    bool hasEnding(const juce::File& file) const;
 
     const Choice choice_;
     juce::File folder_;

@@ -21,6 +21,14 @@ juce::String outputsText(int outputs) {
     return juce::String{outputs} + (outputs == 1 ? " output" : " outputs");
 }
 
+/// Worn on the ears, by the name that the system gives it.
+bool isForEars(const std::string& device) {
+    const auto name = juce::String::fromUTF8(device.c_str()).toLowerCase();
+    for (const char* word : {"headphone", "headset", "earphone", "earbud", "airpods", "kopfh", "casque"})
+        if (name.contains(word)) return true;
+    return false;
+}
+
 } // namespace
 
 void keepTo(int outputs, Mix& mix, std::string_view device) {
@@ -50,8 +58,17 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
                           outputs};
         (outputs > 2 ? many : few).push_back(std::move(choice));
     }
-    std::optional<FeltChoice> ears; // best choice among sound devices
-    if (const auto& heard = few.empty() ? many : few; !heard.empty()) ears = heard.front();
+    // best choice among sound devices: headphones by their name, else any
+    std::optional<FeltChoice> ears;
+    if (const auto& heard = few.empty() ? many : few; !heard.empty()) {
+        const auto named = std::ranges::find_if(
+            heard, [](const FeltChoice& c) { return isForEars(c.device.name) && c.outputs >= 2; });
+        ears = named != heard.end() ? *named : heard.front();
+    }
+    const bool areNamed = ears && isForEars(ears->device.name);
+    // a device with a motor for each output, and headphones that say so, come before what vibrates beside it
+    const auto beforePads = std::ssize(many);
+    std::ptrdiff_t meant = 0;
     for (const auto& [kind, place] : offers) { // choice with the sink only, without a sound device
         FeltChoice choice{utf8(std::string{kind->title} + ": " + place.where) +
                               (place.about.empty() ? juce::String{} : "  " + utf8(place.about)),
@@ -60,11 +77,13 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
                           true};
         choice.device.want(*kind, place.where);
         many.insert(kind->isMeant ? many.begin() : many.end(), std::move(choice));
+        meant += kind->isMeant ? 1 : 0;
     }
     if (ears && ears->outputs >= 2) {
         ears->title = "Headphones: " + utf8(ears->device.name);
         ears->isHeard = true;
-        many.insert(many.begin() + std::min<std::ptrdiff_t>(std::ssize(many), mostRows - 1), *ears);
+        const auto at = areNamed ? beforePads + meant : std::ssize(many);
+        many.insert(many.begin() + std::min<std::ptrdiff_t>(at, mostRows - 1), *ears);
     }
     all = std::move(many);
     all.insert(all.end(), few.begin(), few.end());

@@ -62,7 +62,8 @@ void MixerWindow::tellLowered(const std::string& lowered, const Mix& asked) {
     if (asked_)
         desk_->messages().add({"Lowered to this desk: " + utf8(lowered),
                                false,
-                               {"Levels of the file", [this] { takeAsked(); }}});
+                               {"Levels of the file", [this] { takeAsked(); }},
+                               "levels"});
 }
 
 // The user may set levels that a file may not.
@@ -96,8 +97,9 @@ juce::File MixerWindow::folderOfDocuments() const {
 }
 
 void MixerWindow::tellSaved(const juce::String& words, const juce::File& file) {
-    desk_->messages().show(
-        {words + " " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}});
+    DeskMessage message{
+        words + " " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}, "saved"};
+    desk_->isNews() ? desk_->messages().show(std::move(message)) : desk_->messages().add(std::move(message));
 }
 
 void MixerWindow::chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
@@ -150,8 +152,7 @@ void MixerWindow::askThen(std::function<void()> goOn) {
         {{"Save",
           [this, goOn] {
               view_->setCard(nullptr);
-              save();
-              if (!isChanged()) goOn();
+              save(goOn);
           }},
          {"Do not save", [this, goOn] {
               view_->setCard(nullptr);
@@ -189,30 +190,34 @@ void MixerWindow::openFile(const juce::File& file) {
     tellLowered(lowered, asked);
 }
 
-void MixerWindow::save() {
-    if (document_ == juce::File{})
-        saveAs();
-    else
-        saveTo(document_);
+void MixerWindow::save(std::function<void()> then) {
+    if (document_ == juce::File{}) return saveAs(std::move(then));
+    if (saveTo(document_) && then) then();
 }
 
-void MixerWindow::saveAs() {
+void MixerWindow::saveAs(std::function<void()> then) {
     chooseFile(
-        "Save the session", sessionEnding, true, [this](const juce::File& file) { saveTo(file); },
+        "Save the session", sessionEnding, true,
+        [this, then = std::move(then)](const juce::File& file) {
+            if (!saveTo(file)) return;
+            if (then) then(); // which may open another session
+            tellSaved("Saved", file);
+        },
         documentName());
 }
 
-void MixerWindow::saveTo(const juce::File& file) {
+bool MixerWindow::saveTo(const juce::File& file) {
     const auto edits = desk_->edits();
     if (const auto error = writeFile(
             pathOf(file), sessionJson(desk_->saved(), std::filesystem::path{pathOf(file)}.parent_path()));
         !error.empty())
-        return say(utf8(error));
+        return say(utf8(error)), false;
     document_ = file;
     savedEdits_ = edits;
     files_.copies().forget();
     files_.addRecent(file);
     nameWindow();
+    return true;
 }
 
 void MixerWindow::record() {
@@ -241,9 +246,18 @@ void MixerWindow::renderOffline() {
 }
 
 void MixerWindow::make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work) {
+    if (rendering_) return say(rendering_->file().getFileName() + " is being made: one file at a time");
     rendering_ = std::make_unique<RenderTask>(
-        file, doneWords, std::move(work),
-        [this](const juce::String& words, bool isGood) { isGood ? desk_->tell(words) : say(words); }, *view_);
+        file, std::move(work), [this, file, doneWords](const std::string& error, bool isCancelled) {
+            rendering_.reset();
+            if (isCancelled)
+                desk_->tell("Cancelled; nothing was written");
+            else if (!error.empty())
+                say(utf8(error));
+            else
+                tellSaved(doneWords, file);
+        });
+    view_->setProgress(rendering_.get());
 }
 
 void MixerWindow::renderTo(const juce::File& file, double seconds) {
@@ -273,7 +287,8 @@ void MixerWindow::exportLayout() {
         "Save the layout to", sessionEnding, true,
         [this](const juce::File& file) {
             if (const auto error = writeFile(pathOf(file), layoutJson(desk_->mix().layout)); !error.empty())
-                say(utf8(error));
+                return say(utf8(error));
+            tellSaved("Saved the layout", file);
         },
         "layout");
 }

@@ -15,7 +15,7 @@ void MixerWindow::saveScene(bool isNow) {
         "Save as scene", ".json", true,
         [this, isNow](const juce::File& file) {
             if (const auto error = saveSceneTo(file, isNow); !error.empty()) return say(utf8(error));
-            desk_->tell("Saved " + file.getFullPathName());
+            tellSaved("Saved the scene", file);
         },
         "scene", files_.scenesFolder());
 }

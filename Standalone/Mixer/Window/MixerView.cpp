@@ -5,6 +5,7 @@
 #include "Mixer/Output/EnchantersTab.h"
 #include "Mixer/Output/EventsTab.h"
 #include "Mixer/Output/OutputTab.h"
+#include "Mixer/Output/TakesTab.h"
 #include "Mixer/Output/TelemetryTab.h"
 #include "Mixer/Strips/LanesTab.h"
 #include "Mixer/Strips/ScopeView.h"
@@ -40,6 +41,7 @@ MixerView::MixerView(Desk& desk)
     scope_.add("Played now", std::make_unique<ScopeView>(desk));
     scope_.add("Gain lanes", std::make_unique<LanesTab>(desk));
     scope_.add("Events", std::make_unique<EventsTab>(desk));
+    scope_.add("Takes", std::make_unique<TakesTab>(desk));
     scope_.add("Telemetry", std::make_unique<TelemetryTab>(desk));
     trouble_.setTitle("Trouble");
     trouble_.setFont(juce::Font{text::medium});
@@ -129,6 +131,7 @@ void MixerView::setShow(bool isShow) {
          std::initializer_list<juce::Component*>{&tabs_, &scope_, &strips_, &side_, &lower_, &between_})
         c->setVisible(!isShow);
     bar_.setShow(isShow);
+    bar_.setAlwaysOnTop(isShow); // no message and no card may cover the button that silences
     world_.setShow(isShow);
     resized();
     repaint();
@@ -208,6 +211,13 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     card_->grabKeyboardFocus();
 }
 
+void MixerView::setProgress(juce::Component* card) {
+    progress_ = card;
+    if (card == nullptr) return;
+    addAndMakeVisible(*card);
+    placeCards();
+}
+
 void MixerView::setDropShown(bool isShown) {
     isDropShown_ = isShown;
     repaint();
@@ -239,6 +249,7 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
     if (key == KeyPress::escapeKey) return desk_.setSilent(true), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
     if (key == KeyPress{'.'}) return desk_.session().world().stepOnce(), true;
+    if (key == KeyPress{'a', juce::ModifierKeys::noModifiers, 0}) return world_.compare().toggle(), true;
     if (key == KeyPress{'z', juce::ModifierKeys::commandModifier, 0}) return desk_.undoManager().undo(), true;
     if (key == KeyPress{'z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier, 0} ||
         key == KeyPress{'y', juce::ModifierKeys::commandModifier, 0})
@@ -306,6 +317,9 @@ void MixerView::placeCards() {
     const auto middle = getLocalBounds().withTrimmedTop(TopBar::heightFor(getWidth())).getCentre();
     if (firstStart_) firstStart_->setCentrePosition(middle);
     if (card_) card_->setCentrePosition(middle);
+    if (progress_ != nullptr)
+        progress_->setTopLeftPosition(world_.getRight() - progress_->getWidth() - 8,
+                                      world_.getBottom() - 56 - progress_->getHeight());
 }
 
 } // namespace physvib

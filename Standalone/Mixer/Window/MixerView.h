@@ -4,6 +4,7 @@
 #include "Host/Views/EmergencyStop.h"
 #include "Mixer/Strips/StripsPanel.h"
 #include "Mixer/Window/Arrangement.h"
+#include "Mixer/Window/CardHost.h"
 #include "Mixer/Window/Divider.h"
 #include "Mixer/Window/FirstStart.h"
 #include "Mixer/Window/QuestionCard.h"
@@ -16,6 +17,7 @@ namespace physvib {
 
 class MixerView final : public juce::Component,
                         public juce::DragAndDropContainer,
+                        public CardHost,
                         private juce::ChangeListener,
                         private juce::Timer {
 public:
@@ -47,10 +49,12 @@ public:
     void setFirstStart(std::unique_ptr<FirstStart> card);
     FirstStart* firstStart() noexcept { return firstStart_.get(); }
     /// Shows a question or a choice of files in the centre; null: none.
-    void setCard(std::unique_ptr<juce::Component> card);
+    void setCard(std::unique_ptr<juce::Component> card) override;
     juce::Component* card() noexcept { return card_.get(); }
     void setQuestion(std::unique_ptr<QuestionCard> card) { setCard(std::move(card)); }
     QuestionCard* question() noexcept { return dynamic_cast<QuestionCard*>(card_.get()); }
+    /// Shows a small card over a corner of the world, which does not take the keyboard; null: none.
+    void setProgress(juce::Component* card);
     /// Highlights the window while an acceptable file is dragged over it.
     void setDropShown(bool isShown);
     /// Files of a drag that leaves the window, if it contains played events.
@@ -87,6 +91,7 @@ private:
     std::unique_ptr<juce::TextButton> dismiss_, act_;
     std::unique_ptr<FirstStart> firstStart_;
     std::unique_ptr<juce::Component> card_;
+    juce::Component::SafePointer<juce::Component> progress_;
     ShownLetters letters_;
     std::uint64_t lettersOf_ = ~std::uint64_t{0}; // edit count of the world at the last check
     bool isHintShown_ = false, isDropShown_ = false, isShow_ = false;

@@ -5,6 +5,7 @@
 #include "Host/Views/DisplayScale.h"
 #include "Live/Devices/LikelyDevices.h"
 #include "Live/Devices/NoDevice.h"
+#include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/Parts.h"
 #include <algorithm>
 #include <array>
@@ -102,6 +103,7 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
     desk_ = std::make_unique<Desk>(drivers_, device_, std::move(mix), DeskStart{wasSilent, isPaused});
     desk_->exposure().goOnFrom(exposure);
     view_ = std::make_unique<MixerView>(*desk_);
+    view_->setProgress(rendering_.get()); // of another session, which goes on
     setContentNonOwned(view_.get(), getWidth() == 0);
     document_ = document;
     savedEdits_ = desk_->edits();
@@ -285,15 +287,13 @@ void MixerWindow::setDisplayWidth(double mm) {
 }
 
 void MixerWindow::chooseFolder() {
-    using B = juce::FileBrowserComponent;
-    chooser_ = std::make_unique<juce::FileChooser>("The folder of recordings, sessions, movies and studies",
-                                                   folder_->place(), "*", false);
-    chooser_->launchAsync(B::openMode | B::canSelectDirectories, [this](const juce::FileChooser& c) {
-        if (c.getResult() == juce::File{}) return;
-        folder_->choose(c.getResult());
-        files_.settings().setValue(folderSetting, c.getResult().getFullPathName());
-        if (const auto folder = folder_->make(); folder) tellSaved("Files go to", folder.value);
-    });
+    askForFile(view_->topBar(),
+               {"The folder of recordings, sessions, movies and studies", {}, folder_->place()},
+               [this](const juce::File& chosen) {
+                   folder_->choose(chosen);
+                   files_.settings().setValue(folderSetting, chosen.getFullPathName());
+                   if (const auto folder = folder_->make(); folder) tellSaved("Files go to", folder.value);
+               });
 }
 
 // Display sizes reported by the system are often wrong.
@@ -327,6 +327,7 @@ bool MixerWindow::keyPressed(const juce::KeyPress& key) {
     if (key == KeyPress{'q', command, 0}) return requestQuit(), true;
     if (key == KeyPress::F11Key) return setShow(!view_->isShow()), true;
     if (key == KeyPress{'0', command, 0}) return setZoom(0), true;
+    if (const int by = zoomStepOf(key); by != 0) return stepZoom(by), true;
     if (key == KeyPress::F10Key) return showMenu(view_->topBar()), true;
     return view_->keyPressed(key);
 }
@@ -379,6 +380,7 @@ void MixerWindow::showMenu(juce::Component& from) {
     item(desk_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });
     item("Render" + dots(), "Ctrl+E", [this] { renderOffline(); });
     item("Save movie" + dots(), {}, [this] { saveMovie(); });
+    item("Share" + dots(), {}, [this] { share(); });
     menu.addSeparator();
     const auto isLight = view_->ground() == Ground::light;
     look.addItem("Dark", true, !isLight, [this] { setGround(Ground::dark); });
@@ -386,6 +388,16 @@ void MixerWindow::showMenu(juce::Component& from) {
     menu.addSubMenu("Look", look);
     item("Folder of recordings" + dots(), {}, [this] { chooseFolder(); });
     menu.addSubMenu("View", viewMenu());
+    juce::PopupMenu compare;
+    auto& ab = view_->world().compare();
+    compare.addItem(ab.isOn() ? juce::String{"Play "} + (ab.shown() == 'A' ? "B" : "A") + " (A)"
+                              : juce::String{"Make B, a copy of what plays (A)"},
+                    [&ab] { ab.toggle(); });
+    compare.addItem("Keep what plays", ab.isOn(), false, [this] {
+        view_->world().compare().end();
+        desk_->sendChangeMessage();
+    });
+    menu.addSubMenu("Compare laws, layouts, mixes", compare);
     item("Width of the display" + dots(), {}, [this] { askDisplayWidth(); });
     item("Hint", {}, [this] { view_->setHint(true); });
     item("Quit", "Ctrl+Q", [this] { requestQuit(); });

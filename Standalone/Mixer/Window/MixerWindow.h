@@ -28,8 +28,8 @@ public:
     void openDocument(const juce::File& file); ///< asks first if changes would be lost
     /// Opens a session, or applies a scene or layout; reports any other file.
     void openFile(const juce::File& file);
-    void save();
-    void saveAs();
+    void save(std::function<void()> then = {}); ///< `then`: once it is saved
+    void saveAs(std::function<void()> then = {});
     void record();        ///< starts or ends
     void renderOffline(); ///< asks for duration and file
     void renderTo(const juce::File& file, double seconds);
@@ -37,6 +37,7 @@ public:
     void saveMovieTo(const juce::File& file, double seconds);
     void import(const juce::String& title); ///< a scene or a layout
     void exportLayout();
+    void share();               ///< shows a link to the web page
     void saveScene(bool isNow); ///< asks for a file; bodies as drawn, or at their current places
     std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or an error
     void recordScript();               ///< records user input in the world: starts or ends
@@ -44,7 +45,8 @@ public:
     /// Size of everything in the window; 0: by the display's size. A percentage that leaves no room for the
     /// window is lowered.
     void setZoom(int percent);
-    int zoom(); ///< %, as asked for
+    int zoom();            ///< %, as asked for
+    void stepZoom(int by); ///< to the next larger (1) or smaller (-1) one
     /// Full screen: the world alone, and the button that silences.
     void setShow(bool isShow);
     /// Asks if changes would be lost, then quits.
@@ -79,7 +81,7 @@ private:
     void takeAsked();
     DeskLimits limits() const { return desk_ ? DeskLimits::of(desk_->mix()) : files_.limits(); }
     void useSinks(const DeviceChoice& choice);
-    void saveTo(const juce::File& file);
+    bool saveTo(const juce::File& file);
     void askThen(std::function<void()> goOn);
     /// `suggested`: a file name without extension; `in`: a folder instead of the last one.
     void chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
@@ -98,6 +100,7 @@ private:
     void showMenu(juce::Component& from);
     void setGround(Ground ground);
     void applyZoom();
+    static int zoomStepOf(const juce::KeyPress& key);
     juce::PopupMenu viewMenu();
     void setDisplayWidth(double mm);
     void askDisplayWidth();
@@ -122,8 +125,7 @@ private:
     std::optional<DeskLimits> before_; // limits before a run that crashed
     static constexpr std::uint64_t neverSaved = UINT64_MAX; // never equals a count of edits
     std::uint64_t savedEdits_ = 0;
-    std::unique_ptr<juce::FileChooser> chooser_; // of the folder
-    std::unique_ptr<juce::Thread> rendering_;
+    std::unique_ptr<RenderTask> rendering_;
 };
 
 } // namespace physvib

@@ -45,6 +45,21 @@ void MixerWindow::setZoom(int percent) {
     applyZoom();
 }
 
+void MixerWindow::stepZoom(int by) {
+    const int now = juce::roundToInt(100.0f * juce::Desktop::getInstance().getGlobalScaleFactor());
+    const auto at = std::ranges::lower_bound(zooms, now) - zooms.begin() + by;
+    if (at >= 0 && at < std::ssize(zooms) && fits(zooms[static_cast<std::size_t>(at)], displayRoom()))
+        setZoom(zooms[static_cast<std::size_t>(at)]);
+}
+
+// Plus needs Shift on some keyboards, and has a key of its own beside the digits.
+int MixerWindow::zoomStepOf(const juce::KeyPress& key) {
+    if (!key.getModifiers().isCommandDown()) return 0;
+    const int code = key.getKeyCode();
+    if (code == '+' || code == '=' || code == juce::KeyPress::numberPadAdd) return 1;
+    return code == '-' || code == juce::KeyPress::numberPadSubtract ? -1 : 0;
+}
+
 // The window keeps its size on the screen.
 void MixerWindow::applyZoom() {
     auto& desktop = juce::Desktop::getInstance();
@@ -66,6 +81,7 @@ void MixerWindow::setShow(bool isShow) {
 
 juce::PopupMenu MixerWindow::viewMenu() {
     juce::PopupMenu menu;
+    menu.addSectionHeader("Zoom: Ctrl++ and Ctrl+-");
     menu.addItem("Zoom: by the display (Ctrl+0)", true, zoom() == 0, [this] { setZoom(0); });
     for (const int percent : zooms)
         menu.addItem("Zoom: " + juce::String{percent} + " %", fits(percent, displayRoom()), zoom() == percent,

@@ -15,18 +15,24 @@ public:
         text.setText(field.value, false);
         text.setSelectAllWhenFocused(true);
         if (field.allowed.isNotEmpty()) text.setInputRestrictions(32, field.allowed);
-        addAndMakeVisible(text);
+        list.setTitle(name);
+        list.addItemList(field.choices, 1);
+        list.setText(field.value, juce::dontSendNotification);
+        addAndMakeVisible(control());
     }
+    juce::Component& control() { return list.getNumItems() > 0 ? static_cast<juce::Component&>(list) : text; }
+    juce::String value() const { return list.getNumItems() > 0 ? list.getText() : text.getText().trim(); }
     void paint(juce::Graphics& g) override {
         g.setColour(shade(*this, Shade::muted));
         g.setFont(juce::Font{physvib::text::small});
         g.drawText(name, getLocalBounds().withWidth(nameWidth), juce::Justification::centredLeft, true);
     }
-    void resized() override { text.setBounds(getLocalBounds().withTrimmedLeft(nameWidth)); }
+    void resized() override { control().setBounds(getLocalBounds().withTrimmedLeft(nameWidth)); }
 
     static constexpr int nameWidth = 130;
     const juce::String name;
     juce::TextEditor text;
+    juce::ComboBox list;
 };
 
 QuestionCard::~QuestionCard() = default;
@@ -59,6 +65,8 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
     for (const Field& field : fields) {
         auto& added = *inputs_.emplace_back(std::make_unique<Input>(field));
         addAndMakeVisible(added);
+        if (field.onChoice)
+            added.list.onChange = [this, &added, use = field.onChoice] { use(*this, added.value()); };
         added.text.onReturnKey = [this] { act(0); };
         added.text.onEscapeKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::escapeKey}); };
     }
@@ -70,8 +78,16 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
 
 juce::String QuestionCard::value(const juce::String& field) const {
     for (const auto& input : inputs_)
-        if (input->name == field) return input->text.getText().trim();
+        if (input->name == field) return input->value();
     return {};
+}
+
+void QuestionCard::setValue(const juce::String& field, const juce::String& value) {
+    for (auto& input : inputs_)
+        if (input->name == field) {
+            input->text.setText(value, false);
+            input->list.setText(value, juce::dontSendNotification);
+        }
 }
 
 void QuestionCard::answer(const juce::String& words) {

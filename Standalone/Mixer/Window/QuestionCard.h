@@ -21,10 +21,12 @@ public:
         juce::KeyPress key{};
     };
 
-    /// Asks for a text.
+    /// Asks for a text, or for one of some choices.
     struct Field {
         juce::String title, value;
-        juce::String allowed{}; ///< characters; empty: all
+        juce::String allowed{};      ///< characters; empty: all
+        juce::StringArray choices{}; ///< empty: any text
+        std::function<void(QuestionCard&, const juce::String& choice)> onChoice{};
     };
 
     QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers,
@@ -32,6 +34,7 @@ public:
     ~QuestionCard() override;
 
     juce::String value(const juce::String& field) const; ///< as typed
+    void setValue(const juce::String& field, const juce::String& value);
 
     /// Same as a click on that button; no effect if it is missing or disabled.
     void answer(const juce::String& words);

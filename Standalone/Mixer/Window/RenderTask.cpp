@@ -3,26 +3,65 @@
 #include "Mixer/Window/RenderTask.h"
 
 namespace physvib {
+namespace {
 
-RenderTask::RenderTask(const juce::File& file, const juce::String& doneWords, Work work, Done done,
-                       juce::Component& over)
-    : juce::ThreadWithProgressWindow{"Making " + file.getFileName(), true, true, 10'000, "Cancel", &over}
-    , doneWords_{doneWords + " " + file.getFullPathName()}
+constexpr int looksPerSecond = 15;
+
+} // namespace
+
+RenderTask::RenderTask(const juce::File& file, Work work, Done done)
+    : juce::Thread{"PhysVib render"}
+    , file_{file}
     , work_{std::move(work)}
     , done_{std::move(done)} {
-    launchThread();
+    juce::Component::setTitle("Progress");
+    cancel_.setTitle("Cancel the making of the file");
+    cancel_.onClick = [this] {
+        cancel_.setEnabled(false);
+        signalThreadShouldExit();
+    };
+    addAndMakeVisible(cancel_);
+    prepareControls(*this);
+    setSize(wide, high);
+    startThread();
+    startTimerHz(looksPerSecond);
+}
+
+RenderTask::~RenderTask() {
+    constexpr int untilItHasEnded = -1;
+    stopThread(untilItHasEnded);
 }
 
 void RenderTask::run() {
     error_ = work_([this](double share) {
-        setProgress(share);
+        share_ = share;
         return !threadShouldExit();
     });
 }
 
-void RenderTask::threadComplete(bool userPressedCancel) {
-    if (userPressedCancel) return done_("Rendering cancelled; nothing was written", true);
-    done_(error_.empty() ? doneWords_ : utf8(error_), error_.empty());
+void RenderTask::timerCallback() {
+    repaint();
+    if (isThreadRunning()) return;
+    stopTimer();
+    const auto done = done_; // which may destroy this object
+    done(error_, threadShouldExit());
 }
+
+void RenderTask::paint(juce::Graphics& g) {
+    drawCard(g, *this);
+    auto area = getLocalBounds().reduced(12, 8).withTrimmedRight(92);
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(juce::Font{text::medium});
+    const double share = juce::jlimit(0.0, 1.0, share_.load());
+    g.drawText(file_.getFileName() + "  " + juce::String{juce::roundToInt(100.0 * share)} + " %",
+               area.removeFromTop(24), juce::Justification::centredLeft, true);
+    const auto bar = area.removeFromBottom(8).toFloat();
+    g.setColour(shade(*this, Shade::line));
+    g.fillRoundedRectangle(bar, 4.0f);
+    g.setColour(shade(*this, Shade::accent));
+    g.fillRoundedRectangle(bar.withWidth(bar.getWidth() * static_cast<float>(share)), 4.0f);
+}
+
+void RenderTask::resized() { cancel_.setBounds(getLocalBounds().reduced(12, 13).removeFromRight(84)); }
 
 } // namespace physvib

@@ -6,7 +6,7 @@ namespace physvib {
 
 namespace {
 
-constexpr int widestRest = 60; // margin beside a name
+constexpr int widestRest = 60, mostCut = 14; // margin beside a name, and what a narrow panel takes from it
 
 int widthOf(const juce::String& name) {
     return juce::Font{text::medium, juce::Font::bold}.getStringWidth(name) + 6;
@@ -88,10 +88,10 @@ void TabPanel::resized() {
     if (pages_.empty()) return;
     int rest = names.getWidth();
     for (auto& page : pages_) rest -= widthOf(page.name->getName());
-    rest = juce::jlimit(0, widestRest, rest / static_cast<int>(pages_.size()));
+    rest = juce::jlimit(-mostCut, widestRest, rest / static_cast<int>(pages_.size()));
     for (auto& page : pages_)
-        page.name->setBounds(
-            names.removeFromLeft(widthOf(page.name->getName()) + rest).withTrimmedRight(rest / 3));
+        page.name->setBounds(names.removeFromLeft(widthOf(page.name->getName()) + rest)
+                                 .withTrimmedRight(std::max(0, rest / 3)));
     area.removeFromTop(10);
     for (auto& page : pages_) {
         page.view->setBounds(area);

@@ -156,11 +156,11 @@ void TopBar::refresh(const DeskMoment& moment) {
     const auto numbers =
         number(output.sampleRateHz() / 1000.0, output.sampleRateHz() % 1000 == 0 ? 0 : 1) + " kHz";
     if (!moment.device.isRunning)
-        device_.set("No sound", desk_.trouble(), Shade::limit);
+        device_.set("No sound", desk_.device().trouble(), Shade::limit);
     else
         device_.set(
             dotted({isNone ? juce::String{"No device"} : name, numbers, juce::String{output.blockFrames()}}),
-            "latency " + number(1e3 * desk_.device().playOutSeconds(), 0) + " ms",
+            "felt " + number(1e3 * desk_.device().playOutSeconds(), 0) + " ms after the contact",
             isNone ? Shade::now : Shade::text);
     device_.setTooltip(name);
     const auto& r = moment.session.render;
@@ -203,20 +203,19 @@ void TopBar::resized() {
         juce::Component* component;
         int width, after;
     };
-    for (const auto& [component, width, after] :
-         std::initializer_list<Control>{{&menu_, 76, between},
-                                        {&save_, button, tight},
-                                        {&undo_, button, tight},
-                                        {&redo_, button, between},
-                                        {&scene_, isOneLine ? 168 : 150, between},
-                                        {&pause_, button, tight},
-                                        {&step_, button, tight},
-                                        {&slow_, button, tight},
-                                        {&restart_, button, between},
-                                        {&seedName_, 40, 0},
-                                        {&seed_, 44, 0},
-                                        {&time_, 86, 0},
-                                        {&record_, 92, between}}) {
+    for (const auto& [component, width, after] : std::initializer_list<Control>{{&menu_, 76, between},
+                                                                                {&save_, button, tight},
+                                                                                {&undo_, button, tight},
+                                                                                {&redo_, button, between},
+                                                                                {&scene_, 150, between},
+                                                                                {&pause_, button, tight},
+                                                                                {&step_, button, tight},
+                                                                                {&slow_, button, tight},
+                                                                                {&restart_, button, between},
+                                                                                {&seedName_, 36, 0},
+                                                                                {&seed_, 44, 0},
+                                                                                {&time_, 86, 0},
+                                                                                {&record_, 92, between}}) {
         component->setBounds(area.removeFromLeft(width));
         area.removeFromLeft(after);
     }
@@ -224,8 +223,8 @@ void TopBar::resized() {
 }
 
 void TopBar::placeStates(juce::Rectangle<int> area) {
-    load_.setBounds(area.removeFromRight(130));
-    board_.setBounds(area.removeFromRight(area.getWidth() > 360 ? 116 : 0));
+    load_.setBounds(area.removeFromRight(112));
+    board_.setBounds(area.removeFromRight(108));
     device_.setBounds(area.withTrimmedRight(8));
 }
 

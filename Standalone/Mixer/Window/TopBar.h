@@ -3,6 +3,7 @@
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
+#include "Mixer/World/WorldPanel.h"
 
 namespace physvib {
 
@@ -22,7 +23,7 @@ public:
     /// Only the button that silences is left.
     void setShow(bool isShow);
 
-    static constexpr int lineHeight = 52, showWidth = 174;
+    static constexpr int lineHeight = 52, showWidth = WorldPanel::silenceWidth;
     /// One line, or two in a narrow window.
     static int heightFor(int width) { return width >= leastOneLine ? lineHeight : lineHeight + secondLine; }
 
@@ -30,7 +31,7 @@ public:
     void resized() override;
 
 private:
-    static constexpr int leastOneLine = 1360, secondLine = 38;
+    static constexpr int leastOneLine = 1440, secondLine = 38; // the states need their room in one line, too
     void placeStates(juce::Rectangle<int> area);
     bool isShow_ = false;
     void chooseScene();

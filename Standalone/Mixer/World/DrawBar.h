@@ -4,6 +4,8 @@
 #include "Mixer/Window/Parts.h"
 #include "Mixer/World/DrawPane.h"
 #include <memory>
+#include <set>
+#include <tuple>
 #include <vector>
 
 namespace physvib {
@@ -43,8 +45,9 @@ private:
     Desk& desk_;
     DrawPane& pane_;
     std::vector<Material> shown_;
+    std::set<std::tuple<bool, int, bool>> surfaces_; // those that the remarks are about
     std::vector<std::unique_ptr<Swatch>> swatches_;
-    juce::ComboBox count_;
+    juce::ComboBox count_, way_;
 };
 
 /// Static or moving, haptic source or not, density and restitution of the selected bodies; speed and torque

@@ -75,6 +75,7 @@ bool DrawPane::takeKey(const juce::KeyPress& key) {
     if (key == KeyPress::rightKey) return nudge({step, 0.0}, 0.0), true;
     if (key == KeyPress::upKey) return nudge({0.0, step}, 0.0), true;
     if (key == KeyPress::downKey) return nudge({0.0, -step}, 0.0), true;
+    if (key.getModifiers().isCommandDown()) return false; // zoom has Ctrl and the same signs
     if (key.getTextCharacter() == '[') return nudge({}, turnStep), true;
     if (key.getTextCharacter() == ']') return nudge({}, -turnStep), true;
     if (key.getTextCharacter() == '+') return scaleChosen(1.1), true;

@@ -28,9 +28,18 @@ public:
     void changeChosen(const juce::String& name,
                       const std::function<void(const Scene&, BodyDescription&)>& change, bool goesOn = false);
 
-    /// Number of bodies of one rain.
+    /// Number of bodies of one rain, and how they come: all at once, so many in a second of the world, or so
+    /// many upwards from one place.
+    struct RainWay {
+        int perSecond = 0; ///< 0: all at once
+        bool isFountain = false;
+        bool operator==(const RainWay&) const = default;
+    };
     int rainCount() const noexcept { return rainCount_; }
     void setRainCount(int count);
+    const RainWay& rainWay() const noexcept { return rainWay_; }
+    void setRainWay(const RainWay& way);
+    void letItRain();                          ///< adds those that are due; to be called often
     juce::Rectangle<float> chosenArea() const; ///< of the selected bodies with their handles, in pixels
 
     // Menu commands, at places in metres of the field.
@@ -69,6 +78,8 @@ private:
     Result<BodyDescription> drawnNow() const;
     Result<std::vector<BodyDescription>> rainNow() const;
     void addStroke();
+    void beginRain(Result<std::vector<BodyDescription>> bodies);
+    bool prepare(std::vector<BodyDescription>& bodies);
     void add(Result<std::vector<BodyDescription>> bodies);
     void join();
     void erase(const juce::MouseEvent& e);
@@ -94,6 +105,9 @@ private:
     DrawTool tool_ = DrawTool::hand;
     int material_ = -1; // at first, the first material with a frequency
     int rainCount_ = 50;
+    RainWay rainWay_;
+    std::vector<BodyDescription> falling_; // those of the present rain that are still to come, the next last
+    std::int64_t rainFromNs_ = 0, rained_ = 0; // time of the scene, and how many have come since
     bool snaps_ = false, isDrawing_ = false;
     std::vector<std::string> chosen_;
     Copied copied_;

@@ -2,6 +2,7 @@
 // Converts mouse strokes to new bodies, and erases bodies and joints.
 #include "Mixer/Desk/DeskWords.h"
 #include "Mixer/World/DrawPane.h"
+#include "Mixer/World/FeltHint.h"
 #include "Scene/Drawing/DrawnBodies.h"
 #include <cmath>
 
@@ -41,28 +42,37 @@ Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
 }
 
 void DrawPane::addStroke() {
-    if (tool_ == DrawTool::rain) return add(rainNow());
+    if (tool_ == DrawTool::rain) return rainWay_.perSecond > 0 ? beginRain(rainNow()) : add(rainNow());
     auto body = drawnNow();
     if (!body) return add(Failure{body.error});
     add(std::vector{std::move(body.value)});
 }
 
-// One edit. Of several bodies, the first has the free name and the others are numbered after it.
+/// Names, material and whether they are felt; false: there is nothing to draw with.
+bool DrawPane::prepare(std::vector<BodyDescription>& bodies) {
+    const auto& drawing = desk_.world().drawing();
+    if (drawing.drawn().materials.empty())
+        return desk_.report("The scene has no materials to draw with"), false;
+    const auto names =
+        drawing.freeNames(juce::String{wordsOf(tool_).name}.toLowerCase().toStdString(), bodies.size());
+    const bool sounds = drawing.drawn().materials[static_cast<std::size_t>(material_)].frequencyHz > 0.0;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        bodies[k].name = names[k];
+        for (auto& fixture : bodies[k].fixtures) fixture.material = material_;
+        if (sounds && startsAsSource(drawing.drawn(), bodies[k])) setSource(drawing.drawn(), bodies[k], true);
+    }
+    return true;
+}
+
+// One edit.
 void DrawPane::add(Result<std::vector<BodyDescription>> bodies) {
     if (!bodies) return desk_.report(utf8(bodies.error));
-    const auto& drawing = desk_.world().drawing();
-    if (drawing.drawn().materials.empty()) return desk_.report("The scene has no materials to draw with");
-    const auto& words = wordsOf(tool_);
-    const auto name = drawing.freeName(juce::String{words.name}.toLowerCase().toStdString());
-    const bool sounds = drawing.drawn().materials[static_cast<std::size_t>(material_)].frequencyHz > 0.0;
+    if (!prepare(bodies.value)) return;
     std::vector<Action> actions;
-    for (auto& body : bodies.value) {
-        body.name = actions.empty() ? name : name + "." + std::to_string(actions.size() + 1);
-        for (auto& fixture : body.fixtures) fixture.material = material_;
-        if (sounds && startsAsSource(drawing.drawn(), body)) setSource(drawing.drawn(), body, true);
-        actions.push_back(SpawnAction{std::move(body), {}});
-    }
-    edit("Draw a " + juce::String{words.name}.toLowerCase(), std::move(actions));
+    const std::string first = bodies.value.front().name;
+    for (auto& body : bodies.value) actions.push_back(SpawnAction{std::move(body), {}});
+    edit("Draw a " + juce::String{wordsOf(tool_).name}.toLowerCase(), std::move(actions));
+    hintOnBody(desk_, first);
 }
 
 void DrawPane::closePolygon() {

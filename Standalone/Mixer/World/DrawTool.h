@@ -25,7 +25,7 @@ inline constexpr std::array<DrawToolWords, 13> drawTools{{
     {DrawTool::line, 'l', "Line", "Draw a line freely"},
     {DrawTool::wall, 'w', "Wall", "Drag from end to end"},
     {DrawTool::rain, 'n', "Rain",
-     "Drag over the place from which balls fall; how many is beside the materials"},
+     "Drag over the place from which balls fall; how many, and how, is beside the materials"},
     {DrawTool::pin, 'i', "Pin", "Click where two bodies overlap; a single one is pinned to the field"},
     {DrawTool::rope, 'r', "Rope", "Drag from one body to another, or to the field"},
     {DrawTool::slider, 'd', "Slider", "Drag along the way of a body"},

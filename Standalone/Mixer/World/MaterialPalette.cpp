@@ -2,7 +2,12 @@
 // Chips of the materials to draw with: each shows its decay, and plays under the mouse.
 #include "Host/Views/Palette.h"
 #include "Mixer/World/DrawBar.h"
+#include "Mixer/World/FeltHint.h"
+#include "Scene/Drawing/FeltTrial.h"
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace physvib {
 
@@ -13,13 +18,15 @@ public:
         : juce::Button{utf8(material.name)}
         , material_{material}
         , colour_{colour} {
-        const auto name = utf8(material.name);
-        setTitle("Material " + name);
-        setTooltip(isFelt()
-                       ? name + ": draw with it; with the mouse over it, it is played once"
-                       : name + " does not vibrate: it is felt only where it hits a haptic source of "
-                                "another material. A frequency and a decay in its scene file change that");
+        setTitle("Material " + getName());
         setWantsKeyboardFocus(true);
+    }
+    /// `why`: it is not felt at usual impacts; empty: it is.
+    void setWhy(const std::string& why) {
+        isFelt_ = why.empty();
+        setTooltip(isFelt_ ? getName() + ": draw with it; with the mouse over it, it is played once"
+                           : getName() + " is not felt at usual impacts: " + utf8(why));
+        repaint();
     }
     /// With remark: says in words that it is not felt.
     int wanted(bool hasRemark) const { return 38 + juce::Font{text::small}.getStringWidth(words(hasRemark)); }
@@ -47,9 +54,8 @@ public:
     }
 
 private:
-    bool isFelt() const { return material_.frequencyHz > 0.0; }
     juce::String words(bool hasRemark) const {
-        return getName() + (hasRemark && !isFelt() ? ": not felt" : "");
+        return getName() + (hasRemark && !isFelt_ ? ": not felt" : "");
     }
     /// The first tenth of a second, with fewer waves than it has, so that they can be told apart.
     juce::Path decay() const {
@@ -69,8 +75,24 @@ private:
 
     const Material material_;
     const juce::Colour colour_;
-    bool hasRemark_ = false;
+    bool hasRemark_ = false, isFelt_ = true;
 };
+
+namespace {
+
+constexpr std::array<DrawPane::RainWay, 7> rainWays{
+    {{0, false}, {5, false}, {20, false}, {50, false}, {5, true}, {20, true}, {50, true}}};
+
+/// What a trial of materials depends on: which kinds of surfaces the scene has.
+std::set<std::tuple<bool, int, bool>> surfacesOf(const Scene& scene) {
+    std::set<std::tuple<bool, int, bool>> all;
+    for (const BodyDescription& body : scene.bodies)
+        for (const FixtureDescription& f : body.fixtures)
+            all.emplace(body.type == BodyType::dynamicBody, f.material, f.isCamera);
+    return all;
+}
+
+} // namespace
 
 MaterialPalette::MaterialPalette(Desk& desk, DrawPane& pane)
     : desk_{desk}
@@ -82,30 +104,56 @@ MaterialPalette::MaterialPalette(Desk& desk, DrawPane& pane)
     for (const int count : {10, 20, 50, 100, 200, 500, 1000})
         count_.addItem(juce::String{count} + " balls", count);
     count_.onChange = [this] { pane_.setRainCount(count_.getSelectedId()); };
+    way_.setTitle("How the rain comes");
+    way_.setTooltip("All at once, ball by ball, or upwards from one place");
+    for (int id = 1; const auto& way : rainWays)
+        way_.addItem(way.perSecond == 0
+                         ? juce::String{"at once"}
+                         : (way.isFountain ? "fountain, " : "") + juce::String{way.perSecond} + " a second",
+                     id++);
+    way_.onChange = [this] {
+        if (const int k = way_.getSelectedItemIndex(); k >= 0)
+            pane_.setRainWay(rainWays[static_cast<std::size_t>(k)]);
+    };
     addChildComponent(count_);
+    addChildComponent(way_);
 }
 
 MaterialPalette::~MaterialPalette() = default;
 
 void MaterialPalette::show() {
-    const auto& materials = desk_.world().drawing().drawn().materials;
-    if (shown_ != materials) {
+    const Scene& scene = desk_.world().drawing().drawn();
+    const auto& materials = scene.materials;
+    const bool areOther = shown_ != materials;
+    if (areOther) {
         shown_ = materials;
         swatches_.clear();
         for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
             auto& swatch = *swatches_.emplace_back(
                 std::make_unique<Swatch>(materials[static_cast<std::size_t>(i)], palette::material(i)));
-            swatch.onClick = [this, i] { pane_.setMaterial(i); };
+            swatch.onClick = [this, i] {
+                pane_.setMaterial(i);
+                hintOnMaterial(desk_, i);
+            };
             // a material that makes no sound reports it elsewhere
             swatch.onEnter = [this, i] { desk_.strikes().audition(i, 0.5, 0.5); };
             addAndMakeVisible(swatch);
             prepareControls(swatch); // it is created after the other controls
         }
+    }
+    if (areOther || surfaces_ != surfacesOf(scene)) {
+        surfaces_ = surfacesOf(scene);
+        for (int i = 0; i < static_cast<int>(swatches_.size()); ++i)
+            swatches_[static_cast<std::size_t>(i)]->setWhy(whyNotFelt(scene, i));
         resized();
     }
     count_.setSelectedId(pane_.rainCount(), juce::dontSendNotification);
+    way_.setSelectedItemIndex(
+        static_cast<int>(std::ranges::find(rainWays, pane_.rainWay()) - rainWays.begin()),
+        juce::dontSendNotification);
     if (const bool isRain = pane_.tool() == DrawTool::rain; isRain != count_.isVisible()) {
         count_.setVisible(isRain);
+        way_.setVisible(isRain);
         resized();
     }
     for (std::size_t i = 0; i < swatches_.size(); ++i)
@@ -115,7 +163,8 @@ void MaterialPalette::show() {
 void MaterialPalette::resized() {
     constexpr int between = 4;
     auto area = getLocalBounds();
-    if (count_.isVisible()) count_.setBounds(area.removeFromLeft(106)), area.removeFromLeft(between);
+    for (auto [list, wide] : {std::pair{&count_, 106}, {&way_, 150}})
+        if (list->isVisible()) list->setBounds(area.removeFromLeft(wide)), area.removeFromLeft(between);
     int wide = 0;
     for (const auto& swatch : swatches_) wide += swatch->wanted(true) + between;
     const bool hasRemarks = wide <= area.getWidth();

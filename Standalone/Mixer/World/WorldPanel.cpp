@@ -85,8 +85,10 @@ WorldPanel::WorldPanel(Desk& desk)
             goesOn);
     });
     for (auto* name : {&tiltName_, &dragName_}) name->setFont(juce::Font{text::small});
+    compare_.setTitle("Compare A and B");
+    compare_.onClick = [this] { ab_.toggle(); };
     for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &view_, &pane_, &bar_, &sentence_, &law_, &tilt_, &tiltName_, &drag_, &dragName_})
+             &view_, &pane_, &bar_, &sentence_, &law_, &compare_, &tilt_, &tiltName_, &drag_, &dragName_})
         addAndMakeVisible(c);
     addChildComponent(palette_);
     addChildComponent(body_);
@@ -115,6 +117,13 @@ void WorldPanel::takeMix() {
                      number(mix.exponent, 1),
                  juce::dontSendNotification);
     law_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    const bool isB = ab_.isOn() && ab_.shown() == 'B';
+    compare_.setButtonText(!ab_.isOn() ? "A/B" : isB ? "B" : "A");
+    compare_.setToggleState(ab_.isOn(), juce::dontSendNotification);
+    compare_.setTooltip(!ab_.isOn()
+                            ? juce::String{"Compare two laws, layouts or mixes (A): B begins as a copy of A"}
+                            : juce::String{isB ? "B" : "A"} + " plays, " + number(ab_.loweredDb(), 1) +
+                                  " dB lower, as loud as the other (A changes; the menu ends it)");
     if (!drag_.isMouseButtonDown())
         drag_.setValue(mix.dragNewtonSecondsPerScreenMetre, juce::dontSendNotification);
     dragName_.setText("drag " + drag_.getTextFromValue(drag_.getValue()), juce::dontSendNotification);
@@ -124,6 +133,7 @@ void WorldPanel::takeMix() {
 }
 
 void WorldPanel::showTools() {
+    if (isShow_ && pane_.tool() != DrawTool::hand) return pane_.use(DrawTool::hand); // which comes back here
     bar_.show();
     palette_.show();
     palette_.setVisible(!isShow_ && pane_.tool() != DrawTool::hand);
@@ -162,14 +172,16 @@ double WorldPanel::fieldAspect() const {
 }
 
 juce::Rectangle<int> WorldPanel::bannerArea() const {
-    return getLocalBounds().withTrimmedLeft(isShow_ ? 8 : bar_.getRight()).reduced(8, 4).withHeight(36);
+    auto area = getLocalBounds().withTrimmedLeft(isShow_ ? 8 : bar_.getRight());
+    if (isShow_) area.removeFromRight(silenceWidth);
+    return area.reduced(8, 4).withHeight(36);
 }
 
 void WorldPanel::setShow(bool isShow) {
     isShow_ = isShow;
     if (isShow) pane_.use(DrawTool::hand);
-    for (juce::Component* c :
-         std::initializer_list<juce::Component*>{&bar_, &sentence_, &tilt_, &tiltName_, &drag_, &dragName_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&bar_, &sentence_, &compare_, &tilt_,
+                                                                      &tiltName_, &drag_, &dragName_})
         c->setVisible(!isShow);
     showTools();
     resized();
@@ -198,7 +210,7 @@ void WorldPanel::play(const std::vector<Action>& actions) {
 }
 
 bool WorldPanel::keyPressed(const juce::KeyPress& key) {
-    if (pane_.takeKey(key)) return true;
+    if (!isShow_ && pane_.takeKey(key)) return true; // no tool where none is shown
     if (!player_) return tilt_.takeKey(key);
     if (key == juce::KeyPress::leftKey) return play(player_->steer(-1)), true;
     if (key == juce::KeyPress::rightKey) return play(player_->steer(1)), true;
@@ -288,6 +300,7 @@ void WorldPanel::refresh(const DeskMoment& moment) {
         }
     lookAfterPlayer();
     moveHand();
+    pane_.letItRain();
     if (desk_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
     placeInspector(); // what is selected moves
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits,
@@ -304,6 +317,7 @@ void WorldPanel::resized() {
     auto area = getLocalBounds().reduced(panelInset, 10);
     auto row = area.removeFromBottom(38);
     law_.setVisible(!isShow_ && getWidth() >= lawNeeds);
+    compare_.setBounds(row.removeFromRight(46).reduced(2, 5));
     if (law_.isVisible()) law_.setBounds(row.removeFromRight(174));
     dragName_.setBounds(row.removeFromRight(104));
     drag_.setBounds(row.removeFromRight(38));

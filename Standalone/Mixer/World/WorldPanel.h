@@ -4,6 +4,7 @@
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Desk/Desk.h"
+#include "Mixer/Desk/DeskCompare.h"
 #include "Mixer/Window/Parts.h"
 #include "Mixer/World/DrawBar.h"
 #include "Mixer/World/ScriptStrip.h"
@@ -21,6 +22,7 @@ public:
     void takeMix();
     WorldView& view() noexcept { return view_; }
     DrawPane& drawing() noexcept { return pane_; }
+    DeskCompare& compare() noexcept { return ab_; }
     void tilt(double degrees) { tilt_.turnTo(degrees); } ///< turns gravity to that angle
     /// The field and its actuators alone.
     void setShow(bool isShow);
@@ -30,6 +32,7 @@ public:
     /// Where a message lies over this panel: beside the tools, above the field.
     juce::Rectangle<int> bannerArea() const;
 
+    static constexpr int silenceWidth = 174; ///< of the button that silences, in the corner of a show
     /// Pixels of the panel that the field does not fill.
     static constexpr int besideField = 104, aboveAndBelowField = 134;
 
@@ -69,6 +72,8 @@ private:
     BodyPanel body_{desk_, pane_};
     ScriptStrip script_{desk_};
     juce::Label sentence_, law_, tiltName_, dragName_;
+    juce::TextButton compare_{"A/B"};
+    DeskCompare ab_{desk_};
     TiltKnob tilt_;
     juce::Slider drag_;
     std::optional<ScenePlayer> player_; // for a scene with a player

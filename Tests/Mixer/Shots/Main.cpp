@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// physvib-mixer-shots FILE.png STATE [WIDTHxHEIGHT]: a picture of the mixer's window in a state, without a
-// display;
-// --states lists the states. They are reached as a person would reach them, with a clock instead of a device.
+// physvib-mixer-shots FILE.png STATE [WIDTHxHEIGHT [SCALE]]: a picture of the mixer's window in a state,
+// without a display;
+// --states lists the states; those that begin with "sheet" are for ../../figures/mixer-sheet.sh alone. They
+// are reached as a person would reach them, with a clock instead of a device.
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/StripGroups.h"
 #include "Mixer/Knock.h"
@@ -11,6 +12,7 @@
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/SceneCatalogue.h"
+#include <cmath>
 #include <functional>
 #include <iostream>
 
@@ -89,9 +91,9 @@ void showFirstStart(Desk& desk, MixerView& view) {
     const DeviceChoice none{std::string{noDeviceType} + ":" + noDeviceName};
     view.setFirstStart(std::make_unique<FirstStart>(
         desk, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8},
+                                      {"Headphones: ALSA:USB Headset", none, 2, false, true},
                                       {"Game controller: DualSense", none, 2, true},
-                                      {"Headphones: ALSA:Built-in Audio", none, 2, false, true},
-                                      {"ALSA: Built-in Audio, 2 outputs: two actuators", none, 2},
+                                      {"ALSA: USB Headset, 2 outputs: two actuators", none, 2},
                                       {"No device: seen, not felt", none, 0}}));
 }
 
@@ -109,6 +111,55 @@ void showLanes(Desk& desk, MixerView& view) {
     });
     desk.dispatchPendingMessages();
     view.scope().choose("Gain lanes");
+}
+
+/// So many actuators on a grid, with names as people give them.
+void showActuators(Desk& desk, int count) {
+    desk.change("Many", [count](Mix& m) {
+        EnchanterLayout many = m.layout.geometry;
+        const int columns = static_cast<int>(std::ceil(std::sqrt(2.0 * count)));
+        const int rows = (count + columns - 1) / columns;
+        for (many.count = 0; many.count < count; ++many.count)
+            many.places[static_cast<std::size_t>(many.count)] = {
+                (many.count % columns + 0.5) / columns * many.extentWidthMetres,
+                (many.count / columns + 0.5) / rows * many.extentHeightMetres};
+        m.layout = describeLayout("many", many);
+        m.layout.enchanters[1].label = "Left hand, ring finger, second joint";
+        m.resizeStrips();
+        m.levelDb = -3.0;
+    });
+}
+
+void showRain(Desk& desk, MixerView& view) {
+    desk.dispatchPendingMessages();
+    auto& pane = view.world().drawing();
+    pane.use(DrawTool::rain);
+    pane.addAt(DrawTool::rain, {3.2, 2.4});
+    pane.use(DrawTool::choose);
+    pane.choose({"rain 1"});
+}
+
+std::vector<State> sheetStates() {
+    return {
+        {"sheet-one", 1440, 900, 3.0, [](Desk& d, MixerView&) { showActuators(d, 1); }},
+        {"sheet-16", 1440, 900, 3.0, [](Desk& d, MixerView&) { showActuators(d, 16); }},
+        {"sheet-64", 1440, 900, 3.0,
+         [](Desk& d, MixerView& v) { v.setGround(Ground::light), showActuators(d, 64); }},
+        {"sheet-show", 1440, 900, 3.0,
+         [](Desk& d, MixerView& v) {
+             v.setShow(true);
+             d.messages().add(
+                 {"A has no output: another actuator has it", false, {"Give a free output", [] {}}});
+         }},
+        {"sheet-rain", 1440, 900, 1.0, showRain},
+        {"sheet-takes", 1440, 900, 1.0, [](Desk&, MixerView& v) { v.scope().choose("Takes"); }},
+        {"sheet-card", 1440, 900, 1.0,
+         [](Desk&, MixerView& v) {
+             v.setCard(std::make_unique<FileCard>(FileCard::Choice{
+                 "Save the session", ".json", juce::File::getSpecialLocation(juce::File::userHomeDirectory),
+                 true, "session"}));
+         }},
+    };
 }
 
 std::vector<State> mixerStates() {
@@ -166,6 +217,7 @@ std::vector<State> mixerStates() {
 const std::vector<State>& states() {
     static const std::vector<State> all = [] {
         auto states = mixerStates();
+        for (State state : sheetStates()) states.push_back(std::move(state));
         for (const StudyShot& shot : studyShots()) states.push_back({shot.name, 1440, 900, 0.2, shot.reach});
         return states;
     }();
@@ -178,7 +230,8 @@ juce::StringArray shotStates() {
     return names;
 }
 
-juce::String takeShot(const juce::File& file, const juce::String& name, const juce::String& size) {
+juce::String takeShot(const juce::File& file, const juce::String& name, const juce::String& size,
+                      float scale) {
     constexpr int largestSide = 8192;
     const int wide = size.upToFirstOccurrenceOf("x", false, true).getIntValue();
     const int high = size.fromFirstOccurrenceOf("x", false, true).getIntValue();
@@ -197,7 +250,7 @@ juce::String takeShot(const juce::File& file, const juce::String& name, const ju
     desk.dispatchPendingMessages();
     runFor(state->seconds, view);
     desk.dispatchPendingMessages(); // what has been told meanwhile
-    const auto image = view.createComponentSnapshot(view.getLocalBounds(), true, 1.0f);
+    const auto image = view.createComponentSnapshot(view.getLocalBounds(), true, scale);
     juce::MemoryOutputStream png;
     juce::PNGImageFormat{}.writeImageToStream(image, png);
     return utf8(writeFile(file.getFullPathName().toStdString(),
@@ -215,7 +268,8 @@ int main(int argc, char* argv[]) {
         return 0;
     }
     const auto file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[0].text);
-    const auto error = physvib::takeShot(file, arguments[1].text, arguments[2].text);
+    const float scale = arguments.size() > 3 ? arguments[3].text.getFloatValue() : 1.0f;
+    const auto error = physvib::takeShot(file, arguments[1].text, arguments[2].text, scale);
     if (error.isEmpty()) return 0;
     std::cerr << "physvib-mixer-shots: " << error << '\n';
     return 1;

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the mixer's window does with a world that is too much: prints how long the first picture, the message,
-// other pictures and the end took, and what processor time of the window's own thread. ../big-world.sh runs
-// it; no test, since it measures times.
+// other pictures and the end took, and what processor time of the window's own thread. With --spread: a world
+// that can be played, its pictures a second, share of a processor, and time from a click to the picture of
+// the body that it draws. ../big-world.sh runs it; no test, since it measures times.
 #include "Host/MessageLoop.h"
 #include "Live/Session/ThreadTime.h"
 #include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Window/MixerWindow.h"
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace physvib::test {
 namespace {
@@ -49,6 +53,82 @@ std::string heap(int bodies) {
         text += R"("material": "wood", "camera": true}]})";
     }
     return text + "]}";
+}
+
+/// So many balls that fall in a box, in rows; every tenth is felt.
+std::string shower(int bodies) {
+    constexpr double width = 8.0, height = 4.5;
+    const int columns = std::max(1, static_cast<int>(std::sqrt(bodies * width / height)));
+    const double apart = width / (columns + 1), radius = 0.3 * apart;
+    std::string text = R"({"physvib_scene": 1, "name": "shower", "field_m": [8, 4.5],
+"gravity_m_per_s2": [0, -9.8], "materials": [{"name": "wood", "density_kg_per_m2": 850, "friction": 0.4,
+"restitution": 0.6, "frequency_hz": 80, "decay_per_s": 30}], "bodies": [)";
+    const auto wall = [&text](const char* name, double x, double y, double w, double h) {
+        text += std::string{"{\"name\": \""} + name + "\", \"type\": \"static\", \"position_m\": [" +
+                std::to_string(x) + ", " + std::to_string(y) +
+                "], \"fixtures\": [{\"shape\": \"box\", \"size_m\": [" + std::to_string(w) + ", " +
+                std::to_string(h) + "], \"material\": \"wood\"}]},\n";
+    };
+    wall("floor", 4.0, -0.1, 8.4, 0.2);
+    wall("left", -0.1, 2.25, 0.2, 9.0);
+    wall("right", 8.1, 2.25, 0.2, 9.0);
+    for (int k = 0; k < bodies; ++k)
+        text += (k == 0 ? "" : ",\n") + std::string{"{\"name\": \"b"} + std::to_string(k) +
+                "\", \"position_m\": [" + std::to_string((k % columns + 1) * apart) + ", " +
+                std::to_string((k / columns + 0.5) * apart) +
+                "], \"fixtures\": [{\"shape\": \"circle\", \"radius_m\": " + std::to_string(radius) +
+                ", \"material\": \"wood\", \"camera\": " + (k % 10 == 0 ? "true" : "false") + "}]}";
+    return text + "]}";
+}
+
+double processSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+void click(MixerWindow& window, juce::Point<float> at) {
+    for (const int buttons : {0, static_cast<int>(juce::ModifierKeys::leftButtonModifier), 0})
+        window.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at,
+                                           juce::ModifierKeys{buttons}, 0.0f, 0.0f,
+                                           juce::Time::currentTimeMillis());
+}
+
+void share(const char* what, Painted& painted) {
+    painted.count = 0;
+    const double from = seconds(), fromThread = threadSeconds(), fromProcess = processSeconds();
+    runFor(5.0);
+    const double passed = seconds() - from;
+    std::printf("%s: %.0f pictures a second, %.1f %% of a core by the window's thread, %.1f %% by all\n",
+                what, painted.count / passed, 100.0 * (threadSeconds() - fromThread) / passed,
+                100.0 * (processSeconds() - fromProcess) / passed);
+}
+
+void measureSpread(int bodies, const juce::File& folder) {
+    const auto scene = folder.getChildFile("shower.json");
+    scene.replaceWithText(shower(bodies));
+    MixerWindow window{onlyNoDevice(), "None:no device", scene, folder.getChildFile("config")};
+    auto& view = window.view();
+    auto& world = view.world();
+    Painted painted;
+    view.addAndMakeVisible(painted);
+    runUntil([&] { return painted.count > 0 && !view.latest().poses.empty(); });
+    runFor(3.0);
+    std::printf("%d bodies\n", bodies);
+    share("moving", painted);
+    world.drawing().use(DrawTool::ball);
+    std::vector<double> times;
+    for (int k = 1; k <= 9; ++k) {
+        const double from = seconds();
+        const auto at = world.view().placeOfShare({0.1 * k, 0.9});
+        click(window, window.getLocalPoint(&world.view(), at));
+        const auto name = "ball " + std::to_string(k);
+        runUntil([&] { return world.view().poseOfBody(name).has_value(); });
+        painted.count = 0;
+        runUntil([&] { return painted.count > 0; });
+        times.push_back(seconds() - from);
+    }
+    std::ranges::sort(times);
+    std::printf("click to paint: %.0f ms (median of 9), %.0f ms at most\n", 1e3 * times[4], 1e3 * times[8]);
+    window.desk().setSlowness(0);
+    runFor(2.0);
+    share("paused", painted);
 }
 
 void measure(int bodies, const juce::File& folder) {
@@ -91,7 +171,9 @@ int main(int argc, char* argv[]) {
     const juce::ScopedJuceInitialiser_GUI juce;
     const auto folder = juce::File::createTempFile("physvib-big-world");
     folder.createDirectory();
-    physvib::test::measure(argc > 1 ? std::atoi(argv[1]) : 2000, folder);
+    const bool isSpread = argc > 2 && std::string{argv[2]} == "--spread";
+    const int bodies = argc > 1 ? std::atoi(argv[1]) : 2000;
+    isSpread ? physvib::test::measureSpread(bodies, folder) : physvib::test::measure(bodies, folder);
     folder.deleteRecursively();
     return 0;
 }

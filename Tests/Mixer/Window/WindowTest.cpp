@@ -640,16 +640,15 @@ TEST(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesN
     EXPECT_GT(samples.getMagnitude(18 * 48000, 2 * 48000), 0.0f) << "the box is shaken on";
 
     window.renderTo(folder("cancelled.wav"), 86'400.0);
-    juce::Button* cancel = nullptr;
-    ASSERT_TRUE(runUntil([&] {
-        auto* shown = juce::Component::getCurrentlyModalComponent();
-        for (int k = 0; shown != nullptr && k < shown->getNumChildComponents(); ++k)
-            if (auto* button = dynamic_cast<juce::Button*>(shown->getChildComponent(k))) cancel = button;
-        return cancel != nullptr;
-    }));
+    auto* cancel = dynamic_cast<juce::Button*>(find(window.view(), "Cancel the making of the file"));
+    ASSERT_NE(cancel, nullptr);
+    EXPECT_EQ(juce::Component::getCurrentlyModalComponent(), nullptr) << "the mixer can be used meanwhile";
     runFor(0.3);
-    cancel->triggerClick();
-    EXPECT_TRUE(runUntil([&] { return desk.trouble().contains("cancelled"); })) << desk.trouble();
+    window.renderTo(folder("second.wav"), 1.0);
+    EXPECT_TRUE(desk.trouble().contains("cancelled.wav")) << "one at a time: " << desk.trouble();
+    cancel->onClick();
+    EXPECT_TRUE(runUntil([&] { return desk.trouble().contains("nothing was written"); })) << desk.trouble();
+    EXPECT_EQ(find(window.view(), "Progress"), nullptr);
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "*cancelled*"), 0);
 }
 
@@ -714,6 +713,21 @@ TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
         window.setZoom(200); // leaves no room on this display
         EXPECT_LT(juce::Desktop::getInstance().getGlobalScaleFactor(), 1.6f);
         window.setZoom(125);
+        constexpr auto ctrl = juce::ModifierKeys::commandModifier;
+        window.keyPressed(juce::KeyPress{'-', ctrl, '-'});
+        EXPECT_EQ(window.zoom(), 100);
+        window.keyPressed(juce::KeyPress{'+', ctrl | juce::ModifierKeys::shiftModifier, '+'});
+        EXPECT_EQ(window.zoom(), 125);
+        window.keyPressed(juce::KeyPress{'0', ctrl, 0});
+        EXPECT_EQ(window.zoom(), 0) << "by the display";
+        window.setZoom(125);
+        window.keyPressed(juce::KeyPress{juce::KeyPress::F11Key});
+        EXPECT_TRUE(window.view().isShow());
+        window.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+        EXPECT_TRUE(window.view().isShow() && window.desk().isSilent()) << "Esc only silences";
+        window.keyPressed(juce::KeyPress{juce::KeyPress::F11Key});
+        EXPECT_FALSE(window.view().isShow());
+        window.desk().setSilent(false);
         window.view().setDividers({0.5, 0.4, 0.6});
         runFor(1.2); // the settings are written twice a second
         window.desk().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
@@ -732,6 +746,35 @@ TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
     EXPECT_EQ(again.view().dividers(), (Dividers{0.5, 0.4, 0.6}));
     again.setZoom(0);
     EXPECT_NEAR(juce::Desktop::getInstance().getGlobalScaleFactor(), 1.0f, 1e-4f);
+}
+
+TEST(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    window.desk().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
+    window.newDocument();
+    ASSERT_NE(window.view().question(), nullptr);
+    window.view().question()->answer("Save");
+    FileCard* card = nullptr;
+    ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
+    EXPECT_EQ(window.desk().mix().levelDb, -18.0) << "not before it is saved";
+    card->enter(folder.folder);
+    card->setName("kept");
+    card->take();
+    ASSERT_TRUE(runUntil([&] { return folder("kept.json").existsAsFile() && !window.isChanged(); }));
+    EXPECT_TRUE(runUntil([&] { return !window.desk().undoManager().canUndo(); })) << "a new session";
+    EXPECT_EQ(window.document(), juce::File{});
+    EXPECT_TRUE(window.desk().trouble().contains("kept.json")) << window.desk().trouble();
+    EXPECT_EQ(window.desk().messages().shown().act.name, "Show");
+
+    window.desk().change("Level", [](Mix& mix) { mix.levelDb = -20.0; });
+    window.newDocument(); // who gives up at the file stays
+    window.view().question()->answer("Save");
+    ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
+    card->onCancel();
+    ASSERT_TRUE(runUntil([&] { return window.view().card() == nullptr; }));
+    EXPECT_EQ(window.desk().mix().levelDb, -20.0);
+    EXPECT_TRUE(window.isChanged());
 }
 
 TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {

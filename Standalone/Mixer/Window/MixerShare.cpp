@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shares the world as a link to the web page.
+#include "Mixer/Window/MixerWindow.h"
+#include "Mixer/Window/PageLink.h"
+
+namespace physvib {
+namespace {
+
+constexpr const char *pageSetting = "page", *pageField = "Address of the page", *linkField = "Link";
+constexpr const char* ownPage = "http://127.0.0.1:8000/"; // where Docs/web.md serves it
+
+} // namespace
+
+void MixerWindow::share() {
+    const auto link = pageLink(desk_->mix(), desk_->world().drawing().drawn());
+    if (!link) return say(utf8(link.error));
+    const auto page = files_.settings().getValue(pageSetting, ownPage);
+    const auto whole = [this, behind = utf8(link.value)] {
+        const auto address = view_->question()->value(pageField);
+        files_.settings().setValue(pageSetting, address);
+        view_->setCard(nullptr);
+        return address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
+    };
+    ask("Share the world",
+        "Who opens the link in the page gets the same world and samples. It stands behind the #, so no "
+        "server "
+        "gets it. The page's own Share has a QR code.",
+        {{"Copy the link",
+          [this, whole] {
+              const auto words = whole();
+              juce::SystemClipboard::copyTextToClipboard(words);
+              desk_->tell("Copied a link of " + juce::String{words.length()} + " characters");
+          }},
+         {"Open it", [whole] { juce::URL{whole()}.launchInDefaultBrowser(); }}},
+        {{pageField, page}, {linkField, page + "#" + utf8(link.value)}});
+}
+
+} // namespace physvib

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The mixer's world as a link to the web page, which opens it with the same samples.
+#pragma once
+#include "Io/Result.h"
+#include "Live/Documents/Mix.h"
+
+namespace physvib {
+
+/// The part of the page's address behind the #: scene as drawn, seed, actuators and law. Or one line with
+/// what a link cannot hold. Places are rounded to thousandths of the field, as the page does. Any thread.
+Result<std::string> pageLink(const Mix& mix, const Scene& drawn);
+
+} // namespace physvib

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A material or a body that is not felt at usual impacts says so, and one press makes it felt.
+#include "NewSceneRig.h"
+#include "Scene/Drawing/BodyEdits.h"
+#include "Scene/Drawing/FeltTrial.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+/// A floor that is no haptic source.
+struct DullRig : NewSceneRig {
+    DullRig() {
+        desk.change("Dull floor", [&](Mix& mix) {
+            auto scene = newScene(*mix.scene, SceneGround::floor);
+            for (auto& body : scene.bodies) {
+                for (auto& fixture : body.fixtures) fixture.material = 0;
+                setSource(scene, body, false);
+            }
+            mix.scene = std::make_shared<const Scene>(scene);
+        });
+        settle();
+        view.world().drawing().use(DrawTool::ball);
+    }
+    int soundless() {
+        for (int i = 0; i < std::ssize(drawn().materials); ++i)
+            if (drawn().materials[static_cast<std::size_t>(i)].frequencyHz <= 0.0) return i;
+        return -1;
+    }
+    juce::Button* button(const juce::String& title) { return dynamic_cast<juce::Button*>(find(view, title)); }
+};
+
+TEST(FeltHint, AMaterialThatGivesNothingSaysSoAndIsMadeFelt) {
+    DullRig rig;
+    const int dull = rig.soundless();
+    ASSERT_GE(dull, 0);
+    const auto name = utf8(rig.drawn().materials[static_cast<std::size_t>(dull)].name);
+    auto* chip = rig.button("Material " + name);
+    ASSERT_NE(chip, nullptr);
+    EXPECT_TRUE(chip->getTooltip().contains("not felt at usual impacts")) << chip->getTooltip();
+    chip->onClick();
+    rig.desk.dispatchPendingMessages();
+    EXPECT_TRUE(rig.desk.trouble().startsWith(name + " is not felt at usual impacts: "))
+        << rig.desk.trouble();
+    EXPECT_TRUE(rig.desk.trouble().contains("haptic source")) << "the world's own explanation";
+    auto* mend = rig.button("Make it felt");
+    ASSERT_TRUE(mend != nullptr && mend->isVisible());
+    mend->onClick();
+    rig.desk.dispatchPendingMessages();
+    EXPECT_EQ(rig.desk.trouble(), "") << "it is felt now";
+    EXPECT_GT(rig.drawn().materials[static_cast<std::size_t>(dull)].frequencyHz, 0.0);
+    EXPECT_EQ(whyNotFelt(rig.drawn(), dull), "");
+    EXPECT_FALSE(rig.button("Material " + name)->getTooltip().contains("not felt"));
+    rig.desk.undoManager().undo();
+    EXPECT_EQ(rig.drawn().materials[static_cast<std::size_t>(dull)].frequencyHz, 0.0) << "one step";
+}
+
+TEST(FeltHint, ABodyThatGivesNothingIsMadeAHapticSourceThatVibrates) {
+    DullRig rig;
+    rig.pane.setMaterial(rig.soundless());
+    rig.pane.addAt(DrawTool::ball, rig.share(0.5, 0.5));
+    rig.desk.dispatchPendingMessages();
+    EXPECT_TRUE(rig.desk.trouble().startsWith("ball 1 is not felt")) << rig.desk.trouble();
+    rig.button("Make it felt")->onClick();
+    rig.desk.dispatchPendingMessages();
+    EXPECT_EQ(rig.desk.trouble(), "");
+    const auto* ball = rig.desk.world().drawing().find("ball 1");
+    EXPECT_TRUE(ball->fixtures[0].isCamera);
+    EXPECT_EQ(whyNotFelt(rig.drawn(), *ball), "");
+    rig.desk.setSlowness(1);
+    const auto hits = rig.desk.recent().newestFirst().size();
+    EXPECT_TRUE(runUntil([&] { return rig.desk.look(), rig.desk.recent().newestFirst().size() > hits; }, 5.0))
+        << "and it is felt when it falls";
+}
+
+TEST(FeltHint, WhatMeetsAFeltWallIsFelt) {
+    NewSceneRig rig; // its floor is a haptic source
+    for (int i = 0; i < std::ssize(rig.drawn().materials); ++i)
+        EXPECT_EQ(whyNotFelt(rig.drawn(), i), "") << rig.drawn().materials[static_cast<std::size_t>(i)].name;
+    rig.pane.addAt(DrawTool::ball, rig.share(0.5, 0.5));
+    rig.pane.addAt(DrawTool::wall, rig.share(0.2, 0.5));
+    EXPECT_EQ(rig.desk.trouble(), "");
+}
+
+} // namespace
+} // namespace physvib

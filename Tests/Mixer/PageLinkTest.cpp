@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A link holds the world as the page's link.js reads it.
+#include "Mixer/Window/PageLink.h"
+#include "Mixer/Desk/Desk.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+/// As the page unpacks it.
+std::string unpacked(const juce::String& code) {
+    auto text = code.replaceCharacters("-_", "+/");
+    while (text.length() % 4 != 0) text += "=";
+    juce::MemoryOutputStream bytes;
+    EXPECT_TRUE(juce::Base64::convertFromBase64(bytes, text));
+    juce::MemoryInputStream in{bytes.getData(), bytes.getDataSize(), false};
+    juce::GZIPDecompressorInputStream deflated{&in, false, juce::GZIPDecompressorInputStream::deflateFormat};
+    return deflated.readEntireStreamAsString().toStdString();
+}
+
+TEST(PageLink, ABuiltInSceneIsItsNameAndOnlyWhatDiffersIsSaid) {
+    Mix mix = Desk::firstMix();
+    EXPECT_EQ(pageLink(mix, *mix.scene).value, "scene=shake-the-box");
+    mix.seed = 3;
+    mix.law = PanningLaw::energy;
+    mix.layout = presetLayout("phone2");
+    EXPECT_EQ(pageLink(mix, *findBuiltInScene("marbles")).value,
+              "scene=marbles&seed=3&at=0,0.5+1,0.5&law=energy");
+}
+
+TEST(PageLink, ASceneOfOnesOwnGoesAlongWhole) {
+    const Mix mix = Desk::firstMix();
+    Scene own = *mix.scene;
+    own.name = "my scene & more";
+    own.materials[0].frequencyHz = 165.0;
+    own.materials[0].decayPerSecond = 22.0;
+    const auto link = pageLink(mix, own);
+    ASSERT_TRUE(link) << link.error;
+    const auto words = juce::StringArray::fromTokens(juce::String{link.value}, "&", {});
+    ASSERT_EQ(words.size(), 2);
+    EXPECT_EQ(words[0], "scene=my+scene+%26+more.json");
+    ASSERT_TRUE(words[1].startsWith("file="));
+    EXPECT_TRUE(words[1].substring(5).containsOnly(
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"));
+    EXPECT_EQ(unpacked(words[1].substring(5)), sceneJson(own));
+    EXPECT_LT(link.value.size(), 2900U) << "small enough for a QR code";
+}
+
+TEST(PageLink, WhatALinkCannotHoldIsSaid) {
+    Mix mix = Desk::firstMix();
+    mix.exponent = 2.0;
+    EXPECT_NE(pageLink(mix, *mix.scene).error.find("exponent"), std::string::npos);
+    mix.exponent = 1.0;
+    mix.layout = presetLayout("vest16");
+    EXPECT_EQ(pageLink(mix, *mix.scene).error, "A link holds at most 8 actuators, found 16");
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Breaks the mixer's code in 60 ways, one after the other, and says which of them its tests catch. usage: breaks.py --check | BUILD [FIRST [LAST]]
+--check: only whether each break still has its place in the code, in a second. BUILD: a build folder; the mixer's tests are built and run for each break,
+a minute each, and the files are restored. Exit code 1 if a place is missing, or fewer than 55 of 60 are caught."""
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DESK, WINDOW, WORLD, STRIPS, OUTPUT = "Desk", "Window", "World", "Strips", "Output"
+BREAKS = [  # file, what stands there, what is put there instead
+    (f"{DESK}/Desk.cpp", "isRefused = isSame(mix_, before);", "isRefused = false;"),
+    (f"{DESK}/Desk.cpp", "if (isRefused) --edits_;", ""),
+    (f"{DESK}/Desk.cpp", "takeOutputs(output().channelMap(), mix_.strips);", ""),
+    (f"{DESK}/Desk.cpp", "quietenNew(mix_.strips, settled.strips);", ""),
+    (f"{DESK}/Desk.cpp", "setSilent(start.isSilent);", "setSilent(false);"),
+    (f"{DESK}/Desk.cpp", "if (mix_.count() < 2) return;", ""),
+    (f"{DESK}/Desk.cpp", "mix.strips.erase(mix.strips.begin() + enchanter);", "mix.strips.pop_back();"),
+    (f"{DESK}/Desk.cpp", "saved_.lengthNs = session().status().sessionNs;", ""),
+    (f"{DESK}/Desk.cpp", "isSilent_ = output().isSilent();\n    sendChangeMessage();", "sendChangeMessage();"),
+    (f"{DESK}/DeskMessages.cpp", "waiting_.push_front(shown_);", ""),
+    (f"{DESK}/DeskMessages.cpp", "if (isOf(shown_, label)) show({});", ""),
+    (f"{DESK}/DeskMessages.cpp", "*same = std::move(message);", "waiting_.push_back(std::move(message));"),
+    (f"{DESK}/DeskRouting.cpp", "output != choice.marker", "true"),
+    (f"{DESK}/DeskRouting.cpp", "if (isFree(output)) mix.strips[j].output = output;", ""),
+    (f"{DESK}/DeskCompare.cpp", "next.levelDb = std::max(leastStripDb, next.levelDb - loweredDb_);", ""),
+    (f"{DESK}/DeskCompare.cpp", "isB_ = !isB_;", ""),
+    (f"{DESK}/DeskCompare.cpp", "mix.seed = now.seed;", ""),
+    (f"{DESK}/DeskCompare.cpp", "if (mix.levelDb == setDb_) mix.levelDb", "mix.levelDb"),
+    (f"{DESK}/DeskCompare.cpp", "desk_.undoManager().getRedoDescription() != compareStep", "true"),
+    (f"{DESK}/DeskWorld.cpp", "if (!isDone && !isRepeated_) run(false);", ""),
+    (f"{DESK}/DeskLook.cpp", "recording_.take(played);", ""),
+    (f"{DESK}/DeskLook.cpp", "recent_.add(played.event);", ""),
+    (f"{DESK}/DeskStrikes.cpp", "pulse.amplitude = strikeAmplitude;", "pulse.amplitude = 0.0;"),
+    (f"{DESK}/DeskLanes.cpp", "lane = thinned(sumOf(lane, moved));", "lane = thinned(moved);"),
+    (f"{DESK}/DeskLanes.cpp", "highest - mostStripDb);", "highest);"),
+    (f"{DESK}/UserFolder.cpp", "isTaken = isTaken || folder", "isTaken = folder"),
+    (f"{STRIPS}/LaneRow.cpp", "std::clamp(point.seconds, from, std::max(from, to))", "point.seconds"),
+    (f"{STRIPS}/LaneRow.cpp", "if (lane().size() >= mostGainPoints)", "if (false)"),
+    (f"{STRIPS}/LaneRow.cpp", "move(pointAt(e.position), std::exchange(isMoved_, true));", "move(pointAt(e.position), false);"),
+    (f"{STRIPS}/GroupView.cpp", "removeGroup(mix, static_cast<int>(index_));", "mix.groups.pop_back();"),
+    (f"{WINDOW}/Arrangement.cpp", "std::min(fair, width * 70 / 100)", "fair"),
+    (f"{WINDOW}/FileCard.cpp", "if (file.existsAsFile() && file != replaced_) {", "if (false) {"),
+    (f"{WINDOW}/FileCard.cpp", "replaced_ = juce::File{};", ""),
+    (f"{WINDOW}/FileCard.cpp", 'if (key == juce::KeyPress::escapeKey) return onCancel(), true;', ""),
+    (f"{WINDOW}/QuestionCard.cpp", "if (!answers_[which].isEnabled) return;", ""),
+    (f"{WINDOW}/QuestionCard.cpp", "if (key == answers_[k].key) return act(k), true;", ""),
+    (f"{WINDOW}/FirstStart.cpp", "mix.levelDb = std::min(firstDb, mix.levelDb);", "mix.levelDb = firstDb;"),
+    (f"{WINDOW}/FirstStart.cpp", "|| outputs < 1) continue;", ") continue;"),
+    (f"{WINDOW}/FirstStart.cpp", "const auto at = areNamed ? beforePads + meant : std::ssize(many);", "const auto at = std::ssize(many);"),
+    (f"{WINDOW}/FirstStart.cpp", "meant += kind->isMeant ? 1 : 0;", ""),
+    (f"{WINDOW}/MixerView.cpp", "bar_.setAlwaysOnTop(isShow);", ""),
+    (f"{WINDOW}/MixerView.cpp", "if (key == KeyPress::escapeKey) return desk_.setSilent(true), true;", "if (key == KeyPress::escapeKey) return desk_.setSilent(!desk_.isSilent()), true;"),
+    (f"{WINDOW}/MixerView.cpp", "if (key == KeyPress{'a', juce::ModifierKeys::noModifiers, 0}) return world_.compare().toggle(), true;", ""),
+    (f"{WINDOW}/TopBar.cpp", "redo_.setEnabled(history.canRedo());", "redo_.setEnabled(false);"),
+    (f"{WINDOW}/TopBar.cpp", "board_.setBounds(area.removeFromRight(108));", "board_.setBounds(area.removeFromRight(0));"),
+    (f"{WINDOW}/TopBar.cpp", "silence_.onClick = [this] { desk_.setSilent(!desk_.isSilent()); };", "silence_.onClick = [this] { desk_.setSilent(true); };"),
+    (f"{WINDOW}/PageLink.cpp", 'if (mix.seed != 1) link += "&seed=" + std::to_string(mix.seed);', ""),
+    (f"{WINDOW}/PageLink.cpp", '.replaceCharacters("+/", "-_")', ""),
+    (f"{WORLD}/WorldPanel.cpp", "if (!isShow_ && pane_.takeKey(key)) return true;", "if (pane_.takeKey(key)) return true;"),
+    (f"{WORLD}/WorldPanel.cpp", "if (isShow_) area.removeFromRight(silenceWidth);", ""),
+    (f"{WORLD}/WorldPanel.cpp", "pane_.letItRain();", ""),
+    (f"{WORLD}/WorldMenu.cpp", "if (target.enchanter >= 0)", "if (false)"),
+    (f"{WORLD}/DrawRain.cpp", "if (rainWay_.isFountain) makeFountain", "if (false) makeFountain"),
+    (f"{WORLD}/DrawStrokes.cpp", "bodies[k].name = names[k];", 'bodies[k].name = names[0] + "." + std::to_string(k);'),
+    (f"{WORLD}/DrawStrokes.cpp", "hintOnBody(desk_, first);", ""),
+    (f"{WORLD}/FeltHint.cpp", "if (why.empty()) return desk.messages().withdraw(feltLabel);", "if (why.empty()) return;"),
+    (f"{WORLD}/MaterialPalette.cpp", "hintOnMaterial(desk_, i);", ""),
+    (f"{WORLD}/DrawPane.cpp", "if (tool != DrawTool::choose) chosen_.clear();", ""),
+    (f"{STRIPS}/StripsPanel.cpp", "attach_.setVisible(desk_.mix().count() < limits::maxEnchanters);", ""),
+    (f"{OUTPUT}/TakesTab.cpp", "if (eventsOf(file).existsAsFile()) remove(eventsOf(file));", ""),
+]
+
+
+def main() -> None:
+    missing = [f"{file}: {old}" for file, old, _ in BREAKS if (ROOT / "Standalone/Mixer" / file).read_text().count(old) != 1]
+    if missing or len(BREAKS) != 60:
+        sys.exit("\n".join(missing) + f"\n{len(missing)} of {len(BREAKS)} breaks have no place of their own in the code")
+    if sys.argv[1] == "--check":
+        return print(f"{len(BREAKS)} breaks have their places")
+    build, first = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 1
+    chosen = list(enumerate(BREAKS, 1))[first - 1 : int(sys.argv[3]) if len(sys.argv) > 3 else None]
+    caught = 0
+    for number, (file, old, new) in chosen:
+        path = ROOT / "Standalone/Mixer" / file
+        whole = path.read_text()
+        path.write_text(whole.replace(old, new))
+        try:
+            made = subprocess.run(["cmake", "--build", build, "-j1", "--target", "physvib-mixer-tests"], capture_output=True)
+            ran = made.returncode == 0 and subprocess.run([f"{build}/bin/physvib-mixer-tests", "--gtest_brief=1"], capture_output=True, timeout=600)
+        except subprocess.TimeoutExpired:
+            ran = subprocess.CompletedProcess([], 1)
+        finally:
+            path.write_text(whole)
+        verdict = "does not compile" if not ran else "caught" if ran.returncode else "NOT CAUGHT"
+        caught += verdict == "caught"
+        print(f"{number:2} {verdict:16} {file}: {old}", flush=True)
+    print(f"{caught} of {len(chosen)} caught")
+    sys.exit(caught < len(chosen) * 55 / 60)
+
+
+main()
