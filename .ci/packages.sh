@@ -36,6 +36,8 @@ physvib_movie_packages="ffmpeg"
 physvib_screens_packages="xvfb xauth xdotool openbox ffmpeg python3"
 # Of Tests/Plugin/Formats/ardour.sh and ardour-song.sh alone, and of validate.sh there.
 physvib_host_packages="ardour jackd2"
+# Of Tests/Plugin/Formats/apply.sh alone.
+physvib_apply_packages="lilv-utils ecasound python3"
 physvib_validator_packages="lv2-dev sordi"
 # Of the library alone (preset "library"), for Tests/Benchmarks.
 physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libboost-dev libhwy-dev"

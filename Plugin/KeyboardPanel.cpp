@@ -25,18 +25,19 @@ const NoteRule* ruleOf(int note, const PluginState& state) {
     return found == state.notes.end() ? nullptr : &*found;
 }
 
-bool doesNothing(int note, const MidiTable& table) {
-    return table.groupOf(note) < 0 && table.strikeOf(note).frequencyHz <= 0.0;
+bool doesNothing(int note, const MidiTable& table, const PluginState& state, const NoteKnobs& knobs) {
+    return table.groupOf(note) < 0 && table.strikeOf(note, knobs, state.layout.geometry).frequencyHz <= 0.0;
 }
 
 } // namespace
 
-juce::String wordsOfKey(int note, const MidiTable& table, const PluginState& state) {
+juce::String wordsOfKey(int note, const MidiTable& table, const PluginState& state, const NoteKnobs& knobs) {
     const juce::String name = juce::MidiMessage::getMidiNoteName(note, true, true, 4) + ": ";
     const NoteRule* const rule = ruleOf(note, state);
     if (rule && table.groupOf(note) >= 0) return name + wordsOf(*rule, state.scene);
-    if (doesNothing(note, table)) return name + "silent, as the scene has no material that vibrates";
-    const CollisionEvent& sound = table.strikeOf(note);
+    if (doesNothing(note, table, state, knobs))
+        return name + "silent, as the scene has no material that vibrates";
+    const CollisionEvent sound = table.strikeOf(note, knobs, state.layout.geometry);
     const auto percent = [](double part, double whole) { return number(100.0 * part / whole, 0) + " %"; };
     juce::String text =
         name +
@@ -45,7 +46,7 @@ juce::String wordsOfKey(int note, const MidiTable& table, const PluginState& sta
         number(sound.frequencyHz, 0) + " Hz, ";
     text << percent(sound.x, table.fieldWidthMetres()) << " from the left, "
          << percent(sound.y, table.fieldHeightMetres()) << " from below";
-    return table.isHeld(note) ? text + ", as long as it is held" : text;
+    return table.isHeld(note, knobs) ? text + ", as long as it is held" : text;
 }
 
 KeyboardPanel::KeyboardPanel(std::function<void(int, int)> play)
@@ -53,8 +54,9 @@ KeyboardPanel::KeyboardPanel(std::function<void(int, int)> play)
     setTitle("Keyboard");
 }
 
-void KeyboardPanel::take(const PluginState& state) {
+void KeyboardPanel::take(const PluginState& state, const NoteKnobs& knobs) {
     state_ = state;
+    knobs_ = knobs;
     table_ = MidiTable{state};
     repaint();
 }
@@ -113,7 +115,7 @@ void KeyboardPanel::paintKey(juce::Graphics& g, int note) const {
     const bool isBlack = isBlackKey(note);
     auto colour = isBlack ? juce::Colour{0xff24262b} : juce::Colour{0xffe9e9ea};
     if (note == pressed_) colour = shade(*this, Shade::accent);
-    g.setColour(doesNothing(note, table_) ? colour.withMultipliedAlpha(0.35f) : colour);
+    g.setColour(doesNothing(note, table_, state_, knobs_) ? colour.withMultipliedAlpha(0.35f) : colour);
     g.fillRoundedRectangle(key, 2.0f);
     g.setColour(shade(*this, Shade::line)); // white keys on a light ground
     g.drawRoundedRectangle(key, 2.0f, 1.0f);
@@ -135,7 +137,7 @@ void KeyboardPanel::paint(juce::Graphics& g) {
                                "have a rule of their own (MIDI).";
     g.setColour(shade(*this, shown_ < 0 ? Shade::muted : Shade::text));
     g.setFont(juce::Font{text::small});
-    g.drawText(shown_ < 0 ? usual : wordsOfKey(shown_, table_, state_),
+    g.drawText(shown_ < 0 ? usual : wordsOfKey(shown_, table_, state_, knobs_),
                getLocalBounds().reduced(panelInset, 3).removeFromTop(captionPixels),
                juce::Justification::centredLeft, true);
     for (const bool isBlack : {false, true})

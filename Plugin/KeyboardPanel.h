@@ -8,7 +8,8 @@
 namespace physvib {
 
 /// What a key does, for people: "C4: 262 Hz at 0 %, 50 %, as long as it is held". Any thread.
-juce::String wordsOfKey(int note, const MidiTable& table, const PluginState& state);
+juce::String wordsOfKey(int note, const MidiTable& table, const PluginState& state,
+                        const NoteKnobs& knobs = {});
 
 /// Five octaves. Keys with a rule of their own bear a mark; those that do nothing are dim. M only.
 class KeyboardPanel final : public juce::Component, public juce::SettableTooltipClient {
@@ -18,7 +19,7 @@ public:
 
     /// `play(note, velocity)`, 0: the key is let go.
     explicit KeyboardPanel(std::function<void(int, int)> play);
-    void take(const PluginState& state);
+    void take(const PluginState& state, const NoteKnobs& knobs);
 
     /// The note of a place; -1: none. The lower on a key, the harder.
     int noteAt(juce::Point<int> place) const;
@@ -41,6 +42,7 @@ private:
     const std::function<void(int, int)> play_;
     PluginState state_;
     MidiTable table_;
+    NoteKnobs knobs_;
     int pressed_ = -1, shown_ = -1;
 };
 

@@ -28,10 +28,9 @@ double pitchHz(int note) {
 }
 
 /// In parts of the field.
-Vector placeOf(int note, const PluginState& state) {
-    const EnchanterLayout& layout = state.layout.geometry;
+Vector placeOf(int note, NotePlaces places, const EnchanterLayout& layout) noexcept {
     const auto& place = layout.places[static_cast<std::size_t>(note % std::max(1, layout.count))];
-    switch (state.voice.places) {
+    switch (places) {
     case NotePlaces::octave: return {(note % notesPerOctave) / (notesPerOctave - 1.0), 0.5};
     case NotePlaces::actuators:
         return {place.xMetres / layout.extentWidthMetres, place.yMetres / layout.extentHeightMetres};
@@ -55,7 +54,7 @@ CollisionEvent strikeBy(const NoteRule& rule, const Scene& scene) {
 // What no rule names; frequency 0: it strikes nothing.
 CollisionEvent strikeBy(int note, const PluginState& state, const std::vector<int>& materials) {
     NoteRule rule;
-    const Vector place = placeOf(note, state);
+    const Vector place = placeOf(note, state.voice.places, state.layout.geometry);
     rule.x = place.x;
     rule.y = place.y;
     rule.material = materials.empty()
@@ -121,18 +120,63 @@ MidiTable::MidiTable(const PluginState& state)
     for (int note = 0; note < 128; ++note)
         strikes_[static_cast<std::size_t>(note)] = strikeBy(note, state, materials);
     held_.fill(voice_.isHeld && voice_.pitch == NotePitch::note);
+    for (std::size_t m = 0; m < std::min(state.scene.materials.size(), sounds_.size() - 1); ++m)
+        sounds_[m + 1] = {state.scene.materials[m].frequencyHz, state.scene.materials[m].decayPerSecond};
     groups_.fill(-1);
     materials_ = static_cast<int>(state.scene.materials.size());
     for (int group = materials_ + 1; const auto& rule : state.notes) {
         const auto note = static_cast<std::size_t>(rule.note & 127);
         if (rule.kind == NoteKind::strike) strikes_[note] = strikeBy(rule, state.scene);
         held_[note] = false;
+        ruled_[note] = true;
         groups_[note] = rule.kind == NoteKind::strike ? -1 : group;
         ++group;
     }
     parameters_.fill(-1);
     for (const auto& rule : state.controllers)
         parameters_[static_cast<std::size_t>(rule.controller & 127)] = parameterOfId(rule.parameter);
+}
+
+CollisionEvent MidiTable::strikeOf(int note, const NoteKnobs& knobs,
+                                   const EnchanterLayout& layout) const noexcept {
+    CollisionEvent strike = strikeOf(note);
+    if (!ruled_[static_cast<std::size_t>(note & 127)]) {
+        if (const Sound& sound = sounds_[static_cast<std::size_t>(knobs.material)]; sound.frequencyHz > 0.0) {
+            strike.frequencyHz = sound.frequencyHz;
+            strike.decayPerSecond = sound.decayPerSecond;
+            strike.amplitude = 1.0;
+        }
+        if (knobs.placement > 0 || strikeOf(note).frequencyHz <= 0.0) {
+            const auto places =
+                knobs.placement > 0 ? static_cast<NotePlaces>(knobs.placement - 1) : voice_.places;
+            const Vector place = placeOf(note, places, layout);
+            strike.x = place.x * width_;
+            strike.y = place.y * height_;
+        }
+    }
+    if (knobs.decay != 1.0)
+        strike.decayPerSecond = std::min(strike.decayPerSecond / knobs.decay, limits::maxDecayPerSecond);
+    return strike;
+}
+
+NoteVoice voiceBy(NoteVoice voice, const NoteKnobs& knobs) noexcept {
+    voice.isHeld = knobs.hold == 0 ? voice.isHeld && voice.pitch == NotePitch::note : knobs.hold == 2;
+    if (knobs.placement > 0) voice.places = static_cast<NotePlaces>(knobs.placement - 1);
+    if (knobs.bend > 0)
+        voice.bendSemitones = parameterTable::bendSemitones[static_cast<std::size_t>(knobs.bend)];
+    voice.decayPerSecond = std::min(voice.decayPerSecond / knobs.decay, limits::maxDecayPerSecond);
+    voice.releaseSeconds *= knobs.release;
+    voice.velocityExponent *= knobs.velocityCurve;
+    return voice;
+}
+
+double MidiTable::releasePerSecond(const NoteKnobs& knobs) const noexcept {
+    return std::log(1000.0) / (voice_.releaseSeconds * knobs.release);
+}
+
+double MidiTable::loudnessOf(int velocity, const NoteKnobs& knobs) const noexcept {
+    const double exponent = voice_.velocityExponent * knobs.velocityCurve, share = velocity / 127.0;
+    return exponent == 1.0 ? share : std::pow(share, exponent);
 }
 
 } // namespace physvib

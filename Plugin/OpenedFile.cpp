@@ -6,6 +6,7 @@
 #include "Live/Documents/SessionFile.h"
 #include "Parameters.h"
 #include "PluginSettings.h"
+#include "Presets.h"
 #include "Scene/FileKind.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneFileLimits.h"
@@ -98,8 +99,7 @@ Result<OpenedFile> openPreset(const std::filesystem::path& path, const PluginSta
     state.strips = std::move(mix.strips);
     setParameter(state, Parameter::level, mix.levelDb);
     for (const auto& [which, usual] :
-         {std::pair{Parameter::strikeLevel, rowOf(Parameter::strikeLevel).initial},
-          {Parameter::music, 0.0}}) {
+         {std::pair{Parameter::strikeLevel, usualStrikeDb(state)}, {Parameter::music, 0.0}}) {
         const double most = std::max(valueIn(now, which), usual);
         if (valueIn(state, which) <= most) continue;
         setParameter(state, which, most);

@@ -27,6 +27,13 @@ enum class Parameter {
     music,
     musicSides,
     timing,
+    decay,
+    release,
+    velocityCurve,
+    hold,
+    placement,
+    bendRange,
+    noteMaterial,
     count
 };
 constexpr auto parameterCount = static_cast<std::size_t>(Parameter::count);
@@ -89,6 +96,17 @@ inline constexpr std::array<std::string_view, 9> materialNames{
 inline constexpr std::array<std::string_view, 2> switchNames{"off", "on"};
 inline constexpr std::array<std::string_view, 2> sideNames{"summed", "left and right"};
 inline constexpr std::array<std::string_view, 2> timingNames{"safe", "tight"}; // indexed by TakeTiming
+// Of these the first leaves what the preset has.
+inline constexpr std::array<std::string_view, 3> holdNames{"as the preset", "off", "on"};
+inline constexpr std::array<std::string_view, 4> placementNames{"as the preset", "octave", "actuators",
+                                                                "middle"};
+inline constexpr std::array<std::string_view, 9> bendNames{
+    "as the preset", "moves the place", "1 semitone",   "2 semitones", "5 semitones",
+    "7 semitones",   "12 semitones",    "24 semitones", "48 semitones"};
+inline constexpr std::array bendSemitones{0.0, 0.0, 1.0, 2.0, 5.0, 7.0, 12.0, 24.0, 48.0};
+static_assert(bendSemitones.size() == bendNames.size());
+inline constexpr std::array<std::string_view, 9> noteMaterialNames{
+    "as the preset", "1", "2", "3", "4", "5", "6", "7", "8"};
 inline constexpr std::span<const std::string_view> noWords{};
 inline constexpr double silentDb = -60.0; // below it nobody feels anything: full scale is some g
 
@@ -125,6 +143,25 @@ inline constexpr std::array<ParameterRow, parameterCount> rows{{
      "Output latency of a world. Safe: stepped by a thread of its own. Tight: stepped in the render call, "
      "which "
      "needs a computer with time to spare; the output is silent for a moment when this changes"},
+    // Factors from 1/2^n to 2^n: the middle of their scale is 1 exactly, which changes no sample.
+    {Parameter::decay, "decay", "Decay", "Decay", "x", 0.125, 8.0, 1.0, log, noWords, 5,
+     "How long strikes by notes ring, times the preset's"},
+    {Parameter::release, "release", "Release", "Release", "x", 0.0625, 16.0, 1.0, log, noWords, 5,
+     "How long a held note takes to fall after its key, times the preset's"},
+    {Parameter::velocityCurve, "velocity_curve", "Velocity curve", "Velocity", "x", 0.25, 4.0, 1.0, log,
+     noWords, 5, "Exponent of a note's velocity, times the preset's: above 1, soft keys are softer"},
+    {Parameter::hold, "hold", "Hold", "Hold", "", 0, 2, 0, choice, holdNames, 5,
+     "Whether a note without a rule sounds until its key is released"},
+    {Parameter::placement, "placement", "Placement", "Place", "", 0, 3, 0, choice, placementNames, 5,
+     "Where a note without a rule is felt: from left (C) to right (B), on one actuator after the other, or "
+     "in "
+     "the middle"},
+    {Parameter::bendRange, "bend_range", "Bend range", "Bend", "", 0, 8, 0, choice, bendNames, 5,
+     "How far a full pitch bend moves the pitch; or it moves the place"},
+    {Parameter::noteMaterial, "note_material", "Note material", "Note mat", "", 0, 8, 0, choice,
+     noteMaterialNames, 5,
+     "What a note without a rule sounds like: the preset's pitch, or the n-th material of the list, at its "
+     "frequency"},
 }};
 static_assert(std::ranges::all_of(rows, [](const ParameterRow& row) {
     return &row == &rows[static_cast<std::size_t>(row.parameter)];
@@ -135,11 +172,15 @@ inline constexpr std::array worldGroup{Parameter::gravity, Parameter::tilt, Para
 inline constexpr std::array strikeGroup{Parameter::strikeLevel, Parameter::strikeX, Parameter::strikeY};
 inline constexpr std::array beatGroup{Parameter::beats, Parameter::music, Parameter::musicSides};
 inline constexpr std::array timeGroup{Parameter::timing};
-inline constexpr std::array<ParameterGroup, 5> groups{{{"panning", "Panning", panningGroup},
+inline constexpr std::array instrumentGroup{
+    Parameter::decay,     Parameter::release,   Parameter::velocityCurve, Parameter::hold,
+    Parameter::placement, Parameter::bendRange, Parameter::noteMaterial};
+inline constexpr std::array<ParameterGroup, 6> groups{{{"panning", "Panning", panningGroup},
                                                        {"world", "World", worldGroup},
                                                        {"strikes", "Strikes by notes", strikeGroup},
                                                        {"side_chain", "Side chain", beatGroup},
-                                                       {"time", "Time", timeGroup}}};
+                                                       {"time", "Time", timeGroup},
+                                                       {"instrument", "Instrument", instrumentGroup}}};
 
 } // namespace parameterTable
 } // namespace physvib

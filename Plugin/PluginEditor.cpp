@@ -2,6 +2,7 @@
 // Layout of the plug-in's window, and its update from the processor 25 times a second.
 #include "PluginEditor.h"
 #include "EditorParts.h"
+#include "HostKeys.h"
 #include "PresetFiles.h"
 #include "Presets.h"
 
@@ -84,6 +85,7 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     , keys_{[&plugin](int note, int velocity) { plugin.play(note, velocity); }} {
     setLookAndFeel(&look_);
     setOpaque(true);
+    setWantsKeyboardFocus(true); // a click anywhere lets Esc silence; other keys are the host's
     title_.setText("PhysVib", juce::dontSendNotification);
     title_.setFont(juce::Font{text::large, juce::Font::bold});
     caption(seedName_, "seed");
@@ -126,14 +128,14 @@ void PluginEditor::fillGroups() {
     const bool hasMusic = plugin_.getBusCount(true) > 0;
     for (const auto& group : parameterGroups()) {
         if (group.parameters.front() == Parameter::beats && !hasMusic) continue;
-        const auto first = group.parameters.front();
-        groups_.push_back({group.name, first == Parameter::gravity || first == Parameter::timing, {}});
+        groups_.push_back({group.name, {}});
         for (const auto which : group.parameters) {
             auto& controls = groups_.back().controls;
             controls.push_back(std::make_unique<ParameterControl>(plugin_.parameter(which)));
             addAndMakeVisible(*controls.back());
             controls.back()->onMenu = [this](HostParameter& parameter) { showMenu(parameter); };
-            if (which == Parameter::material) material_ = controls.back().get();
+            if (which == Parameter::material || which == Parameter::noteMaterial)
+                materials_.push_back(controls.back().get());
         }
     }
 }
@@ -160,7 +162,8 @@ void PluginEditor::fillChoices() {
     fold_.setTooltip(
         "Place the actuators anew, as many as the host has outputs for, so that nothing is lost");
     fold_.onClick = [this] {
-        edit([outputs = plugin_.outputs()](PluginState& s) { placeAnew(s, outputs); });
+        news_.clear();
+        plugin_.useOutputs();
     };
     files_.setTooltip("Open a preset, a scene, a layout or a saved session of your own (or drop it here); "
                       "save a preset; export what was felt");
@@ -172,10 +175,8 @@ void PluginEditor::fillChoices() {
         const int id = scene_.getSelectedId();
         if (id == 0) return;
         if (id >= firstOwnPreset) return open(presets_[static_cast<std::size_t>(id - firstOwnPreset)]);
-        PluginState state = plugin_.state();
-        takePlugInPreset(state, id - 1, plugin_.outputs());
         news_.clear();
-        plugin_.open(std::move(state));
+        plugin_.choose(id - 1);
     };
     layout_.onChange = [this] {
         if (const int i = layout_.getSelectedItemIndex(); i >= 0)
@@ -211,6 +212,14 @@ void PluginEditor::silence() {
     bypass.endChangeGesture();
 }
 
+bool PluginEditor::keyPressed(const juce::KeyPress& key) {
+    const auto* const peer = getPeer();
+    const auto mods = key.getModifiers();
+    return peer != nullptr && !key.isKeyCode(juce::KeyPress::escapeKey) &&
+           sendToHost(peer->getNativeHandle(), {keySymbolOf(key.getKeyCode()), mods.isShiftDown(),
+                                                mods.isCtrlDown(), mods.isAltDown()});
+}
+
 MixHands PluginEditor::hands(bool areChecked) {
     return {[this, areChecked](const std::function<void(PluginState&)>& change) {
                 PluginState wanted = plugin_.state();
@@ -243,18 +252,29 @@ void PluginEditor::setGround(Ground ground) {
     for (auto* const name : {&seedName_, &stepsName_}) mute(*name);
     seed_.applyColourToAllText(shade(*this, Shade::text));
     mix_.take(state_);
-    midiPanel_.take(state_);
-    repaint();
+    takeKnobs();
 }
 
 void PluginEditor::nameMaterials() {
-    const auto& row = rowOf(Parameter::material);
-    for (std::size_t m = 1; m < row.choices.size(); ++m) {
-        const auto& materials = state_.scene.materials;
-        material_->rename(static_cast<int>(m),
-                          words(row.choices[m]) +
-                              (m <= materials.size() ? "  " + words(materials[m - 1].name) : juce::String{}));
-    }
+    const auto& materials = state_.scene.materials;
+    for (auto* const list : materials_)
+        for (std::size_t m = 1; m < rowOf(list->which()).choices.size(); ++m)
+            list->rename(static_cast<int>(m),
+                         words(rowOf(list->which()).choices[m]) +
+                             (m <= materials.size() ? "  " + words(materials[m - 1].name) : juce::String{}));
+}
+
+// What shows or hides controls, and what keys are.
+void PluginEditor::takeKnobs() {
+    knobs_ = plugin_.noteKnobs();
+    for (auto& group : groups_)
+        for (auto& control : group.controls) control->setVisible(uses(state_, knobs_, control->which()));
+    keys_.take(state_, knobs_);
+    auto voiced = state_;
+    voiced.voice = voiceBy(state_.voice, knobs_);
+    midiPanel_.take(voiced);
+    if (!getLocalBounds().isEmpty()) resized();
+    repaint();
 }
 
 void PluginEditor::takeState() {
@@ -275,26 +295,24 @@ void PluginEditor::takeState() {
     for (auto* const c :
          std::initializer_list<juce::Component*>{&direct_, &stepsName_, &steps_, &seedName_, &seed_})
         c->setVisible(moves);
-    for (auto& group : groups_)
-        for (auto& control : group.controls) control->setVisible(moves || !group.needsWorld);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     world_.show(state_.scene);
     world_.show(state_.layout,
                 {state_.layout.geometry, lawOf(value(Parameter::law)), value(Parameter::exponent),
                  state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
-    midiPanel_.take(state_);
-    keys_.take(state_);
     mix_.take(state_);
     nameMaterials();
-    if (!getLocalBounds().isEmpty()) resized(); // more or fewer strips
+    takeKnobs(); // places all anew: there may be more or fewer strips
 }
 
 void PluginEditor::refresh() {
     if (plugin_.stateCount() != shown_) takeState();
+    if (plugin_.noteKnobs() != knobs_) takeKnobs();
     followLearning();
     const auto hits = plugin_.takeNewEvents();
     const auto meters = plugin_.meters();
     const auto status = plugin_.takes().status();
+    aheadBefore_ = std::exchange(aheadShown_, status.aheadBlocks);
     const int rate = std::max(1, plugin_.preparedRateHz());
     std::vector<BodyPose> poses;
     const auto at = plugin_.takes().poses(poses);
@@ -313,7 +331,19 @@ void PluginEditor::refresh() {
     if (trouble.isEmpty()) trouble = news_;
     status_.setColour(juce::Label::textColourId,
                       trouble.isEmpty() ? shade(*this, Shade::muted) : shade(*this, Shade::limit));
-    status_.setText(trouble.isEmpty() ? statusLine(status, meters) : trouble, juce::dontSendNotification);
+    if (trouble.isEmpty()) {
+        trouble = helpOf(juce::Desktop::getInstance().getMainMouseSource().getComponentUnderMouse());
+        if (trouble.isEmpty()) trouble = statusLine(status, meters);
+    }
+    status_.setText(trouble, juce::dontSendNotification);
+}
+
+juce::String PluginEditor::helpOf(juce::Component* underMouse) const {
+    if (!isParentOf(underMouse)) return {};
+    for (; underMouse != this; underMouse = underMouse->getParentComponent())
+        if (auto* const client = dynamic_cast<juce::TooltipClient*>(underMouse))
+            if (const auto help = client->getTooltip(); help.isNotEmpty()) return help;
+    return {};
 }
 
 // What L is made of: two steps of the world, the limiter, and the rest: a block and the thread that steps.
@@ -350,13 +380,18 @@ juce::String PluginEditor::outputText(const ChannelMeters& meters) const {
            " actuators: not felt " + lost.joinIntoString(", ");
 }
 
+// A host that goes ahead of time, or a world that takes longer than that.
+juce::String PluginEditor::steppingText(const TakesStatus& status) const {
+    if (status.aheadBlocks <= aheadBefore_) return {};
+    return "   |   the host waits for the world (ahead of time, or the world is too heavy)";
+}
+
 juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMeters& meters) const {
     if (plugin_.preparedRateHz() == 0 || plugin_.takes().playOutFrames() == 0)
         return "The host has not started the plug-in yet.";
     const auto& r = status.session.render;
     juce::String line = latencyText() + outputText(meters);
-    if (status.isTooHeavy)
-        line << "   |   the world is too heavy for real time: it stands still now and then";
+    line << steppingText(status);
     if (const auto* music = plugin_.getBus(true, 0);
         music && !music->isEnabled() &&
         (plugin_.parameter(Parameter::beats).value() > 0.0 ||
@@ -424,11 +459,23 @@ void PluginEditor::resized() {
     midiPanel_.setBounds(area);
 }
 
+std::vector<PluginEditor::Group::Column> PluginEditor::Group::columns() const {
+    std::vector<Column> columns;
+    for (const auto& control : controls) {
+        if (!control->isVisible()) continue;
+        const bool isBelow = control->isList() && !columns.empty() && columns.back().size() == 1 &&
+                             columns.back().front()->isList();
+        if (!isBelow) columns.emplace_back();
+        columns.back().push_back(control.get());
+    }
+    return columns;
+}
+
 // Side by side, as wide as what is in them.
 void PluginEditor::placeGroups(juce::Rectangle<int> controls) {
     const auto sharesOf = [](const Group& group) {
         int shares = 0;
-        for (const auto& control : group.controls) shares += control->shares();
+        for (const auto& column : group.columns()) shares += column.front()->shares();
         return shares;
     };
     int all = 0;
@@ -444,8 +491,11 @@ void PluginEditor::placeGroups(juce::Rectangle<int> controls) {
         controls.removeFromLeft(panelGap);
         auto places = group.place.reduced(6, 6).withTrimmedTop(18);
         const int inside = places.getWidth();
-        for (auto& one : group.controls)
-            one->setBounds(places.removeFromLeft(inside * one->shares() / shares));
+        for (const auto& column : group.columns()) {
+            auto place = places.removeFromLeft(inside * column.front()->shares() / shares);
+            const int height = place.getHeight() / static_cast<int>(column.size());
+            for (auto* const one : column) one->setBounds(place.removeFromTop(height));
+        }
     }
 }
 

@@ -21,7 +21,9 @@ public:
     void mouseDown(const juce::MouseEvent& e) override;
     void resized() override;
     void lookAndFeelChanged() override;
-    int shares() const noexcept { return listAttachment_ ? 4 : 3; } ///< of the width
+    bool isList() const noexcept { return listAttachment_ != nullptr; }
+    int shares() const noexcept { return isList() ? 4 : 3; } ///< of the width
+    Parameter which() const noexcept { return parameter_.row().parameter; }
 
 private:
     HostParameter& parameter_;
@@ -53,6 +55,7 @@ public:
 
     void paint(juce::Graphics& g) override;
     void resized() override;
+    bool keyPressed(const juce::KeyPress& key) override; ///< that no control has used
     bool isInterestedInFileDrag(const juce::StringArray& files) override {
         return files.size() == 1 && files[0].endsWithIgnoreCase(".json");
     }
@@ -61,18 +64,26 @@ public:
     /// One picture of what is going on; the timer calls it, at most 25 times a second.
     void refresh();
     juce::String statusText() const { return status_.getText(); }
+    /// What the lower edge says while the mouse is over that component: its help, or that of what it is in.
+    juce::String helpOf(juce::Component* underMouse) const;
 
 private:
     static constexpr int firstOwnPreset = 10'000; // ids of the list
     struct Group {                                // of parameters, side by side on a ground of their own
         std::string_view name;
-        bool needsWorld = false;
         std::vector<std::unique_ptr<ParameterControl>> controls;
         juce::Rectangle<int> place{};
-        bool isShown() const { return controls.front()->isVisible(); }
+        bool isShown() const {
+            return std::ranges::any_of(controls, [](const auto& one) { return one->isVisible(); });
+        }
+        /// Those that are shown, from left to right; lists that are neighbours stand one above the other.
+        using Column = std::vector<ParameterControl*>;
+        std::vector<Column> columns() const;
     };
     void timerCallback() override { refresh(); }
     void takeState();
+    void takeKnobs();
+    juce::String steppingText(const TakesStatus& status) const;
     juce::String latencyText() const;
     juce::String outputText(const ChannelMeters& meters) const;
     void fillGroups();
@@ -107,7 +118,10 @@ private:
     MixPanel mix_;
     KeyboardPanel keys_;
     std::vector<Group> groups_;
-    ParameterControl* material_ = nullptr;
+    std::vector<ParameterControl*> materials_;       // lists of materials
+    NoteKnobs knobs_;                                // as they are shown
+    std::uint64_t aheadShown_ = 0, aheadBefore_ = 0; // blocks that the host had to wait for, at the last two
+                                                     // pictures
     std::unique_ptr<juce::FileChooser> chooser_;
     std::vector<juce::File> presets_; // one's own, as they are listed
     int learning_ = -1;               // a parameter; -1: none

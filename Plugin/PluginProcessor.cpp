@@ -29,7 +29,7 @@ PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
     const auto state = newPluginState(outputs());
     apply(state);
     takeParameters(state);
-    isNew_ = true;
+    followsWidth_ = true;
     startTimer(sleepsMs);
 }
 
@@ -73,6 +73,16 @@ PluginProcessor::~PluginProcessor() {
 }
 
 bool PluginProcessor::apply(PluginState state) {
+    {
+        const std::lock_guard one{applyMutex_};
+        if (!exchangeFor(std::move(state), false)) return false;
+    }
+    publish();
+    return true;
+}
+
+// applyMutex_ is held.
+bool PluginProcessor::exchangeFor(PluginState state, bool followsWidth) {
     fitToLayout(state);
     try {
         takes_.set(sessionSetupOf(state), {state.transport, state.layout.geometry, MidiTable{state}},
@@ -80,12 +90,21 @@ bool PluginProcessor::apply(PluginState state) {
     } catch (const std::invalid_argument& error) {
         return refuse(asString(error.what()));
     }
-    isNew_ = false;
-    tailSeconds_ = tailSeconds(state);
+    followsWidth_ = followsWidth;
+    tailSeconds_ = tailSeconds(state, noteKnobs());
     program_ = presetOf(state);
     take(std::move(state));
-    publish();
     return true;
+}
+
+// A state that comes meanwhile on another thread is kept: either it is there already, and is not fitted, or
+// it comes after.
+void PluginProcessor::fitToWidth() {
+    const std::lock_guard one{applyMutex_};
+    auto fitting = state();
+    if (!followsWidth_ || outputs() == enchantersOf(fitting)) return;
+    placeAnew(fitting, outputs());
+    exchangeFor(std::move(fitting), true);
 }
 
 int PluginProcessor::outputs() const {
@@ -107,12 +126,21 @@ bool PluginProcessor::edit(PluginState state) {
     auto before = this->state();
     if (!change(std::move(state))) return false;
     const std::lock_guard lock{mutex_};
-    history_.add(std::move(before));
+    history_.add(std::move(before), {});
     return true;
 }
 
+// A step of its own, about the parameters that are others now.
+void PluginProcessor::remember(PluginState before) {
+    const auto now = state();
+    TouchedParameters touched;
+    for (std::size_t p = 0; p < parameterCount; ++p) touched[p] = before.parameters[p] != now.parameters[p];
+    const std::lock_guard lock{mutex_};
+    history_.add(std::move(before), touched, EditHistory::Edit::whole);
+}
+
 void PluginProcessor::go(Step step) {
-    std::optional<PluginState> there;
+    std::optional<EditHistory::Step> there;
     {
         auto now = state();
         const std::lock_guard lock{mutex_};
@@ -122,10 +150,8 @@ void PluginProcessor::go(Step step) {
     }
     if (!there) return;
     // SILENCE is no edit: only a hand on its button lifts it
-    std::erase_if(there->parameters, [](const auto& p) { return p.first == rowOf(Parameter::bypass).id; });
-    const auto& bypass = parameter(Parameter::bypass);
-    there->parameters.emplace_back(bypass.row().id, stateValue(bypass.row(), bypass.value()));
-    if (change(*there)) takeParameters(*there);
+    there->touched.reset(static_cast<std::size_t>(Parameter::bypass));
+    if (change(there->state)) takeParameters(there->state, there->touched);
 }
 
 bool PluginProcessor::can(Step step) const {
@@ -141,19 +167,42 @@ bool PluginProcessor::isAtB() const {
 bool PluginProcessor::change(PluginState state) {
     fitToLayout(state);
     const int before = program_;
-    if (isSameTake(this->state(), state)) {
+    const auto now = this->state();
+    const bool follows = followsWidth_ && isSame(now.layout.geometry, state.layout.geometry);
+    if (isSameTake(now, state)) {
         takes_.mix(state.strips);
         take(std::move(state));
     } else if (!apply(std::move(state))) {
         return false;
     }
+    followsWidth_ = follows;
     updateHostDisplay(
         ChangeDetails{}.withNonParameterStateChanged(true).withProgramChanged(program_ != before));
     return true;
 }
 
 void PluginProcessor::open(PluginState state) {
-    if (edit(state)) takeParameters(state);
+    auto before = this->state();
+    if (!change(state)) return;
+    takeParameters(state);
+    remember(std::move(before));
+}
+
+PluginState PluginProcessor::withPreset(int preset) const {
+    auto changed = state();
+    takePlugInPreset(changed, preset, outputs());
+    return changed;
+}
+
+void PluginProcessor::choose(int preset) {
+    open(withPreset(preset));
+    followsWidth_ = true;
+}
+
+void PluginProcessor::useOutputs() {
+    auto changed = state();
+    placeAnew(changed, outputs());
+    if (edit(std::move(changed))) followsWidth_ = true;
 }
 
 void PluginProcessor::keepEditorSize(int width, int height) {
@@ -181,7 +230,7 @@ juce::String PluginProcessor::trouble() const {
     const auto fault = takes_.fault();
     if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
         return "the host runs at " + juce::String{rate} + " Hz; expected " +
-               juce::String{limits::minSampleRateHz} + " to " + juce::String{limits::maxSampleRateHz} +
+               juce::String{limits::minSampleRateHz} + " to " + juce::String{HalfRate::fastestHz} +
                ": silent";
     const std::lock_guard lock{mutex_};
     return trouble_.isNotEmpty() ? trouble_ : asString(fault);
@@ -198,7 +247,7 @@ void PluginProcessor::parameterGestureChanged(int which, bool begins) {
     if (!begins || which == static_cast<int>(Parameter::bypass)) return;
     auto before = state();
     const std::lock_guard lock{mutex_};
-    history_.add(std::move(before));
+    history_.add(std::move(before), TouchedParameters{}.set(static_cast<std::size_t>(which)));
     if (refused_.isEmpty()) return;
     refused_.reset();
     trouble_.clear();
@@ -211,23 +260,26 @@ void PluginProcessor::publish() {
     if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
         setLatencySamples(0);
     else if (const auto frames = static_cast<int>(takes_.latencyFrames()); frames > 0)
-        setLatencySamples(frames);
+        setLatencySamples(isHalved_ ? 2 * frames + HalfRate::lagFrames : frames);
 }
 
 void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
+    int rate = juce::roundToInt(sampleRateHz), usual = usualBlockFrames_;
+    isHalved_ = HalfRate::isNeeded(rate);
+    if (isHalved_) {
+        half_.prepare(std::max(getTotalNumInputChannels(), getTotalNumOutputChannels()), blockFrames);
+        sampleRateHz = rate /= 2;
+        blockFrames = blockFrames / 2 + 1;
+        usual = usual > 0 ? usual / 2 + 1 : 0;
+    }
     sampleRateHz_ = sampleRateHz;
-    const int rate = juce::roundToInt(sampleRateHz);
     if (!isSampleRate(rate)) { // silent, and trouble() says so
         releaseResources();
         return publish();
     }
-    const int usual = usualBlockFrames_ > 0 ? std::min(usualBlockFrames_, blockFrames) : blockFrames;
-    blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, usual);
-    if (auto fitting = state(); isNew_ && outputs() != enchantersOf(fitting)) {
-        placeAnew(fitting, outputs());
-        apply(std::move(fitting));
-        isNew_ = true;
-    }
+    blockFrames_ =
+        juce::jlimit(1, limits::maxBlockFrames, usual > 0 ? std::min(usual, blockFrames) : blockFrames);
+    fitToWidth();
     outputs_ = BusMap{*this};
     open_.prepare(rate, limits::channelRampSeconds, parameter(Parameter::bypass).value() > 0.5 ? 0.0f : 1.0f);
     guard_.prepare(static_cast<int>(rate), std::min(getTotalNumOutputChannels(), limits::maxEnchanters),
@@ -265,6 +317,8 @@ std::vector<TakeEvent> PluginProcessor::takeNewEvents() {
 
 void PluginProcessor::timerCallback() {
     for (auto* p : parameters_) p->tellHost();
+    if (const auto now = noteKnobs(); now != tailKnobs_)
+        tailSeconds_ = tailSeconds(state(), tailKnobs_ = now);
     publish(); // the timing may have changed
     const bool plays = std::exchange(blocksTold_, takes_.blocks()) != blocksTold_;
     if (const int wanted = plays ? tellsEveryMs : sleepsMs; wanted != getTimerInterval()) startTimer(wanted);
@@ -276,12 +330,13 @@ int PluginProcessor::getNumPrograms() { return static_cast<int>(presetNames().si
 
 void PluginProcessor::setCurrentProgram(int index) {
     if (index < 0 || index >= getNumPrograms()) return;
-    auto changed = state();
-    const auto before = changed;
-    takePlugInPreset(changed, index, outputs());
+    auto before = state();
+    const auto changed = withPreset(index);
     if (isSameTake(before, changed)) return; // hosts repeat themselves, and the world would start anew
-    apply(changed);
+    if (!apply(changed)) return;
+    followsWidth_ = true;
     takeParameters(changed);
+    remember(std::move(before));
 }
 
 const juce::String PluginProcessor::getProgramName(int index) {
@@ -306,7 +361,7 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {
 void PluginProcessor::setStateInformation(const void* data, int size) {
     const std::string_view text{static_cast<const char*>(data), static_cast<std::size_t>(std::max(0, size))};
     if (takeChunk(text)) return;
-    isNew_ = false;
+    followsWidth_ = false;
     const std::lock_guard lock{mutex_};
     refused_ = juce::MemoryBlock{text.data(), text.size()};
 }
@@ -325,16 +380,17 @@ bool PluginProcessor::takeChunk(std::string_view text) {
 
 // Those that the state does not name get their defaults. The host is told of what it does not know: each
 // telling may mark its session as changed.
-void PluginProcessor::takeParameters(const PluginState& state) {
+void PluginProcessor::takeParameters(const PluginState& state, TouchedParameters which) {
     std::array<float, parameterCount> normals;
     for (std::size_t i = 0; i < parameterCount; ++i) normals[i] = parameters_[i]->getDefaultValue();
     for (const auto& [id, value] : state.parameters) {
-        const auto which = static_cast<std::size_t>(parameterOfId(id));
-        normals[which] = static_cast<float>(
-            normalised(parameters_[which]->row(), *valueOfState(parameters_[which]->row(), value)));
+        const auto one = static_cast<std::size_t>(parameterOfId(id));
+        normals[one] = static_cast<float>(
+            normalised(parameters_[one]->row(), *valueOfState(parameters_[one]->row(), value)));
     }
     for (std::size_t i = 0; i < parameterCount; ++i)
-        if (parameters_[i]->getValue() != normals[i]) parameters_[i]->setValueNotifyingHost(normals[i]);
+        if (which[i] && parameters_[i]->getValue() != normals[i])
+            parameters_[i]->setValueNotifyingHost(normals[i]);
 }
 
 } // namespace physvib

@@ -11,6 +11,7 @@
 #include "Core/Actuators/OutputGuard.h"
 #include "EditHistory.h"
 #include "FeltExport.h"
+#include "HalfRate.h"
 #include "HeldNotes.h"
 #include "HostParameter.h"
 #include "Live/Devices/ChannelMeters.h"
@@ -39,6 +40,15 @@ public:
     bool edit(PluginState state);
     /// An edit that sets the parameters as well. M.
     void open(PluginState state);
+    /// A preset, chosen in the window. M.
+    void choose(int preset);
+    /// As many actuators as there are outputs, from now on. M.
+    void useOutputs();
+    /// What the parameters make of notes now. Any thread.
+    NoteKnobs noteKnobs() const noexcept {
+        return knobsBy(
+            [this](Parameter which) { return parameters_[static_cast<std::size_t>(which)]->value(); });
+    }
     /// What a person changed, one step back or forth, parameters of the window too; the other one of A and B.
     /// M.
     enum class Step { undo, redo, exchange };
@@ -53,6 +63,7 @@ public:
     bool keepsRefused() const;
     /// grows with every state that was taken
     std::uint64_t stateCount() const noexcept { return stateCount_; }
+    /// At which it renders: of hosts above 192 kHz half of theirs.
     int preparedRateHz() const noexcept { return static_cast<int>(sampleRateHz_.load()); }
 
     /// How many frames a block usually has where a host announces far more (LV2); 0: as announced. M, before
@@ -99,12 +110,14 @@ public:
     using juce::AudioProcessor::processBlock;
     using juce::AudioProcessor::processBlockBypassed;
     /// None for LV2: its wrapper writes `lv2:enabled` over it in every block, and tells the host so from the
-    /// render call.
+    /// render call. Our entry makes that port bypass' own, by its changes (Lv2Controls.h).
     juce::AudioProcessorParameter* getBypassParameter() const override {
         return wrapperType == wrapperType_LV2 ? nullptr
                                               : parameters_[static_cast<std::size_t>(Parameter::bypass)];
     }
-    double getTailLengthSeconds() const override { return tailSeconds_; }
+    double getTailLengthSeconds() const override {
+        return tailSeconds_;
+    } ///< with the knobs as they were told
     bool acceptsMidi() const override { return true; }
     bool producesMidi() const override { return false; }
     bool supportsMPE() const override { return true; }
@@ -133,8 +146,12 @@ private:
     bool refuse(const juce::String& why);
     void take(PluginState state);
     bool change(PluginState state);
+    bool exchangeFor(PluginState state, bool followsWidth);
+    void fitToWidth();
     void publish();
-    void takeParameters(const PluginState& state);
+    void takeParameters(const PluginState& state, TouchedParameters which = TouchedParameters{}.set());
+    void remember(PluginState before);
+    PluginState withPreset(int preset) const;
 
     // R
     TakeTiming timing() const noexcept {
@@ -143,7 +160,9 @@ private:
     double value(Parameter which) const noexcept {
         return denormalised(rowOf(which), normals_[static_cast<std::size_t>(which)]);
     }
+    NoteKnobs knobs() const noexcept;
     void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
+    void renderAtRate(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
     void readParameters() noexcept;
     void takePoints(int until) noexcept;
     int renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message,
@@ -183,8 +202,10 @@ private:
     EditHistory history_;
     juce::MemoryBlock refused_; // a chunk that is not ours to lose
     std::atomic<int> program_{0};
-    std::atomic<bool> isNew_{true}; // nobody has chosen anything yet: it has as many actuators as the host
-                                    // has outputs
+    std::mutex applyMutex_; // one exchange of states at a time; taken before mutex_, and not held while the
+                            // host is told either
+    std::atomic<bool> followsWidth_{true}; // the layout is a preset's, not somebody's: it has as many
+                                           // actuators as the host has outputs
     std::atomic<std::uint64_t> stateCount_{0};
     std::atomic<double> sampleRateHz_{0.0};
     std::atomic<double> tailSeconds_{0.0};
@@ -195,6 +216,7 @@ private:
     EventQueue<Key, 256> keys_;    // from M to R
     FeltEvents felt_;              // M
     std::uint64_t blocksTold_ = 0; // M
+    NoteKnobs tailKnobs_;          // M: what the tail was told for
     std::atomic<std::uint64_t> prepares_{0};
     std::atomic<std::uint32_t> lastController_{0};
     LatestValue<ChannelMeters> meters_;
@@ -203,6 +225,8 @@ private:
     int usualBlockFrames_ = 0;
 
     // R
+    std::atomic<bool> isHalved_{false}; // changes while nobody renders
+    HalfRate half_;
     BeatInput beats_;
     MusicInput music_;
     Transport transport_;

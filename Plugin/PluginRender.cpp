@@ -37,9 +37,21 @@ void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juc
     midi.clear();
 }
 
-// In parts: some hosts exceed what they announced, and SILENCE closes at its frame.
 void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi,
                              bool bypassed) noexcept {
+    if (!isHalved_ || blockFrames_ == 0 || buffer.getNumSamples() == 0)
+        return renderAtRate(buffer, midi, bypassed);
+    half_.process(buffer, getTotalNumInputChannels(), midi, std::exchange(source_, nullptr),
+                  [this, bypassed](juce::AudioBuffer<float>& ours, const juce::MidiBuffer& events,
+                                   PointSource* source) {
+                      source_ = source;
+                      renderAtRate(ours, events, bypassed);
+                  });
+}
+
+// In parts: some hosts exceed what they announced, and SILENCE closes at its frame.
+void PluginProcessor::renderAtRate(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi,
+                                   bool bypassed) noexcept {
     const int frames = buffer.getNumSamples();
     if (blockFrames_ == 0 || frames == 0) {
         source_ = nullptr;
@@ -121,7 +133,7 @@ void PluginProcessor::followTransport(int frames) noexcept {
     if (auto* host = getPlayHead())
         if (const auto position = host->getPosition()) {
             plays = position->getIsPlaying();
-            if (const auto samples = position->getTimeInSamples()) at = *samples;
+            if (const auto samples = position->getTimeInSamples()) at = isHalved_ ? *samples / 2 : *samples;
         }
     const auto change = transport_.follow(plays, at, frames);
     const bool restarts = takes_.lookForNew() == TransportMode::restartOnPlay;
@@ -256,11 +268,11 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
         session->callback().perform(input, frame);
         return;
     }
-    CollisionEvent event = midi.strikeOf(note);
+    const NoteKnobs now = knobs();
+    CollisionEvent event = midi.strikeOf(note, now, takes_.settings().layout);
     if (event.frequencyHz <= 0.0) return;
-    const double exponent = midi.voice().velocityExponent, share = velocity / 127.0;
-    const double loudness = exponent == 1.0 ? share : std::pow(share, exponent);
-    if (midi.isHeld(note)) {
+    const double loudness = midi.loudnessOf(velocity, now);
+    if (midi.isHeld(note, now)) {
         pressure_[static_cast<std::size_t>(channel)] = 0.0f; // a new touch
         return held_.start({channel, note, loudness, session->timeline().framesRendered() + frame});
     }
@@ -268,11 +280,15 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
     session->callback().strike(placed(event, channel), frame);
 }
 
+NoteKnobs PluginProcessor::knobs() const noexcept {
+    return knobsBy([this](Parameter which) { return value(which); });
+}
+
 // Where the strike's own place, shifts, bend and slide put it, and as loud as the voice wants it there.
 CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel) const noexcept {
     const auto& settings = takes_.settings();
     const auto& midi = settings.midi;
-    const double bend = bend_[static_cast<std::size_t>(channel)], semitones = midi.voice().bendSemitones;
+    const double bend = bend_[static_cast<std::size_t>(channel)], semitones = midi.bendSemitones(knobs());
     const auto shifted = [](double at, double by, double size) {
         return std::clamp(at + by * size, 0.0, size);
     };
@@ -295,7 +311,8 @@ CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel) const
 
 // A finger that presses is louder than the key was struck.
 NoteSound PluginProcessor::soundOf(const HeldNotes::Note& note) const noexcept {
-    CollisionEvent event = takes_.settings().midi.strikeOf(note.number);
+    const auto& settings = takes_.settings();
+    CollisionEvent event = settings.midi.strikeOf(note.number, knobs(), settings.layout);
     event.amplitude =
         gainOfLevel(value(Parameter::strikeLevel)) *
         std::max(note.velocity, static_cast<double>(pressure_[static_cast<std::size_t>(note.channel)]));
@@ -308,7 +325,7 @@ void PluginProcessor::sustain(int first, int end) noexcept {
     Session* const session = takes_.session();
     if (!session || first >= end) return;
     const std::int64_t now = session->timeline().framesRendered();
-    const double release = std::log(1000.0) / takes_.settings().midi.voice().releaseSeconds;
+    const double release = takes_.settings().midi.releasePerSecond(knobs());
     held_.advance(
         now + end, static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)),
         [this](const HeldNotes::Note& note) { return soundOf(note); },

@@ -75,14 +75,36 @@ bool hasWorld(const PluginState& state) noexcept {
                                [](const NoteRule& rule) { return rule.kind == NoteKind::spawn; });
 }
 
-double tailSeconds(const PluginState& state) noexcept {
+bool uses(const PluginState& state, const NoteKnobs& knobs, Parameter which) noexcept {
+    const bool isHeld = voiceBy(state.voice, knobs).isHeld;
+    switch (which) {
+    case Parameter::gravity:
+    case Parameter::tilt:
+    case Parameter::timing: return hasWorld(state);
+    case Parameter::material:
+        return std::ranges::any_of(state.scene.bodies, [](const BodyDescription& body) {
+            return std::ranges::any_of(body.fixtures, &FixtureDescription::isCamera);
+        });
+    case Parameter::release: return isHeld;
+    case Parameter::decay:
+        return !isHeld || std::ranges::any_of(state.notes, [](const NoteRule& rule) {
+            return rule.kind == NoteKind::strike;
+        });
+    default: return true;
+    }
+}
+
+double tailSeconds(const PluginState& state, const NoteKnobs& knobs) noexcept {
     if (hasWorld(state)) return std::numeric_limits<double>::infinity();
     double least = limits::maxDecayPerSecond;
-    if (state.voice.pitch == NotePitch::note)
-        least =
-            state.voice.isHeld ? std::log(1000.0) / state.voice.releaseSeconds : state.voice.decayPerSecond;
+    const NoteVoice voice = voiceBy(state.voice, knobs);
+    if (voice.isHeld)
+        least = std::log(1000.0) / voice.releaseSeconds;
+    else if (voice.pitch == NotePitch::note)
+        least = voice.decayPerSecond;
     for (const auto& m : state.scene.materials)
-        if (m.frequencyHz > 0.0 && m.decayPerSecond > 0.0) least = std::min(least, m.decayPerSecond);
+        if (m.frequencyHz > 0.0 && m.decayPerSecond > 0.0)
+            least = std::min(least, m.decayPerSecond / knobs.decay);
     return limits::retireDecibels / 20.0 * std::log(10.0) / least;
 }
 

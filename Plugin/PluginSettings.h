@@ -3,6 +3,7 @@
 #pragma once
 #include "Live/Documents/PluginState.h"
 #include "Live/Session/Session.h"
+#include "MidiMap.h"
 #include "Parameters.h"
 #include <optional>
 #include <string>
@@ -32,9 +33,13 @@ SessionSetup sessionSetupOf(const PluginState& state);
 /// all is rendered in the call, without the output latency of a world. Any thread.
 bool hasWorld(const PluginState& state) noexcept;
 
+/// Whether a parameter changes anything of what such a state plays, now or when a note comes: others need not
+/// be shown. Any thread.
+bool uses(const PluginState& state, const NoteKnobs& knobs, Parameter which) noexcept;
+
 /// Infinite: a world goes on by itself. Without one, from a strike at full scale until it has fallen out of
 /// hearing, at the smallest decay of the scene. Any thread.
-double tailSeconds(const PluginState& state) noexcept;
+double tailSeconds(const PluginState& state, const NoteKnobs& knobs = {}) noexcept;
 
 /// A parameter's value as a state keeps it: a choice by its word, so that others may join it (decision 34).
 /// Any thread.

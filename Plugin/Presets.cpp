@@ -6,6 +6,7 @@
 #include "Scene/SceneCatalogue.h"
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -45,7 +46,8 @@ enum class Arrangement {
 struct Instrument {
     std::string_view name;
     Arrangement arrangement;
-    int actuators; ///< that it is made for
+    int actuators;   ///< that it is made for
+    double strikeDb; ///< strike level: all are felt as strongly (Tests/Plugin/LoudnessTest.cpp measures it)
     NoteVoice voice;
     std::span<const KitNote> kit{};
     double beats = 0.0; ///< per cent
@@ -72,35 +74,39 @@ const std::vector<Instrument>& instruments() {
     using enum NotePlaces;
     using enum Arrangement;
     static const std::vector<Instrument> all{
-        {"Keys", grid, 4, voice(octave, 12.0)},
-        {"Drum kit", grid, 4, voice(octave, 20.0), drumKit},
-        {"Bass", grid, 4, voice(middle, 4.0)},
-        {"Strings", grid, 4, held(octave, 0.4, 2.0)},
-        {"Stereo pair", row, 2, held(octave, 0.1, 2.0)},
-        {"Four corners", grid, 4, voice(actuators, 15.0)},
-        {"Belt of eight", belt, 8, voice(actuators, 25.0)},
-        {"Sweep", grid, 4, held(middle, 0.2, 24.0)},
-        {"MPE pad", grid, 4, held(octave, 0.8, 48.0)},
-        {"Clicks", grid, 4, voice(middle, 120.0), clicks},
-        {"Heartbeat", grid, 4, voice(middle, 16.0), heart},
-        {"Beats of the music", grid, 4, voice(octave, 20.0), {}, 50.0},
+        {"Keys", grid, 4, 6.0, voice(octave, 12.0)},
+        {"Drum kit", grid, 4, 5.0, voice(octave, 20.0), drumKit},
+        {"Bass", grid, 4, 2.5, voice(middle, 4.0)},
+        {"Strings", grid, 4, 0.0, held(octave, 0.4, 2.0)},
+        {"Stereo pair", row, 2, 0.0, held(octave, 0.1, 2.0)},
+        {"Four corners", grid, 4, 6.0, voice(actuators, 15.0)},
+        {"Belt of eight", belt, 8, 8.0, voice(actuators, 25.0)},
+        {"Sweep", grid, 4, 0.0, held(middle, 0.2, 24.0)},
+        {"MPE pad", grid, 4, 0.0, held(octave, 0.8, 48.0)},
+        {"Clicks", grid, 4, 12.0, voice(middle, 120.0), clicks},
+        {"Heartbeat", grid, 4, 6.0, voice(middle, 16.0), heart},
+        {"Beats of the music", grid, 4, 6.0, voice(octave, 20.0), {}, 50.0},
     };
     return all;
 }
 
-/// Factor on a scene's own drive, so that its hardest hit at the initial level is as strong as a usual key:
-/// 0.39 of full scale (Tests/Plugin/LoudnessTest.cpp measures it).
-double driveOf(std::string_view scene) noexcept {
+/// Factor on a scene's own drive, so that it is felt as strongly as an instrument on that many actuators: on
+/// more, each gets less of an impact (Tests/Plugin/LoudnessTest.cpp measures it).
+double driveOf(std::string_view scene, int actuators) noexcept {
     struct Drive {
         std::string_view scene;
-        double factor;
+        std::array<double, 5> factors; // on 1, 2, 4, 8, 16 actuators
     };
-    static constexpr std::array drives{
-        Drive{"shake-the-box", 5.3}, Drive{"fruit-basket", 3.7}, Drive{"driving", 3.8}, Drive{"drop", 26.0},
-        Drive{"box-study", 35.0},    Drive{"marbles", 3.2},      Drive{"drawing", 3.1}};
+    static constexpr std::array drives{Drive{"shake-the-box", {7.91, 8.01, 8.78, 8.48, 9.74}},
+                                       Drive{"fruit-basket", {5.2, 7.6, 9.9, 10.6, 13.0}},
+                                       Drive{"driving", {10.2, 11.2, 13.8, 15.5, 15.0}},
+                                       Drive{"drop", {17.0, 34.0, 38.0, 48.5, 89.3}},
+                                       Drive{"box-study", {46.6, 50, 58, 61.5, 66.6}},
+                                       Drive{"marbles", {6.1, 6.36, 7.8, 7.65, 8.8}},
+                                       Drive{"drawing", {4.2, 5.5, 6.5, 6.0, 10.2}}};
     const auto found = std::ranges::find(drives, scene, &Drive::scene);
-    return found == drives.end() ? 4.0 : found->factor; // scenes peak half-way to full scale, the level is
-                                                        // -12 dB
+    const int width = std::bit_width(static_cast<unsigned int>(std::clamp(actuators, 1, 16))) - 1;
+    return found == drives.end() ? 8.0 : found->factors[static_cast<std::size_t>(width)];
 }
 
 /// No bodies: materials, and a field to be struck.
@@ -184,9 +190,9 @@ void take(PluginState& state, const Instrument& instrument, int outputs) {
         rule.y = note.y;
         state.notes.push_back(rule);
     }
-    // with the level that is safe at first: -6 dB of full scale
-    setParameter(state, Parameter::strikeLevel, rowOf(Parameter::strikeLevel).initial);
+    setParameter(state, Parameter::strikeLevel, instrument.strikeDb);
     setParameter(state, Parameter::beats, instrument.beats);
+    for (const auto which : parameterTable::instrumentGroup) setParameter(state, which, rowOf(which).initial);
 }
 
 } // namespace
@@ -221,8 +227,13 @@ void takePlugInPreset(PluginState& state, int index, int outputs) {
     const auto at = static_cast<std::size_t>(index);
     if (at >= scenes.size()) return take(state, instruments().at(at - scenes.size()), outputs);
     takeScene(state, scenes[at]);
-    state.scene.driveGain *= driveOf(state.scene.name);
     if (outputs > 0 && outputs < enchantersOf(state)) placeAnew(state, outputs);
+    state.scene.driveGain *= driveOf(state.scene.name, enchantersOf(state));
+}
+
+double usualStrikeDb(const PluginState& state) {
+    const auto* const instrument = instrumentOf(state);
+    return std::max(rowOf(Parameter::strikeLevel).initial, instrument ? instrument->strikeDb : 0.0);
 }
 
 PluginState newPluginState(int outputs) {

@@ -22,6 +22,9 @@ void takePlugInPreset(PluginState& state, int index, int outputs = 0);
 /// they keep what drives them and their strips. M only.
 void placeAnew(PluginState& state, int outputs);
 
+/// The strike level up to which a file of such a preset is no louder than the preset itself. M only.
+double usualStrikeDb(const PluginState& state);
+
 /// What a new instance plays: notes and beats, nothing by itself. M only.
 PluginState newPluginState(int outputs = 4);
 

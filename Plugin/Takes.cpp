@@ -5,7 +5,6 @@
 #include "Scene/SceneValidation.h"
 #include "Scene/World/InputCheck.h"
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 #include <utility>
 
@@ -143,7 +142,6 @@ void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds,
     order_ = std::make_shared<const TakeOrder>(std::move(order));
     sampleRateHz_ = sampleRateHz;
     blockFrames_ = blockFrames;
-    isTooHeavy_ = false;
     started_ = 0;
     delayedBlocks_ = lateBefore_ = 0;
     slippedBefore_ = 0;
@@ -152,7 +150,7 @@ void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds,
     status_.write({});
     exchange(order_, newTake(order_, sampleRateHz, blockFrames));
     stop_ = false;
-    if (handNs_) return;
+    if (isDrivenByHand_) return;
     builder_ = std::thread{[this] { build(); }};
     lock.unlock(); // who steps holds its own mutex first
     stepper_.emplace();
@@ -178,12 +176,6 @@ void Takes::release() {
     sampleRateHz_ = blockFrames_ = 0;
 }
 
-std::int64_t Takes::nowNs() const noexcept {
-    using namespace std::chrono;
-    return handNs_ ? handNs_->load()
-                   : duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
-}
-
 void Takes::tick() {
     std::unique_lock lock{mutex_};
     tellAll();
@@ -193,7 +185,7 @@ void Takes::tick() {
         drain(*take);
     }
     if (!isWorkToDo()) return;
-    if (handNs_) return tryToMakeReady(lock);
+    if (isDrivenByHand_) return tryToMakeReady(lock);
     lock.unlock();
     workToDo_.notify_one();
 }

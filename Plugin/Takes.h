@@ -16,9 +16,9 @@
 // Hosts ahead of time. L covers one block. If a host asks for more at once - a bounce that it does not call
 // one, twenty blocks in a row, half a second ahead, a block larger than announced - the thread has not
 // stepped the world that far. R sees that (Session::framesMissing) and steps it in the render call, as it
-// does where the host calls a block non-realtime. So L never changes and every bounce is the live take. The
-// steps that R makes may take as long as what is rendered: a world too heavy for that stands still instead,
-// counted.
+// does where the host calls a block non-realtime. So L never changes and every bounce is the live take. No
+// clock has a say in that: which steps R makes follows from counts of steps alone, so a busy machine changes
+// no sample, and as soon as the thread is in time again R makes none.
 #pragma once
 #include "Stepper.h"
 #include "Take.h"
@@ -37,7 +37,6 @@ struct TakePace {
                                                      // Docs/plugin.md)
     static constexpr int stillTicksPerSecond = 20;   // without a world: only the log of events is drained
     static constexpr double stillIdleSeconds = 0.5;
-    static constexpr std::int64_t spareNs = 100'000'000; // that steps in the render call may be behind
     static int ticksPerSecond(int stepsPerSecond) noexcept {
         return stepsPerSecond > leastTicksPerSecond ? std::min(stepsPerSecond, 1000) : leastTicksPerSecond;
     }
@@ -66,8 +65,7 @@ struct TakesStatus {
     std::int64_t slippedNs = 0;      ///< stalls of the worlds of all takes
     std::uint64_t delayedBlocks = 0; ///< blocks that a start had to wait for a take to be ready
     std::uint64_t aheadBlocks = 0;   ///< for which the world was stepped in the render call, since the host
-                                     ///< asked ahead of its thread
-    bool isTooHeavy = false; ///< the world takes longer than real time: it is not stepped in the render call
+                                     ///< asked ahead of its thread, or that was late
 };
 
 class Takes final : private Stepped {
@@ -75,8 +73,8 @@ public:
     Takes() = default;
     ~Takes() { release(); }
 
-    /// For tests, before prepare: no threads; `tick` does what they do, and it is `nowNs`.
-    void driveByHand(const std::atomic<std::int64_t>& nowNs) noexcept { handNs_ = &nowNs; }
+    /// For tests, before prepare: no threads; `tick` does what they do.
+    void driveByHand() noexcept { isDrivenByHand_ = true; }
     void tick() override; ///< steps the worlds
 
     /// What later takes play, and by what strips. While prepared, the playing take is replaced as soon as R
@@ -95,7 +93,7 @@ public:
 
     /// How worlds are stepped from the next block on; what plays goes on. Any thread.
     void setTiming(TakeTiming timing) noexcept { timing_ = timing; }
-    TakeTiming timing() const noexcept { return isTooHeavy_ ? TakeTiming::safe : timing_.load(); }
+    TakeTiming timing() const noexcept { return timing_; }
 
     /// L of the present setup, host and timing; 0 before prepare. Any thread.
     std::int64_t playOutFrames() const noexcept {
@@ -170,7 +168,6 @@ private:
                                  std::shared_ptr<const TakeOrder> order);
     void makeReady(std::unique_lock<std::mutex>& lock);
     void tryToMakeReady(std::unique_lock<std::mutex>& lock) noexcept;
-    std::int64_t nowNs() const noexcept;
 
     // R
     template <class Do>
@@ -195,14 +192,14 @@ private:
 
     std::atomic<Take*> spare_{nullptr};
     std::atomic<std::uint64_t> newest_{0}; // generation of the last settings, once they are in spare_
-    std::atomic<bool> hasNext_{false}, stop_{false}, isTooHeavy_{false};
+    std::atomic<bool> hasNext_{false}, stop_{false};
     std::atomic<std::int64_t> safeFrames_{0}, tightFrames_{0}, directFrames_{0}; // of the last settings
     std::atomic<TakeTiming> timing_{TakeTiming::safe};
     std::atomic<std::uint64_t> lost_{0}, made_{0}, blocks_{0};
     std::atomic<double> idleSeconds_{0.0};
     std::atomic<int> ticksPerSecond_{TakePace::leastTicksPerSecond};
     LatestValue<TakesStatus> status_;
-    const std::atomic<std::int64_t>* handNs_ = nullptr;
+    bool isDrivenByHand_ = false;
 
     // R
     Take* playing_ = nullptr;
@@ -215,7 +212,6 @@ private:
     std::uint64_t delayedBlocks_ = 0, lateBefore_ = 0;
     std::int64_t slippedBefore_ = 0;
     std::uint64_t aheadBlocks_ = 0;
-    std::int64_t spareNs_ = TakePace::spareNs; // that steps in the render call may take
 
     std::optional<juce::SharedResourcePointer<Stepper>> stepper_; // while prepared
     std::thread builder_;

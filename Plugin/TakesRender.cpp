@@ -43,8 +43,6 @@ bool Takes::begin(RenderMode mode) noexcept {
     playing_ = std::exchange(next_, nullptr);
     hasNext_ = false;
     playing_->number = ++started_;
-    spareNs_ = TakePace::spareNs;
-    isTooHeavy_ = false;
     return true;
 }
 
@@ -84,36 +82,26 @@ void Takes::letGoOfThoseOver() noexcept {
 
 void Takes::render(int frames, RenderMode mode) noexcept {
     blocks_.fetch_add(1, std::memory_order_relaxed);
-    const std::int64_t lengthNs = std::int64_t{1'000'000'000} * frames / sampleRateHz_;
-    spareNs_ = std::min(spareNs_ + lengthNs, TakePace::spareNs + lengthNs);
-    forEachSounding([&](Take& take) {
-        const auto own = modeFor(take, frames, mode);
-        const bool isStepped = own != mode;
-        const std::int64_t since = isStepped ? nowNs() : 0;
-        take.render(frames, timing(), own);
-        if (isStepped) spareNs_ -= nowNs() - since;
-    });
-    if (spareNs_ < 0) isTooHeavy_ = true;
+    forEachSounding([&](Take& take) { take.render(frames, timing(), modeFor(take, frames, mode)); });
     if (playing_) tell();
 }
 
 // The world is stepped in the render call where it has to be: in tight timing, and where the host asks for
 // frames ahead of the thread that steps it, whatever the host says of itself. A live host whose world is in
-// time never comes here. A world that takes longer than real time would hold such a host up with every block:
-// that is left to the thread.
+// time never comes here. A world that takes longer than real time holds such a host up, as any plug-in does
+// that is too much for the machine, and the host shows that; the samples are the same.
 RenderMode Takes::modeFor(const Take& take, int frames, RenderMode told) noexcept {
     if (told == RenderMode::offline) return told;
-    const bool isAhead = take.session.framesMissing(frames) > 0;
-    if (isTooHeavy_ || (timing() == TakeTiming::safe && !isAhead)) return RenderMode::realtime;
-    if (timing() == TakeTiming::safe) ++aheadBlocks_;
+    if (timing() == TakeTiming::tight) return RenderMode::offline;
+    if (take.session.framesMissing(frames) <= 0) return told;
+    ++aheadBlocks_;
     return RenderMode::offline;
 }
 
 void Takes::tell() noexcept {
     const auto& now = playing_->session.status();
     status_.write({now, playing_->number, lateBefore_ + now.render.late,
-                   slippedBefore_ + playing_->session.world().slippedNs(), delayedBlocks_, aheadBlocks_,
-                   isTooHeavy_});
+                   slippedBefore_ + playing_->session.world().slippedNs(), delayedBlocks_, aheadBlocks_});
 }
 
 int Takes::channels() const noexcept {

@@ -27,7 +27,7 @@ PluginState directState(bool hasWorld) {
 struct DirectHost : TestHost {
     DirectHost(const PluginState& state, int block, bool offline) {
         EXPECT_TRUE(plugin->apply(state));
-        if (!offline) plugin->takes().driveByHand(nowNs);
+        if (!offline) plugin->takes().driveByHand();
         prepare(48000, block, offline);
         isLive = !offline;
     }
@@ -40,11 +40,9 @@ struct DirectHost : TestHost {
                                                            out.getReadPointer(c),
                                                            out.getReadPointer(c) + largest);
             if (!isLive) continue;
-            nowNs += std::int64_t{1'000'000'000} * largest / 48000;
             plugin->takes().tick();
         }
     }
-    std::atomic<std::int64_t> nowNs{0};
     bool isLive = false;
 };
 

@@ -130,7 +130,7 @@ TEST(Keyboard, EveryKeyIsFoundWhereItIsAndSaysWhatItIs) {
     std::vector<std::pair<int, int>> played;
     KeyboardPanel keys{[&played](int note, int velocity) { played.emplace_back(note, velocity); }};
     keys.setBounds(0, 0, 940, KeyboardPanel::height);
-    keys.take(host.plugin->state());
+    keys.take(host.plugin->state(), {});
     std::vector<int> found;
     for (int x = 0; x < 940; ++x)
         for (const int y : {40, 70})

@@ -15,7 +15,7 @@ struct LatencyHost : TestHost {
     explicit LatencyHost(const PluginState& state, bool isTight = false) {
         EXPECT_TRUE(plugin->apply(state));
         time(isTight);
-        plugin->takes().driveByHand(nowNs);
+        plugin->takes().driveByHand();
     }
     void time(bool isTight) { plugin->parameter(Parameter::timing).setValue(isTight ? 1.0f : 0.0f); }
 
@@ -31,11 +31,9 @@ struct LatencyHost : TestHost {
             for (std::size_t c = 0; c < signal.size(); ++c)
                 signal[c].insert(signal[c].end(), out.getReadPointer(static_cast<int>(c)),
                                  out.getReadPointer(static_cast<int>(c)) + largest);
-            nowNs += std::int64_t{1'000'000'000} * largest / 48000;
             plugin->takes().tick();
         }
     }
-    std::atomic<std::int64_t> nowNs{0};
 };
 
 /// A disc that a note drops on the floor from some height, and nothing else.

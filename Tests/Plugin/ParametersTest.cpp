@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of parameters: ids are promises, values survive both mappings, words are read back.
 #include "HostParameter.h"
+#include "MidiMap.h"
 #include "TestPlaces.h"
 #include <cmath>
 #include <fstream>
@@ -15,8 +16,9 @@ TEST(Parameters, IdsArePromises) { // a change here breaks every saved session o
     std::vector<std::string_view> ids;
     for (const auto& row : allParameters()) ids.push_back(row.id);
     const std::vector<std::string_view> promised{
-        "level",    "law",      "exponent", "gravity", "tilt",  "material",    "strike_level",
-        "strike_x", "strike_y", "bypass",   "beats",   "music", "music_sides", "timing"};
+        "level",    "law",      "exponent",       "gravity", "tilt",      "material",    "strike_level",
+        "strike_x", "strike_y", "bypass",         "beats",   "music",     "music_sides", "timing",
+        "decay",    "release",  "velocity_curve", "hold",    "placement", "bend_range",  "note_material"};
     EXPECT_EQ(ids, promised);
 }
 
@@ -35,6 +37,25 @@ TEST(Parameters, PlacesOfChoicesArePromises) {
         EXPECT_DOUBLE_EQ(placeOf(Parameter::material, word), i++ / 8.0) << word;
     for (int i = 0; const auto word : {"off", "on"})
         EXPECT_DOUBLE_EQ(placeOf(Parameter::bypass, word), i++) << word;
+    for (int i = 0; const auto word : {"as the preset", "off", "on"})
+        EXPECT_DOUBLE_EQ(placeOf(Parameter::hold, word), i++ / 2.0) << word;
+    for (int i = 0; const auto word : {"as the preset", "octave", "actuators", "middle"})
+        EXPECT_DOUBLE_EQ(placeOf(Parameter::placement, word), i++ / 3.0) << word;
+    for (int i = 0;
+         const auto word : {"as the preset", "moves the place", "1 semitone", "2 semitones", "5 semitones",
+                            "7 semitones", "12 semitones", "24 semitones", "48 semitones"})
+        EXPECT_DOUBLE_EQ(placeOf(Parameter::bendRange, word), i++ / 8.0) << word;
+}
+
+// Else a session of an older version would not sound as it did.
+TEST(Parameters, TheInstrumentsKnobsBeginAsThePresetToTheBit) {
+    for (const auto which : parameterTable::instrumentGroup) {
+        const auto& row = rowOf(which);
+        const HostParameter parameter{row};
+        EXPECT_EQ(parameter.value(), row.choices.empty() ? 1.0 : 0.0) << row.id;
+        EXPECT_EQ(denormalised(row, static_cast<float>(normalised(row, row.initial))), parameter.value());
+    }
+    EXPECT_EQ(knobsBy([](Parameter which) { return rowOf(which).initial; }), NoteKnobs{});
 }
 
 TEST(Parameters, EveryLawHasItsPlace) {

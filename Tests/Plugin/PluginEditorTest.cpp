@@ -135,6 +135,17 @@ juce::Button* buttonOf(juce::Component& in, const juce::String& words) {
     return nullptr;
 }
 
+TEST(PluginEditor, ItsLowerEdgeHelpsWithWhatIsUnderTheMouse) {
+    TestHost host;
+    auto editor = openEditor(*host.plugin);
+    EXPECT_EQ(editor->helpOf(nullptr), "");
+    EXPECT_EQ(editor->helpOf(editor.get()), "");
+    auto* const silence = buttonOf(*editor, "SILENCE");
+    EXPECT_EQ(editor->helpOf(silence), juce::String{"Silence; the world goes on"});
+    juce::Component elsewhere;
+    EXPECT_EQ(editor->helpOf(&elsewhere), "");
+}
+
 TEST(PluginEditor, SilenceIsFilledOnlyWhileItIsOn) {
     TestHost host;
     auto editor = openEditor(*host.plugin);

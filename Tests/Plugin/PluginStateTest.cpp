@@ -225,7 +225,7 @@ TEST(PluginChunk, TheProgramIsTheSceneThatPlays) {
     editTo(own);
     EXPECT_EQ(host.plugin->getCurrentProgram(), 3) << "it bears the name";
     host.plugin->setCurrentProgram(3);
-    PluginState builtIn;
+    auto builtIn = host.plugin->state(); // on as many actuators
     takePlugInPreset(builtIn, 3);
     EXPECT_TRUE(host.plugin->state().scene == builtIn.scene) << "chosen again, it is the built-in one";
     const auto count = host.plugin->stateCount();

@@ -52,7 +52,7 @@ public:
 
     /// What is played of all of it.
     Samples play(const BeatSong& song, SongBlocks blocks) {
-        if (blocks.isLive) plugin->takes().driveByHand(nowNs_);
+        if (blocks.isLive) plugin->takes().driveByHand();
         prepare(songRateHz, blocks.frames, !blocks.isLive);
         Samples signal;
         Random random{3};
@@ -63,7 +63,6 @@ public:
             feed(song, at, frames, signal);
             at += frames;
             if (!blocks.isLive) continue;
-            nowNs_ += std::int64_t{1'000'000'000} * frames / songRateHz;
             plugin->takes().tick();
         }
         return signal;
@@ -90,7 +89,6 @@ private:
         }
         return midi;
     }
-    std::atomic<std::int64_t> nowNs_{0};
 };
 
 } // namespace physvib::test

@@ -263,7 +263,8 @@ TEST(Voice, EveryInstrumentIsSilentUntilANoteAndFeltThen) {
         host.plugin->setCurrentProgram(program);
         const auto name = host.plugin->getProgramName(program);
         EXPECT_EQ(host.plugin->getCurrentProgram(), program) << name;
-        EXPECT_NEAR(host.plugin->parameter(Parameter::strikeLevel).value(), 6.0, 1e-4) << name;
+        const auto strikeDb = static_cast<float>(host.plugin->parameter(Parameter::strikeLevel).value());
+        EXPECT_TRUE(strikeDb > -0.1f && strikeDb < 12.1f) << name;
         host.plugin->parameter(Parameter::level).setValue(0.8f); // -12 dB
         host.prepare(48000, 512);
         Samples silent, felt;
@@ -274,7 +275,8 @@ TEST(Voice, EveryInstrumentIsSilentUntilANoteAndFeltThen) {
         midi.addEvent(on(notes.empty() ? 64 : notes.front().note), 0); // 64: of eight actuators the first
         const float first = host.block(512, midi).getMagnitude(0, 512);
         host.play(24000, felt);
-        EXPECT_NEAR(juce::Decibels::gainToDecibels(std::max(first, peakOf(felt))), -6.0f, 1.5f) << name;
+        EXPECT_NEAR(juce::Decibels::gainToDecibels(std::max(first, peakOf(felt))), strikeDb - 12.0f, 1.5f)
+            << name;
     }
 }
 

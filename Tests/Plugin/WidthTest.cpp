@@ -109,6 +109,32 @@ TEST(Width, ANewInstanceHasAsManyActuatorsAsTheTrackHasChannels) {
     EXPECT_EQ(host.plugin.state().layout.name, "ring3");
 }
 
+TEST(Width, APresetThatWasChosenFollowsATrackThatIsMadeWiderToo) {
+    for (const char* const name : {"Drum kit", "marbles"}) {
+        WidthHost host{8};
+        auto layout = host.plugin.getBusesLayout();
+        layout.outputBuses.getReference(0) = juce::AudioChannelSet::stereo();
+        ASSERT_TRUE(host.plugin.setBusesLayout(layout));
+        host.prepare();
+        host.plugin.choose(static_cast<int>(std::ranges::find(presetNames(), name) - presetNames().begin()));
+        EXPECT_EQ(enchantersOf(host.plugin.state()), 2) << name;
+        auto mixed = host.plugin.state();
+        mixed.strips[1].gainDb = -3.0;
+        ASSERT_TRUE(host.plugin.edit(mixed)) << "an edit of the mix is none of the layout";
+        layout.outputBuses.getReference(0) = channelsInOrder(8, juce::AudioProcessor::wrapperType_VST3);
+        ASSERT_TRUE(host.plugin.setBusesLayout(layout));
+        host.prepare();
+        EXPECT_EQ(enchantersOf(host.plugin.state()), 8) << name;
+        EXPECT_EQ(host.plugin.state().strips[1].gainDb, -3.0) << name;
+        juce::MemoryBlock chunk;
+        host.plugin.getStateInformation(chunk);
+        WidthHost loaded{4};
+        loaded.plugin.setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+        loaded.prepare();
+        EXPECT_EQ(enchantersOf(loaded.plugin.state()), 8) << "what was saved is somebody's wiring";
+    }
+}
+
 TEST(Width, ALoadedStateKeepsItsLayout) {
     WidthHost four{4}, two{2};
     juce::MemoryBlock chunk;

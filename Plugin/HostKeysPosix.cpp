@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The key as an event of X11, sent to the top-level window. X11 is loaded as JUCE loads it: no program has to
+// be linked with it.
+#include "HostKeys.h"
+#ifdef __linux__
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <dlfcn.h>
+#include <initializer_list>
+#endif
+
+namespace physvib {
+
+#ifdef __linux__
+namespace {
+
+/// The functions of X11 that are needed, and a connection of its own while one key is sent.
+class X11 {
+public:
+    X11()
+    noexcept
+        : library_{dlopen("libX11.so.6", RTLD_LAZY)} {
+        if (library_ == nullptr) return;
+        load(open_, "XOpenDisplay");
+        load(close_, "XCloseDisplay");
+        load(tree, "XQueryTree");
+        load(free, "XFree");
+        load(atom, "XInternAtom");
+        load(property, "XGetWindowProperty");
+        load(code, "XKeysymToKeycode");
+        load(send, "XSendEvent");
+        load(onError_, "XSetErrorHandler");
+        isThere_ = open_ && close_ && tree && free && atom && property && code && send && onError_;
+        if (isThere_) display = open_(nullptr);
+        if (display)
+            before_ = onError_([](Display*, XErrorEvent*) { return 0; }); // a window may just be gone
+    }
+    ~X11() {
+        if (display) close_(display);
+        if (display) onError_(before_);
+        if (library_ != nullptr) dlclose(library_);
+    }
+    X11(const X11&) = delete;
+    X11& operator=(const X11&) = delete;
+
+    Display* display = nullptr;
+    decltype(&XQueryTree) tree = nullptr;
+    decltype(&XFree) free = nullptr;
+    decltype(&XInternAtom) atom = nullptr;
+    decltype(&XGetWindowProperty) property = nullptr;
+    decltype(&XKeysymToKeycode) code = nullptr;
+    decltype(&XSendEvent) send = nullptr;
+
+private:
+    template <class Function>
+    void load(Function& function, const char* name) noexcept {
+        function = reinterpret_cast<Function>(dlsym(library_, name));
+    }
+    void* const library_;
+    bool isThere_ = false;
+    decltype(&XOpenDisplay) open_ = nullptr;
+    decltype(&XCloseDisplay) close_ = nullptr;
+    decltype(&XSetErrorHandler) onError_ = nullptr;
+    XErrorHandler before_ = nullptr;
+};
+
+bool isManaged(const X11& x, Window window) noexcept {
+    const Atom state = x.atom(x.display, "WM_STATE", True);
+    if (state == None) return false;
+    Atom type = None;
+    int format = 0;
+    unsigned long count = 0, rest = 0;
+    unsigned char* data = nullptr;
+    x.property(x.display, window, state, 0, 0, False, AnyPropertyType, &type, &format, &count, &rest, &data);
+    if (data) x.free(data);
+    return type != None;
+}
+
+/// The window that a window manager holds, above `inner`; without one the last below the root.
+Window topLevelAbove(const X11& x, Window inner, Window& root) noexcept {
+    for (Window at = inner;;) {
+        Window parent = None, *children = nullptr;
+        unsigned int count = 0;
+        if (!x.tree(x.display, at, &root, &parent, &children, &count)) return None;
+        if (children) x.free(children);
+        if (parent == root || parent == None) return at == inner ? None : at;
+        if (isManaged(x, parent)) return parent;
+        at = parent;
+    }
+}
+
+} // namespace
+
+bool sendToHost(void* nativeWindow, const HostKey& key) noexcept {
+    const X11 x;
+    if (!x.display || key.symbol == 0) return false;
+    Window root = None;
+    const Window host = topLevelAbove(x, reinterpret_cast<Window>(nativeWindow), root);
+    const KeyCode code = x.code(x.display, key.symbol);
+    if (host == None || code == 0) return false;
+    XEvent event{};
+    event.xkey.display = x.display;
+    event.xkey.window = host;
+    event.xkey.root = root;
+    event.xkey.time = CurrentTime;
+    event.xkey.same_screen = True;
+    event.xkey.keycode = code;
+    event.xkey.state =
+        (key.shift ? ShiftMask : 0u) | (key.control ? ControlMask : 0u) | (key.alt ? Mod1Mask : 0u);
+    for (const int kind : {KeyPress, KeyRelease}) {
+        event.type = kind;
+        x.send(x.display, host, True, kind == KeyPress ? KeyPressMask : KeyReleaseMask, &event);
+    }
+    return true;
+}
+#else
+bool sendToHost(void*, const HostKey&) noexcept { return false; }
+#endif
+
+} // namespace physvib

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Keys in the plug-in's window, in the window of a host without a window manager: those that no control uses
+// reach the host, Esc silences and stays here.
+#include "HostKeys.h"
+#include "../PluginTesting.h"
+#include "PluginEditor.h"
+namespace physvib {
+using Key = juce::KeyPress; // which is a macro of X11
+}
+// X11's macros come last
+#include "Plugin/Formats/DisplayNames.h"
+#include <X11/keysym.h>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+struct HostWindow {
+    HostWindow()
+        : window{XCreateSimpleWindow(display, DefaultRootWindow(display), 20, 20, 1200, 720, 0, 0, 0)} {
+        XSelectInput(display, window, KeyPressMask | KeyReleaseMask);
+        XMapWindow(display, window);
+        XSync(display, False);
+    }
+    ~HostWindow() { XCloseDisplay(display); }
+    /// Keys that came so far: their symbols and states.
+    std::vector<std::pair<KeySym, unsigned int>> keys() {
+        std::vector<std::pair<KeySym, unsigned int>> found;
+        XSync(display, False);
+        for (XEvent event; XCheckTypedWindowEvent(display, window, KeyPress, &event);)
+            found.emplace_back(XLookupKeysym(&event.xkey, 0), event.xkey.state);
+        return found;
+    }
+    Display* display = openDisplayWithNames();
+    Window window;
+};
+
+TEST(HostKeys, WhatNoControlUsesReachesTheHostAndEscStays) {
+    HostWindow around;
+    TestHost host;
+    const std::unique_ptr<PluginEditor> editor{
+        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    editor->addToDesktop(0, reinterpret_cast<void*>(around.window));
+    editor->setVisible(true);
+    runFor(0.3);
+    ASSERT_NE(editor->getPeer(), nullptr);
+    auto* const peer = editor->getPeer();
+    const auto press = [&](const Key& key) {
+        peer->handleKeyPress(key);
+        runFor(0.1);
+    };
+    press(Key{'S', juce::ModifierKeys::ctrlModifier, 0});
+    press(Key{Key::spaceKey});
+    press(Key{Key::F5Key, juce::ModifierKeys::shiftModifier, 0});
+    press(Key{Key::returnKey});
+    const auto came = around.keys();
+    const std::vector<std::pair<KeySym, unsigned int>> expected{
+        {XK_s, ControlMask}, {XK_space, 0}, {XK_F5, ShiftMask}, {XK_Return, 0}};
+    EXPECT_EQ(came, expected);
+    press(Key{Key::escapeKey});
+    EXPECT_TRUE(around.keys().empty());
+    EXPECT_EQ(host.plugin->parameter(Parameter::bypass).getValue(), 1.0f) << "Esc silences";
+}
+
+TEST(HostKeys, AWindowOfItsOwnHasNoHost) {
+    TestHost host;
+    const std::unique_ptr<PluginEditor> editor{
+        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    editor->addToDesktop(0);
+    editor->setVisible(true);
+    runFor(0.2);
+    EXPECT_FALSE(sendToHost(editor->getPeer()->getNativeHandle(), {XK_s, false, true, false}));
+}
+
+} // namespace
+} // namespace physvib
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The instrument's knobs: what each does to notes, that it is at its frame, moved by a controller, kept in
+// the state, and that a state without them sounds as it did.
+#include "PluginEditor.h"
+#include "PluginTesting.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using Message = juce::MidiMessage;
+
+PluginState knobPreset(std::string_view name) {
+    PluginState state;
+    const auto& names = presetNames();
+    takePlugInPreset(state, static_cast<int>(std::ranges::find(names, name) - names.begin()), 4);
+    state.limiterEnabled = false;
+    return state;
+}
+
+struct KnobHost : TestHost {
+    explicit KnobHost(const PluginState& state) {
+        EXPECT_TRUE(plugin->apply(state)) << plugin->trouble();
+        prepare(48000, 480);
+    }
+    void turn(Parameter which, std::string_view to) {
+        const auto& row = rowOf(which);
+        plugin->parameter(which).setValue(static_cast<float>(normalised(row, valueOf(row, to))));
+    }
+    /// What is struck by that, as the log has it.
+    std::vector<CollisionEvent> struck(std::initializer_list<Message> messages, int frames = 9600) {
+        juce::MidiBuffer midi;
+        for (const auto& message : messages) midi.addEvent(message, 0);
+        block(480, midi);
+        for (int b = 480; b < frames; b += 480) block(480);
+        std::vector<CollisionEvent> events;
+        for (const auto& event : plugin->takes().takeLog()) events.push_back(event.played.event);
+        return events;
+    }
+};
+
+Message struckAt(int note, int velocity = 127) {
+    return Message::noteOn(1, note, static_cast<juce::uint8>(velocity));
+}
+
+TEST(Knobs, DecayReleaseAndVelocityAreTimesThePresets) {
+    KnobHost host{knobPreset("Keys")};
+    host.turn(Parameter::decay, "4");
+    EXPECT_NEAR(host.struck({struckAt(60)}).at(0).decayPerSecond, 3.0, 1e-5);
+    const double full = host.struck({struckAt(60)}).at(0).amplitude;
+    host.turn(Parameter::velocityCurve, "2");
+    EXPECT_NEAR(host.struck({struckAt(60, 64)}).at(0).amplitude / full, std::pow(64.0 / 127.0, 2.0), 1e-5);
+    KnobHost strings{knobPreset("Strings")};
+    strings.turn(Parameter::release, "0.25");
+    const auto parts = strings.struck({struckAt(60), Message::noteOff(1, 60)});
+    EXPECT_NEAR(parts.back().decayPerSecond, std::log(1000.0) / 0.1, 1e-3);
+    KnobHost drums{knobPreset("Drum kit")};
+    drums.turn(Parameter::decay, "0.5");
+    EXPECT_NEAR(drums.struck({struckAt(36)}).at(0).decayPerSecond, 28.0, 1e-4) << "rules too";
+}
+
+TEST(Knobs, HoldPlacementBendAndMaterialReplaceThePresets) {
+    KnobHost host{knobPreset("Keys")};
+    const double width = host.plugin->state().scene.fieldWidthMetres;
+    EXPECT_EQ(host.struck({struckAt(60)}).size(), 1u);
+    host.turn(Parameter::hold, "on");
+    EXPECT_GT(host.struck({struckAt(60)}).size(), 10u) << "a row of strikes while its key is down";
+    host.struck({Message::noteOff(1, 60)});
+    host.turn(Parameter::hold, "off");
+    EXPECT_NEAR(host.struck({struckAt(60)}).at(0).x, 0.0, 1e-9);
+    host.turn(Parameter::placement, "middle");
+    EXPECT_NEAR(host.struck({struckAt(60)}).at(0).x, 0.5 * width, 1e-9);
+    host.turn(Parameter::bendRange, "12 semitones");
+    const double pitch = host.struck({Message::pitchWheel(1, 8192), struckAt(60)}).at(0).frequencyHz;
+    EXPECT_NEAR(host.struck({Message::pitchWheel(1, 16383), struckAt(60)}).at(0).frequencyHz / pitch, 2.0,
+                1e-3);
+    host.turn(Parameter::bendRange, "moves the place");
+    EXPECT_NEAR(host.struck({struckAt(60)}).at(0).x, width, 1e-3);
+    host.struck({Message::pitchWheel(1, 8192)});
+    const auto& material = host.plugin->state().scene.materials[3];
+    ASSERT_GT(material.frequencyHz, 0.0);
+    host.turn(Parameter::noteMaterial, "4");
+    const auto strike = host.struck({struckAt(60)}).at(0);
+    EXPECT_NEAR(strike.frequencyHz, material.frequencyHz, 1e-3);
+    EXPECT_NEAR(strike.decayPerSecond, material.decayPerSecond, 1e-3);
+    KnobHost strings{knobPreset("Strings")};
+    strings.turn(Parameter::hold, "off");
+    EXPECT_EQ(strings.struck({struckAt(60)}).size(), 1u);
+}
+
+TEST(Knobs, AControllerMovesThemFromItsFrameOn) {
+    auto state = knobPreset("Keys");
+    state.controllers = {{20, "decay"}};
+    KnobHost host{state};
+    juce::MidiBuffer midi;
+    midi.addEvent(struckAt(60), 10);
+    midi.addEvent(Message::controllerEvent(1, 20, 127), 20);
+    midi.addEvent(struckAt(62), 30);
+    host.block(480, midi);
+    for (int b = 0; b < 20; ++b) host.block(480);
+    const auto log = host.plugin->takes().takeLog();
+    ASSERT_EQ(log.size(), 2u);
+    EXPECT_NEAR(log[0].played.event.decayPerSecond, 12.0, 1e-5);
+    EXPECT_NEAR(log[1].played.event.decayPerSecond, 1.5, 1e-5);
+}
+
+/// Samples of a chord with bends, of a state as text.
+Samples knobChord(const std::string& text) {
+    TestHost host;
+    for (const auto which : parameterTable::instrumentGroup) host.plugin->parameter(which).setValue(0.9f);
+    host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
+    EXPECT_EQ(host.plugin->trouble(), "");
+    host.prepare(48000, 480);
+    juce::MidiBuffer midi;
+    for (const int note : {36, 43, 52, 60}) midi.addEvent(struckAt(note, 50 + note), note);
+    midi.addEvent(Message::pitchWheel(1, 12000), 300);
+    midi.addEvent(struckAt(67, 40), 400);
+    Samples signal;
+    host.block(480, midi);
+    host.play(24000, signal);
+    return signal;
+}
+
+TEST(Knobs, StatesWithoutThemSoundAsThePresetWhateverTheyWereBefore) {
+    for (const char* const name : {"Keys", "Drum kit", "Strings", "MPE pad"}) {
+        auto state = TestHost{}.plugin->state(); // parameters of today
+        const auto preset = knobPreset(name);
+        state.scene = preset.scene;
+        state.voice = preset.voice;
+        state.notes = preset.notes;
+        const auto now = knobChord(pluginStateJson(state));
+        std::erase_if(state.parameters, [](const auto& p) {
+            return rowOf(static_cast<Parameter>(parameterOfId(p.first))).version >= 5;
+        });
+        EXPECT_EQ(state.parameters.size(), 14u);
+        EXPECT_TRUE(knobChord(pluginStateJson(state)) == now) << name;
+        EXPECT_GT(peakOf(now), 0.01f) << name;
+    }
+}
+
+TEST(Knobs, AsThePresetEveryKeyIsWhatItsStateSays) {
+    for (const auto& name : presetNames()) {
+        const auto state = knobPreset(name);
+        const MidiTable table{state};
+        for (int note = 0; note < 128; ++note) {
+            const auto &plain = table.strikeOf(note), now = table.strikeOf(note, {}, state.layout.geometry);
+            EXPECT_TRUE(now.frequencyHz == plain.frequencyHz && now.decayPerSecond == plain.decayPerSecond &&
+                        now.amplitude == plain.amplitude)
+                << name << note;
+            if (plain.frequencyHz > 0.0) EXPECT_TRUE(now.x == plain.x && now.y == plain.y) << name << note;
+            EXPECT_EQ(table.isHeld(note, {}), table.isHeld(note)) << name << note;
+            EXPECT_EQ(table.loudnessOf(note, {}), note / 127.0) << name;
+        }
+        EXPECT_EQ(table.bendSemitones({}), state.voice.bendSemitones);
+        EXPECT_EQ(table.releasePerSecond({}), std::log(1000.0) / state.voice.releaseSeconds);
+    }
+}
+
+TEST(Knobs, AreKeptInAStateAndSetBackByAPreset) {
+    KnobHost host{knobPreset("Keys")}, other{knobPreset("Bass")};
+    host.turn(Parameter::decay, "4");
+    host.turn(Parameter::placement, "actuators");
+    juce::MemoryBlock chunk;
+    host.plugin->getStateInformation(chunk);
+    other.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    EXPECT_EQ(other.plugin->noteKnobs(), host.plugin->noteKnobs());
+    EXPECT_NE(other.plugin->noteKnobs(), NoteKnobs{});
+    other.plugin->setCurrentProgram(static_cast<int>(builtInScenes().size()) + 2);
+    EXPECT_EQ(other.plugin->noteKnobs(), NoteKnobs{});
+}
+
+TEST(Knobs, ATailIsAsLongAsTheyMakeIt) {
+    auto state = knobPreset("Keys");
+    const double usual = tailSeconds(state);
+    NoteKnobs longer;
+    longer.decay = 4.0;
+    EXPECT_NEAR(tailSeconds(state, longer), 4.0 * usual, 1e-9);
+    longer = {};
+    longer.hold = 2;
+    longer.release = 16.0;
+    EXPECT_GT(tailSeconds(state, longer), 3.0);
+}
+
+bool isKnobShown(const juce::Component& in, const juce::String& title) {
+    return std::ranges::any_of(in.getChildren(), [&](const juce::Component* child) {
+        return child->isVisible() && (child->getTitle() == title || isKnobShown(*child, title));
+    });
+}
+
+TEST(Knobs, TheWindowShowsThoseThatThePresetUses) {
+    TestHost host;
+    const auto shows = [&](PluginEditor& editor, const char* name) { return isKnobShown(editor, name); };
+    const auto choose = [&](const char* name) {
+        host.plugin->choose(static_cast<int>(std::ranges::find(presetNames(), name) - presetNames().begin()));
+    };
+    choose("Keys");
+    const std::unique_ptr<PluginEditor> editor{
+        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    for (const char* const name :
+         {"Decay", "Velocity curve", "Hold", "Placement", "Bend range", "Note material"})
+        EXPECT_TRUE(shows(*editor, name)) << name;
+    for (const char* const name : {"Release", "Gravity", "Tilt", "Material", "Timing"})
+        EXPECT_FALSE(shows(*editor, name)) << name;
+    const auto& hold = rowOf(Parameter::hold);
+    host.plugin->parameter(Parameter::hold)
+        .setValue(static_cast<float>(normalised(hold, valueOf(hold, "on"))));
+    editor->refresh();
+    EXPECT_TRUE(shows(*editor, "Release")) << "as soon as notes are held";
+    EXPECT_FALSE(shows(*editor, "Decay"));
+    choose("marbles");
+    editor->refresh();
+    for (const char* const name : {"Gravity", "Tilt", "Material", "Timing"})
+        EXPECT_TRUE(shows(*editor, name)) << name;
+}
+
+} // namespace
+} // namespace physvib
