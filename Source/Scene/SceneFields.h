@@ -93,6 +93,7 @@ void visitFields(auto& v, FieldsOf<FixtureDescription>) {
     v.field("camera", &FixtureDescription::isCamera, {}, Need::optional);
     v.choice("voice", &FixtureDescription::voice, voiceNames);
     v.field("restitution", &FixtureDescription::restitution, upTo(1.0), Need::optional);
+    v.field("part", &FixtureDescription::part, anyText, Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<BodyDescription>) {

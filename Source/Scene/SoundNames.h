@@ -49,6 +49,15 @@ public:
         for (const auto& material : materials) add(material.name);
     }
 
+    /// Those of a scene's materials, and of the parts of a body that its fixtures are bound to.
+    template <class Scene>
+    void addScene(const Scene& scene) {
+        addAll(scene.materials);
+        for (const auto& body : scene.bodies)
+            for (const auto& fixture : body.fixtures)
+                if (!fixture.part.empty()) parts.add(fixture.part);
+    }
+
     /// A material whose name would not be read again as it is stays without one.
     void add(std::string_view name) {
         if (const SoundNumber sound = soundOfMaterial(name); soundNamed(name) == sound)

@@ -51,9 +51,9 @@ struct LoadedRender {
     SoundNames names() const {
         SoundNames all = listNames;
         for (const EnchanterDescription& one : layout.enchanters) all.parts.add(one.part);
-        if (scene) all.addAll(scene->materials);
+        if (scene) all.addScene(*scene);
         if (session)
-            for (const SceneTake& take : session->log.takes) all.addAll(take.scene->materials);
+            for (const SceneTake& take : session->log.takes) all.addScene(*take.scene);
         return all;
     }
 

@@ -83,7 +83,7 @@ Result<Source> sourceOf(const Options& o) {
     for (const SceneVariable& variable : scene.value.variables)
         source.provenance.entries.emplace_back(variable.name, variable.value);
     source.scene = scene.value;
-    source.names.addAll(scene.value.materials);
+    source.names.addScene(scene.value);
     return source;
 }
 

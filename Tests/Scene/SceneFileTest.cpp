@@ -46,7 +46,7 @@ const std::string full = R"({
       "angular_damping_per_s": 0.2,
       "mass_kg": 25,
       "fixtures": [
-        { "shape": "box", "size_m": [1.2, 0.3], "material": "wood", "camera": true, "voice": "other" },
+        { "shape": "box", "size_m": [1.2, 0.3], "material": "wood", "camera": true, "voice": "other", "part": "left knee" },
         { "shape": "polygon", "vertices_m": [[0, 0], [0.4, 0], [0.2, 0.3]], "offset_m": [0.1, 0.15], "angle_rad": 0.2, "material": "felt" }
       ]
     },
@@ -171,6 +171,8 @@ TEST(SceneFile, ReadsEveryField) {
     EXPECT_EQ(scene.bodies[0].type, BodyType::staticBody);
     EXPECT_EQ(scene.bodies[0].fixtures[0].voice, Voice::both);
     EXPECT_TRUE(std::get<ChainShape>(scene.bodies[0].fixtures[1].shape).isLoop);
+    EXPECT_EQ(scene.bodies[1].fixtures[0].part, "left knee");
+    EXPECT_EQ(scene.bodies[1].fixtures[1].part, "");
     EXPECT_EQ(scene.bodies[1].fixtures[1].material, 1);
     EXPECT_EQ(std::get<PolygonShape>(scene.bodies[1].fixtures[1].shape).verticesMetres[2],
               (Vector{0.2, 0.3}));

@@ -2,6 +2,7 @@
 // A ball dropped on a plate against the formulas of free fall, and the promises of the event stream.
 #include "Scene/World/Simulation.h"
 #include "DropScene.h"
+#include "Scene/SoundNames.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <stdexcept>
@@ -50,6 +51,20 @@ TEST_P(DroppedBall, IsFeltWhereItHitsWithThePlatesSound) {
     EXPECT_EQ(hit.decayPerSecond, 34.13);
     EXPECT_EQ(hit.source.fixture, plateIndex);
     EXPECT_EQ(hit.source.other, ballIndex);
+}
+
+TEST_P(DroppedBall, IsFeltOnThePartOfItsFixture) {
+    EXPECT_EQ(firstHit().source.part, 0);
+    Scene scene = dropScene(GetParam().heightMetres);
+    for (BodyDescription& body : scene.bodies)
+        for (FixtureDescription& fixture : body.fixtures) fixture.part = "thumb";
+    const auto events = eventsOf(scene, 1.2, GetParam().stepsPerSecond);
+    ASSERT_FALSE(events.empty());
+    EXPECT_EQ(events.front().source.part, partNamed("thumb"));
+    SoundNames names;
+    scene.bodies[0].fixtures[0].part = "left knee";
+    names.addScene(scene);
+    EXPECT_EQ(names.parts.of(partNamed("left knee")), "left knee");
 }
 
 std::string nameOf(const testing::TestParamInfo<Drop>& drop) {

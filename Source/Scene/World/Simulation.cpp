@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Creates a scene's world and advances it step by step.
 #include "Scene/World/Simulation.h"
+#include "Scene/PartNames.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
 #include <stdexcept>
@@ -42,6 +43,7 @@ HapticFixture hapticOf(const SceneWorld::FixtureNow& now) {
                          now.description.isCamera, now.body.massKg, now.description.voice};
     values.texture = now.material.texture();
     values.sound = soundOfMaterial(now.material.name);
+    values.part = partOf(now.description.part);
     return values;
 }
 

@@ -79,8 +79,10 @@ juce::String DeskRecording::close() {
     const FieldSize field{mix_.scene->fieldWidthMetres, mix_.scene->fieldHeightMetres};
     session_.sinks().detach(recording_->recorder());
     for (PlayedEvent played; session_.played().pop(played);) recording_->take(played);
-    const auto error = utf8(recording_->finish(session_.timeline().playOutFrames(), field, provenance,
-                                               SoundNames{mix_.scene->materials}));
+    SoundNames names;
+    names.addScene(*mix_.scene);
+    const auto error =
+        utf8(recording_->finish(session_.timeline().playOutFrames(), field, provenance, names));
     recording_.reset();
     return error;
 }
