@@ -8,6 +8,13 @@ const nearMetres = 0.005; // what lies within goes on touching, though Rapier pu
 /** Whose contacts a collider's are: its body's, or its own where it has none, as a ground often has not. */
 const ownerOf = collider => collider.parent() ?? collider;
 
+/** The point of a collider at its pose, `local` to it; `way`: whether the normal goes out of it (1) or in. */
+function onSurface({ at, turned, radius }, normal, way, local) {
+    if (radius > 0) return { x: at.x + way * radius * normal.x, y: at.y + way * radius * normal.y };
+    const cos = Math.cos(turned), sin = Math.sin(turned);
+    return { x: at.x + cos * local.x - sin * local.y, y: at.y + sin * local.x + cos * local.y };
+}
+
 const pairOf = (a, b) => (a < b ? a * 2 ** 26 + b : b * 2 ** 26 + a);
 
 /** What both have; physvib/rapier3d says otherwise what space changes. */
@@ -140,11 +147,12 @@ export class RapierHaptics extends Haptics {
     movedAgain(known) { this.journal.moved(known.id, known.vx, known.vy, known.spin); }
     observeStill(known, { x, y }) { this.move(known, x * this.metresPerUnit, y * this.metresPerUnit, 0, 0, 0); }
     moved(known, { x, y }, spin) { this.journal.moved(known.id, x * this.metresPerUnit, y * this.metresPerUnit, spin); }
-    /** Where contact i of a manifold is, across which gap, and how both surfaces run there. `poses`: of its first and its second collider. */
-    contactOf(manifold, i, [{ at, turned }], n, a, b) {
-        const unit = this.metresPerUnit, cos = Math.cos(turned), sin = Math.sin(turned), { x, y } = manifold.localContactPoint1(i); // solverContactPoint(i) is not contact i's
-        const place = { x: (at.x + cos * x - sin * y) * unit, y: (at.y + sin * x + cos * y) * unit };
-        return { place: { ...place, normalX: n.x, normalY: n.y }, gap: manifold.contactDist(i) * unit, motion: motionAt(a, b, place.x, place.y, n.x, n.y) };
+    /** Where contact i of a manifold is, across which gap, and how both surfaces run there. `poses`: of its first and its second collider. Rapier keeps a contact's
+     * points and distance for some steps while bodies move on, so they are where both bodies have them now; a ball's are where it is nearest. */
+    contactOf(manifold, i, [first, second], n, a, b) {
+        const unit = this.metresPerUnit, m = manifold.normal(), one = onSurface(first, m, 1, manifold.localContactPoint1(i)), other = onSurface(second, m, -1, manifold.localContactPoint2(i));
+        const x = one.x * unit, y = one.y * unit, gap = ((other.x - one.x) * m.x + (other.y - one.y) * m.y) * unit;
+        return { place: { x, y, normalX: n.x, normalY: n.y }, gap, motion: motionAt(a, b, x, y, n.x, n.y) };
     }
 
     #look(one, other, seconds) {
