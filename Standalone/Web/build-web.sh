@@ -38,9 +38,9 @@ Source/Api/JavaScript/shrink.sh build/web/wasm/physvib.wasm build/web/page/physv
 cp build/web/wasm/package/profiles.js Standalone/Web/Page/* build/web/page
 for module in clock files gamepad module names pad settings waves; do cp "Source/Api/JavaScript/package/$module.js" build/web/page; done
 cd build/web/page
-sed -i -e '2,$ { /^ *\/\/ /d; /^ *\/\/\/ /d; /^ *\/\*\* .*\*\/$/d }' ./*.js # lines of comment, 4 KB
+sed -i -e '2,$ { /^ *\/\/ /d; /^ *\/\/\/ /d; /^ *\/\*\* .*\*\/$/d; /^ *\/\*\* /,/\*\/$/d }' ./*.js # lines of comment, 4 KB
 sed -i -e '2,$ s| // .*||; s/^ *//; /^$/d' ./*.js # no string of theirs goes over a line, or has " // " in it
-sed -i -e 's/^ *//' style.css index.html
+sed -i -e '2,$ { /^ *\/\* .*\*\/$/d }; s/^ *//; /^$/d' style.css index.html
 homepage=${PHYSVIB_HOMEPAGE:+<a href=\"${PHYSVIB_HOMEPAGE%/}/web.html\">Documentation</a>}
 sed -i -e "s|@URL@|${PHYSVIB_PAGE_URL:-}|" -e "s|@HOMEPAGE@|$homepage|" index.html
 # The service worker keeps these files, as they are now.

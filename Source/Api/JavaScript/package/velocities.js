@@ -1,48 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Engines that tell velocities and boxes, but no impulses and maybe no contacts: Phaser's Arcade, Excalibur, Kaplay, or a game's own. What a step changed of two bodies
 // whose boxes or circles meet is their impact; masses say how strong. What changed without a neighbour, as a jump does, is no impact.
+import { apart, between, copy, eachNear, putWalls, skin, stateOf } from './boxes.js';
 import { PhysVibError } from './module.js';
 import { expectEngine, Haptics, motionAt } from './haptics.js';
 
-const none = {}, skin = 0.02; // m: bodies that are nearer touch, if their velocities say so
+const none = {};
 
 const pairOf = (a, b) => Math.min(a, b) * 2 ** 26 + Math.max(a, b);
-
-/** How far two bodies are apart, and the normal from a to b; boxes are not turned. */
-function apart(a, b, out) {
-    const dx = b.x - a.x, dy = b.y - a.y;
-    if (a.radius > 0 && b.radius > 0) {
-        const length = Math.sqrt(dx * dx + dy * dy);
-        return filled(out, length - a.radius - b.radius, length > 0 ? dx / length : 0, length > 0 ? dy / length : 1);
-    }
-    const outX = Math.abs(dx) - a.halfWidth - b.halfWidth, outY = Math.abs(dy) - a.halfHeight - b.halfHeight;
-    const box = a.radius > 0 ? b : a, circle = a.radius > 0 ? a : b, way = a.radius > 0 ? -1 : 1;
-    if (circle.radius > 0 && outX > -circle.radius && outY > -circle.radius) { // at a corner
-        const cx = circle.x - box.x, cy = circle.y - box.y, px = cx - Math.sign(cx) * box.halfWidth, py = cy - Math.sign(cy) * box.halfHeight, length = Math.hypot(px, py);
-        if (px * cx > 0 && py * cy > 0 && length > 0) return filled(out, length - circle.radius, way * px / length, way * py / length);
-    }
-    return outX > outY ? filled(out, outX, Math.sign(dx) || 1, 0) : filled(out, outY, 0, Math.sign(dy) || 1);
-}
-function filled(out, gap, nx, ny) {
-    out.gap = gap;
-    out.nx = nx;
-    out.ny = ny;
-    return out;
-}
-
-const stateOf = () => ({ x: 0.5, y: 0.5, vx: 0.5, vy: 0.5, spin: 0.5, width: 0, height: 0, radius: 0.5, massKg: 1, gravityScale: 1, halfWidth: 0.5, halfHeight: 0.5, body: null, before: null, left: 0.5, right: 0.5, turn: 0 });
-function copy(from, to) {
-    to.x = from.x;
-    to.y = from.y;
-    to.vx = from.vx;
-    to.vy = from.vy;
-    to.spin = from.spin;
-    to.radius = from.radius;
-    to.halfWidth = from.halfWidth;
-    to.halfHeight = from.halfHeight;
-    to.massKg = from.massKg;
-    to.gravityScale = from.gravityScale;
-}
 
 class VelocityHaptics extends Haptics {
     #engine; #turn; #there = new Map(); #order = []; #turns = 0; #told = []; #walls = [{}, {}, {}, {}]; #seconds = 0; #was = new Set(); #touching = new Set(); #before = {}; #after = {};
@@ -93,11 +58,7 @@ class VelocityHaptics extends Haptics {
     #all() {
         const bounds = this.#engine.bounds?.();
         if (!bounds) return this.#engine.bodies();
-        const { x, y, width, height } = bounds, deep = Math.max(width, height);
-        for (const [i, wall] of this.#walls.entries()) {
-            const isSide = i < 2, way = i % 2 ? 1 : -1;
-            Object.assign(wall, { x: x + width / 2 + (isSide ? way * (width + deep) / 2 : 0), y: y + height / 2 + (isSide ? 0 : way * (height + deep) / 2), width: isSide ? deep : width + 2 * deep, height: isSide ? height : deep });
-        }
+        putWalls(this.#walls, bounds);
         return [...this.#engine.bodies(), ...this.#walls];
     }
     #lookAtAll() {
@@ -148,29 +109,10 @@ class VelocityHaptics extends Haptics {
         [this.#was, this.#touching] = [this.#touching, this.#was];
         this.#touching.clear();
         if (this.#engine.tells) for (const pair of this.#told) this.#pair(this.#there.get(pair.a), this.#there.get(pair.b), pair);
-        else this.#eachNear((a, b) => this.#pair(a, b));
+        else eachNear(this.#order, (a, b) => this.#pair(a, b));
         this.#told.length = 0;
         for (const state of this.#order) copy(state, state.before);
     }
-
-    // Along x, in order, which few leave from one step to the next.
-    #eachNear(use) {
-        const order = this.#order, { length } = order;
-        for (const state of order) {
-            const reach = state.halfWidth + skin + Math.abs(state.x - state.before.x);
-            state.left = state.x - reach;
-            state.right = state.x + reach;
-            if (!(state.left - state.right < Infinity)) state.left = state.right = Infinity; // no numbers
-        }
-        for (let i = 1; i < length; ++i) {
-            const state = order[i];
-            let at = i;
-            for (; at > 0 && order[at - 1].left > state.left; --at) order[at] = order[at - 1];
-            order[at] = state;
-        }
-        for (let i = 0; i < length; ++i) for (let j = i + 1; j < length && order[j].left < order[i].right; ++j) this.#mayMeet(order[i], order[j]) && use(order[i], order[j]);
-    }
-    #mayMeet(a, b) { return Math.abs(a.y - b.y) < a.halfHeight + b.halfHeight + skin + Math.abs(a.y - a.before.y) + Math.abs(b.y - b.before.y); }
 
     #pair(stateA, stateB, { normal, x, y } = none) {
         if (!stateA || !stateB || !(stateA.massKg > 0 || stateB.massKg > 0)) return;
@@ -181,16 +123,8 @@ class VelocityHaptics extends Haptics {
         const isMet = parting + closing > 1e-3 && Math.min(before.gap, after.gap) < skin + this.#seconds * Math.max(0, closing, parting), key = pairOf(a.id, b.id);
         if (!normal && !isMet && !(this.#was.has(key) && Math.min(before.gap, after.gap) < skin)) return;
         this.#touching.add(key);
-        const place = x === undefined ? this.#between(stateA, stateB, nx, ny) : { x: x * unit, y: y * unit * this.#turn }, { alongA, alongB } = motionAt(a, b, place.x, place.y, nx, ny);
+        const place = x === undefined ? between(stateA, stateB, nx, ny) : { x: x * unit, y: y * unit * this.#turn }, { alongA, alongB } = motionAt(a, b, place.x, place.y, nx, ny);
         this.journal.touch(a.id, b.id, { ...place, normalX: nx, normalY: ny, alongA, alongB, gap: Math.max(0, before.gap), gapFraction: 0, point: 0 });
-    }
-
-    // On the surface of the round one, or in the middle of the sides that meet.
-    #between(a, b, nx, ny) {
-        if (a.radius > 0) return { x: a.x + a.radius * nx, y: a.y + a.radius * ny };
-        if (b.radius > 0) return { x: b.x - b.radius * nx, y: b.y - b.radius * ny };
-        const middle = (p, q, halfP, halfQ) => (Math.max(p - halfP, q - halfQ) + Math.min(p + halfP, q + halfQ)) / 2;
-        return nx !== 0 ? { x: a.x + nx * a.halfWidth, y: middle(a.y, b.y, a.halfHeight, b.halfHeight) } : { x: middle(a.x, b.x, a.halfWidth, b.halfWidth), y: a.y + ny * a.halfHeight };
     }
 }
 
