@@ -20,27 +20,27 @@ namespace physvib {
 /// them as they are.
 class Lv2Controls {
 public:
+    /// One for each parameter, and behind them `lv2:enabled`, which is bypass the other way round.
+    static constexpr std::size_t enabled = parameterCount, count = parameterCount + 1;
+
     Lv2Controls() {
-        for (std::size_t p = 0; p < parameterCount; ++p) {
-            const auto& row = allParameters()[p];
-            seen_[p] = static_cast<float>(normalised(row, row.initial));
-        }
+        for (std::size_t p = 0; p < count; ++p) seen_[p] = normalOf(p, initialOf(p));
         saved_.fill(none);
     }
 
     /// The host's, in the parameter's unit; null: not connected.
-    void connect(std::size_t parameter, const void* port) noexcept {
-        ports_[parameter] = static_cast<const float*>(port);
+    void connect(std::size_t port, const void* data) noexcept {
+        ports_[port] = static_cast<const float*>(data);
     }
 
     /// Before each block. R, wait-free.
     void read(PluginProcessor& processor) noexcept {
         const bool isRestored = isRestored_.exchange(false, std::memory_order_acquire);
-        for (std::size_t p = 0; p < parameterCount; ++p) {
+        for (std::size_t p = 0; p < count; ++p) {
             if (!ports_[p] || !std::isfinite(*ports_[p])) continue;
-            const auto now = static_cast<float>(normalised(allParameters()[p], *ports_[p]));
+            const float now = normalOf(p, *ports_[p]);
             if (isSame(now, seen_[p])) continue;
-            auto& parameter = processor.parameter(static_cast<Parameter>(p));
+            auto& parameter = processor.parameter(parameterOf(p));
             const bool isUndone = isRestored && isSame(now, saved_[p]);
             if (!isUndone && !isSame(now, parameter.getValue())) parameter.setByController(now);
             seen_[p] = now; // last: a window compares
@@ -53,9 +53,10 @@ public:
     std::optional<float> owed(std::size_t p, PluginProcessor& processor) const noexcept {
         if (!wasRead_.load(std::memory_order_acquire)) return std::nullopt;
         const float seen = seen_[p]; // before the value: what the port moves meanwhile is no news
-        const float now = processor.parameter(static_cast<Parameter>(p)).getValue();
+        const float now = processor.parameter(parameterOf(p)).getValue();
         if (isSame(now, seen)) return std::nullopt;
-        return static_cast<float>(denormalised(allParameters()[p], now));
+        return p == enabled ? (now > 0.5f ? 0.0f : 1.0f)
+                            : static_cast<float>(denormalised(allParameters()[p], now));
     }
 
     /// What the ports held in the last block, as text for a state; and that of a restored one. Not R.
@@ -84,10 +85,21 @@ private:
     static constexpr float none = std::numeric_limits<float>::quiet_NaN();
     static constexpr float closest = 1e-6f; // hosts keep values with six digits
     static bool isSame(float a, float b) noexcept { return std::abs(a - b) < closest; }
+    static Parameter parameterOf(std::size_t port) noexcept {
+        return port == enabled ? Parameter::bypass : static_cast<Parameter>(port);
+    }
+    static float initialOf(std::size_t port) noexcept {
+        return port == enabled ? 1.0f : static_cast<float>(allParameters()[port].initial);
+    }
+    /// What a port holds as its parameter's 0 to 1.
+    static float normalOf(std::size_t port, float value) noexcept {
+        if (port == enabled) return value > 0.5f ? 0.0f : 1.0f;
+        return static_cast<float>(normalised(allParameters()[port], static_cast<double>(value)));
+    }
 
-    std::array<const float*, parameterCount> ports_{};
-    std::array<std::atomic<float>, parameterCount> seen_{}; // 0 to 1
-    std::array<float, parameterCount> saved_{};
+    std::array<const float*, count> ports_{};
+    std::array<std::atomic<float>, count> seen_{}; // 0 to 1
+    std::array<float, count> saved_{};
     std::atomic<bool> isRestored_{false}, wasRead_{false};
 };
 

@@ -103,7 +103,8 @@ private:
 
 // Ports in order: music, channels, and of JUCE's wrapper events, what is told, latency, free-wheeling,
 // enabled; then one for each parameter (Lv2Ports.cpp).
-constexpr std::uint32_t eventPort = PHYSVIB_MUSIC_PORTS + PHYSVIB_CHANNELS, firstControl = eventPort + 5;
+constexpr std::uint32_t eventPort = PHYSVIB_MUSIC_PORTS + PHYSVIB_CHANNELS, firstControl = eventPort + 5,
+                        enabledPort = firstControl - 1;
 
 /// JUCE tells hosts of parameters as properties, which are not described: hosts would warn of each. R,
 /// wait-free.
@@ -207,6 +208,11 @@ void connect(LV2_Handle handle, std::uint32_t port, void* data) {
         const auto parameter = port - firstControl;
         if (parameter < parameterCount) instances()[handle].controls->connect(parameter, data);
         return;
+    }
+    if (port == enabledPort) { // JUCE's own bypass stays open: ours is the only one
+        static float isOn = 1.0f;
+        instances()[handle].controls->connect(Lv2Controls::enabled, data);
+        data = &isOn;
     }
     if (port == eventPort) instances()[handle].events = static_cast<const LV2_Atom_Sequence*>(data);
     if (port == eventPort + 1) instances()[handle].told = static_cast<LV2_Atom_Sequence*>(data);

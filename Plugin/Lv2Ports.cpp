@@ -32,7 +32,9 @@ std::string unitOf(const ParameterRow& row) {
     return row.unit == "x" ? "units:coef" : "";
 }
 
+// Hosts show `lv2:enabled`, which is the same; sessions that hold on to this port keep it.
 std::string propertiesOf(const ParameterRow& row) {
+    if (row.parameter == Parameter::bypass) return "lv2:toggled , lv2:integer , pprop:notOnGUI";
     if (row.scale == ParameterScale::toggle) return "lv2:toggled , lv2:integer";
     if (row.scale == ParameterScale::choice) return "lv2:enumeration";
     return row.scale == ParameterScale::log ? "pprop:logarithmic" : "";

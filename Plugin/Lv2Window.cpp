@@ -27,11 +27,11 @@ public:
         , host_{host} {}
 
     void idle() {
-        for (std::size_t p = 0; p < parameterCount; ++p) {
+        for (std::size_t p = 0; p < Lv2Controls::count; ++p) {
             const auto value = parts_.controls->owed(p, *parts_.processor);
-            if (value && value != written_[p]) {
-                write_(host_, parts_.firstControl + static_cast<std::uint32_t>(p), sizeof *value, 0, &*value);
-            }
+            const auto port = p == Lv2Controls::enabled ? parts_.firstControl - 1
+                                                        : parts_.firstControl + static_cast<std::uint32_t>(p);
+            if (value && value != written_[p]) write_(host_, port, sizeof *value, 0, &*value);
             written_[p] = value; // once: a host may refuse, as where automation plays
         }
     }
@@ -40,7 +40,7 @@ private:
     Lv2Parts parts_;
     LV2UI_Write_Function write_;
     LV2UI_Controller host_;
-    std::array<std::optional<float>, parameterCount> written_{};
+    std::array<std::optional<float>, Lv2Controls::count> written_{};
 };
 
 /// By JUCE's handles; only on the thread of the host's windows.

@@ -270,6 +270,63 @@ TEST(RawLv2, MusicAtItsTwoPortsIsFeltAsInTheProcessor) {
     host.deactivate();
 }
 
+// As lv2apply, ecasound and Audacity: audio and controls, no feature, and what they do not know is not
+// connected.
+TEST(RawLv2, AHostThatKnowsTheCoreAloneNeedsNothingElse) {
+    for (const std::string width : {"", "-2", "-8", "-16", "-Music"}) {
+        std::ifstream file{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/dsp.ttl"};
+        const std::string text{std::istreambuf_iterator<char>{file}, {}};
+        EXPECT_EQ(text.find("requiredFeature"), std::string::npos) << width;
+        const bool isEffect = width == "-Music";
+        EXPECT_EQ(text.find("a lv2:FilterPlugin") != std::string::npos, isEffect) << width;
+        std::size_t events = 0, optional = 0;
+        for (std::size_t at = 0; (at = text.find("atom:AtomPort", at)) != std::string::npos; ++at) {
+            ++events;
+            optional += text.find("lv2:connectionOptional", at) < text.find(']', at) ? 1 : 0;
+        }
+        EXPECT_EQ(events, 2u) << width;
+        if (isEffect) EXPECT_EQ(optional, events);
+    }
+    const std::string bundle = PHYSVIB_PLUGINS "/PhysVib-Music.lv2/";
+    void* const module = dlopen((bundle + "PhysVib-Music.so").c_str(), RTLD_NOW | RTLD_LOCAL);
+    ASSERT_NE(module, nullptr);
+    const auto* const plugin =
+        reinterpret_cast<const LV2_Descriptor* (*)(std::uint32_t)>(dlsym(module, "lv2_descriptor"))(0);
+    const LV2_Handle handle = plugin->instantiate(plugin, 48000.0, bundle.c_str(), nullptr);
+    ASSERT_NE(handle, nullptr);
+    std::array<std::vector<float>, 6> audio;
+    for (std::uint32_t port = 0; port < audio.size(); ++port) {
+        audio[port].resize(block);
+        plugin->connect_port(handle, port, audio[port].data());
+    }
+    constexpr std::uint32_t events = 6, latency = 8, enabled = 10, first = 11;
+    plugin->connect_port(handle, events, nullptr);
+    plugin->connect_port(handle, events + 1, nullptr);
+    std::array<float, 3> own{0.0f, 0.0f, 1.0f}; // latency, free-wheeling, enabled
+    for (std::uint32_t port = latency; port <= enabled; ++port)
+        plugin->connect_port(handle, port, &own[port - latency]);
+    std::array<float, parameterCount> controls{};
+    for (std::uint32_t p = 0; p < parameterCount; ++p) {
+        controls[p] = static_cast<float>(allParameters()[p].initial);
+        plugin->connect_port(handle, first + p, &controls[p]);
+    }
+    controls[control(Parameter::music)] = 0.0f;
+    if (plugin->activate) plugin->activate(handle);
+    std::array<float, 4> peaks{};
+    for (int b = 0; b < 100; ++b) {
+        for (std::size_t n = 0; n < block; ++n)
+            audio[0][n] = audio[1][n] =
+                0.5f * std::sin(0.0105f * static_cast<float>(b * block) + 0.0105f * static_cast<float>(n));
+        plugin->run(handle, block);
+        for (std::size_t c = 0; c < peaks.size(); ++c)
+            for (const float x : audio[2 + c]) peaks[c] = std::max(peaks[c], std::abs(x));
+    }
+    for (const float peak : peaks) EXPECT_GT(peak, 0.05f);
+    if (plugin->deactivate) plugin->deactivate(handle);
+    plugin->cleanup(handle);
+    dlclose(module);
+}
+
 TEST(RawLv2, DescriptionsHaveFloatsAndNoEmptyAddresses) {
     for (const std::string width : {"", "-2", "-8", "-16", "-Music"}) {
         std::ifstream file{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/dsp.ttl"};
