@@ -23,6 +23,29 @@ void caption(juce::Label& label, const juce::String& shown) {
     label.setJustificationType(juce::Justification::centredRight);
 }
 
+/// Within its group's panel, whose heading says the rest.
+std::string_view panelName(const ParameterRow& row) {
+    switch (row.parameter) {
+    case Parameter::law: return "Law";
+    case Parameter::exponent: return "Exponent";
+    case Parameter::strikeLevel: return "Level";
+    case Parameter::strikeX: return "Shift x";
+    case Parameter::strikeY: return "Shift y";
+    case Parameter::musicSides: return "Channels";
+    case Parameter::velocityCurve: return "Velocity";
+    case Parameter::noteMaterial: return "Material";
+    default: return row.name;
+    }
+}
+
+/// As short as a list is narrow.
+std::string_view panelWord(std::string_view choice) {
+    if (choice == "as the preset") return "preset";
+    if (choice == "as the scene") return "scene";
+    if (choice == "moves the place") return "place";
+    return choice;
+}
+
 } // namespace
 
 ParameterControl::ParameterControl(HostParameter& parameter)
@@ -30,11 +53,12 @@ ParameterControl::ParameterControl(HostParameter& parameter)
     for (juce::Component* c : std::initializer_list<juce::Component*>{&knob_, &list_, &name_})
         c->addMouseListener(this, true);
     const auto& row = parameter.row();
-    caption(name_, words(row.name));
+    caption(name_, words(panelName(row)));
+    name_.setMinimumHorizontalScale(0.8f);
     name_.setJustificationType(juce::Justification::centred);
     addAndMakeVisible(name_);
     if (!row.choices.empty()) {
-        for (int id = 1; const auto choice : row.choices) list_.addItem(words(choice), id++);
+        for (int id = 1; const auto choice : row.choices) list_.addItem(words(panelWord(choice)), id++);
         list_.setTitle(words(row.name));
         list_.setTooltip(words(row.help));
         addAndMakeVisible(list_);
@@ -67,11 +91,10 @@ void ParameterControl::rename(int choice, const juce::String& text) {
 void ParameterControl::resized() {
     auto area = getLocalBounds().reduced(2, 0);
     name_.setBounds(area.removeFromTop(18));
-    const auto& row = parameter_.row();
-    const bool fits = name_.getFont().getStringWidth(words(row.name)) <= name_.getWidth();
-    name_.setText(words(fits ? row.name : row.shortName), juce::dontSendNotification);
     knob_.setBounds(area);
-    list_.setBounds(area.withSizeKeepingCentre(area.getWidth() - 6, 28));
+    for (auto* const part : knob_.getChildren()) // its value needs all of a narrow knob's width
+        if (auto* const value = dynamic_cast<juce::Label*>(part)) value->setBorderSize({0, 0, 0, 0});
+    list_.setBounds(area.withSizeKeepingCentre(area.getWidth() - 2, 28));
 }
 
 void ParameterControl::lookAndFeelChanged() { mute(name_); }
@@ -128,9 +151,13 @@ void PluginEditor::fillGroups() {
     const bool hasMusic = plugin_.getBusCount(true) > 0;
     for (const auto& group : parameterGroups()) {
         if (group.parameters.front() == Parameter::beats && !hasMusic) continue;
-        groups_.push_back({group.name, {}});
+        // of the world too: its list has room under that of materials
+        const bool isTime = group.parameters.front() == Parameter::timing;
+        if (!isTime) groups_.push_back({group.name, {}});
         for (const auto which : group.parameters) {
-            auto& controls = groups_.back().controls;
+            auto& controls = (isTime ? *std::ranges::find(groups_, std::string_view{"World"}, &Group::name)
+                                     : groups_.back())
+                                 .controls;
             controls.push_back(std::make_unique<ParameterControl>(plugin_.parameter(which)));
             addAndMakeVisible(*controls.back());
             controls.back()->onMenu = [this](HostParameter& parameter) { showMenu(parameter); };

@@ -22,7 +22,7 @@ public:
     void resized() override;
     void lookAndFeelChanged() override;
     bool isList() const noexcept { return listAttachment_ != nullptr; }
-    int shares() const noexcept { return isList() ? 4 : 3; } ///< of the width
+    int shares() const noexcept { return isList() ? 3 : 2; } ///< of the width
     Parameter which() const noexcept { return parameter_.row().parameter; }
 
 private:

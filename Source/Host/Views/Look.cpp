@@ -213,7 +213,8 @@ void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int
 }
 
 void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label) {
-    label.setBounds(6, 0, box.getWidth() - 28, box.getHeight());
+    label.setBounds(6, 0, box.getWidth() - 24, box.getHeight()); // up to the arrow
+    label.setBorderSize({1, 5, 1, 0});
     label.setFont(getComboBoxFont(box));
 }
 
