@@ -247,6 +247,69 @@ TEST(PacedHost, AThreadThatIsLateForLongChangesNoSampleAndIsBackAtOnce) {
     EXPECT_TRUE(later(signal, latency) == later(bounce, latency));
 }
 
+/// Discs in one place, each touching each: a step takes many times longer than real time.
+PluginState absurdlyHeavy() {
+    auto state = busy();
+    state.scene.joints.clear();
+    state.scene.script.clear();
+    state.scene.bodies.clear();
+    for (int i = 0; i < 200; ++i) {
+        BodyDescription& body = state.scene.bodies.emplace_back();
+        body.name = "disc " + std::to_string(i);
+        body.positionMetres = {state.scene.fieldWidthMetres / 2, state.scene.fieldHeightMetres / 2};
+        FixtureDescription& fixture = body.fixtures.emplace_back();
+        fixture.material = 3;
+        fixture.isCamera = true;
+        fixture.shape = CircleShape{0.2};
+    }
+    return state;
+}
+
+// However late the thread is and however long a step takes: the call owes no more than its own frames and L,
+// since each call leaves the world at its end. The samples stay the bounce's, and people are told.
+TEST(PacedHost, NoCallStepsMoreThanItsOwnFramesAndTheLatencyOfAWorldThatIsFarTooHeavy) {
+    const auto frames = [](int i) { return i % 7 == 3 ? 2048 : i % 7 == 5 ? 33 : 512; };
+    constexpr int calls = 50;
+    for (const bool isTight : {false, true}) {
+        PacedHost host{absurdlyHeavy()};
+        host.plugin->parameter(Parameter::timing).setValue(isTight ? 1.0f : 0.0f);
+        host.prepare(48000, 2048, false);
+        const std::unique_ptr<PluginEditor> editor{
+            dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+        editor->refresh();
+        const std::int64_t latency = host.plugin->takes().playOutFrames(),
+                           stepNs = 1'000'000'000 / host.plugin->state().stepsPerSecond;
+        Samples signal, bounce;
+        std::int64_t before = 0, all = 0, most = 0;
+        for (int i = 0; i < calls; ++i) {
+            host.play(frames(i), signal); // and the thread never comes
+            const std::int64_t now = host.plugin->takes().session()->world().sceneNs(),
+                               steps = (now - before) / stepNs;
+            EXPECT_LE((steps - 1) * stepNs, (frames(i) + latency) * 1'000'000'000 / 48000) << i;
+            before = now;
+            all += steps;
+            most = std::max(most, steps);
+        }
+        editor->refresh();
+        const auto length = static_cast<std::int64_t>(signal[0].size());
+        EXPECT_NEAR(static_cast<double>(all), static_cast<double>(length) / 480.0,
+                    2.0 + static_cast<double>(latency) / 480.0);
+        EXPECT_GT(most, 1);
+        EXPECT_EQ(host.plugin->takes().playOutFrames(), latency);
+        if (!isTight) {
+            EXPECT_GT(host.status().aheadBlocks, static_cast<std::uint64_t>(calls / 2));
+            EXPECT_TRUE(editor->statusText().contains("the host waits for the world"))
+                << editor->statusText();
+        }
+        TestHost offline;
+        ASSERT_TRUE(offline.plugin->apply(absurdlyHeavy()));
+        offline.plugin->parameter(Parameter::timing).setValue(isTight ? 1.0f : 0.0f);
+        offline.prepare(48000, 2048);
+        offline.play(length, bounce);
+        EXPECT_TRUE(signal == bounce);
+    }
+}
+
 // As LV2 hosts do that announce what an export may need.
 TEST(PacedHost, LIsThatOfTheUsualBlockHoweverLargeOneComes) {
     PacedHost host{busy()};
