@@ -138,6 +138,38 @@ TEST(Motor, SpeedAndTorqueAreChangedInTheInspectorAndUndone) {
     EXPECT_FALSE(speed->isVisible()) << "a body without one has no such rows";
 }
 
+TEST(Spring, HangsABodyAndItsStiffnessIsChangedInTheInspectorAndUndone) {
+    Field f;
+    f.add(DrawTool::ball, 0.5, 0.5);
+    press(f.menuAt(f.share(0.5, 0.5)), "Spring here");
+    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.desk.trouble();
+    f.settle();
+    const auto spring = std::get<DistanceJoint>(f.drawn().joints[0].joint);
+    EXPECT_FALSE(spring.isSlack);
+    EXPECT_GT(spring.springHz, 0.0);
+    press(f.menuAt(f.share(0.5, 0.5)), "Spring: stiffness");
+    auto* stiffness = dynamic_cast<juce::Slider*>(find(f.panel, "Stiffness of the spring"));
+    ASSERT_NE(stiffness, nullptr);
+    EXPECT_NEAR(stiffness->getValue(), spring.springHz, 0.05);
+    EXPECT_GT(stiffness->getHeight(), 14);
+    EXPECT_LE(stiffness->getBottom(), stiffness->getParentComponent()->getHeight());
+    stiffness->setValue(0.5, juce::sendNotificationSync);
+    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.desk.trouble();
+    const auto softer = std::get<DistanceJoint>(f.drawn().joints[0].joint);
+    EXPECT_NEAR(softer.springHz, 0.5, 1e-9);
+    EXPECT_EQ(softer.anchorAMetres, spring.anchorAMetres);
+    EXPECT_EQ(softer.anchorBMetres, spring.anchorBMetres) << "its length stays";
+    f.settle();
+    const double from = f.world.poseOfBody("ball 1")->yMetres;
+    f.desk.setSlowness(1);
+    runFor(0.7);
+    f.view.refresh();
+    const double y = f.world.poseOfBody("ball 1")->yMetres, high = f.drawn().fieldHeightMetres;
+    EXPECT_LT(y, from - 0.02 * high) << "it gives way";
+    f.desk.undoManager().undo();
+    EXPECT_EQ(std::get<DistanceJoint>(f.drawn().joints[0].joint), spring);
+}
+
 TEST(Rain, HasTheNumberAndMaterialThatWereChosenAsOneEdit) {
     Field f;
     f.pane.use(DrawTool::rain);

@@ -251,8 +251,15 @@ juce::Font WorldView::badgeFont() const {
 juce::Rectangle<float> WorldView::badgeOf(int enchanter, const Map&) const {
     const float size = layout_.geometry.count > fewBadges ? 0.7f * badgePixels : badgePixels;
     const auto words = badgeFont().getStringWidthFloat(labelOf(enchanter)) + 10.0f;
-    return juce::Rectangle<float>{juce::jlimit(size, widestBadgePixels, words), size}
-        .withCentre(placeOfEnchanter(enchanter))
+    const auto centre = placeOfEnchanter(enchanter);
+    float widest = widestBadgePixels; // as far as the badge beside it lets it
+    for (int j = 0; j < layout_.geometry.count && words > size; ++j) {
+        const auto other = placeOfEnchanter(j) - centre;
+        if (j != enchanter && std::abs(other.y) < size)
+            widest = std::min(widest, 2.0f * std::abs(other.x) - size);
+    }
+    return juce::Rectangle<float>{juce::jlimit(size, std::max(size, widest), words), size}
+        .withCentre(centre)
         .constrainedWithin(getLocalBounds().reduced(4).toFloat());
 }
 

@@ -56,10 +56,10 @@ Copied copied(const SceneDrawing& drawing, const std::vector<std::string>& names
 std::vector<Action> pasted(const SceneDrawing& drawing, const Copied& copy, const Vector& beside,
                            std::vector<std::string>& names);
 
-enum class JointKind { pin, rope, slider, motor };
+enum class JointKind { pin, rope, spring, slider, motor };
 
-/// Joins two bodies that are at `a` and `b` now: a pin or motor at `from`, a rope or slider from there to
-/// `to`. Bodies that have moved get their present place as start, at rest. Any thread.
+/// Joins two bodies that are at `a` and `b` now: a pin or motor at `from`, a rope, spring or slider from
+/// there to `to`. Bodies that have moved get their present place as start, at rest. Any thread.
 Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
                                    const std::pair<std::string, BodyPlace>& a,
                                    const std::pair<std::string, BodyPlace>& b, const Vector& from,
@@ -79,6 +79,14 @@ MotorDrive driveOf(const JointDescription& motor); ///< zero for other joints
 /// rest. Any thread.
 Result<std::vector<Action>> driven(const SceneDrawing& drawing, const std::string& joint,
                                    const MotorDrive& drive, const PoseNow& now);
+
+/// The last spring between a body and another. Null: none. Any thread.
+const JointDescription* springOf(const Scene& scene, const std::string& body);
+double springHzOf(const JointDescription& spring); ///< zero for other joints
+
+/// Joins it again with another stiffness, given as the frequency at which its bodies swing; they return to
+/// their start, so it keeps its length. Any thread.
+Result<std::vector<Action>> sprung(const SceneDrawing& drawing, const std::string& joint, double hz);
 
 /// The drawn scene with its bodies at their present places; joints keep their points on them. Any thread.
 Scene sceneNow(const Scene& drawn, const PoseNow& now);

@@ -48,7 +48,7 @@ Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
     if (heaviest <= 0.0) return Failure{"a joint: expected a body that moves"};
     const double length = std::hypot(to.x - from.x, to.y - from.y);
     if (kind != JointKind::pin && kind != JointKind::motor && length < sceneLimits::minSizeMetres)
-        return Failure{"a rope or slider: expected two places"};
+        return Failure{"a rope, spring or slider: expected two places"};
     JointDescription joint;
     joint.name = drawing.freeName("joint");
     joint.bodyA = a.first;
@@ -57,6 +57,10 @@ Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
         DistanceJoint rope{from, to, 0.0, 0.0, true};
         joint.collide = true;
         joint.joint = rope;
+    } else if (kind == JointKind::spring) {
+        constexpr double hz = 2.0, dampingRatio = 0.1; // swings some five times
+        joint.collide = true;
+        joint.joint = DistanceJoint{from, to, hz, dampingRatio, false};
     } else if (kind == JointKind::slider) {
         SliderJoint slider;
         slider.anchorMetres = from;
@@ -141,6 +145,33 @@ Result<std::vector<Action>> driven(const SceneDrawing& drawing, const std::strin
                 actions.push_back(ChangeAction{std::move(rested), false});
             }
     actions.push_back(JoinAction{std::move(*next)});
+    return actions;
+}
+
+double springHzOf(const JointDescription& spring) {
+    const auto* kind = std::get_if<DistanceJoint>(&spring.joint);
+    return kind == nullptr || kind->isSlack ? 0.0 : kind->springHz;
+}
+
+const JointDescription* springOf(const Scene& scene, const std::string& body) {
+    const auto found = std::find_if(scene.joints.rbegin(), scene.joints.rend(), [&](const auto& joint) {
+        return (joint.bodyA == body || joint.bodyB == body) && springHzOf(joint) > 0.0;
+    });
+    return found == scene.joints.rend() ? nullptr : &*found;
+}
+
+Result<std::vector<Action>> sprung(const SceneDrawing& drawing, const std::string& joint, double hz) {
+    const auto& joints = drawing.drawn().joints;
+    const auto found = std::ranges::find(joints, joint, &JointDescription::name);
+    if (found == joints.end() || springHzOf(*found) <= 0.0)
+        return Failure{"a spring: expected one, found " + joint};
+    JointDescription next = *found;
+    std::get<DistanceJoint>(next.joint).springHz = hz;
+    std::vector<Action> actions{UnjoinAction{joint}};
+    for (const std::string& name : {next.bodyA, next.bodyB})
+        if (const auto* body = drawing.find(name); body && body->type == BodyType::dynamicBody)
+            actions.push_back(ChangeAction{*body, false});
+    actions.push_back(JoinAction{std::move(next)});
     return actions;
 }
 

@@ -77,7 +77,8 @@ void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width
         g.drawText(words, area.removeFromLeft(w), where, true);
     };
     g.setFont(juce::Font{text::medium, juce::Font::bold});
-    cell(utf8(e.label), 44, Shade::text);
+    constexpr int leastName = 44, columnsNeed = 300; // what place, profile and full scale need
+    cell(utf8(e.label), std::max(leastName, area.getWidth() - columnsNeed), Shade::text);
     g.setFont(juce::Font{text::medium});
     const int rest = area.getWidth();
     cell(number(1e3 * place.xMetres, 0) + ", " + number(1e3 * place.yMetres, 0) + " mm", rest * 34 / 100,

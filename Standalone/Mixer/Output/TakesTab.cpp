@@ -162,7 +162,7 @@ void TakesTab::resized() {
         foot.removeFromLeft(8);
     }
     list_.setBounds(area);
-    none_.setBounds(area.withHeight(rowHeight));
+    none_.setBounds(area.withHeight(rowHeight).reduced(10, 0));
 }
 
 } // namespace physvib

@@ -67,11 +67,15 @@ void ScopeView::paint(juce::Graphics& g) {
     const auto foot = area.removeFromBottom(scopeFootHeight).withTrimmedLeft(laneLabelWidth);
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
-    g.drawText(mix.count() > lanes ? "the first " + juce::String{lanes} + " of " + juce::String{mix.count()}
-                                   : juce::String{juce::CharPointer_UTF8{"\xe2\x88\x92"
-                                                                         "1 s"}},
-               foot, juce::Justification::centredLeft, false);
-    g.drawText("now", foot, juce::Justification::centredRight, false);
+    const auto begin = mix.count() > lanes
+                           ? "the first " + juce::String{lanes} + " of " + juce::String{mix.count()}
+                           : juce::String{juce::CharPointer_UTF8{"\xe2\x88\x92"
+                                                                 "1 s"}};
+    const juce::String end{"now"};
+    const juce::Font small{text::small};
+    g.drawText(begin, foot, juce::Justification::centredLeft, true);
+    if (small.getStringWidth(begin) + small.getStringWidth(end) + gap <= foot.getWidth())
+        g.drawText(end, foot, juce::Justification::centredRight, false);
     area.removeFromBottom(2);
     const int height = (area.getHeight() + laneGap) / lanes;
     for (int j = 0; j < lanes; ++j) {
@@ -79,7 +83,8 @@ void ScopeView::paint(juce::Graphics& g) {
         g.setColour(enchanterColour(*this, j));
         g.setFont(juce::Font{text::medium, juce::Font::bold});
         g.drawText(utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label),
-                   lane.removeFromLeft(laneLabelWidth), juce::Justification::centredLeft, false);
+                   lane.removeFromLeft(laneLabelWidth).withTrimmedRight(2), juce::Justification::centredLeft,
+                   true);
         drawLane(g, lane, j);
     }
 }

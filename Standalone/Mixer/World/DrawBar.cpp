@@ -85,6 +85,7 @@ BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
     caption(bounceName_, "bounce");
     caption(speedName_, "motor");
     caption(torqueName_, "torque");
+    caption(springName_, "spring");
     moves_.setTitle("Moves");
     moves_.setTooltip("Moving, or static");
     moves_.onClick = [this, change] {
@@ -98,7 +99,7 @@ BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
         change("Haptic source",
                [is = source_.getToggleState()](const Scene& s, BodyDescription& b) { setSource(s, b, is); });
     };
-    for (auto* slider : {&density_, &bounce_, &speed_, &torque_}) {
+    for (auto* slider : {&density_, &bounce_, &speed_, &torque_, &spring_}) {
         slider->setSliderStyle(juce::Slider::LinearHorizontal);
         slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 62, 20);
     }
@@ -132,9 +133,14 @@ BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
     torque_.setRange(0.0, 1e6, 1.0);
     torque_.setSkewFactorFromMidPoint(1e3);
     for (auto* slider : {&speed_, &torque_}) onSlide(*slider, [this](bool goesOn) { drive(goesOn); });
+    spring_.setTitle("Stiffness of the spring");
+    spring_.setTooltip("How fast the spring lets its bodies swing, in Hz; they return to their start");
+    spring_.setRange(0.1, 20.0, 0.1);
+    spring_.setSkewFactorFromMidPoint(2.0);
+    onSlide(spring_, [this](bool goesOn) { stiffen(goesOn); });
     for (juce::Component* c : std::initializer_list<juce::Component*>{
              &name_, &moves_, &source_, &densityName_, &density_, &bounceName_, &bounce_, &speedName_,
-             &speed_, &torqueName_, &torque_})
+             &speed_, &torqueName_, &torque_, &springName_, &spring_})
         addAndMakeVisible(c);
 }
 
@@ -142,6 +148,12 @@ void BodyPanel::drive(bool goesOn) {
     const auto actions = driven(desk_.world().drawing(), drivenJoint_,
                                 {speed_.getValue(), torque_.getValue()}, desk_.world().posesNow());
     const auto error = actions ? desk_.world().edit("Motor", actions.value, goesOn) : actions.error;
+    if (!error.empty()) desk_.report(utf8(error));
+}
+
+void BodyPanel::stiffen(bool goesOn) {
+    const auto actions = sprung(desk_.world().drawing(), springJoint_, spring_.getValue());
+    const auto error = actions ? desk_.world().edit("Spring", actions.value, goesOn) : actions.error;
     if (!error.empty()) desk_.report(utf8(error));
 }
 
@@ -160,6 +172,12 @@ void BodyPanel::show() {
         speed_.setValue(driveOf(*motor).radiansPerSecond, juce::dontSendNotification);
         torque_.setValue(driveOf(*motor).maxTorqueNewtonMetres, juce::dontSendNotification);
     }
+    const auto* spring = chosen.size() == 1 ? springOf(scene, chosen[0]) : nullptr;
+    springJoint_ = spring ? spring->name : std::string{};
+    springName_.setVisible(spring != nullptr);
+    spring_.setVisible(spring != nullptr);
+    if (spring && !spring_.isMouseButtonDown())
+        spring_.setValue(springHzOf(*spring), juce::dontSendNotification);
     const auto material = utf8(scene.materials[static_cast<std::size_t>(body->fixtures[0].material)].name);
     name_.setText(
         (chosen.size() == 1 ? utf8(chosen[0]) : juce::String{static_cast<int>(chosen.size())} + " bodies") +
@@ -174,7 +192,7 @@ void BodyPanel::show() {
         bounce_.setValue(fixture.restitution.value_or(
                              scene.materials[static_cast<std::size_t>(fixture.material)].restitution),
                          juce::dontSendNotification);
-    for (auto* label : {&densityName_, &bounceName_, &speedName_, &torqueName_})
+    for (auto* label : {&densityName_, &bounceName_, &speedName_, &torqueName_, &springName_})
         label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
@@ -192,8 +210,10 @@ void BodyPanel::resized() {
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},
                                         {&speedName_, &speed_},
-                                        {&torqueName_, &torque_}}) {
-        row = area.removeFromTop(rowHigh); // of no height where there is no motor
+                                        {&torqueName_, &torque_},
+                                        {&springName_, &spring_}}) {
+        if (!slider->isVisible()) continue;
+        row = area.removeFromTop(rowHigh);
         label->setBounds(row.removeFromLeft(50));
         slider->setBounds(row);
     }

@@ -48,29 +48,33 @@ private:
     std::set<std::tuple<bool, int, bool>> surfaces_; // those that the remarks are about
     std::vector<std::unique_ptr<Swatch>> swatches_;
     juce::ComboBox count_, way_;
+    int chosen_ = -1;
 };
 
-/// Static or moving, haptic source or not, density and restitution of the selected bodies; speed and torque
-/// of the motor of a single one. Message thread only.
+/// Static or moving, haptic source or not, density and restitution of the selected bodies; of a single one
+/// also speed and torque of its motor, and stiffness of its spring. Message thread only.
 class BodyPanel final : public juce::Component {
 public:
     BodyPanel(Desk& desk, DrawPane& pane);
     void show();
     void paint(juce::Graphics& g) override;
     void resized() override;
-    int wantedHeight() const { return drivenJoint_.empty() ? high : high + 2 * rowHigh; }
+    int wantedHeight() const {
+        return high + (drivenJoint_.empty() ? 0 : 2 * rowHigh) + (springJoint_.empty() ? 0 : rowHigh);
+    }
     static constexpr int wide = 232;
 
 private:
     static constexpr int high = 124, rowHigh = 28;
     void drive(bool goesOn);
+    void stiffen(bool goesOn);
 
     Desk& desk_;
     DrawPane& pane_;
-    std::string drivenJoint_; // of the single selected body; empty: none
-    juce::Label name_, densityName_, bounceName_, speedName_, torqueName_;
+    std::string drivenJoint_, springJoint_; // of the single selected body; empty: none
+    juce::Label name_, densityName_, bounceName_, speedName_, torqueName_, springName_;
     juce::ToggleButton moves_{"moves"}, source_{"haptic source"};
-    juce::Slider density_, bounce_, speed_, torque_;
+    juce::Slider density_, bounce_, speed_, torque_, spring_;
 };
 
 } // namespace physvib

@@ -24,7 +24,13 @@ void DrawPane::joinAt(DrawTool tool, Vector place) {
     const DrawTool before = tool_;
     use(tool);
     to_ = place;
+    if (tool == DrawTool::spring) { // hangs from a place above
+        constexpr double length = 0.2;
+        stroke_ = {place};
+        to_.y += length * desk_.world().scene().fieldHeightMetres;
+    }
     join();
+    stroke_.clear();
     use(before);
 }
 
@@ -56,11 +62,12 @@ void DrawPane::join() {
                                : body ? BodyPlace{body->positionMetres, body->angleRadians}
                                       : BodyPlace{}};
     };
-    const auto kind = tool_ == DrawTool::pin     ? JointKind::pin
-                      : tool_ == DrawTool::motor ? JointKind::motor
-                      : tool_ == DrawTool::rope  ? JointKind::rope
-                                                 : JointKind::slider;
-    const bool isTurnedRound = tool_ == DrawTool::rope; // the stroke begins on b
+    const auto kind = tool_ == DrawTool::pin      ? JointKind::pin
+                      : tool_ == DrawTool::motor  ? JointKind::motor
+                      : tool_ == DrawTool::rope   ? JointKind::rope
+                      : tool_ == DrawTool::spring ? JointKind::spring
+                                                  : JointKind::slider;
+    const bool isTurnedRound = tool_ == DrawTool::rope || tool_ == DrawTool::spring; // the stroke begins on b
     auto made =
         joined(trial, kind, place(a), place(b), isTurnedRound ? to_ : from, isTurnedRound ? from : to_);
     if (!made) return desk_.report(utf8(made.error));

@@ -6,6 +6,26 @@
 
 namespace physvib {
 
+namespace {
+
+/// A line with turns between straight ends.
+juce::Path coil(juce::Point<float> from, juce::Point<float> to, float wide, int turns) {
+    const auto along = to - from;
+    const float length = std::max(1e-3f, from.getDistanceFrom(to));
+    const juce::Point<float> across{-along.y * wide / length, along.x * wide / length};
+    juce::Path path;
+    path.startNewSubPath(from);
+    for (int k = 0; k < 2 * turns; ++k)
+        path.lineTo(from +
+                    along *
+                        (0.15f + 0.7f * (static_cast<float>(k) + 0.5f) / (2.0f * static_cast<float>(turns))) +
+                    across * (k % 2 == 0 ? 1.0f : -1.0f));
+    path.lineTo(to);
+    return path;
+}
+
+} // namespace
+
 juce::Path signOf(DrawTool tool) {
     juce::Path p, line;
     const auto stroke = [&p, &line](float width = 1.8f) {
@@ -55,6 +75,10 @@ juce::Path signOf(DrawTool tool) {
         line.startNewSubPath(-6.5f, -4.0f);
         line.quadraticTo(0.0f, 13.0f, 6.5f, -4.0f);
         stroke(1.4f);
+        break;
+    case DrawTool::spring:
+        line = coil({-9.0f, 0.0f}, {9.0f, 0.0f}, 6.0f, 3);
+        stroke(1.6f);
         break;
     case DrawTool::slider:
         p.addRectangle(-4.0f, -4.0f, 8.0f, 8.0f);
@@ -136,7 +160,10 @@ void DrawPane::drawJoints(juce::Graphics& g) const {
                 } else {
                     const auto a = view_.placeOfMetres(anchorNow(joint, kind.anchorAMetres, joint.bodyA)),
                                b = view_.placeOfMetres(anchorNow(joint, kind.anchorBMetres, joint.bodyB));
-                    g.drawLine({a, b}, 1.8f);
+                    if (springHzOf(joint) > 0.0)
+                        g.strokePath(coil(a, b, 6.0f, 6), juce::PathStrokeType{1.8f});
+                    else
+                        g.drawLine({a, b}, 1.8f);
                     dot(a, 3.0f);
                     dot(b, 3.0f);
                 }
@@ -204,6 +231,7 @@ void DrawPane::drawStroke(juce::Graphics& g) const {
         path.lineTo(to);
         return g.strokePath(path, juce::PathStrokeType{2.0f});
     }
+    if (tool_ == DrawTool::spring) return g.strokePath(coil(from, to, 6.0f, 6), juce::PathStrokeType{2.0f});
     if (tool_ == DrawTool::rope || tool_ == DrawTool::slider) return g.drawLine({from, to}, 2.0f);
     if (tool_ == DrawTool::rain) {
         if (const auto bodies = rainNow())

@@ -6,7 +6,22 @@
 
 namespace physvib {
 
-enum class DrawTool { hand, choose, ball, box, polygon, line, wall, rain, pin, rope, slider, motor, eraser };
+enum class DrawTool {
+    hand,
+    choose,
+    ball,
+    box,
+    polygon,
+    line,
+    wall,
+    rain,
+    pin,
+    rope,
+    spring,
+    slider,
+    motor,
+    eraser
+};
 
 struct DrawToolWords {
     DrawTool tool;
@@ -15,7 +30,7 @@ struct DrawToolWords {
 };
 
 /// In the order of the tool bar.
-inline constexpr std::array<DrawToolWords, 13> drawTools{{
+inline constexpr std::array<DrawToolWords, 14> drawTools{{
     {DrawTool::hand, 'h', "Hand", "Drag a body to throw it, with Shift to hold it"},
     {DrawTool::choose, 's', "Select",
      "Click a body, or drag around several; drag to move, handles to size and turn"},
@@ -28,6 +43,7 @@ inline constexpr std::array<DrawToolWords, 13> drawTools{{
      "Drag over the place from which balls fall; how many, and how, is beside the materials"},
     {DrawTool::pin, 'i', "Pin", "Click where two bodies overlap; a single one is pinned to the field"},
     {DrawTool::rope, 'r', "Rope", "Drag from one body to another, or to the field"},
+    {DrawTool::spring, 'k', "Spring", "As a rope that swings; its stiffness is beside the selected body"},
     {DrawTool::slider, 'd', "Slider", "Drag along the way of a body"},
     {DrawTool::motor, 'm', "Motor", "As a pin that turns"},
     {DrawTool::eraser, 'e', "Eraser", "Click or drag over bodies and joints"},
@@ -38,8 +54,8 @@ inline bool isStroke(DrawTool tool) {
            tool == DrawTool::wall || tool == DrawTool::rain;
 }
 inline bool isJoint(DrawTool tool) {
-    return tool == DrawTool::pin || tool == DrawTool::rope || tool == DrawTool::slider ||
-           tool == DrawTool::motor;
+    return tool == DrawTool::pin || tool == DrawTool::rope || tool == DrawTool::spring ||
+           tool == DrawTool::slider || tool == DrawTool::motor;
 }
 
 inline const DrawToolWords& wordsOf(DrawTool tool) { return drawTools[static_cast<std::size_t>(tool)]; }

@@ -28,10 +28,12 @@ public:
                            : getName() + " is not felt at usual impacts: " + utf8(why));
         repaint();
     }
-    /// With remark: says in words that it is not felt.
-    int wanted(bool hasRemark) const { return 38 + juce::Font{text::small}.getStringWidth(words(hasRemark)); }
-    void setRemark(bool hasRemark) {
-        hasRemark_ = hasRemark;
+    enum class Show { picture, name, remark }; ///< a remark says in words that it is not felt
+    int wanted(Show show) const {
+        return show == Show::picture ? 32 : 38 + juce::Font{text::small}.getStringWidth(words(show));
+    }
+    void setShow(Show show) {
+        show_ = show;
         repaint();
     }
     std::function<void()> onEnter;
@@ -49,13 +51,14 @@ public:
                      juce::AffineTransform::translation(7.0f, 0.5f * static_cast<float>(getHeight())));
         g.setColour(shade(*this, getToggleState() ? Shade::text : Shade::muted));
         g.setFont(juce::Font{text::small});
-        g.drawText(words(hasRemark_), getLocalBounds().withTrimmedLeft(30), juce::Justification::centredLeft,
+        g.drawText(words(show_), getLocalBounds().withTrimmedLeft(30), juce::Justification::centredLeft,
                    true);
     }
 
 private:
-    juce::String words(bool hasRemark) const {
-        return getName() + (hasRemark && !isFelt_ ? ": not felt" : "");
+    juce::String words(Show show) const {
+        return show == Show::picture ? juce::String{}
+                                     : getName() + (show == Show::remark && !isFelt_ ? ": not felt" : "");
     }
     /// The first tenth of a second, with fewer waves than it has, so that they can be told apart.
     juce::Path decay() const {
@@ -75,7 +78,8 @@ private:
 
     const Material material_;
     const juce::Colour colour_;
-    bool hasRemark_ = false, isFelt_ = true;
+    Show show_ = Show::name;
+    bool isFelt_ = true;
 };
 
 namespace {
@@ -158,6 +162,7 @@ void MaterialPalette::show() {
     }
     for (std::size_t i = 0; i < swatches_.size(); ++i)
         swatches_[i]->setToggleState(static_cast<int>(i) == pane_.material(), juce::dontSendNotification);
+    if (std::exchange(chosen_, pane_.material()) != pane_.material()) resized(); // its name may need room
 }
 
 void MaterialPalette::resized() {
@@ -165,12 +170,20 @@ void MaterialPalette::resized() {
     auto area = getLocalBounds();
     for (auto [list, wide] : {std::pair{&count_, 106}, {&way_, 150}})
         if (list->isVisible()) list->setBounds(area.removeFromLeft(wide)), area.removeFromLeft(between);
-    int wide = 0;
-    for (const auto& swatch : swatches_) wide += swatch->wanted(true) + between;
-    const bool hasRemarks = wide <= area.getWidth();
+    using Show = Swatch::Show;
+    const auto showOf = [](const Swatch& swatch, Show others) { // the selected one keeps its name
+        return others == Show::picture && swatch.getToggleState() ? Show::name : others;
+    };
+    Show show = Show::remark;
+    for (; show != Show::picture; show = show == Show::remark ? Show::name : Show::picture) {
+        int wide = -between;
+        for (const auto& swatch : swatches_) wide += swatch->wanted(show) + between;
+        if (wide <= area.getWidth()) break;
+    }
     for (auto& swatch : swatches_) {
-        swatch->setRemark(hasRemarks);
-        swatch->setBounds(area.removeFromLeft(std::min(swatch->wanted(hasRemarks), area.getWidth())));
+        const Show its = showOf(*swatch, show);
+        swatch->setShow(its);
+        swatch->setBounds(area.removeFromLeft(std::min(swatch->wanted(its), area.getWidth())));
         area.removeFromLeft(between);
     }
 }

@@ -53,6 +53,11 @@ void WorldPanel::addBodyItems(juce::PopupMenu& menu, const std::string& body, Ve
                      [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
     else
         menu.addItem("Motor here", moves, false, [this, place] { pane_.joinAt(DrawTool::motor, place); });
+    if (isDrawn && springOf(scene, body) != nullptr)
+        menu.addItem("Spring: stiffness",
+                     [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
+    else
+        menu.addItem("Spring here", moves, false, [this, place] { pane_.joinAt(DrawTool::spring, place); });
     menu.addItem("Pin here", moves, false, [this, place] { pane_.joinAt(DrawTool::pin, place); });
     menu.addSeparator();
     menu.addItem("Copy", isDrawn, false, [this, body] { pane_.copy({body}); });

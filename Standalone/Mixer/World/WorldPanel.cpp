@@ -328,7 +328,9 @@ void WorldPanel::resized() {
     const int tools = isShow_ ? 0 : DrawBar::widthFor(top.getHeight());
     bar_.setBounds(top.removeFromLeft(tools));
     view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
-    view_.setRoom(isShow_ ? juce::BorderSize<int>{} : juce::BorderSize<int>{20, tools - 12, 44, 0});
+    constexpr int silenceHigh = 40;               // the button lies over the corner of a show
+    view_.setRoom(isShow_ ? juce::BorderSize<int>{silenceHigh, 0, 0, 0}
+                          : juce::BorderSize<int>{20, tools - 12, 44, 0});
     pane_.setBounds(view_.getBounds());
     top.removeFromLeft(8);
     script_.setBounds(top.withHeight(script_.getHeight()));

@@ -124,7 +124,7 @@ void showActuators(Desk& desk, int count) {
                 (many.count % columns + 0.5) / columns * many.extentWidthMetres,
                 (many.count / columns + 0.5) / rows * many.extentHeightMetres};
         m.layout = describeLayout("many", many);
-        m.layout.enchanters[1].label = "Left hand, ring finger, second joint";
+        m.layout.enchanters.back().label = "Left hand, ring finger, second joint";
         m.resizeStrips();
         m.levelDb = -3.0;
     });
