@@ -148,7 +148,6 @@ std::vector<Sentence> sentences() {
         {"intervals over participants: Student", grid, 3, {}, 1, {}},
         {"95 % interval over trials", grid, 1, {}, 3, {}},
         {"intervals of thresholds and exponents over 6 participants or more", steps, 3, {}, 3, {}, grid},
-        {"thresholds by QUEST+ were off by 0.3 dB in simulations", builtIn("level-quest"), 12, {}, 2, {}},
         {"Magnitude estimations: geometric means", numbers, 3, {}, 3, {}, steps},
         {"condition.1 and condition.2 are the parts of the conditions",
          builtIn("phantom-grids"),

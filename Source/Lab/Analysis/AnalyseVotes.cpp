@@ -19,10 +19,6 @@ void tell(std::ostream& out, const ChoiceSummary& summary) {
     out << '\n';
 }
 
-/// Bias of a threshold by 40 trials where functions are narrower than most of the prior
-/// (Tests/Study/Coverage.cpp).
-constexpr double questBiasDb = 0.3;
-
 const char* kindWord(LevelTrial::Kind kind) {
     if (kind == LevelTrial::Kind::staircase) return "threshold";
     if (kind == LevelTrial::Kind::quest) return "threshold by QUEST+";
@@ -139,11 +135,6 @@ AnalysisReport analyseLevels(const AnalysisJob& o) {
                                       (s.flatRuns == 1 ? " staircase has" : " staircases have") +
                                       " fewer than two reversals: the level of the last trial "
                                       "stands for a threshold");
-        if (s.kind == LevelTrial::Kind::quest && s.participants > 1 && s.halfInterval < 2.0 * questBiasDb)
-            report.warnings.push_back(printable(s.condition) + ": thresholds by QUEST+ were off by " +
-                                      numberText(questBiasDb) +
-                                      " dB in simulations, all to one side, which so narrow an interval over "
-                                      "participants does not contain");
         for (const auto& [participant, threshold] : s.thresholds)
             each.row(s.kind == LevelTrial::Kind::quest ? "quest" : "staircase", s.condition, participant,
                      threshold);

@@ -2,6 +2,7 @@
 // Summarises level trials: thresholds from reversals or QUEST+, means in dB or in logarithms.
 #include "Lab/Study/LevelTrials.h"
 #include "Lab/Statistics/Moments.h"
+#include "Lab/Statistics/QuestPooled.h"
 #include "Lab/Study/QuestMethod.h"
 #include <algorithm>
 #include <charconv>
@@ -68,23 +69,79 @@ double questThreshold(const Run& run, LevelSummary& summary) {
     return quest.estimate().threshold;
 }
 
+using SessionKey = std::pair<std::string, std::string>; // session, plan of QUEST+
+
+std::map<SessionKey, Run> runsOf(const Run& trials) {
+    std::map<SessionKey, Run> runs;
+    for (const LevelTrial* trial : trials) runs[{trial->session, trial->quest}].push_back(trial);
+    return runs;
+}
+
+std::vector<LevelCount> levelCountsOf(const Run& run) {
+    std::map<double, LevelCount> counts;
+    for (const LevelTrial* trial : run) {
+        LevelCount& count = counts.try_emplace(trial->levelDb, LevelCount{trial->levelDb}).first->second;
+        ++count.trials;
+        count.hits += trial->value > 0.5;
+    }
+    std::vector<LevelCount> all;
+    for (const auto& [level, count] : counts) all.push_back(count);
+    return all;
+}
+
+/// Thresholds of several people's runs, in the order of participants and runsOf(). Returns the error that all
+/// share, as a standard deviation.
+double poolThresholds(const std::map<std::string, Run>& participants, std::vector<std::vector<double>>& own) {
+    struct Place {
+        std::size_t participant, run;
+    };
+    std::map<std::string, std::pair<std::vector<std::vector<LevelCount>>, std::vector<Place>>> plans;
+    std::size_t total = 0;
+    for (const auto& [participant, trials] : participants) {
+        auto& thresholds = own.emplace_back();
+        for (const auto& [key, run] : runsOf(trials)) {
+            auto& [counts, places] = plans[key.second];
+            counts.push_back(levelCountsOf(run));
+            places.push_back({own.size() - 1, thresholds.size()});
+            thresholds.push_back(0.0);
+            ++total;
+        }
+    }
+    double deviation = 0.0;
+    for (const auto& [words, runs] : plans) {
+        const PooledThresholds pooled = pooledThresholds(*questPlan(words), runs.first);
+        for (std::size_t r = 0; r < runs.second.size(); ++r)
+            own[runs.second[r].participant][runs.second[r].run] = pooled.thresholds[r];
+        deviation = std::hypot(deviation, pooled.deviation * static_cast<double>(runs.first.size()) /
+                                              static_cast<double>(total));
+    }
+    return deviation;
+}
+
 void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>& participants) {
+    std::vector<std::vector<double>> own;
+    double shared = 0.0;
+    if (summary.kind == LevelTrial::Kind::quest && participants.size() > 1)
+        shared = poolThresholds(participants, own);
+    else
+        for (const auto& [participant, trials] : participants) {
+            auto& thresholds = own.emplace_back();
+            for (const auto& [session, run] : runsOf(trials))
+                thresholds.push_back(summary.kind == LevelTrial::Kind::quest
+                                         ? questThreshold(run, summary)
+                                         : staircaseThreshold(run, summary));
+            summary.halfInterval /= static_cast<double>(thresholds.size());
+        }
     std::vector<double> thresholds;
     for (const auto& [participant, trials] : participants) {
-        std::map<std::pair<std::string, std::string>, Run> sessions;
-        for (const LevelTrial* trial : trials) sessions[{trial->session, trial->quest}].push_back(trial);
-        std::vector<double> own;
-        for (const auto& [session, run] : sessions)
-            own.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary)
-                                                                  : staircaseThreshold(run, summary));
-        thresholds.push_back(meanOf(own));
+        thresholds.push_back(meanOf(own[thresholds.size()]));
         summary.thresholds.emplace_back(participant, thresholds.back());
-        summary.halfInterval /= static_cast<double>(own.size());
     }
     const Moments moments{thresholds};
     summary.estimate = moments.mean;
     summary.deviation = moments.deviation;
-    if (thresholds.size() > 1) summary.halfInterval = moments.halfInterval();
+    if (thresholds.size() > 1)
+        summary.halfInterval = std::hypot(moments.halfInterval(), normalQuantile(0.975) * shared);
 }
 
 } // namespace

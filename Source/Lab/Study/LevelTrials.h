@@ -37,8 +37,8 @@ struct LevelSummary {
 
 /// Sorted by kind, condition and stimulus. A staircase threshold is the mean level of the later half of the
 /// reversals (Levitt 1971), or the last level if there are fewer than two. A QUEST+ threshold is the
-/// posterior mean, recomputed from levels and answers. Several sessions of a participant are averaged. Any
-/// thread (allocates).
+/// posterior mean, recomputed from levels and answers; of several participants with the widths that all tell
+/// together (QuestPooled.h). Several sessions of a participant are averaged. Any thread (allocates).
 std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials);
 
 } // namespace physvib

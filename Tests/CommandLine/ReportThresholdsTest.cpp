@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Thresholds of several conditions in a report: a row per person and condition, and differences within
+// people.
+#include "Calls.h"
+#include "Lab/Files/ProtocolFile.h"
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+namespace physvib {
+namespace {
+
+class ReportThresholds : public test::CommandLine {
+protected:
+    /// A built-in protocol in three conditions, with simulated participants, as a report.
+    void reportOf(const std::string& name, int participants) const {
+        Protocol protocol = *std::ranges::find(builtInProtocols(), name, &Protocol::name);
+        protocol.name = "three";
+        protocol.conditions.resize(3, protocol.conditions.front());
+        for (std::size_t i = 0; i < 3; ++i)
+            protocol.conditions[i].name = std::string("C").append(1, "abc"[i]);
+        write("three.json", protocolJson(protocol));
+        ASSERT_EQ(
+            call("study run three.json --observer simulated --participants " + std::to_string(participants))
+                .exitCode,
+            0);
+        const auto outcome = call("report three-P*.csv --out out");
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    }
+    /// Rows of an exported table, by cells.
+    std::vector<std::vector<std::string>> rows(const std::string& file) const {
+        std::vector<std::vector<std::string>> all;
+        std::string text = read(file);
+        text.erase(0, text.find('\n') + 1); // where it comes from
+        text.erase(0, text.find('\n') + 1); // names
+        while (!text.empty()) {
+            std::string line = text.substr(0, text.find('\n'));
+            text.erase(0, line.size() + 1);
+            auto& cells = all.emplace_back();
+            for (std::size_t comma = 0; comma != std::string::npos; line.erase(0, comma + 1)) {
+                comma = line.find(',');
+                cells.push_back(line.substr(0, comma));
+                if (comma == std::string::npos) break;
+            }
+        }
+        return all;
+    }
+    void expectPairs(const std::string& method, int participants) const {
+        std::map<std::string, double> sums;
+        std::map<std::string, int> people;
+        for (const auto& row : rows("out/thresholds.csv")) {
+            ASSERT_EQ(row.size(), 4u);
+            EXPECT_EQ(row[0], method);
+            sums[row[1]] += std::atof(row[3].c_str());
+            ++people[row[1]];
+        }
+        ASSERT_EQ(people.size(), 3u);
+        for (const auto& [condition, number] : people) EXPECT_EQ(number, participants) << condition;
+        const auto pairs = rows("out/pairs-thresholds-" + method + ".csv");
+        ASSERT_EQ(pairs.size(), 3u) << "every pair of three conditions";
+        for (const auto& pair : pairs) {
+            const std::string first = pair[0].substr(11, 2), second = pair[0].substr(16, 2);
+            EXPECT_EQ(pair[0], "condition: " + first + " - " + second);
+            EXPECT_EQ(std::atoi(pair[8].c_str()), participants);
+            const double difference = std::atof(pair[11].c_str());
+            EXPECT_NEAR(difference, (sums[first] - sums[second]) / participants, 1e-9) << pair[0];
+            EXPECT_LT(std::atof(pair[12].c_str()), difference);
+            EXPECT_GT(std::atof(pair[13].c_str()), difference);
+        }
+        EXPECT_NE(read("out/index.html").find("pairs-thresholds-" + method + ".csv"), std::string::npos);
+    }
+};
+
+TEST_F(ReportThresholds, OfStaircasesAreComparedWithinPeople) {
+    reportOf("level-steps", 4);
+    expectPairs("staircase", 4);
+}
+
+TEST_F(ReportThresholds, OfQuestAreComparedWithinPeople) {
+    reportOf("level-quest", 4);
+    expectPairs("quest", 4);
+}
+
+TEST_F(ReportThresholds, OfOnePersonAreNotCompared) {
+    reportOf("level-steps", 1);
+    EXPECT_EQ(rows("out/thresholds.csv").size(), 3u);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out/pairs-thresholds-staircase.csv"));
+}
+
+} // namespace
+} // namespace physvib
