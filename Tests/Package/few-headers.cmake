@@ -2,7 +2,7 @@
 # Installed are the promised headers (Docs/Doxyfile) and what they include, no more than so many. Where there are more, the message names
 # those that nobody was promised, and who includes them.
 # Usage: cmake -DROOT=. -DINSTALLED=<an installed copy> -P few-headers.cmake
-set(most 64) # vectors, inertia, parts and cells in space came to the first 60
+set(most 65) # vectors, inertia, parts with their panners, and cells in space came to the first 60
 set(include ${INSTALLED}/include/physvib)
 file(GLOB_RECURSE headers RELATIVE ${include} ${include}/*.h)
 list(LENGTH headers count)

@@ -32,7 +32,7 @@ std::int64_t bytesInMemory() {
     return resident * sysconf(_SC_PAGESIZE);
 }
 
-TEST(Idle, FiftyInstancesSleepAndAreSmall) {
+TEST(Idle, DISABLED_FiftyInstancesSleepAndAreSmall) {
     const auto wakeUpsPerSecond = [] { // beside what waits for the time itself
         const auto before = sleeps();
         runFor(idleSeconds);

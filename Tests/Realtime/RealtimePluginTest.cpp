@@ -57,8 +57,10 @@ void expectNothingForbidden(BusPlan plan) {
             // a stroke at the side chain
             for (int i = 0; i < frames && b % 100 < 3; ++i)
                 host.buffer.setSample(0, i, static_cast<float>(random.uniform(-1, 1)));
-            // but Timing, the last: tight is in the call, locks and all
-            auto* parameter = plugin.getParameters()[random.below(static_cast<int>(parameterCount) - 1)];
+            // but Timing: tight is in the call, locks and all
+            int index = random.below(static_cast<int>(parameterCount) - 1);
+            if (index >= static_cast<int>(Parameter::timing)) ++index;
+            auto* parameter = plugin.getParameters()[index];
             const bool bypassed = random.below(100) == 0;
             {
                 const RealtimeGuard guard;

@@ -92,8 +92,8 @@ TEST(ModulesTogether, PlayWhatTheProcessorRendersAtAnyRateInAnyBlocks) {
 }
 
 TEST(ModulesTogether, AreSilentAtARateThatCannotBeRendered) {
-    Both both{384000.0, 512};
-    both.play(384000, 512);
+    Both both{768000.0, 512};
+    both.play(768000, 512);
     EXPECT_EQ(peakOf(both.fromVst3), 0.0f);
     EXPECT_EQ(peakOf(both.fromLv2), 0.0f);
 }
