@@ -126,7 +126,7 @@ TEST(Arrangement, ANarrowBarHasTwoLinesAndNothingOfItIsCut) {
     for (const auto& [width, height] : sizes) {
         w.view.setSize(width, height);
         auto* bar = find(w.view, "Transport and device");
-        EXPECT_EQ(bar->getHeight() > TopBar::lineHeight, width < 1440) << width;
+        EXPECT_EQ(bar->getHeight() > TopBar::lineHeight, width < 1400) << width;
         std::vector<juce::Rectangle<int>> places;
         for (auto* child : bar->getChildren()) {
             if (child->getBounds().isEmpty()) continue;

@@ -31,7 +31,7 @@ public:
     void resized() override;
 
 private:
-    static constexpr int leastOneLine = 1440, secondLine = 38; // the states need their room in one line, too
+    static constexpr int leastOneLine = 1400, secondLine = 38; // the states need their room in one line, too
     void placeStates(juce::Rectangle<int> area);
     bool isShow_ = false;
     void chooseScene();
