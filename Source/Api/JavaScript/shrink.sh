@@ -1,7 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # A module of WebAssembly made smaller: samples stay the same. The linker leaves the first kilobyte of memory unused (--global-base).
-# usage: Source/Api/JavaScript/shrink.sh FROM.wasm TO.wasm [-O2]: of wasm-opt (-Oz)
+# Nothing of ours traps, and code whose branches are laid out anew is compressed better: together 1.7 KB of the page.
+# usage: Source/Api/JavaScript/shrink.sh FROM.wasm TO.wasm [-O2]: of wasm-opt (twice -Oz)
 set -eu
-exec wasm-opt "$1" ${3:--Oz} --converge --low-memory-unused --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int --enable-mutable-globals \
+# shellcheck disable=SC2086 # a list of words
+exec wasm-opt "$1" --ignore-implicit-traps ${3:--Oz --flatten --rereloop -Oz} --converge --low-memory-unused --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int --enable-mutable-globals \
     --enable-multivalue --enable-reference-types -o "$2"
