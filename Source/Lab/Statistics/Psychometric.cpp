@@ -54,14 +54,7 @@ public:
     double operator()(const Point& at) const {
         if (at[0] < -3.0 || at[0] > 4.0 || at[1] < std::log(1e-3) || at[1] > std::log(20.0))
             return std::numeric_limits<double>::max();
-        const PsychometricFunction f = function(at);
-        double sum = 0.0;
-        for (const LevelCount& count : counts_) {
-            const double p = std::clamp(f.probability(count.level), 1e-12, 1.0 - 1e-12);
-            sum -= static_cast<double>(count.hits) * std::log(p) +
-                   static_cast<double>(count.trials - count.hits) * std::log1p(-p);
-        }
-        return sum;
+        return -logLikelihood(counts_, function(at));
     }
 
 private:
@@ -156,6 +149,16 @@ double PsychometricFunction::levelOf(double probability) const {
 
 double PsychometricFunction::jnd() const noexcept {
     return 0.5 * width * (whereRisen(shape, 0.75) - whereRisen(shape, 0.25));
+}
+
+double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function) {
+    double sum = 0.0;
+    for (const LevelCount& count : counts) {
+        const double p = std::clamp(function.probability(count.level), 1e-12, 1.0 - 1e-12);
+        sum += static_cast<double>(count.hits) * std::log(p) +
+               static_cast<double>(count.trials - count.hits) * std::log1p(-p);
+    }
+    return sum;
 }
 
 PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model) {

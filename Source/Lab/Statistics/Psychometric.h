@@ -51,6 +51,10 @@ struct LevelCount {
     std::uint64_t hits = 0, trials = 0;
 };
 
+/// Natural logarithm of the probability of the answers. A probability of 0 or 1 counts as 1e-12 away from it.
+/// Any thread.
+double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function);
+
 struct PsychometricFit {
     std::string fault; ///< error in one line; if set, the rest is invalid
     PsychometricFunction function{};

@@ -32,16 +32,6 @@ ByWidth widthsOf(const QuestPlan& plan) {
     return all;
 }
 
-double logLikelihood(const std::vector<LevelCount>& run, const PsychometricFunction& function) {
-    double sum = 0.0;
-    for (const LevelCount& count : run) {
-        const double p = function.probability(count.level);
-        sum += static_cast<double>(count.hits) * std::log(p) +
-               static_cast<double>(count.trials - count.hits) * std::log1p(-p);
-    }
-    return sum;
-}
-
 RunByWidth byWidth(const QuestPlan& plan, const ByWidth& all, const std::vector<LevelCount>& run) {
     std::vector<double> logs;
     for (const double width : all)
