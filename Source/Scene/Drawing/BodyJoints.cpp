@@ -95,14 +95,19 @@ bool withMotor(auto& joint, const auto& use) {
         joint.joint);
 }
 
+/// The last joint of that kind that joins the body. Null: none.
+const JointDescription* lastOf(const Scene& scene, const std::string& body, const auto& isWanted) {
+    const auto found =
+        std::find_if(scene.joints.rbegin(), scene.joints.rend(), [&](const JointDescription& joint) {
+            return (joint.bodyA == body || joint.bodyB == body) && isWanted(joint);
+        });
+    return found == scene.joints.rend() ? nullptr : &*found;
+}
+
 } // namespace
 
 const JointDescription* motorOf(const Scene& scene, const std::string& body) {
-    const auto drives = [&](const JointDescription& joint) {
-        return (joint.bodyA == body || joint.bodyB == body) && withMotor(joint, [](const auto&) {});
-    };
-    const auto found = std::find_if(scene.joints.rbegin(), scene.joints.rend(), drives);
-    return found == scene.joints.rend() ? nullptr : &*found;
+    return lastOf(scene, body, [](const auto& joint) { return withMotor(joint, [](const auto&) {}); });
 }
 
 MotorDrive driveOf(const JointDescription& motor) {
@@ -154,10 +159,7 @@ double springHzOf(const JointDescription& spring) {
 }
 
 const JointDescription* springOf(const Scene& scene, const std::string& body) {
-    const auto found = std::find_if(scene.joints.rbegin(), scene.joints.rend(), [&](const auto& joint) {
-        return (joint.bodyA == body || joint.bodyB == body) && springHzOf(joint) > 0.0;
-    });
-    return found == scene.joints.rend() ? nullptr : &*found;
+    return lastOf(scene, body, [](const auto& joint) { return springHzOf(joint) > 0.0; });
 }
 
 Result<std::vector<Action>> sprung(const SceneDrawing& drawing, const std::string& joint, double hz) {
