@@ -6,23 +6,10 @@
 set -eu
 cd "$(dirname "$0")/../.."
 . .ci/packages.sh
-seconds=${1:-10}
-images=$PWD/build/firmware/pico here=Tests/Firmware/pico port=3240
+. Tests/Firmware/pico/prepare.sh
+port=3240
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_pico_linux_packages
-{ command -v node && command -v npm; } >/dev/null || ensure_packages nodejs npm
-Firmware/Pico/build.sh pico >/dev/null
-render=${RENDER:-$PWD/build/release/bin/physvib-render}
-[ -x "$render" ] || { say "no $render: cmake --preset release, then its target physvib-render; or say where it is: RENDER=PATH"; exit 1; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-if [ -z "${RP2040JS:-}" ]; then
-    (cd "$folder" && npm pack --silent rp2040js@1.4.1 >/dev/null && tar xzf rp2040js-1.4.1.tgz)
-    RP2040JS=$folder/package
-fi
-export RP2040JS
-g++ -std=c++20 -O2 -ISource -IFirmware/Pico $here/expected.cpp -o "$folder/expected"
-/usr/bin/python3 $here/signals.py "$folder" "$seconds" "$render"
 
 # A system in memory: the kernel, its modules for USB/IP and sound, and the programs that ask.
 root=$folder/root
