@@ -2,32 +2,15 @@
 # What games do to a world: freed bodies in signals, frozen and sleeping bodies, pause, slow motion, new scenes,
 # values that cannot be used. And bodies that move to the bit as they do without the addon.
 #   godot --headless -s life.gd
-extends SceneTree
-
-var wrong := 0
-
-
-func check(is_right: bool, what: String):
-	if not is_right: wrong += 1
-	print("%s: %s" % ["right" if is_right else "WRONG", what])
-
-
-func box(at: Vector2, size: Vector2, is_fixed := false):
-	var made = StaticBody2D.new() if is_fixed else RigidBody2D.new()
-	var shape := CollisionShape2D.new()
-	shape.shape = RectangleShape2D.new()
-	shape.shape.size = size
-	made.add_child(shape)
-	made.position = at
-	return made
+extends "checks.gd"
 
 
 # A floor and ten boxes that fall on it, and turn.
 func scene_of(is_haptic: bool) -> Node:
 	var scene := Node.new()
-	scene.add_child(box(Vector2(500, 600), Vector2(1000, 20), true))
+	scene.add_child(box("StaticBody2D", Vector2(500, 600), Vector2(1000, 20)))
 	for i in 10:
-		var falls = box(Vector2(100 + 80 * i, 300 - 20 * i), Vector2(40, 40))
+		var falls = box("RigidBody2D", Vector2(100 + 80 * i, 300 - 20 * i), Vector2(40, 40))
 		falls.rotation = 0.1 * i
 		if is_haptic: falls.add_child(ClassDB.instantiate("HapticBody"))
 		scene.add_child(falls)

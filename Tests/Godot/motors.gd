@@ -2,20 +2,15 @@
 # Three boxes bounce and are felt on controller 0: prints each hit as the motors got it, and the motors' commands in
 # each frame, for motors.py. The clock is the player's, which begins at 1 s.
 #   godot --headless -s motors.gd --fixed-fps 60
-extends SceneTree
+extends "checks.gd"
 
 const FRAMES := 240
 var clock := 1.0
 var told := [] # since the last frame's commands
 
 
-func box(kind: String, at: Vector2, size: Vector2, bounce: float):
-	var made = ClassDB.instantiate(kind)
-	var shape := CollisionShape2D.new()
-	shape.shape = RectangleShape2D.new()
-	shape.shape.size = size
-	made.add_child(shape)
-	made.position = at
+func bouncing(kind: String, at: Vector2, size: Vector2, bounce: float):
+	var made = box(kind, at, size)
 	made.physics_material_override = PhysicsMaterial.new()
 	made.physics_material_override.bounce = bounce
 	return made
@@ -28,9 +23,9 @@ func _initialize():
 		told.append("h %.9f %.9f %.6f %.6f %.9f" % [clock + 1.0 / 60 - (world.time_s() - hit.time_s), hit.frequency_hz,
 			hit.position.x * 0.01, (648 - hit.position.y) * 0.01, hit.amplitude]))
 	root.add_child(world)
-	root.add_child(box("StaticBody2D", Vector2(500, 600), Vector2(1000, 20), 0))
+	root.add_child(bouncing("StaticBody2D", Vector2(500, 600), Vector2(1000, 20), 0))
 	for i in 3:
-		var falls = box("RigidBody2D", Vector2(200 + 300 * i, 500 - 100 * i), Vector2(40, 40), 0.6)
+		var falls = bouncing("RigidBody2D", Vector2(200 + 300 * i, 500 - 100 * i), Vector2(40, 40), 0.6)
 		var haptic := HapticBody.new()
 		haptic.controller = 0
 		haptic.material = HapticMaterial.new()

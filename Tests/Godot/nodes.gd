@@ -2,24 +2,7 @@
 # Nodes that come, go and come again, two worlds at once, materials that are shared, properties that change while
 # the game plays, motors while it stands still.
 #   godot --headless -s nodes.gd --fixed-fps 60
-extends SceneTree
-
-var wrong := 0
-
-
-func check(is_right: bool, what: String):
-	if not is_right: wrong += 1
-	print("%s: %s" % ["right" if is_right else "WRONG", what])
-
-
-func box(kind: String, at: Vector2, size: Vector2):
-	var made = ClassDB.instantiate(kind)
-	var shape := CollisionShape2D.new()
-	shape.shape = RectangleShape2D.new()
-	shape.shape.size = size
-	made.add_child(shape)
-	made.position = at
-	return made
+extends "checks.gd"
 
 
 func felt_box(at: Vector2) -> RigidBody2D:

@@ -2,19 +2,9 @@
 # Six nodes of a scene that plays are freed in each of their 720 orders, a tick or none apart. And scenes that come
 # and go: what they leave in memory. Prints both.
 #   godot --headless -s orders.gd --fixed-fps 60 -- changes=2000
-extends SceneTree
+extends "checks.gd"
 
 var hits := 0
-
-
-func box(kind: String, at: Vector2, size: Vector2):
-	var made = ClassDB.instantiate(kind)
-	var shape := CollisionShape2D.new()
-	shape.shape = RectangleShape2D.new()
-	shape.shape.size = size
-	made.add_child(shape)
-	made.position = at
-	return made
 
 
 func felt(made, material: HapticMaterial):

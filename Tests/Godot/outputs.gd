@@ -1,14 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Several outputs at once, what an OSC program gets, places of actuators, and values of types that do not fit.
 #   godot --headless -s outputs.gd
-extends SceneTree
-
-var wrong := 0
-
-
-func check(is_right: bool, what: String):
-	if not is_right: wrong += 1
-	print("%s: %s" % ["right" if is_right else "WRONG", what])
+extends "checks.gd"
 
 
 func ball(at: Vector2) -> RigidBody2D:

@@ -14,6 +14,8 @@ Value HapticWorld::server() const { return singleton(isSpace ? "PhysicsServer3D"
 Vector HapticWorld::direction(const Vector& v) const {
     return {v[0] * unit, isSpace ? v[1] * unit : -v[1] * unit, v[2] * unit};
 }
+// About z alone in the plane, whose y goes down.
+Vector HapticWorld::turn(const Vector& spin) const { return isSpace ? spin : Vector{0.0, 0.0, -spin[2]}; }
 Vector HapticWorld::place(const Vector& v) const { return direction(minus(v, corner)); }
 
 void HapticWorld::beginStep() {
@@ -50,8 +52,7 @@ void HapticWorld::moveBefore(Watched& each) {
     const double keeps = std::max(0.0, 1.0 - seconds * state.linearDamp());
     const double keepsSpin = std::max(0.0, 1.0 - seconds * state.angularDamp());
     for (std::size_t i = 0; i < 3; ++i) each.before[i] = velocity[i] * keeps + each.pull[i] * seconds;
-    each.spin = state.spin();
-    if (!isSpace) each.spin[2] = -each.spin[2];
+    each.spin = turn(state.spin());
     for (double& rate : each.spin) rate *= keepsSpin;
     std::array<double, 6> inverse = state.inverseInertia();
     for (double& each6 : inverse) each6 /= unit * unit;
@@ -80,8 +81,7 @@ void HapticWorld::moveAfter(Watched& each) {
     each.state = BodyState::of(each.rid, isSpace);
     if (!each.state) return;
     const Vector velocity = direction(each.state.velocity());
-    Vector spin = each.state.spin();
-    if (!isSpace) spin[2] = -spin[2];
+    const Vector spin = turn(each.state.spin());
     each.change = minus(velocity, each.before);
     checkWorld(physvib_world_moved_in_space(world, each.number, velocity.data(), spin.data()));
 }

@@ -88,6 +88,7 @@ private:
     Vector inScene(const physvib_event& event) const;
     Vector place(const Vector& v) const;
     Vector direction(const Vector& v) const;
+    Vector turn(const Vector& spin) const;
     Value hitOf(const physvib_event& event) const;
     Value objectOf(int number) const; ///< nil: it was freed
     Value server() const;
