@@ -215,8 +215,10 @@ void EnchantersTab::paint(juce::Graphics&) {}
 
 void EnchantersTab::resized() {
     auto area = getLocalBounds();
-    module_.setBounds(area.removeFromTop(44));
-    area.removeFromTop(12);
+    const bool isTight = area.getHeight() < 300; // a short panel gives its gaps to the list
+    const int space = isTight ? 6 : 12;
+    module_.setBounds(area.removeFromTop(isTight ? 34 : 44));
+    area.removeFromTop(space);
     auto names = area.removeFromTop(18), row = area.removeFromTop(rowHeight);
     const int third = (row.getWidth() - 2 * gap) / 3;
     const auto place = [&](juce::Label& name, juce::Component& control, int w) {
@@ -228,14 +230,15 @@ void EnchantersTab::resized() {
     place(presetName_, preset_, third);
     place(lawName_, law_, third - 20);
     place(exponentName_, exponent_, row.getWidth());
-    area.removeFromTop(12);
+    area.removeFromTop(space);
     auto bottom = area.removeFromBottom(28);
     maps_.setBounds(area.removeFromBottom(28));
     detach_->setBounds(bottom.removeFromRight(80));
     edit_->setBounds(bottom.removeFromRight(140));
     hint_.setBounds(bottom);
-    area.removeFromBottom(8);
-    list_.setBounds(area);
+    area.removeFromBottom(isTight ? 4 : 8);
+    list_.setBounds(isTight ? area.withHeight(area.getHeight() / list_.getRowHeight() * list_.getRowHeight())
+                            : area); // no half row
 }
 
 } // namespace physvib

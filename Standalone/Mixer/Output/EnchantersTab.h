@@ -14,7 +14,7 @@ public:
     void editRow(int enchanter); ///< asks for name, profile and full scale
     void paint(juce::Graphics& g) override;
     void resized() override;
-    int leastHeight() const override { return 300; } // four rows of the list
+    int leastHeight() const override { return 224; } // two rows of the list
     void visibilityChanged() override {
         world_.showGainsOf(isVisible() && maps_.getToggleState() ? chosen_ : -1);
     }
