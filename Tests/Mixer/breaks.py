@@ -88,7 +88,7 @@ PARTS = 8
 def prepare(folder: pathlib.Path) -> None:
     tree = folder / "sources"
     shutil.rmtree(tree, ignore_errors=True)
-    shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns("build", ".git"), symlinks=True)
+    shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns("build", ".git"), symlinks=True, copy_function=shutil.copy)  # new times: what is left of a break is compiled again
     (tree / "build").mkdir()
     if (ROOT / "build/juce").exists():
         (tree / "build/juce").symlink_to(ROOT / "build/juce")

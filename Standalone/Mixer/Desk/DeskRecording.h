@@ -6,6 +6,7 @@
 #include "Live/Recordings/Recording.h"
 #include "Live/Session/Session.h"
 #include <functional>
+#include <juce_core/juce_core.h>
 #include <memory>
 #include <string>
 

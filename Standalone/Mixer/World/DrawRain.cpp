@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rain that comes ball by ball, and fountains.
+#include "Mixer/Desk/DeskWords.h"
 #include "Mixer/World/DrawPane.h"
 #include "Mixer/World/FeltHint.h"
 #include <algorithm>
