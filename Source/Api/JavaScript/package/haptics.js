@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What every attachment has: numbers of bodies, steps, events for who follows and for who takes. Inside, lengths are metres and y points up.
-import { Journal } from './journal.js';
+import { Journal, leftOut } from './journal.js';
 import { PhysVibError } from './module.js';
 
 const mostKept = 10000; // events that nobody takes
@@ -240,19 +240,23 @@ export class Haptics {
     }
 }
 
-/** Of a point of contact of two known bodies, normal from a to b: how fast it closes, and how it runs along both surfaces. */
-export function motionAt(a, b, x, y, nx, ny) {
+/** Of a point of contact of two known bodies, normal from a to b: how fast it closes, and how it runs along both surfaces; into `to`, which is returned. */
+export function motionAt(a, b, x, y, nx, ny, to = { approach: 0.5, alongA: 0.5, alongB: 0.5 }) {
     const ax = a.vx - a.spin * (y - a.y), ay = a.vy + a.spin * (x - a.x), bx = b.vx - b.spin * (y - b.y), by = b.vy + b.spin * (x - b.x);
     // The point itself goes with a round body's centre, or with the corner of what moves.
     const ux = b.isRound ? b.vx : a.isRound ? a.vx : b.isStatic ? ax : bx, uy = b.isRound ? b.vy : a.isRound ? a.vy : b.isStatic ? ay : by;
-    return { approach: (ax - bx) * nx + (ay - by) * ny, alongA: (ux - ax) * -ny + (uy - ay) * nx, alongB: (ux - bx) * -ny + (uy - by) * nx };
+    to.approach = (ax - bx) * nx + (ay - by) * ny;
+    to.alongA = (ux - ax) * -ny + (uy - ay) * nx;
+    to.alongB = (ux - bx) * -ny + (uy - by) * nx;
+    return to;
 }
 
-/** How fast two surfaces meet that close with `speed` across a `gap`, while `pull` (m/s^2) draws them together; and when, in steps. */
-export function meeting(speed, gap, pull, seconds) {
-    const squared = speed * speed + 2 * pull * Math.max(0, gap), approach = speed > 0 && squared > 0 ? Math.sqrt(squared) : speed;
-    if (gap > 0 && speed + approach > 0) return { approach, fraction: Math.min(2, 2 * gap / (speed + approach) / seconds) };
-    return { approach, gap, gapFraction: 0 };
+/** How fast two surfaces meet that close with `to.approach` across `to.gap`, while `pull` (m/s^2) draws them together; and when, in steps. */
+export function meet(to, pull, seconds) {
+    const { approach: speed, gap } = to, squared = speed * speed + 2 * pull * Math.max(0, gap), approach = to.approach = speed > 0 && squared > 0 ? Math.sqrt(squared) : speed, isAhead = gap > 0 && speed + approach > 0;
+    to.fraction = isAhead ? Math.min(2, 2 * gap / (speed + approach) / seconds) : leftOut;
+    to.gapFraction = isAhead ? leftOut : 0;
+    if (isAhead) to.gap = leftOut;
 }
 
 /** Refuses what is no engine: the object beside it, for example. */

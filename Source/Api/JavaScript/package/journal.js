@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What an attachment observes in a step, in order, as a list of numbers that is told in one call; Step.cpp reads it. Thousands a step are usual, so nothing is allocated.
-const leftOut = -2e300, unknown = -1e300; // a default; PHYSVIB_UNKNOWN
+export const leftOut = -2e300, unknown = -1e300; // a default; PHYSVIB_UNKNOWN
 const numberOf = value => (value === undefined ? leftOut : value === null ? unknown : value);
 const pointOf = point => (point === 'place' ? -2 : point === 'none' ? -1 : numberOf(point));
 const mostOfEntry = 19;
+
+export const byPlace = -2;
+/** A contact of numbers in a plane, which touchAt takes. Engines keep such members without allocating, as long as each is always a number. */
+export const contactOf = () => ({ x: 0.5, y: 0.5, z: leftOut, normalX: 0.5, normalY: 0.5, normalZ: leftOut, impulse: 0.5, approach: 0.5, restitution: 0.5, fraction: leftOut, gap: 0.5, gapFraction: leftOut, alongA: 0.5, alongB: 0.5, soft: 0.5, point: 0 });
 
 export class Journal {
     #numbers = new Float64Array(4096); #count = 0;
@@ -39,24 +43,31 @@ export class Journal {
     }
     /** A contact as World.touch takes it. */
     touch(a, b, c) {
-        const at = this.#begin(2, a), numbers = this.#numbers, { isSoft } = c;
+        const { isSoft } = c;
+        this.touchAt(a, b, { x: numberOf(c.x), y: numberOf(c.y), z: numberOf(c.z), normalX: numberOf(c.normalX), normalY: numberOf(c.normalY), normalZ: numberOf(c.normalZ), impulse: numberOf(c.impulse),
+            approach: numberOf(c.approach), restitution: numberOf(c.restitution), fraction: numberOf(c.fraction), gap: numberOf(c.gap), gapFraction: numberOf(c.gapFraction), alongA: numberOf(c.alongA),
+            alongB: numberOf(c.alongB), soft: isSoft === 'whole' ? 2 : isSoft === undefined ? leftOut : Number(isSoft), point: pointOf(c.point) });
+    }
+    /** The same of contactOf(). */
+    touchAt(a, b, c) {
+        const at = this.#begin(2, a), numbers = this.#numbers;
         numbers[at] = b;
-        numbers[at + 1] = numberOf(c.x);
-        numbers[at + 2] = numberOf(c.y);
-        numbers[at + 3] = numberOf(c.z);
-        numbers[at + 4] = numberOf(c.normalX);
-        numbers[at + 5] = numberOf(c.normalY);
-        numbers[at + 6] = numberOf(c.normalZ);
-        numbers[at + 7] = numberOf(c.impulse);
-        numbers[at + 8] = numberOf(c.approach);
-        numbers[at + 9] = numberOf(c.restitution);
-        numbers[at + 10] = numberOf(c.fraction);
-        numbers[at + 11] = numberOf(c.gap);
-        numbers[at + 12] = numberOf(c.gapFraction);
-        numbers[at + 13] = numberOf(c.alongA);
-        numbers[at + 14] = numberOf(c.alongB);
-        numbers[at + 15] = isSoft === 'whole' ? 2 : isSoft === undefined ? leftOut : Number(isSoft);
-        numbers[at + 16] = pointOf(c.point);
+        numbers[at + 1] = c.x;
+        numbers[at + 2] = c.y;
+        numbers[at + 3] = c.z;
+        numbers[at + 4] = c.normalX;
+        numbers[at + 5] = c.normalY;
+        numbers[at + 6] = c.normalZ;
+        numbers[at + 7] = c.impulse;
+        numbers[at + 8] = c.approach;
+        numbers[at + 9] = c.restitution;
+        numbers[at + 10] = c.fraction;
+        numbers[at + 11] = c.gap;
+        numbers[at + 12] = c.gapFraction;
+        numbers[at + 13] = c.alongA;
+        numbers[at + 14] = c.alongB;
+        numbers[at + 15] = c.soft;
+        numbers[at + 16] = c.point;
         this.#count = at + 17;
     }
     #vector(at, { x, y, z }) {

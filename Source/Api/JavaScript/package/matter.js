@@ -2,6 +2,7 @@
 // Matter 0.19 and 0.20, and Phaser's. It moves first and looks then, its y points down, its velocities are pixels per millisecond here, and it tells no
 // impulses: they follow from masses and from velocities before and behind its solver. It steps itself; its events say when.
 import { expectEngine, Haptics, motionAt } from './haptics.js';
+import { byPlace, contactOf, leftOut } from './journal.js';
 
 const massesOf = unit => body => (body.isStatic || !Number.isFinite(body.mass)
     ? { massKg: 0, inertia: 0, gravityScale: 1 }
@@ -11,7 +12,7 @@ const massesOf = unit => body => (body.isStatic || !Number.isFinite(body.mass)
 const bodyOf = thing => (thing?.type === 'body' ? thing.parent ?? thing : thing?.body?.type === 'body' ? bodyOf(thing.body) : undefined);
 
 class MatterHaptics extends Haptics {
-    #engine; #handlers; #seconds = 0; #there = new Set(); #byNumber = []; #step = 0;
+    #engine; #handlers; #seconds = 0; #there = new Set(); #byNumber = []; #step = 0; #meeting = []; #spot = Object.assign(contactOf(), { impulse: leftOut, soft: leftOut, gapFraction: 1 });
 
     constructor(physvib, engine, { metresPerUnit = 0.01, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
         const height = fieldHeight ?? fieldWidth;
@@ -80,29 +81,44 @@ class MatterHaptics extends Haptics {
         for (const known of this.each()) this.#moveAs(known, 0);
     }
 
+    // Pairs outlive a world that was cleared.
+    #meets({ isActive, isSensor, collision: { parentA, parentB } }) { return isActive && !isSensor && this.#isThere(parentA) && this.#isThere(parentB); }
     #end() {
-        // Pairs outlive a world that was cleared.
-        const { list } = this.#engine.pairs, meets = ({ isActive, isSensor, collision }) => isActive && !isSensor && this.#isThere(collision.parentA) && this.#isThere(collision.parentB);
-        for (const pair of list) if (meets(pair)) { this.#knownOf(pair.collision.parentA); this.#knownOf(pair.collision.parentB); }
+        const { list } = this.#engine.pairs, meeting = this.#meeting;
+        let count = 0;
+        for (const pair of list) {
+            if (!this.#meets(pair)) continue;
+            meeting[count++] = pair;
+            this.#knownOf(pair.collision.parentA);
+            this.#knownOf(pair.collision.parentB);
+        }
         for (const known of this.each()) {
             if (known.isStatic) continue;
             const { vx, vy, spin } = this.#stateOf(known.body);
             this.journal.moved(known.id, vx, vy, spin);
         }
-        for (const pair of list) {
-            if (!meets(pair)) continue;
-            const a = this.#knownOf(pair.collision.parentA), b = this.#knownOf(pair.collision.parentB);
+        for (let i = 0; i < count; ++i) {
+            const pair = meeting[i], a = this.#knownOf(pair.collision.parentA), b = this.#knownOf(pair.collision.parentB);
             if (!(a.isStatic && b.isStatic)) this.#touch(pair, a, b);
         }
+        meeting.length = count;
     }
 
     #touch(pair, a, b) {
-        const unit = this.metresPerUnit, { normal, depth } = pair.collision, nx = -normal.x, ny = normal.y, isRound = a.isRound || b.isRound;
-        const contacts = pair.activeContacts ?? pair.contacts, count = pair.activeContacts ? contacts.length : pair.contactCount;
-        for (let i = 0; i < (isRound ? Math.min(1, count) : count); ++i) {
-            const { vertex } = contacts[i], x = vertex.x * unit, y = -vertex.y * unit, { alongA, alongB } = motionAt(a, b, x, y, nx, ny);
-            this.journal.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, restitution: Math.min(1, Math.max(0, pair.restitution)), gap: -depth * unit, gapFraction: 1,
-                point: isRound ? 0 : 'place' });
+        const unit = this.metresPerUnit, spot = this.#spot, { normal, depth } = pair.collision, isRound = a.isRound || b.isRound;
+        const contacts = pair.activeContacts ?? pair.contacts, all = pair.activeContacts ? contacts.length : pair.contactCount, count = isRound ? Math.min(1, all) : all;
+        spot.normalX = -normal.x;
+        spot.normalY = normal.y;
+        spot.restitution = Math.min(1, Math.max(0, pair.restitution));
+        spot.gap = -depth * unit;
+        spot.point = isRound ? 0 : byPlace;
+        for (let i = 0; i < count; ++i) {
+            const { vertex } = contacts[i];
+            spot.x = vertex.x * unit;
+            spot.y = -vertex.y * unit;
+            motionAt(a, b, spot.x, spot.y, spot.normalX, spot.normalY, spot);
+            spot.approach = leftOut;
+            this.journal.touchAt(a.id, b.id, spot);
         }
     }
 }

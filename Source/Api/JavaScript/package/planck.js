@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Planck 1: Box2D 2.4 in JavaScript. Its impulses are whole; in the first phase of a step those of a new pair have gravity's share in them.
 import { expectEngine, Haptics, motionAt } from './haptics.js';
+import { byPlace, contactOf, leftOut } from './journal.js';
 
 const listed = first => {
     const all = [];
@@ -8,10 +9,8 @@ const listed = first => {
     return all;
 };
 
-const pointOf = () => ({ x: 0.5, y: 0.5, normalX: 0.5, normalY: 0.5, approach: 0.5, alongA: 0.5, alongB: 0.5, fraction: undefined, gap: undefined, gapFraction: undefined, impulse: 0.5, restitution: 0.5, point: 0 });
-
 class PlanckHaptics extends Haptics {
-    #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #new = new Set(); #looks = new Map(); #spare = []; #used = 0; #manifold = null;
+    #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #step = 0; #looks = new Map(); #manifold = null; #spot = Object.assign(contactOf(), { soft: leftOut });
 
     constructor(physvib, engine, options) {
         const unit = options.metresPerUnit ?? 1;
@@ -30,7 +29,7 @@ class PlanckHaptics extends Haptics {
         }, options);
         this.#engine = engine;
         this.#handlers = {
-            'pre-step': seconds => this.#start(seconds), 'post-step': () => this.#end(), 'begin-contact': contact => this.#new.add(contact), 'end-contact': contact => this.#new.delete(contact),
+            'pre-step': seconds => this.#start(seconds), 'post-step': () => this.#end(), 'begin-contact': contact => { this.#lookOf(contact).isNew = true; }, 'end-contact': contact => this.#looks.delete(contact),
             'pre-solve': contact => this.guarded(() => this.#look(contact)), 'post-solve': (contact, impulse) => this.guarded(() => this.#push(contact, impulse)),
         };
         for (const [name, handler] of Object.entries(this.#handlers)) engine.on(name, handler);
@@ -51,20 +50,23 @@ class PlanckHaptics extends Haptics {
         this.#gravity = { x: x * unit, y: y * unit };
         this.begin(seconds, Math.hypot(x, y) * unit);
         this.#isStepping = true;
+        ++this.#step;
         for (const known of this.each()) this.#observe(known, known.isRound, false);
     }
     #end() {
         if (!this.#isStepping) return;
         this.#isStepping = false;
-        this.#looks.clear();
-        this.#used = 0;
         this.finish();
     }
 
+    // Once, unless it has changed: a body is in many contacts.
     #observe(known, isRound, falls) {
         const { body } = known, unit = this.metresPerUnit, at = body.getWorldCenter(), v = body.getLinearVelocity(), pull = falls && body.isDynamic() ? this.#seconds * body.getGravityScale() : 0;
+        const x = at.x * unit, y = at.y * unit, vx = v.x * unit + pull * this.#gravity.x, vy = v.y * unit + pull * this.#gravity.y, spin = body.getAngularVelocity();
         known.isRound = isRound;
-        this.move(known, at.x * unit, at.y * unit, v.x * unit + pull * this.#gravity.x, v.y * unit + pull * this.#gravity.y, body.getAngularVelocity());
+        if (known.step === this.#step && known.x === x && known.y === y && known.vx === vx && known.vy === vy && known.spin === spin) return;
+        known.step = this.#step;
+        this.move(known, x, y, vx, vy, spin);
     }
 
     // Continuous collision looks again, within the step: gravity is in the speeds then.
@@ -75,50 +77,55 @@ class PlanckHaptics extends Haptics {
         this.#observe(a, fixtureA.getType() === 'circle', alpha === 0);
         this.#observe(b, fixtureB.getType() === 'circle', alpha === 0);
         const { normal, points, separations } = this.#manifold = contact.getWorldManifold(this.#manifold), look = this.#lookOf(contact);
+        look.step = this.#step;
         look.a = a;
         look.b = b;
-        look.nx = normal.x;
-        look.ny = normal.y;
-        look.alpha = alpha;
         look.count = contact.getManifold().pointCount;
-        for (let i = 0; i < look.count; ++i) {
-            const point = look.points[i], x = points[i].x * unit, y = points[i].y * unit, { approach, alongA, alongB } = motionAt(a, b, x, y, normal.x, normal.y);
-            point.x = x;
-            point.y = y;
-            point.normalX = normal.x;
-            point.normalY = normal.y;
-            point.approach = approach;
-            point.alongA = alongA;
-            point.alongB = alongB;
-            point.fraction = alpha > 0 ? Math.min(1, alpha) : undefined;
-            point.gap = alpha > 0 ? undefined : (separations[i] ?? 0) * unit;
-            point.gapFraction = alpha > 0 ? undefined : 0;
+        const numbers = look.numbers, spot = this.#spot;
+        numbers[0] = normal.x;
+        numbers[1] = normal.y;
+        numbers[2] = alpha;
+        for (let i = 0, to = 3; i < look.count; ++i) {
+            const x = points[i].x * unit, y = points[i].y * unit;
+            motionAt(a, b, x, y, normal.x, normal.y, spot);
+            numbers[to++] = x;
+            numbers[to++] = y;
+            numbers[to++] = spot.approach;
+            numbers[to++] = spot.alongA;
+            numbers[to++] = spot.alongB;
+            numbers[to++] = alpha > 0 ? leftOut : (separations[i] ?? 0) * unit;
         }
     }
-    // Of a contact in this step; those of steps before are used again.
+    // Of a contact, as long as it lasts.
     #lookOf(contact) {
         let look = this.#looks.get(contact);
-        if (look !== undefined) return look;
-        look = this.#spare[this.#used] ??= { a: null, b: null, nx: 0.5, ny: 0.5, alpha: 0.5, count: 0, points: [pointOf(), pointOf()] };
-        ++this.#used;
-        this.#looks.set(contact, look);
+        if (look === undefined) this.#looks.set(contact, look = { a: null, b: null, count: 0, step: 0, isNew: false, numbers: new Float64Array(15) }); // normal, alpha, and six numbers for each of two points
         return look;
     }
 
     #push(contact, { normalImpulses }) {
         const look = this.#looks.get(contact);
-        if (look === undefined || !this.#isStepping) return;
-        const { a, b, nx, ny, alpha, count, points } = look, unit = this.metresPerUnit;
+        if (look?.step !== this.#step || !this.#isStepping) return;
+        const { a, b, count, numbers } = look, nx = numbers[0], ny = numbers[1], alpha = numbers[2], unit = this.metresPerUnit, spot = this.#spot;
         const pull = this.#seconds * (this.#gravity.x * nx + this.#gravity.y * ny), isOne = a.isStatic !== b.isStatic;
-        const load = this.#new.has(contact) && alpha === 0 && isOne ? Math.max(0, a.isStatic ? -pull * b.massKg * b.gravityScale : pull * a.massKg * a.gravityScale) : 0;
-        for (let i = 0; i < count; ++i) {
-            const point = points[i];
-            point.impulse = normalImpulses[i] * unit - load / count;
-            point.restitution = Math.min(1, Math.max(0, contact.getRestitution()));
-            point.point = a.isRound || b.isRound ? 0 : 'place';
-            this.journal.touch(a.id, b.id, point);
+        const load = look.isNew && alpha === 0 && isOne ? Math.max(0, a.isStatic ? -pull * b.massKg * b.gravityScale : pull * a.massKg * a.gravityScale) : 0;
+        spot.normalX = nx;
+        spot.normalY = ny;
+        spot.fraction = alpha > 0 ? Math.min(1, alpha) : leftOut;
+        spot.gapFraction = alpha > 0 ? leftOut : 0;
+        spot.restitution = Math.min(1, Math.max(0, contact.getRestitution()));
+        spot.point = a.isRound || b.isRound ? 0 : byPlace;
+        for (let i = 0, from = 3; i < count; ++i) {
+            spot.x = numbers[from++];
+            spot.y = numbers[from++];
+            spot.approach = numbers[from++];
+            spot.alongA = numbers[from++];
+            spot.alongB = numbers[from++];
+            spot.gap = numbers[from++];
+            spot.impulse = normalImpulses[i] * unit - load / count;
+            this.journal.touchAt(a.id, b.id, spot);
         }
-        this.#new.delete(contact);
+        look.isNew = false;
     }
 }
 

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Rapier 2D: it looks before it moves, ahead of itself, and solves in small steps. So a blow is told by speed and restitution, and what goes on touching
 // by momentum.
-import { expectEngine, Haptics, meeting, motionAt } from './haptics.js';
+import { byPlace, contactOf } from './journal.js';
+import { expectEngine, Haptics, meet, motionAt } from './haptics.js';
 
 const nearMetres = 0.005; // what lies within goes on touching, though Rapier pushes it in some steps only
 
 /** Whose contacts a collider's are: its body's, or its own where it has none, as a ground often has not. */
 const ownerOf = collider => collider.parent() ?? collider;
 
-/** The point of a collider at its pose, `local` to it; `way`: whether the normal goes out of it (1) or in. */
-function onSurface({ at, turned, radius }, normal, way, local) {
-    if (radius > 0) return { x: at.x + way * radius * normal.x, y: at.y + way * radius * normal.y };
-    const cos = Math.cos(turned), sin = Math.sin(turned);
-    return { x: at.x + cos * local.x - sin * local.y, y: at.y + sin * local.x + cos * local.y };
-}
-
-const pairOf = (a, b) => (a < b ? a * 2 ** 26 + b : b * 2 ** 26 + a);
+// Pairs that touched in the step before: small whole numbers, which a set keeps without allocating, as long as there are few bodies.
+const keyOf = (a, b) => (a < 2 ** 15 && b < 2 ** 15 ? a << 15 | b : 2 ** 53 - 1 - a * 2 ** 26 - b);
 
 /** What both have; physvib/rapier3d says otherwise what space changes. */
 export class RapierHaptics extends Haptics {
-    #engine; #touching = new Set(); #was = new Set(); #kept = new Map(); #count = 0; #done = new Set();
+    #engine; #touching = new Set(); #was = new Set(); #kept = new Map(); #pass = 0; #seconds = 0; #fresh = null; #one = null; #other = null; #pairs = null; #slack = 0; #v = undefined; #normal = undefined; #gravity = undefined;
+    /** Of a contact as it is looked at. */
+    spot = Object.assign(contactOf(), { soft: 1 });
 
     constructor(physvib, engine, options) {
         const unit = options.metresPerUnit ?? 1;
@@ -42,141 +39,196 @@ export class RapierHaptics extends Haptics {
     /** `advance` steps the engine by `seconds`; without it, we do. */
     step(seconds, advance = () => this.#engine.step()) {
         this.#engine.timestep = seconds;
-        this.around(() => advance(seconds), () => this.#before(seconds), () => this.#after(seconds));
+        this.around(() => advance(seconds), () => this.#before(seconds), () => this.#after());
     }
     #before(seconds) {
+        const { gravity } = this.#engine, pull = this.size(gravity) * this.metresPerUnit;
+        this.#seconds = seconds;
+        this.#gravity = gravity;
+        this.#slack = 0.05 + pull * seconds;
+        ++this.#pass;
         this.#rest();
-        this.begin(seconds, this.size(this.#engine.gravity) * this.metresPerUnit);
+        this.begin(seconds, pull);
         this.#meetAll();
-        for (const known of this.each()) this.#observe(known, seconds);
+        for (const known of this.each()) this.#observe(known);
     }
-    #observe(known, seconds) {
+    #observe(known) {
         if (known.isAtRest) this.observeAgain(known);
-        else if (known.body.isDynamic) this.observe(known, this.#pullOf(known, seconds));
+        else if (known.body.isDynamic) this.observe(known, this.#seconds * this.#fall(known) * this.metresPerUnit, this.#gravity);
         else this.observeStill(known, known.body.translation());
     }
-    #after(seconds) {
+    #after() {
         for (const known of this.eachThere()) {
             if (known.isStatic) continue;
             if (known.isAtRest && !known.body.isSleeping()) known.isAtRest = false; // something has woken it
             if (known.isAtRest) this.movedAgain(known);
-            else this.moved(known, known.body.linvel(), known.body.angvel());
+            else this.moved(known, this.#v = known.body.linvel(this.#v), known.body.angvel());
         }
         [this.#was, this.#touching] = [this.#touching, this.#was];
         this.#touching.clear();
-        this.#eachPair((one, other) => this.#look(one, other, seconds));
+        this.#gravity = this.#engine.gravity;
+        this.#eachPair();
     }
     update(seconds) { this.step(seconds); }
 
-    // What is known of a collider: its number, and its contacts as they were observed while its body slept.
+    // What is known of a collider: its body, its pose before the step, and its contacts as they were observed while its body slept. `told`, `live`: the step in which it
+    // told those again, or told others.
     #keptOf(collider) {
         let kept = this.#kept.get(collider);
-        if (kept === undefined) this.#kept.set(collider, kept = { number: ++this.#count, isSeen: false, contacts: null, pairs: [], touching: [] });
+        if (kept === undefined) this.#kept.set(collider, kept = { collider, known: null, at: undefined, turned: undefined, radius: 0.5, reach: 0.5, posed: 0, seen: 0, told: 0, live: 0, contacts: null, pairs: [], touching: [] });
         return kept;
     }
-    #eachPair(use) {
-        const done = this.#done, engine = this.#engine;
-        done.clear();
+    #knownOf(kept) {
+        if (kept.known === null || kept.known.isOut) kept.known = this.know(kept.collider);
+        return kept.known;
+    }
+    // Each pair of colliders once, by that which is seen first.
+    #eachPair() {
+        const engine = this.#engine, pass = this.#pass;
+        let seen = 0;
         engine.forEachCollider(one => {
-            const parent = one.parent(), kept = this.#keptOf(one);
-            kept.isSeen = true;
-            if (!parent?.isDynamic()) return;
-            const { isAtRest } = this.know(one);
+            const kept = this.#keptOf(one);
+            kept.seen = pass;
+            ++seen;
+            if (!one.parent()?.isDynamic()) return;
+            const { isAtRest } = this.#knownOf(kept);
             if (isAtRest && kept.contacts !== null) {
-                for (const key of kept.pairs) done.add(key);
+                kept.told = pass;
                 for (const key of kept.touching) this.#touching.add(key);
                 this.journal.again(kept.contacts);
                 return;
             }
             kept.contacts = null;
             if (one.isSensor()) return;
-            const { place } = this.journal, pairs = [], before = this.#touching.size;
-            engine.contactPairsWith(one, other => {
-                const { number } = this.#keptOf(other), key = pairOf(kept.number, number);
-                if (done.has(key) || other.isSensor()) return;
-                done.add(key);
-                pairs.push(key);
-                use(one, other);
-            });
-            if (isAtRest) Object.assign(kept, { contacts: this.journal.copy(place), pairs, touching: [...this.#touching].slice(before) });
+            const { place } = this.journal;
+            this.#one = kept;
+            this.#pairs = isAtRest ? [] : null;
+            this.#fresh = isAtRest ? [] : null;
+            engine.contactPairsWith(one, this.#meets);
+            kept.live = pass;
+            if (isAtRest) Object.assign(kept, { contacts: this.journal.copy(place), pairs: this.#pairs, touching: this.#fresh });
         });
-        for (const [collider, kept] of this.#kept) if (kept.isSeen) kept.isSeen = false; else this.#kept.delete(collider);
+        if (seen < this.#kept.size) for (const [collider, kept] of this.#kept) if (kept.seen !== pass) this.#kept.delete(collider);
+    }
+    #meets = other => {
+        const one = this.#one, kept = this.#keptOf(other);
+        if (kept.live === this.#pass || (kept.told === this.#pass && kept.pairs.includes(one)) || other.isSensor()) return;
+        this.#pairs?.push(kept);
+        const a = this.#knownOf(one), b = this.#knownOf(kept);
+        if (a === b || this.#areApart(one, kept)) return;
+        this.#other = kept;
+        this.#engine.contactPair(one.collider, other, this.#look);
+    };
+    // Of two balls the distance says whether Rapier has looked at them closely: asking it is what costs.
+    #areApart(one, other) {
+        return one.radius > 0 && other.radius > 0 && one.posed === this.#pass && other.posed === this.#pass && this.between(one.at, other.at) > one.radius + other.radius + one.reach + other.reach;
     }
 
     // A body that sleeps lies where it lay, with its masses, until something wakes it.
     #rest() {
         for (const known of this.eachThere()) {
             const isAsleep = !known.isStatic && known.body.isSleeping();
-            known.isAtRest = isAsleep && known.hasSlept === true && known.poses?.size === known.body.numColliders();
+            known.isAtRest = isAsleep && known.hasSlept === true && known.posed === known.body.numColliders();
             known.hasSlept = isAsleep;
-            if (!known.isAtRest) known.poses?.clear();
+            if (!known.isAtRest) known.posed = 0;
         }
     }
     // A body that touches for the first time is known before the step that it touches in.
     #meetAll() {
+        const { integrationParameters } = this.#engine, near = integrationParameters.predictionDistance ?? integrationParameters.normalizedPredictionDistance * integrationParameters.lengthUnit, unit = this.metresPerUnit;
         this.#engine.forEachCollider(collider => {
-            const known = this.#known(collider);
-            if (known?.isAtRest) return;
+            const kept = this.#keptOf(collider), owner = ownerOf(collider), known = this.#sensed(kept, owner);
+            if (known?.isAtRest) {
+                if (kept.posed > 0) kept.posed = this.#pass;
+                return;
+            }
             if (collider.isSensor()) return;
-            this.#pose(known ?? this.know(collider), collider);
+            this.#pose(kept, this.#knownOf(kept));
+            kept.reach = owner.isCcdEnabled?.() || owner.softCcdPrediction?.() > 0 ? Infinity : near + collider.contactSkin() + nearMetres / unit;
         });
     }
     // Of what is known already: a sensor need not be.
-    #known(collider) { const known = this.known(ownerOf(collider)); return known?.isGone ? undefined : known; }
-    #pose(known, collider) {
+    #sensed({ known }, owner) {
+        const found = known === null || known.isOut ? this.known(owner) : known;
+        return found?.isGone ? undefined : found;
+    }
+    #pose(kept, known) {
+        const { collider } = kept;
         known.isRound = collider.shapeType() === 0; // ShapeType.Ball
-        known.poses = (known.poses ?? new Map()).set(collider, { at: collider.translation(), turned: collider.rotation(), radius: known.isRound ? collider.radius() : 0 });
+        known.posed = (known.posed ?? 0) + 1;
+        kept.posed = this.#pass;
+        kept.at = collider.translation(kept.at);
+        kept.turned = collider.rotation(kept.turned);
+        kept.radius = known.isRound ? collider.radius() : 0;
     }
 
     #fall(known) { return known.isStatic || known.isAtRest || known.body.isSleeping() ? 0 : known.gravityScale; }
-    #pullOf(known, seconds) {
-        const { x, y, z } = this.#engine.gravity, pull = seconds * this.#fall(known) * this.metresPerUnit;
-        return { x: pull * x, y: pull * y, z: pull * z };
-    }
 
     inertiaOf(body) { return body.principalInertia(); }
     size({ x, y }) { return Math.hypot(x, y); }
     product(a, b) { return a.x * b.x + a.y * b.y; }
-    /** Motion before the step, as Rapier looks at it, and as its solver finds it. */
-    observe(known, pull) {
-        const { body } = known, unit = this.metresPerUnit, at = body.worldCom(), v = body.linvel();
-        Object.assign(known, { x: at.x * unit, y: at.y * unit, vx: v.x * unit, vy: v.y * unit, spin: body.angvel() });
-        this.journal.move(known.id, known.x, known.y, known.vx + pull.x, known.vy + pull.y, known.spin);
+    between(a, b) { return Math.sqrt((b.x - a.x) ** 2 + (b.y - a.y) ** 2); }
+    #at = undefined; #w = undefined;
+    /** Motion before the step, as Rapier looks at it, and as its solver finds it, with a `pull` along gravity. */
+    observe(known, pull, gravity) {
+        const { body } = known, unit = this.metresPerUnit, at = this.#at = body.worldCom(this.#at), v = this.#w = body.linvel(this.#w);
+        known.x = at.x * unit;
+        known.y = at.y * unit;
+        known.vx = v.x * unit;
+        known.vy = v.y * unit;
+        known.spin = body.angvel();
+        this.journal.move(known.id, known.x, known.y, known.vx + pull * gravity.x, known.vy + pull * gravity.y, known.spin);
     }
     observeAgain(known) { this.journal.move(known.id, known.x, known.y, known.vx, known.vy, known.spin); }
     movedAgain(known) { this.journal.moved(known.id, known.vx, known.vy, known.spin); }
     observeStill(known, { x, y }) { this.move(known, x * this.metresPerUnit, y * this.metresPerUnit, 0, 0, 0); }
     moved(known, { x, y }, spin) { this.journal.moved(known.id, x * this.metresPerUnit, y * this.metresPerUnit, spin); }
-    /** Where contact i of a manifold is, across which gap, and how both surfaces run there. `poses`: of its first and its second collider. Rapier keeps a contact's
-     * points and distance for some steps while bodies move on, so they are where both bodies have them now; a ball's are where it is nearest. */
-    contactOf(manifold, i, [first, second], n, a, b) {
-        const unit = this.metresPerUnit, m = manifold.normal(), one = onSurface(first, m, 1, manifold.localContactPoint1(i)), other = onSurface(second, m, -1, manifold.localContactPoint2(i));
-        const x = one.x * unit, y = one.y * unit, gap = ((other.x - one.x) * m.x + (other.y - one.y) * m.y) * unit;
-        return { place: { x, y, normalX: n.x, normalY: n.y }, gap, motion: motionAt(a, b, x, y, n.x, n.y) };
+    #places = [{ x: 0.5, y: 0.5 }, { x: 0.5, y: 0.5 }]; #local = undefined;
+    /** The point of a collider at its pose, k of two; the normal m goes out of the first. */
+    #onSurface(k, { at, turned, radius }, m, manifold, i) {
+        const place = this.#places[k];
+        if (radius > 0) {
+            place.x = at.x + (k ? -1 : 1) * radius * m.x;
+            place.y = at.y + (k ? -1 : 1) * radius * m.y;
+            return place;
+        }
+        const cos = Math.cos(turned), sin = Math.sin(turned), local = this.#local = k ? manifold.localContactPoint2(i, this.#local ?? undefined) : manifold.localContactPoint1(i, this.#local ?? undefined);
+        place.x = at.x + cos * local.x - sin * local.y;
+        place.y = at.y + sin * local.x + cos * local.y;
+        return place;
+    }
+    /** Into `spot`: where contact i of a manifold is, across which gap, and how both surfaces run there. `first`, `second`: its colliders; m: its normal, `turn` times which
+     * goes from a to b. Rapier keeps a contact's points and distance for some steps while bodies move on, so they are where both bodies have them now; a ball's are where it is nearest. */
+    lookAt(manifold, i, first, second, m, turn, a, b) {
+        const unit = this.metresPerUnit, spot = this.spot, one = this.#onSurface(0, first, m, manifold, i), other = this.#onSurface(1, second, m, manifold, i);
+        spot.x = one.x * unit;
+        spot.y = one.y * unit;
+        spot.normalX = turn * m.x;
+        spot.normalY = turn * m.y;
+        spot.gap = ((other.x - one.x) * m.x + (other.y - one.y) * m.y) * unit;
+        motionAt(a, b, spot.x, spot.y, spot.normalX, spot.normalY, spot);
     }
 
-    #look(one, other, seconds) {
-        const a = this.know(one), b = this.know(other);
-        if (a === b) return;
-        this.#engine.contactPair(one, other, (manifold, isFlipped) => {
-            if (manifold.numContacts() === 0) return;
-            const turn = isFlipped ? -1 : 1, { x, y, z } = manifold.normal(), normal = { x: turn * x, y: turn * y, z: turn * z };
-            const both = [a.poses?.get(one), b.poses?.get(other)], poses = isFlipped ? both.reverse() : both, key = a.id * 2 ** 26 + b.id;
-            for (let i = 0; i < manifold.numContacts(); ++i) this.#point(manifold, i, { a, b, normal, poses, key, seconds });
-        });
-    }
-
-    #point(manifold, i, { a, b, normal, poses, key, seconds }) {
-        if (manifold.localContactPoint1(i) === null || poses.includes(undefined)) return;
-        const unit = this.metresPerUnit, { gravity } = this.#engine, impulse = manifold.contactImpulse(i);
-        const { place, gap, motion: { approach, alongA, alongB } } = this.contactOf(manifold, i, poses, normal, a, b);
-        const pull = (this.#fall(a) - this.#fall(b)) * this.product(gravity, normal) * unit;
-        const slack = 0.05 + this.size(gravity) * unit * seconds, rests = this.#was.has(key) && gap < nearMetres && Math.abs(approach) < slack;
-        if (!(impulse > 0) && !rests) return; // near, and not yet there
-        this.#touching.add(key);
-        this.journal.touch(a.id, b.id, { ...place, alongA, alongB, impulse: Math.max(0, impulse * unit), isSoft: true,
-            restitution: Math.min(1, Math.max(0, manifold.restitution())), ...meeting(approach, gap, pull, seconds), point: a.isRound || b.isRound ? 0 : 'place' });
-    }
+    #look = (manifold, isFlipped) => {
+        const count = manifold.numContacts(), one = this.#one, other = this.#other, pass = this.#pass;
+        if (count === 0 || one.posed !== pass || other.posed !== pass) return;
+        const a = one.known, b = other.known, key = keyOf(a.id, b.id), turn = isFlipped ? -1 : 1, m = this.#normal = manifold.normal(this.#normal), unit = this.metresPerUnit, spot = this.spot, seconds = this.#seconds;
+        let bounce = -1;
+        for (let i = 0; i < count; ++i) {
+            const impulse = manifold.contactImpulse(i);
+            if (!(impulse > 0) && !this.#was.has(key)) continue; // near, and not yet there
+            this.lookAt(manifold, i, isFlipped ? other : one, isFlipped ? one : other, m, turn, a, b);
+            if (!(impulse > 0) && !(spot.gap < nearMetres && Math.abs(spot.approach) < this.#slack)) continue;
+            if (bounce < 0) bounce = Math.min(1, Math.max(0, manifold.restitution()));
+            this.#touching.add(key);
+            this.#fresh?.push(key);
+            spot.impulse = Math.max(0, impulse * unit);
+            spot.restitution = bounce;
+            spot.point = a.isRound || b.isRound ? 0 : byPlace;
+            meet(spot, (this.#fall(a) - this.#fall(b)) * turn * this.product(this.#gravity, m) * unit, seconds);
+            this.journal.touchAt(a.id, b.id, spot);
+        }
+    };
 }
 
 export const expectRapier = world => expectEngine(world?.bodies && world.colliders && world.narrowPhase, "Rapier's world", world);

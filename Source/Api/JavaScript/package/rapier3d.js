@@ -17,12 +17,13 @@ class RapierHaptics3D extends RapierHaptics {
     size(vector) { return Math.sqrt(dot(vector, vector)); }
     product(a, b) { return dot(a, b); }
 
-    observe(known, pull) {
+    between(a, b) { return Math.sqrt((b.x - a.x) ** 2 + (b.y - a.y) ** 2 + (b.z - a.z) ** 2); }
+    observe(known, pull, gravity) {
         const { body } = known, unit = this.metresPerUnit, { m11, m22, m33, m12, m13, m23 } = body.effectiveWorldInvInertia();
         const inverse = known.isStatic ? null : [m11, m22, m33, m12, m13, m23].map(m => m / (unit * unit));
         Object.assign(known, { at: plus(nowhere, body.worldCom(), unit), v: plus(nowhere, body.linvel(), unit), turns: body.angvel() });
         known.inverse = inverse;
-        this.journal.moveInSpace(known.id, known.at, plus(known.v, pull), known.turns, inverse);
+        this.journal.moveInSpace(known.id, known.at, plus(known.v, gravity, pull), known.turns, inverse);
     }
     observeAgain(known) { this.journal.moveInSpace(known.id, known.at, known.v, known.turns, known.inverse); }
     movedAgain(known) { this.journal.movedInSpace(known.id, known.v, known.turns); }
@@ -32,18 +33,25 @@ class RapierHaptics3D extends RapierHaptics {
     }
     moved(known, v, spin) { this.journal.movedInSpace(known.id, plus(nowhere, v, this.metresPerUnit), spin); }
 
-    // Rapier 3D keeps a contact's points for some steps while bodies move on, so they are where both bodies have them now.
-    contactOf(manifold, i, poses, n, a, b) {
-        const unit = this.metresPerUnit, way = this.product(manifold.normal(), n), locals = [manifold.localContactPoint1(i), manifold.localContactPoint2(i)];
-        const [first, second] = poses.map(({ at, turned, radius }, k) => plus(at, radius > 0 ? plus(nowhere, manifold.normal(), k ? -radius : radius) : turn(turned, locals[k])));
-        const isFirst = poses[0].radius > 0 || (poses[1].radius === 0 && (way > 0 ? !a.isStatic && b.isStatic : !b.isStatic && a.isStatic)); // the point of what moves
-        const place = plus(nowhere, isFirst ? first : second, unit), gap = unit * dot(plus(second, first, -1), manifold.normal());
-        const va = plus(a.v, cross(a.turns, plus(place, a.at, -1))), vb = plus(b.v, cross(b.turns, plus(place, b.at, -1)));
+    lookAt(manifold, i, one, other, m, way, a, b) {
+        const unit = this.metresPerUnit, spot = this.spot, n = { x: way * m.x, y: way * m.y, z: way * m.z };
+        const place = ({ at, turned, radius }, side, local) => plus(at, radius > 0 ? plus(nowhere, m, side * radius) : turn(turned, local));
+        const first = place(one, 1, one.radius > 0 ? null : manifold.localContactPoint1(i)), second = place(other, -1, other.radius > 0 ? null : manifold.localContactPoint2(i));
+        const isFirst = one.radius > 0 || (other.radius === 0 && (way > 0 ? !a.isStatic && b.isStatic : !b.isStatic && a.isStatic)), at = plus(nowhere, isFirst ? first : second, unit); // the point of what moves
+        const va = plus(a.v, cross(a.turns, plus(at, a.at, -1))), vb = plus(b.v, cross(b.turns, plus(at, b.at, -1)));
         const point = b.isRound ? b.v : a.isRound ? a.v : b.isStatic ? va : vb; // goes with a round body's centre, or with the corner of what moves
-        const across = v => plus(v, n, -dot(v, n)), [ua, ub] = [across(plus(point, va, -1)), across(plus(point, vb, -1))];
+        const across = v => plus(v, n, -dot(v, n)), ua = across(plus(point, va, -1)), ub = across(plus(point, vb, -1));
         const along = this.size(ua) > this.size(ub) ? ua : ub, length = this.size(along) || 1; // in which grains are passed
-        return { place: { ...place, normalX: n.x, normalY: n.y, normalZ: n.z }, gap,
-            motion: { approach: dot(plus(va, vb, -1), n), alongA: dot(ua, along) / length, alongB: dot(ub, along) / length } };
+        spot.x = at.x;
+        spot.y = at.y;
+        spot.z = at.z;
+        spot.normalX = n.x;
+        spot.normalY = n.y;
+        spot.normalZ = n.z;
+        spot.gap = unit * dot(plus(second, first, -1), m);
+        spot.approach = dot(plus(va, vb, -1), n);
+        spot.alongA = dot(ua, along) / length;
+        spot.alongB = dot(ub, along) / length;
     }
 }
 
