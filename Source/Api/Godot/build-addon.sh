@@ -23,7 +23,8 @@ fi
 rm -rf "$work/addons" "$work"/*.zip
 cp -r build/release/godot/addons "$work"
 cp /usr/share/doc/libhwy1/copyright "$work/addons/physvib/bin/libhwy-LICENSE"
-strip --strip-unneeded "$work"/addons/physvib/bin/*
+strip --strip-unneeded "$work"/addons/physvib/bin/*.so* # a licence lies there, too
 version=$(sed -n 's/^version="\(.*\)"/\1/p' "$work/addons/physvib/plugin.cfg")
 (cd "$work" && cmake -E tar cf "physvib-$version.zip" --format=zip addons)
 say "build/godot/physvib-$version.zip: $(wc -c <"$work/physvib-$version.zip") bytes"
+say "build/godot/addons is ready: copy it into your project"
