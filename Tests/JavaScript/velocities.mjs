@@ -104,3 +104,11 @@ test('what is no engine is refused', () => {
     const haptics = attachVelocities(physvib, { bodies: () => [], read: (body, to) => Object.assign(to, { x: 1, y: 1, vx: 1 }) });
     assert.throws(() => haptics.set({}, source), /expected that read gives .*vy: undefined/);
 });
+
+test('a thing without a body is told to who sets it, and ends nothing', () => {
+    const a = box({ x: 200 }), haptics = attachVelocities(physvib, { bodies: () => [a], read: (thing, to) => Object.assign(to, { x: thing.x.valueOf(), y: thing.y, vx: thing.vx, vy: thing.vy }), bodyOf: thing => thing.body ?? thing });
+    assert.throws(() => haptics.set({}, source), /expected one of the engine's/);
+    assert.equal(haptics.error, null);
+    assert.equal(haptics.set(a, source), 0);
+    haptics.free();
+});

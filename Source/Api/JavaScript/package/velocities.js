@@ -15,7 +15,7 @@ class VelocityHaptics extends Haptics {
     constructor(physvib, engine, { metresPerUnit = 0.01, yDown = true, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
         const height = fieldHeight ?? fieldWidth;
         super(physvib, {
-            bodyOf: thing => { const body = engine.bodyOf ? engine.bodyOf(thing) : thing; return body !== null && typeof body === 'object' ? body : undefined; },
+            bodyOf: thing => { const body = engine.bodyOf ? engine.bodyOf(thing) : thing; return body !== null && typeof body === 'object' && this.#isRead(body) ? body : undefined; },
             keyOf: body => body, massesOf: body => { const { massKg, gravityScale } = this.#there.get(body) ?? this.#read(body, this.#newState(body)); return { massKg, inertia: 0, gravityScale }; },
             isThere: body => this.#there.has(body), bodies: () => this.#there.keys(), look: () => ({ filters: [] }),
         }, { metresPerUnit, fieldWidth, fieldHeight: height, fieldY: yDown ? -(fieldY ?? height) : fieldY, ...settings });
@@ -24,6 +24,12 @@ class VelocityHaptics extends Haptics {
         this.look();
     }
 
+    // A thing without a body, which `read` can not read, is told to who sets it, and ends nothing.
+    #isRead(body) {
+        if (this.#there.has(body) || this.#walls.includes(body)) return true;
+        try { this.#engine.read(body, {}); } catch { return false; }
+        return true;
+    }
     #newState(body) {
         const state = stateOf(), given = {};
         if (!this.#walls.includes(body)) {
