@@ -46,9 +46,9 @@ for (const name of Object.keys(engines)) test(`${name}: errors of haptics are no
         const made = await engines[name](folder, physvib, world, 240), ids = [1, 2].map(id => made.haptics.set(made.bodies.get(id), { isSource: true, frequencyHz: 200, decayPerSecond: 30 }));
         return { ...made, ids, run(count) { for (let i = 0; i < count; ++i) made.step(1 / 240); return made.haptics.take(true); } };
     };
-    const one = await make(), { journal } = one.haptics, { move, touchAt } = journal, [bad] = one.ids;
+    const one = await make(), { journal } = one.haptics, { move, touch } = journal, [bad] = one.ids;
     journal.move = (id, x, ...rest) => move.call(journal, id, id === bad ? NaN : x, ...rest);
-    journal.touchAt = (a, b, contact) => touchAt.call(journal, a, b, a === bad || b === bad ? { ...contact, x: NaN } : contact);
+    journal.touch = (a, b, contact) => touch.call(journal, a, b, a === bad || b === bad ? { ...contact, x: NaN } : contact);
     assert.deepEqual([...new Set(one.run(120).map(event => event.fixture))], [one.ids[1]], 'a body with a place that is none is left out alone');
     assert.match(one.haptics.explain(), new RegExp(`Body ${bad} is left out while`));
     assert.equal(one.haptics.error, null);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Box2D 3 by box2d3-wasm: soft contacts in small steps. Contacts are read after the step, so no shape needs hit events.
 import { Haptics, motionAt } from './haptics.js';
+import { contactOf, leftOut, whole } from './journal.js';
 
 const mostContacts = 64; // of a body in a step
 const slop = 0.005; // Box2D's, m; and the share of its path that a body may be short of
 const none = { x: 0, y: 0, angle: 0 };
 
 class Box2d3Haptics extends Haptics {
-    #b2; #engine; #threshold; #subSteps; #lastSeconds = 0;
+    #b2; #engine; #threshold; #subSteps; #lastSeconds = 0; #spot = Object.assign(contactOf(), { soft: whole });
 
     constructor(physvib, engine, { b2, restitutionThreshold = 1, subSteps = 4, ...options }) {
         const unit = options.metresPerUnit ?? 1, { value: dynamic } = b2.b2BodyType.b2_dynamicBody;
@@ -104,13 +105,13 @@ class Box2d3Haptics extends Haptics {
         for (let i = 0; i < manifold.pointCount; ++i) {
             const point = manifold.GetPoint(i), unit = this.metresPerUnit, gap = point.separation * unit, speed = -point.normalVelocity * unit;
             if (point.totalNormalImpulse <= 0 && gap > 0) continue; // near, and not yet there
-            const x = point.point.x * unit, y = point.point.y * unit, { alongA, alongB } = motionAt(a, b, x, y, nx, ny);
+            const x = point.point.x * unit, y = point.point.y * unit, spot = motionAt(a, b, x, y, nx, ny, this.#spot), isAhead = speed > 0;
             const lost = ({ lost = none, ...known }) => (lost.x - lost.angle * (y - known.y)) * nx + (lost.y + lost.angle * (x - known.x)) * ny;
             const turn = known => -known.spin * known.spin * ((x - known.x) * nx + (y - known.y) * ny), squared = speed * speed + 2 * pull * Math.max(0, gap);
-            const when = speed > 0 ? { fraction: this.#fraction(gap + Math.min(0, lost(b) - lost(a)), speed, pull + turn(a) - turn(b), seconds) } : { gap, gapFraction: 0 };
-            this.journal.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, ...when, approach: speed > 0 && squared > 0 ? Math.sqrt(squared) : speed,
-                impulse: Math.max(0, 0.5 * point.totalNormalImpulse * unit), isSoft: 'whole', // it counts a sub-step twice: solved, and relaxed
-                restitution: speed > this.#threshold ? Math.min(1, Math.max(0, bounce)) : 0, point: isRound.includes(true) ? 0 : point.id });
+            this.journal.touch(a.id, b.id, Object.assign(spot, { x, y, normalX: nx, normalY: ny, approach: isAhead && squared > 0 ? Math.sqrt(squared) : speed,
+                fraction: isAhead ? this.#fraction(gap + Math.min(0, lost(b) - lost(a)), speed, pull + turn(a) - turn(b), seconds) : leftOut, gap: isAhead ? leftOut : gap, gapFraction: isAhead ? leftOut : 0,
+                impulse: Math.max(0, 0.5 * point.totalNormalImpulse * unit), // it counts a sub-step twice: solved, and relaxed
+                restitution: speed > this.#threshold ? Math.min(1, Math.max(0, bounce)) : 0, point: isRound.includes(true) ? 0 : point.id }));
         }
     }
 }

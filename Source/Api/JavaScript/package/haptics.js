@@ -79,10 +79,10 @@ export class Haptics {
         const body = this.#bodyOf(thing), key = this.engine.keyOf(body);
         let known = this.#known.get(key);
         if (known === undefined) {
-            const { id = this.#next++, values = {} } = this.#away.get(body) ?? {};
+            const masses = this.engine.massesOf(body), { id = this.#next++, values = {} } = this.#away.get(body) ?? {};
             known = { id, body, values, isStatic: true, isGone: false, isRound: false, isAtRest: false, isOut: false, step: 0, massKg: 0, inertia: 0, gravityScale: 1, x: 0.5, y: 0.5, vx: 0.5, vy: 0.5, spin: 0.5 }; // fractions: engines keep such members without allocating
             known.x = known.y = known.vx = known.vy = known.spin = 0;
-            this.#tell(known, this.engine.massesOf(body));
+            this.#tell(known, masses);
             this.#known.set(key, known);
             this.#away.delete(body);
         }
@@ -241,7 +241,7 @@ export class Haptics {
 }
 
 /** Of a point of contact of two known bodies, normal from a to b: how fast it closes, and how it runs along both surfaces; into `to`, which is returned. */
-export function motionAt(a, b, x, y, nx, ny, to = { approach: 0.5, alongA: 0.5, alongB: 0.5 }) {
+export function motionAt(a, b, x, y, nx, ny, to) {
     const ax = a.vx - a.spin * (y - a.y), ay = a.vy + a.spin * (x - a.x), bx = b.vx - b.spin * (y - b.y), by = b.vy + b.spin * (x - b.x);
     // The point itself goes with a round body's centre, or with the corner of what moves.
     const ux = b.isRound ? b.vx : a.isRound ? a.vx : b.isStatic ? ax : bx, uy = b.isRound ? b.vy : a.isRound ? a.vy : b.isStatic ? ay : by;

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
 // What an attachment observes in a step, in order, as a list of numbers that is told in one call; Step.cpp reads it. Thousands a step are usual, so nothing is allocated.
-export const leftOut = -2e300, unknown = -1e300; // a default; PHYSVIB_UNKNOWN
-const numberOf = value => (value === undefined ? leftOut : value === null ? unknown : value);
-const pointOf = point => (point === 'place' ? -2 : point === 'none' ? -1 : numberOf(point));
+export const leftOut = -2e300; // a default
 const mostOfEntry = 19;
 
-export const byPlace = -2;
-/** A contact of numbers in a plane, which touchAt takes. Engines keep such members without allocating, as long as each is always a number. */
-export const contactOf = () => ({ x: 0.5, y: 0.5, z: leftOut, normalX: 0.5, normalY: 0.5, normalZ: leftOut, impulse: 0.5, approach: 0.5, restitution: 0.5, fraction: leftOut, gap: 0.5, gapFraction: leftOut, alongA: 0.5, alongB: 0.5, soft: 0.5, point: 0 });
+/** Of contactOf(): `point`, and `soft` where the impulse is whole all the same. */
+export const byPlace = -2, whole = 2;
+/** A contact, which World.touch describes, as numbers alone. Engines of JavaScript keep such members without allocating, as long as each is always a number. */
+export const contactOf = () => ({ x: leftOut, y: leftOut, z: leftOut, normalX: leftOut, normalY: leftOut, normalZ: leftOut, impulse: leftOut, approach: leftOut, restitution: leftOut, fraction: leftOut, gap: leftOut, gapFraction: leftOut, alongA: leftOut, alongB: leftOut, soft: leftOut, point: 0 });
 
 export class Journal {
     #numbers = new Float64Array(4096); #count = 0;
 
-    // The place of an entry of that kind; there is room for the largest.
-    #begin(kind, id) {
-        if (this.#count + mostOfEntry > this.#numbers.length) {
+    #makeRoom(count) {
+        while (this.#count + count > this.#numbers.length) {
             const larger = new Float64Array(2 * this.#numbers.length);
             larger.set(this.#numbers);
             this.#numbers = larger;
         }
+    }
+    // The place of an entry of that kind; there is room for the largest.
+    #begin(kind, id) {
+        this.#makeRoom(mostOfEntry);
         const at = this.#count, numbers = this.#numbers;
         numbers[at] = kind;
         numbers[at + 1] = id;
@@ -41,15 +43,8 @@ export class Journal {
         numbers[at + 2] = spin;
         this.#count = at + 3;
     }
-    /** A contact as World.touch takes it. */
+    /** `c`: of contactOf(). */
     touch(a, b, c) {
-        const { isSoft } = c;
-        this.touchAt(a, b, { x: numberOf(c.x), y: numberOf(c.y), z: numberOf(c.z), normalX: numberOf(c.normalX), normalY: numberOf(c.normalY), normalZ: numberOf(c.normalZ), impulse: numberOf(c.impulse),
-            approach: numberOf(c.approach), restitution: numberOf(c.restitution), fraction: numberOf(c.fraction), gap: numberOf(c.gap), gapFraction: numberOf(c.gapFraction), alongA: numberOf(c.alongA),
-            alongB: numberOf(c.alongB), soft: isSoft === 'whole' ? 2 : isSoft === undefined ? leftOut : Number(isSoft), point: pointOf(c.point) });
-    }
-    /** The same of contactOf(). */
-    touchAt(a, b, c) {
         const at = this.#begin(2, a), numbers = this.#numbers;
         numbers[at] = b;
         numbers[at + 1] = c.x;
@@ -90,11 +85,7 @@ export class Journal {
     get place() { return this.#count; }
     copy(place) { return this.#numbers.slice(place, this.#count); }
     again(copy) {
-        while (this.#count + copy.length > this.#numbers.length) {
-            const larger = new Float64Array(2 * this.#numbers.length);
-            larger.set(this.#numbers);
-            this.#numbers = larger;
-        }
+        this.#makeRoom(copy.length);
         this.#numbers.set(copy, this.#count);
         this.#count += copy.length;
     }

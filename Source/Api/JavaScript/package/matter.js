@@ -12,7 +12,7 @@ const massesOf = unit => body => (body.isStatic || !Number.isFinite(body.mass)
 const bodyOf = thing => (thing?.type === 'body' ? thing.parent ?? thing : thing?.body?.type === 'body' ? bodyOf(thing.body) : undefined);
 
 class MatterHaptics extends Haptics {
-    #engine; #handlers; #seconds = 0; #there = new Set(); #byNumber = []; #step = 0; #meeting = []; #spot = Object.assign(contactOf(), { impulse: leftOut, soft: leftOut, gapFraction: 1 });
+    #engine; #handlers; #seconds = 0; #there = new Set(); #byNumber = []; #step = 0; #meeting = []; #spot = Object.assign(contactOf(), { gapFraction: 1 });
 
     constructor(physvib, engine, { metresPerUnit = 0.01, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
         const height = fieldHeight ?? fieldWidth;
@@ -118,7 +118,7 @@ class MatterHaptics extends Haptics {
             spot.y = -vertex.y * unit;
             motionAt(a, b, spot.x, spot.y, spot.normalX, spot.normalY, spot);
             spot.approach = leftOut;
-            this.journal.touchAt(a.id, b.id, spot);
+            this.journal.touch(a.id, b.id, spot);
         }
     }
 }

@@ -10,7 +10,7 @@ const listed = first => {
 };
 
 class PlanckHaptics extends Haptics {
-    #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #step = 0; #looks = new Map(); #manifold = null; #spot = Object.assign(contactOf(), { soft: leftOut });
+    #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #step = 0; #looks = new Map(); #manifold = null; #spot = contactOf();
 
     constructor(physvib, engine, options) {
         const unit = options.metresPerUnit ?? 1;
@@ -123,7 +123,7 @@ class PlanckHaptics extends Haptics {
             spot.alongB = numbers[from++];
             spot.gap = numbers[from++];
             spot.impulse = normalImpulses[i] * unit - load / count;
-            this.journal.touchAt(a.id, b.id, spot);
+            this.journal.touch(a.id, b.id, spot);
         }
         look.isNew = false;
     }

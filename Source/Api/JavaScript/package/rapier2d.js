@@ -226,7 +226,7 @@ export class RapierHaptics extends Haptics {
             spot.restitution = bounce;
             spot.point = a.isRound || b.isRound ? 0 : byPlace;
             meet(spot, (this.#fall(a) - this.#fall(b)) * turn * this.product(this.#gravity, m) * unit, seconds);
-            this.journal.touchAt(a.id, b.id, spot);
+            this.journal.touch(a.id, b.id, spot);
         }
     };
 }

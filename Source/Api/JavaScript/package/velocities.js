@@ -4,18 +4,19 @@
 import { apart, between, copy, eachNear, putWalls, skin, stateOf } from './boxes.js';
 import { PhysVibError } from './module.js';
 import { expectEngine, Haptics, motionAt } from './haptics.js';
+import { contactOf, leftOut } from './journal.js';
 
 const none = {};
 
 const pairOf = (a, b) => Math.min(a, b) * 2 ** 26 + Math.max(a, b);
 
 class VelocityHaptics extends Haptics {
-    #engine; #turn; #there = new Map(); #order = []; #turns = 0; #told = []; #walls = [{}, {}, {}, {}]; #seconds = 0; #was = new Set(); #touching = new Set(); #before = {}; #after = {};
+    #engine; #turn; #there = new Map(); #order = []; #turns = 0; #told = []; #walls = [{}, {}, {}, {}]; #seconds = 0; #was = new Set(); #touching = new Set(); #before = {}; #after = {}; #spot = Object.assign(contactOf(), { gapFraction: 0 });
 
     constructor(physvib, engine, { metresPerUnit = 0.01, yDown = true, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
         const height = fieldHeight ?? fieldWidth;
         super(physvib, {
-            bodyOf: thing => { const body = engine.bodyOf ? engine.bodyOf(thing) : thing; return body !== null && typeof body === 'object' && this.#isRead(body) ? body : undefined; },
+            bodyOf: thing => { const body = engine.bodyOf ? engine.bodyOf(thing) : thing; return body !== null && typeof body === 'object' ? body : undefined; },
             keyOf: body => body, massesOf: body => { const { massKg, gravityScale } = this.#there.get(body) ?? this.#read(body, this.#newState(body)); return { massKg, inertia: 0, gravityScale }; },
             isThere: body => this.#there.has(body), bodies: () => this.#there.keys(), look: () => ({ filters: [] }),
         }, { metresPerUnit, fieldWidth, fieldHeight: height, fieldY: yDown ? -(fieldY ?? height) : fieldY, ...settings });
@@ -24,16 +25,11 @@ class VelocityHaptics extends Haptics {
         this.look();
     }
 
-    // A thing without a body, which `read` can not read, is told to who sets it, and ends nothing.
-    #isRead(body) {
-        if (this.#there.has(body) || this.#walls.includes(body)) return true;
-        try { this.#engine.read(body, {}); } catch { return false; }
-        return true;
-    }
     #newState(body) {
         const state = stateOf(), given = {};
         if (!this.#walls.includes(body)) {
-            this.#engine.read(body, given);
+            // As a thing without a body does: who sets it is told.
+            try { this.#engine.read(body, given); } catch (error) { throw new PhysVibError(-2, `body: expected one of the engine's, found ${body.constructor?.name} (read: ${error.message})`); }
             for (const name of ['x', 'y', 'vx', 'vy']) if (typeof given[name] !== 'number') throw new PhysVibError(-2, `attachVelocities: expected that read gives x, y, vx and vy, found ${name}: ${given[name]}`);
         }
         state.body = body;
@@ -129,8 +125,14 @@ class VelocityHaptics extends Haptics {
         const isMet = parting + closing > 1e-3 && Math.min(before.gap, after.gap) < skin + this.#seconds * Math.max(0, closing, parting), key = pairOf(a.id, b.id);
         if (!normal && !isMet && !(this.#was.has(key) && Math.min(before.gap, after.gap) < skin)) return;
         this.#touching.add(key);
-        const place = x === undefined ? between(stateA, stateB, nx, ny) : { x: x * unit, y: y * unit * this.#turn }, { alongA, alongB } = motionAt(a, b, place.x, place.y, nx, ny);
-        this.journal.touch(a.id, b.id, { ...place, normalX: nx, normalY: ny, alongA, alongB, gap: Math.max(0, before.gap), gapFraction: 0, point: 0 });
+        const place = x === undefined ? between(stateA, stateB, nx, ny) : { x: x * unit, y: y * unit * this.#turn }, spot = motionAt(a, b, place.x, place.y, nx, ny, this.#spot);
+        spot.x = place.x;
+        spot.y = place.y;
+        spot.normalX = nx;
+        spot.normalY = ny;
+        spot.gap = Math.max(0, before.gap);
+        spot.approach = leftOut;
+        this.journal.touch(a.id, b.id, spot);
     }
 }
 
