@@ -70,9 +70,8 @@ TEST(Desk, ATestPulseIsOnItsActuatorAloneInSpaceToo) {
 
 TEST(Desk, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
     Desk desk{onlyNoDevice(), noDevice};
-    desk.change("Ceiling of A", [](Mix& mix) { mix.strips[0].ceilingDb = -30.0; });
-    // After the ceiling: else the world's own hits between both are held as the highest.
     desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+    desk.change("Ceiling of A", [](Mix& mix) { mix.strips[0].ceilingDb = -30.0; });
     for (int k = 0; k < 4; ++k) desk.strikes().testPulse(0); // 2 of full scale together
     float highest = 0.0f;
     ASSERT_TRUE(runUntil([&] {
