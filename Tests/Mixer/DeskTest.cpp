@@ -72,6 +72,9 @@ TEST(Desk, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
     Desk desk{onlyNoDevice(), noDevice};
     desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
     desk.change("Ceiling of A", [](Mix& mix) { mix.strips[0].ceilingDb = -30.0; });
+    // A session that plays already lowers a ceiling in a ramp of 10 ms.
+    const auto changedNs = desk.saved().log.channels.back().timeNs;
+    ASSERT_TRUE(runUntil([&] { return desk.look().sessionNs > changedNs + 100'000'000; }));
     for (int k = 0; k < 4; ++k) desk.strikes().testPulse(0); // 2 of full scale together
     float highest = 0.0f;
     ASSERT_TRUE(runUntil([&] {
