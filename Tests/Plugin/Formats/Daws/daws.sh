@@ -1,0 +1,115 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Exports of qtractor and MuSE, driven by keys and pointer under Xvfb: three of the plug-in on a stereo track, as a new instance is (Keys), and one of a probe
+# that answers when the host plays its notes. The exports are to be equal, and each note as late as is told.
+# Usage: daws.sh BUILD_FOLDER FOLDER [qtractor|muse]...
+set -eu
+build=$(realpath "$1") here=$(realpath "$(dirname "$0")")
+mkdir -p "$2"
+folder=$(realpath "$2")
+shift 2
+. "$here/../../../../.ci/packages.sh"
+# shellcheck disable=SC2086 # a list of words
+ensure_packages $physvib_daw_packages
+told=47 # frames: the limiter's (Docs/plugin-time.md)
+uri=urn:physvib:plugin:2
+export HOME="$folder" XDG_RUNTIME_DIR="$folder" JACK_NO_AUDIO_RESERVATION=1 JACK_DEFAULT_SERVER=physvib-daws DISPLAY=:77 LV2_PATH="$folder/lv2" QT_QPA_PLATFORM=xcb
+mkdir -p "$folder/lv2/onset-probe.lv2"
+gcc -shared -fPIC -O2 -o "$folder/lv2/onset-probe.lv2/onset-probe.so" "$here/onset-probe.c"
+cp "$here/onset-probe.ttl" "$folder/lv2/onset-probe.lv2/manifest.ttl"
+gcc -shared -fPIC -o "$folder/alsa-sequencer.so" "$here/alsa-sequencer.c"
+ln -sfn "$build/plugins/PhysVib-2.lv2" "$folder/lv2/PhysVib-2.lv2"
+daws() { /usr/bin/python3 "$here/daws.py" "$@"; }
+
+started=''
+trap 'kill $started 2>/dev/null || :' EXIT
+trap 'exit 1' HUP INT TERM
+background() {
+    "$@" >>"$folder/log" 2>&1 &
+    started="$started $!"
+}
+background Xvfb $DISPLAY -screen 0 1400x900x24
+sleep 1
+background openbox
+background jackd -n $JACK_DEFAULT_SERVER -d dummy -r 48000 -p 1024
+sleep 2
+
+window() { # TITLE: waits for it, and prints its number
+    for _ in $(seq 60); do
+        xdotool search --onlyvisible --name "$1" 2>/dev/null | tail -n 1 | grep . && return
+        sleep 0.5
+    done
+    import -window root "$folder/no-window.png"
+    say "expected a window \"$1\"; the screen is $folder/no-window.png" && exit 1
+}
+press() { for key in "$@"; do xdotool key "$key" && sleep 0.5; done; }
+click() { xdotool mousemove --window "$1" "$2" "$3" click 1 && sleep 0.7; }
+written() { # FILE: waits until it grows no more
+    last=0
+    for _ in $(seq 60); do
+        sleep 1
+        size=$(stat -c %s "$1" 2>/dev/null || echo 0)
+        [ "$size" -gt 1000000 ] && [ "$size" = "$last" ] && return
+        last=$size
+    done
+    import -window root "$folder/no-file.png"
+    say "$1: expected an export; the screen is $folder/no-file.png" && exit 1
+}
+
+export_from_qtractor() { # SESSION FILE
+    LD_PRELOAD="$folder/alsa-sequencer.so" qtractor "$1" >>"$folder/log" 2>&1 &
+    daw=$!
+    main=$(window '[.]qtr')
+    sleep 3
+    xdotool windowfocus --sync "$main"
+    press alt+t x a
+    dialog=$(window 'Export Audio Tracks')
+    sleep 1
+    press ctrl+a
+    xdotool type "$2" && sleep 0.5
+    click "$dialog" 176 93 # the sample format: float
+    press f Return
+    click "$dialog" 263 147 # the bus
+    click "$dialog" 296 345 # OK
+    written "$2"
+    kill -9 $daw
+}
+export_from_muse() {
+    muse "$1" >>"$folder/log" 2>&1 &
+    daw=$!
+    window 'MusE Project' >/dev/null
+    for _ in $(seq 10); do # what it says and asks first
+        asked=$(xdotool search --onlyvisible --name 'Did you know|Instrument initialization' | tail -n 1)
+        [ -z "$asked" ] || { xdotool windowfocus "$asked" && press Escape; } || :
+        sleep 0.7
+    done
+    main=$(window 'MusE Project')
+    xdotool windowfocus --sync "$main"
+    press alt+a Down Return
+    dialog=$(window 'Set Downmix Wavefile')
+    sleep 1
+    click "$dialog" 355 26 # a file
+    sleep 2
+    xdotool type "$2" && sleep 0.5
+    press Return
+    click "$dialog" 297 57 # the format: the last
+    press End Return
+    click "$dialog" 243 90 # OK
+    written "$2"
+    kill -9 $daw
+}
+
+for daw in "${@:-qtractor muse}"; do
+    for name in $daw; do
+        extension=qtr
+        [ "$name" = qtractor ] || extension=med
+        mkdir -p "$folder/$name"
+        rm -f "$folder/$name"/*.wav
+        daws session "$name" "$folder/$name/probe.$extension" urn:physvib:test:onset-probe 'Onset probe LV2'
+        daws session "$name" "$folder/$name/physvib.$extension" $uri 'PhysVib-2 LV2'
+        export_from_"$name" "$folder/$name/probe.$extension" "$folder/$name/probe.wav"
+        for i in 1 2 3; do export_from_"$name" "$folder/$name/physvib.$extension" "$folder/$name/export-$i.wav"; done
+        echo "$name"
+        daws compare $told "$folder/$name/probe.wav" "$folder/$name"/export-?.wav
+    done
+done
