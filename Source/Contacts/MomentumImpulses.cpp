@@ -17,6 +17,7 @@ void MomentumImpulses::clear() {
     bodies_.clear();
     bodyOf_.clear();
     points_.clear();
+    isInPlane_ = true;
 }
 
 std::int32_t MomentumImpulses::know(const FedBodies& bodies, std::int32_t id) {
@@ -45,35 +46,57 @@ std::size_t MomentumImpulses::add(const FedBodies& bodies, std::int32_t a, std::
     };
     made.perNewtonSecond = ease(made.a, made.leverA) + ease(made.b, made.leverB);
     made.change = bodies.approach(a, b, point, normal) - bodies.approachAfter(a, b, point, normal);
+    isInPlane_ = isInPlane_ && isInPlane(made);
     points_.push_back(made);
     return points_.size() - 1;
 }
 
-// Speed of the body's point along the normal.
-double MomentumImpulses::along(const Body& body, Vector3 normal, Vector3 lever) noexcept {
-    const auto product = [](const std::array<double, 3>& of, Vector3 by) {
-        return of[0] * static_cast<double>(by.x) + of[1] * static_cast<double>(by.y) +
-               of[2] * static_cast<double>(by.z);
+bool MomentumImpulses::isInPlane(const Point& point) const {
+    const auto turnsInPlane = [&](std::int32_t body, Vector3 lever) {
+        if (body == none) return true;
+        const InverseInertia& turning = bodies_[static_cast<std::size_t>(body)].turning;
+        return lever.x == 0.0F && lever.y == 0.0F && turning.xz == 0.0 && turning.yz == 0.0;
     };
-    return product(body.velocity, normal) + product(body.spin, lever);
+    return point.normal.z == 0.0F && turnsInPlane(point.a, point.leverA) &&
+           turnsInPlane(point.b, point.leverB);
 }
 
+// Speed of the body's point along the normal.
+template <bool inPlane>
+double MomentumImpulses::along(const Body& body, Vector3 normal, Vector3 lever) noexcept {
+    const auto& v = body.velocity;
+    const auto& w = body.spin;
+    const double sideways = v[0] * static_cast<double>(normal.x) + v[1] * static_cast<double>(normal.y);
+    const double turned = w[2] * static_cast<double>(lever.z);
+    if constexpr (inPlane) return sideways + turned;
+    return sideways + v[2] * static_cast<double>(normal.z) +
+           (w[0] * static_cast<double>(lever.x) + w[1] * static_cast<double>(lever.y) + turned);
+}
+
+template <bool inPlane>
 double MomentumImpulses::found(const Point& point) const {
+    const auto of = [&](std::int32_t body, Vector3 lever) {
+        return along<inPlane>(bodies_[static_cast<std::size_t>(body)], point.normal, lever);
+    };
     double sum = 0.0;
-    if (point.a != none) sum -= along(bodies_[static_cast<std::size_t>(point.a)], point.normal, point.leverA);
-    if (point.b != none) sum += along(bodies_[static_cast<std::size_t>(point.b)], point.normal, point.leverB);
+    if (point.a != none) sum -= of(point.a, point.leverA);
+    if (point.b != none) sum += of(point.b, point.leverB);
     return sum;
 }
 
+template <bool inPlane>
 void MomentumImpulses::push(const Point& point, double newtonSeconds) {
     const auto on = [&](std::int32_t which, double impulse, Vector3 lever) {
         if (which == none) return;
         Body& body = bodies_[static_cast<std::size_t>(which)];
-        const float normal[] = {point.normal.x, point.normal.y, point.normal.z};
-        const std::array<double, 3> spin = body.turning.spin(impulse, lever);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            body.velocity[axis] += impulse * body.perKg * static_cast<double>(normal[axis]);
-            body.spin[axis] += spin[axis];
+        body.velocity[0] += impulse * body.perKg * static_cast<double>(point.normal.x);
+        body.velocity[1] += impulse * body.perKg * static_cast<double>(point.normal.y);
+        if constexpr (inPlane) {
+            body.spin[2] += impulse * body.turning.zz * static_cast<double>(lever.z);
+        } else {
+            body.velocity[2] += impulse * body.perKg * static_cast<double>(point.normal.z);
+            const std::array<double, 3> spin = body.turning.spin(impulse, lever);
+            for (std::size_t axis = 0; axis < 3; ++axis) body.spin[axis] += spin[axis];
         }
     };
     on(point.a, -newtonSeconds, point.leverA);
@@ -81,14 +104,22 @@ void MomentumImpulses::push(const Point& point, double newtonSeconds) {
 }
 
 void MomentumImpulses::solve() {
+    if (isInPlane_)
+        sweep<true>();
+    else
+        sweep<false>();
+}
+
+template <bool inPlane>
+void MomentumImpulses::sweep() {
     for (int sweep = 0; sweep < mostMomentumSweeps; ++sweep) {
         double change = 0.0, strongest = 0.0;
         for (Point& point : points_) {
             if (!(point.perNewtonSecond > 0.0)) continue;
             const double before = point.newtonSeconds;
             point.newtonSeconds =
-                std::max(0.0, before + (point.change - found(point)) / point.perNewtonSecond);
-            push(point, point.newtonSeconds - before);
+                std::max(0.0, before + (point.change - found<inPlane>(point)) / point.perNewtonSecond);
+            push<inPlane>(point, point.newtonSeconds - before);
             change = std::max(change, std::abs(point.newtonSeconds - before));
             strongest = std::max(strongest, point.newtonSeconds);
         }

@@ -40,11 +40,19 @@ private:
         double change;                  // m/s by which the contact has reduced the approach speed
         double perNewtonSecond, newtonSeconds;
     };
-    static double along(const Body& body, Vector3 normal, Vector3 lever) noexcept;
     std::int32_t know(const FedBodies& bodies, std::int32_t id);
+    bool isInPlane(const Point& point) const;
+    // `inPlane` leaves out what is 0 there.
+    template <bool inPlane>
+    static double along(const Body& body, Vector3 normal, Vector3 lever) noexcept;
+    template <bool inPlane>
     double found(const Point& point) const;
+    template <bool inPlane>
     void push(const Point& point, double newtonSeconds);
+    template <bool inPlane>
+    void sweep();
 
+    bool isInPlane_ = true; // all points: normals along x and y, spin about z alone
     std::vector<Body> bodies_;
     IntegerMap bodyOf_; // by FedBodies::nameOf()
     std::vector<Point> points_;
