@@ -16,7 +16,7 @@ failed=0
 
 # needs WHAT LIBRARY KNOWN-LIST: the names that LIBRARY needs, all of them known.
 needs() {
-    printf '%s needs %s\n' "${2##*/}" "$(printf '%s ' $1)"
+    printf '%s needs %s\n' "${2##*/}" "$(echo "$1" | xargs)"
     for name in $1; do
         case " $3 " in *" $name "*) ;; *) printf 'WRONG: %s is not of the system\n' "$name" && failed=1 ;; esac
     done

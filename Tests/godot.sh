@@ -3,7 +3,7 @@
 # The addon in Godot itself, headless: a bouncing ball in three engines at four tick rates, the ten acts of
 # Tests/Engines, what games do to a world, what each tick costs, the demos, one of them exported, and the editor.
 # Debian 12 has no Godot 4: a tree of Debian's unstable is made in FOLDER, or used if it is there (1.9 GB). Needs root,
-# debootstrap and a network. Pictures of the editor, to be looked at, are left in FOLDER/editor.
+# debootstrap and a network, and builds what it plays and records with in BUILD. Pictures of the editor, to be looked at, are left in FOLDER/editor.
 # Usage: Tests/godot.sh BUILD FOLDER
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -28,11 +28,11 @@ godot() { within physvib godot --headless "$@"; }
 godot --dump-gdextension-interface >"$project/log"
 trap 'cmake -UPHYSVIB_GODOT_HEADER "$build" >/dev/null' EXIT # who builds next wants no header of this tree
 cmake -DPHYSVIB_GODOT_HEADER="$project" "$build" >>"$project/log"
-cmake --build "$build" --target physvib-godot >>"$project/log" || { cat "$project/log" && exit 1; }
+cmake --build "$build" --target physvib-godot physvib physvib-jack-recorder physvib-compare-recording >>"$project/log" || { cat "$project/log" && exit 1; }
 cp -r "$build/godot/addons" "$root"/Tests/Godot/. "$project"
 rm -r "$project/Editor"
 # What this Debian has in other versions than the tree: beside it, as a game would bring it.
-ldd "$build"/godot/addons/physvib/bin/*.so* | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | sort -u | while read -r library; do
+ldd "$build"/godot/addons/physvib/bin/linux.x86_64/* | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | sort -u | while read -r library; do
     [ -e "$tree/usr/lib/x86_64-linux-gnu/${library##*/}" ] || cp -L "$library" "$project/libraries"
 done
 rm -f "$project"/libraries/libphysvib* "$project"/libraries/libhwy.so*
@@ -80,16 +80,15 @@ done
 godot -s orders.gd --fixed-fps 60 -- changes=2000 >"$project/out" 2>&1 || failed=1
 grep -E '^[0-9]+ (orders|scenes)' "$project/out" || failed=1
 godot -s motors.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1
-PYTHONPATH=$root/Source/Api/Python PYTHONDONTWRITEBYTECODE=1 PHYSVIB_LIBRARY=$build/godot/addons/physvib/bin/libphysvib.so.0 /usr/bin/python3 "$root/Tests/Godot/motors.py" "$project/out" || failed=1
+PYTHONPATH=$root/Source/Api/Python PYTHONDONTWRITEBYTECODE=1 PHYSVIB_LIBRARY=$build/godot/addons/physvib/bin/linux.x86_64/libphysvib.so.0 /usr/bin/python3 "$root/Tests/Godot/motors.py" "$project/out" || failed=1
 # A JACK server of the tree, a recorder of its outputs, and the session that the world has written, rendered here.
-if [ -x "$build/bin/physvib-jack-recorder" ] && [ -x "$build/bin/physvib" ]; then
-    cp "$build/bin/physvib-jack-recorder" "$root/Tests/Godot/played.sh" "$project"
-    unshare -m sh -c 'mount -t tmpfs none "$0/dev/shm" && mount -t proc proc "$0/proc" && exec chroot "$0" sh /physvib/played.sh' "$tree" >"$project/out" 2>&1 || { cat "$project/out" && failed=1; }
-    # The game ends after five seconds, and fades out what still rings.
-    "$build/bin/physvib" render "$project/played.json" --seconds 4.5 --out "$project/played.wav" >"$project/log"
-    tail -c +"$(($(grep -abo data "$project/played.wav" | head -n 1 | cut -d: -f1) + 9))" "$project/played.wav" >"$project/expected.raw"
-    "$build/bin/physvib-compare-recording" "$project/live.raw" "$project/expected.raw" 4 256 "$(sed -n 's/xruns //p' "$project/ready")" || failed=1
-fi
+cp "$build/bin/physvib-jack-recorder" "$root/Tests/Godot/played.sh" "$project"
+# shellcheck disable=SC2016 # for the inner shell
+unshare -m sh -c 'mount -t tmpfs none "$0/dev/shm" && mount -t proc proc "$0/proc" && exec chroot "$0" sh /physvib/played.sh' "$tree" >"$project/out" 2>&1 || { cat "$project/out" && failed=1; }
+# The game ends after five seconds, and fades out what still rings.
+"$build/bin/physvib" render "$project/played.json" --seconds 4.5 --out "$project/played.wav" >"$project/log"
+tail -c +"$(($(grep -abo data "$project/played.wav" | head -n 1 | cut -d: -f1) + 9))" "$project/played.wav" >"$project/expected.raw"
+"$build/bin/physvib-compare-recording" "$project/live.raw" "$project/expected.raw" 4 256 "$(sed -n 's/xruns //p' "$project/ready")" || failed=1
 for demo in "$project"/addons/physvib/demos/*.tscn; do
     name=${demo##*/}
     godot -s "demos.gd" --fixed-fps 60 -- "demo=res://addons/physvib/demos/$name" >"$project/out" 2>&1 || failed=1

@@ -26,7 +26,8 @@ rm -rf "$work/addons" "$work"/*.zip
 cp -r build/release/godot/addons "$work"
 bin=$work/addons/physvib/bin
 strip --strip-unneeded "$bin"/linux.*/*
-roots=""
+# shellcheck disable=SC2034 # roots and targets: for cross.sh
+roots="" targets=physvib-godot
 for system in "$@"; do
     case $system in
     arm64) strip=aarch64-linux-gnu-strip ;;
@@ -36,7 +37,6 @@ for system in "$@"; do
     # shellcheck disable=SC2086 # a list of words
     ensure_packages $physvib_cross_packages
     folder=build/$system
-    targets=physvib-godot
     mkdir -p "$folder"
     . Tests/Cross/cross.sh
     libraries
