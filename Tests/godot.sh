@@ -3,7 +3,8 @@
 # The addon in Godot itself, headless: a bouncing ball in three engines at four tick rates, the ten acts of
 # Tests/Engines, what games do to a world, what each tick costs, the demos, one of them exported, and the editor.
 # Debian 12 has no Godot 4: a tree of Debian's unstable is made in FOLDER, or used if it is there (1.9 GB). Needs root,
-# debootstrap and a network, and builds what it plays and records with in BUILD. Pictures of the editor, to be looked at, are left in FOLDER/editor.
+# debootstrap and a network, and builds what it plays and records with in BUILD. Pictures of the editor and the demos, to be looked at, are
+# left in FOLDER/editor and FOLDER/physvib/pictures.
 # Usage: Tests/godot.sh BUILD FOLDER
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -16,7 +17,7 @@ if [ ! -x "$tree/usr/bin/godot-template-release" ]; then
 fi
 project=$tree/physvib
 rm -rf "$project" "$tree/editor"
-mkdir -p "$project/libraries" "$tree/editor"
+mkdir -p "$project/libraries" "$project/pictures" "$tree/editor"
 # within FOLDER COMMAND...: in a folder of the tree, which has a /proc meanwhile.
 within() {
     # shellcheck disable=SC2016 # for the inner shells
@@ -24,6 +25,12 @@ within() {
         sh -c 'cd "$HOME" && shift && exec timeout 600 "$@"' sh "$@"
 }
 godot() { within physvib godot --headless "$@"; }
+# drawn FOLDER WORD...: Godot with a window, which no screen shows.
+drawn() {
+    folder=$1
+    shift
+    within "$folder" xvfb-run -a -s "-screen 0 1500x900x24" godot --rendering-driver opengl3 --audio-driver Dummy "$@"
+}
 
 godot --dump-gdextension-interface >"$project/log"
 trap 'cmake -UPHYSVIB_GODOT_HEADER "$build" >/dev/null' EXIT # who builds next wants no header of this tree
@@ -94,6 +101,8 @@ for demo in "$project"/addons/physvib/demos/*.tscn; do
     godot -s "demos.gd" --fixed-fps 60 -- "demo=res://addons/physvib/demos/$name" >"$project/out" 2>&1 || failed=1
     grep "^$name: [1-9][0-9]* hits" "$project/out" || { cat "$project/out" && failed=1; }
     ! grep -q "SCRIPT ERROR" "$project/out" || { cat "$project/out" && failed=1; }
+    drawn physvib -s pictures.gd --fixed-fps 60 -- "demo=res://addons/physvib/demos/$name" ticks=200 >"$project/out" 2>&1 || failed=1
+    grep "^picture of" "$project/out" || { cat "$project/out" && failed=1; }
 done
 
 # A release of the shaken box, elsewhere.
@@ -122,7 +131,7 @@ printf '#!/bin/sh\nexec unshare -m sh -c '\''mount -t proc proc "$0/proc" && exe
 python3 "$root/Tests/Godot/acts.py" "$project" sh "$run" || failed=1
 
 within editor godot --headless --import --frame-delay 1000 >"$tree/editor/log" 2>&1
-within editor xvfb-run -a -s "-screen 0 1500x900x24" godot --editor --path /editor --rendering-driver opengl3 --resolution 1500x900 --audio-driver Dummy >>"$tree/editor/log" 2>&1 ||
-    within editor xvfb-run -a -s "-screen 0 1500x900x24" godot --editor --path /editor --rendering-driver opengl3 --resolution 1500x900 --audio-driver Dummy >>"$tree/editor/log" 2>&1 || failed=1
+look() { drawn editor --editor --path /editor --resolution 1500x900 >>"$tree/editor/log" 2>&1; }
+look || look || failed=1
 grep "^dragged: \[(60.0, 40.0)" "$tree/editor/log" || failed=1
 exit $failed

@@ -11,7 +11,7 @@ struct Phrase {
     std::string_view inC, inGodot;
 };
 
-constexpr std::string_view ours = "please report this as a fault of the addon"; // no scene is to blame
+constexpr std::string_view ours = "please report this as an error of the addon"; // no scene is to blame
 
 // Where a phrase is the beginning of another, the longer one comes first.
 constexpr std::array phrases{
