@@ -1,16 +1,25 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The addon for Godot on other systems: Linux arm64 and 64-bit Windows, cross-built; what each library needs of its system,
-# what it shows, and its entry called under qemu and Wine. Takes a header of Godot (Tests/godot.sh leaves FOLDER/physvib).
-# Usage: Tests/godot-cross.sh HEADER-FOLDER
+# what it shows, and its entry called under qemu and Wine. On arm64 also in Godot itself: Debian's, unpacked in FOLDER (0.8 GB), under qemu.
+# Needs root, debootstrap and a network.
+# Usage: Tests/godot-cross.sh FOLDER
 set -eu
-header=$(cd "$1" && pwd)/gdextension_interface.h
+mkdir -p "$1"
+tree=$(cd "$1" && pwd)
 cd "$(dirname "$0")/.."
+. .ci/packages.sh
+# shellcheck disable=SC2086 # a list of words
+ensure_packages $physvib_cross_packages debootstrap
+if [ ! -e "$tree/usr/bin/godot" ]; then
+    debootstrap --arch=arm64 --foreign --variant=minbase --include=godot sid "$tree" >"$tree.log"
+    for deb in "$tree"/var/cache/apt/archives/*.deb; do dpkg-deb -x "$deb" "$tree"; done
+fi
 mkdir -p build/godot
-godot=build/godot/header-of-godot
-printf '#!/bin/sh\ncp "%s" .\n' "$header" >$godot
-chmod +x $godot
-Source/Api/Godot/build-addon.sh $godot arm64 windows
+godot=$PWD/build/godot/godot-arm64
+printf '#!/bin/sh\nexec qemu-aarch64 -L "%s" "%s/usr/bin/godot" "$@"\n' "$tree" "$tree" >"$godot"
+chmod +x "$godot"
+Source/Api/Godot/build-addon.sh "$godot" arm64 windows
 bin=build/godot/addons/physvib/bin
 failed=0
 
@@ -48,4 +57,16 @@ trap 'wineserver -k >/dev/null 2>&1 || true' EXIT
 printf 'windows: '
 wine build/godot/load.exe "$(winepath -w "$bin/windows.x86_64/libphysvib-godot.dll" 2>/dev/null)" 2>build/godot/said || failed=1
 grep -q "expected Godot 4.4 or newer" build/godot/said || failed=1
+
+project=build/godot/project
+rm -rf "$project"
+mkdir -p "$project"
+cp -r build/godot/addons Tests/Godot/. "$project"
+rm -r "$project/Editor"
+export HOME="$PWD/$project"
+timeout 600 "$godot" --headless --path "$project" --import --frame-delay 1000 >"$project/log" 2>&1
+for space in 2 3; do
+    timeout 600 "$godot" --headless --path "$project" -s bounce.gd --fixed-fps 60 -- space=$space hz=60 ball >"$project/out" 2>&1 || failed=1
+    sed -n 's/^| /| arm64, /p' "$project/out" | grep . || { cat "$project/out" && failed=1; }
+done
 exit $failed

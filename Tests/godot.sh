@@ -11,20 +11,9 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "$1" && pwd)
 mkdir -p "$2"
 tree=$(cd "$2" && pwd)
-if [ ! -x "$tree/usr/bin/godot-template-release" ]; then
-    [ -x "$tree/usr/bin/apt-get" ] || debootstrap --variant=minbase sid "$tree" >"$tree.log"
-    chroot "$tree" apt-get install -y --no-install-recommends godot godot-template-release xvfb xauth libgl1-mesa-dri jackd2 >>"$tree.log"
-fi
-project=$tree/physvib
-rm -rf "$project" "$tree/editor"
-mkdir -p "$project/libraries" "$project/pictures" "$tree/editor"
-# within FOLDER COMMAND...: in a folder of the tree, which has a /proc meanwhile.
-within() {
-    # shellcheck disable=SC2016 # for the inner shells
-    unshare -m sh -c 'mount -t proc proc "$1/proc" && shift 1 && exec chroot "$@"' sh "$tree" "$tree" env HOME="/$1" LD_LIBRARY_PATH="/$1/libraries" \
-        sh -c 'cd "$HOME" && shift && exec timeout 600 "$@"' sh "$@"
-}
-godot() { within physvib godot --headless "$@"; }
+# shellcheck source=Tests/Godot/tree.sh
+. "$root/Tests/Godot/tree.sh"
+make_tree
 # drawn FOLDER WORD...: Godot with a window, which no screen shows.
 drawn() {
     folder=$1
@@ -32,20 +21,11 @@ drawn() {
     within "$folder" xvfb-run -a -s "-screen 0 1500x900x24" godot --rendering-driver opengl3 --audio-driver Dummy "$@"
 }
 
-godot --dump-gdextension-interface >"$project/log"
-trap 'cmake -UPHYSVIB_GODOT_HEADER "$build" >/dev/null' EXIT # who builds next wants no header of this tree
-cmake -DPHYSVIB_GODOT_HEADER="$project" "$build" >>"$project/log"
-cmake --build "$build" --target physvib-godot physvib physvib-jack-recorder physvib-compare-recording >>"$project/log" || { cat "$project/log" && exit 1; }
-cp -r "$build/godot/addons" "$root"/Tests/Godot/. "$project"
-rm -r "$project/Editor"
-# What this Debian has in other versions than the tree: beside it, as a game would bring it.
-ldd "$build"/godot/addons/physvib/bin/linux.x86_64/* | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | sort -u | while read -r library; do
-    [ -e "$tree/usr/lib/x86_64-linux-gnu/${library##*/}" ] || cp -L "$library" "$project/libraries"
-done
-rm -f "$project"/libraries/libphysvib* "$project"/libraries/libhwy.so*
+fill_project physvib physvib-jack-recorder physvib-compare-recording
+rm -rf "$tree/editor"
+mkdir -p "$tree/editor"
 cp -r "$project/addons" "$project/libraries" "$root"/Tests/Godot/Editor/. "$tree/editor"
 rm -r "$tree/editor/addons/physvib/demos"
-godot --import --frame-delay 1000 >>"$project/log" 2>&1 # without a delay Godot crashes (godot 111048)
 
 failed=0
 echo "| engine | ticks/s | onset, ms | strength, % | hits | |"
