@@ -3,42 +3,29 @@
 # The addon in Godot itself, headless: a bouncing ball in three engines at four tick rates, the ten acts of
 # Tests/Engines, what games do to a world, what each tick costs, the demos, one of them exported, and the editor.
 # Debian 12 has no Godot 4: a tree of Debian's unstable is made in FOLDER, or used if it is there (1.9 GB). Needs root,
-# debootstrap and a network. Pictures of the editor, to be looked at, are left in FOLDER/editor.
+# debootstrap and a network, and builds what it plays and records with in BUILD. Pictures of the editor and the demos, to be looked at, are
+# left in FOLDER/editor and FOLDER/physvib/pictures.
 # Usage: Tests/godot.sh BUILD FOLDER
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "$1" && pwd)
 mkdir -p "$2"
 tree=$(cd "$2" && pwd)
-if [ ! -x "$tree/usr/bin/godot-template-release" ]; then
-    [ -x "$tree/usr/bin/apt-get" ] || debootstrap --variant=minbase sid "$tree" >"$tree.log"
-    chroot "$tree" apt-get install -y --no-install-recommends godot godot-template-release xvfb xauth libgl1-mesa-dri jackd2 >>"$tree.log"
-fi
-project=$tree/physvib
-rm -rf "$project" "$tree/editor"
-mkdir -p "$project/libraries" "$tree/editor"
-# within FOLDER COMMAND...: in a folder of the tree, which has a /proc meanwhile.
-within() {
-    # shellcheck disable=SC2016 # for the inner shells
-    unshare -m sh -c 'mount -t proc proc "$1/proc" && shift 1 && exec chroot "$@"' sh "$tree" "$tree" env HOME="/$1" LD_LIBRARY_PATH="/$1/libraries" \
-        sh -c 'cd "$HOME" && shift && exec timeout 600 "$@"' sh "$@"
+# shellcheck source=Tests/Godot/tree.sh
+. "$root/Tests/Godot/tree.sh"
+make_tree
+# drawn FOLDER WORD...: Godot with a window, which no screen shows.
+drawn() {
+    folder=$1
+    shift
+    within "$folder" xvfb-run -a -s "-screen 0 1500x900x24" godot --rendering-driver opengl3 --audio-driver Dummy "$@"
 }
-godot() { within physvib godot --headless "$@"; }
 
-godot --dump-gdextension-interface >"$project/log"
-trap 'cmake -UPHYSVIB_GODOT_HEADER "$build" >/dev/null' EXIT # who builds next wants no header of this tree
-cmake -DPHYSVIB_GODOT_HEADER="$project" "$build" >>"$project/log"
-cmake --build "$build" --target physvib-godot >>"$project/log" || { cat "$project/log" && exit 1; }
-cp -r "$build/godot/addons" "$root"/Tests/Godot/. "$project"
-rm -r "$project/Editor"
-# What this Debian has in other versions than the tree: beside it, as a game would bring it.
-ldd "$build"/godot/addons/physvib/bin/*.so* | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | sort -u | while read -r library; do
-    [ -e "$tree/usr/lib/x86_64-linux-gnu/${library##*/}" ] || cp -L "$library" "$project/libraries"
-done
-rm -f "$project"/libraries/libphysvib* "$project"/libraries/libhwy.so*
+fill_project physvib physvib-jack-recorder physvib-compare-recording
+rm -rf "$tree/editor"
+mkdir -p "$tree/editor"
 cp -r "$project/addons" "$project/libraries" "$root"/Tests/Godot/Editor/. "$tree/editor"
 rm -r "$tree/editor/addons/physvib/demos"
-godot --import --frame-delay 1000 >>"$project/log" 2>&1 # without a delay Godot crashes (godot 111048)
 
 failed=0
 echo "| engine | ticks/s | onset, ms | strength, % | hits | |"
@@ -80,21 +67,22 @@ done
 godot -s orders.gd --fixed-fps 60 -- changes=2000 >"$project/out" 2>&1 || failed=1
 grep -E '^[0-9]+ (orders|scenes)' "$project/out" || failed=1
 godot -s motors.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1
-PYTHONPATH=$root/Source/Api/Python PYTHONDONTWRITEBYTECODE=1 PHYSVIB_LIBRARY=$build/godot/addons/physvib/bin/libphysvib.so.0 /usr/bin/python3 "$root/Tests/Godot/motors.py" "$project/out" || failed=1
+PYTHONPATH=$root/Source/Api/Python PYTHONDONTWRITEBYTECODE=1 PHYSVIB_LIBRARY=$build/godot/addons/physvib/bin/linux.x86_64/libphysvib.so.0 /usr/bin/python3 "$root/Tests/Godot/motors.py" "$project/out" || failed=1
 # A JACK server of the tree, a recorder of its outputs, and the session that the world has written, rendered here.
-if [ -x "$build/bin/physvib-jack-recorder" ] && [ -x "$build/bin/physvib" ]; then
-    cp "$build/bin/physvib-jack-recorder" "$root/Tests/Godot/played.sh" "$project"
-    unshare -m sh -c 'mount -t tmpfs none "$0/dev/shm" && mount -t proc proc "$0/proc" && exec chroot "$0" sh /physvib/played.sh' "$tree" >"$project/out" 2>&1 || { cat "$project/out" && failed=1; }
-    # The game ends after five seconds, and fades out what still rings.
-    "$build/bin/physvib" render "$project/played.json" --seconds 4.5 --out "$project/played.wav" >"$project/log"
-    tail -c +"$(($(grep -abo data "$project/played.wav" | head -n 1 | cut -d: -f1) + 9))" "$project/played.wav" >"$project/expected.raw"
-    "$build/bin/physvib-compare-recording" "$project/live.raw" "$project/expected.raw" 4 256 "$(sed -n 's/xruns //p' "$project/ready")" || failed=1
-fi
+cp "$build/bin/physvib-jack-recorder" "$root/Tests/Godot/played.sh" "$project"
+# shellcheck disable=SC2016 # for the inner shell
+unshare -m sh -c 'mount -t tmpfs none "$0/dev/shm" && mount -t proc proc "$0/proc" && exec chroot "$0" sh /physvib/played.sh' "$tree" >"$project/out" 2>&1 || { cat "$project/out" && failed=1; }
+# The game ends after five seconds, and fades out what still rings.
+"$build/bin/physvib" render "$project/played.json" --seconds 4.5 --out "$project/played.wav" >"$project/log"
+tail -c +"$(($(grep -abo data "$project/played.wav" | head -n 1 | cut -d: -f1) + 9))" "$project/played.wav" >"$project/expected.raw"
+"$build/bin/physvib-compare-recording" "$project/live.raw" "$project/expected.raw" 4 256 "$(sed -n 's/xruns //p' "$project/ready")" || failed=1
 for demo in "$project"/addons/physvib/demos/*.tscn; do
     name=${demo##*/}
     godot -s "demos.gd" --fixed-fps 60 -- "demo=res://addons/physvib/demos/$name" >"$project/out" 2>&1 || failed=1
     grep "^$name: [1-9][0-9]* hits" "$project/out" || { cat "$project/out" && failed=1; }
     ! grep -q "SCRIPT ERROR" "$project/out" || { cat "$project/out" && failed=1; }
+    drawn physvib -s pictures.gd --fixed-fps 60 -- "demo=res://addons/physvib/demos/$name" ticks=200 >"$project/out" 2>&1 || failed=1
+    grep "^picture of" "$project/out" || { cat "$project/out" && failed=1; }
 done
 
 # A release of the shaken box, elsewhere.
@@ -123,7 +111,7 @@ printf '#!/bin/sh\nexec unshare -m sh -c '\''mount -t proc proc "$0/proc" && exe
 python3 "$root/Tests/Godot/acts.py" "$project" sh "$run" || failed=1
 
 within editor godot --headless --import --frame-delay 1000 >"$tree/editor/log" 2>&1
-within editor xvfb-run -a -s "-screen 0 1500x900x24" godot --editor --path /editor --rendering-driver opengl3 --resolution 1500x900 --audio-driver Dummy >>"$tree/editor/log" 2>&1 ||
-    within editor xvfb-run -a -s "-screen 0 1500x900x24" godot --editor --path /editor --rendering-driver opengl3 --resolution 1500x900 --audio-driver Dummy >>"$tree/editor/log" 2>&1 || failed=1
+look() { drawn editor --editor --path /editor --resolution 1500x900 >>"$tree/editor/log" 2>&1; }
+look || look || failed=1
 grep "^dragged: \[(60.0, 40.0)" "$tree/editor/log" || failed=1
 exit $failed

@@ -46,7 +46,7 @@ house() {
     prefix=$PWD/$folder/prefix
     say "building the rooms without JUCE (log: $folder/house.log)"
     quietly "$folder/house.log" cmake -S . -B "$folder/house" -G Ninja --toolchain "$PWD/Tests/Cross/$system.cmake" -DCMAKE_BUILD_TYPE=Release \
-        -DCMAKE_FIND_ROOT_PATH="$prefix${roots:+;$roots}" -DPHYSVIB_HOST=OFF -DPHYSVIB_PICTURES=OFF -DPHYSVIB_FIRMWARE=OFF -DPHYSVIB_INSTALL=OFF \
+        -DCMAKE_FIND_ROOT_PATH="$prefix${roots:+;$roots}" -DPHYSVIB_HOST=OFF -DPHYSVIB_PICTURES=OFF -DPHYSVIB_FIRMWARE=OFF -DPHYSVIB_INSTALL=OFF -DPHYSVIB_GODOT_HEADER= \
         -DCMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE=PRE_TEST "$@"
     # shellcheck disable=SC2086 # a list of words
     quietly "$folder/house.log" cmake --build "$folder/house" -j2 --target ${targets:-all}

@@ -215,6 +215,27 @@ func motors():
 	check(rumble.call() == 0, "they rest when the world has gone")
 
 
+func explains():
+	var world := world_of([])
+	var falls: RigidBody2D = box("RigidBody2D", Vector2(500, 500), Vector2(40, 40))
+	falls.can_sleep = false
+	var scene := scene_of([world, falls])
+	await ticks(60)
+	var says := func(words: String):
+		var why: String = world.explain()
+		check(words in why and not "physvib" in why and not "camera" in why, why)
+	says.call("add a HapticBody child")
+	falls.add_child(HapticBody.new())
+	falls.linear_velocity = Vector2(0, -300)
+	await ticks(60)
+	says.call("nothing is wrong")
+	falls.linear_velocity = Vector2(0, -300)
+	world.silent = true
+	await ticks(60)
+	says.call("silent of the world is on")
+	scene.free()
+
+
 func _initialize():
 	await ticks(2)
 	await two_worlds()
@@ -224,5 +245,6 @@ func _initialize():
 	await shapes()
 	await reopened()
 	await motors()
+	await explains()
 	print("%d wrong" % wrong)
 	quit(1 if wrong else 0)

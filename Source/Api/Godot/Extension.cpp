@@ -4,6 +4,7 @@
 #include "Api/Godot/Worlds.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -13,16 +14,17 @@ namespace {
 const Class* const classes[] = {&hapticMaterialClass, &hapticBodyClass, &hapticWorld2dClass,
                                 &hapticWorld3dClass};
 
-// The editor's help and tooltips, from doc_classes beside the folder of the library.
+// The editor's help and tooltips, from doc_classes beside the folder bin of the library's system.
 void loadHelp() {
     if (api.loadHelp == nullptr) return;
-    Text path;
-    api.libraryPath(api.library, path.get());
+    Text library;
+    api.libraryPath(api.library, library.get());
     const std::string folder =
-        singleton("ProjectSettings").call("globalize_path", path.utf8().c_str()).text();
-    const std::string addon = folder.substr(0, folder.rfind('/', folder.rfind('/') - 1));
+        singleton("ProjectSettings").call("globalize_path", library.utf8().c_str()).text();
+    const std::string addon = folder.substr(0, folder.rfind("/bin/")) + "/doc_classes/";
     for (const Class* type : classes) {
-        std::ifstream file(addon + "/doc_classes/" + type->name + ".xml");
+        const std::string path = addon + type->name + ".xml";
+        std::ifstream file(std::filesystem::path(std::u8string(path.begin(), path.end())));
         const std::string xml((std::istreambuf_iterator<char>(file)), {});
         if (!xml.empty()) api.loadHelp(xml.c_str());
     }
@@ -46,9 +48,15 @@ void stop(void*, GDExtensionInitializationLevel level) {
 
 } // namespace physvib::godot
 
-extern "C" __attribute__((visibility("default"))) GDExtensionBool
-physvib_godot_init(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr library,
-                   GDExtensionInitialization* initialization) {
+#ifdef _WIN32
+#define PHYSVIB_SHOWN __declspec(dllexport)
+#else
+#define PHYSVIB_SHOWN __attribute__((visibility("default")))
+#endif
+
+extern "C" PHYSVIB_SHOWN GDExtensionBool physvib_godot_init(GDExtensionInterfaceGetProcAddress get,
+                                                            GDExtensionClassLibraryPtr library,
+                                                            GDExtensionInitialization* initialization) {
     if (!physvib::godot::lookUp(get, library)) {
         std::fputs(physvib::godot::tooOld, stderr);
         return 0;

@@ -28,9 +28,9 @@ bool HapticWorld::isThere(const Watched& each) const {
 // Bodies that were freed go, those of new HapticBody nodes come, masses are as they are now.
 void HapticWorld::watchAll() {
     for (auto& [id, each] : watched) each.values = nullptr;
-    for (const HapticBody* values : hapticBodies())
-        if (values->spaceId() == space && api.instanceFromId(values->bodyId()) != nullptr)
-            watch(values->bodyId(), 0, values);
+    for (const HapticBody* haptic : hapticBodies())
+        if (haptic->spaceId() == space && api.instanceFromId(haptic->bodyId()) != nullptr)
+            watch(haptic->bodyId(), 0, haptic);
     watchStrikers();
     for (auto it = watched.begin(); it != watched.end();) {
         if (isThere(it->second)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A haptic world in the scene tree: it comes, waits if there is another one, has other properties, and goes.
+#include "Api/Godot/Explanation.h"
 #include "Api/Godot/WorldProperties.h"
 #include "Api/Godot/Worlds.h"
 
@@ -119,8 +120,12 @@ Value HapticWorld::explain() const {
     std::array<char, 512> sentence{};
     if (world == nullptr) return Value("The world is not in a scene that plays.");
     if (!isFirst()) return Value("Another haptic world of this kind is in the scene, and this one waits.");
-    physvib_world_explain(world, sentence.data(), sentence.size());
-    return Value(sentence.data());
+    physvib_output_facts facts;
+    physvib_output_facts_init(&facts, sizeof facts);
+    facts.is_missing = get(godot::outputs).elements().empty() ? 1 : 0;
+    facts.is_silent = get(silent).isTrue() ? 1 : 0;
+    physvib_world_explain_output(world, &facts, sentence.data(), sentence.size());
+    return Value(inGodotsWords(sentence.data()).c_str());
 }
 
 Value HapticWorld::timeSeconds() const {

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: MIT
 # Builds the addon for Godot: build/godot/addons/physvib, which one copies into a project, and the same as build/godot/physvib-VERSION.zip, as the asset library takes it.
 # GODOT is a program of Godot 4.4 or newer, which writes the header that the addon is compiled with; what compiles it comes from Debian.
-# usage: Source/Api/Godot/build-addon.sh GODOT
+# With arm64 or windows it holds that system's library as well, cross-built as Tests/arm64.sh and Tests/windows.sh do; the first time that takes half an hour.
+# usage: Source/Api/Godot/build-addon.sh GODOT [arm64] [windows]
 set -eu
-[ $# -eq 1 ] || { echo "usage: Source/Api/Godot/build-addon.sh GODOT" >&2; exit 1; }
+[ $# -ge 1 ] || { echo "usage: Source/Api/Godot/build-addon.sh GODOT [arm64] [windows]" >&2; exit 1; }
 godot=$(command -v "$1") || { echo "physvib: expected a program of Godot 4, found $1" >&2; exit 1; }
 godot=$(cd "$(dirname "$godot")" && pwd)/$(basename "$godot")
+shift
 cd "$(dirname "$0")/../../.."
 . .ci/packages.sh
 # shellcheck disable=SC2086 # a list of words
@@ -22,8 +24,28 @@ if ! { (cd "$work" && HOME=$work "$godot" --headless --dump-gdextension-interfac
 fi
 rm -rf "$work/addons" "$work"/*.zip
 cp -r build/release/godot/addons "$work"
-cp /usr/share/doc/libhwy1/copyright "$work/addons/physvib/bin/libhwy-LICENSE"
-strip --strip-unneeded "$work"/addons/physvib/bin/*.so* # a licence lies there, too
+bin=$work/addons/physvib/bin
+strip --strip-unneeded "$bin"/linux.*/*
+# shellcheck disable=SC2034 # roots and targets: for cross.sh
+roots="" targets=physvib-godot
+for system in "$@"; do
+    case $system in
+    arm64) strip=aarch64-linux-gnu-strip ;;
+    windows) strip=x86_64-w64-mingw32-strip ;;
+    *) echo "physvib: expected arm64 or windows, found $system" >&2 && exit 1 ;;
+    esac
+    # shellcheck disable=SC2086 # a list of words
+    ensure_packages $physvib_cross_packages
+    folder=build/$system
+    mkdir -p "$folder"
+    . Tests/Cross/cross.sh
+    libraries
+    house -DPHYSVIB_SESSION=OFF -DPHYSVIB_GODOT_HEADER="$work"
+    made=$folder/house/godot/addons/physvib/bin
+    "$strip" --strip-unneeded "$made"/*/*
+    cp -r "$made"/. "$bin"
+done
+cp /usr/share/doc/libhwy1/copyright "$bin/libhwy-LICENSE"
 version=$(sed -n 's/^version="\(.*\)"/\1/p' "$work/addons/physvib/plugin.cfg")
 (cd "$work" && cmake -E tar cf "physvib-$version.zip" --format=zip addons)
 say "build/godot/physvib-$version.zip: $(wc -c <"$work/physvib-$version.zip") bytes"

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: MIT
+# Plays a demo and takes pictures of it, 640 pixels wide: NAME.webp in the end, and NAME-001.png... of each fourth tick
+# of its last ones, for a movie.
+#   xvfb-run godot --rendering-driver opengl3 -s pictures.gd --fixed-fps 60 -- demo=PATH ticks=200 movie=40
+extends SceneTree
+
+var given := {"movie": "0"}
+
+
+func picture() -> Image:
+	await RenderingServer.frame_post_draw
+	var image := root.get_texture().get_image()
+	image.resize(640, 360, Image.INTERPOLATE_LANCZOS)
+	return image
+
+
+func _initialize():
+	for argument in OS.get_cmdline_user_args(): given[argument.get_slice("=", 0)] = argument.get_slice("=", 1)
+	var name: String = given.demo.get_file().get_basename()
+	root.add_child(load(given.demo).instantiate())
+	for i in int(given.ticks) - 4 * int(given.movie): await process_frame
+	for i in int(given.movie):
+		for j in 4: await process_frame
+		(await picture()).save_png("res://pictures/%s-%03d.png" % [name, i + 1])
+	var image: Image = await picture()
+	image.save_webp("res://pictures/%s.webp" % name, true, 0.8)
+	var colours := {}
+	for x in range(0, 640, 4):
+		for y in range(0, 360, 4): colours[image.get_pixel(x, y).to_html()] = true
+	print("picture of %s: %d colours" % [name, colours.size()])
+	quit(0 if colours.size() > 10 else 1)
