@@ -34,12 +34,13 @@ foreach(line IN LISTS lines)
 endforeach()
 file(CONFIGURE OUTPUT include/Members.inc CONTENT "${members}" @ONLY)
 
-# Profiles of game controllers, as a JavaScript module.
+# Profiles of game controllers, as a JavaScript module: their numbers.
 file(GLOB pads CONFIGURE_DEPENDS ${physvib_root}/Source/Scene/Pads/*.json)
 set(text "")
 foreach(pad ${pads})
     get_filename_component(name ${pad} NAME_WE)
     file(READ ${pad} profile)
+    string(REGEX REPLACE "\n  \"(physvib_pad|name|description|source)\":[^\n]*" "" profile "${profile}")
     string(APPEND text "    '${name}': ${profile},\n")
 endforeach()
 file(CONFIGURE OUTPUT package/profiles.js CONTENT "// SPDX-License-Identifier: MIT\n// What motors of controllers do: Docs/pads.md.\nexport const profiles = {\n${text}};\n" @ONLY)
@@ -49,6 +50,7 @@ file(GLOB tables CONFIGURE_DEPENDS ${physvib_root}/Source/Scene/Materials/*.json
 set(text "")
 foreach(table ${tables})
     file(READ ${table} materials)
+    string(REGEX REPLACE "\n  \"(physvib_materials|source)\":[^\n]*" "" materials "${materials}")
     string(APPEND text "${materials},\n")
 endforeach()
 file(CONFIGURE OUTPUT package/materials.js CONTENT "// SPDX-License-Identifier: MIT\n// The built-in tables of materials: Docs/materials.md.\nexport const tables = [\n${text}];\n" @ONLY)

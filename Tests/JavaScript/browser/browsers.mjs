@@ -21,7 +21,7 @@ export function send(response, file, headers = {}, edit = text => text) {
 const browsers = {
     Chromium: (profile, place) => ['chromium', '--headless=new', '--no-sandbox', '--disable-gpu', '--no-first-run', '--autoplay-policy=no-user-gesture-required', `--user-data-dir=${profile}`, place],
     Firefox(profile, place) {
-        writeFileSync(join(profile, 'user.js'), 'user_pref("media.autoplay.default", 0);\n');
+        writeFileSync(join(profile, 'user.js'), 'user_pref("media.autoplay.default", 0);\nuser_pref("media.autoplay.block-webaudio", false);\nuser_pref("media.autoplay.blocking_policy", 0);\n');
         return ['firefox-esr', '--headless', '--profile', profile, place];
     },
     WebKitGTK: (profile, place) => ['xvfb-run', '-a', execFileSync('sh', ['-c', 'ls /usr/lib/*/webkit2gtk-4.*/MiniBrowser | tail -1'], { encoding: 'utf8' }).trim(), '--autoplay-policy=allow', place],

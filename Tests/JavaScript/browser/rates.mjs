@@ -19,7 +19,7 @@ const settled = 1.5, between = 0.2; // s: the game's first second says what late
 /** What a game tells of `seconds` at so many pictures. */
 export async function rateOf(pictures, seconds) {
     const physvib = await load(), context = new AudioContext(), heard = [], struck = [];
-    await Promise.race([context.resume(), new Promise(done => setTimeout(done, 2000))]);
+    await Promise.race([context.resume(), new Promise(done => setTimeout(done, 10000))]); // Firefox opens its sound for seconds
     if (context.state !== 'running') return { error: `the AudioContext is ${context.state}` };
     await context.audioWorklet.addModule(URL.createObjectURL(new Blob([listener], { type: 'text/javascript' })));
     const output = await play(physvib, context, { layout: 'phone1', fieldWidth: 1, fieldHeight: 1 }), ear = new AudioWorkletNode(context, 'listener');
