@@ -14,7 +14,7 @@ const listener = `registerProcessor('listener', class extends AudioWorkletProces
         return true;
     }
 })`;
-const settled = 1.5, between = 0.2; // s: the game's first second says what latency it wants
+const settled = 1.5, between = 0.2, stutter = 0.03; // s: the game's first second says what latency it wants
 
 /** What a game tells of `seconds` at so many pictures. */
 export async function rateOf(pictures, seconds) {
@@ -31,20 +31,21 @@ export async function rateOf(pictures, seconds) {
     output.follow({ follow: follower => { followers.add(follower); return () => {}; } });
     await new Promise(done => setTimeout(done, 300));
     const began = performance.now();
-    let last = began, due = settled, lateBefore = null, movesBefore = 0;
+    let last = began, due = settled, lateBefore = null, movesBefore = 0, stutters = 0;
     for (let picture = 1; last - began < 1000 * seconds; ++picture) {
         await new Promise(done => setTimeout(done, Math.max(0, began + 1000 * picture / pictures - performance.now())));
         const now = performance.now(), passed = Math.min(0.1, (now - last) / 1000), at = (now - began) / 1000, isHit = at >= due;
         if (at > settled - between && lateBefore === null) [lateBefore, movesBefore] = [output.status.late, output.moves];
         last = now;
-        if (isHit) { due += between; struck.push(context.currentTime); }
+        if (isHit) { due = at + between; struck.push(context.currentTime); }
+        if (at > settled - between && passed > 1 / pictures + stutter) ++stutters; // of the browser, on a busy machine
         world.step(passed, 9.81, () => { if (isHit) world.touch(1, 0, { x: 0.5, y: 0.5, normalX: 0, normalY: -1, approach: 3, fraction: 1 }); });
         const events = world.take();
         for (const follower of followers) follower(events, world);
     }
     await new Promise(done => setTimeout(done, 800));
     const latencies = struck.map(time => heard.find(onset => onset > time)).map((onset, i) => 1000 * (onset - struck[i])).filter(ms => ms < 1000 * between).sort((a, b) => a - b), told = {
-        struck: struck.length, heard: latencies.length, late: output.status.late - lateBefore, moves: output.moves - movesBefore, asked: 1000 * output.latency, median: latencies[latencies.length >> 1], least: latencies[0], most: latencies.at(-1),
+        struck: struck.length, heard: latencies.length, late: output.status.late - lateBefore, moves: output.moves - movesBefore, stutters, asked: 1000 * output.latency, median: latencies[latencies.length >> 1], least: latencies[0], most: latencies.at(-1),
     };
     output.close();
     await context.close();
