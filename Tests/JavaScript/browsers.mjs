@@ -46,7 +46,7 @@ const { server, origin } = await serve((request, response, path) => {
     } else if (made[path] !== undefined) {
         response.writeHead(200, { 'Content-Type': path.endsWith('.mjs') ? 'text/javascript' : 'text/html' });
         response.end(made[path]);
-    } else if (path === '/page/index.html') send(response, join(page, 'index.html'), {}, text => text.replace('</head>', '<script type="module" src="/browser/page.mjs"></script></head>'));
+    } else if (/^\/page\/(index\.html)?$/.test(path)) send(response, join(page, 'index.html'), {}, text => text.replace('</head>', '<script type="module" src="/browser/page.mjs"></script></head>'));
     else if (path.startsWith('/page/')) send(response, join(page, path.slice(6)));
     else send(response, path.startsWith(npm) ? join(modules, path.slice(npm.length)) : path.startsWith('/browser/') ? join(import.meta.dirname, path) : join(root, path));
 });
