@@ -48,7 +48,7 @@ step() {
         godot) Tests/godot.sh build/release build/nightly/godot ;;
         web) Tests/web.sh $bin/physvib ;;
         javascript) Tests/javascript.sh $bin/physvib ;;
-        bundlers) Source/Api/JavaScript/build-package.sh && Tests/JavaScript/bundlers.sh ;;
+        bundlers) Source/Api/JavaScript/build-package.sh && Tests/JavaScript/bundlers.sh && Tests/JavaScript/browsers.sh ;;
         site) Tests/site.sh ;;
         movies) Tests/CommandLine/movies.sh $bin/physvib ;;
         report) Tests/figures/report.sh $bin/physvib build/nightly/report ;;

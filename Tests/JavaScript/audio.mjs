@@ -198,6 +198,62 @@ test('modules that cannot be had are named, with what to do', async () => {
     assert.match(inside.worklet, /registerProcessor/);
 });
 
+test('what is played is explained: field, level, mutes, and a context that stands still', async () => {
+    const context = new Context(8), world = physvib.world(), output = await play(physvib, context, { layout: 'phone4', fieldWidth: 1, fieldHeight: 1 });
+    const hit = (x = 0.5) => {
+        world.step(0.01, 9.81, () => world.touch(1, 0, { x, y: 0.5, normalX: 0, normalY: -1, approach: 3 }));
+        return world.explain(output);
+    };
+    world.setBody(0);
+    world.setBody(1, { massKg: 2, isSource: true, frequencyHz: 200, decayPerSecond: 30 });
+    world.step(0.01, 9.81);
+    const again = said => { world.step(0.01, 9.81); assert.match(hit(), said); };
+    assert.match(hit(), /and reach the output/);
+    for (let j = 0; j < 4; ++j) output.setMute(j, true);
+    again(/channels that play these places are muted/);
+    for (let j = 0; j < 4; ++j) output.setMute(j, false);
+    again(/and reach the output/);
+    output.setLevel(0);
+    again(/level of the output is 0/);
+    output.setLevel(0.5);
+    output.setLayout({ fieldWidth: 0.1, fieldHeight: 0.1 });
+    again(/set fieldWidth and fieldHeight of the renderer/);
+    output.setLayout({ fieldWidth: 1, fieldHeight: 1 });
+    context.state = 'suspended';
+    again(/^The AudioContext is suspended: call resume\(\) in a click\. 1 event/);
+    context.state = 'running';
+    again(/^1 event/);
+});
+
+test('haptics explain what follows them, unasked, until it has ended', async () => {
+    const context = new Context(8), output = await play(physvib, context, { layout: 'phone4', fieldWidth: 1, fieldHeight: 1 });
+    const { attachVelocities } = await load(folder, 'physvib/velocities'), haptics = attachVelocities(physvib, { bodies: () => [], read() {} });
+    const end = output.follow(haptics);
+    context.state = 'suspended';
+    haptics.update(0.01);
+    assert.match(haptics.explain(), /^The AudioContext is suspended/);
+    assert.match(haptics.explain(output), /^The AudioContext is suspended/);
+    end();
+    assert.doesNotMatch(haptics.explain(), /AudioContext/);
+    output.follow(haptics);
+    output.close();
+    assert.doesNotMatch(haptics.explain(), /AudioContext/);
+});
+
+test('options that are none are refused in a line', async () => {
+    const refused = (options, message) => assert.rejects(play(physvib, new Context(8), { fieldWidth: 1, fieldHeight: 1, ...options }), { message });
+    await refused({ level: 200 }, 'level: expected 0 to 1, found 200');
+    await refused({ level: -1 }, 'level: expected 0 to 1, found -1');
+    await refused({ latency: -1 }, 'latency: expected 0 to 10 s, found -1');
+    await refused({ latency: 60 }, 'latency: expected 0 to 10 s, found 60');
+    await refused({ latncy: 0.06 }, /^latncy: expected one of .*fieldWidth.*, latency, level, worklet$/);
+    await assert.rejects(play(Promise.resolve(physvib), new Context(8)), { message: 'play: expected the library (await load()), found Promise' });
+    const output = await play(physvib, new Context(8), { latency: 0, level: 1 });
+    assert.throws(() => output.setLevel(50), /level: expected 0 to 1, found 50/);
+    assert.throws(() => output.setLayout({ layout: 'phone4', law: 'none' }), /law/);
+    output.setLayout({ layout: 'phone2' });
+});
+
 test('a page without audio worklets says why', async () => {
     globalThis.isSecureContext = false;
     await assert.rejects(play(physvib, {}), /https/);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Bundlers, loaders and content security policies by browsers: bundlers.mjs FOLDER [BROWSER...]. FOLDER: where npm has installed physvib and the bundlers. Prints the
 // table; 1 if a cell is not right. bundlers.sh calls it.
-import { execFileSync, spawn } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
-import { extname, join, resolve } from 'node:path';
-import { tmpdir } from 'node:os';
+import { execFileSync } from 'node:child_process';
+import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { inBrowsers, send, serve } from './browser/browsers.mjs';
 
 const [folder, ...wanted] = process.argv.slice(2), root = resolve(folder), work = join(root, 'fixtures'), here = join(import.meta.dirname, 'bundlers');
 const bin = (name, ...words) => execFileSync(join(root, 'node_modules/.bin', name), words, { cwd: root, stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, NODE_ENV: 'production', PARCEL_WORKERS: '0' } });
@@ -65,17 +64,6 @@ function served(name, place) {
     return at;
 }
 
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm', '.css': 'text/css' };
-function serve(answer) {
-    const server = createServer((request, response) => answer(request, response, new URL(request.url, 'http://127.0.0.1').pathname));
-    return new Promise(done => server.listen(0, '127.0.0.1', () => done({ server, origin: `http://127.0.0.1:${server.address().port}` })));
-}
-function send(response, file, headers = {}, edit = text => text) {
-    if (!existsSync(file)) { response.writeHead(404, headers); response.end('nothing here'); return; }
-    response.writeHead(200, { 'Content-Type': types[extname(file)] ?? 'application/octet-stream', ...headers });
-    response.end(/\.(html|js)$/.test(file) ? edit(readFileSync(file, 'utf8')) : readFileSync(file));
-}
-
 rmSync(work, { recursive: true, force: true });
 const built = {}, failures = [];
 for (const [name, make] of Object.entries(cases)) {
@@ -127,23 +115,7 @@ for (const place of ['/nowhere/physvib.wasm', '/']) told.refusals.push(await loa
 await fetch('/', { method: 'POST', body: JSON.stringify(told) });
 </script><body></body>`;
 
-const browsers = {
-    Chromium: profile => ['chromium', '--headless=new', '--no-sandbox', '--disable-gpu', '--no-first-run', `--user-data-dir=${profile}`, `${origin}/`],
-    Firefox: profile => ['firefox-esr', '--headless', '--profile', profile, `${origin}/`],
-    WebKitGTK: () => ['xvfb-run', '-a', execFileSync('sh', ['-c', 'ls /usr/lib/*/webkit2gtk-4.*/MiniBrowser | tail -1'], { encoding: 'utf8' }).trim(), `${origin}/`],
-};
-for (const [name, words] of Object.entries(browsers).filter(([name]) => wanted.length === 0 || wanted.includes(name))) {
-    const profile = mkdtempSync(join(tmpdir(), 'physvib-browser-')), [program, ...rest] = words(profile);
-    const child = spawn(program, rest, { stdio: 'ignore', detached: true, env: { ...process.env, WEBKIT_DISABLE_COMPOSITING_MODE: '1', XDG_CACHE_HOME: profile, XDG_DATA_HOME: profile } });
-    results[name] = await new Promise(done => {
-        arrived = done;
-        child.on('error', error => done({ error: error.message }));
-        setTimeout(() => done({}), 300000).unref();
-    });
-    try { process.kill(-child.pid); } catch { /* it has ended */ }
-    await new Promise(done => setTimeout(done, 1000));
-    rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
-}
+Object.assign(results, await inBrowsers(wanted, `${origin}/`, 300, done => { arrived = done; }));
 server.close();
 cdn.server.close();
 

@@ -19,6 +19,7 @@ folder = os.path.abspath(sys.argv[1])
 modules = "/node_modules"
 imports = {"physvib": f"{modules}/physvib/physvib.js", **{f"physvib/{name}": f"{modules}/physvib/{name}.js" for name in ("gamepad", "velocities", "rapier3d")},
            "phaser": f"{modules}/phaser/dist/phaser.esm.js", "excalibur": f"{modules}/excalibur/build/esm/excalibur.js", "kaplay": f"{modules}/kaplay/dist/kaplay.mjs",
+           "melonjs": f"{modules}/melonjs/build/index.js",
            "three": f"{modules}/three/build/three.module.js", "@dimforge/rapier3d-compat": f"{modules}/@dimforge/rapier3d-compat/dist/rapier.mjs"}
 games = dict(re.findall(r"```js (\w+)\n(.*?)```", open(sys.argv[2]).read(), re.S))
 page = f'<!DOCTYPE html><link rel="icon" href="data:,"><script type="importmap">{json.dumps({"imports": imports})}</script><body></body>'
@@ -60,7 +61,7 @@ threading.Thread(target=server.serve_forever, daemon=True).start()
 origin = f"http://127.0.0.1:{server.server_port}/"
 failures = []
 # What the ball's velocity changes by when it lands first, m/s: by its height, and what the engine makes of restitution.
-due = {"arcade": 1.7 * math.sqrt(2 * 9 * 4.8), "excalibur": 1.7 * math.sqrt(2 * 9 * 4.6), "kaplay": math.sqrt(2 * 9 * 4.4), "three": 1.35 * math.sqrt(2 * 9.81 * 2.6)}
+due = {"arcade": 1.7 * math.sqrt(2 * 9 * 4.8), "excalibur": 1.7 * math.sqrt(2 * 9 * 4.6), "kaplay": math.sqrt(2 * 9 * 4.4), "melon": 1.7 * math.sqrt(2 * 9 * 4.6), "three": 1.35 * math.sqrt(2 * 9.81 * 2.6)}
 for name, text in games.items():
     profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
     browser = Browser(profile.name, origin, profile.name, ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"))
@@ -77,4 +78,4 @@ for name, text in games.items():
         failures.append(f"{name}: {json.dumps(found)}")
 for line in failures:
     print("FAILED:", line)
-sys.exit(1 if failures or len(games) < 4 else 0)
+sys.exit(1 if failures or len(games) < 5 else 0)

@@ -98,6 +98,10 @@ test('triggers, phones, silence, refusals', async () => {
     assert.ok(page.sent.slice(count).every(command => command.low === 0 && command.high === 0));
     assert.throws(() => rumble(physvib, { profile: 'mine' }), /pad-generic/);
     assert.throws(() => rumble(physvib, { profile: { low: {}, high: {} } }), /threshold/);
+    assert.throws(() => rumble(Promise.resolve(physvib)), { message: 'rumble: expected the library (await load())' });
+    assert.throws(() => rumble(physvib, { profle: 'pad-xbox' }), { message: 'profle: expected one of profile, latency, level, fieldWidth, fieldHeight, phone' });
+    for (const level of [-1, NaN]) assert.throws(() => rumble(physvib, { level }), { message: `level: expected 0 or more, found ${level}` });
+    assert.throws(() => rumble(physvib, { latency: -1 }), { message: 'latency: expected 0 to 10 s, found -1' });
 });
 
 test('what an engine feels is felt with constant latency, however its frames fall', () => {

@@ -103,6 +103,21 @@ test('what is no engine is refused', () => {
     assert.throws(() => attachVelocities(physvib, {}), /bodies and read/);
     const haptics = attachVelocities(physvib, { bodies: () => [], read: (body, to) => Object.assign(to, { x: 1, y: 1, vx: 1 }) });
     assert.throws(() => haptics.set({}, source), /expected that read gives .*vy: undefined/);
+    const engine = { bodies: () => [], read() {} };
+    assert.throws(() => attachVelocities(physvib, { ...engine, gravty: gravity }), { message: 'attachVelocities: expected members bodies, read, gravity, bounds, bodyOf, tells, found gravty' });
+    assert.throws(() => attachVelocities(Promise.resolve(physvib), engine), { message: 'attach: expected the library (await load()), found Promise' });
+    assert.throws(() => attachVelocities(physvib, engine, { fieldWith: 8 }), /^PhysVibError: fieldWith: expected one of .*fieldWidth.*fieldHeight, metresPerUnit, yDown$/);
+    for (const metresPerUnit of [0, -1, NaN, '0.01 m']) assert.throws(() => attachVelocities(physvib, engine, { metresPerUnit }), /metresPerUnit: expected a number above 0, found/);
+    assert.throws(() => physvib.world({ gravty: 1 }), /^PhysVibError: gravty: expected one of .*, fieldHeight$/);
+    new (class { bodies = () => []; name = 'of a game'; read() {} haptics = attachVelocities(physvib, this); })();
+});
+
+test('who calls update is told of update', () => {
+    const body = box(), { haptics } = game(body);
+    haptics.set(body, source);
+    assert.match(haptics.explain(), /^No step has been made: make one for each step of the engine \(update\)\.$/);
+    haptics.update(0);
+    assert.match(haptics.explain(), /give update the seconds since/);
 });
 
 test('a thing without a body is told to who sets it, and ends nothing', () => {

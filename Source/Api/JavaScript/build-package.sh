@@ -22,8 +22,9 @@ Source/Api/JavaScript/shrink.sh "$work/physvib.wasm" "$work/package/physvib.wasm
 Source/Api/JavaScript/shrink.sh "$work/files.wasm" "$work/package/files.wasm" # 13 KB
 node - "$work/package" <<'END'
 const { readdirSync, readFileSync, writeFileSync } = require('node:fs'), folder = process.argv[2];
-// Comments stay in the sources and in the types: no page needs them.
-const text = readFileSync('Source/Api/JavaScript/package/inline.js', 'utf8'), bare = from => from.replace(/^ *\/\/(?! SPDX).*\n/gm, '').replace(/^ *\/\*\*[^]*?\*\/\n/gm, '').replace(/([;{},)\]]) +\/\/ .*$/gm, '$1');
+// Comments, and three of four spaces at the beginning of lines, stay in the sources and in the types: no page needs them.
+const text = readFileSync('Source/Api/JavaScript/package/inline.js', 'utf8'), bare = from => from.replace(/^ *\/\/(?! SPDX).*\n/gm, '').replace(/^ *\/\*\*[^]*?\*\/\n/gm, '').replace(/([;{},)\]]) +\/\/ .*$/gm, '$1')
+    .replace(/^( {4})+/gm, found => found.slice(0, found.length / 4));
 for (const file of readdirSync(folder)) if (file.endsWith('.js')) writeFileSync(`${folder}/${file}`, bare(readFileSync(`${folder}/${file}`, 'utf8')));
 // Addresses that npm shows: those that are given.
 const { PHYSVIB_HOMEPAGE: homepage, PHYSVIB_BUGS: bugs, PHYSVIB_REPOSITORY: url, PHYSVIB_AUTHOR: author } = process.env;

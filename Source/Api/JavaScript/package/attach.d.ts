@@ -25,7 +25,7 @@ export interface Haptics<Body = any> {
     /** Events that nobody took, and that have made room for newer ones. */
     readonly forgotten: number;
     readonly counts: WorldCounts;
-    /** As World.explain; it looks at all bodies of the engine. */
+    /** As World.explain; it looks at all bodies of the engine. Left out, `output` is the first of play() that follows. */
     explain(output?: Renderer | OutputFacts): string;
     free(): void;
 }

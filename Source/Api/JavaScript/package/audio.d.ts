@@ -5,7 +5,7 @@ import type { Haptics } from './attach.js';
 export interface AudioOptions extends RendererSettings {
     /** From a collision to its vibration, s: more than two steps of the game and its longest stutter. Left out: 0.06, or what the first second of the game wants. */
     latency?: number;
-    /** 1: full scale (0.25). */
+    /** 0 to 1: full scale (0.25). */
     level?: number;
     /** Where worklet.js is, for bundlers that move it. */
     worklet?: string | URL;

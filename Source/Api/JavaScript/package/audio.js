@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 // On the device of a page: a renderer in an AudioWorklet, each actuator on its own output where there are as many, else a stereo monitor.
 import { Clock, followed } from './clock.js';
+import { expectLibrary, expectThat, naming } from './explanation.js';
 import { impactOf } from './impact.js';
 import { PhysVibError } from './physvib.js';
 
 const nsPerSecond = 1e9;
 const firstLevel = 0.25; // 12 dB below full scale: hands and ears may be attached
 
+const expectLevel = level => expectThat(level >= 0 && level <= 1, 'level', '0 to 1', level);
+
 class Output {
-    #physvib; #context; #node; #mix; #level; #pans = []; #clock; #size; #ends = new Set(); #arrivals = [];
+    #physvib; #context; #node; #mix; #level; #gain; #muted = new Set(); #pans = []; #clock; #size; #ends = new Set(); #arrivals = [];
     /** Frames by which samples lag the events' times: the limiter's look-ahead. */
     latencyFrames = 0;
     /** What the audio thread has done, four times a second. */
@@ -19,7 +22,8 @@ class Output {
     error = null;
 
     constructor(physvib, context, { worklet, latency, level = firstLevel, ...settings }) {
-        const { bytes, channels } = physvib.settingsBytes({ ...settings, rate: context.sampleRate });
+        expectLevel(level);
+        const { bytes, channels } = naming('latency, level, worklet', () => physvib.settingsBytes({ ...settings, rate: context.sampleRate }));
         this.#physvib = physvib;
         this.#context = context;
         this.#clock = new Clock(latency);
@@ -46,7 +50,7 @@ class Output {
         });
         this.#mix = new GainNode(context, { channelCount: Math.min(32, channels), channelCountMode: 'explicit', channelInterpretation: 'discrete' });
         this.#node.connect(this.#mix);
-        this.#level = new GainNode(context, { gain: level });
+        this.#level = new GainNode(context, { gain: this.#gain = level });
         this.#connect(settings.layout ?? 'phone4');
     }
 
@@ -90,6 +94,16 @@ class Output {
         });
     }
 
+    /** For World.explain. */
+    get facts() {
+        const { late, rejected } = this.status, mutedChannels = [...this.#muted].reduce((all, j) => all + 2 ** j, 0);
+        return { channels: this.channels, level: this.#gain, mutedChannels, late, rejected, settings: this.settings };
+    }
+    hint() {
+        const { state } = this.#context;
+        return this.error?.message ?? { suspended: 'The AudioContext is suspended: call resume() in a click.', interrupted: 'The AudioContext is interrupted: call resume() in a click.', closed: 'The AudioContext is closed: play anew.' }[state];
+    }
+
     #now() { return this.#context.currentTime * nsPerSecond; }
     #tell(message) { this.#node.port.postMessage(message); }
 
@@ -97,11 +111,14 @@ class Output {
     follow(haptics) {
         // A context that is suspended stands still: what happens meanwhile is not felt later.
         const end = followed(haptics, this.#clock, () => (['suspended', 'interrupted'].includes(this.#context.state) ? undefined : this.#now()), events => this.strike(events, 0));
-        this.#ends.add(end);
-        return () => {
-            this.#ends.delete(end);
+        const leave = () => {
+            this.#ends.delete(leave);
+            haptics.outputs?.delete(this);
             end();
         };
+        haptics.outputs?.add(this);
+        this.#ends.add(leave);
+        return leave;
     }
 
     /** Events, `laterNs` after the times they have: as a rule, the context's time in ns. Late ones are played at once, and counted. */
@@ -135,11 +152,18 @@ class Output {
 
     /** Of one channel, or of all, at once: gains glide for 10 ms. */
     setGain(channel, gain) { this.#tell({ call: 'set_gain', timeNs: this.#now(), values: [channel, gain] }); }
-    setMute(channel, isMuted) { this.#tell({ call: 'set_mute', timeNs: this.#now(), values: [channel, isMuted ? 1 : 0] }); }
-    setLevel(gain) { this.#level.gain.setTargetAtTime(gain, this.#context.currentTime, 0.0015); }
+    setMute(channel, isMuted) {
+        this.#muted[isMuted ? 'add' : 'delete'](channel);
+        this.#tell({ call: 'set_mute', timeNs: this.#now(), values: [channel, isMuted ? 1 : 0] });
+    }
+    setLevel(gain) {
+        expectLevel(gain);
+        this.#level.gain.setTargetAtTime(this.#gain = gain, this.#context.currentTime, 0.0015);
+    }
     setLayout(settings) {
+        const { bytes } = this.#physvib.settingsBytes({ ...this.settings, ...settings });
         Object.assign(this.settings, settings);
-        this.#tell({ call: 'set_layout', timeNs: this.#now(), settings: this.#physvib.settingsBytes(this.settings).bytes });
+        this.#tell({ call: 'set_layout', timeNs: this.#now(), settings: bytes });
     }
     /** All that rings, and what has happened so far, is felt no more. */
     silence() { this.#tell({ call: 'silence', timeNs: this.#now(), values: [this.#now() + this.#clock.latencyNs] }); }
@@ -173,6 +197,7 @@ function added(context, physvib, place) {
 
 /** `context`: an AudioContext, made or resumed by a click. `options`: those of a renderer, latency (s), level, worklet (where worklet.js is). */
 export async function play(physvib, context, options = {}) {
+    expectLibrary('play', physvib);
     if (!context.audioWorklet) {
         throw new PhysVibError(-3, globalThis.isSecureContext === false ? 'audio: this page came by http; browsers give sound of this kind to https and to localhost'
             : 'audio: expected a browser with AudioWorklet');

@@ -18,7 +18,7 @@ class Box2d3Haptics extends Haptics {
             massesOf: body => (b2.b2Body_IsValid(body) && b2.b2Body_GetType(body).value === dynamic
                 ? { massKg: b2.b2Body_GetMass(body), inertia: b2.b2Body_GetRotationalInertia(body) * unit * unit, gravityScale: b2.b2Body_GetGravityScale(body) }
                 : { massKg: 0, inertia: 0, gravityScale: 1 }),
-            isThere: body => b2.b2Body_IsValid(body),
+            options: ['b2', 'restitutionThreshold', 'subSteps'], isThere: body => b2.b2Body_IsValid(body),
             bodies: () => [], // it lists none: filters are not seen
             look: body => ({ isEnabled: b2.b2Body_IsEnabled(body), isAsleep: !b2.b2Body_IsAwake(body), filters: [] }),
         }, options);

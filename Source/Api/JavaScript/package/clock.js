@@ -21,6 +21,7 @@ export class Clock {
     /** `latency`: from a collision to its vibration, s; undefined: 0.06, or more if the game's steps or its pictures want it. */
     constructor(latency) {
         this.#isFixed = latency !== undefined;
+        if (this.#isFixed && !(latency >= 0 && latency <= 10)) throw new RangeError(`latency: expected 0 to 10 s, found ${latency}`);
         this.latencyNs = this.#isFixed ? latency * 1e9 : usualLatencyNs;
     }
 

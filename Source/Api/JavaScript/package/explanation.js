@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Explanations in the names that JavaScript has.
+// Explanations and refusals in the names that JavaScript has.
+import { PhysVibError } from './module.js';
 import { names } from './names.js';
 
 /** What engines say of a body: PHYSVIB_NOTE_... */
@@ -11,3 +12,17 @@ const camel = name => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase())
 /** An explanation with the names that JavaScript has: is_camera is isSource, physvib_world_set_body is setBody. */
 export const inWords = sentence => sentence.replace('divide lengths by the pixels of a metre (100, say)', 'divide lengths by the pixels of a metre, or set metresPerUnit (0.01, say)')
     .replace(/(?<![\w/.])(physvib_[a-z]+_)?([a-z]+(?:_[a-z0-9]+)*)\b/g, (word, isCall, name) => (isCall ? camel(name) : name.includes('_') ? members.get(name) ?? camel(name) : word));
+
+/** `make()`; what it refuses as unknown is told with `others` that are known, too. */
+export function naming(others, make) {
+    try { return make(); } catch (error) {
+        if (error.message.includes(': expected one of ')) error.message += `, ${others}`;
+        throw error;
+    }
+}
+
+export const expectLibrary = (name, physvib) => expectThat(typeof physvib?.world === 'function', name, 'the library (await load())', physvib);
+/** Refuses the object beside the right one, a promise of it, or a number that is none. */
+export function expectThat(isOne, name, expected, found) {
+    if (!isOne) throw new PhysVibError(-2, `${name}: expected ${expected}, found ${found?.type ?? (Object(found) === found ? found.constructor?.name : found)}`);
+}

@@ -2,10 +2,12 @@
 // Every game controller that the browser has, and a phone's own motor. What is to be felt is summed as energy by the module (the arithmetic of the native
 // sink), so a weak hit never ends a strong one and none is left out because another sounds.
 import { Clock, followed } from './clock.js';
+import { PhysVibError } from './module.js';
 import { Waves } from './waves.js';
 
 const commandMs = 200; // one lasts as long, and is repeated before: motors stop soon if a page does
 const nsPerMs = 1e6;
+const seams = ['now', 'getGamepads', 'vibrate', 'setTimeout', 'clearTimeout', 'audioBuffer']; // of tests
 
 /** What a controller can do: its effects by name. */
 const effectsOf = ({ vibrationActuator: actuator }) => (actuator ? actuator.effects ?? (actuator.type ? [actuator.type] : ['dual-rumble']) : []);
@@ -22,6 +24,9 @@ class Pads {
     refused = 0;
 
     constructor(physvib, { profile = 'pad-generic', latency, level = 1, fieldWidth = 1, fieldHeight = 1, phone = true, ...system }) {
+        if (!physvib.pad) throw new PhysVibError(-2, 'rumble: expected the library (await load())');
+        for (const name in system) if (!seams.includes(name)) throw new PhysVibError(-2, `${name}: expected one of profile, latency, level, fieldWidth, fieldHeight, phone`);
+        if (!(level >= 0)) throw new PhysVibError(-2, `level: expected 0 or more, found ${level}`);
         this.#motors = physvib.pad(profile, { fieldWidth, fieldHeight });
         this.#waves = new Waves(physvib, { fieldWidth, fieldHeight }, system.audioBuffer);
         this.#clock = new Clock(latency);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What every attachment has: numbers of bodies, steps, events for who follows and for who takes. Inside, lengths are metres and y points up.
+import { expectLibrary, expectThat, naming } from './explanation.js';
 import { Journal, leftOut } from './journal.js';
 import { PhysVibError } from './module.js';
 
@@ -15,13 +16,17 @@ export class Haptics {
     forgotten = 0;
     /** What ended haptics; null: nothing did. The game goes on without them. */
     error = null;
+    /** Those of physvib/audio that follow: explain() looks at the first. */
+    outputs = new Set();
 
     /** `engine`: what tells of bodies: bodyOf(thing) (that it is, or is part of; undefined: none), keyOf(body), massesOf(body), isThere(body); to explain silence,
      * look(body) (isEnabled, isSensor, isAsleep, and filters of category, mask and group) and bodies(). */
     constructor(physvib, engine, { metresPerUnit = 1, ...settings } = {}) {
+        expectLibrary('attach', physvib);
+        expectThat(metresPerUnit > 0, 'metresPerUnit', 'a number above 0', metresPerUnit);
         this.engine = engine;
         this.metresPerUnit = metresPerUnit;
-        this.world = physvib.world(settings);
+        this.world = naming(['metresPerUnit', ...engine.options ?? []].join(', '), () => physvib.world(settings));
     }
 
     /** Work of the attachment's own. What it throws ends haptics, is told once, and does not reach the game. `isCalled`: the game has called it, so a wrong argument is
@@ -202,7 +207,7 @@ export class Haptics {
     }
 
     /** Why nothing is felt of what happened since the last call; see World.explain. */
-    explain(output) {
+    explain(output = [...this.outputs][0]) {
         const why = this.guarded(() => this.#explained(output), true);
         return this.error ? `Haptics have ended by an error: ${this.error.message}. Free these, and attach anew.` : why;
     }
@@ -213,7 +218,7 @@ export class Haptics {
         }
         const unsound = this.#unsound, hints = [this.hint?.(), unsound && `Body ${unsound.id} is left out while the engine gives it numbers that are none (${unsound.found}).`,
             this.#unfollowed && `A follower has ended by an error: ${this.#unfollowed.message}.`];
-        const said = [...hints.filter(Boolean), this.world.explain(output)].join(' ');
+        const said = [...hints.filter(Boolean), this.world.explain(output)].join(' ').replace(/beginStep( and endStep)?/g, 'update');
         this.#unsound = this.#unfollowed = null;
         return this.#lastAway === null || [...this.each()].some(known => known.values.isSource) ? said
             : `No haptic source is in the engine's world: body ${this.#lastAway} was not added to it, or has left it. Before: ${said}`;
@@ -259,7 +264,4 @@ export function meet(to, pull, seconds) {
     if (isAhead) to.gap = leftOut;
 }
 
-/** Refuses what is no engine: the object beside it, for example. */
-export function expectEngine(isOne, expected, found) {
-    if (!isOne) throw new PhysVibError(-2, `attach: expected ${expected}, found ${found?.type ?? found?.constructor?.name ?? String(found)}`);
-}
+export const expectEngine = (isOne, expected, found) => expectThat(isOne, 'attach', expected, found);

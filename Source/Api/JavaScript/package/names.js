@@ -35,7 +35,7 @@ export const names = {
     },
     physvib_output_facts: {
         is_missing: 'isMissing', is_silent: 'isSilent', channels: 'channels', level: 'level', muted_channels: 'mutedChannels', late: 'late', dropped: 'dropped', rejected: 'rejected',
-        without_part: 'withoutPart',
+        without_part: 'withoutPart', renderer: 'renderer',
     },
 };
 

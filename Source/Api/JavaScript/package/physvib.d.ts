@@ -181,6 +181,8 @@ export interface OutputFacts {
     dropped?: number;
     rejected?: number;
     withoutPart?: number;
+    /** Layout and field. */
+    settings?: RendererSettings;
 }
 
 /** Contacts of any engine in, events out. Bodies are numbers of yours, from 0 on. */

@@ -2,11 +2,12 @@
 // Engines that tell velocities and boxes, but no impulses and maybe no contacts: Phaser's Arcade, Excalibur, Kaplay, or a game's own. What a step changed of two bodies
 // whose boxes or circles meet is their impact; masses say how strong. What changed without a neighbour, as a jump does, is no impact.
 import { apart, between, copy, eachNear, putWalls, skin, stateOf } from './boxes.js';
+import { expectThat } from './explanation.js';
 import { PhysVibError } from './module.js';
 import { expectEngine, Haptics, motionAt } from './haptics.js';
 import { contactOf, leftOut } from './journal.js';
 
-const none = {};
+const none = {}, members = ['bodies', 'read', 'gravity', 'bounds', 'bodyOf', 'tells'];
 
 const pairOf = (a, b) => Math.min(a, b) * 2 ** 26 + Math.max(a, b);
 
@@ -18,7 +19,7 @@ class VelocityHaptics extends Haptics {
         super(physvib, {
             bodyOf: thing => { const body = engine.bodyOf ? engine.bodyOf(thing) : thing; return body !== null && typeof body === 'object' ? body : undefined; },
             keyOf: body => body, massesOf: body => { const { massKg, gravityScale } = this.#there.get(body) ?? this.#read(body, this.#newState(body)); return { massKg, inertia: 0, gravityScale }; },
-            isThere: body => this.#there.has(body), bodies: () => this.#there.keys(), look: () => ({ filters: [] }),
+            options: ['yDown'], isThere: body => this.#there.has(body), bodies: () => this.#there.keys(), look: () => ({ filters: [] }),
         }, { metresPerUnit, fieldWidth, fieldHeight: height, fieldY: yDown ? -(fieldY ?? height) : fieldY, ...settings });
         this.#engine = engine;
         this.#turn = yDown ? -1 : 1;
@@ -139,5 +140,6 @@ class VelocityHaptics extends Haptics {
 /** `engine`: { bodies(), read(body, to), gravity, bounds, bodyOf, tells }; see velocities.d.ts. */
 export function attachVelocities(physvib, engine, options = {}) {
     expectEngine(typeof engine?.bodies === 'function' && typeof engine.read === 'function', 'functions bodies and read', engine);
+    if (Object.getPrototypeOf(engine) === Object.prototype) for (const name in engine) expectThat(members.includes(name), 'attachVelocities', `members ${members.join(', ')}`, name);
     return new VelocityHaptics(physvib, engine, options);
 }

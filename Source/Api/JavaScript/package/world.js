@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Contacts in, events out.
-import { inWords, notes } from './explanation.js';
+import { inWords, naming, notes } from './explanation.js';
 import { PhysVibError } from './module.js';
 import { Renderer } from './renderer.js';
+import { withSettings } from './settings.js';
 
 const eventsAtOnce = 64;
 
@@ -13,7 +14,7 @@ export class World {
         this.#module = module;
         this.fieldWidth = settings.fieldWidth ?? 1;
         this.fieldHeight = fieldHeight ?? this.fieldWidth;
-        this.#name = module.filled('world_settings', settings, at => module.handleOf(to => module.call('world_create', at, to)));
+        this.#name = naming('fieldHeight', () => module.filled('world_settings', settings, at => module.handleOf(to => module.call('world_create', at, to))));
         this.#contactBytes = module.sizeOf('contact');
         const name = this.#name, journal = this.#journal, contact = this.#contact = module.room(this.#contactBytes), room = this.#room = module.room(eventsAtOnce * module.sizeOf('event'));
         this.#forget = registry(this, () => {
@@ -110,14 +111,16 @@ export class World {
             return this.#module.get('world_counts', at);
         });
     }
-    /** `output`: a renderer that plays the events, or what is known of another output. */
+    /** `output`: a renderer that plays the events, one of physvib/audio, or what is known of another. */
     explain(output) {
-        const most = 512, module = this.#module;
+        const most = 512, module = this.#module, { settings, ...facts } = output?.facts ?? output ?? {}, hint = output?.hint?.();
         return module.borrow(most, at => {
+            const tell = renderer => module.filled('output_facts', { ...facts, renderer }, told => module.call('world_explain_output', this.#name, told, at, most));
             if (output === undefined) module.call('world_explain', this.#name, at, most);
             else if (output instanceof Renderer) module.call('renderer_explain', output.name, this.#name, at, most);
-            else module.filled('output_facts', output, facts => module.call('world_explain_output', this.#name, facts, at, most));
-            return inWords(module.text(at));
+            else if (settings) withSettings(module, settings, tell);
+            else tell();
+            return (hint ? `${hint} ` : '') + inWords(module.text(at));
         });
     }
     note(body, note) { this.#module.call('world_note', this.#name, body, notes.indexOf(note)); }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// How late impacts are felt in a page whose game makes so many pictures a second: what the audio thread plays, heard by another worklet.
+import { load } from 'physvib';
+import { play } from 'physvib/audio';
+
+const listener = `registerProcessor('listener', class extends AudioWorkletProcessor {
+    quiet = 0;
+    process([[channel]]) {
+        channel?.forEach((sample, i) => {
+            if (Math.abs(sample) < 1e-4) { ++this.quiet; return; }
+            if (this.quiet > 0.05 * sampleRate) this.port.postMessage(currentFrame + i);
+            this.quiet = 0;
+        });
+        return true;
+    }
+})`;
+const settled = 1.5, between = 0.2, stutter = 0.03; // s: the game's first second says what latency it wants
+
+/** What a game tells of `seconds` at so many pictures. */
+export async function rateOf(pictures, seconds) {
+    const physvib = await load(), context = new AudioContext(), heard = [], struck = [];
+    await Promise.race([context.resume(), new Promise(done => setTimeout(done, 10000))]); // Firefox opens its sound for seconds
+    if (context.state !== 'running') return { error: `the AudioContext is ${context.state}` };
+    await context.audioWorklet.addModule(URL.createObjectURL(new Blob([listener], { type: 'text/javascript' })));
+    const output = await play(physvib, context, { layout: 'phone1', fieldWidth: 1, fieldHeight: 1 }), ear = new AudioWorkletNode(context, 'listener');
+    ear.port.onmessage = ({ data }) => heard.push(data / context.sampleRate - output.latencyFrames / context.sampleRate);
+    output.node.connect(ear).connect(new GainNode(context, { gain: 0 })).connect(context.destination);
+    const world = physvib.world(), followers = new Set();
+    world.setBody(0);
+    world.setBody(1, { massKg: 1, isSource: true, frequencyHz: 400, decayPerSecond: 300 });
+    output.follow({ follow: follower => { followers.add(follower); return () => {}; } });
+    await new Promise(done => setTimeout(done, 300));
+    const began = performance.now();
+    let last = began, due = settled, lateBefore = null, movesBefore = 0, stutters = 0;
+    for (let picture = 1; last - began < 1000 * seconds; ++picture) {
+        await new Promise(done => setTimeout(done, Math.max(0, began + 1000 * picture / pictures - performance.now())));
+        const now = performance.now(), passed = Math.min(0.1, (now - last) / 1000), at = (now - began) / 1000, isHit = at >= due;
+        if (at > settled - between && lateBefore === null) [lateBefore, movesBefore] = [output.status.late, output.moves];
+        last = now;
+        if (isHit) { due = at + between; struck.push(context.currentTime); }
+        if (at > settled - between && passed > 1 / pictures + stutter) ++stutters; // of the browser, on a busy machine
+        world.step(passed, 9.81, () => { if (isHit) world.touch(1, 0, { x: 0.5, y: 0.5, normalX: 0, normalY: -1, approach: 3, fraction: 1 }); });
+        const events = world.take();
+        for (const follower of followers) follower(events, world);
+    }
+    await new Promise(done => setTimeout(done, 800));
+    const latencies = struck.map(time => heard.find(onset => onset > time)).map((onset, i) => 1000 * (onset - struck[i])).filter(ms => ms < 1000 * between).sort((a, b) => a - b), told = {
+        struck: struck.length, heard: latencies.length, late: output.status.late - lateBefore, moves: output.moves - movesBefore, stutters, asked: 1000 * output.latency, median: latencies[latencies.length >> 1], least: latencies[0], most: latencies.at(-1),
+    };
+    output.close();
+    await context.close();
+    return told;
+}
