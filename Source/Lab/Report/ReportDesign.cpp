@@ -104,6 +104,22 @@ std::string correctedWords(const PairedPower& power, const std::set<std::size_t>
     return words;
 }
 
+void tellPairedPower(ReportBuilder& report, std::size_t people, ExportTable& table) {
+    const std::set<std::size_t> pairs = pairsTested(report);
+    const PairedPower power{people};
+    report.page.paragraph(
+        "By simulation (" + std::to_string(PairedPower::studies) + " studies of " + std::to_string(people) +
+        " participants, normal differences, seed 1): a paired t test at p < 0.05 finds a mean difference of "
+        "two conditions or stimuli in 80 % of the studies if it is at least d = " +
+        orNever(power.smallestEffect(0.8, 0.05), 2) + " of the differences' standard deviation" +
+        correctedWords(power, pairs) +
+        ". A smaller difference that was not found is no evidence that there is none.");
+    const double most = pairs.empty() ? 1.0 : static_cast<double>(*pairs.rbegin());
+    for (const double effect : {0.2, 0.3, 0.5, 0.8, 1.0, 1.2, 1.5, 2.0}) {
+        table.row("paired t, d", effect, power.at(effect, 0.05), power.at(effect, 0.05 / most));
+    }
+}
+
 } // namespace
 
 void tellOrders(ReportBuilder& report) {
@@ -124,24 +140,12 @@ void tellOrders(ReportBuilder& report) {
 
 void tellPower(ReportBuilder& report) {
     const Orders orders = ordersOf(report.trials.all);
-    const std::size_t people = orders.size();
-    if (people < 3) return;
+    const std::size_t people = orders.size(), trials = choiceTrialsOf(report.trials.all);
+    if (people < 3 || (report.tests().empty() && trials == 0)) return;
     report.page.heading("Power of the design as it was run");
-    const std::set<std::size_t> pairs = pairsTested(report);
-    const PairedPower power{people};
-    report.page.paragraph(
-        "By simulation (" + std::to_string(PairedPower::studies) + " studies of " + std::to_string(people) +
-        " participants, normal differences, seed 1): a paired t test at p < 0.05 finds a mean difference of "
-        "two conditions or stimuli in 80 % of the studies if it is at least d = " +
-        orNever(power.smallestEffect(0.8, 0.05), 2) + " of the differences' standard deviation" +
-        correctedWords(power, pairs) +
-        ". A smaller difference that was not found is no evidence that there is none.");
-    const double most = pairs.empty() ? 1.0 : static_cast<double>(*pairs.rbegin());
     ExportTable table{"power", report.isSimulated(), "test,effect,power,power_corrected"};
-    for (const double effect : {0.2, 0.3, 0.5, 0.8, 1.0, 1.2, 1.5, 2.0}) {
-        table.row("paired t, d", effect, power.at(effect, 0.05), power.at(effect, 0.05 / most));
-    }
-    if (const std::size_t trials = choiceTrialsOf(report.trials.all); trials > 0) {
+    if (!report.tests().empty()) tellPairedPower(report, people, table);
+    if (trials > 0) {
         const SharePower shares{people, trials};
         report.page.paragraph("Of forced choices between two (" + std::to_string(trials) +
                               " trials of each participant, all with the same true share; signed ranks "

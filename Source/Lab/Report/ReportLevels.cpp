@@ -5,6 +5,7 @@
 #include "Lab/Analysis/FitCharts.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/ConditionAxes.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Study/LevelTrials.h"
 #include <algorithm>
@@ -12,26 +13,24 @@
 namespace physvib {
 namespace {
 
-/// The protocol's model of answers; of a staircase, which has none, the logistic with its guess rate.
+/// A staircase has no model of answers: the logistic with its guess rate.
 PsychometricModel modelOf(const ReportTrials& trials) {
     PsychometricModel model;
     model.guess = trials.guess;
     if (!trials.protocol) return model;
-    for (const SessionPlan& session : trials.protocol->sessions) {
-        if (!session.adaptedAlternative() || session.alternatives.size() < 2) continue;
-        model.guess = session.guessRate();
-        if (session.quest) model.shape = session.quest->shape, model.lapseUpTo = session.quest->lapse;
-        break;
-    }
+    const auto& sessions = trials.protocol->sessions;
+    if (const auto adaptive = std::ranges::find_if(sessions, &SessionPlan::adaptedAlternative);
+        adaptive != sessions.end())
+        model.guess = adaptive->guessRate();
     return model;
 }
 
-void tellThresholds(ReportBuilder& report) {
+/// Of QUEST+ alone, `quest` has its thresholds: a second fit would only differ from them.
+void tellThresholds(ReportBuilder& report, const std::vector<LevelSummary>& quest = {}) {
     report.page.subheading("Psychometric functions");
     AnalysisJob fit = report.optionsFor(trialsTable);
     fit.model = modelOf(report.trials);
-    if (const auto words = report.analysis("psychometric", fit, "psychometric.csv"); !words.error.empty())
-        return;
+    if (quest.empty() && !report.analysis("psychometric", fit, "psychometric.csv").error.empty()) return;
     const NamedText file{report.tableText(trialsTable), trialsTable};
     const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
@@ -40,7 +39,7 @@ void tellThresholds(ReportBuilder& report) {
     for (const auto& condition : data.value.conditions)
         charts.push_back(psychometricChart(
             report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
-            condition.trials, fit.model, words));
+            condition.trials, fit.model, words, conditionNamed(quest, condition.name)));
     const std::string points = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
                                ". Circles: all participants' trials, larger where there were more; ",
                       model = std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) +
@@ -50,7 +49,13 @@ void tellThresholds(ReportBuilder& report) {
     const std::string threshold = report.people() > 1
                                       ? "Dotted: mean threshold, shaded its 95 % interval over participants. "
                                       : "Dotted: threshold. ";
-    if (data.value.conditions.front().trials.front().isAdaptive)
+    if (!quest.empty())
+        report.page.figure(charts, points +
+                                       "no functions are drawn, as answers chose the levels. Dotted: "
+                                       "the threshold of QUEST+" +
+                                       (report.people() > 1 ? ", shaded its 95 % interval over participants."
+                                                            : ", shaded what is still possible (95 %)."));
+    else if (data.value.conditions.front().trials.front().isAdaptive)
         report.page.figure(charts, points + "no functions are drawn, as answers chose the levels. " +
                                        threshold +
                                        "Thresholds are where the function is half way between guessing and "
@@ -162,7 +167,7 @@ void tellLevels(ReportBuilder& report) {
     };
     const auto words = report.analysis("levels", report.optionsFor(trialsTable), "levels.csv");
     if (!words.error.empty()) return;
-    const auto summaries = summariseLevels(trials);
+    auto summaries = summariseLevels(trials);
     if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest))
         report.addTable("thresholds.csv", words.participants);
     tellDifferences(report, summaries);
@@ -170,7 +175,11 @@ void tellLevels(ReportBuilder& report) {
     if (const std::string chart = matchesChart(report, summaries); !chart.empty())
         report.page.figure({chart}, "Levels that were set until both were equally strong: means" +
                                         report.intervals() + ".");
-    if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest)) tellThresholds(report);
+    if (has(LevelTrial::Kind::staircase))
+        tellThresholds(report);
+    else if (std::erase_if(summaries, [](const auto& s) { return s.kind != LevelTrial::Kind::quest; });
+             !summaries.empty())
+        tellThresholds(report, summaries);
     if (has(LevelTrial::Kind::magnitude)) tellMagnitudes(report);
 }
 

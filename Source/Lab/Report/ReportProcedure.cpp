@@ -307,10 +307,12 @@ void tellProvenance(ReportBuilder& report) {
     else if (report.people() > 1)
         facts.emplace_back("intervals over participants: Student's t");
     report.page.list(facts);
-    report.page.paragraph(std::string{"Every table below is CSV with names in its first line"} +
-                          (report.tests().empty() ? "."
-                                                  : "; report.R (R with afex) repeats every test from them "
-                                                    "and compares each p."));
+    report.page.paragraph(
+        std::string{
+            "Every table below is CSV with names of columns in its second line, after one of its origin"} +
+        (report.tests().empty() ? "."
+                                : "; report.R (R with afex) repeats every test from them "
+                                  "and compares each p."));
     std::vector<std::string> files;
     for (const auto& [name, text] : report.tables()) files.push_back(name);
     report.page.list(files);

@@ -2,6 +2,7 @@
 // Counts the rows of every planned session, and plays adaptive ones again.
 #include "Lab/Report/UnfinishedRuns.h"
 #include "Io/Text/NumberText.h"
+#include "Lab/Files/TrialColumns.h"
 #include "Lab/Study/AdaptiveLevel.h"
 #include "Lab/Study/StudyOrder.h"
 #include <algorithm>
@@ -10,24 +11,32 @@
 namespace physvib {
 namespace {
 
-/// Answers of the rows of a run: true if correct.
-using Answers = std::vector<bool>;
+/// The answer of a row of a run, and which of several staircases it is of, from 0.
+struct RunAnswer {
+    bool isCorrect = false;
+    std::size_t staircase = 0;
+};
+using Answers = std::vector<RunAnswer>;
 using RunKey = std::tuple<std::string, std::string, std::string>; // participant, condition, session
 
 bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t planned) {
     if (plan.untilCorrect > 0) { // the last so many are right
-        const auto wrong = std::ranges::find(answers.rbegin(), answers.rend(), false);
+        const auto wrong = std::ranges::find(answers.rbegin(), answers.rend(), false, &RunAnswer::isCorrect);
         if (wrong - answers.rbegin() >= plan.untilCorrect) return false;
     }
     if (!plan.adaptedAlternative()) return answers.size() < planned;
     AdaptiveLevel level{plan};
-    for (const bool answer : answers) level.answer(answer);
+    for (const RunAnswer& answer : answers) {
+        if (Staircases* const mixed = level.mixed()) mixed->choose(answer.staircase);
+        level.answer(answer.isCorrect);
+    }
     return !level.isDone();
 }
 
 std::size_t plannedOf(const SessionPlan& plan, std::size_t stimuli) {
     if (plan.quest) return static_cast<std::size_t>(plan.quest->trials);
-    if (plan.staircase) return static_cast<std::size_t>(plan.staircase->mostTrials);
+    if (plan.staircase)
+        return static_cast<std::size_t>(plan.staircase->mostTrials) * plan.staircase->starts().size();
     SeededRandom anyOrder{1};
     return sessionOrder(plan, stimuli, anyOrder).size();
 }
@@ -42,14 +51,17 @@ std::string UnfinishedRun::words() const {
 
 std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
     const auto participant = trials.all.column("participant"), condition = trials.all.column("condition"),
-               session = trials.all.column("session"), correct = trials.all.column("correct");
+               session = trials.all.column("session"), correct = trials.all.column("correct"),
+               staircase = trials.all.column(trialColumns::staircase);
     if (!trials.protocol || !participant || !condition || !session || !correct) return {};
     std::map<RunKey, Answers> runs;
     std::vector<std::string> people;
     for (const CsvRow& row : trials.all.rows) {
         const std::string& who = row.cells[*participant];
         if (std::ranges::find(people, who) == people.end()) people.push_back(who);
-        runs[{who, row.cells[*condition], row.cells[*session]}].push_back(row.cells[*correct] == "1");
+        runs[{who, row.cells[*condition], row.cells[*session]}].push_back(
+            {row.cells[*correct] == "1",
+             staircase ? parseNumber<std::size_t>(row.cells[*staircase]).value_or(1) - 1 : 0});
     }
     std::vector<UnfinishedRun> unfinished;
     for (const std::string& who : people)

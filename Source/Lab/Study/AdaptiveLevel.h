@@ -4,6 +4,7 @@
 #pragma once
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/Staircase.h"
+#include "Stimuli/SeededRandom.h"
 #include <variant>
 
 namespace physvib {
@@ -30,12 +31,37 @@ private:
     double deviationDb_;
 };
 
+/// Staircases whose trials are mixed.
+class Staircases {
+public:
+    explicit Staircases(const StaircasePlan& plan) {
+        for (const double startDb : plan.starts()) all_.emplace_back(plan, startDb);
+    }
+
+    double levelDb() const noexcept { return all_[at_].levelDb(); }
+    bool isDone() const { return std::ranges::all_of(all_, &Staircase::isDone); }
+    void answer(bool isCorrect) { all_[at_].answer(isCorrect); }
+
+    std::size_t count() const noexcept { return all_.size(); }
+    void choose(std::size_t staircase) noexcept { at_ = std::min(staircase, all_.size() - 1); }
+    /// One that is not over. Precondition: !isDone().
+    std::size_t draw(SeededRandom& random) const {
+        std::size_t drawn = random.below(all_.size());
+        while (all_[drawn].isDone()) drawn = random.below(all_.size());
+        return drawn;
+    }
+
+private:
+    std::vector<Staircase> all_;
+    std::size_t at_ = 0;
+};
+
 /// Not thread-safe: use from one thread at a time.
 class AdaptiveLevel {
 public:
     /// Precondition: `session` has a staircase or QUEST+.
     explicit AdaptiveLevel(const SessionPlan& session)
-        : method_{session.staircase ? Method{Staircase{*session.staircase}}
+        : method_{session.staircase ? Method{Staircases{*session.staircase}}
                                     : Method{QuestTrials{*session.quest, session.guessRate()}}} {}
 
     double levelDb() const {
@@ -47,6 +73,11 @@ public:
     void answer(bool isCorrect) {
         std::visit([=](auto& m) { m.answer(isCorrect); }, method_);
     }
+    /// The staircases, where there are several; else null.
+    Staircases* mixed() noexcept {
+        auto* const staircases = std::get_if<Staircases>(&method_);
+        return staircases != nullptr && staircases->count() > 1 ? staircases : nullptr;
+    }
     /// Number of trials in the run; 0 if the answers decide when it ends.
     int trials() const noexcept {
         const auto* const quest = std::get_if<QuestTrials>(&method_);
@@ -54,7 +85,7 @@ public:
     }
 
 private:
-    using Method = std::variant<Staircase, QuestTrials>;
+    using Method = std::variant<Staircases, QuestTrials>;
     Method method_;
 };
 

@@ -50,7 +50,9 @@ Levels levelsOf(const StaircasePlan& s) {
     while (steps.back() > s.leastStepDb) steps.push_back(std::max(s.leastStepDb, 0.5 * steps.back()));
     if (s.upRatio != 1.0)
         for (std::size_t i = steps.size(); i-- > 0;) steps.push_back(s.upRatio * steps[i]);
-    return reachedFrom(s.startDb, steps, s.leastDb, s.mostDb);
+    Levels levels;
+    for (const double start : s.starts()) levels.merge(reachedFrom(start, steps, s.leastDb, s.mostDb));
+    return levels;
 }
 
 Levels levelsOf(const QuestMethod& q) {
@@ -116,7 +118,8 @@ int trialsOf(const SessionPlan& session, std::size_t stimuli) {
     if (session.answer() == AnswerKind::wish)
         return session.fewestTouches > 0 ? session.fewestTouches : count;
     if (session.quest) return session.quest->trials * count;
-    if (session.staircase) return session.staircase->mostTrials * count;
+    if (session.staircase)
+        return session.staircase->mostTrials * static_cast<int>(session.staircase->starts().size()) * count;
     return count * session.repetitions * (session.bothOrders ? 2 : 1);
 }
 
