@@ -84,7 +84,7 @@ void tellMagnitudes(ReportBuilder& report) {
         charts, "Magnitude estimations: geometric means" + report.intervals() +
                     ", and "
                     "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
-                    "their own geometric mean first, as everyone chooses a scale.");
+                    "their own geometric mean first.");
     AnalysisJob test = report.optionsFor(trialsTable);
     test.measure = "value";
     test.within = {"stimulus"};
@@ -173,8 +173,7 @@ void tellLevels(ReportBuilder& report) {
     tellDifferences(report, summaries);
     tellEndsOfRanges(report);
     if (const std::string chart = matchesChart(report, summaries); !chart.empty())
-        report.page.figure({chart}, "Levels that were set until both were equally strong: means" +
-                                        report.intervals() + ".");
+        report.page.figure({chart}, "Levels that were set by adjustment: means" + report.intervals() + ".");
     if (has(LevelTrial::Kind::staircase))
         tellThresholds(report);
     else if (std::erase_if(summaries, [](const auto& s) { return s.kind != LevelTrial::Kind::quest; });

@@ -98,7 +98,8 @@ void tellCalls(ReportBuilder& report) {
     std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> calls;
     std::map<std::pair<std::string, std::string>, std::string> examples;
     for (const CsvRow& row : all.rows) {
-        if (answerOf(cell(row, trialColumns::task)) == AnswerKind::wish) continue;
+        if (cell(row, "render").empty() || answerOf(cell(row, trialColumns::task)) == AnswerKind::wish)
+            continue;
         ++calls[{cell(row, "condition"), cell(row, "session"), cell(row, "stimulus"), cell(row, "render")}];
         examples.try_emplace({cell(row, "condition"), cell(row, "session")}, cell(row, "render"));
     }
