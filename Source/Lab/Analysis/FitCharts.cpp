@@ -77,7 +77,8 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
             {level, {share, share, share}, 0.5 + 1.3 * std::sqrt(count.second / largest)});
     }
     if (told != nullptr) {
-        chart.threshold = ChartValue::around(told->estimate, told->halfInterval);
+        chart.threshold =
+            ChartValue::around(told->estimate, told->participants > 1 ? told->halfInterval : 0.0);
         chart.thresholdWords = "threshold " + fixedNumber(told->estimate, 1);
     } else if (!thresholds.empty()) {
         if (!isAdaptive) {

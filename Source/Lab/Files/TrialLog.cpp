@@ -221,7 +221,9 @@ std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
     for (const auto& scale : scalesOf(protocol)) all.push_back(scale);
     if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); }))
         all.emplace_back(columns::quest);
-    if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.hasMixedStaircases(); }))
+    if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) {
+            return s.staircase && s.staircase->starts().size() > 1;
+        }))
         all.emplace_back(columns::staircase);
     all.insert(all.end(), columns::measured.begin(), columns::measured.end());
     all.insert(all.end(), columns::apparatus.begin(), columns::apparatus.end());

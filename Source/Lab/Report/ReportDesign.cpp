@@ -4,6 +4,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/TrialColumns.h"
+#include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Statistics/PowerSimulation.h"
 #include "Lab/Study/StudyTasks.h"
@@ -20,12 +21,10 @@ using Orders = std::vector<std::pair<std::string, std::vector<std::string>>>;
 /// Calls `take` with participant and condition of each main trial.
 template <class Take>
 void eachMainTrial(const CsvTable& all, Take take) {
-    const auto phase = all.column(trialColumns::phase), participant = all.column("participant"),
-               condition = all.column("condition");
+    const Cells cell{all};
     for (const CsvRow& row : all.rows)
-        if (!phase || row.cells[*phase] != trialColumns::training)
-            take(participant ? row.cells[*participant] : std::string{},
-                 condition ? row.cells[*condition] : std::string{}, row);
+        if (cell(row, trialColumns::phase) != trialColumns::training)
+            take(cell(row, "participant"), cell(row, "condition"), row);
 }
 
 Orders ordersOf(const CsvTable& all) {
@@ -67,17 +66,16 @@ std::set<std::string> orderedConditions(const Orders& orders) {
 
 /// Minimum number of two-alternative, fixed-level choice trials per participant; 0 if the study has none.
 std::size_t choiceTrialsOf(const CsvTable& all) {
-    const auto task = all.column(trialColumns::task), choice = all.column("choice"),
-               correct = all.column("correct");
-    if (!choice) return 0;
+    const Cells cell{all};
     std::map<std::string, std::size_t> counts;
     std::set<std::string> alternatives;
     eachMainTrial(all, [&](const std::string& participant, const std::string&, const CsvRow& row) {
-        if (row.cells[*choice].empty() || (task && answerOf(row.cells[*task]) != AnswerKind::choice) ||
-            (correct && !row.cells[*correct].empty()))
+        const std::string &choice = cell(row, "choice"), &task = cell(row, trialColumns::task);
+        if (choice.empty() || !cell(row, "correct").empty() ||
+            (cell.has(trialColumns::task) && answerOf(task) != AnswerKind::choice))
             return;
         ++counts[participant];
-        alternatives.insert(row.cells[*choice]);
+        alternatives.insert(choice);
     });
     if (counts.empty() || alternatives.size() != 2) return 0;
     return std::ranges::min_element(counts, {}, [](const auto& count) { return count.second; })->second;

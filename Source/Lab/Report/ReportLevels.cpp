@@ -6,6 +6,7 @@
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ConditionAxes.h"
+#include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Study/LevelTrials.h"
 #include <algorithm>
@@ -40,33 +41,25 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelSummary>& ques
         charts.push_back(psychometricChart(
             report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
             condition.trials, fit.model, words, conditionNamed(quest, condition.name)));
-    const std::string points = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
-                               ". Circles: all participants' trials, larger where there were more; ",
-                      model = std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) +
-                              ", with a guess rate of " + numberText(100.0 * fit.model.guess) +
-                              " % and lapse rates of up to " + numberText(100.0 * fit.model.lapseUpTo) +
-                              " %.";
-    const std::string threshold = report.people() > 1
-                                      ? "Dotted: mean threshold, shaded its 95 % interval over participants. "
-                                      : "Dotted: threshold. ";
-    if (!quest.empty())
-        report.page.figure(charts, points +
-                                       "no functions are drawn, as answers chose the levels. Dotted: "
-                                       "the threshold of QUEST+" +
-                                       (report.people() > 1 ? ", shaded its 95 % interval over participants."
-                                                            : ", shaded what is still possible (95 %)."));
-    else if (data.value.conditions.front().trials.front().isAdaptive)
-        report.page.figure(charts, points + "no functions are drawn, as answers chose the levels. " +
-                                       threshold +
-                                       "Thresholds are where the function is half way between guessing and "
-                                       "certainty, which need not be where the method ends (levels.csv); "
-                                       "the functions are " +
-                                       model);
+    std::string caption = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
+                          ". Circles: all participants' trials, larger where there were more; ";
+    const bool isAdaptive = data.value.conditions.front().trials.front().isAdaptive;
+    caption += isAdaptive
+                   ? "no functions are drawn, as answers chose the levels. "
+                   : "thin lines: the function of each participant; thick: their mean threshold and width. ";
+    caption += report.people() > 1 ? "Dotted: mean threshold, shaded its 95 % interval over participants. "
+                                   : "Dotted: threshold. ";
+    if (!quest.empty()) return report.page.figure(charts, caption + "It is that of QUEST+ (levels.csv).");
+    if (isAdaptive)
+        caption += "Thresholds are where the function is half way between guessing and certainty, which need "
+                   "not be where "
+                   "the method ends (levels.csv); the functions are ";
     else
-        report.page.figure(charts, points +
-                                       "thin lines: the function of each participant; thick: their mean "
-                                       "threshold and width. " +
-                                       threshold + "The functions are " + model);
+        caption += "The functions are ";
+    report.page.figure(
+        charts, caption + std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) +
+                    ", with a guess rate of " + numberText(100.0 * fit.model.guess) +
+                    " % and lapse rates of up to " + numberText(100.0 * fit.model.lapseUpTo) + " %.");
 }
 
 void tellMagnitudes(ReportBuilder& report) {
@@ -130,14 +123,13 @@ void tellDifferences(ReportBuilder& report, const std::vector<LevelSummary>& sum
 
 /// Warns about adjustments at the end of their range, which may have been limited by it.
 void tellEndsOfRanges(ReportBuilder& report) {
-    const CsvTable& all = report.trials.all;
-    const auto session = all.column("session"), value = all.column("value");
-    if (!report.trials.protocol || !session || !value) return;
+    const Cells cell{report.trials.all};
+    if (!report.trials.protocol) return;
     for (const SessionPlan& plan : report.trials.protocol->sessions) {
         std::size_t trials = 0, atEnd = 0;
-        for (const CsvRow& row : all.rows) {
-            if (!plan.adjustment || row.cells[*session] != plan.name) continue;
-            const auto db = parseNumber<double>(row.cells[*value]);
+        for (const CsvRow& row : report.trials.all.rows) {
+            if (!plan.adjustment || cell(row, "session") != plan.name) continue;
+            const auto db = parseNumber<double>(cell(row, "value"));
             ++trials;
             atEnd += db && (*db <= plan.adjustment->leastDb || *db >= plan.adjustment->mostDb);
         }

@@ -189,7 +189,6 @@ struct SessionPlan {
     const std::string* adaptedAlternative() const noexcept {
         return staircase ? &staircase->alternative : quest ? &quest->alternative : nullptr;
     }
-    bool hasMixedStaircases() const noexcept { return staircase && staircase->startsDb.size() > 1; }
     /// True if answers are correct or not.
     bool hasCorrectAnswers() const noexcept {
         return answer() == AnswerKind::label || adaptedAlternative() != nullptr || !correct.empty();
