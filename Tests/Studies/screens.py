@@ -187,24 +187,24 @@ WHOLE = {"physvib_protocol": 1, "name": "whole", "conditions": [{"name": "c", "l
                       {"name": "main", "task": "identify", "order": "given", "repetitions": 4, "break_every": 4, "break_s": BREAK_S}]}
 
 
-def click(x: float, y: float) -> None:
-    width, height = (int(word) for word in DISPLAY_SIZE.split("x"))
-    run("xdotool", "mousemove", round(x * width), round(y if y > 1 else y * height), "click", "1", "mousemove", width - 3, height // 2)
+SPOTS = {"1280x720": {"Feel it": (640, 230), "right": (865, 462), "Next": (640, 678), "Begin": (640, 519)},
+         "1440x900": {"Feel it": (720, 230), "right": (1125, 552), "Next": (720, 858), "Begin": (720, 609)}}
+
+
+def click(title: str) -> None:
+    run("xdotool", "mousemove", *SPOTS[DISPLAY_SIZE][title], "click", "1", "mousemove", int(DISPLAY_SIZE.split("x")[0]) - 3, "300")
     time.sleep(0.8)
 
 
-def next_by_pointer() -> None:
-    click(0.5, int(DISPLAY_SIZE.split("x")[1]) - 42)
-
-
 def answer(trial: int) -> None:
-    """The first of two points by keys, the second by the pointer; both orders are given, so all answers are right."""
-    feel(1.0)
+    """The first of two points by keys, the second by the pointer; their order is given, so all answers are right."""
     if trial % 2:
-        keys("Left", "Return", between_s=0.4)
+        feel(1.0)
+        keys("Left", "Return", "Return", between_s=0.4)
     else:
-        click(0.7, 0.6)
-        keys("Return", between_s=0.4)
+        click("Feel it")
+        click("right")
+        click("Next")
     time.sleep(0.4)
 
 
@@ -223,14 +223,14 @@ def show_whole(folder: Path) -> None:
     picture("whole-1-before")
     keys("Return", between_s=0.8)
     answer(1), answer(2)
-    next_by_pointer()
+    click("Begin")
     for trial in range(1, 5):
         answer(trial)
     picture("whole-2-break")
-    next_by_pointer() # too early
+    click("Begin") # too early
     time.sleep(BREAK_S)
     picture("whole-3-rested")
-    next_by_pointer()
+    click("Begin")
     answer(5), answer(6)
     feel(0.1)
     mixer.kill()
@@ -241,7 +241,7 @@ def show_whole(folder: Path) -> None:
     answer(7)
     keys("alt+F4", between_s=1.0)
     picture("whole-5-window-closed")
-    next_by_pointer()
+    click("Begin")
     picture("whole-6-gone-on")
     keys("alt+F4", "alt+F4", between_s=1.0)
     picture("whole-7-left")
