@@ -278,6 +278,10 @@ std::vector<PlantedField> plantedFields() {
          "staircase on stronger", stairs},
         {"staircase.start_db", staircase([](StaircasePlan& s) { s.startDb = 9; }), "starting at 9 dB",
          stairs},
+        {"staircase.starts_db", staircase([](StaircasePlan& s) {
+             s.startsDb = {9, 2};
+         }),
+         "2 staircases, each trial of one that is not over, at random, starting at 9, 2 dB", stairs},
         {"staircase.step_db", staircase([](StaircasePlan& s) { s.stepDb = 3; }), "in steps of 3 dB", stairs},
         {"staircase.least_step_db", staircase([](StaircasePlan& s) { s.leastStepDb = 0.7; }),
          "down to 0.7 dB", stairs},

@@ -177,10 +177,9 @@ TEST_F(Report, WhoStoppedBeforeTheEndIsNamed) {
 }
 
 TEST_F(Report, LevelsThatAnswersChoseTellNoSlope) {
-    simulate("level-quest", 3);
-    ASSERT_EQ(call("report level-quest-P*.csv --out out").exitCode, 0);
-    EXPECT_TRUE(
-        has(page(), "the functions are weibull, with a guess rate of 50 % and lapse rates of up to 2 %."));
+    simulate("level-steps", 3);
+    ASSERT_EQ(call("report level-steps-P*.csv --out out").exitCode, 0);
+    EXPECT_TRUE(has(page(), "the functions are logistic, with a guess rate of 50 %"));
     EXPECT_TRUE(has(page(), "no JND (answers chose the levels"));
     EXPECT_TRUE(has(read("out/psychometric.csv"), ",,,0.5,")) << "neither width nor JND";
     for (const char* slope : {", JND ", "thin lines", "mean of the participants"})

@@ -1,19 +1,68 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What recorded.sh asks: `plan PHYSVIB falls|boxes PROTOCOL.json` writes a protocol that has each condition once and prints the seconds to record;
-`compare PHYSVIB falls|boxes FOLDER RECORDING.raw` compares the rows in FOLDER with the samples. Exit code 1 if anything is wrong."""
+"""What recorded.sh asks: `plan PHYSVIB STUDY PROTOCOL.json` writes a protocol that has each condition once and prints the seconds to record;
+`compare PHYSVIB STUDY FOLDER RECORDING.raw` compares the rows in FOLDER with the samples, and those of a study of one's own with what numpy makes
+of its protocol. Exit code 1 if anything is wrong."""
 import array
 import csv
 import json
 import math
+import re
 import struct
 import subprocess
 import sys
+import wave
 from pathlib import Path
+
+import numpy as np
 
 RATE, FULL_SCALE_G = 48000, 2.0  # of the layout study1
 FALL_SECONDS = 2
 bad = []
+
+# Studies of one's own, of one factor, of whose two alternatives the second is varied.
+PHANTOM = "stimulus phantom --at 0.5,0.5 --layout study1"
+OWN = {
+    "frequency": {"values": ["150", "180.5", "215", "260", "330"], "otherwise": "200", "call": PHANTOM + " --frequency {value} --level-g 0.3 --seconds 0.5"},
+    "decay": {"values": ["0", "14", "20", "40", "80"], "otherwise": "10",
+              "call": PHANTOM + " --frequency 200 --decay {value} --level-of energy --level-g 0.06 --seconds 0.6"},
+    "clip": {"values": ["1", "1.5", "2", "3"], "otherwise": "1",
+             "call": "render drop --set pair=wood-wood --set height={value} --set falls=once --seconds 1.5 --layout study1 --method SV --level-db -8"},
+}
+
+
+def clip() -> np.ndarray:
+    """A recording of a contact: two modes of unlike decay and a click."""
+    t = np.arange(RATE // 10) / RATE
+    x = np.exp(-60 * t) * np.sin(2 * np.pi * 349 * t) + 0.4 * np.exp(-200 * t) * np.sin(2 * np.pi * 900 * t)
+    x[:8] += 0.2
+    return np.round(x / np.abs(x).max() * 30000)
+
+
+def by_numpy(what: str, value: str) -> np.ndarray:
+    """In g, from the study's words and not from the row's call; of the clip its shape alone."""
+    if what == "clip":
+        return clip()
+    seconds = {"frequency": 0.5, "decay": 0.6}[what]
+    t = np.arange(round(seconds * RATE)) / RATE
+    if what == "frequency":
+        return 0.3 * np.sin(2 * np.pi * float(value) * t)
+    d = float(value)
+    envelope_s = -np.expm1(-2 * d * seconds) / (2 * d) if d else seconds
+    return 0.06 / np.sqrt(envelope_s) * np.exp(-d * t) * np.sin(2 * np.pi * 200 * t)
+
+
+def off_numpy(what: str, value: str, played: np.ndarray) -> tuple:
+    """How far the samples are from numpy's, as a share of the peak; and the peak in g."""
+    wanted = by_numpy(what, value)
+    wanted = wanted[np.argmax(wanted != 0):]
+    if what == "clip": # the first contact, as loud as it is
+        found = played[:min(len(wanted), len(played))]
+        wanted = wanted[:len(found)]
+        wanted = wanted * (found @ wanted) / (wanted @ wanted)
+    length = max(len(played), len(wanted))
+    found, wanted = (np.pad(x, (0, length - len(x))) for x in (played if what != "clip" else found, wanted))
+    return np.abs(found - wanted).max() / np.abs(wanted).max(), np.abs(wanted).max()
 
 
 def expect(holds: bool, words: str) -> None:
@@ -21,7 +70,25 @@ def expect(holds: bool, words: str) -> None:
         bad.append(words)
 
 
+def plan_own(what: str, path: str) -> int:
+    own = OWN[what]
+    factor = {"name": "value", "values": own["values"], "alternative": "varied", "otherwise": own["otherwise"]}
+    session = {"name": "main", "task": "choose", "order": "given", "alternatives": [{"name": "standard"}, {"name": "varied"}], "correct": "varied"}
+    condition = {"name": "c", "layout": "study1", "stimuli": "calls", "factors": [factor], "call": own["call"]}
+    protocol = {"physvib_protocol": 1, "name": "short", "conditions": [condition], "sessions": [session]}
+    if what == "clip":
+        protocol["sounds"] = [{"frequency_hz": 349, "file": "clip.wav"}]
+        with wave.open(str(Path(path).parent / "clip.wav"), "wb") as file:
+            file.setparams((1, 2, RATE, 0, "NONE", ""))
+            file.writeframes(clip().astype("<i2").tobytes())
+    Path(path).write_text(json.dumps(protocol))
+    print(len(own["values"]) * 2 * 5)
+    return 0
+
+
 def plan(physvib: str, what: str, path: str) -> int:
+    if what in OWN:
+        return plan_own(what, path)
     name = {"falls": "model-or-sound", "boxes": "eight-methods"}[what]
     protocol = json.loads(subprocess.run([physvib, "study", "show", name], capture_output=True, text=True, check=True).stdout)
     protocol["name"] = "short"
@@ -52,7 +119,9 @@ def samples_of(wav: bytes) -> array.array:
 
 
 def seconds_of(folder: str, call: str) -> float:
-    """How long a world moved, as its saved session says; the session itself ends when the last of it was felt."""
+    """What the call says; of a world with hands how long it moved, as its saved session says, which ends when the last of it was felt."""
+    if told := re.search(r"--seconds ([0-9.]+)", call):
+        return float(told[1])
     log = next(word for word in call.split() if word.endswith(".json"))
     return sum(take["world_end_s"] - take["start_s"] for take in json.loads((Path(folder) / log).read_text())["takes"])
 
@@ -64,8 +133,9 @@ def decibels(ratio: float) -> float:
 def compare(physvib: str, what: str, folder: str, raw: str) -> int:
     recording = Path(raw).read_bytes()
     rows = list(csv.DictReader(line for line in (Path(folder) / "short-P01.csv").read_text().splitlines() if not line.startswith("#")))
-    expect(len(rows) == (27 if what == "falls" else 8), f"expected all conditions, found {len(rows)} rows")
-    at, peaks, worst_peak, worst_rms, parts = 0, {}, 0.0, 0.0, 0
+    count = len(OWN[what]["values"]) if what in OWN else 27 if what == "falls" else 8
+    expect(len(rows) == count, f"expected {count} conditions, found {len(rows)} rows")
+    at, peaks, worst_peak, worst_rms, parts, off, contacts = 0, {}, 0.0, 0.0, 0, 0.0, {}
     for row in rows:
         words = f"{row['stimulus']}"
         expect(float(row["limiter_db"]) == 0.0, f"{words}: the limiter lowered it by {row['limiter_db']} dB")
@@ -89,7 +159,7 @@ def compare(physvib: str, what: str, folder: str, raw: str) -> int:
             at = found + len(wanted)
             played = array.array("f", recording[found:at])
             peak = max(abs(s) for s in played) * FULL_SCALE_G
-            seconds = FALL_SECONDS if what == "falls" else seconds_of(folder, call)
+            seconds = seconds_of(folder, call)
             rms = math.sqrt(sum(s * s for s in played) / (seconds * RATE)) * FULL_SCALE_G
             parts += 1
             worst_peak = max(worst_peak, abs(float(peak_g) / peak - 1.0))
@@ -97,16 +167,28 @@ def compare(physvib: str, what: str, folder: str, raw: str) -> int:
             worst_rms = max(worst_rms, abs(float(rms_g) / rms - 1.0))
             expect(abs(float(rms_g) / rms - 1.0) <= 0.02,  # the row's time ends with a picture, up to 33 ms later
                    f"{words} {name}: the row says {rms_g} g (root mean square), {rms:.5f} g were recorded")
+            if what in OWN:
+                value = words if name == "varied" else OWN[what]["otherwise"]
+                share, own_peak = off_numpy(what, value, np.frombuffer(played, dtype=np.float32).astype(float) * FULL_SCALE_G)
+                off = max(off, share)
+                expect(share <= 1e-5, f"{words} {name}: the samples are {share:.2g} of the peak off numpy's")
+                expect(abs(float(peak_g) / own_peak - 1.0) <= 0.01, f"{words} {name}: the row says {peak_g} g, numpy {own_peak:.5f} g")
+                contacts[value] = own_peak
             if what == "falls":
                 expect(peak < FULL_SCALE_G, f"{words} {name}: full scale")
                 peaks[(name, *words.rsplit(" height=", 1))] = peak
     worst_distance = 0.0
+    if what == "clip":
+        for height, peak in contacts.items():
+            error = abs(decibels(peak / contacts["1"]) - 10.0 * math.log10(float(height)))
+            worst_distance = max(worst_distance, error)
+            expect(error <= 0.1, f"{height} m against 1 m is {error:.3f} dB off Eq. 5.4")
     for (name, kind, height), peak in peaks.items():
         error = abs(decibels(peak / peaks[(name, kind, "1")]) - 10.0 * math.log10(float(height)))
         worst_distance = max(worst_distance, error)
         expect(error <= 0.1, f"{kind} {name}: {height} m against 1 m is {error:.3f} dB off Eq. 5.4")
     print(f"{what}: {parts} parts of {len(rows)} conditions recorded to the bit of their logs; rows against samples: peak within {100 * worst_peak:.3f} %, "
-          f"root mean square within {100 * worst_rms:.2f} %" + (f"; falls of 1, 2, 3 m within {worst_distance:.3f} dB of Eq. 5.4" if peaks else "") + "; limiter at 0 dB" * (not bad))
+          f"root mean square within {100 * worst_rms:.2f} %" + (f"; falls within {worst_distance:.3f} dB of Eq. 5.4" if peaks or what == "clip" else "") + (f"; within {off:.2g} of the peak of numpy's samples" if what in OWN else "") + "; limiter at 0 dB" * (not bad))
     for words in bad:
         print(words)
     return 1 if bad else 0

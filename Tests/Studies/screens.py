@@ -180,13 +180,97 @@ def show_end(name: str, protocol: Path, lines: list, condition: dict, session: d
     mixer.kill()
 
 
+# ---- a whole session, with all that may happen to it
+
+WHOLE = {"physvib_protocol": 1, "name": "whole", "conditions": [{"name": "c", "layout": "phone4", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.3}],
+         "sessions": [{"name": "practice", "training": True, "task": "identify", "order": "given"},
+                      {"name": "main", "task": "identify", "order": "given", "repetitions": 4, "break_every": 4, "break_s": BREAK_S}]}
+
+
+SPOTS = {"1280x720": {"Feel it": (640, 230), "right": (865, 462), "Next": (640, 678), "Begin": (640, 519)},
+         "1440x900": {"Feel it": (720, 230), "right": (1125, 552), "Next": (720, 858), "Begin": (720, 609)}}
+
+
+def click(title: str) -> None:
+    run("xdotool", "mousemove", *SPOTS[DISPLAY_SIZE][title], "click", "1", "mousemove", int(DISPLAY_SIZE.split("x")[0]) - 3, "300")
+    time.sleep(0.8)
+
+
+def answer(trial: int) -> None:
+    """The first of two points by keys, the second by the pointer; their order is given, so all answers are right."""
+    if trial % 2:
+        feel(1.0)
+        keys("Left", "Return", "Return", between_s=0.4)
+    else:
+        click("Feel it")
+        click("right")
+        click("Next")
+    time.sleep(0.4)
+
+
+def show_whole(folder: Path) -> None:
+    protocol, rows = folder / "whole.json", folder / "rows"
+    rows.mkdir()
+    protocol.write_text(json.dumps(WHOLE))
+    file = rows / "whole-P01.csv"
+
+    def expect_trials(count: int, after: str) -> None:
+        found = len(file.read_text().splitlines()) - 2
+        if found != count:
+            raise SystemExit(f"{DISPLAY_SIZE}: {found} instead of {count} trials after {after}")
+
+    mixer = Mixer(protocol, rows)
+    picture("whole-1-before")
+    keys("Return", between_s=0.8)
+    answer(1), answer(2)
+    click("Begin")
+    for trial in range(1, 5):
+        answer(trial)
+    picture("whole-2-break")
+    click("Begin") # too early
+    time.sleep(BREAK_S)
+    picture("whole-3-rested")
+    click("Begin")
+    answer(5), answer(6)
+    feel(0.1)
+    mixer.kill()
+    expect_trials(8, "a kill while something was felt")
+    mixer = Mixer(protocol, rows)
+    picture("whole-4-resumed")
+    keys("Return", between_s=0.8)
+    answer(7)
+    keys("alt+F4", between_s=1.0)
+    picture("whole-5-window-closed")
+    click("Begin")
+    picture("whole-6-gone-on")
+    keys("alt+F4", "alt+F4", between_s=1.0)
+    picture("whole-7-left")
+    expect_trials(9, "the window was closed twice")
+    mixer.begin()
+    keys("Return", between_s=0.8)
+    answer(8)
+    picture("whole-8-end")
+    mixer.kill()
+    expect_trials(10, "all")
+    events = [line.split(",")[1] for line in (rows / "whole-P01.times.txt").read_text().splitlines()[1:]]
+    expected = ["start", "break", "go-on", "resume", "pause", "go-on", "pause", "leave", "resume", "end"]
+    if events != expected:
+        raise SystemExit(f"{DISPLAY_SIZE}: the file of times has {events}, expected {expected}")
+    run(BIN / "physvib", "report", file, "--protocol", protocol, "--out", folder / "report")
+    sentence = re.search(r"<li>(P01 began at .*?)</li>", (folder / "report/index.html").read_text())
+    print(f"{DISPLAY_SIZE}: 10 of 10 trials after a break, a kill and a closed window. {sentence[1]}")
+
+
 def main() -> None:
     manager = subprocess.Popen(["openbox"])
-    names = sys.argv[3:] or [line.split()[0] for line in run(BIN / "physvib", "study", "list").splitlines() if not line.split()[0].endswith("-thesis")]
+    names = sys.argv[3:] or [line.split()[0] for line in run(BIN / "physvib", "study", "list").splitlines() if not line.split()[0].endswith("-thesis")] + ["whole"]
     with tempfile.TemporaryDirectory() as scratch:
         for name in names:
             folder = Path(scratch) / name
             folder.mkdir()
+            if name == "whole":
+                show_whole(folder)
+                continue
             path, protocol = protocol_of(name, folder)
             lines = whole_rows(path, folder)
             conditions = protocol["conditions"]

@@ -6,6 +6,7 @@
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/LevelTrials.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyRun.h"
 #include "Stimuli/SeededRandom.h"
@@ -225,6 +226,48 @@ TEST(ProtocolLanguage, PracticeEndsAfterSoManyRightAnswersInARow) {
     }
     EXPECT_EQ(trials, 4 + 6) << "the fourth answer was wrong";
     EXPECT_EQ(experiment.sessionTrials(), 80);
+}
+
+TEST(ProtocolLanguage, InterleavedStaircasesAreMixedAndEachGoesItsOwnWay) {
+    const Protocol protocol = example("level-mixed");
+    EXPECT_EQ(readProtocol(protocolJson(protocol), "again").value, protocol);
+    const StaircasePlan& plan = *protocol.sessions.front().staircase;
+    Experiment experiment{protocol, {}};
+    Staircase alone[] = {{plan, 8.0}, {plan, 1.0}};
+    std::string rows = trialHeader(protocol, {}, "0");
+    std::vector<TrialRecord> records;
+    std::size_t changes = 0;
+    SeededRandom random{1, "listener"};
+    while (!experiment.isDone()) {
+        const Trial trial = experiment.trial();
+        ASSERT_TRUE(trial.staircase == 1 || trial.staircase == 2);
+        Staircase& own = alone[trial.staircase - 1];
+        ASSERT_FALSE(own.isDone()) << "a staircase that is over has no more trials";
+        EXPECT_EQ(trial.levelDb, own.levelDb());
+        changes += !records.empty() && records.back().trial.staircase != trial.staircase ? 1 : 0;
+        const bool isRight = random.chance(trial.levelDb > 3.0 ? 0.95 : 0.6);
+        own.answer(isRight);
+        Answer answer;
+        answer.response = isRight ? "stronger" : "standard";
+        records.push_back(experiment.take(answer));
+        rows += trialRow(protocol, {}, records.back());
+    }
+    EXPECT_TRUE(alone[0].isDone() && alone[1].isDone());
+    EXPECT_GT(changes, records.size() / 4) << "trials are mixed";
+    const NamedText file{rows, "rows.csv"};
+    const auto levels = readLevels({&file, 1});
+    ASSERT_TRUE(levels) << levels.error;
+    const auto summary = summariseLevels(levels.value.conditions.front().trials).front();
+    EXPECT_EQ(summary.reversals, 2u * 7u) << "each ends with its eighth, which no trial follows";
+    EXPECT_NEAR(summary.estimate, 0.5 * (test::thresholdDb(alone[0]) + test::thresholdDb(alone[1])), 0.5);
+    Experiment resumed{protocol, {}};
+    const auto log = readTrialLog(rows, "rows.csv", protocol, {});
+    ASSERT_TRUE(log) << log.error;
+    for (const TrialRecord& record : log.value.records) ASSERT_EQ(resumed.redo(record), "");
+    EXPECT_TRUE(resumed.isDone());
+    Protocol wrong = protocol;
+    wrong.sessions.front().staircase->startsDb[1] = 12.0;
+    EXPECT_TRUE(holds(validate(wrong), "staircase: expected least_db <= start_db <= most_db"));
 }
 
 TEST(ProtocolLanguage, AModulusComesFirstInEachTrial) {

@@ -46,7 +46,8 @@ FitWords fitWords(std::span<const ColumnName> columns, const std::string& level,
 }
 
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
-                              const PsychometricModel& model, const FitWords& words) {
+                              const PsychometricModel& model, const FitWords& words,
+                              const LevelSummary* told) {
     std::map<double, std::pair<double, double>> counts; // level -> hits, trials
     for (const LevelAnswer& trial : trials) {
         counts[trial.level].first += trial.answer;
@@ -75,7 +76,11 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         answers.points.push_back(
             {level, {share, share, share}, 0.5 + 1.3 * std::sqrt(count.second / largest)});
     }
-    if (!thresholds.empty()) {
+    if (told != nullptr) {
+        chart.threshold =
+            ChartValue::around(told->estimate, told->participants > 1 ? told->halfInterval : 0.0);
+        chart.thresholdWords = "threshold " + fixedNumber(told->estimate, 1);
+    } else if (!thresholds.empty()) {
         if (!isAdaptive) {
             LineSeries mean = curve(
                 {model.shape, meanOf(thresholds), meanOf(widths), model.guess, meanOf(lapses)}, least, most);

@@ -4,6 +4,7 @@
 #include "Io/Charts/Charts.h"
 #include "Lab/Files/ColumnNames.h"
 #include "Lab/Statistics/LevelFits.h"
+#include "Lab/Study/LevelTrials.h"
 #include <string>
 #include <vector>
 
@@ -24,8 +25,10 @@ int decimalsOf(double jnd) noexcept;
 
 // SVG. Participants without a fit are omitted. Any thread (allocates).
 
+/// `told`: the threshold of the method that chose the levels, shown in place of those of the fits.
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
-                              const PsychometricModel& model, const FitWords& words);
+                              const PsychometricModel& model, const FitWords& words,
+                              const LevelSummary* told = nullptr);
 std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                           const std::string& levelWords);
 

@@ -53,6 +53,7 @@ constexpr ColumnMeaning meanings[] = {
     {"response_s", "response_time", "From the first press of play to the answer", "s"},
     {"level_db", "level_db", "Level of the trial, relative to its condition's", "dB"},
     {"quest", "quest", "What QUEST+ thought possible before the session's first trial", ""},
+    {"staircase", "staircase", "Which of several staircases the trial is of, from 1", ""},
     {"peak_g", "peak_g", "Peak acceleration that was felt in the trial", "g"},
     {"rms_g", "rms_g", "Root mean square of the acceleration that was felt in the trial", "g"},
     {"a8_m_per_s2", "a8_m_per_s2", "The participant's exposure up to here, A(8) by ISO 5349-1", "m/s^2"},

@@ -112,6 +112,8 @@ void visitFields(auto& v, FieldsOf<StaircasePlan>) {
     using S = StaircasePlan;
     v.field("alternative", &S::alternative, anyText, Need::required);
     v.field("start_db", &S::startDb, studyBounds::levelDb, Need::optional);
+    v.field("starts_db", &S::startsDb, Bounds{studyBounds::levelDb.least, studyBounds::levelDb.most, 0, 8},
+            Need::optional);
     v.field("step_db", &S::stepDb, Bounds{0.01, 20.0}, Need::optional);
     v.field("least_step_db", &S::leastStepDb, Bounds{0.01, 20.0}, Need::optional);
     v.field("least_db", &S::leastDb, studyBounds::levelDb, Need::optional);

@@ -250,6 +250,8 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     if (trial.kind == LevelTrial::Kind::staircase) {
         trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
         trial.session = StudyRows::textIf(row, rows.optional("session"));
+        if (const auto mixed = rows.optional(trialColumns::staircase); mixed && !row.cells[*mixed].empty())
+            trial.session += "/" + row.cells[*mixed]; // a run of its own
         if (const std::string* const quest = questWordsOf(rows, row)) {
             trial.kind = LevelTrial::Kind::quest;
             trial.value = rows.wholeNumber(row, rows.required("correct"), 0, 1);
@@ -286,14 +288,21 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     // Of our own files' right and wrong choices those with a level are adaptive.
     const auto moved = rows.optional("level_db");
     const bool isOwn = rows.optional(trialColumns::task) && columns.measure == "correct" && moved;
-    const bool hasFixed = isOwn && std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
-                              return !row.cells[measure].empty() && row.cells[*moved].empty();
-                          });
+    const auto quest = rows.optional(trialColumns::quest);
+    const auto has = [&](bool isMoved) {
+        return isOwn && std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
+                   return !row.cells[measure].empty() && row.cells[*moved].empty() != isMoved &&
+                          (!quest || row.cells[*quest].empty());
+               });
+    };
+    // Rows of QUEST+ have a fit of their own: they are fitted here only where nothing else is to be fitted.
+    const bool hasFixed = has(false), hasStaircase = has(true);
     std::size_t taken = 0;
     rows.each(columns.isMagnitude ? AnswerKind::number : AnswerKind::choice, [&](const CsvRow& row) {
         if (row.cells[measure].empty()) return;
         const bool isAdaptive = isOwn && !row.cells[*moved].empty();
         if (isOwn && (columns.level == "level_db" ? !isAdaptive : isAdaptive && hasFixed)) return;
+        if (isAdaptive && hasStaircase && quest && !row.cells[*quest].empty()) return;
         const auto at = parseNumber<double>(level->level(row));
         if (!at || std::abs(*at) > largestLevel)
             throw StudyFault{rows.table().fault(row, level->column,

@@ -19,6 +19,9 @@ inline constexpr std::array<std::string_view, 21> names{
 /// Only in protocols with a QUEST+ session, after the scales: the prior before the first trial.
 constexpr std::string_view quest = "quest";
 
+/// Only in protocols with staircases that are mixed: which one the trial is of.
+constexpr std::string_view staircase = "staircase";
+
 /// Measured values of each trial, after those. Files that older versions began without them stay without
 /// them.
 constexpr std::string_view peakG = "peak_g", rmsG = "rms_g", exposure = "a8_m_per_s2";
@@ -38,7 +41,7 @@ constexpr bool isApparatus(std::string_view name) {
     return std::ranges::find(apparatus, name) != apparatus.end();
 }
 constexpr bool has(std::string_view name) {
-    return name == quest || isMeasured(name) || isApparatus(name) ||
+    return name == quest || name == staircase || isMeasured(name) || isApparatus(name) ||
            std::ranges::find(names, name) != names.end();
 }
 

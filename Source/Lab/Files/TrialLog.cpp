@@ -79,6 +79,7 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     if (session.correct.empty()) cells["level_db"] = numberText(trial.levelDb);
     cells["render"] = callsOf(protocol, record);
     if (session.quest) cells[columns::quest] = questWords(*session.quest, session.guessRate());
+    if (trial.staircase > 0) cells[columns::staircase] = std::to_string(trial.staircase);
     for (const FeltLevel& felt : answer.felt) {
         appendPart(cells[columns::peakG], levelText(felt.peakG));
         appendPart(cells[columns::rmsG], levelText(felt.rmsG));
@@ -220,6 +221,10 @@ std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
     for (const auto& scale : scalesOf(protocol)) all.push_back(scale);
     if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); }))
         all.emplace_back(columns::quest);
+    if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) {
+            return s.staircase && s.staircase->starts().size() > 1;
+        }))
+        all.emplace_back(columns::staircase);
     all.insert(all.end(), columns::measured.begin(), columns::measured.end());
     all.insert(all.end(), columns::apparatus.begin(), columns::apparatus.end());
     return all;

@@ -3,6 +3,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/TrialColumns.h"
+#include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
 #include <algorithm>
 #include <map>
@@ -54,10 +55,7 @@ void tellNoise(ReportBuilder& report, const Kinds& kinds) {
 
 void tellApparatus(ReportBuilder& report) {
     const CsvTable& all = report.trials.all;
-    const auto cell = [&](const CsvRow& row, std::string_view column) {
-        const auto at = all.column(column);
-        return at ? row.cells[*at] : std::string{};
-    };
+    const Cells cell{all};
     report.page.subheading("Apparatus");
     Kinds kinds;
     std::size_t unknown = 0;

@@ -2,6 +2,7 @@
 // Runs the analyses and tests of a report and shows each as a repeatable call.
 #include "Lab/Report/ReportBuilder.h"
 #include "Io/Text/NumberText.h"
+#include "Lab/Report/ReportCells.h"
 #include <algorithm>
 #include <set>
 
@@ -72,10 +73,9 @@ ReportBuilder::ReportBuilder(const ReportTrials& of, std::string title)
     , page{std::move(title), of.isSimulated} {}
 
 std::size_t ReportBuilder::people() const {
-    const auto participant = trials.all.column("participant");
+    const Cells cell{trials.all};
     std::set<std::string_view> codes;
-    for (const CsvRow& row : trials.all.rows)
-        if (participant) codes.insert(row.cells[*participant]);
+    for (const CsvRow& row : trials.all.rows) codes.insert(cell(row, "participant"));
     return std::max<std::size_t>(1, codes.size());
 }
 

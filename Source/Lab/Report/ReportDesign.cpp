@@ -4,6 +4,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/TrialColumns.h"
+#include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Statistics/PowerSimulation.h"
 #include "Lab/Study/StudyTasks.h"
@@ -20,12 +21,10 @@ using Orders = std::vector<std::pair<std::string, std::vector<std::string>>>;
 /// Calls `take` with participant and condition of each main trial.
 template <class Take>
 void eachMainTrial(const CsvTable& all, Take take) {
-    const auto phase = all.column(trialColumns::phase), participant = all.column("participant"),
-               condition = all.column("condition");
+    const Cells cell{all};
     for (const CsvRow& row : all.rows)
-        if (!phase || row.cells[*phase] != trialColumns::training)
-            take(participant ? row.cells[*participant] : std::string{},
-                 condition ? row.cells[*condition] : std::string{}, row);
+        if (cell(row, trialColumns::phase) != trialColumns::training)
+            take(cell(row, "participant"), cell(row, "condition"), row);
 }
 
 Orders ordersOf(const CsvTable& all) {
@@ -67,17 +66,16 @@ std::set<std::string> orderedConditions(const Orders& orders) {
 
 /// Minimum number of two-alternative, fixed-level choice trials per participant; 0 if the study has none.
 std::size_t choiceTrialsOf(const CsvTable& all) {
-    const auto task = all.column(trialColumns::task), choice = all.column("choice"),
-               correct = all.column("correct");
-    if (!choice) return 0;
+    const Cells cell{all};
     std::map<std::string, std::size_t> counts;
     std::set<std::string> alternatives;
     eachMainTrial(all, [&](const std::string& participant, const std::string&, const CsvRow& row) {
-        if (row.cells[*choice].empty() || (task && answerOf(row.cells[*task]) != AnswerKind::choice) ||
-            (correct && !row.cells[*correct].empty()))
+        const std::string &choice = cell(row, "choice"), &task = cell(row, trialColumns::task);
+        if (choice.empty() || !cell(row, "correct").empty() ||
+            (cell.has(trialColumns::task) && answerOf(task) != AnswerKind::choice))
             return;
         ++counts[participant];
-        alternatives.insert(row.cells[*choice]);
+        alternatives.insert(choice);
     });
     if (counts.empty() || alternatives.size() != 2) return 0;
     return std::ranges::min_element(counts, {}, [](const auto& count) { return count.second; })->second;
@@ -104,6 +102,22 @@ std::string correctedWords(const PairedPower& power, const std::set<std::size_t>
     return words;
 }
 
+void tellPairedPower(ReportBuilder& report, std::size_t people, ExportTable& table) {
+    const std::set<std::size_t> pairs = pairsTested(report);
+    const PairedPower power{people};
+    report.page.paragraph(
+        "By simulation (" + std::to_string(PairedPower::studies) + " studies of " + std::to_string(people) +
+        " participants, normal differences, seed 1): a paired t test at p < 0.05 finds a mean difference of "
+        "two conditions or stimuli in 80 % of the studies if it is at least d = " +
+        orNever(power.smallestEffect(0.8, 0.05), 2) + " of the differences' standard deviation" +
+        correctedWords(power, pairs) +
+        ". A smaller difference that was not found is no evidence that there is none.");
+    const double most = pairs.empty() ? 1.0 : static_cast<double>(*pairs.rbegin());
+    for (const double effect : {0.2, 0.3, 0.5, 0.8, 1.0, 1.2, 1.5, 2.0}) {
+        table.row("paired t, d", effect, power.at(effect, 0.05), power.at(effect, 0.05 / most));
+    }
+}
+
 } // namespace
 
 void tellOrders(ReportBuilder& report) {
@@ -124,24 +138,12 @@ void tellOrders(ReportBuilder& report) {
 
 void tellPower(ReportBuilder& report) {
     const Orders orders = ordersOf(report.trials.all);
-    const std::size_t people = orders.size();
-    if (people < 3) return;
+    const std::size_t people = orders.size(), trials = choiceTrialsOf(report.trials.all);
+    if (people < 3 || (report.tests().empty() && trials == 0)) return;
     report.page.heading("Power of the design as it was run");
-    const std::set<std::size_t> pairs = pairsTested(report);
-    const PairedPower power{people};
-    report.page.paragraph(
-        "By simulation (" + std::to_string(PairedPower::studies) + " studies of " + std::to_string(people) +
-        " participants, normal differences, seed 1): a paired t test at p < 0.05 finds a mean difference of "
-        "two conditions or stimuli in 80 % of the studies if it is at least d = " +
-        orNever(power.smallestEffect(0.8, 0.05), 2) + " of the differences' standard deviation" +
-        correctedWords(power, pairs) +
-        ". A smaller difference that was not found is no evidence that there is none.");
-    const double most = pairs.empty() ? 1.0 : static_cast<double>(*pairs.rbegin());
     ExportTable table{"power", report.isSimulated(), "test,effect,power,power_corrected"};
-    for (const double effect : {0.2, 0.3, 0.5, 0.8, 1.0, 1.2, 1.5, 2.0}) {
-        table.row("paired t, d", effect, power.at(effect, 0.05), power.at(effect, 0.05 / most));
-    }
-    if (const std::size_t trials = choiceTrialsOf(report.trials.all); trials > 0) {
+    if (!report.tests().empty()) tellPairedPower(report, people, table);
+    if (trials > 0) {
         const SharePower shares{people, trials};
         report.page.paragraph("Of forced choices between two (" + std::to_string(trials) +
                               " trials of each participant, all with the same true share; signed ranks "

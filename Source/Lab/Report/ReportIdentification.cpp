@@ -182,11 +182,13 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
                 barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
     pc.most = 100.0;
     if (!pairs.empty()) markPairs(pc, pairs, axes);
-    report.page.figure({barChart(pc)},
-                       "Mean percent correct" + words + " (as thesis Fig. 3.12, 4.3)" + report.intervals() +
-                           ". Brackets and the "
-                           "legend: pairs of levels over the means of the other factor, t corrected by "
-                           "Bonferroni: *** p < 0.001, ** p < 0.01, * p < 0.05.");
+    std::string caption =
+        "Mean percent correct" + words + " (as thesis Fig. 3.12, 4.3)" + report.intervals() + ".";
+    if (!pairs.empty())
+        caption.append(axes.series.size() == 2 ? " Brackets and the legend: pairs of" : " Brackets: pairs of")
+            .append(axes.factors.size() > 1 ? " levels over the means of the other factor" : " conditions")
+            .append(", t corrected by Bonferroni: *** p < 0.001, ** p < 0.01, * p < 0.05.");
+    report.page.figure({barChart(pc)}, caption);
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
         const auto& trials = data.conditions[c].trials;

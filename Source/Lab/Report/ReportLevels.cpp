@@ -5,6 +5,8 @@
 #include "Lab/Analysis/FitCharts.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/ConditionAxes.h"
+#include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Study/LevelTrials.h"
 #include <algorithm>
@@ -12,26 +14,24 @@
 namespace physvib {
 namespace {
 
-/// The protocol's model of answers; of a staircase, which has none, the logistic with its guess rate.
+/// A staircase has no model of answers: the logistic with its guess rate.
 PsychometricModel modelOf(const ReportTrials& trials) {
     PsychometricModel model;
     model.guess = trials.guess;
     if (!trials.protocol) return model;
-    for (const SessionPlan& session : trials.protocol->sessions) {
-        if (!session.adaptedAlternative() || session.alternatives.size() < 2) continue;
-        model.guess = session.guessRate();
-        if (session.quest) model.shape = session.quest->shape, model.lapseUpTo = session.quest->lapse;
-        break;
-    }
+    const auto& sessions = trials.protocol->sessions;
+    if (const auto adaptive = std::ranges::find_if(sessions, &SessionPlan::adaptedAlternative);
+        adaptive != sessions.end())
+        model.guess = adaptive->guessRate();
     return model;
 }
 
-void tellThresholds(ReportBuilder& report) {
+/// Of QUEST+ alone, `quest` has its thresholds: a second fit would only differ from them.
+void tellThresholds(ReportBuilder& report, const std::vector<LevelSummary>& quest = {}) {
     report.page.subheading("Psychometric functions");
     AnalysisJob fit = report.optionsFor(trialsTable);
     fit.model = modelOf(report.trials);
-    if (const auto words = report.analysis("psychometric", fit, "psychometric.csv"); !words.error.empty())
-        return;
+    if (quest.empty() && !report.analysis("psychometric", fit, "psychometric.csv").error.empty()) return;
     const NamedText file{report.tableText(trialsTable), trialsTable};
     const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
@@ -40,28 +40,26 @@ void tellThresholds(ReportBuilder& report) {
     for (const auto& condition : data.value.conditions)
         charts.push_back(psychometricChart(
             report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
-            condition.trials, fit.model, words));
-    const std::string points = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
-                               ". Circles: all participants' trials, larger where there were more; ",
-                      model = std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) +
-                              ", with a guess rate of " + numberText(100.0 * fit.model.guess) +
-                              " % and lapse rates of up to " + numberText(100.0 * fit.model.lapseUpTo) +
-                              " %.";
-    const std::string threshold = report.people() > 1
-                                      ? "Dotted: mean threshold, shaded its 95 % interval over participants. "
-                                      : "Dotted: threshold. ";
-    if (data.value.conditions.front().trials.front().isAdaptive)
-        report.page.figure(charts, points + "no functions are drawn, as answers chose the levels. " +
-                                       threshold +
-                                       "Thresholds are where the function is half way between guessing and "
-                                       "certainty, which need not be where the method ends (levels.csv); "
-                                       "the functions are " +
-                                       model);
+            condition.trials, fit.model, words, conditionNamed(quest, condition.name)));
+    std::string caption = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
+                          ". Circles: all participants' trials, larger where there were more; ";
+    const bool isAdaptive = data.value.conditions.front().trials.front().isAdaptive;
+    caption += isAdaptive
+                   ? "no functions are drawn, as answers chose the levels. "
+                   : "thin lines: the function of each participant; thick: their mean threshold and width. ";
+    caption += report.people() > 1 ? "Dotted: mean threshold, shaded its 95 % interval over participants. "
+                                   : "Dotted: threshold. ";
+    if (!quest.empty()) return report.page.figure(charts, caption + "It is that of QUEST+ (levels.csv).");
+    if (isAdaptive)
+        caption += "Thresholds are where the function is half way between guessing and certainty, which need "
+                   "not be where "
+                   "the method ends (levels.csv); the functions are ";
     else
-        report.page.figure(charts, points +
-                                       "thin lines: the function of each participant; thick: their mean "
-                                       "threshold and width. " +
-                                       threshold + "The functions are " + model);
+        caption += "The functions are ";
+    report.page.figure(
+        charts, caption + std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) +
+                    ", with a guess rate of " + numberText(100.0 * fit.model.guess) +
+                    " % and lapse rates of up to " + numberText(100.0 * fit.model.lapseUpTo) + " %.");
 }
 
 void tellMagnitudes(ReportBuilder& report) {
@@ -79,7 +77,7 @@ void tellMagnitudes(ReportBuilder& report) {
         charts, "Magnitude estimations: geometric means" + report.intervals() +
                     ", and "
                     "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
-                    "their own geometric mean first, as everyone chooses a scale.");
+                    "their own geometric mean first.");
     AnalysisJob test = report.optionsFor(trialsTable);
     test.measure = "value";
     test.within = {"stimulus"};
@@ -125,14 +123,13 @@ void tellDifferences(ReportBuilder& report, const std::vector<LevelSummary>& sum
 
 /// Warns about adjustments at the end of their range, which may have been limited by it.
 void tellEndsOfRanges(ReportBuilder& report) {
-    const CsvTable& all = report.trials.all;
-    const auto session = all.column("session"), value = all.column("value");
-    if (!report.trials.protocol || !session || !value) return;
+    const Cells cell{report.trials.all};
+    if (!report.trials.protocol) return;
     for (const SessionPlan& plan : report.trials.protocol->sessions) {
         std::size_t trials = 0, atEnd = 0;
-        for (const CsvRow& row : all.rows) {
-            if (!plan.adjustment || row.cells[*session] != plan.name) continue;
-            const auto db = parseNumber<double>(row.cells[*value]);
+        for (const CsvRow& row : report.trials.all.rows) {
+            if (!plan.adjustment || cell(row, "session") != plan.name) continue;
+            const auto db = parseNumber<double>(cell(row, "value"));
             ++trials;
             atEnd += db && (*db <= plan.adjustment->leastDb || *db >= plan.adjustment->mostDb);
         }
@@ -162,15 +159,18 @@ void tellLevels(ReportBuilder& report) {
     };
     const auto words = report.analysis("levels", report.optionsFor(trialsTable), "levels.csv");
     if (!words.error.empty()) return;
-    const auto summaries = summariseLevels(trials);
+    auto summaries = summariseLevels(trials);
     if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest))
         report.addTable("thresholds.csv", words.participants);
     tellDifferences(report, summaries);
     tellEndsOfRanges(report);
     if (const std::string chart = matchesChart(report, summaries); !chart.empty())
-        report.page.figure({chart}, "Levels that were set until both were equally strong: means" +
-                                        report.intervals() + ".");
-    if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest)) tellThresholds(report);
+        report.page.figure({chart}, "Levels that were set by adjustment: means" + report.intervals() + ".");
+    if (has(LevelTrial::Kind::staircase))
+        tellThresholds(report);
+    else if (std::erase_if(summaries, [](const auto& s) { return s.kind != LevelTrial::Kind::quest; });
+             !summaries.empty())
+        tellThresholds(report, summaries);
     if (has(LevelTrial::Kind::magnitude)) tellMagnitudes(report);
 }
 

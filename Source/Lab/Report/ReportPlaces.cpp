@@ -3,6 +3,7 @@
 // targets, and percent counts.
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/ResponseMap.h"
@@ -20,9 +21,7 @@ struct PlacesOf {
 /// Mean perceived against intended place over participants, for rows (`isRow`) or columns.
 std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std::vector<PlacesOf>& places,
                            bool isRow) {
-    const auto participant = all.column("participant"), condition = all.column("condition"),
-               target = all.column(isRow ? "target_row" : "target_column"),
-               at = all.column(isRow ? "y" : "x"), phase = all.column("phase");
+    const Cells cell{all};
     LineChart chart{report.frame(isRow ? "Perceived row" : "Perceived column"),
                     isRow ? "intended target row" : "intended target column",
                     isRow ? "perceived, share of the height" : "perceived, share of the width",
@@ -33,11 +32,11 @@ std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std
     for (std::size_t i = 0; i < places.size(); ++i) {
         std::map<int, std::map<std::string, std::vector<double>>> answers; // by target and participant
         for (const CsvRow& row : all.rows) {
-            if (phase && row.cells[*phase] == "training") continue;
-            if (condition && row.cells[*condition] != places[i].condition) continue;
-            const auto line = parseNumber<int>(row.cells[*target]);
-            const auto value = parseNumber<double>(row.cells[*at]);
-            if (line && value) answers[*line][participant ? row.cells[*participant] : ""].push_back(*value);
+            if (cell(row, "phase") == "training") continue;
+            if (cell.has("condition") && cell(row, "condition") != places[i].condition) continue;
+            const auto line = parseNumber<int>(cell(row, isRow ? "target_row" : "target_column"));
+            const auto value = parseNumber<double>(cell(row, isRow ? "y" : "x"));
+            if (line && value) answers[*line][cell(row, "participant")].push_back(*value);
         }
         LineSeries series{places[i].condition, {}};
         series.style = i;

@@ -98,7 +98,8 @@ void tellCalls(ReportBuilder& report) {
     std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> calls;
     std::map<std::pair<std::string, std::string>, std::string> examples;
     for (const CsvRow& row : all.rows) {
-        if (answerOf(cell(row, trialColumns::task)) == AnswerKind::wish) continue;
+        if (cell(row, "render").empty() || answerOf(cell(row, trialColumns::task)) == AnswerKind::wish)
+            continue;
         ++calls[{cell(row, "condition"), cell(row, "session"), cell(row, "stimulus"), cell(row, "render")}];
         examples.try_emplace({cell(row, "condition"), cell(row, "session")}, cell(row, "render"));
     }
@@ -307,10 +308,12 @@ void tellProvenance(ReportBuilder& report) {
     else if (report.people() > 1)
         facts.emplace_back("intervals over participants: Student's t");
     report.page.list(facts);
-    report.page.paragraph(std::string{"Every table below is CSV with names in its first line"} +
-                          (report.tests().empty() ? "."
-                                                  : "; report.R (R with afex) repeats every test from them "
-                                                    "and compares each p."));
+    report.page.paragraph(
+        std::string{
+            "Every table below is CSV with names of columns in its second line, after one of its origin"} +
+        (report.tests().empty() ? "."
+                                : "; report.R (R with afex) repeats every test from them "
+                                  "and compares each p."));
     std::vector<std::string> files;
     for (const auto& [name, text] : report.tables()) files.push_back(name);
     report.page.list(files);

@@ -5,6 +5,7 @@
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/SharedParticipants.h"
 #include "Lab/Files/TrialColumns.h"
+#include "Lab/Report/ReportCells.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
 #include <filesystem>
@@ -78,12 +79,11 @@ void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) 
 
 /// True if all rows record their apparatus and none had noise.
 bool wasWithoutNoise(const CsvTable& all) {
-    const auto version = all.column(trialColumns::version), noise = all.column(trialColumns::noiseDb);
-    if (!version || !noise) return false;
-    const auto isKnown = [&](const CsvRow& row) { return !row.cells[*version].empty(); };
-    return std::ranges::any_of(all.rows, isKnown) && std::ranges::all_of(all.rows, [&](const CsvRow& row) {
-               return isKnown(row) && row.cells[*noise] == trialColumns::noNoise;
-           });
+    const Cells cell{all};
+    return !all.rows.empty() && std::ranges::all_of(all.rows, [&](const CsvRow& row) {
+        return !cell(row, trialColumns::version).empty() &&
+               cell(row, trialColumns::noiseDb) == trialColumns::noNoise;
+    });
 }
 
 /// Returns an error for the first call that would write a file, since the page shows the calls to be

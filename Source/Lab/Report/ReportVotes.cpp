@@ -186,8 +186,11 @@ void tellChoices(ReportBuilder& report) {
         {sharesChart(report.frame("Shares of the alternatives"), names.empty() ? "condition" : names, groups,
                      chosen)},
         "Mean of the participants' shares (as thesis Fig. 5.8, which has medians)" + shareIntervals(report) +
-            ". Marks: signed ranks of the shares against one half, corrected by Holm for the bars of "
-            "this figure: * p < 0.05, ** p < 0.01, *** p < 0.001.");
+            "." +
+            (summaries.front().p
+                 ? " Marks: signed ranks of the shares against one half, corrected by Holm for the bars of "
+                   "this figure: * p < 0.05, ** p < 0.01, *** p < 0.001."
+                 : ""));
     if (summaries.front().shares.size() != 2) return;
     const std::string alternative = summaries.front().shares.front().alternative;
     tellChoiceTests(report, factors, alternative);
@@ -233,10 +236,13 @@ void tellRatings(ReportBuilder& report) {
     if (hasMethods)
         report.page.figure(
             factorCharts(report, scales, summaries, tests),
-            "Mean scores by factor (as thesis Fig. 5.13)" + report.intervals() +
-                ". Marks: main "
-                "effect in the analysis of variance of that scale (two levels each, so no pairs are to be "
-                "compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05.");
+            "Mean scores by factor (as thesis Fig. 5.13)" + report.intervals() + "." +
+                (tests.front().empty()
+                     ? ""
+                     : " Marks: main "
+                       "effect in the analysis of variance of that scale (two levels each, so no pairs are "
+                       "to be "
+                       "compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05."));
     std::vector<const RatingSummary*> shown;
     for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) // reverse order, so that AV-FV-DRV comes
                                                                      // first

@@ -2,34 +2,36 @@
 // Counts the rows of every planned session, and plays adaptive ones again.
 #include "Lab/Report/UnfinishedRuns.h"
 #include "Io/Text/NumberText.h"
+#include "Lab/Files/TrialColumns.h"
+#include "Lab/Report/ReportCells.h"
 #include "Lab/Study/AdaptiveLevel.h"
-#include "Lab/Study/StudyOrder.h"
+#include "Lab/Study/StudyPlan.h"
 #include <algorithm>
 #include <tuple>
 
 namespace physvib {
 namespace {
 
-/// Answers of the rows of a run: true if correct.
-using Answers = std::vector<bool>;
+/// The answer of a row of a run, and which of several staircases it is of, from 0.
+struct RunAnswer {
+    bool isCorrect = false;
+    std::size_t staircase = 0;
+};
+using Answers = std::vector<RunAnswer>;
 using RunKey = std::tuple<std::string, std::string, std::string>; // participant, condition, session
 
 bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t planned) {
     if (plan.untilCorrect > 0) { // the last so many are right
-        const auto wrong = std::ranges::find(answers.rbegin(), answers.rend(), false);
+        const auto wrong = std::ranges::find(answers.rbegin(), answers.rend(), false, &RunAnswer::isCorrect);
         if (wrong - answers.rbegin() >= plan.untilCorrect) return false;
     }
     if (!plan.adaptedAlternative()) return answers.size() < planned;
     AdaptiveLevel level{plan};
-    for (const bool answer : answers) level.answer(answer);
+    for (const RunAnswer& answer : answers) {
+        level.choose(answer.staircase);
+        level.answer(answer.isCorrect);
+    }
     return !level.isDone();
-}
-
-std::size_t plannedOf(const SessionPlan& plan, std::size_t stimuli) {
-    if (plan.quest) return static_cast<std::size_t>(plan.quest->trials);
-    if (plan.staircase) return static_cast<std::size_t>(plan.staircase->mostTrials);
-    SeededRandom anyOrder{1};
-    return sessionOrder(plan, stimuli, anyOrder).size();
 }
 
 } // namespace
@@ -41,15 +43,17 @@ std::string UnfinishedRun::words() const {
 }
 
 std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
-    const auto participant = trials.all.column("participant"), condition = trials.all.column("condition"),
-               session = trials.all.column("session"), correct = trials.all.column("correct");
-    if (!trials.protocol || !participant || !condition || !session || !correct) return {};
+    const Cells cell{trials.all};
+    if (!trials.protocol || !cell.has("participant") || !cell.has("session") || !cell.has("correct"))
+        return {};
     std::map<RunKey, Answers> runs;
     std::vector<std::string> people;
     for (const CsvRow& row : trials.all.rows) {
-        const std::string& who = row.cells[*participant];
+        const std::string& who = cell(row, "participant");
         if (std::ranges::find(people, who) == people.end()) people.push_back(who);
-        runs[{who, row.cells[*condition], row.cells[*session]}].push_back(row.cells[*correct] == "1");
+        const auto staircase = parseNumber<std::size_t>(cell(row, trialColumns::staircase));
+        runs[{who, cell(row, "condition"), cell(row, "session")}].push_back(
+            {cell(row, "correct") == "1", staircase.value_or(1) - 1});
     }
     std::vector<UnfinishedRun> unfinished;
     for (const std::string& who : people)
@@ -57,7 +61,8 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
             for (const SessionPlan& plan : trials.protocol->sessions) {
                 if (plan.answer() == AnswerKind::wish) continue;
                 const Answers& answers = runs[{who, planned.name, plan.name}];
-                const std::size_t most = plannedOf(plan, stimuliOf(planned).size());
+                const std::size_t most =
+                    static_cast<std::size_t>(mostTrialsOf(plan, stimuliOf(planned).size()));
                 if (isUnfinished(plan, answers, most))
                     unfinished.push_back({who, planned.name, plan.name, answers.size(), most,
                                           plan.adaptedAlternative() != nullptr});

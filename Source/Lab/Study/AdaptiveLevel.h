@@ -4,6 +4,7 @@
 #pragma once
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/Staircase.h"
+#include "Stimuli/SeededRandom.h"
 #include <variant>
 
 namespace physvib {
@@ -30,32 +31,47 @@ private:
     double deviationDb_;
 };
 
-/// Not thread-safe: use from one thread at a time.
+/// One QUEST+, or staircases whose trials are mixed. Not thread-safe: use from one thread at a time.
 class AdaptiveLevel {
 public:
     /// Precondition: `session` has a staircase or QUEST+.
-    explicit AdaptiveLevel(const SessionPlan& session)
-        : method_{session.staircase ? Method{Staircase{*session.staircase}}
-                                    : Method{QuestTrials{*session.quest, session.guessRate()}}} {}
+    explicit AdaptiveLevel(const SessionPlan& session) {
+        if (session.quest) methods_.emplace_back(QuestTrials{*session.quest, session.guessRate()});
+        if (session.staircase)
+            for (const double startDb : session.staircase->starts())
+                methods_.emplace_back(Staircase{*session.staircase, startDb});
+    }
 
     double levelDb() const {
-        return std::visit([](const auto& m) { return m.levelDb(); }, method_);
+        return std::visit([](const auto& m) { return m.levelDb(); }, methods_[at_]);
     }
-    bool isDone() const {
-        return std::visit([](const auto& m) { return m.isDone(); }, method_);
-    }
+    bool isDone() const { return std::ranges::all_of(methods_, isOver); }
     void answer(bool isCorrect) {
-        std::visit([=](auto& m) { m.answer(isCorrect); }, method_);
+        std::visit([=](auto& m) { m.answer(isCorrect); }, methods_[at_]);
+    }
+    /// The next answer is of that staircase, from 0; of the last if there are not as many.
+    void choose(std::size_t staircase) noexcept { at_ = std::min(staircase, methods_.size() - 1); }
+    /// Chooses one that is not over, at random; its number from 1, or 0 if there is only one. Precondition:
+    /// !isDone().
+    std::size_t draw(SeededRandom& random) {
+        if (methods_.size() == 1) return 0;
+        do at_ = random.below(methods_.size());
+        while (isOver(methods_[at_]));
+        return at_ + 1;
     }
     /// Number of trials in the run; 0 if the answers decide when it ends.
     int trials() const noexcept {
-        const auto* const quest = std::get_if<QuestTrials>(&method_);
+        const auto* const quest = std::get_if<QuestTrials>(&methods_.front());
         return quest == nullptr ? 0 : quest->trials();
     }
 
 private:
     using Method = std::variant<Staircase, QuestTrials>;
-    Method method_;
+    static bool isOver(const Method& method) {
+        return std::visit([](const auto& m) { return m.isDone(); }, method);
+    }
+    std::vector<Method> methods_;
+    std::size_t at_ = 0;
 };
 
 } // namespace physvib

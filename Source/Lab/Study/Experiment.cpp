@@ -119,6 +119,7 @@ Trial Experiment::nextTrial() {
     const PlannedTrial planned = isPlanned ? order_[static_cast<std::size_t>(inSession_)]
                                            : PlannedTrial{random.below(items_.size()), random.chance(0.5)};
     trial.stimulus = items_[planned.stimulus].label;
+    if (adaptive_) trial.staircase = adaptive_->draw(random);
     if (!s.alternatives.empty()) addAlternatives(trial, planned.isSwapped);
     if (!s.modulus.empty()) trial.parts = {"modulus", "stimulus"};
     if (!s.objects.empty()) {

@@ -30,7 +30,9 @@ bool isAdjustmentBefore(const Protocol& p, const SessionPlan& session) {
 }
 
 /// True if an adjustment or staircase starts within its range.
-bool startsInside(const auto& plan) { return plan.leastDb <= plan.startDb && plan.startDb <= plan.mostDb; }
+bool startsInside(const auto& plan, const std::vector<double>& starts) {
+    return std::ranges::all_of(starts, [&](double db) { return plan.leastDb <= db && db <= plan.mostDb; });
+}
 
 /// Checks the fields that only some tasks use.
 std::string taskFault(const SessionPlan& s) {
@@ -59,9 +61,9 @@ std::string taskFault(const SessionPlan& s) {
         return "adjustment: expected it of " + tasksThatAnswer({Kind::level}) + ", and of no other";
     if (s.adjustment && !hasAlternative(s, s.adjustment->alternative))
         return "adjustment.alternative: expected the name of an alternative";
-    if (s.adjustment && !startsInside(*s.adjustment))
+    if (s.adjustment && !startsInside(*s.adjustment, {s.adjustment->startDb}))
         return "adjustment: expected least_db <= start_db <= most_db";
-    if (s.staircase && !startsInside(*s.staircase))
+    if (s.staircase && !startsInside(*s.staircase, s.staircase->starts()))
         return "staircase: expected least_db <= start_db <= most_db";
     if (s.staircase && s.quest) return "quest: expected it or a staircase, found both";
     if (const std::string* const adapted = s.adaptedAlternative()) {

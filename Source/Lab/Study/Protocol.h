@@ -129,13 +129,16 @@ struct Adjustment {
 struct StaircasePlan {
     std::string alternative;
     double startDb = 6.0, stepDb = 2.0; ///< the step is halved at every reversal, down to leastStepDb
+    std::vector<double> startsDb{}; ///< of several staircases, instead of startDb: each trial is of one that
+                                    ///< is not over, at random
     double leastStepDb = 0.5, leastDb = 0.0, mostDb = 40.0;
     double upRatio = 1.0; ///< upward step per downward step; 3 with `down` 1 converges to 75 % (Kaernbach
                           ///< 1991)
     int down = 2;         ///< consecutive correct answers that lower the level; 2 converges to 70.7 %
     int reversals = 8;    ///< number of reversals at which it ends
-    int mostTrials = 200;
+    int mostTrials = 200; ///< of each staircase
     bool operator==(const StaircasePlan&) const = default;
+    std::vector<double> starts() const { return startsDb.empty() ? std::vector{startDb} : startsDb; }
 };
 
 /// Labels for the ends of rating scales where a session has none.

@@ -11,8 +11,10 @@ namespace physvib {
 class Staircase {
 public:
     explicit Staircase(const StaircasePlan& plan)
+        : Staircase{plan, plan.startDb} {}
+    Staircase(const StaircasePlan& plan, double startDb)
         : plan_{plan}
-        , levelDb_{plan.startDb}
+        , levelDb_{startDb}
         , stepDb_{plan.stepDb} {}
 
     double levelDb() const noexcept { return levelDb_; }

@@ -50,7 +50,9 @@ Levels levelsOf(const StaircasePlan& s) {
     while (steps.back() > s.leastStepDb) steps.push_back(std::max(s.leastStepDb, 0.5 * steps.back()));
     if (s.upRatio != 1.0)
         for (std::size_t i = steps.size(); i-- > 0;) steps.push_back(s.upRatio * steps[i]);
-    return reachedFrom(s.startDb, steps, s.leastDb, s.mostDb);
+    Levels levels;
+    for (const double start : s.starts()) levels.merge(reachedFrom(start, steps, s.leastDb, s.mostDb));
+    return levels;
 }
 
 Levels levelsOf(const QuestMethod& q) {
@@ -111,15 +113,6 @@ bool isGain(const ConditionPlan& condition) {
     return calls->variables.empty() && countOf(level) == countOf(gain);
 }
 
-int trialsOf(const SessionPlan& session, std::size_t stimuli) {
-    const auto count = static_cast<int>(stimuli);
-    if (session.answer() == AnswerKind::wish)
-        return session.fewestTouches > 0 ? session.fewestTouches : count;
-    if (session.quest) return session.quest->trials * count;
-    if (session.staircase) return session.staircase->mostTrials * count;
-    return count * session.repetitions * (session.bothOrders ? 2 : 1);
-}
-
 /// One session in one condition.
 struct PlannedSession {
     std::size_t session = 0, condition = 0;
@@ -134,7 +127,7 @@ std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
         const auto items = stimuliOf(protocol.conditions[c]);
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s) {
             PlannedSession& planned =
-                all.emplace_back(PlannedSession{s, c, trialsOf(protocol.sessions[s], items.size()), {}});
+                all.emplace_back(PlannedSession{s, c, mostTrialsOf(protocol.sessions[s], items.size()), {}});
             const double each = static_cast<double>(planned.trials) / static_cast<double>(items.size());
             for (const StimulusItem& item : items)
                 for (const auto& [part, levels] : partsOf(protocol, protocol.sessions[s]))
@@ -147,6 +140,16 @@ std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
 }
 
 } // namespace
+
+int mostTrialsOf(const SessionPlan& session, std::size_t stimuli) {
+    const auto count = static_cast<int>(stimuli);
+    if (session.answer() == AnswerKind::wish)
+        return session.fewestTouches > 0 ? session.fewestTouches : count;
+    if (session.quest) return session.quest->trials;
+    if (session.staircase)
+        return session.staircase->mostTrials * static_cast<int>(session.staircase->starts().size());
+    return count * session.repetitions * (session.bothOrders ? 2 : 1);
+}
 
 TrialJob PlannedStimulus::job(const Protocol& protocol) const {
     TrialRecord record;

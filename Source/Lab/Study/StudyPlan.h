@@ -30,6 +30,9 @@ inline constexpr std::size_t mostPlannedLevels = 512;
 /// level by level. Any thread (allocates).
 std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol);
 
+/// Trials of a session with so many stimuli; the most where answers decide. Any thread.
+int mostTrialsOf(const SessionPlan& session, std::size_t stimuli);
+
 /// Number of plays of one part of a stimulus per participant, at one play per trial.
 struct PlannedTrials {
     std::size_t condition = 0;

@@ -27,6 +27,7 @@ struct Trial {
                                     ///< or objects
     std::vector<double> partLevelsDb; ///< levels of the alternatives
     double levelDb = 0.0;             ///< of the alternative that is moved, or was matched before; else 0
+    std::size_t staircase = 0;        ///< from 1, where several are mixed; else 0
     double restSeconds = 0.0;         ///< break before it
 };
 
