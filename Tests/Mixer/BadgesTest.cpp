@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 using Places = std::vector<juce::Point<float>>;
 
-constexpr juce::Rectangle<float> room{4.0f, 4.0f, 560.0f, 300.0f};
+const juce::Rectangle<float> room{4.0f, 4.0f, 560.0f, 300.0f};
 
 void expectApart(const std::vector<juce::Rectangle<float>>& badges, juce::Rectangle<float> in,
                  const std::string& what) {
