@@ -66,7 +66,9 @@ juce::String decoded(const juce::Image& picture) {
     juce::PNGImageFormat{}.writeImageToStream(picture, out);
     out.flush();
     juce::ChildProcess reader;
-    if (!reader.start(juce::StringArray{"zbarimg", "--quiet", "--raw", file.getFullPathName()})) return {};
+    if (!reader.start(juce::StringArray{"zbarimg", "--quiet", "--raw", file.getFullPathName()},
+                      juce::ChildProcess::wantStdOut))
+        return {};
     return reader.readAllProcessOutput().trim();
 }
 
