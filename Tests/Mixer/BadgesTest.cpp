@@ -38,17 +38,16 @@ TEST(Badges, DoNotOverlapWhateverTheyAreNamed) {
     for (const int count : {0, 1, 4, 16, 64})
         for (const float words : {12.0f, 25.0f, 300.0f}) {
             const std::vector<float> widths(static_cast<std::size_t>(count), words);
-            expectApart(badgesAround(grid(count, room.reduced(60.0f, 40.0f)), widths, highestBadge, room),
-                        room, std::to_string(count) + " of " + std::to_string(words));
+            expectApart(badgesAround(grid(count, room.reduced(60.0f, 40.0f)), widths, room), room,
+                        std::to_string(count) + " of " + std::to_string(words));
         }
 }
 
 TEST(Badges, OfOnePlaceLieBesideEachOther) {
     const Places places(64, room.getCentre());
-    expectApart(badgesAround(places, std::vector<float>(64, 25.0f), 21.0f, room), room, "in the middle");
-    expectApart(
-        badgesAround(Places(16, room.getTopLeft()), std::vector<float>(16, 200.0f), highestBadge, room), room,
-        "in a corner");
+    expectApart(badgesAround(places, std::vector<float>(64, 25.0f), room), room, "in the middle");
+    expectApart(badgesAround(Places(16, room.getTopLeft()), std::vector<float>(16, 200.0f), room), room,
+                "in a corner");
     SeededRandom random{59};
     for (int k = 0; k < 20; ++k) {
         Places any;
@@ -58,13 +57,13 @@ TEST(Badges, OfOnePlaceLieBesideEachOther) {
                                                 static_cast<float>(random.below(100)) / 99.0f));
             widths.push_back(static_cast<float>(10 + random.below(120)));
         }
-        expectApart(badgesAround(any, widths, highestBadge, room), room, "random " + std::to_string(k));
+        expectApart(badgesAround(any, widths, room), room, "random " + std::to_string(k));
     }
 }
 
 TEST(Badges, StayWhereTheirActuatorsAreWhereThereIsRoom) {
     const auto places = grid(16, room.reduced(40.0f));
-    const auto badges = badgesAround(places, std::vector<float>(16, 20.0f), highestBadge, room);
+    const auto badges = badgesAround(places, std::vector<float>(16, 20.0f), room);
     for (std::size_t j = 0; j < 16; ++j) {
         EXPECT_NEAR(badges[j].getCentreX(), places[j].x, 0.5f);
         EXPECT_NEAR(badges[j].getCentreY(), places[j].y, 0.5f);
@@ -74,8 +73,8 @@ TEST(Badges, StayWhereTheirActuatorsAreWhereThereIsRoom) {
 
 TEST(Badges, ALongNameGetsWhatItsNeighbourDoesNotNeed) {
     const Places two{{100.0f, 100.0f}, {170.0f, 100.0f}};
-    const auto unlike = badgesAround(two, std::vector{200.0f, 12.0f}, highestBadge, room),
-               alike = badgesAround(two, std::vector{200.0f, 200.0f}, highestBadge, room);
+    const auto unlike = badgesAround(two, std::vector{200.0f, 12.0f}, room),
+               alike = badgesAround(two, std::vector{200.0f, 200.0f}, room);
     EXPECT_EQ(unlike[0].getWidth(), widestBadge);
     EXPECT_EQ(unlike[1].getWidth(), highestBadge);
     EXPECT_EQ(alike[0].getWidth(), alike[1].getWidth());

@@ -58,8 +58,8 @@ bool pushApart(Badges& badges, juce::Rectangle<float> room) {
 } // namespace
 
 Badges badgesAround(std::span<const juce::Point<float>> places, std::span<const float> textWidths,
-                    float highest, juce::Rectangle<float> room) {
-    const float high = juce::jlimit(lowestBadge, highest, nearestOf(places) - betweenBadges);
+                    juce::Rectangle<float> room) {
+    const float high = juce::jlimit(lowestBadge, highestBadge, nearestOf(places) - betweenBadges);
     Badges badges;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const float least = std::max(high, std::min(twoLetters, textWidths[i]));

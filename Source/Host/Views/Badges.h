@@ -9,10 +9,10 @@ namespace physvib {
 
 constexpr float highestBadge = 30.0f, lowestBadge = 16.0f, widestBadge = 96.0f, betweenBadges = 3.0f;
 
-/// A badge around each place, at most `highest` high and as wide as its text wants and its neighbours let it.
+/// A badge around each place, as high as all can be and as wide as its text wants and its neighbours let it.
 /// Badges lie in `room`; those that would lie over each other are moved apart. Any thread.
 std::vector<juce::Rectangle<float>> badgesAround(std::span<const juce::Point<float>> places,
-                                                 std::span<const float> textWidths, float highest,
+                                                 std::span<const float> textWidths,
                                                  juce::Rectangle<float> room);
 
 } // namespace physvib

@@ -246,7 +246,8 @@ juce::String WorldView::labelOf(int enchanter) const {
 }
 
 juce::Font WorldView::badgeFont() const {
-    return {layout_.geometry.count > fewBadges ? text::small : text::medium, juce::Font::bold};
+    const bool isLow = !badges_.empty() && badges_.front().getHeight() < lowBadge;
+    return {isLow ? text::small : text::medium, juce::Font::bold};
 }
 
 const std::vector<juce::Rectangle<float>>& WorldView::badges() const {
@@ -254,14 +255,15 @@ const std::vector<juce::Rectangle<float>>& WorldView::badges() const {
     const auto count = static_cast<std::size_t>(layout_.geometry.count);
     if (badges_.size() == count && field == badgesIn_) return badges_;
     std::vector<juce::Point<float>> places;
-    std::vector<float> widths;
-    for (int j = 0; j < layout_.geometry.count; ++j) {
-        places.push_back(placeOfEnchanter(j));
-        widths.push_back(badgeFont().getStringWidthFloat(labelOf(j)) + 8.0f);
-    }
+    for (int j = 0; j < layout_.geometry.count; ++j) places.push_back(placeOfEnchanter(j));
     badgesIn_ = field;
-    badges_ = badgesAround(places, widths, count > fewBadges ? 0.7f * highestBadge : highestBadge,
-                           getLocalBounds().reduced(4).toFloat());
+    badges_.clear();
+    for (int pass = 0; pass < 2; ++pass) { // the second with the text that fits the height
+        std::vector<float> widths;
+        for (int j = 0; j < layout_.geometry.count; ++j)
+            widths.push_back(badgeFont().getStringWidthFloat(labelOf(j)) + 8.0f);
+        badges_ = badgesAround(places, widths, getLocalBounds().reduced(4).toFloat());
+    }
     return badges_;
 }
 
