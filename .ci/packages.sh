@@ -5,10 +5,10 @@
 physvib_first_packages="g++ cmake ninja-build libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libfreetype-dev libpng-dev fonts-dejavu-core"
 # What the programs, the library and the plug-ins are made with, beside a compiler.
 physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev libboost-dev \
-    pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev libflac-dev libvorbis-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev"
+    pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev libflac-dev libvorbis-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev libqrcodegen-dev"
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
-physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool clang clang-format-14 libclang-rt-14-dev \
+physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool zbar-tools clang clang-format-14 libclang-rt-14-dev \
     liblo-tools python3-numpy python3-pandas luajit doxygen cmark-gfm \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
 # Of .ci/pico-sources.sh alone, and of Tests/Firmware/pico.sh.

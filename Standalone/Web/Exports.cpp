@@ -2,11 +2,12 @@
 // Functions of the WebAssembly module that the page calls, besides the motor controllers in
 // Source/Api/JavaScript. On an error they do not return (js::refuse), and the page discards the instance.
 #include "Api/JavaScript/Exports.h"
+#include "Io/Text/QrCode.h"
 #include "PageWorld.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneEdits.h"
 #include <array>
-#include <qrcodegen.h>
+#include <optional>
 
 #define PHYSVIB_PAGE(name)                                                                                   \
     __attribute__((export_name(#name))) page_##name // prefix, because the C library has a function open
@@ -17,6 +18,7 @@ namespace {
 
 std::unique_ptr<PageWorld> world;
 SceneSettings chosen;
+std::optional<QrCode> code;
 
 const char* tell(std::string text) {
     js::text() = std::move(text);
@@ -125,15 +127,6 @@ void PHYSVIB_PAGE(place)(int enchanter, double x, double y) {
 void PHYSVIB_PAGE(placed)(int law) { world->placed(law); }
 
 /// Creates a QR code of `text` and returns the modules per side, for qrModule(); 0: the text is too long.
-int PHYSVIB_PAGE(qrSide)(const char* text) {
-    js::text().assign(2 * qrcodegen_BUFFER_LEN_MAX, '\0');
-    auto* const code = reinterpret_cast<std::uint8_t*>(js::text().data());
-    const bool fits =
-        qrcodegen_encodeText(text, code + qrcodegen_BUFFER_LEN_MAX, code, qrcodegen_Ecc_LOW,
-                             qrcodegen_VERSION_MIN, qrcodegen_VERSION_MAX, qrcodegen_Mask_AUTO, true);
-    return fits ? qrcodegen_getSize(code) : 0;
-}
-bool PHYSVIB_PAGE(qrModule)(int x, int y) {
-    return qrcodegen_getModule(reinterpret_cast<const std::uint8_t*>(js::text().data()), x, y);
-}
+int PHYSVIB_PAGE(qrSide)(const char* text) { return code.emplace(text).side(); }
+bool PHYSVIB_PAGE(qrModule)(int x, int y) { return code->isDark(x, y); }
 }

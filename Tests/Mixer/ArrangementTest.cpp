@@ -209,5 +209,50 @@ TEST(Arrangement, APageWithoutRoomScrolls) {
     EXPECT_EQ(viewport->getHeight(), page->getHeight());
 }
 
+TEST(Arrangement, TheListOfActuatorsShowsWholeRows) {
+    Window w;
+    w.attach(12);
+    for (const auto& [width, height] : sizes) {
+        w.view.setSize(width, height);
+        w.view.tabs().choose("Actuators");
+        auto* list = dynamic_cast<juce::ListBox*>(find(w.view, "List of actuators"));
+        const auto* viewport = list->findParentComponentOfClass<juce::Viewport>();
+        const int seen = viewport->getLocalBounds()
+                             .getIntersection(viewport->getLocalArea(list, list->getLocalBounds()))
+                             .getHeight();
+        EXPECT_EQ(seen, list->getHeight()) << "the page does not scroll at " << width << "x" << height;
+        EXPECT_GE(seen, 2 * list->getRowHeight()) << width << "x" << height;
+        EXPECT_EQ(seen % list->getRowHeight(), 0) << width << "x" << height;
+    }
+}
+
+TEST(Arrangement, TheStrongestHitIsToldInLinesThatFit) {
+    Window w;
+    auto* sentence = dynamic_cast<juce::Label*>(find(w.view, "Strongest hit"));
+    for (const auto& [width, height] : sizes) {
+        w.view.setSize(width, height);
+        ASSERT_TRUE(runUntil([&] { return w.view.refresh(), sentence->getText().contains(" g "); }, 10.0));
+        const auto lines = juce::StringArray::fromLines(sentence->getText());
+        EXPECT_LE(lines.size(), 2);
+        for (const auto& line : lines) {
+            EXPECT_LE(sentence->getFont().getStringWidth(line), sentence->getWidth() - 10)
+                << line << " at " << width;
+            EXPECT_FALSE(line.trimStart().startsWith("/")) << line;
+        }
+    }
+}
+
+TEST(Arrangement, TheScopeSaysHowManyItShowsWhereThereIsLittleRoom) {
+    Window w;
+    w.attach(64);
+    for (const auto& [width, height] : sizes) {
+        w.view.setSize(width, height);
+        auto* scope = w.view.scope().find("Played now");
+        auto* spectra = find(w.view, "Spectra");
+        const int lanes = (spectra->isVisible() ? spectra->getX() - gap : scope->getWidth()) - 26;
+        EXPECT_GE(lanes, juce::Font{text::small}.getStringWidth("the first 8 of 64")) << width;
+    }
+}
+
 } // namespace
 } // namespace physvib

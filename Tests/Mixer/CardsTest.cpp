@@ -104,5 +104,33 @@ TEST(QuestionCard, FieldsAreReadAndEscIsTheAnswerThatHasIt) {
     EXPECT_TRUE(runUntil([&] { return isCancelled; }, 1.0));
 }
 
+TEST(QuestionCard, APictureStandsBesideTheWordsAndFollowsWhatIsTyped) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    view.setSize(MixerView::leastWidth, MixerView::leastHeight);
+    const auto pictureFor = [](QuestionCard& card, const juce::String& words) {
+        card.setPicture(juce::Image{juce::Image::RGB, 10 * words.length(), 10 * words.length(), true});
+    };
+    view.setQuestion(std::make_unique<QuestionCard>(
+        "Share", "Words", std::vector<QuestionCard::Answer>{{"Copy", [] {}}},
+        std::vector<QuestionCard::Field>{{"Address", "short", {}, {}, pictureFor}}));
+    auto* card = view.question();
+    auto* editor = dynamic_cast<juce::TextEditor*>(find(view, "Address"));
+    const auto middle = card->getBounds().getCentre();
+    const int wide = editor->getWidth();
+    for (const juce::String words : {"a little longer", "an address of thirty-seven characters"}) {
+        editor->setText(words, false);
+        editor->onTextChange();
+        EXPECT_EQ(card->picture().getWidth(), 10 * words.length());
+        EXPECT_TRUE(view.getLocalBounds().contains(card->getBounds())) << card->getBounds().toString();
+        EXPECT_LE(card->getBounds().getCentre().getDistanceFrom(middle), 1);
+        EXPECT_EQ(editor->getWidth(), wide) << "the picture takes nothing from the fields";
+        EXPECT_LE(card->getLocalArea(editor, editor->getLocalBounds()).getRight(),
+                  card->getWidth() - card->picture().getWidth() - 24);
+    }
+    card->setPicture({});
+    EXPECT_EQ(card->getWidth(), QuestionCard::wide);
+}
+
 } // namespace
 } // namespace physvib

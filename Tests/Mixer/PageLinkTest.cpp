@@ -2,6 +2,7 @@
 // A link holds the world as the page's link.js reads it.
 #include "Mixer/Window/PageLink.h"
 #include "Mixer/Desk/Desk.h"
+#include "MixerTesting.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include <gtest/gtest.h>
@@ -55,6 +56,37 @@ TEST(PageLink, WhatALinkCannotHoldIsSaid) {
     mix.exponent = 1.0;
     mix.layout = presetLayout("vest16");
     EXPECT_EQ(pageLink(mix, *mix.scene).error, "A link holds at most 8 actuators, found 16");
+}
+
+/// What a reader of QR codes finds in the picture.
+juce::String decoded(const juce::Image& picture) {
+    test::TestFolder folder;
+    const auto file = folder("code.png");
+    juce::FileOutputStream out{file};
+    juce::PNGImageFormat{}.writeImageToStream(picture, out);
+    out.flush();
+    juce::ChildProcess reader;
+    if (!reader.start(juce::StringArray{"zbarimg", "--quiet", "--raw", file.getFullPathName()},
+                      juce::ChildProcess::wantStdOut))
+        return {};
+    return reader.readAllProcessOutput().trim();
+}
+
+TEST(PageLink, AsAQrCodeItIsReadByOthers) {
+    if (juce::ChildProcess reader; !reader.start("zbarimg --version") ||
+                                   !reader.waitForProcessToFinish(5000) || reader.getExitCode() != 0)
+        GTEST_SKIP() << "needs the package zbar-tools";
+    const Mix mix = Desk::firstMix();
+    Scene own = *mix.scene;
+    own.name = "mine";
+    for (const Scene& scene : {*mix.scene, own}) {
+        const auto link = "http://127.0.0.1:8000/#" + pageLink(mix, scene).value;
+        const auto picture = qrPicture(link);
+        ASSERT_FALSE(picture.isNull()) << link.size();
+        EXPECT_LE(picture.getWidth(), 370);
+        EXPECT_EQ(decoded(picture), juce::String{link});
+    }
+    EXPECT_TRUE(qrPicture(std::string(4000, 'x')).isNull()) << "no code holds so much";
 }
 
 } // namespace

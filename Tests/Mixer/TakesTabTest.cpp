@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings are listed, played on the device, copied and deleted in the window.
 #include "Mixer/Output/TakesTab.h"
+#include "Live/Recordings/ReadRecording.h"
+#include "Mixer/Output/TakePart.h"
 #include "MixerTesting.h"
+#include "Scene/EventsCsv.h"
 
 namespace physvib {
 namespace {
@@ -86,6 +89,103 @@ TEST(TakesTab, ATakeIsCopiedAndDeletedWithItsEvents) {
     EXPECT_TRUE(runUntil([&] { return !taken.folder("hands-take.wav").existsAsFile(); }));
     EXPECT_FALSE(taken.folder("hands-take.csv").existsAsFile());
     EXPECT_EQ(taken.list().getModel()->getNumRows(), 0);
+}
+
+SampledSound soundOf(const juce::File& file) {
+    auto sound = readRecording(file.getFullPathName().toStdString());
+    EXPECT_TRUE(sound) << sound.error;
+    return std::move(sound.value);
+}
+
+/// Silence, half a second of sound from 0.4 s on, and silence; events before, in and behind it.
+void writeSoundInSilence(const juce::File& file) {
+    juce::AudioBuffer<float> samples{2, 72000};
+    samples.clear();
+    for (int k = 19200; k < 43200; ++k) samples.setSample(1, k, 0.5f);
+    juce::WavAudioFormat wav;
+    std::unique_ptr<juce::AudioFormatWriter> writer{
+        wav.createWriterFor(file.createOutputStream().release(), 48000.0, 2, 32, {}, 0)};
+    ASSERT_NE(writer, nullptr);
+    writer->writeFromAudioSampleBuffer(samples, 0, samples.getNumSamples());
+    std::vector<CollisionEvent> events(3);
+    for (std::size_t k = 0; k < 3; ++k) {
+        events[k].timeNs = static_cast<std::int64_t>(k) * 500'000'000 + 100'000'000;
+        events[k].frequencyHz = 100.0;
+        events[k].decayPerSecond = 20.0;
+        events[k].amplitude = 0.5;
+    }
+    file.withFileExtension("csv").replaceWithText(utf8(eventsCsv(events, {}, {"test", {}})));
+}
+
+struct Trimmed : Taken {
+    Trimmed() {
+        folder("hands-take.wav").deleteFile();
+        writeSoundInSilence(folder("hands-take.wav"));
+        takes->look();
+        takes->choose(0);
+    }
+    juce::String shown() { return list().getModel()->getNameForRow(0); }
+};
+
+TEST(TakesTab, OnePressCutsTheSilenceAndAnotherTakesItBack) {
+    Trimmed t;
+    auto& trim = t.button("Trim the take");
+    EXPECT_TRUE(t.button("Trim the take").isEnabled());
+    trim.onClick(); // the levels may not have been read yet
+    ASSERT_TRUE(runUntil([&] { return t.shown() == "hands-take, 0.5 s of 1.5 s"; })) << t.shown();
+    EXPECT_EQ(trim.getButtonText(), "Whole");
+    EXPECT_EQ(soundOf(t.folder("hands-take.wav")).channels[1].size(), 72000U) << "it stays as it is";
+    trim.onClick();
+    EXPECT_EQ(t.shown(), "hands-take, 1.5 s");
+}
+
+TEST(TakesTab, ATrimmedTakeIsExportedWithTheEventsInIt) {
+    Trimmed t;
+    t.button("Trim the take").onClick();
+    ASSERT_TRUE(runUntil([&] { return t.shown().contains("of"); }));
+    t.takes->exportTo(t.folder("part.wav"));
+    const auto sound = soundOf(t.folder("part.wav"));
+    ASSERT_EQ(sound.channels.size(), 2U);
+    EXPECT_NEAR(static_cast<double>(sound.channels[1].size()), 24000.0, 400.0) << "to a 400th of it";
+    EXPECT_EQ(sound.channels[1][12000], 0.5f);
+    EXPECT_LT(sound.channels[1].front(), 0.01f) << "no click";
+    EXPECT_LT(sound.channels[1].back(), 0.01f);
+    const auto events = loadEventsCsv(t.folder("part.csv").getFullPathName().toStdString());
+    ASSERT_TRUE(events) << events.error;
+    ASSERT_EQ(events.value.events.size(), 1U);
+    EXPECT_NEAR(1e-6 * static_cast<double>(events.value.events[0].timeNs), 200.0, 5.0);
+    EXPECT_EQ(soundOf(t.folder("hands-take.wav")).channels[1].size(), 72000U);
+}
+
+TEST(TakesTab, ATrimmedTakePlaysThatPartFromAFileThatStays) {
+    Trimmed t;
+    auto* trimmer = find(t.view, "Start and end of the take");
+    ASSERT_TRUE(trimmer->isVisible());
+    trimmer->setSize(300, 40);
+    trimmer->mouseDown(mouseAt(*trimmer, {290.0f, 5.0f}));
+    trimmer->mouseDrag(mouseAt(*trimmer, {200.0f, 5.0f}));
+    EXPECT_EQ(t.shown(), "hands-take, 1.0 s of 1.5 s");
+    trimmer->keyPressed(juce::KeyPress{juce::KeyPress::rightKey});
+    trimmer->keyPressed(juce::KeyPress{juce::KeyPress::leftKey, juce::ModifierKeys::shiftModifier, 0});
+    t.takes->play();
+    const auto parts = t.folder("parts").findChildFiles(juce::File::findFiles, false, "*.wav");
+    ASSERT_EQ(parts.size(), 1);
+    EXPECT_EQ(parts[0].getFileNameWithoutExtension(), "hands-take 10 to 990 ms");
+    EXPECT_EQ(soundOf(parts[0]).channels[0].size(), 47040U);
+    EXPECT_TRUE(runUntil([&] {
+        t.view.refresh();
+        return t.view.latest().meters.peaks[1] > 0.01f;
+    })) << t.desk.trouble();
+    EXPECT_EQ(t.list().getModel()->getNumRows(), 1) << "the part is not listed";
+    trimmer->mouseDrag(mouseAt(*trimmer, {-50.0f, 5.0f}));
+    EXPECT_EQ(t.shown(), "hands-take, 0.0 s of 1.5 s") << "not less than nothing";
+    trimmer->mouseDoubleClick(mouseAt(*trimmer, {5.0f, 5.0f}));
+    EXPECT_EQ(t.shown(), "hands-take, 1.5 s");
+}
+
+TEST(TakesTab, WhatIsSilentThroughoutIsNotTrimmed) {
+    EXPECT_EQ(soundingPart(std::vector<float>(10, 0.0f), 2.0), (juce::Range{0.0, 2.0}));
+    EXPECT_EQ(soundingPart({0.0f, 0.5f, 0.0f, 0.002f, 0.0005f}, 5.0), (juce::Range{1.0, 4.0}));
 }
 
 } // namespace

@@ -225,6 +225,26 @@ TEST(Inspector, NeverCoversWhatIsSelectedAndNamesItsMaterial) {
     EXPECT_TRUE(isNamed);
 }
 
+TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
+    Field f;
+    f.view.setSize(1280, 720);
+    f.pane.use(DrawTool::rain);
+    f.pane.addAt(DrawTool::rain, f.share(0.5, 0.9));
+    f.settle();
+    f.pane.use(DrawTool::choose);
+    f.pane.choose({f.drawn().bodies.back().name});
+    f.view.refresh();
+    auto* inspector = find(f.panel, "Chosen bodies");
+    ASSERT_TRUE(inspector->isVisible());
+    const auto place = inspector->getBounds();
+    for (int j = 0; j < f.desk.mix().count(); ++j)
+        EXPECT_TRUE(
+            place.getIntersection(f.world.badgeAt(j).toNearestInt() + f.world.getPosition()).isEmpty())
+            << j;
+    for (int k = 0; k < 5; ++k) f.view.refresh();
+    EXPECT_EQ(inspector->getBounds(), place);
+}
+
 TEST(Badges, OfSixtyFourActuatorsEachShowsItsWholeLabel) {
     Field f;
     while (f.desk.mix().count() < 64 && f.desk.attach(0.5, 0.5)) {

@@ -49,7 +49,7 @@ BREAKS = [  # file, what stands there, what is put there instead
     (f"{WINDOW}/FileCard.cpp", "replaced_ = juce::File{};", ""),
     (f"{WINDOW}/FileCard.cpp", 'if (key == juce::KeyPress::escapeKey) return onCancel(), true;', ""),
     (f"{WINDOW}/QuestionCard.cpp", "if (!answers_[which].isEnabled) return;", ""),
-    (f"{WINDOW}/QuestionCard.cpp", "if (key == answers_[k].key) return act(k), true;", ""),
+    (f"{WINDOW}/QuestionCard.cpp", "if (key == answers_[k].key) return act(k), true;", "if (false) return act(k), true;"),
     (f"{WINDOW}/FirstStart.cpp", "mix.levelDb = std::min(firstDb, mix.levelDb);", "mix.levelDb = firstDb;"),
     (f"{WINDOW}/FirstStart.cpp", "|| outputs < 1) continue;", ") continue;"),
     (f"{WINDOW}/FirstStart.cpp", "const auto at = areNamed ? beforePads + meant : std::ssize(many);", "const auto at = std::ssize(many);"),

@@ -119,7 +119,7 @@ void Look::setGround(Ground ground) {
     setColour(Slider::thumbColourId, s.text);
     setColour(Slider::textBoxTextColourId, s.text);
     setColour(Slider::textBoxOutlineColourId, Colours::transparentBlack);
-    setColour(ScrollBar::thumbColourId, s.muted.withAlpha(0.5f));
+    setColour(ScrollBar::thumbColourId, s.muted.withAlpha(0.75f));
     setColour(TooltipWindow::backgroundColourId, s.panel);
     setColour(TooltipWindow::textColourId, s.text);
     setColour(TooltipWindow::outlineColourId, s.line);

@@ -54,9 +54,8 @@ WorldView::Target WorldView::targetAt(juce::Point<float> place) const {
 }
 
 int WorldView::enchanterAt(juce::Point<float> p) const {
-    const auto at = map();
     for (int j = layout_.geometry.count - 1; j >= 0; --j)
-        if (badgeOf(j, at).expanded(3.0f).contains(p)) return j;
+        if (badgeAt(j).expanded(3.0f).contains(p)) return j;
     return -1;
 }
 

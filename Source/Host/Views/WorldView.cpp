@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws the world fast enough for a software renderer: only plain paths and gradients, no blur.
 #include "Host/Views/WorldView.h"
+#include "Host/Views/Badges.h"
 #include "Host/Views/DisplayScale.h"
 #include "Host/Views/MaterialTexture.h"
 #include "Pictures/ShapeOutline.h"
@@ -18,8 +19,7 @@ constexpr double hitMs = 450.0;         // how long a hit glows
 constexpr std::size_t mostHits = 48;    // simultaneous; more would only glare
 constexpr std::size_t mostTraces = 400; // for 30 sliding pairs
 constexpr float wallPixels = 11.0f;     // bodies around the field are drawn as a frame of this width
-constexpr float badgePixels = 30.0f, widestBadgePixels = 96.0f;
-constexpr int fewBadges = 16; // more are drawn smaller
+constexpr int fewBadges = 16;           // more are drawn smaller
 
 float levelOf(double amplitude) {
     return juce::jlimit(
@@ -90,6 +90,7 @@ void WorldView::show(const LayoutDescription& layout, const PhantomPanner& panne
     layout_ = layout;
     panner_ = panner;
     gains_ = {};
+    badges_.clear();
     repaint();
 }
 
@@ -245,29 +246,32 @@ juce::String WorldView::labelOf(int enchanter) const {
 }
 
 juce::Font WorldView::badgeFont() const {
-    return {layout_.geometry.count > fewBadges ? text::small : text::medium, juce::Font::bold};
+    const bool isLow = !badges_.empty() && badges_.front().getHeight() < lowBadge;
+    return {isLow ? text::small : text::medium, juce::Font::bold};
 }
 
-juce::Rectangle<float> WorldView::badgeOf(int enchanter, const Map&) const {
-    const float size = layout_.geometry.count > fewBadges ? 0.7f * badgePixels : badgePixels;
-    const auto words = badgeFont().getStringWidthFloat(labelOf(enchanter)) + 10.0f;
-    const auto centre = placeOfEnchanter(enchanter);
-    float widest = widestBadgePixels; // as far as the badge beside it lets it
-    for (int j = 0; j < layout_.geometry.count && words > size; ++j) {
-        const auto other = placeOfEnchanter(j) - centre;
-        if (j != enchanter && std::abs(other.y) < size)
-            widest = std::min(widest, 2.0f * std::abs(other.x) - size);
+const std::vector<juce::Rectangle<float>>& WorldView::badges() const {
+    const auto field = map().field;
+    const auto count = static_cast<std::size_t>(layout_.geometry.count);
+    if (badges_.size() == count && field == badgesIn_) return badges_;
+    std::vector<juce::Point<float>> places;
+    for (int j = 0; j < layout_.geometry.count; ++j) places.push_back(placeOfEnchanter(j));
+    badgesIn_ = field;
+    badges_.clear();
+    for (int pass = 0; pass < 2; ++pass) { // the second with the text that fits the height
+        std::vector<float> widths;
+        for (int j = 0; j < layout_.geometry.count; ++j)
+            widths.push_back(badgeFont().getStringWidthFloat(labelOf(j)) + 8.0f);
+        badges_ = badgesAround(places, widths, getLocalBounds().reduced(4).toFloat());
     }
-    return juce::Rectangle<float>{juce::jlimit(size, std::max(size, widest), words), size}
-        .withCentre(centre)
-        .constrainedWithin(getLocalBounds().reduced(4).toFloat());
+    return badges_;
 }
 
 void WorldView::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::panel));
     if (getWidth() < 2 * margin_ + 20 || getHeight() < 2 * margin_ + 20) return;
     const auto at = map();
-    drawHalos(g, at);
+    drawHalos(g);
     drawGround(g, at);
     {
         const juce::Graphics::ScopedSaveState whole{g};
@@ -278,7 +282,7 @@ void WorldView::paint(juce::Graphics& g) {
     drawTraces(g, at);
     drawHits(g, at);
     drawSpot(g);
-    drawEnchanters(g, at);
+    drawEnchanters(g);
     drawGrip(g);
     drawFiles(g);
 }
@@ -402,23 +406,30 @@ void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
         if (gain < 0.02f) continue;
         g.setColour(
             enchanterColour(*this, j).withAlpha(std::min(1.0f, 1.3f * std::sqrt(gain) * light(*strongest))));
-        g.drawLine({from, badgeOf(j, at).getCentre()}, 1.0f + 4.0f * gain);
+        g.drawLine({from, badgeAt(j).getCentre()}, 1.0f + 4.0f * gain);
     }
 }
 
-void WorldView::drawHalos(juce::Graphics& g, const Map& at) const {
+void WorldView::drawHalos(juce::Graphics& g) const {
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
         if (share > 0.03f)
-            glow(g, badgeOf(j, at).getCentre(), 20.0f + 70.0f * share,
+            glow(g, badgeAt(j).getCentre(), 20.0f + 70.0f * share,
                  enchanterColour(*this, j).withAlpha(std::min(0.8f, 0.25f + 0.6f * share)));
     }
 }
 
-void WorldView::drawEnchanters(juce::Graphics& g, const Map& at) const {
+void WorldView::drawEnchanters(juce::Graphics& g) const {
+    for (int j = 0; j < layout_.geometry.count; ++j) // where those are that had to move
+        if (const juce::Line<float> way{placeOfEnchanter(j), badgeAt(j).getCentre()};
+            !badgeAt(j).contains(way.getStart())) {
+            g.setColour(enchanterColour(*this, j));
+            g.drawLine(way, 1.5f);
+            g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(way.getStart()));
+        }
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const auto colour = enchanterColour(*this, j);
-        const auto badge = badgeOf(j, at);
+        const auto badge = badgeAt(j);
         const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
         // may extend over the field
         if (share > 0.03f) glow(g, badge.getCentre(), 18.0f + 34.0f * share, colour.withAlpha(0.5f * share));
@@ -447,7 +458,7 @@ void WorldView::drawFiles(juce::Graphics& g) const {
     const auto at = map();
     const int enchanter = enchanterAt(*filesAt_);
     const auto target =
-        enchanter >= 0 ? badgeOf(enchanter, at).expanded(5.0f)
+        enchanter >= 0 ? badgeAt(enchanter).expanded(5.0f)
                        : juce::Rectangle<float>{26.0f, 26.0f}.withCentre(placeOfShare(at.shareAt(*filesAt_)));
     const float corner = enchanter >= 0 ? 10.0f : 13.0f;
     const auto words =
@@ -485,7 +496,7 @@ void WorldView::drawHold(juce::Graphics& g) const {
 
 void WorldView::drawGrip(juce::Graphics& g) const {
     if (dropAt_) {
-        const auto badge = juce::Rectangle<float>{badgePixels, badgePixels}.withCentre(*dropAt_);
+        const auto badge = juce::Rectangle<float>{highestBadge, highestBadge}.withCentre(*dropAt_);
         g.setColour(shade(*this, Shade::accent));
         g.drawRoundedRectangle(badge, 7.0f, 2.0f);
         g.setFont(juce::Font{text::large});

@@ -60,7 +60,7 @@ public:
     /// Width of the display, see screenPixelsPerMetre(). M.
     void setDisplayWidth(double metres) { displayWidthMetres_ = metres; }
     /// Space kept free around the field, for text and tools over the view. M.
-    void setRoom(juce::BorderSize<int> pixels) { room_ = pixels, gains_ = {}, repaint(); }
+    void setRoom(juce::BorderSize<int> pixels) { room_ = pixels, resized(), repaint(); }
     /// Width kept free around the field, for the actuators on its edge. M.
     void setMargin(int pixels) { margin_ = pixels; }
     void select(int enchanter); ///< draws a ring around it; -1: none
@@ -87,7 +87,7 @@ public:
     std::function<void(const juce::StringArray& files, int enchanter, FieldShare at)> onFiles;
 
     void paint(juce::Graphics& g) override;
-    void resized() override { gains_ = {}; }
+    void resized() override { gains_ = {}, badges_.clear(); }
     void mouseDown(const juce::MouseEvent& e) override;
     void mouseDrag(const juce::MouseEvent& e) override;
     void mouseUp(const juce::MouseEvent& e) override;
@@ -122,7 +122,9 @@ public:
         FieldShare at;
     };
     Target targetAt(juce::Point<float> place) const;
-    juce::Rectangle<float> badgeAt(int enchanter) const { return badgeOf(enchanter, map()); }
+    juce::Rectangle<float> badgeAt(int enchanter) const {
+        return badges()[static_cast<std::size_t>(enchanter)];
+    }
 
 private:
     struct Snapshot {
@@ -181,15 +183,15 @@ private:
     int enchanterAt(juce::Point<float> p) const;
     juce::String labelOf(int enchanter) const;
     juce::Font badgeFont() const;
-    juce::Rectangle<float> badgeOf(int enchanter, const Map& at) const;
+    const std::vector<juce::Rectangle<float>>& badges() const;
     void drawGround(juce::Graphics& g, const Map& at);
     void drawBodies(juce::Graphics& g, const Map& at) const;
     void drawHits(juce::Graphics& g, const Map& at) const;
     void take(const CollisionEvent& event, double nowMs);
     void drawTraces(juce::Graphics& g, const Map& at) const;
     void drawRays(juce::Graphics& g, const Map& at) const;
-    void drawHalos(juce::Graphics& g, const Map& at) const;
-    void drawEnchanters(juce::Graphics& g, const Map& at) const;
+    void drawHalos(juce::Graphics& g) const;
+    void drawEnchanters(juce::Graphics& g) const;
     void drawSpot(juce::Graphics& g) const;
     void drawGrip(juce::Graphics& g) const;
     void drawFiles(juce::Graphics& g) const;
@@ -214,6 +216,8 @@ private:
     int shownGains_ = -1, selected_ = -1, margin_ = 38;
     bool showsMaterials_ = false;
     juce::Image gains_;
+    mutable std::vector<juce::Rectangle<float>> badges_; // of badgesIn_; empty: to be placed
+    mutable juce::Rectangle<float> badgesIn_;
     Grip grip_;
     std::optional<juce::Point<float>> dropAt_, filesAt_;
     std::optional<FieldShare> spot_;

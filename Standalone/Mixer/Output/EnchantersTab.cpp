@@ -158,7 +158,7 @@ void EnchantersTab::editRow(int enchanter) {
     for (const auto& profile : builtInActuators()) profiles.add(utf8(profile.name));
     constexpr const char* fullScale = "Full scale in g";
     QuestionCard::Field actuator{"Actuator", utf8(e.actuator), {}, profiles};
-    actuator.onChoice = [](QuestionCard& card, const juce::String& name) {
+    actuator.onChange = [](QuestionCard& card, const juce::String& name) {
         const auto profile = findActuator(name.toStdString());
         if (profile && profile.value.fullScaleG)
             card.setValue(fullScale, juce::String{*profile.value.fullScaleG});

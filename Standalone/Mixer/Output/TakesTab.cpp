@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lists, plays, copies and removes recordings.
 #include "Mixer/Output/TakesTab.h"
+#include "Mixer/Output/TakePart.h"
 #include "Mixer/Window/CardHost.h"
 #include <algorithm>
 #include <juce_audio_formats/juce_audio_formats.h>
@@ -8,7 +9,7 @@
 namespace physvib {
 namespace {
 
-constexpr int takeRowPixels = 24, takeFootPixels = 32;
+constexpr int takeRowPixels = 24, takeFootPixels = 32, trimPixels = 44, most = 76;
 constexpr double takeLookMs = 1000.0;
 
 juce::File eventsOf(const juce::File& wav) { return wav.withFileExtension("csv"); }
@@ -33,6 +34,7 @@ TakesTab::TakesTab(Desk& desk)
         addAndMakeVisible(*made);
     };
     button(play_, "Play", "Play the take on the device", &TakesTab::play);
+    button(trim_, "Trim", "Trim the take", &TakesTab::trim);
     button(export_, "Export", "Copy the take elsewhere", &TakesTab::askExport);
     button(erase_, "Delete", "Delete the take", &TakesTab::askErase);
     show_ = quietButton("Show", "Show the folder of the takes");
@@ -40,7 +42,17 @@ TakesTab::TakesTab(Desk& desk)
     for (juce::Component* c : std::initializer_list<juce::Component*>{show_.get(), &list_})
         addAndMakeVisible(c);
     addChildComponent(none_);
-    showButtons();
+    addChildComponent(trimmer_);
+    trimmer_.onChange = [this](juce::Range<double> part) {
+        if (!take()) return;
+        if (part == juce::Range{0.0, take()->seconds})
+            parts_.erase(take()->file);
+        else
+            parts_[take()->file] = part;
+        showChosen();
+        list_.repaint();
+    };
+    showChosen();
 }
 
 const TakesTab::Take* TakesTab::take() const {
@@ -81,15 +93,50 @@ void TakesTab::look() {
         list_.deselectAllRows();
     none_.setVisible(takes_.empty());
     list_.repaint();
-    showButtons();
+    showChosen();
 }
 
-void TakesTab::showButtons() {
-    for (auto* button : {play_.get(), export_.get(), erase_.get()}) button->setEnabled(take() != nullptr);
+void TakesTab::showChosen() {
+    for (auto* button : {play_.get(), trim_.get(), export_.get(), erase_.get()})
+        button->setEnabled(take() != nullptr);
+    trim_->setButtonText(take() && isTrimmed(*take()) ? "Whole" : "Trim");
+    if (take()) trimmer_.show(take()->file, take()->seconds, partOf(*take()));
+    if (trimmer_.isVisible() == (take() != nullptr)) return;
+    trimmer_.setVisible(take() != nullptr);
+    resized();
 }
 
+juce::Range<double> TakesTab::partOf(const Take& take) const {
+    return isTrimmed(take) ? parts_.at(take.file) : juce::Range{0.0, take.seconds};
+}
+
+juce::String TakesTab::lengthOf(const Take& take) const {
+    const auto all = lengthText(take.seconds);
+    return isTrimmed(take) ? lengthText(partOf(take).getLength()) + " of " + all : all;
+}
+
+void TakesTab::trim() {
+    if (!take()) return;
+    if (isTrimmed(*take()))
+        trimmer_.onChange({0.0, take()->seconds});
+    else
+        trimmer_.trimSilence();
+}
+
+// A session that plays a part keeps the part's file, so it stays; in a folder beside the takes.
 void TakesTab::play() {
-    if (take()) desk_.strikes().playTake(take()->file);
+    if (!take()) return;
+    if (!isTrimmed(*take())) return desk_.strikes().playTake(take()->file);
+    const auto part = partOf(*take());
+    const auto file = folder_->place().getChildFile("parts").getChildFile(
+        take()->file.getFileNameWithoutExtension() + " " + number(1e3 * part.getStart(), 0) + " to " +
+        number(1e3 * part.getEnd(), 0) + " ms.wav");
+    if (!file.existsAsFile() || file.getLastModificationTime() < take()->at) {
+        file.getParentDirectory().createDirectory();
+        if (const auto error = writeTakePart(take()->file, part, file); !error.empty())
+            return desk_.report(utf8(error));
+    }
+    desk_.strikes().playTake(file);
 }
 
 void TakesTab::askExport() {
@@ -102,9 +149,13 @@ void TakesTab::askExport() {
 void TakesTab::exportTo(const juce::File& file) {
     if (!take() || file == take()->file) return;
     const auto from = take()->file;
-    const bool isDone = from.copyFileTo(file) &&
-                        (!eventsOf(from).existsAsFile() || eventsOf(from).copyFileTo(eventsOf(file)));
-    if (!isDone) return desk_.report(file.getFullPathName() + ": cannot be written");
+    juce::String error;
+    if (isTrimmed(*take()))
+        error = utf8(writeTakePart(from, partOf(*take()), file));
+    else if (!from.copyFileTo(file) ||
+             (eventsOf(from).existsAsFile() && !eventsOf(from).copyFileTo(eventsOf(file))))
+        error = file.getFullPathName() + ": cannot be written";
+    if (error.isNotEmpty()) return desk_.report(error);
     desk_.messages().show(
         {"Copied to " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}, "saved"});
 }
@@ -129,7 +180,7 @@ void TakesTab::erase() {
 juce::String TakesTab::getNameForRow(int row) {
     if (row < 0 || row >= static_cast<int>(takes_.size())) return {};
     const Take& t = takes_[static_cast<std::size_t>(row)];
-    return t.file.getFileNameWithoutExtension() + ", " + lengthText(t.seconds);
+    return t.file.getFileNameWithoutExtension() + ", " + lengthOf(t);
 }
 
 void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
@@ -149,7 +200,7 @@ void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
     cell(t.at.formatted("%Y-%m-%d %H:%M"), 120);
     cell(juce::String{t.channels} + (t.channels == 1 ? " channel" : " channels"), 90);
     g.setColour(shade(*this, Shade::text));
-    cell(lengthText(t.seconds), 70);
+    cell(lengthOf(t), isTrimmed(t) ? 110 : 70);
     g.setFont(juce::Font{text::medium});
     g.drawText(t.file.getFileNameWithoutExtension(), area, juce::Justification::centredLeft, true);
 }
@@ -157,10 +208,12 @@ void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
 void TakesTab::resized() {
     auto area = getLocalBounds().reduced(panelInset, 4);
     auto foot = area.removeFromBottom(takeFootPixels).withTrimmedTop(4);
-    for (auto* button : {play_.get(), export_.get(), erase_.get(), show_.get()}) {
-        button->setBounds(foot.removeFromLeft(76));
+    const int wide = std::min(most, (foot.getWidth() - 4 * 8) / 5);
+    for (auto* button : {play_.get(), trim_.get(), export_.get(), erase_.get(), show_.get()}) {
+        button->setBounds(foot.removeFromLeft(wide));
         foot.removeFromLeft(8);
     }
+    if (trimmer_.isVisible()) trimmer_.setBounds(area.removeFromBottom(trimPixels).withTrimmedTop(4));
     list_.setBounds(area);
     none_.setBounds(area.withHeight(rowHeight).reduced(10, 0));
 }

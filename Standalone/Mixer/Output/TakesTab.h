@@ -2,7 +2,9 @@
 // The recordings in the user's folder: a list with what can be done with each.
 #pragma once
 #include "Mixer/Desk/UserFolder.h"
+#include "Mixer/Output/TakeTrim.h"
 #include "Mixer/Window/TabPanel.h"
+#include <map>
 
 namespace physvib {
 
@@ -20,8 +22,11 @@ public:
     void choose(int row) { list_.selectRow(row); }
     /// On the device, each channel on the actuator of its number, as a clip of the session.
     void play();
-    void exportTo(const juce::File& file); ///< with the events beside it; nothing is replaced
-    void erase();                          ///< both files go to the system's bin
+    /// With the events beside it, of a trimmed take that part; nothing is replaced.
+    void exportTo(const juce::File& file);
+    /// Cuts the silence at both ends, or takes all of a trimmed take again. The recording stays as it is.
+    void trim();
+    void erase(); ///< both files go to the system's bin
 
 private:
     struct Take {
@@ -32,24 +37,29 @@ private:
     };
     int getNumRows() override { return static_cast<int>(takes_.size()); }
     void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
-    void selectedRowsChanged(int) override { showButtons(); }
+    void selectedRowsChanged(int) override { showChosen(); }
     void listBoxItemDoubleClicked(int, const juce::MouseEvent&) override { play(); }
     void returnKeyPressed(int) override { play(); }
     void deleteKeyPressed(int) override { askErase(); }
     juce::String getNameForRow(int row) override;
     const Take* take() const;
-    void showButtons();
+    void showChosen();
+    juce::Range<double> partOf(const Take& take) const;
+    bool isTrimmed(const Take& take) const { return parts_.contains(take.file); }
+    juce::String lengthOf(const Take& take) const;
     void askExport();
     void askErase();
 
     Desk& desk_;
     juce::SharedResourcePointer<UserFolder> folder_;
-    std::vector<Take> takes_; // the newest first
-    juce::Time seenAt_;       // last change of the folder that is listed
+    std::vector<Take> takes_;                         // the newest first
+    std::map<juce::File, juce::Range<double>> parts_; // of those that were trimmed, s
+    juce::Time seenAt_;                               // last change of the folder that is listed
     double lookedAtMs_ = 0.0;
     juce::ListBox list_{"Takes", this};
     juce::Label none_;
-    std::unique_ptr<juce::TextButton> play_, export_, show_, erase_;
+    TakeTrim trimmer_;
+    std::unique_ptr<juce::TextButton> play_, trim_, export_, show_, erase_;
 };
 
 } // namespace physvib

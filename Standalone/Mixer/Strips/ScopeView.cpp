@@ -91,8 +91,13 @@ void ScopeView::paint(juce::Graphics& g) {
 
 void ScopeView::resized() {
     auto area = getLocalBounds();
-    spectrum_.setBounds(area.removeFromRight(std::max(220, area.getWidth() * 36 / 100)));
-    area.removeFromRight(gap);
+    constexpr int leastSpectrum = 180, leastLanes = 130;
+    const int wide = std::max(leastSpectrum, area.getWidth() * 36 / 100);
+    spectrum_.setVisible(area.getWidth() >= wide + gap + leastLanes);
+    if (spectrum_.isVisible()) {
+        spectrum_.setBounds(area.removeFromRight(wide));
+        area.removeFromRight(gap);
+    }
     lanes_ = area;
 }
 

@@ -26,7 +26,7 @@ bool Divider::keyPressed(const juce::KeyPress& key) {
 }
 
 void Divider::paint(juce::Graphics& g) {
-    g.setColour(shade(*this, isMouseOverOrDragging() ? Shade::accent : Shade::line));
+    g.setColour(shade(*this, isMouseOverOrDragging() ? Shade::accent : Shade::muted));
     constexpr float length = 36.0f, thickness = 3.0f;
     const auto handle = getLocalBounds().toFloat().withSizeKeepingCentre(isUpright_ ? thickness : length,
                                                                          isUpright_ ? length : thickness);

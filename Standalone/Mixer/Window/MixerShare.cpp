@@ -15,16 +15,22 @@ void MixerWindow::share() {
     const auto link = pageLink(desk_->mix(), desk_->world().drawing().drawn());
     if (!link) return say(utf8(link.error));
     const auto page = files_.settings().getValue(pageSetting, ownPage);
-    const auto whole = [this, behind = utf8(link.value)] {
+    const auto at = [behind = utf8(link.value)](const juce::String& address) {
+        return address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
+    };
+    const auto whole = [this, at] {
         const auto address = view_->question()->value(pageField);
         files_.settings().setValue(pageSetting, address);
         view_->setCard(nullptr);
-        return address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
+        return at(address);
+    };
+    const auto show = [at](QuestionCard& card, const juce::String& address) {
+        card.setValue(linkField, at(address));
+        card.setPicture(qrPicture(at(address).toStdString()));
     };
     ask("Share the world",
         "Who opens the link in the page gets the same world and samples. It stands behind the #, so no "
-        "server "
-        "gets it. The page's own Share has a QR code.",
+        "server gets it. A phone needs an address that it can reach.",
         {{"Copy the link",
           [this, whole] {
               const auto words = whole();
@@ -32,7 +38,8 @@ void MixerWindow::share() {
               desk_->tell("Copied a link of " + juce::String{words.length()} + " characters");
           }},
          {"Open it", [whole] { juce::URL{whole()}.launchInDefaultBrowser(); }}},
-        {{pageField, page}, {linkField, page + "#" + utf8(link.value)}});
+        {{pageField, page, {}, {}, show}, {linkField, {}}});
+    show(*view_->question(), page);
 }
 
 } // namespace physvib

@@ -2,6 +2,7 @@
 // Writes a link as the page's link.js does.
 #include "Mixer/Window/PageLink.h"
 #include "Io/Text/NumberText.h"
+#include "Io/Text/QrCode.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include <cmath>
@@ -75,6 +76,22 @@ Result<std::string> pageLink(const Mix& mix, const Scene& drawn) {
     if (places != "0,1 1,1 0,0 1,0") link += "&at=" + encoded(places); // the page's own four corners
     if (mix.law != PanningLaw::automatic) link += "&law=" + encoded(std::string{nameOf(mix.law)});
     return link;
+}
+
+juce::Image qrPicture(const std::string& link) {
+    constexpr int most = 370; // the longest has 177 modules
+    QrCode code{link};
+    if (code.side() == 0) return {};
+    const int side = code.side() + 2 * QrCode::quietModules, each = std::min(6, most / side);
+    juce::Image picture{juce::Image::RGB, side * each, side * each, false};
+    juce::Graphics g{picture};
+    g.fillAll(juce::Colours::white);
+    g.setColour(juce::Colours::black);
+    for (int y = 0; y < code.side(); ++y)
+        for (int x = 0; x < code.side(); ++x)
+            if (code.isDark(x, y))
+                g.fillRect((x + QrCode::quietModules) * each, (y + QrCode::quietModules) * each, each, each);
+    return picture;
 }
 
 } // namespace physvib

@@ -3,11 +3,15 @@
 #pragma once
 #include "Io/Result.h"
 #include "Live/Documents/Mix.h"
+#include <juce_graphics/juce_graphics.h>
 
 namespace physvib {
 
 /// The part of the page's address behind the #: scene as drawn, seed, actuators and law. Or one line with
 /// what a link cannot hold. Places are rounded to thousandths of the field, as the page does. Any thread.
 Result<std::string> pageLink(const Mix& mix, const Scene& drawn);
+
+/// A link as a QR code, dark on white in any look, of at most 370 pixels; null if it is too long. Any thread.
+juce::Image qrPicture(const std::string& link);
 
 } // namespace physvib

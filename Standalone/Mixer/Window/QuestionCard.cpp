@@ -5,6 +5,10 @@
 
 namespace physvib {
 
+namespace {
+constexpr int edgeX = 24, edgeY = 20;
+}
+
 /// A field with its title.
 class QuestionCard::Input final : public juce::Component {
 public:
@@ -65,15 +69,31 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
     for (const Field& field : fields) {
         auto& added = *inputs_.emplace_back(std::make_unique<Input>(field));
         addAndMakeVisible(added);
-        if (field.onChoice)
-            added.list.onChange = [this, &added, use = field.onChoice] { use(*this, added.value()); };
+        if (field.onChange)
+            added.list.onChange =
+                added.text.onTextChange = [this, &added, use = field.onChange] { use(*this, added.value()); };
         added.text.onReturnKey = [this] { act(0); };
         added.text.onEscapeKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::escapeKey}); };
     }
     prepareControls(*this);
+    fit();
+}
+
+// The title, the words and the rows; beside them a picture.
+void QuestionCard::fit() {
     const int rows = (static_cast<int>(answers_.size()) + perRow - 1) / perRow;
-    setSize(wide, (words.isEmpty() ? 110 : 174) + rows * (rowHigh + gap) +
-                      static_cast<int>(inputs_.size()) * (rowHeight + gap));
+    const int high = (words_.getText().isEmpty() ? 110 : 174) + rows * (rowHigh + gap) +
+                     static_cast<int>(inputs_.size()) * (rowHeight + gap);
+    if (picture_.isNull()) return setSize(wide, high);
+    setSize(wide + picture_.getWidth(), std::max(high, picture_.getHeight() + 2 * edgeY));
+}
+
+void QuestionCard::setPicture(const juce::Image& picture) {
+    const auto middle = getBounds().getCentre();
+    picture_ = picture;
+    fit();
+    setCentrePosition(middle);
+    repaint();
 }
 
 juce::String QuestionCard::value(const juce::String& field) const {
@@ -113,10 +133,15 @@ bool QuestionCard::keyPressed(const juce::KeyPress& key) {
     return false;
 }
 
-void QuestionCard::paint(juce::Graphics& g) { drawCard(g, *this); }
+void QuestionCard::paint(juce::Graphics& g) {
+    drawCard(g, *this);
+    g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality); // sharp on finer screens
+    g.drawImageAt(picture_, getWidth() - edgeX - picture_.getWidth(), edgeY);
+}
 
 void QuestionCard::resized() {
-    auto area = getLocalBounds().reduced(24, 20);
+    auto area = getLocalBounds().reduced(edgeX, edgeY);
+    if (!picture_.isNull()) area.removeFromRight(picture_.getWidth() + edgeX);
     title_.setBounds(area.removeFromTop(30));
     const int width = (area.getWidth() - (perRow - 1) * gap) / perRow;
     auto rows = area.removeFromBottom(

@@ -24,9 +24,9 @@ public:
     /// Asks for a text, or for one of some choices.
     struct Field {
         juce::String title, value;
-        juce::String allowed{};      ///< characters; empty: all
-        juce::StringArray choices{}; ///< empty: any text
-        std::function<void(QuestionCard&, const juce::String& choice)> onChoice{};
+        juce::String allowed{};                                                   ///< characters; empty: all
+        juce::StringArray choices{};                                              ///< empty: any text
+        std::function<void(QuestionCard&, const juce::String& value)> onChange{}; ///< chosen or typed
     };
 
     QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers,
@@ -35,6 +35,10 @@ public:
 
     juce::String value(const juce::String& field) const; ///< as typed
     void setValue(const juce::String& field, const juce::String& value);
+
+    /// A square beside the words, with sharp pixels; null: none.
+    void setPicture(const juce::Image& picture);
+    const juce::Image& picture() const noexcept { return picture_; }
 
     /// Same as a click on that button; no effect if it is missing or disabled.
     void answer(const juce::String& words);
@@ -47,7 +51,10 @@ private:
     class Input;
     void act(std::size_t which);
 
+    void fit();
+
     juce::Label title_, words_;
+    juce::Image picture_;
     std::vector<Answer> answers_;
     std::vector<std::unique_ptr<juce::TextButton>> buttons_;
     std::vector<std::unique_ptr<Input>> inputs_;

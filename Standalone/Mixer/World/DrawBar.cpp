@@ -101,6 +101,8 @@ BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
     };
     for (auto* slider : {&density_, &bounce_, &speed_, &torque_, &spring_}) {
         slider->setSliderStyle(juce::Slider::LinearHorizontal);
+        // read when the text box is created
+        slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
         slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 62, 20);
     }
     density_.setTitle("Density");

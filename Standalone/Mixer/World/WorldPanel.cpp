@@ -4,6 +4,7 @@
 #include "Core/SoundNumber.h"
 #include "Mixer/Materials/HitWords.h"
 #include "Scene/SceneEdits.h"
+#include <limits>
 #include <utility>
 
 namespace physvib {
@@ -142,28 +143,38 @@ void WorldPanel::showTools() {
     placeInspector();
 }
 
-// The corner where it lies is kept while it covers nothing that is selected.
+// It stays where it is until another place covers half as much of what is selected and of the badges.
 void WorldPanel::placeInspector() {
     if (!body_.isVisible()) return;
-    const auto chosen = pane_.chosenArea().toNearestInt() + pane_.getPosition();
     const auto room = getLocalBounds()
                           .withTrimmedLeft(bar_.getRight())
                           .withTrimmedTop(40)
                           .withTrimmedBottom(48)
                           .reduced(8, 0);
-    const auto size = juce::Rectangle<int>{BodyPanel::wide, body_.wantedHeight()};
+    std::vector<juce::Rectangle<int>> inTheWay{pane_.chosenArea().toNearestInt() + pane_.getPosition()};
+    for (int j = 0; j < desk_.mix().count(); ++j)
+        inTheWay.push_back(view_.badgeAt(j).toNearestInt() + view_.getPosition());
     const auto covered = [&](const juce::Rectangle<int>& place) {
-        const auto common = place.getIntersection(chosen);
-        return common.getWidth() * common.getHeight();
+        int pixels = 0;
+        for (const auto& other : inTheWay) {
+            const auto common = place.getIntersection(other);
+            pixels += common.getWidth() * common.getHeight();
+        }
+        return pixels;
     };
-    std::vector<juce::Rectangle<int>> places{
-        size.withPosition(body_.getPosition()),
-        size.withPosition(room.getRight() - size.getWidth(), room.getY()),
-        size.withPosition(room.getPosition()),
-        size.withBottomY(room.getBottom()).withX(room.getRight() - size.getWidth()),
-        size.withBottomY(room.getBottom()).withX(room.getX())};
-    if (!room.contains(places.front())) places.erase(places.begin());
-    body_.setBounds(*std::ranges::min_element(places, {}, covered));
+    const auto now =
+        juce::Rectangle<int>{BodyPanel::wide, body_.wantedHeight()}.withPosition(body_.getPosition());
+    auto best = now;
+    int least = room.contains(now) ? (covered(now) + 1) / 2 : std::numeric_limits<int>::max();
+    constexpr int places = 6; // along each side
+    for (int y = 0; y < places; ++y)
+        for (int x = places - 1; x >= 0; --x) {
+            const auto place =
+                now.withPosition(room.getX() + x * (room.getWidth() - now.getWidth()) / (places - 1),
+                                 room.getY() + y * (room.getHeight() - now.getHeight()) / (places - 1));
+            if (const int pixels = covered(place); pixels < least) least = pixels, best = place;
+        }
+    body_.setBounds(best);
 }
 
 double WorldPanel::fieldAspect() const {
@@ -284,10 +295,29 @@ void WorldPanel::moveHand() {
 
 juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = desk_.world().scene();
-    if (isClip(hit.sound)) return materialName(scene, hit) + dot + placeText(scene, hit);
-    return materialName(scene, hit) + dot + number(hit.frequencyHz, 0) + " Hz" + dot +
-           juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
-           number(feltMost(desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
+    const auto name = materialName(scene, hit), place = placeText(scene, hit);
+    if (isClip(hit.sound)) return inLines({name, place});
+    const auto hz = number(hit.frequencyHz, 0) + " Hz",
+               felt = number(feltMost(desk_.mix(), hit).levelG, 2) + " g " + place;
+    const auto tau = juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s";
+    for (const auto& parts : {juce::StringArray{name, hz, tau, felt}, {name, hz, felt}})
+        if (const auto words = inLines(parts); words.isNotEmpty()) return words;
+    return inLines({name, felt});
+}
+
+/// In one line or two, broken between the parts; empty if there is no room.
+juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
+    const auto font = sentence_.getFont();
+    const int room = sentence_.getWidth() - sentence_.getBorderSize().getLeftAndRight();
+    juce::StringArray lines{parts[0]};
+    for (int k = 1; k < parts.size(); ++k) {
+        const auto longer = lines.strings.getReference(lines.size() - 1) + dot + parts[k];
+        if (font.getStringWidth(longer) <= room)
+            lines.set(lines.size() - 1, longer);
+        else
+            lines.add(parts[k]);
+    }
+    return lines.size() <= 2 ? lines.joinIntoString("\n") : juce::String{};
 }
 
 void WorldPanel::refresh(const DeskMoment& moment) {
@@ -324,6 +354,7 @@ void WorldPanel::resized() {
     tiltName_.setBounds(row.removeFromRight(58));
     tilt_.setBounds(row.removeFromRight(38));
     sentence_.setBounds(row);
+    if (hitAtMs_ > 0.0) sentence_.setText(sentenceOn(told_), juce::dontSendNotification);
     auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(48);
     const int tools = isShow_ ? 0 : DrawBar::widthFor(top.getHeight());
     bar_.setBounds(top.removeFromLeft(tools));

@@ -63,6 +63,7 @@ private:
     void lookAfterPlayer();
     std::optional<double> playersPlace();
     juce::String sentenceOn(const CollisionEvent& hit) const;
+    juce::String inLines(const juce::StringArray& parts) const;
 
     Desk& desk_;
     WorldView view_;

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every text of the window stands out by 4.5, every control by 3, in both looks, as measured in pictures.
+#include "Contrast.h"
+#include "Mixer/Window/FileCard.h"
+#include "MixerTesting.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+constexpr double leastOfText = 4.5, leastOfControl = 3.0;
+constexpr float scale = 2.0f;
+
+bool isControl(const juce::Component& c) {
+    const auto* bar = dynamic_cast<const juce::ScrollBar*>(&c);
+    return dynamic_cast<const juce::Button*>(&c) || dynamic_cast<const juce::ComboBox*>(&c) ||
+           dynamic_cast<const juce::Slider*>(&c) || dynamic_cast<const juce::TextEditor*>(&c) ||
+           dynamic_cast<const Divider*>(&c) || (bar && bar->isVisible());
+}
+
+juce::String nameOf(const juce::Component* c) {
+    juce::String name;
+    for (; c != nullptr; c = c->getParentComponent())
+        if (c->getTitle().isNotEmpty()) name = c->getTitle() + (name.isEmpty() ? "" : " < " + name);
+    return name;
+}
+
+/// What is seen of it: a page that scrolls shows a part.
+juce::Rectangle<int> seenOf(juce::Component& root, juce::Component& c) {
+    auto area = root.getLocalArea(&c, c.getLocalBounds());
+    for (auto* p = c.getParentComponent(); p != nullptr && p != root.getParentComponent();
+         p = p->getParentComponent())
+        area = area.getIntersection(root.getLocalArea(p, p->getLocalBounds()));
+    return area;
+}
+
+void expectControls(juce::Component& root, juce::Component& c, const Picture& picture,
+                    const std::string& state) {
+    for (auto* child : c.getChildren()) {
+        if (!child->isVisible()) continue;
+        const auto seen = seenOf(root, *child);
+        auto* on = seen.isEmpty() ? nullptr : root.getComponentAt(seen.getCentre());
+        const bool isSeen = on != nullptr && (on == child || child->isParentOf(on) || on->isParentOf(child));
+        if (isControl(*child) && isSeen && child->isEnabled() && seen.getHeight() >= child->getHeight() / 2)
+            EXPECT_GE(contrastOfControl(picture.image, seen * juce::roundToInt(scale)), leastOfControl)
+                << state << ": " << nameOf(child) << " at " << seen.toString();
+        expectControls(root, *child, picture, state);
+    }
+}
+
+struct Contrasts : testing::TestWithParam<Ground> {
+    Desk desk{onlyNoDevice(), noDevice, Desk::firstMix(), {.isPaused = true}};
+    MixerView view{desk};
+    double least = 21.0;
+    std::size_t texts = 0;
+
+    Contrasts() {
+        view.setSize(1280, 720);
+        view.setGround(GetParam());
+    }
+    void expectReadable(const std::string& state) {
+        desk.dispatchPendingMessages();
+        for (int k = 0; k < 2; ++k) view.refresh();
+        const auto picture = pictureOf(view, scale);
+        for (const auto& text : picture.texts) {
+            const auto at = (text.area.toFloat() / scale).getCentre().toInt();
+            EXPECT_GE(text.contrast, leastOfText)
+                << state << ": " << nameOf(view.getComponentAt(at)) << " at " << at.toString() << ", "
+                << text.ink.toDisplayString(false) << " on " << text.ground.toDisplayString(false);
+            least = std::min(least, text.contrast);
+        }
+        texts += picture.texts.size();
+        EXPECT_GT(picture.texts.size(), 5U) << state;
+        expectControls(view, view, picture, state);
+    }
+    void TearDown() override {
+        std::cout << texts << " texts, the least stands out by " << number(least, 2) << '\n';
+    }
+};
+
+TEST_P(Contrasts, OfEveryPage) {
+    for (const auto& name : view.tabs().names()) {
+        view.tabs().choose(name);
+        expectReadable(name.toStdString());
+    }
+    for (const auto& name : view.scope().names()) {
+        view.scope().choose(name);
+        expectReadable(name.toStdString());
+    }
+}
+
+TEST_P(Contrasts, OfStatesAndTools) {
+    desk.change("Strips", [](Mix& m) {
+        m.strips[0].isMuted = m.strips[1].isSolo = m.strips[2].isInverted = true;
+        m.strips[3].delayMs = 5.0;
+    });
+    desk.report("session.json: expected a number, found none");
+    expectReadable("muted and a fault");
+    desk.setSilent(true);
+    expectReadable("silent");
+    view.world().drawing().use(DrawTool::rain);
+    expectReadable("rain");
+    view.world().drawing().use(DrawTool::choose);
+    view.world().drawing().choose({desk.world().scene().bodies.front().name});
+    expectReadable("a body");
+}
+
+TEST_P(Contrasts, OfSixtyFourActuators) {
+    while (desk.mix().count() < 64 && desk.attach(0.5, 0.5)) {
+    }
+    expectReadable("64 actuators");
+}
+
+TEST_P(Contrasts, OfCards) {
+    view.setHint(true);
+    expectReadable("hint");
+    view.setHint(false);
+    view.setFirstStart(std::make_unique<FirstStart>(
+        desk, std::vector<FeltChoice>{{"JACK: system, 8 outputs", noDevice, 8},
+                                      {"No device: seen, not felt", noDevice, 0}}));
+    expectReadable("first start");
+    view.setFirstStart(nullptr);
+    TestFolder folder;
+    folder("there.json").replaceWithText("{}");
+    view.setCard(
+        std::make_unique<FileCard>(FileCard::Choice{"Save", ".json", folder.folder, true, "session"}));
+    expectReadable("files");
+    view.setCard(std::make_unique<QuestionCard>(
+        "Share", "Words of the question",
+        std::vector<QuestionCard::Answer>{{"Take", [] {}}, {"Cancel", [] {}}},
+        std::vector<QuestionCard::Field>{{"Link", "http://127.0.0.1:8000/#scene=shake-the-box"}}));
+    expectReadable("question");
+}
+
+INSTANTIATE_TEST_SUITE_P(Looks, Contrasts, testing::Values(Ground::dark, Ground::light),
+                         [](const auto& ground) { return ground.param == Ground::dark ? "dark" : "light"; });
+
+} // namespace
+} // namespace physvib
