@@ -213,9 +213,12 @@ void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int
 }
 
 void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label) {
-    label.setBounds(6, 0, box.getWidth() - 24, box.getHeight()); // up to the arrow
+    const bool isNarrow = box.getWidth() < 84; // of a window as small as it goes: a whole word in small
+                                               // letters
+    label.setBounds(isNarrow ? 2 : 6, 0, box.getWidth() - (isNarrow ? 17 : 24), box.getHeight()); // to the
+                                                                                                  // arrow
     label.setBorderSize({1, 5, 1, 0});
-    label.setFont(getComboBoxFont(box));
+    label.setFont(isNarrow ? juce::Font{text::small} : getComboBoxFont(box));
 }
 
 void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float,
