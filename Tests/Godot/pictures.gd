@@ -14,13 +14,20 @@ func picture() -> Image:
 	return image
 
 
+# Half a second of pushing upwards, and half a second of rest, where a demo listens to that key.
+func frame():
+	if Engine.get_process_frames() / 30 % 2 == 1: Input.action_press("ui_up")
+	else: Input.action_release("ui_up")
+	await process_frame
+
+
 func _initialize():
 	for argument in OS.get_cmdline_user_args(): given[argument.get_slice("=", 0)] = argument.get_slice("=", 1)
 	var name: String = given.demo.get_file().get_basename()
 	root.add_child(load(given.demo).instantiate())
-	for i in int(given.ticks) - 4 * int(given.movie): await process_frame
+	for i in int(given.ticks) - 4 * int(given.movie): await frame()
 	for i in int(given.movie):
-		for j in 4: await process_frame
+		for j in 4: await frame()
 		(await picture()).save_png("res://pictures/%s-%03d.png" % [name, i + 1])
 	var image: Image = await picture()
 	image.save_webp("res://pictures/%s.webp" % name, true, 0.8)
