@@ -38,12 +38,20 @@ done
 for library in "$bin"/windows.x86_64/*; do
     needs "$(x86_64-w64-mingw32-objdump -p "$library" | sed -n 's/.*DLL Name: //p')" "$library" "libphysvib.dll KERNEL32.dll msvcrt.dll SHELL32.dll"
 done
-shown=$(x86_64-w64-mingw32-objdump -p "$bin/windows.x86_64/libphysvib-godot.dll" | sed -n '/Ordinal\/Name Pointer/,/^$/s/.*\] *//p' | tail -n +2 | xargs)
-printf 'libphysvib-godot.dll shows: %s\n' "$shown"
-[ "$shown" = physvib_godot_init ] || failed=1
-shown=$(readelf --dyn-syms -W "$bin/linux.arm64/libphysvib-godot.so" | awk '$5 == "GLOBAL" && $7 != "UND" { print $8 }' | xargs)
-printf 'libphysvib-godot.so shows: %s\n' "$shown"
-[ "$shown" = physvib_godot_init ] || failed=1
+# shows LIBRARY NAME...: the entry alone.
+shows() {
+    library=$1
+    shift
+    printf '%s shows %d: %s\n' "$library" $# "${1:-}"
+    [ "$*" = physvib_godot_init ] || failed=1
+}
+# shellcheck disable=SC2046 # lists of words
+{
+    shows libphysvib-godot.dll $(x86_64-w64-mingw32-objdump -p "$bin/windows.x86_64/libphysvib-godot.dll" | sed -n '/Ordinal\/Name Pointer/,/^$/s/.*\] *//p' | tail -n +2)
+    for system in arm64 x86_64; do
+        shows $system/libphysvib-godot.so $(readelf --dyn-syms -W "$bin/linux.$system/libphysvib-godot.so" | awk '$5 ~ /GLOBAL|WEAK/ && $7 != "UND" { print $8 }')
+    done
+}
 
 aarch64-linux-gnu-gcc -O1 -Wall Tests/Godot/load.c -o build/godot/load -ldl
 x86_64-w64-mingw32-gcc -O1 -Wall Tests/Godot/load.c -o build/godot/load.exe

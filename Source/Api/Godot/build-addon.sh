@@ -40,7 +40,7 @@ for system in "$@"; do
     mkdir -p "$folder"
     . Tests/Cross/cross.sh
     libraries
-    house -DPHYSVIB_SESSION=OFF -DPHYSVIB_GODOT_HEADER="$work"
+    house -DPHYSVIB_TESTS=OFF -DPHYSVIB_SESSION=OFF -DPHYSVIB_GODOT_HEADER="$work"
     made=$folder/house/godot/addons/physvib/bin
     "$strip" --strip-unneeded "$made"/*/*
     cp -r "$made"/. "$bin"
