@@ -72,7 +72,8 @@ mkdir -p "$project"
 cp -r build/godot/addons Tests/Godot/. "$project"
 rm -r "$project/Editor"
 export HOME="$PWD/$project"
-timeout 600 "$godot" --headless --path "$project" --import --frame-delay 1000 >"$project/log" 2>&1
+mkdir "$project/.godot"
+echo "res://addons/physvib/physvib.gdextension" >"$project/.godot/extension_list.cfg" # which an import would write, in ten minutes
 for space in 2 3; do
     timeout 600 "$godot" --headless --path "$project" -s bounce.gd --fixed-fps 60 -- space=$space hz=60 ball >"$project/out" 2>&1 || failed=1
     sed -n 's/^| /| arm64, /p' "$project/out" | grep . || { cat "$project/out" && failed=1; }
