@@ -90,8 +90,8 @@ if (words[0] === '--one') {
     await one(name, resolve(file), isFelt === 'true').then(say, error => say({ error: String(error?.message ?? error).split('\n')[0] }));
 }
 
-const run = (name, file, isFelt) => new Promise(done => execFile(process.execPath, [process.argv[1], folder, '--one', name, file, String(isFelt)], { timeout: 120e3 },
-    (error, text) => { try { done(JSON.parse(text.trim().split('\n').at(-1))); } catch { done({ error: error?.killed ? 'nothing within 120 s' : String(error?.message ?? text).split('\n')[0] }); } }));
+const run = (name, file, isFelt) => new Promise(done => execFile(process.execPath, [process.argv[1], folder, '--one', name, file, String(isFelt)], { timeout: 600e3 },
+    (error, text) => { try { done(JSON.parse(text.trim().split('\n').at(-1))); } catch { done({ error: error?.killed ? 'nothing within 600 s' : String(error?.message ?? text).split('\n')[0] }); } }));
 const failures = [];
 let same = 0, felt = 0;
 console.log('| engine | example | bodies | motion with haptics | events in 5 s |\n| --- | --- | --- | --- | --- |');

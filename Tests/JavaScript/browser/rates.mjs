@@ -31,14 +31,15 @@ export async function rateOf(pictures, seconds) {
     output.follow({ follow: follower => { followers.add(follower); return () => {}; } });
     await new Promise(done => setTimeout(done, 300));
     const began = performance.now();
-    let last = began, due = settled, lateBefore = null, movesBefore = 0, stutters = 0;
+    let last = began, due = settled, lateBefore = null, movesBefore = 0, stutters = 0, aheadBefore = context.currentTime;
     for (let picture = 1; last - began < 1000 * seconds; ++picture) {
         await new Promise(done => setTimeout(done, Math.max(0, began + 1000 * picture / pictures - performance.now())));
-        const now = performance.now(), passed = Math.min(0.1, (now - last) / 1000), at = (now - began) / 1000, isHit = at >= due;
+        const now = performance.now(), passed = Math.min(0.1, (now - last) / 1000), at = (now - began) / 1000, isHit = at >= due && at < seconds - 0.3, ahead = context.currentTime - at;
         if (at > settled - between && lateBefore === null) [lateBefore, movesBefore] = [output.status.late, output.moves];
         last = now;
         if (isHit) { due = at + between; struck.push(context.currentTime); }
-        if (at > settled - between && passed > 1 / pictures + stutter) ++stutters; // of the browser, on a busy machine
+        if (at > settled - between && (passed > 1 / pictures + stutter || Math.abs(ahead - aheadBefore) > stutter)) ++stutters; // of pictures or of sound, on a busy machine
+        aheadBefore = ahead;
         world.step(passed, 9.81, () => { if (isHit) world.touch(1, 0, { x: 0.5, y: 0.5, normalX: 0, normalY: -1, approach: 3, fraction: 1 }); });
         const events = world.take();
         for (const follower of followers) follower(events, world);
