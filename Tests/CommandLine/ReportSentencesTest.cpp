@@ -46,7 +46,7 @@ std::vector<Sentence> sentences() {
                    quest = builtIn("level-quest"), methods = builtIn("eight-methods"),
                    fits = builtIn("model-or-sound"), grids = builtIn("phantom-grids"), field = places(),
                    constant = example("frequency-constant"), names = example("rhythm-names"),
-                   matched = example("equal-sensation");
+                   matched = example("equal-sensation"), interleaved = example("level-mixed");
     Protocol unknown = steps, alone = grid, mixed = steps;
     Protocol fine = grid; // answers vary
     fine.name = "fine";
@@ -63,6 +63,9 @@ std::vector<Sentence> sentences() {
     };
     const Edit noStaircase = [](Row& row) {
         if (row["participant"] == "P2" && row["quest"].empty()) row["participant"].clear();
+    };
+    const Edit stopsEarly = [](Row& row) {
+        if (row["participant"] == "P2" && std::stoi(row["trial"]) > 20) row["participant"].clear();
     };
     return {
         {"3 participants in 3 files.", of(grid, 3), of(grid, 2)},
@@ -185,6 +188,8 @@ std::vector<Sentence> sentences() {
         {"several rows of a participant and condition are averaged", of(numbers, 3), of(fine, 3)},
         {"no response; trials left out for that: ", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
         {"whether values are normal was not tested", of(grids, 2), of(fine, 3)},
+        {"participant P2 did not finish main in ", of(interleaved, 3, stopsEarly, true),
+         of(interleaved, 3, {}, true)},
         {"A smaller difference that was not found is no evidence", of(fine, 3), of(alone, 3)},
         {"Power of the design as it was run", of(fine, 3), of(alone, 3)},
         {"Participants who differ need more.", of(steps, 3, set("correct", "")), of(steps, 3)},
@@ -192,9 +197,10 @@ std::vector<Sentence> sentences() {
 }
 
 /// Sentences that other tests have with their counter-examples, and words of the rows and of the protocol.
-const char* const toldElsewhere[] = {
-    "to be filled in: ", "without a file of times", "did not finish", "Every table below is CSV",
-    "report: physvib",   "trials: physvib",         "protocol: ",     "seed of all orders: "};
+const char* const toldElsewhere[] = {"to be filled in: ",        "without a file of times",
+                                     "Every table below is CSV", "report: physvib",
+                                     "trials: physvib",          "protocol: ",
+                                     "seed of all orders: "};
 
 bool isKnown(const std::string& sentence, const std::vector<Sentence>& all,
              const std::set<std::string>& plan) {
