@@ -78,7 +78,11 @@ public:
                 under.push_back(before[i]);
                 if (const double c = contrast(after[i], before[i]); c > most) most = c, ink = after[i];
             }
-        if (under.empty()) return; // outside of the clip, or a space
+        // a space, or a letter that a scrolled page cuts
+        const auto clip = stack->clip ? stack->clip->getClipBounds() : juce::Rectangle<int>{};
+        const int base = static_cast<int>(at.getTranslationY());
+        if (under.empty() || clip.getBottom() < base || clip.getY() > base - static_cast<int>(0.7f * high))
+            return;
         letters_.push_back({cell, after, commonest(under), ink, most, at.getTranslationY()});
     }
 

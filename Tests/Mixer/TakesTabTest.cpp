@@ -99,12 +99,12 @@ SampledSound soundOf(const juce::File& file) {
 
 /// Silence, half a second of sound from 0.4 s on, and silence; events before, in and behind it.
 void writeSoundInSilence(const juce::File& file) {
-    juce::AudioBuffer<float> samples{2, 72000};
+    juce::AudioBuffer<float> samples{4, 72000};
     samples.clear();
     for (int k = 19200; k < 43200; ++k) samples.setSample(1, k, 0.5f);
     juce::WavAudioFormat wav;
     std::unique_ptr<juce::AudioFormatWriter> writer{
-        wav.createWriterFor(file.createOutputStream().release(), 48000.0, 2, 32, {}, 0)};
+        wav.createWriterFor(file.createOutputStream().release(), 48000.0, 4, 32, {}, 0)};
     ASSERT_NE(writer, nullptr);
     writer->writeFromAudioSampleBuffer(samples, 0, samples.getNumSamples());
     std::vector<CollisionEvent> events(3);
@@ -145,7 +145,7 @@ TEST(TakesTab, ATrimmedTakeIsExportedWithTheEventsInIt) {
     ASSERT_TRUE(runUntil([&] { return t.shown().contains("of"); }));
     t.takes->exportTo(t.folder("part.wav"));
     const auto sound = soundOf(t.folder("part.wav"));
-    ASSERT_EQ(sound.channels.size(), 2U);
+    ASSERT_EQ(sound.channels.size(), 4U);
     EXPECT_NEAR(static_cast<double>(sound.channels[1].size()), 24000.0, 400.0) << "to a 400th of it";
     EXPECT_EQ(sound.channels[1][12000], 0.5f);
     EXPECT_LT(sound.channels[1].front(), 0.01f) << "no click";

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Breaks the mixer's code in 60 ways, one after the other, and says which of them its tests catch. usage: breaks.py --check | BUILD [FIRST [LAST]]
+"""Breaks the mixer's code in 60 ways, one after the other, and says which of them its tests catch. usage: breaks.py --check | BUILD [NUMBER...]
 --check: only whether each break still has its place in the code, in a second. BUILD: a folder for a copy of the sources and a build of its own, so that
-one may go on editing; a break costs compiling one file, linking and 25 s of tests in parts. A test that fails is run once more by itself: only if it fails
-again the break counts as caught. Exit code 1 if a place is missing, or fewer than 55 of 60 are caught."""
+one may go on editing. All breaks are compiled once, and PHYSVIB_BREAK says which one the program has; a break then costs 25 s of tests in parts. A test
+that fails is run once more by itself: only if it fails again the break counts as caught. Exit code 1 if a place is missing, or fewer than 55 of 60 are
+caught."""
 import os
 import pathlib
 import re
@@ -31,28 +32,28 @@ BREAKS = [  # file, what stands there, what is put there instead
     (f"{DESK}/DeskCompare.cpp", "next.levelDb = std::max(leastStripDb, next.levelDb - loweredDb_);", ""),
     (f"{DESK}/DeskCompare.cpp", "isB_ = !isB_;", ""),
     (f"{DESK}/DeskCompare.cpp", "mix.seed = now.seed;", ""),
-    (f"{DESK}/DeskCompare.cpp", "if (mix.levelDb == setDb_) mix.levelDb", "mix.levelDb"),
+    (f"{DESK}/DeskCompare.cpp", "mix.levelDb == setDb_", "true"),
     (f"{DESK}/DeskCompare.cpp", "desk_.undoManager().getRedoDescription() != compareStep", "true"),
     (f"{DESK}/DeskWorld.cpp", "if (!isDone && !isRepeated_) run(false);", ""),
     (f"{DESK}/DeskLook.cpp", "recording_.take(played);", ""),
     (f"{DESK}/DeskLook.cpp", "recent_.add(played.event);", ""),
     (f"{DESK}/DeskStrikes.cpp", "pulse.amplitude = strikeAmplitude;", "pulse.amplitude = 0.0;"),
     (f"{DESK}/DeskLanes.cpp", "lane = thinned(sumOf(lane, moved));", "lane = thinned(moved);"),
-    (f"{DESK}/DeskLanes.cpp", "highest - mostStripDb);", "highest);"),
-    (f"{DESK}/UserFolder.cpp", "isTaken = isTaken || folder", "isTaken = folder"),
+    (f"{DESK}/DeskLanes.cpp", "highest - mostStripDb", "highest"),
+    (f"{DESK}/UserFolder.cpp", "isTaken || folder.value.getChildFile(numbered + ending).exists()", "folder.value.getChildFile(numbered + ending).exists()"),
     (f"{STRIPS}/LaneRow.cpp", "std::clamp(point.seconds, from, std::max(from, to))", "point.seconds"),
-    (f"{STRIPS}/LaneRow.cpp", "if (lane().size() >= mostGainPoints)", "if (false)"),
+    (f"{STRIPS}/LaneRow.cpp", "lane().size() >= mostGainPoints", "false"),
     (f"{STRIPS}/LaneRow.cpp", "move(pointAt(e.position), std::exchange(isMoved_, true));", "move(pointAt(e.position), false);"),
     (f"{STRIPS}/GroupView.cpp", "removeGroup(mix, static_cast<int>(index_));", "mix.groups.pop_back();"),
     (f"{WINDOW}/Arrangement.cpp", "std::min(fair, width * 70 / 100)", "fair"),
-    (f"{WINDOW}/FileCard.cpp", "if (file.existsAsFile() && file != replaced_) {", "if (false) {"),
+    (f"{WINDOW}/FileCard.cpp", "file.existsAsFile() && file != replaced_", "false"),
     (f"{WINDOW}/FileCard.cpp", "replaced_ = juce::File{};", ""),
     (f"{WINDOW}/FileCard.cpp", 'if (key == juce::KeyPress::escapeKey) return onCancel(), true;', ""),
     (f"{WINDOW}/QuestionCard.cpp", "if (!answers_[which].isEnabled) return;", ""),
-    (f"{WINDOW}/QuestionCard.cpp", "if (key == answers_[k].key) return act(k), true;", "if (false) return act(k), true;"),
+    (f"{WINDOW}/QuestionCard.cpp", "if (key == answers_[k].key) return act(k), true;", ""),
     (f"{WINDOW}/FirstStart.cpp", "mix.levelDb = std::min(firstDb, mix.levelDb);", "mix.levelDb = firstDb;"),
-    (f"{WINDOW}/FirstStart.cpp", "|| outputs < 1) continue;", ") continue;"),
-    (f"{WINDOW}/FirstStart.cpp", "const auto at = areNamed ? beforePads + meant : std::ssize(many);", "const auto at = std::ssize(many);"),
+    (f"{WINDOW}/FirstStart.cpp", "outputs < 1", "false"),
+    (f"{WINDOW}/FirstStart.cpp", "areNamed ? beforePads + meant : std::ssize(many)", "std::ssize(many)"),
     (f"{WINDOW}/FirstStart.cpp", "meant += kind->isMeant ? 1 : 0;", ""),
     (f"{WINDOW}/MixerView.cpp", "bar_.setAlwaysOnTop(isShow);", ""),
     (f"{WINDOW}/MixerView.cpp", "if (key == KeyPress::escapeKey) return desk_.setSilent(true), true;", "if (key == KeyPress::escapeKey) return desk_.setSilent(!desk_.isSilent()), true;"),
@@ -61,12 +62,12 @@ BREAKS = [  # file, what stands there, what is put there instead
     (f"{WINDOW}/TopBar.cpp", "board_.setBounds(area.removeFromRight(108));", "board_.setBounds(area.removeFromRight(0));"),
     (f"{WINDOW}/TopBar.cpp", "silence_.onClick = [this] { desk_.setSilent(!desk_.isSilent()); };", "silence_.onClick = [this] { desk_.setSilent(true); };"),
     (f"{WINDOW}/PageLink.cpp", 'if (mix.seed != 1) link += "&seed=" + std::to_string(mix.seed);', ""),
-    (f"{WINDOW}/PageLink.cpp", '.replaceCharacters("+/", "-_")', ""),
+    (f"{WINDOW}/PageLink.cpp", '"-_"', '"+/"'),
     (f"{WORLD}/WorldPanel.cpp", "if (!isShow_ && pane_.takeKey(key)) return true;", "if (pane_.takeKey(key)) return true;"),
     (f"{WORLD}/WorldPanel.cpp", "if (isShow_) area.removeFromRight(silenceWidth);", ""),
     (f"{WORLD}/WorldPanel.cpp", "pane_.letItRain();", ""),
-    (f"{WORLD}/WorldMenu.cpp", "if (target.enchanter >= 0)", "if (false)"),
-    (f"{WORLD}/DrawRain.cpp", "if (rainWay_.isFountain) makeFountain", "if (false) makeFountain"),
+    (f"{WORLD}/WorldMenu.cpp", "target.enchanter >= 0", "false"),
+    (f"{WORLD}/DrawRain.cpp", "rainWay_.isFountain", "false"),
     (f"{WORLD}/DrawStrokes.cpp", "bodies[k].name = names[k];", 'bodies[k].name = names[0] + "." + std::to_string(k);'),
     (f"{WORLD}/DrawStrokes.cpp", "hintOnBody(desk_, first);", ""),
     (f"{WORLD}/FeltHint.cpp", "if (why.empty()) return desk.messages().withdraw(feltLabel);", "if (why.empty()) return;"),
@@ -77,10 +78,12 @@ BREAKS = [  # file, what stands there, what is put there instead
 ]
 
 
-# Each file is compiled by itself (a group of files would be compiled again for one), and not optimised: the compiler is what takes the time.
-ALONE = """cmake_language(DEFER CALL set_target_properties physvib-desk physvib-mixer-parts PROPERTIES UNITY_BUILD OFF)
-cmake_language(DEFER CALL target_compile_options physvib-desk PRIVATE -O0)
-cmake_language(DEFER CALL target_compile_options physvib-mixer-parts PRIVATE -O0)
+BROKEN = """#pragma once
+#include <cstdlib>
+inline bool isBroken(int number) {
+    static const char* const chosen = std::getenv("PHYSVIB_BREAK");
+    return chosen != nullptr && std::atoi(chosen) == number;
+}
 """
 PARTS = 8
 
@@ -88,25 +91,31 @@ PARTS = 8
 def prepare(folder: pathlib.Path) -> None:
     tree = folder / "sources"
     shutil.rmtree(tree, ignore_errors=True)
-    shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns("build", ".git"), symlinks=True, copy_function=shutil.copy)  # new times: what is left of a break is compiled again
-    (tree / "build").mkdir()
-    if (ROOT / "build/juce").exists():
-        (tree / "build/juce").symlink_to(ROOT / "build/juce")
-    (folder / "alone.cmake").write_text(ALONE)
-    subprocess.run(["cmake", "--preset", "release", "-S", tree, "-B", folder / "build", "-G", "Ninja", f"-DCMAKE_PROJECT_INCLUDE={folder}/alone.cmake"],
-                   check=True, cwd=tree, stdout=subprocess.DEVNULL)
+    shutil.copytree(ROOT, tree, symlinks=True, ignore=lambda at, names: [name for name in names if name == ".git" or (at == str(ROOT / "build") and name != "juce")])
+    for unpacked in (tree / "build").glob("juce/usr/lib/**/*.cmake"):  # names its own folder; so each compiler's call is that of ROOT, which ccache knows
+        unpacked.write_text(unpacked.read_text().replace(str(ROOT), str(tree)))
+    (tree / "Standalone/Mixer/Broken.h").write_text(BROKEN)
+    for number, (file, old, new) in enumerate(BREAKS, 1):
+        path = tree / "Standalone/Mixer" / file
+        text = path.read_text()
+        if "Broken.h" not in text:
+            text = text.replace("#include", '#include "Mixer/Broken.h"\n#include', 1)
+        isStatement = old.endswith(";")
+        path.write_text(text.replace(old, f"{{ if (isBroken({number})) {{ {new} }} else {{ {old} }} }}" if isStatement else f"(isBroken({number}) ? ({new}) : ({old}))"))
+    subprocess.run(["cmake", "--preset", "release"], check=True, cwd=tree, stdout=subprocess.DEVNULL)
 
 
 def build(folder: pathlib.Path) -> bool:
-    return subprocess.run(["cmake", "--build", folder / "build", "--target", "physvib-mixer-tests"], capture_output=True).returncode == 0
+    return subprocess.run(["cmake", "--build", folder / "sources/build/release", "--target", "physvib-mixer-tests"], capture_output=True).returncode == 0
 
 
-def failing(folder: pathlib.Path) -> str:
-    """The name of the test that fails, or nothing."""
-    program = folder / "build/bin/physvib-mixer-tests"
+def failing(folder: pathlib.Path, number: int = 0) -> str:
+    """The name of the test that fails with that break, or nothing."""
+    environment = {**os.environ, "PHYSVIB_BREAK": str(number)}
+    program = folder / "sources/build/release/bin/physvib-mixer-tests"
     parts = [
         subprocess.Popen([program, "--gtest_brief=1", "--gtest_fail_fast"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, errors="replace",
-                         env={**os.environ, "GTEST_TOTAL_SHARDS": str(PARTS), "GTEST_SHARD_INDEX": str(part)})
+                         env={**environment, "GTEST_TOTAL_SHARDS": str(PARTS), "GTEST_SHARD_INDEX": str(part)})
         for part in range(PARTS)
     ]
     found = ""
@@ -117,9 +126,9 @@ def failing(folder: pathlib.Path) -> str:
             text = "hangs"
             part.kill()
         if part.returncode and not found:
-            name = re.search(r"\[  FAILED  \] ([\w.]+)", text)
+            name = re.search(r"\[  FAILED  \] ([\w./]+)", text)
             try:
-                again = subprocess.run([program, f"--gtest_filter={name[1] if name else '*'}"], capture_output=True, timeout=300).returncode
+                again = subprocess.run([program, f"--gtest_filter={name[1] if name else '*'}"], capture_output=True, timeout=300, env=environment).returncode
             except subprocess.TimeoutExpired:
                 again = 1
             if again:
@@ -135,21 +144,19 @@ def main() -> None:
         sys.exit("\n".join(missing) + f"\n{len(missing)} of {len(BREAKS)} breaks have no place of their own in the code")
     if sys.argv[1] == "--check":
         return print(f"{len(BREAKS)} breaks have their places")
-    folder, first = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2]) if len(sys.argv) > 2 else 1
-    chosen = list(enumerate(BREAKS, 1))[first - 1 : int(sys.argv[3]) if len(sys.argv) > 3 else None]
+    folder = pathlib.Path(sys.argv[1]).resolve()
+    chosen = [int(number) for number in sys.argv[2:]] or list(range(1, len(BREAKS) + 1))
     prepare(folder)
-    if not build(folder) or failing(folder):
-        sys.exit("the code as it is does not build or pass")
+    if not build(folder):
+        sys.exit("the code with its breaks does not build")
+    if by := failing(folder):
+        sys.exit(f"the code as it is does not pass: {by}")
     caught = 0
-    for number, (file, old, new) in chosen:
-        path = folder / "sources/Standalone/Mixer" / file
-        whole = path.read_text()
-        path.write_text(whole.replace(old, new))
-        by = failing(folder) if build(folder) else None
-        path.write_text(whole)
-        verdict = "does not compile" if by is None else "caught" if by else "NOT CAUGHT"
-        caught += verdict == "caught"
-        print(f"{number:2} {verdict:16} {file}: {old} {by or ''}", flush=True)
+    for number in chosen:
+        file, old, _ = BREAKS[number - 1]
+        by = failing(folder, number)
+        caught += by != ""
+        print(f"{number:2} {'caught' if by else 'NOT CAUGHT':10} {file}: {old} {by}", flush=True)
     print(f"{caught} of {len(chosen)} caught")
     sys.exit(caught < len(chosen) * 55 / 60)
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sizes badges by the nearest neighbour, then pushes apart what still overlaps.
+// Sizes badges by the nearest neighbour, then moves what still overlaps to a free place.
 #include "Host/Views/Badges.h"
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace physvib {
 namespace {
 
 using Badges = std::vector<juce::Rectangle<float>>;
 constexpr float twoLetters = 24.0f;
-constexpr int mostPasses = 400; // 64 in one place take about 100
 
 /// Of places that differ, the least distance along the farther axis.
 float nearestOf(std::span<const juce::Point<float>> places) {
@@ -36,23 +36,23 @@ float widthOf(std::size_t i, std::span<const juce::Point<float>> places, std::sp
     return std::max(least, width);
 }
 
-/// True if none was moved.
-bool pushApart(Badges& badges, juce::Rectangle<float> room) {
-    bool areApart = true;
-    for (std::size_t i = 0; i < badges.size(); ++i)
-        for (std::size_t k = 0; k < i; ++k) {
-            auto &a = badges[k], &b = badges[i];
-            const auto way = b.getCentre() - a.getCentre();
-            const float acrossX = 0.5f * (a.getWidth() + b.getWidth()) + betweenBadges - std::abs(way.x),
-                        acrossY = 0.5f * (a.getHeight() + b.getHeight()) + betweenBadges - std::abs(way.y);
-            if (acrossX < 0.1f || acrossY < 0.1f) continue;
-            const auto push = acrossX < acrossY ? juce::Point<float>{way.x < 0.0f ? -acrossX : acrossX, 0.0f}
-                                                : juce::Point<float>{0.0f, way.y < 0.0f ? -acrossY : acrossY};
-            a = (a - push * 0.5f).constrainedWithin(room);
-            b = (b + push * 0.5f).constrainedWithin(room);
-            areApart = false;
+bool isFree(const juce::Rectangle<float>& badge, const Badges& placed) {
+    const auto around = badge.expanded(betweenBadges);
+    return std::ranges::none_of(placed, [&](const auto& other) { return around.intersects(other); });
+}
+
+/// The nearest free place, on rings around its own; its own if there is none.
+juce::Rectangle<float> freePlace(const juce::Rectangle<float>& badge, const Badges& placed,
+                                 juce::Rectangle<float> room) {
+    constexpr float step = 4.0f;
+    for (float far = 0.0f; far < room.getWidth() + room.getHeight(); far += step)
+        for (float turn = 0.0f; turn < juce::MathConstants<float>::twoPi;
+             turn += step / std::max(step, far)) {
+            const auto tried =
+                badge.translated(far * std::cos(turn), far * std::sin(turn)).constrainedWithin(room);
+            if (isFree(tried, placed)) return tried;
         }
-    return areApart;
+    return badge;
 }
 
 } // namespace
@@ -60,17 +60,21 @@ bool pushApart(Badges& badges, juce::Rectangle<float> room) {
 Badges badgesAround(std::span<const juce::Point<float>> places, std::span<const float> textWidths,
                     juce::Rectangle<float> room) {
     const float high = juce::jlimit(lowestBadge, highestBadge, nearestOf(places) - betweenBadges);
-    Badges badges;
+    Badges own;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const float least = std::max(high, std::min(twoLetters, textWidths[i]));
-        // of those in one place, each goes another way
-        const auto turn = 2.4f * static_cast<float>(i), far = 0.05f * std::sqrt(static_cast<float>(i));
-        badges.push_back(juce::Rectangle<float>{widthOf(i, places, textWidths, least, high), high}
-                             .withCentre(places[i].translated(far * std::cos(turn), far * std::sin(turn)))
-                             .constrainedWithin(room));
+        own.push_back(juce::Rectangle<float>{widthOf(i, places, textWidths, least, high), high}
+                          .withCentre(places[i])
+                          .constrainedWithin(room));
     }
-    for (int pass = 0; pass < mostPasses && !pushApart(badges, room); ++pass) {
-    }
+    // those in nobody's way first, so that none of them has to move
+    std::vector<std::size_t> order(own.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_partition(order, [&](std::size_t i) {
+        return std::ranges::count_if(own, [&](const auto& other) { return own[i].intersects(other); }) == 1;
+    });
+    Badges placed, badges(own.size());
+    for (const std::size_t i : order) placed.push_back(badges[i] = freePlace(own[i], placed, room));
     return badges;
 }
 

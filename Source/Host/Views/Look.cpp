@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Colours of the dark and the light theme, and drawing of flat controls.
 #include "Host/Views/Look.h"
+#include "Core/Limits.h"
+#include <array>
+#include <cmath>
 
 namespace physvib {
 
@@ -44,6 +47,32 @@ juce::Colour readableOn(juce::Colour ground) {
     return ground.getPerceivedBrightness() > 0.55f ? juce::Colour{Argb{0xff101218}} : juce::Colours::white;
 }
 
+/// As WCAG 2 has it.
+double luminanceOf(juce::Colour colour) {
+    const auto linear = [](float v) {
+        return v <= 0.04045f ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(colour.getFloatRed()) + 0.7152 * linear(colour.getFloatGreen()) +
+           0.0722 * linear(colour.getFloatBlue());
+}
+
+/// Darker or lighter until its letters can be read on a panel; chosen colours of the dark look stay as they
+/// are.
+juce::Colour readableEnchanter(Ground ground, int index) {
+    constexpr double least = 4.6;
+    const bool isLight = ground == Ground::light;
+    const auto panel = luminanceOf(shadesOf(ground).panel);
+    auto colour = palette::enchanter(index);
+    if (isLight) colour = colour.withMultipliedSaturation(1.6f).withMultipliedBrightness(0.62f);
+    const auto contrast = [&] {
+        const double own = luminanceOf(colour);
+        return (std::max(own, panel) + 0.05) / (std::min(own, panel) + 0.05);
+    };
+    while (contrast() < least)
+        colour = colour.interpolatedWith(isLight ? juce::Colours::black : juce::Colours::white, 0.04f);
+    return colour;
+}
+
 void drawFader(juce::Graphics& g, juce::Rectangle<float> area, float place, const juce::Slider& slider) {
     const float x = area.getCentreX();
     g.setColour(shade(slider, Shade::raised));
@@ -79,10 +108,16 @@ juce::Colour shade(const juce::Component& component, Shade which) {
 }
 
 juce::Colour enchanterColour(const juce::Component& component, int index) {
-    const auto colour = palette::enchanter(index);
-    return shade(component, Shade::panel).getPerceivedBrightness() > 0.5f
-               ? colour.withMultipliedSaturation(1.6f).withMultipliedBrightness(0.62f)
-               : colour;
+    using All = std::array<juce::Colour, limits::maxEnchanters>;
+    const auto made = [](Ground ground) {
+        All all;
+        for (int j = 0; j < limits::maxEnchanters; ++j)
+            all[static_cast<std::size_t>(j)] = readableEnchanter(ground, j);
+        return all;
+    };
+    static const All dark = made(Ground::dark), light = made(Ground::light);
+    const bool isLight = shade(component, Shade::panel).getPerceivedBrightness() > 0.5f;
+    return (isLight ? light : dark)[static_cast<std::size_t>(index) % dark.size()];
 }
 
 void Look::setGround(Ground ground) {
@@ -154,7 +189,8 @@ void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const j
 void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool, bool) {
     auto colour = shade(button, Shade::text);
     if (isTrue(button, stopProperty))
-        colour = button.getToggleState() ? juce::Colours::white : shade(button, Shade::limit);
+        colour =
+            button.getToggleState() ? readableOn(shade(button, Shade::limit)) : shade(button, Shade::limit);
     else if (button.getToggleState())
         colour = readableOn(tintOf(button));
     else if (isTrue(button, quietProperty) && !isTrue(button, titleProperty))
@@ -210,6 +246,14 @@ void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int
     arrow.addTriangle(x - 4.0f, y - 2.0f, x + 4.0f, y - 2.0f, x, y + 3.0f);
     g.setColour(shade(box, Shade::muted));
     g.fillPath(arrow);
+}
+
+// JUCE's default halves its contrast.
+void Look::drawComboBoxTextWhenNothingSelected(juce::Graphics& g, juce::ComboBox& box, juce::Label& label) {
+    g.setColour(shade(box, Shade::muted));
+    g.setFont(getLabelFont(label));
+    g.drawText(box.getTextWhenNothingSelected(), label.getBorderSize().subtractedFrom(label.getBounds()),
+               label.getJustificationType(), true);
 }
 
 void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label) {

@@ -58,6 +58,8 @@ public:
                            const juce::Colour* colour) override;
     void drawComboBox(juce::Graphics& g, int width, int height, bool isDown, int, int, int, int,
                       juce::ComboBox& box) override;
+    void drawComboBoxTextWhenNothingSelected(juce::Graphics& g, juce::ComboBox& box,
+                                             juce::Label& label) override;
     void positionComboBoxText(juce::ComboBox& box, juce::Label& label) override;
     void drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float,
                           juce::Slider::SliderStyle, juce::Slider& slider) override;

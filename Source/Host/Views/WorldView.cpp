@@ -19,7 +19,7 @@ constexpr double hitMs = 450.0;         // how long a hit glows
 constexpr std::size_t mostHits = 48;    // simultaneous; more would only glare
 constexpr std::size_t mostTraces = 400; // for 30 sliding pairs
 constexpr float wallPixels = 11.0f;     // bodies around the field are drawn as a frame of this width
-constexpr float lowBadge = 24.0f; // has small text
+constexpr float lowBadge = 24.0f;       // has small text
 
 float levelOf(double amplitude) {
     return juce::jlimit(

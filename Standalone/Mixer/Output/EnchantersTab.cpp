@@ -237,8 +237,8 @@ void EnchantersTab::resized() {
     edit_->setBounds(bottom.removeFromRight(140));
     hint_.setBounds(bottom);
     area.removeFromBottom(isTight ? 4 : 8);
-    list_.setBounds(isTight ? area.withHeight(area.getHeight() / list_.getRowHeight() * list_.getRowHeight())
-                            : area); // no half row
+    list_.setBounds(area.withHeight(area.getHeight() / list_.getRowHeight() * list_.getRowHeight())); // whole
+                                                                                                      // rows
 }
 
 } // namespace physvib

@@ -9,7 +9,7 @@
 namespace physvib {
 namespace {
 
-constexpr int takeRowPixels = 24, takeFootPixels = 32, trimPixels = 44, most = 76;
+constexpr int takeRowPixels = 24, takeFootPixels = 32, trimPixels = 44, widestButton = 76;
 constexpr double takeLookMs = 1000.0;
 
 juce::File eventsOf(const juce::File& wav) { return wav.withFileExtension("csv"); }
@@ -208,7 +208,7 @@ void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
 void TakesTab::resized() {
     auto area = getLocalBounds().reduced(panelInset, 4);
     auto foot = area.removeFromBottom(takeFootPixels).withTrimmedTop(4);
-    const int wide = std::min(most, (foot.getWidth() - 4 * 8) / 5);
+    const int wide = std::min(widestButton, (foot.getWidth() - 4 * 8) / 5);
     for (auto* button : {play_.get(), trim_.get(), export_.get(), erase_.get(), show_.get()}) {
         button->setBounds(foot.removeFromLeft(wide));
         foot.removeFromLeft(8);

@@ -102,7 +102,7 @@ void MixerView::takeMix() {
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
     const auto tint = shade(*this, desk_.isNews() ? Shade::accent : Shade::limit);
     trouble_.setColour(juce::Label::backgroundColourId,
-                       shade(*this, Shade::panel).interpolatedWith(tint, 0.25f));
+                       shade(*this, Shade::panel).interpolatedWith(tint, 0.17f));
     const auto& act = desk_.messages().shown().act.name;
     act_->setButtonText(act);
     act_->setTitle(act);

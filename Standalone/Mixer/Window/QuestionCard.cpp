@@ -85,7 +85,7 @@ void QuestionCard::fit() {
     const int high = (words_.getText().isEmpty() ? 110 : 174) + rows * (rowHigh + gap) +
                      static_cast<int>(inputs_.size()) * (rowHeight + gap);
     if (picture_.isNull()) return setSize(wide, high);
-    setSize(wide + picture_.getWidth(), std::max(high, picture_.getHeight() + 2 * edgeY));
+    setSize(wide + edgeX + picture_.getWidth(), std::max(high, picture_.getHeight() + 2 * edgeY));
 }
 
 void QuestionCard::setPicture(const juce::Image& picture) {
