@@ -45,7 +45,7 @@ step() {
         tidy) Tests/House/tidy.sh ;;
         abi) Tests/Release/abi.sh ;;
         sweep) Tests/Sweep/speed.sh $bin && Tests/Sweep/cluster.sh $bin ;;
-        godot) Tests/godot.sh build/release build/nightly/godot ;;
+        godot) Tests/godot.sh build/release build/nightly/godot && Tests/godot-sanitized.sh build/nightly/godot && Tests/godot-cross.sh build/nightly/godot-arm64 ;;
         web) Tests/web.sh $bin/physvib ;;
         javascript) Tests/javascript.sh $bin/physvib ;;
         bundlers) Source/Api/JavaScript/build-package.sh && Tests/JavaScript/bundlers.sh && Tests/JavaScript/browsers.sh ;;

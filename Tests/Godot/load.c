@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Loads an addon's library as Godot does, and calls its entry: with a Godot that has no function, and with one that
- * has them all. No header of Godot is needed: a pointer has the size of a pointer, and the entry sets two of three.
- * Usage: load LIBRARY */
+/* Loads an addon's library as Godot does, and calls its entry: with a Godot that has no function, and with
+ * one that has them all. No header of Godot is needed: a pointer has the size of a pointer, and the entry
+ * sets two of three. Usage: load LIBRARY */
 #include <stdio.h>
 #include <string.h>
 
@@ -39,8 +39,12 @@ int main(int count, char** words) {
     Initialization made = {0, NULL, NULL, NULL};
     memcpy(&entry, &found, sizeof entry);
     if (found == NULL) return printf("WRONG: there is no entry\n"), 1;
-    if (entry(none, NULL, &made) != 0) return printf("WRONG: expected it to decline a Godot without functions\n"), 1;
+    if (entry(none, NULL, &made) != 0)
+        return printf("WRONG: expected it to decline a Godot without functions\n"), 1;
     if (asked < 30 || entry(all, NULL, &made) != 1 || made.start == NULL || made.stop == NULL)
         return printf("WRONG: expected it to take a Godot with all functions\n"), 1;
-    return printf("right: the entry asks for %d functions of Godot, declines one without them, and takes one with them\n", asked), 0;
+    return printf("right: the entry asks for %d functions of Godot, declines one without them, and takes one "
+                  "with them\n",
+                  asked),
+           0;
 }
