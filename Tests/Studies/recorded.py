@@ -182,7 +182,8 @@ def compare(physvib: str, what: str, folder: str, raw: str) -> int:
             worst_peak = max(worst_peak, abs(float(peak_g) / peak - 1.0))
             expect(abs(float(peak_g) / peak - 1.0) <= 0.01, f"{words} {name}: the row says {peak_g} g, {peak:.5f} g were recorded")
             worst_rms = max(worst_rms, abs(float(rms_g) / rms - 1.0))
-            expect(abs(float(rms_g) / rms - 1.0) <= 0.02,  # the row's time ends with a picture, up to 33 ms later
+            # The row's time begins and ends with pictures, up to 50 ms off where the machine is busy: that is much of a short vibration.
+            expect(abs(float(rms_g) / rms - 1.0) <= max(0.02, 0.025 / seconds),
                    f"{words} {name}: the row says {rms_g} g (root mean square), {rms:.5f} g were recorded")
             if what in OWN:
                 value = words if name == "varied" else OWN[what]["otherwise"]
