@@ -37,7 +37,7 @@ float widthOf(std::size_t i, std::span<const juce::Point<float>> places, std::sp
 }
 
 bool isFree(const juce::Rectangle<float>& badge, const Badges& placed) {
-    const auto around = badge.expanded(betweenBadges);
+    const auto around = badge.expanded(betweenBadges - 0.1f); // rounded
     return std::ranges::none_of(placed, [&](const auto& other) { return around.intersects(other); });
 }
 
@@ -59,7 +59,7 @@ juce::Rectangle<float> freePlace(const juce::Rectangle<float>& badge, const Badg
 
 Badges badgesAround(std::span<const juce::Point<float>> places, std::span<const float> textWidths,
                     juce::Rectangle<float> room) {
-    const float high = juce::jlimit(lowestBadge, highestBadge, nearestOf(places) - betweenBadges);
+    const float high = juce::jlimit(lowestBadge, highestBadge, 0.75f * nearestOf(places));
     Badges own;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const float least = std::max(high, std::min(twoLetters, textWidths[i]));
