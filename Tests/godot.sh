@@ -22,6 +22,7 @@ drawn() {
 }
 
 fill_project physvib physvib-jack-recorder physvib-compare-recording
+godot --import --frame-delay 1000 >>"$project/log" 2>&1 # without a delay Godot crashes (godot 111048)
 rm -rf "$tree/editor"
 mkdir -p "$tree/editor"
 cp -r "$project/addons" "$project/libraries" "$root"/Tests/Godot/Editor/. "$tree/editor"

@@ -32,5 +32,4 @@ fill_project() {
         [ -e "$tree/usr/lib/x86_64-linux-gnu/${library##*/}" ] || cp -L "$library" "$project/libraries"
     done
     rm -f "$project"/libraries/libphysvib* "$project"/libraries/libhwy.so*
-    godot --import --frame-delay 1000 >>"$project/log" 2>&1 # without a delay Godot crashes (godot 111048)
 }
