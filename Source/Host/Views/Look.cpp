@@ -236,13 +236,16 @@ void Look::drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area
                                             hasSubMenu, words, keys, icon, isActive ? colour : &muted);
 }
 
+/// In a window as small as it goes: a whole word in small letters.
+static bool isNarrow(const juce::ComboBox& box) { return box.getWidth() < 84; }
+
 void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int,
                         juce::ComboBox& box) {
     const auto area = juce::Rectangle<int>{width, height}.toFloat().reduced(0.5f);
     g.setColour(shade(box, Shade::raised).brighter(box.isMouseOver(true) ? 0.08f : 0.0f));
     g.fillRoundedRectangle(area, corner);
     juce::Path arrow;
-    const float x = area.getRight() - 14.0f, y = area.getCentreY();
+    const float x = area.getRight() - (isNarrow(box) ? 9.0f : 14.0f), y = area.getCentreY();
     arrow.addTriangle(x - 4.0f, y - 2.0f, x + 4.0f, y - 2.0f, x, y + 3.0f);
     g.setColour(shade(box, Shade::muted));
     g.fillPath(arrow);
@@ -257,12 +260,10 @@ void Look::drawComboBoxTextWhenNothingSelected(juce::Graphics& g, juce::ComboBox
 }
 
 void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label) {
-    const bool isNarrow = box.getWidth() < 84; // of a window as small as it goes: a whole word in small
-                                               // letters
-    label.setBounds(isNarrow ? 2 : 6, 0, box.getWidth() - (isNarrow ? 17 : 24), box.getHeight()); // to the
-                                                                                                  // arrow
+    const bool narrow = isNarrow(box);
+    label.setBounds(narrow ? 0 : 6, 0, box.getWidth() - (narrow ? 13 : 24), box.getHeight()); // to the arrow
     label.setBorderSize({1, 5, 1, 0});
-    label.setFont(isNarrow ? juce::Font{text::small} : getComboBoxFont(box));
+    label.setFont(narrow ? juce::Font{text::small} : getComboBoxFont(box));
 }
 
 void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float,
