@@ -3,7 +3,7 @@
 // if a test fails, or a hit comes late, or is not heard, though neither pictures nor sound stuttered by 30 ms. usage: browsers.mjs FOLDER PAGE [SECONDS [BROWSER...]]. FOLDER: where npm has installed physvib and the engines;
 // PAGE: build/web/page
 import { join, resolve } from 'node:path';
-import { inBrowsers, send, serve } from './browser/browsers.mjs';
+import { inBrowsers, receive, send, serve } from './browser/browsers.mjs';
 
 const [folder, page, seconds = '20', ...wanted] = process.argv.slice(2), modules = join(resolve(folder), 'node_modules'), root = join(import.meta.dirname, '../..');
 const parts = ['silent', 'velocities', 'bodies', 'space', 'lives', 'clock'], tests = [...parts, 'the page'], rates = [30, 45, 60, 90, 144];
@@ -39,11 +39,8 @@ await fetch('/', { method: 'POST', body: JSON.stringify(told) });
 };
 let arrived = () => {};
 const { server, origin } = await serve((request, response, path) => {
-    if (request.method === 'POST') {
-        let text = '';
-        request.on('data', part => { text += part; });
-        request.on('end', () => { response.end(); arrived(JSON.parse(text)); });
-    } else if (made[path] !== undefined) {
+    if (request.method === 'POST') receive(request, response, told => arrived(told));
+    else if (made[path] !== undefined) {
         response.writeHead(200, { 'Content-Type': path.endsWith('.mjs') ? 'text/javascript' : 'text/html' });
         response.end(made[path]);
     } else if (/^\/page\/(index\.html)?$/.test(path)) send(response, join(page, 'index.html'), {}, text => text.replace('</head>', '<script type="module" src="/browser/page.mjs"></script></head>'));

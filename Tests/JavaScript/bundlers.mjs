@@ -4,7 +4,7 @@
 import { execFileSync } from 'node:child_process';
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
-import { inBrowsers, send, serve } from './browser/browsers.mjs';
+import { inBrowsers, receive, send, serve } from './browser/browsers.mjs';
 
 const [folder, ...wanted] = process.argv.slice(2), root = resolve(folder), work = join(root, 'fixtures'), here = join(import.meta.dirname, 'bundlers');
 const bin = (name, ...words) => execFileSync(join(root, 'node_modules/.bin', name), words, { cwd: root, stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, NODE_ENV: 'production', PARCEL_WORKERS: '0' } });
@@ -80,12 +80,7 @@ const cdn = await serve((request, response, path) => send(response, join(root, '
 const results = {};
 let arrived = () => {};
 const { server, origin } = await serve((request, response, path) => {
-    if (request.method === 'POST') {
-        let text = '';
-        request.on('data', part => { text += part; });
-        request.on('end', () => { response.end(); arrived(JSON.parse(text)); });
-        return;
-    }
+    if (request.method === 'POST') { receive(request, response, told => arrived(told)); return; }
     const [, first, ...rest] = path.split('/');
     if (path === '/') { response.writeHead(200, { 'Content-Type': 'text/html' }); response.end(all); return; }
     if (first === 'packages') { send(response, join(root, 'node_modules', ...rest)); return; }

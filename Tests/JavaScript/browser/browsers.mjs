@@ -16,6 +16,12 @@ export function send(response, file, headers = {}, edit = text => text) {
     response.writeHead(200, { 'Content-Type': types[extname(file)] ?? 'application/octet-stream', ...headers });
     response.end(/\.(html|js)$/.test(file) ? edit(readFileSync(file, 'utf8')) : readFileSync(file));
 }
+/** Gives what a page posts to `arrived`. */
+export function receive(request, response, arrived) {
+    let text = '';
+    request.on('data', part => { text += part; });
+    request.on('end', () => { response.end(); arrived(JSON.parse(text)); });
+}
 
 // Sound without a click.
 const browsers = {
