@@ -19,7 +19,7 @@ struct BusPlan {
 
     static constexpr int widestBus = 16; // VST3 gives up to 19 speakers names; LV2 and hosts stop at 16
     static constexpr int busCount = 15;  // stereo: from 32 channels on JUCE takes memory in every block
-                                         // (decision 35)
+                                         // (decision 12)
     static constexpr int busesOfANewInstance = 2; // the thesis' four enchanters; the host enables the others
 };
 

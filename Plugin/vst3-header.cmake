@@ -40,7 +40,7 @@ endif()
 
 # MIDI controllers come to VST3 as parameters that stand for them: JUCE makes 2,080, one for each controller of each channel. The plug-in tells
 # channels apart for bend, pressure, slide (CC 74) and pedal (CC 64) alone; the stand-ins of the others are those of the first channel, for all of
-# them (decision 144). Numbers stay. JUCE's wrapper is compiled in that wording instead of its own.
+# them (decision 93). Numbers stay. JUCE's wrapper is compiled in that wording instead of its own.
 set(wrapper juce_audio_plugin_client/VST3/juce_VST3_Wrapper.cpp)
 set(physvib_vst3_wrapper ${CMAKE_CURRENT_BINARY_DIR}/vst3/physvib_VST3_Wrapper.cpp)
 set(mended_file ${juce_modules}/${wrapper})

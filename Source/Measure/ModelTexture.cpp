@@ -53,7 +53,7 @@ double halfWidthHz(const std::vector<double>& spectrum, std::size_t peak) {
 }
 
 /// Average power per grain, in units of a grain's power. Random spacings keep some of the regularity of their
-/// mean rate, see decision 68.
+/// mean rate, see decision 66.
 double unevenPower() {
     const double angle = std::numbers::pi * GrainChance::spacingRange / grainsPerPeriod,
                  order = std::sin(angle) / angle;

@@ -61,7 +61,7 @@ test('a ball that falls is felt as from C', () => {
 for (const scene of ['shake-the-box', 'marbles', 'driving']) test(`${scene}: samples equal to native, to the bit`, async () => {
     run('render', scene, '--seconds', '10', '--events', `${scene}.csv`, '--out', `${scene}-world.wav`);
     const events = await physvib.parseEvents(readFileSync(join(work, `${scene}.csv`), 'utf8'));
-    // Linear and no exponent is what nobody asked for: grains go by energy (decision 155), as without --law.
+    // Linear and no exponent is what nobody asked for: grains go by energy (decision 201), as without --law.
     for (const [layout, law] of [['phone4', 'linear'], ['ring3', 'energy'], ['phone1', 'log-outer']]) {
         run('render', '--from-events', `${scene}.csv`, '--seconds', '10', '--layout', layout, ...(law === 'linear' ? [] : ['--law', law]), '--field', '10,10', '--instructions', 'scalar', '--out', 'native.wav');
         const channels = physvib.render(events, { seconds: 10, layout, law, fieldWidth: 10, fieldHeight: 10 });

@@ -4,7 +4,7 @@
 //
 // A tile is rendered whole when its first frame is due. A strike inside it adds its own tail to the remaining
 // frames, which costs O(channels), not O(modes). Gated modes are a separate layer: closing a gate renders
-// that layer again and leaves the bits of the other unchanged (Docs/decisions/0002).
+// that layer again and leaves the bits of the other unchanged (Docs/decisions/0001).
 #pragma once
 #include "Core/Modes/InstructionSet.h"
 #include "Core/Modes/TileLayers.h"

@@ -13,7 +13,7 @@ namespace physvib {
 /// File extensions for impacts: samples, or a clip format.
 inline const juce::StringArray& hitEndings() {
     static const juce::StringArray all = [] {
-        juce::StringArray endings{".wav"}; // decision 94: what most programs take
+        juce::StringArray endings{".wav"}; // what most programs take
         for (const auto ending : clipEndings) endings.add(ending.data());
         return endings;
     }();
