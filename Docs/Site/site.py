@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # README, CHANGELOG, the pages of Docs and the files they name become a site: same words, same pictures, with a list of pages and a search.
-# usage: site.py FOLDER   (from the project's folder)
+# usage: site.py FOLDER [PAGE]   (from the project's folder; PAGE: the built web page, to be played with on the first screen)
 import html
 import json
 import os
@@ -12,6 +12,7 @@ import sys
 
 SITE = "Docs/Site"
 HOME = "README.md"
+DEMO = '<p class="demo"><a href="demo/index.html">Play with it here</a> in the browser, with headphones or without</p>'
 LIST = "Docs/README.md"
 
 
@@ -141,14 +142,19 @@ def grouped(found):
     return groups
 
 
-def whole(page, groups):
+def first_screen(body):
+    """README with a way to the live page above its moving picture, so that both are seen at once."""
+    return re.sub(r"(?=<p><img )", DEMO + "\n", body, count=1)
+
+
+def whole(page, groups, has_demo):
     navigation = ""
     for title, items in groups:
         rows = "".join(f'<li><a href="{page.to(place)}"{" aria-current=page" if place == page.place else ""}>{html.escape(name)}</a></li>' for place, name in items)
         navigation += f"<h2>{html.escape(title)}</h2><ul>{rows}</ul>"
     root = page.to(".")
     return text_of(f"{SITE}/page.html").replace("@TITLE@", html.escape(page.title if page.path == HOME else f"{page.title} · PhysVib")).replace("@ROOT@", root) \
-        .replace("@PAGES@", navigation).replace("@BODY@", page.body)
+        .replace("@PAGES@", navigation).replace("@BODY@", first_screen(page.body) if has_demo and page.path == HOME else page.body)
 
 
 def write(path, text):
@@ -157,14 +163,14 @@ def write(path, text):
         file.write(text)
 
 
-def main(into):
+def main(into, demo=None):
     made = all_pages()
     dead = list(dead_links(made))
     if dead:
         sys.exit("\n".join(dead))
     groups = contents(made)
     for page in made.values():
-        write(os.path.join(into, page.place), whole(page, groups))
+        write(os.path.join(into, page.place), whole(page, groups, demo))
         for to, _, _ in page.links:
             if re.search(r"\.(png|svg|webp)$", to):
                 os.makedirs(os.path.dirname(os.path.join(into, place_of(to))), exist_ok=True)
@@ -173,7 +179,9 @@ def main(into):
     write(os.path.join(into, "words.js"), "words = " + json.dumps(parts, ensure_ascii=False, separators=(",", ":")) + ";\n")
     for name in ("style.css", "search.js"):
         shutil.copyfile(f"{SITE}/{name}", os.path.join(into, name))
+    if demo:
+        shutil.copytree(demo, os.path.join(into, "demo"), dirs_exist_ok=True)
     print(f"{len(made)} pages, {sum(len(page.links) for page in made.values())} links, none dead")
 
 
-main(sys.argv[1])
+main(*sys.argv[1:])
