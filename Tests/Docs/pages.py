@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """What people read is whole: pages.py ROOT [PHYSVIB [--update]]. Every page of Docs stands on exactly one shelf of Docs/README.md, has at most 1,500 words
-(those of long-pages.txt: at most as many as it says), no placeholder and no dead link; README has at most 100 lines; programs shown in pages are those
+(those of long-pages.txt: at most as many as it says; a decision 220, CHANGELOG 1,500), no placeholder and no dead link; README has at most 100 lines; programs shown in pages are those
 that are compiled. With PHYSVIB, the program: every call of it in a page names a command and options that exist, Docs/render.md has every option of `render`, and
 Docs/commands.md is what the program writes of itself (--update writes it). Prints what is wrong; exit code 1 if anything is."""
 import re
@@ -69,6 +69,11 @@ def check_length() -> None:
         expect(words <= most, f"{name_of(page)}: expected at most {most} words, found {words}")
         expect(most == 1500 or words > 1500, f"Tests/Docs/long-pages.txt: {name_of(page)} has {words} words and needs no line any more")
     expect(not allowed, f"Tests/Docs/long-pages.txt: no such page: {', '.join(allowed)}")
+    decisions = sorted((docs / "decisions").glob("*.md"))
+    expect(len(decisions) <= 100, f"Docs/decisions: expected at most 100 records, found {len(decisions)}: drop those that no longer hold")
+    for page, most in [*((record, 220) for record in decisions), (root / "CHANGELOG.md", 1500)]:
+        words = sum(1 for word in page.read_text().split() if re.search(r"\w", word))
+        expect(words <= most, f"{name_of(page)}: expected at most {most} words, found {words}")
     lines = (root / "README.md").read_text().count("\n")
     expect(lines <= 100, f"README.md: expected at most 100 lines, found {lines}")
 
