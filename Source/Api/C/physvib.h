@@ -530,7 +530,7 @@ PHYSVIB_API int physvib_world_note(physvib_world world, int body, int note);
 PHYSVIB_API physvib_int64 physvib_world_thinned(physvib_world world);
 
 /* ---- Game controllers: events in, commands of their motors out. One at a time. ----
- * For programs that have a rumble call of their own; Docs/pads-engines.md shows the calls of some engines.
+ * For programs that have a rumble call of their own; Docs/pads.md shows the calls of some engines.
  * Times are those of any clock of the program's that never goes back, such as physvib_world_time_ns. */
 
 /** Commands of the two motors of a game controller. */
