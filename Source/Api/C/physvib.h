@@ -147,7 +147,7 @@ typedef struct physvib_renderer_status {
 } physvib_renderer_status;
 
 /** Of full_scale_impulse_n_s: the hardest usual hit comes near half of full scale. The level rises at once,
- * and falls by a time constant of 10 s; see Docs/gain.md. */
+ * and falls by a time constant of 10 s; see Docs/actuators.md. */
 #define PHYSVIB_AUTOMATIC (-1.0)
 
 /** How contacts become events; defaults in brackets. */
