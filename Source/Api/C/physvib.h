@@ -432,7 +432,7 @@ PHYSVIB_API int physvib_renderer_latency_frames(physvib_renderer renderer);
 /** The status after the last pull. One at a time. */
 PHYSVIB_API int physvib_renderer_get_status(physvib_renderer renderer, physvib_renderer_status* status);
 
-/** The output latency L (Docs/threads.md), in nanoseconds: an event of world time w that is played at w + L
+/** The output latency L (Docs/timings.md), in nanoseconds: an event of world time w that is played at w + L
  * is in time, whatever block and step it falls into, if the world's thread never pauses for longer than
  * `longest_gap_s`. Any thread. */
 PHYSVIB_API physvib_int64 physvib_play_out_ns(int rate_hz, int block_frames, int steps_per_s,

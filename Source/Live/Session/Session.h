@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A live session: a physics world and its renderer, with a constant output latency between them.
-// Docs/threads.md has the threading model: who may call what, when and why.
+// Docs/maintaining.md has the threading model: who may call what, when and why.
 #pragma once
 #include "Core/HapticRenderer.h"
 #include "Core/LatestValue.h"
