@@ -18,7 +18,7 @@
 namespace physvib {
 
 /// The output equals the rendered file, delayed by playOutFrames(). One thread has all roles of
-/// Docs/threads.md, and steps the world in the block that needs it.
+/// Live/Session/Session.h, and steps the world in the block that needs it.
 class PageWorld {
 public:
     static constexpr int stepsPerSecond = 100;

@@ -15,8 +15,7 @@ next=$(sed -n 's/  renders a list of impacts.*//p' next)
 sh -euc "$next"
 for file in shake-the-box again; do python3 Tests/Docs/felt.py out/$file.wav 0.148 0.092 0.295 0.235; done
 grep -q '`./run.sh physvib` builds the program' README.md && ./run.sh physvib
-for page in README.md Docs/tutorials/first-impact.md Docs/tutorials/first-study.md Docs/tutorials/first-track.md Docs/tutorials/first-game.md Docs/tutorials/first-board.md \
-    Docs/board.md; do
+for page in README.md Docs/tutorials/first-impact.md Docs/tutorials/first-study.md Docs/tutorials/first-track.md Docs/tutorials/first-game.md Docs/board.md; do
     python3 Tests/Docs/follow.py . $page >page.log 2>&1 || { cat page.log && exit 1; }
     echo "tutorials: $page is followed, $((($(date +%s) - begin) / 60)) min from the beginning"
 done

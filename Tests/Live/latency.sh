@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Prints the table of latencies in Docs/live.md, measured through JACK servers without hardware; fails if L is not kept.
+# Prints the table of latencies in Docs/timings.md, measured through JACK servers without hardware; fails if L is not kept.
 # Usage: latency.sh [BIN_FOLDER] [SECONDS] [BLOCKS] [juce]: through the drivers of the mixer then
 set -eu
 bin=${1:-$(dirname "$0")/../../build/release/bin} seconds=${2:-6} blocks=${3:-64 128 512} drivers=${4:-}

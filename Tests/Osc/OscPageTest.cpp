@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Docs/osc.md and Docs/osc-phone.md have the addresses that are taken.
+// Docs/osc.md has the addresses that are taken.
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
@@ -14,18 +14,13 @@ namespace physvib {
 namespace {
 
 std::string page() {
-    std::string both;
-    for (const char* name : {"osc", "osc-phone"}) {
-        const auto text = readFile(PHYSVIB_SOURCE_DIR "/Docs/" + std::string{name} + ".md", 1'000'000);
-        EXPECT_EQ(text.error, "");
-        both += text.value;
-    }
-    return both;
+    const auto text = readFile(PHYSVIB_SOURCE_DIR "/Docs/osc.md", 1'000'000);
+    EXPECT_EQ(text.error, "");
+    return text.value;
 }
 
 void expectOnThePage(const std::string& table) {
-    EXPECT_NE(page().find(table), std::string::npos) << "expected in Docs/osc.md or osc-phone.md:\n\n"
-                                                     << table;
+    EXPECT_NE(page().find(table), std::string::npos) << "expected in Docs/osc.md:\n\n" << table;
 }
 
 // Every message has an address (OscDoors.EveryMessageOfTheTableHasAnAddress), and every address of the page
@@ -74,7 +69,7 @@ TEST(OscPage, HasTheFigures) {
     expectOnThePage("at most " + std::to_string(OscClock::mostSlewPpm) + " ppm");
     expectOnThePage("once per cause and " + std::to_string(OscReplies::refusalEveryNs / 1'000'000) + " ms");
     expectOnThePage(std::to_string(OscReplies::freeBytes) + " bytes a second");
-    expectOnThePage("at most\n" + std::to_string(OscReplies::mostSenders) + " of them");
+    expectOnThePage("at most " + std::to_string(OscReplies::mostSenders) + " senders");
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Worlds as a newcomer makes them, with the automatic full-scale impulse: none clips and none whispers.
-// Docs/gain.md has the table.
 #include "Core/OfflineLoop.h"
 #include "Physics/Attachment.h"
 #include <cmath>

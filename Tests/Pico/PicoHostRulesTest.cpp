@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The descriptors follow what Windows and macOS ask of a USB sound card beyond the standards, by their
 // documents: Microsoft's "USB Audio 2.0 drivers" (usbaudio2.sys) and Apple's TN2274, "USB Audio on the Mac".
-// Docs/pico-inside.md has the table. Neither system was tried.
+// Neither system was tried.
 #include "Signal/Descriptors.h"
 #include "Signal/FrameBuffer.h"
 #include <gtest/gtest.h>

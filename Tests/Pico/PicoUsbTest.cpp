@@ -89,7 +89,7 @@ TEST(PicoVolume, AnyRequestLeavesAGainOfAtMostOne) {
     }
 }
 
-// Ten minutes; Tests/figures/pico_drift.py draws the course.
+// Ten minutes.
 TEST(PicoFeedback, KeepsTheBufferWhereverTheHostsClockGoes) {
     for (const double ppm : {-500.0, 0.0, 500.0}) {
         test::Stream<4> stream;

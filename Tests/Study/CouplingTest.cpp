@@ -121,7 +121,7 @@ TEST(Coupling, AKnownCouplingIsMadeUpForAndAMisjudgedOneInPart) {
                 EXPECT_LT(after, 0.7 * misjudged) << name;
             } else {
                 EXPECT_GT(matched, before)
-                    << "four that cancel each other out: 3 dB are not enough, Docs/coupling.md says so";
+                    << "four that cancel each other out: 3 dB are not enough, Docs/actuators.md says so";
             }
         }
 }

@@ -147,7 +147,7 @@ typedef struct physvib_renderer_status {
 } physvib_renderer_status;
 
 /** Of full_scale_impulse_n_s: the hardest usual hit comes near half of full scale. The level rises at once,
- * and falls by a time constant of 10 s; see Docs/gain.md. */
+ * and falls by a time constant of 10 s; see Docs/actuators.md. */
 #define PHYSVIB_AUTOMATIC (-1.0)
 
 /** How contacts become events; defaults in brackets. */
@@ -432,7 +432,7 @@ PHYSVIB_API int physvib_renderer_latency_frames(physvib_renderer renderer);
 /** The status after the last pull. One at a time. */
 PHYSVIB_API int physvib_renderer_get_status(physvib_renderer renderer, physvib_renderer_status* status);
 
-/** The output latency L (Docs/threads.md), in nanoseconds: an event of world time w that is played at w + L
+/** The output latency L (Docs/timings.md), in nanoseconds: an event of world time w that is played at w + L
  * is in time, whatever block and step it falls into, if the world's thread never pauses for longer than
  * `longest_gap_s`. Any thread. */
 PHYSVIB_API physvib_int64 physvib_play_out_ns(int rate_hz, int block_frames, int steps_per_s,
@@ -530,7 +530,7 @@ PHYSVIB_API int physvib_world_note(physvib_world world, int body, int note);
 PHYSVIB_API physvib_int64 physvib_world_thinned(physvib_world world);
 
 /* ---- Game controllers: events in, commands of their motors out. One at a time. ----
- * For programs that have a rumble call of their own; Docs/pads-engines.md shows the calls of some engines.
+ * For programs that have a rumble call of their own; Docs/pads.md shows the calls of some engines.
  * Times are those of any clock of the program's that never goes back, such as physvib_world_time_ns. */
 
 /** Commands of the two motors of a game controller. */

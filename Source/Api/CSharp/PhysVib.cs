@@ -94,7 +94,7 @@ public struct WorldSettings {
     UIntPtr size;
     public int IsMuted, HitsPerStep, AtBody, DropsHitsOfRemoved;
     public double FieldWidth_m, FieldX_m, FieldY_m, FieldRadians, NormalisationSPerM, HandMassKg, DriveGain, ThresholdMPerS, FullScaleImpulse_Ns, SettlingS;
-    /// <summary>Of FullScaleImpulse_Ns: learned from the world's hits, see Docs/gain.md.</summary>
+    /// <summary>Of FullScaleImpulse_Ns: learned from the world's hits, see Docs/actuators.md.</summary>
     public const double Automatic = -1;
     public static WorldSettings Create() {
         var made = new WorldSettings();

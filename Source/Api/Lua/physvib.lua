@@ -133,7 +133,7 @@ int physvib_live_explain(physvib_live, physvib_world, char *, size_t);
 ]]
 local library = os.getenv("PHYSVIB_LIBRARY") or "libphysvib.so.0"
 local c = ffi.load(library)
-local physvib = {c = c, automatic = -1, -- of full_scale_impulse_n_s: learned from the hits, see Docs/gain.md
+local physvib = {c = c, automatic = -1, -- of full_scale_impulse_n_s: learned from the hits, see Docs/actuators.md
     version = ffi.string(c.physvib_version())}
 
 -- `name(...)` of a library: a code or a count; of an error, a Lua error of one line.

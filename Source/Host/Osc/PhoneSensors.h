@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Turns the readings of phone sensor programs into gravity in the world, so that tilting the phone tilts the
-// world. Formats and their sources: Docs/osc.md.
+// world. Formats: Docs/osc.md.
 #pragma once
 #include "Core/StandardGravity.h"
 #include "Host/Osc/OscPacket.h"

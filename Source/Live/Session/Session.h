@@ -1,6 +1,18 @@
 // SPDX-License-Identifier: MIT
 // A live session: a physics world and its renderer, with a constant output latency between them.
-// Docs/threads.md has the threading model: who may call what, when and why.
+//
+// Threading model. One thread at a time holds a role; comments everywhere name it by its letter.
+// - M, the message thread: sets up, edits, reads telemetry. It may allocate, lock and wait.
+// - D, the world driver: calls advance(). M's timer or a SimulationDriver; as M, but it must be on time.
+// - R, the render thread: calls render(). It never allocates, frees, locks, waits or calls the system. Blocks
+//   that the host calls non-realtime, or that need a world which D has not stepped, are the exception.
+// - N, the thread of an input (OscPort, InputListener): waits for the session's mutexes, never for M.
+// - I, the thread that reads an input: does silence itself, queues all else for N, waits for its input alone.
+// - W, of OutputWriter: writes standard output and standard error, waits for their readers, holds no mutex.
+// Order of locking: Scheduler (inputs), WorldRunner (world), then state and law, last the sinks' own. No
+// thread holds one while it calls JUCE or a host. D steps the world up to session time and never beyond; R
+// plays an event of world time w at w + L, L being the output latency. A driver that may hang is opened and
+// closed by DeviceThread, and a BoardLink has a thread of its own.
 #pragma once
 #include "Core/HapticRenderer.h"
 #include "Core/LatestValue.h"

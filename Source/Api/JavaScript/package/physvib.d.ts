@@ -308,7 +308,7 @@ export class PhysVib {
     /** What each actuator gets of a hit at a place of the field. */
     gains(x: number, y: number, settings?: RendererSettings): number[];
     layout(name: string): Layout;
-    /** L: see Docs/threads.md. */
+    /** L: see Docs/timings.md. */
     playOutNs(rate: number, blockFrames: number, stepsPerSecond: number, longestGapSeconds?: number): Nanoseconds;
     parseLayout(text: string): Promise<Layout>;
     /** With the field that the list says, if it does; render() takes it where its settings say none. */

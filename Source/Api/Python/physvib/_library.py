@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 UNKNOWN = -1.0e300
-#: Of `full_scale_impulse_n_s`: learned from the world's hits, see Docs/gain.md.
+#: Of `full_scale_impulse_n_s`: learned from the world's hits, see Docs/actuators.md.
 AUTOMATIC = -1.0
 MAX_ENCHANTERS = 64
 

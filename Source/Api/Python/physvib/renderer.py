@@ -96,5 +96,5 @@ class Renderer(Owned):
 
 
 def play_out_s(*, rate_hz: int = 48000, block_frames: int = 256, steps_per_s: int = 100, longest_gap_s: float = 0.026) -> float:
-    """L: how much later a world's hits must be struck so that all of them come in time. Docs/threads.md."""
+    """L: how much later a world's hits must be struck so that all of them come in time. Docs/timings.md."""
     return call("play_out_ns", rate_hz, block_frames, steps_per_s, longest_gap_s) * 1e-9
