@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where hits are felt by each panning law, as the table of Docs/panning.md says: rendered, and the centroid of what comes out. Then what travels over rows and a
+"""Where hits are felt by each panning law, as the table of Docs/panning.md says of four actuators: rendered, and the centroid of what comes out. Then what travels over rows and a
 sleeve by the default law. PHYSVIB_LIBRARY and PYTHONPATH are set. centroids.py Docs/panning.md"""
 import sys
 from pathlib import Path
@@ -41,7 +41,7 @@ for name in LAYOUTS:
         if law in SAME:
             assert text.partition(" | ")[2] == row(name, SAME[law])[0].partition(" | ")[2], text
             continue
-        missing += [text] if text not in page else []
+        missing += [text] if name == "four" and text not in page else []
         if law == "energy":
             assert np.abs(centroid - MEANT).max() < 0.001, centroid
 

@@ -36,8 +36,7 @@ def kernel_rows(runs):
     yield "| mode bank, 64-frame blocks: share (10^9 msc/s) | " + " | ".join(sets) + " |"
     yield "| --- |" + " --- |" * len(sets)
     for title, table, channels, modes in [("N = 4, V = 64", low, 4, 64), ("N = 4, V = 1024", low, 4, 1024), ("N = 8, V = 64", low, 8, 64),
-                                          ("N = 8, V = 1024", low, 8, 1024), ("N = 4, V = 64, all 800 to 1000 Hz", high, 4, 64),
-                                          ("N = 8, V = 1024, all 800 to 1000 Hz", high, 8, 1024)]:
+                                          ("N = 8, V = 1024", low, 8, 1024), ("N = 8, V = 1024, all 800 to 1000 Hz", high, 8, 1024)]:
         cells = [table[s, channels, modes] for s in sets]
         yield f"| {title} | " + " | ".join(rate_of(s, c) for s, c in zip(sets, cells)) + " |"
     yield "| peak, 10^9 multiply-adds/s | " + " | ".join(f"{low[s, 4, 64]['peak_Gmadd/s']:.1f}" if s != "scalar" else "" for s in sets) + " |"
@@ -69,15 +68,8 @@ def other_rows(runs):
     for run in starting("headroom/"):
         channels, modes = re.findall(r":(\d+)", run["name"])[:2]
         yield f"| whole chain, {modes} modes x {channels} channels | {run['x_real_time']:,.0f} times real time |"
-    for run in starting("stepOfRollingBalls"):
-        balls, grain = re.findall(r":(\d+)", run["name"])[:2]
-        yield (f"| {balls} balls roll on grains of {grain} mm: {run['strikes_per_s']:,.0f} strikes/s | step {run['step_us']:.0f} us, "
-               f"with the grains {run['overhead_%']:+.0f} %; samples {run['samples_%_of_core']:.2f} % of a core |")
     for run in starting("sceneToWav"):
         yield f"| {run['name'].split('/')[1]}, 4 channels, from the scene to a WAV file | {run['times_real_time']:,.0f} times real time |"
-    for name in ("physicsOnly", "samplesOnly"):
-        for run in starting(name):
-            yield f"| shake-the-box, {name[:-4]} only | {run['times_real_time']:,.0f} times real time |"
 
 
 def plot(runs):

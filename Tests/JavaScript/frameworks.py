@@ -21,7 +21,7 @@ imports = {"physvib": f"{modules}/physvib/physvib.js", **{f"physvib/{name}": f"{
            "phaser": f"{modules}/phaser/dist/phaser.esm.js", "excalibur": f"{modules}/excalibur/build/esm/excalibur.js", "kaplay": f"{modules}/kaplay/dist/kaplay.mjs",
            "melonjs": f"{modules}/melonjs/build/index.js",
            "three": f"{modules}/three/build/three.module.js", "@dimforge/rapier3d-compat": f"{modules}/@dimforge/rapier3d-compat/dist/rapier.mjs"}
-games = {path.stem: path.read_text() for path in sorted(Path(sys.argv[2]).glob("*.mjs"))}
+games = {path.stem: path.read_text() for path in sorted(Path(sys.argv[2]).glob("*.mjs")) if path.stem != "phaser-matter"}  # that one is chromium.py's
 page = f'<!DOCTYPE html><link rel="icon" href="data:,"><script type="importmap">{json.dumps({"imports": imports})}</script><body></body>'
 made = {"/": page, **{f"/{name}.mjs": text for name, text in games.items()}}
 
