@@ -32,6 +32,6 @@ node Tests/JavaScript/worlds.mjs "$work" "$native"
 python3 Tests/JavaScript/ten.py "$work" "$native"
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_web_test_packages
-python3 Tests/JavaScript/chromium.py "$work" Docs/javascript.md
-python3 Tests/JavaScript/frameworks.py "$work" Docs/javascript-games.md
+python3 Tests/JavaScript/chromium.py "$work" Source/Api/JavaScript/examples/phaser-matter.mjs
+python3 Tests/JavaScript/frameworks.py "$work" Source/Api/JavaScript/examples
 node Tests/JavaScript/page.mjs "$work" Docs/javascript.md

@@ -15,7 +15,7 @@
 namespace physvib {
 
 /// One channel. Amplitude is the intensity squared, sharpness a share of the scale. Values out of range are
-/// clamped and missing ones have defaults, as in Apple's definition (Docs/formats.md). Any thread.
+/// clamped and missing ones have defaults, as in Apple's definition (Docs/events.md). Any thread.
 Result<Clip> readAhap(std::string_view text, std::string_view name, const FrequencyScale& scale = {});
 
 /// `channel` as such a file. No curve affects a transient (see AhapPieces.h) or has more than 16 points. Any

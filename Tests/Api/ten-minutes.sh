@@ -9,7 +9,7 @@ PATH=$PATH:/usr/games
 export DEBIAN_FRONTEND=noninteractive ALSOFT_DRIVERS=null
 begin=$(date +%s)
 apt-get update -qq
-for page in c chipmunk python lua csharp; do
+for page in c engines python lua csharp; do
     rm -f once commands drop.wav
     awk -f Tests/Api/page.awk "Docs/$page.md"
     sh -eu once >once.log 2>&1 || { tail once.log && exit 1; }

@@ -22,11 +22,10 @@ for version in "$@"; do
     g++ -std=c++20 -O1 -Wall -Wextra -isystem "$folder/box2d/include" -I"$build/include" "$root/Tests/Engines/box2d3.cpp" "$folder"/objects/*.o \
         -L"$build/lib" -lphysvib "-Wl,-rpath,$build/lib" -lm -o "$folder/run"
     { "$folder/run" && "$folder/run" falls; } | sed "s/^/$version: /" | tee "$folder/log"
-    if [ "$version" != v3.0.0 ]; then # where restitution has another place, as the page says
-        sed -n '/^```c drop3.c$/,/^```$/p' "$root/Docs/box2d3.md" | sed '1d;$d' >"$folder/drop3.c"
-        gcc -Wall -Wextra -isystem "$folder/box2d/include" -I"$build/include" "$folder/drop3.c" "$folder"/objects/*.o \
+    if [ "$version" != v3.0.0 ]; then # where restitution has another place, as its comment says
+        gcc -Wall -Wextra -isystem "$folder/box2d/include" -I"$build/include" "$root/Tests/Engines/drop3.c" "$folder"/objects/*.o \
             -L"$build/lib" -lphysvib "-Wl,-rpath,$build/lib" -lm -o "$folder/drop3"
-        (cd "$folder" && ./drop3) | sed "s/^/$version: Docs\/box2d3.md: /"
+        (cd "$folder" && ./drop3) | sed "s/^/$version: drop3.c: /"
     fi
     ! grep -q FAILED "$folder/log" || failed=1
     python3 "$root/Tests/Engines/worlds.py" "$version=$folder/run" || failed=1

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: MIT
-# The worlds of worlds.mjs in headless Chromium, as in Node: the same table, and the audio worklet's samples are those of render. And the game for Phaser of a page of the documentation.
-# usage: chromium.py FOLDER PAGE.md. FOLDER: where npm has installed physvib and the engines
+# The worlds of worlds.mjs in headless Chromium, as in Node: the same table, and the audio worklet's samples are those of render. And a game for Phaser.
+# usage: chromium.py FOLDER GAME.mjs. FOLDER: where npm has installed physvib, the engines and Phaser
 import functools
 import http.server
 import json
 import os
-import re
 import sys
 import tempfile
 import threading
@@ -17,15 +16,14 @@ import ten  # noqa: E402
 folder, here = os.path.abspath(sys.argv[1]), os.path.dirname(os.path.abspath(__file__))
 modules = "/node_modules"
 imports = {"physvib": "/physvib/physvib.js", **{f"physvib/{name}": f"/physvib/{name}.js" for name in ("audio", "gamepad", "matter", "planck", "rapier2d", "box2d3")},
-           "matter-js": "/matter.mjs", "planck": f"{modules}/planck/dist/planck.mjs", "@dimforge/rapier2d-compat": f"{modules}/@dimforge/rapier2d-compat/dist/rapier.mjs",
+           "matter-js": "/matter.mjs", "phaser": f"{modules}/phaser/dist/phaser.esm.js", "planck": f"{modules}/planck/dist/planck.mjs", "@dimforge/rapier2d-compat": f"{modules}/@dimforge/rapier2d-compat/dist/rapier.mjs",
            **{f"node:{name}": "/node.mjs" for name in ("module", "path", "url")}}
-game = next(block for block in re.findall(r"```js\n(.*?)```", open(sys.argv[2]).read(), re.S) if "new Phaser.Game" in block)
 made = {
     "/": f'<!DOCTYPE html><link rel="icon" href="data:,"><script type="importmap">{json.dumps({"imports": imports})}</script><script src="{modules}/matter-js/build/matter.js"></script>',
     "/matter.mjs": "export default globalThis.Matter;",
     # What worlds.mjs and engines.mjs ask of Node, for a folder that is this server's.
     "/node.mjs": "export const createRequire = () => null, join = (...parts) => parts.join('/'), resolve = path => path, pathToFileURL = path => path;",
-    "/game.mjs": f"import * as Phaser from '{modules}/phaser/dist/phaser.esm.js';\n{game}",
+    "/game.mjs": open(sys.argv[2], encoding="utf-8").read(),
     "/tests/installed.mjs": "export const load = (folder, name) => import(name);",
 }
 

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-# The games of a page of the documentation in headless Chromium, with the frameworks from npm: each is felt by a controller's motors (a stub), and each impact is what the
+# The games of a folder in headless Chromium, with the frameworks from npm: each is felt by a controller's motors (a stub), and each impact is what the
 # ball's velocity changed by.
-# usage: frameworks.py FOLDER PAGE.md. FOLDER: where npm has installed physvib and the frameworks
+# usage: frameworks.py FOLDER EXAMPLES. FOLDER: where npm has installed physvib and the frameworks; EXAMPLES: NAME.mjs of each game
 import functools
 import http.server
 import json
 import math
 import os
-import re
 import sys
 import tempfile
 import threading
+from pathlib import Path
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Web"))
 from chromium import Browser  # noqa: E402
@@ -21,7 +21,7 @@ imports = {"physvib": f"{modules}/physvib/physvib.js", **{f"physvib/{name}": f"{
            "phaser": f"{modules}/phaser/dist/phaser.esm.js", "excalibur": f"{modules}/excalibur/build/esm/excalibur.js", "kaplay": f"{modules}/kaplay/dist/kaplay.mjs",
            "melonjs": f"{modules}/melonjs/build/index.js",
            "three": f"{modules}/three/build/three.module.js", "@dimforge/rapier3d-compat": f"{modules}/@dimforge/rapier3d-compat/dist/rapier.mjs"}
-games = dict(re.findall(r"```js (\w+)\n(.*?)```", open(sys.argv[2]).read(), re.S))
+games = {path.stem: path.read_text() for path in sorted(Path(sys.argv[2]).glob("*.mjs")) if path.stem != "phaser-matter"}  # that one is chromium.py's
 page = f'<!DOCTYPE html><link rel="icon" href="data:,"><script type="importmap">{json.dumps({"imports": imports})}</script><body></body>'
 made = {"/": page, **{f"/{name}.mjs": text for name, text in games.items()}}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Computes features from events and samples; the columns are described in Docs/sweep.md.
+// Computes features from events and samples; the columns are described in Docs/render.md.
 #include "CommandLine/Sweep/SweepFeatures.h"
 #include "Calls/LoadedRender.h"
 #include <algorithm>

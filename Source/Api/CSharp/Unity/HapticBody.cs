@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// PhysVib in Unity, 2D: on every Rigidbody2D that feels or strikes. Untried in Unity; Docs/csharp.md says how to set it up.
+using PhysVib;
+using UnityEngine;
+
+public class HapticBody : MonoBehaviour {
+    public bool isFelt = true; // a haptic source
+    public float frequencyHz = 200, decayPerS = 30, restitution = 0.3f;
+    int id;
+
+    void Awake() {
+        var of = GetComponent<Rigidbody2D>();
+        id = HapticWorld.it.Next();
+        var values = Body.Create();
+        values.MassKg = of.bodyType == RigidbodyType2D.Dynamic ? of.mass : 0;
+        values.IsCamera = isFelt ? 1 : 0;
+        values.FrequencyHz = frequencyHz;
+        values.DecayPerS = decayPerS;
+        HapticWorld.it.world.SetBody(id, values);
+    }
+    void OnDestroy() { HapticWorld.it.gone.Add(id); }
+    void OnCollisionEnter2D(Collision2D now) { Tell(now, true); }
+    void OnCollisionStay2D(Collision2D now) { Tell(now, false); }
+
+    void Tell(Collision2D now, bool isNew) {
+        var other = now.collider.GetComponentInParent<HapticBody>();
+        if (other != null && other.id > id) return; // it tells of this pair
+        var point = now.GetContact(0);
+        var contact = Contact.Create(id, other != null ? other.id : 0);
+        contact.X_m = point.point.x;
+        contact.Y_m = point.point.y;
+        contact.NormalX = -point.normal.x; // Unity's points to this body
+        contact.NormalY = -point.normal.y;
+        contact.ApproachMPerS = isNew ? Mathf.Abs(Vector2.Dot(now.relativeVelocity, point.normal)) : 0;
+        contact.Restitution = restitution;
+        contact.Gap_m = point.separation;
+        contact.GapFraction = 1; // told after the step
+        contact.PointId = Contact.ByPlace;
+        HapticWorld.it.world.Touch(contact);
+    }
+}
