@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How often 95 % intervals hold, and how often studies without any difference find one, by simulation: the
-// figures of Docs/report.md. Minutes; by hand and every night. Exit code 1 beyond 93 to 97 %, or above 5
-// % of false findings by more than chance.
+// How often 95 % intervals hold, and how often studies without any difference find one, by simulation.
+// Minutes; by hand and every night. Exit code 1 beyond 93 to 97 %, or above 5 % of false findings by more
+// than chance.
 #include "Lab/Statistics/Bootstrap.h"
 #include "Lab/Statistics/Pairs.h"
 #include "Lab/Statistics/Psychometric.h"

@@ -5,7 +5,7 @@
 
 namespace physvib {
 
-/// Trials per matrix cell from which the bias-corrected estimate is reported (measurements: Docs/studies.md).
+/// Trials per matrix cell from which the bias-corrected estimate is reported (Docs/decisions/0017-correction-counts-what-was-seen.md).
 constexpr double trialsPerCellForCorrection = 5.0;
 
 struct InformationTransfer {
