@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 root = Path(sys.argv[1]).resolve()
-pages = {"drop.sh": ["drop.md"], "methods.sh": ["methods.md"], "levels.sh": ["studies-levels.md"]}
+pages = {"drop.sh": ["drop.md"], "methods.sh": ["methods.md"], "levels.sh": ["studies-thesis.md"]}
 bad = []
 
 
