@@ -142,7 +142,7 @@ TEST(MaterialExtractor, PartialsThatOverlapAndBeginTogetherKeepToTheBound) {
     EXPECT_LT(errors.decay, 1.6 * bound.decay);
 }
 
-// Docs/materials-measured.md: --gtest_also_run_disabled_tests --gtest_filter=*TableOfErrorsAndBounds
+// Docs/materials.md: --gtest_also_run_disabled_tests --gtest_filter=*TableOfErrorsAndBounds
 TEST(MaterialExtractor, DISABLED_TableOfErrorsAndBounds) {
     constexpr std::uint64_t seeds = 40;
     std::puts("partials,frequency_hz,decay_per_s,bound_f_percent,rms_f_percent,bound_tau_percent,rms_tau_"
