@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Prints the table of real recordings in Docs/materials-measured.md: what `physvib material` finds in drums and key strikes that Debian
+# Prints a table of real recordings (Docs/materials.md): what `physvib material` finds in drums and key strikes that Debian
 # packages as sound data (GPL-2+). They are downloaded with apt unless folders with their contents are given; nothing is installed.
 # Usage: recordings.sh PHYSVIB [FOLDER...]
 set -eu
