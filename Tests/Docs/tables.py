@@ -47,4 +47,4 @@ for line in re.findall(r"^\| `[a-z-]+` \d.*\|$", page, re.M):
 
 if bad or not deviations:
     sys.exit("\n".join(bad or ["no deviations were read"]))
-print(f"{len(pages)} scripts and {len(deviations)} deviations: the pages have their lines")
+print(f"{printed_by.cache_info().currsize} scripts and {len(deviations)} deviations: the pages have their lines")
