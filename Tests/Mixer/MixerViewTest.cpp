@@ -278,8 +278,11 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
     }
     view.keyPressed(juce::KeyPress{'z', juce::ModifierKeys::commandModifier, 0});
     EXPECT_EQ(desk.mix().count(), 4);
+    desk.dispatchPendingMessages();
+    EXPECT_TRUE(find(view, "Redo")->isEnabled());
     press("Redo");
     EXPECT_EQ(desk.mix().count(), 5);
+    EXPECT_FALSE(find(view, "Redo")->isEnabled()) << "nothing is left of it";
     press("Undo");
     EXPECT_EQ(desk.mix().count(), 4);
     EXPECT_TRUE(find(view, "Undo")->isEnabled());
