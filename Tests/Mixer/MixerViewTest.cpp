@@ -117,7 +117,9 @@ TEST(MixerView, ReturnIsTheFirstAnswerAndTheOthersAreButtonsAndKeys) {
         else
             view.keyPressed(
                 juce::KeyPress{way == "key" ? juce::KeyPress::rightKey : juce::KeyPress::returnKey});
-        EXPECT_EQ(runUntil([&] { return answer == way; }, 1.0), way != "disabled") << way << ": " << answer;
+        const std::string expected = way == "disabled" ? "" : way;
+        runUntil([&] { return !answer.empty(); }, 1.0);
+        EXPECT_EQ(answer, expected) << way;
     }
 }
 
@@ -385,6 +387,11 @@ TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
                 EXPECT_EQ(view.getComponentAt(corner), silence) << width << corner.toString();
             EXPECT_FALSE(find(view, "Trouble")->getBounds().intersects(at)) << width;
         }
+    juce::Component cover; // a card as large as the window
+    view.addAndMakeVisible(cover);
+    cover.setBounds(view.getLocalBounds());
+    EXPECT_EQ(view.getComponentAt(view.getLocalArea(silence, silence->getLocalBounds()).getCentre()),
+              silence);
     silence->onClick();
     desk.dispatchPendingMessages();
     EXPECT_TRUE(desk.isSilent());
