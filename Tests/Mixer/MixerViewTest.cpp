@@ -405,6 +405,8 @@ TEST(MixerView, NoToolIsChosenWhereNoneIsShown) {
     view.setShow(true);
     view.keyPressed(juce::KeyPress{'B', {}, 'b'});
     EXPECT_EQ(pane.tool(), DrawTool::hand);
+    view.keyPressed(juce::KeyPress{'G', {}, 'g'});
+    EXPECT_FALSE(pane.snaps());
     pane.use(DrawTool::ball); // as a new scene does
     EXPECT_EQ(pane.tool(), DrawTool::hand);
     view.setShow(false);
