@@ -65,7 +65,15 @@ void ScopeView::paint(juce::Graphics& g) {
     const auto& mix = desk_.mix();
     auto area = lanes_;
     const int lanes = std::min(mix.count(), mostLanes);
-    const auto foot = area.removeFromBottom(scopeFootHeight).withTrimmedLeft(laneLabelWidth);
+    const juce::Font bold{text::medium, juce::Font::bold};
+    const auto labelOf = [&](int j) {
+        return utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label);
+    };
+    int labelWidth = leastLabel;
+    for (int j = 0; j < lanes; ++j)
+        labelWidth = std::max(labelWidth, bold.getStringWidth(labelOf(j)) + afterLabel);
+    labelWidth = std::min(labelWidth, std::max(leastLabel, area.getWidth() / 5)); // the rest is cut
+    const auto foot = area.removeFromBottom(scopeFootHeight).withTrimmedLeft(labelWidth);
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
     const auto begin = mix.count() > lanes
@@ -79,14 +87,6 @@ void ScopeView::paint(juce::Graphics& g) {
         g.drawText(end, foot, juce::Justification::centredRight, false);
     area.removeFromBottom(2);
     const int height = (area.getHeight() + laneGap) / lanes;
-    const juce::Font bold{text::medium, juce::Font::bold};
-    const auto labelOf = [&](int j) {
-        return utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label);
-    };
-    int labelWidth = leastLabel;
-    for (int j = 0; j < lanes; ++j)
-        labelWidth = std::max(labelWidth, bold.getStringWidth(labelOf(j)) + afterLabel);
-    labelWidth = std::min(labelWidth, std::max(leastLabel, area.getWidth() / 5)); // the rest is cut
     for (int j = 0; j < lanes; ++j) {
         auto lane = area.removeFromTop(height).withTrimmedBottom(j + 1 < lanes ? laneGap : 0);
         g.setColour(enchanterColour(*this, j));

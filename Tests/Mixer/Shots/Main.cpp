@@ -141,7 +141,6 @@ void showRain(Desk& desk, MixerView& view) {
 
 std::vector<State> sheetStates() {
     return {
-        {"sheet-none", 1440, 900, 3.0, [](Desk& d, MixerView&) { showActuators(d, 0); }},
         {"sheet-one", 1440, 900, 3.0, [](Desk& d, MixerView&) { showActuators(d, 1); }},
         {"sheet-16", 1440, 900, 3.0, [](Desk& d, MixerView&) { showActuators(d, 16); }},
         {"sheet-64", 1440, 900, 3.0,
