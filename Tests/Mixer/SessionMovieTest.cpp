@@ -55,7 +55,7 @@ public:
         : path_{std::getenv("PATH")} {
         const auto file = folder("programs").getChildFile(name);
         file.create();
-        file.replaceWithText("#!/bin/sh\nPATH=" + juce::String{path_} + "\n" + script);
+        file.replaceWithText("#!/bin/sh\nPATH=" + juce::String{path_} + "\n" + script, false, false, "\n");
         file.setExecutePermission(true);
         setenv("PATH", folder("programs").getFullPathName().toRawUTF8(), 1);
     }
