@@ -2,8 +2,8 @@
 // The last part of what the mixer played as a movie: whole, or not there at all.
 #include "Calls/SessionMovie.h"
 #include "MixerTesting.h"
+#include "OnlyScript.h"
 #include "Scene/SceneCatalogue.h"
-#include <cstdlib>
 
 namespace physvib {
 namespace {
@@ -47,23 +47,6 @@ TEST(SessionMovie, ShowsTheLastPartOfASessionWithItsPausesAndScenes) {
     EXPECT_GE(picturesIn(folder("last.webp")), 15) << "twenty a second, but those where nothing is another";
     EXPECT_LE(picturesIn(folder("last.webp")), 22);
 }
-
-/// The only program that is found is a script in its place, until the end.
-class OnlyScript {
-public:
-    OnlyScript(const TestFolder& folder, const char* name, const juce::String& script)
-        : path_{std::getenv("PATH")} {
-        const auto file = folder("programs").getChildFile(name);
-        file.create();
-        file.replaceWithText("#!/bin/sh\nPATH=" + juce::String{path_} + "\n" + script, false, false, "\n");
-        file.setExecutePermission(true);
-        setenv("PATH", folder("programs").getFullPathName().toRawUTF8(), 1);
-    }
-    ~OnlyScript() { setenv("PATH", path_.c_str(), 1); }
-
-private:
-    const std::string path_;
-};
 
 /// More than a second of the first scene.
 SavedSession someSecond(Desk& desk) {
