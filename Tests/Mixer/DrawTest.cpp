@@ -108,6 +108,25 @@ TEST(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
     EXPECT_EQ(board.drawn().bodies.size(), before + 9) << "one rain, one step";
 }
 
+TEST(Drawing, ARainOfAClickIsWithinTheField) {
+    for (const double y : {0.02, 0.98}) {
+        Board board;
+        board.pane.setRainCount(50);
+        board.key('n');
+        board.drag(board.share(0.98, y), board.share(0.98, y));
+        const auto& scene = board.drawn();
+        const auto isInside = [&](const BodyDescription& b) {
+            return b.positionMetres.x > 0.0 && b.positionMetres.x < scene.fieldWidthMetres &&
+                   b.positionMetres.y > 0.0 && b.positionMetres.y < scene.fieldHeightMetres;
+        };
+        EXPECT_EQ(std::ranges::count_if(
+                      scene.bodies,
+                      [&](const BodyDescription& b) { return b.name.starts_with("rain") && isInside(b); }),
+                  50)
+            << y << ' ' << board.desk.trouble();
+    }
+}
+
 TEST(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
     Board board;
     const auto before = board.drawn().bodies.size();
