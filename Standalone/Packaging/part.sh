@@ -10,6 +10,7 @@ built=$PWD/obj-$(dpkg-architecture -qDEB_HOST_GNU_TYPE) # by packages: what whee
 packages() {
     maintainer='The PhysVib developers <physvib@example.org>'
     cp -r Standalone/Packaging/debian debian
+    version=$(echo "$RELEASE" | tr - '~') # a candidate comes before what it is one for
     minor=$(echo "$VERSION" | cut -d. -f1,2)
     next=${minor%.*}.$((${minor#*.} + 1))
     depends=$(echo $physvib_build_packages | sed 's/ /, /g')
@@ -19,7 +20,7 @@ packages() {
     done
     # Not Debian's own packages: those would come after.
     cat >debian/changelog <<TEXT
-physvib ($RELEASE-0physvib1) unstable; urgency=medium
+physvib ($version-0physvib1) unstable; urgency=medium
 
   * What has changed is told in changelog.gz.
 
@@ -91,7 +92,7 @@ windows() {
 }
 
 arm64() {
-    foreign arm64 aarch64-linux-gnu-strip lib/libphysvib.so.$VERSION
+    foreign arm64 aarch64-linux-gnu-strip "lib/libphysvib.so.${VERSION%%-*}"
     pack physvib-arm64 "$OUT/physvib-$RELEASE-linux-arm64.tar.gz"
 }
 

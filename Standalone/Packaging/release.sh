@@ -27,7 +27,7 @@ for part in "$@"; do # what is missing is said before hours of work
 done
 
 # What is told of the version has its home in CMakeLists.txt.
-VERSION=$(git show "$commit:CMakeLists.txt" | sed -n 's/^project(PhysVib VERSION \([0-9.]*\) .*/\1/p')
+VERSION=$(git show "$commit:CMakeLists.txt" | version_of -)
 SOURCE_DATE_EPOCH=$(git show -s --format=%ct "$commit")
 RELEASE=$VERSION
 export OUT VERSION RELEASE GODOT SOURCE_DATE_EPOCH LC_ALL=C.UTF-8 TZ=UTC
@@ -62,6 +62,7 @@ for part in "$@"; do
     "$source/Standalone/Packaging/part.sh" "$part" >"$work/log" 2>&1 || { cat "$work/log" >&2 && say "$part: failed" && exit 1; }
     say "$part: $(awk "BEGIN { printf \"%.1f\", ($(date +%s) - $began) / 60 }") minutes"
 done
+python3 "$source/Standalone/Packaging/check-version.py" "$source" "$OUT"
 (cd "$OUT" && sha256sum -- * >SHA256SUMS)
 mkdir -p "$(dirname "$made")"
 mv "$OUT" "$made"
