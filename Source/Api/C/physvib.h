@@ -48,6 +48,15 @@ typedef long long physvib_int64; /**< of 64 bits */
 #define PHYSVIB_UNUSED
 #endif
 
+#if defined(__GNUC__)
+#define PHYSVIB_DEPRECATED(instead) __attribute__((deprecated(instead))) /**< it goes; what to call instead  \
+                                                                          */
+#elif defined(_MSC_VER)
+#define PHYSVIB_DEPRECATED(instead) __declspec(deprecated(instead))
+#else
+#define PHYSVIB_DEPRECATED(instead)
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
