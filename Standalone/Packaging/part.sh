@@ -101,6 +101,9 @@ godot() {
     cp build/godot/physvib-*.zip "$OUT/physvib-$RELEASE-godot.zip"
 }
 
-sbom() { python3 Standalone/Packaging/sbom.py "$RELEASE" "$OUT" >"$OUT/physvib-$RELEASE.spdx.json"; }
+sbom() {
+    python3 Standalone/Packaging/sbom.py "$RELEASE" "$OUT" >physvib.spdx.json
+    mv physvib.spdx.json "$OUT/physvib-$RELEASE.spdx.json"
+}
 
 "$1"
