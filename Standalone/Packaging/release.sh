@@ -14,6 +14,7 @@ commit=$(git rev-parse --quiet --verify "${2:-HEAD}^{commit}") || { say "$2: exp
 shift $(($# < 2 ? $# : 2))
 [ $# -gt 0 ] || set -- packages wheel npm page site firmware windows arm64 godot sbom
 
+# shellcheck disable=SC2086 # lists of words
 for part in "$@"; do # what is missing is said before hours of work
     case $part in
     packages) ensure_build_packages $physvib_release_packages ;;

@@ -49,8 +49,8 @@ typedef long long physvib_int64; /**< of 64 bits */
 #endif
 
 #if defined(__GNUC__)
-#define PHYSVIB_DEPRECATED(instead) __attribute__((deprecated(instead))) /**< it goes; what to call instead  \
-                                                                          */
+/** A function that goes: what to call instead. */
+#define PHYSVIB_DEPRECATED(instead) __attribute__((deprecated(instead)))
 #elif defined(_MSC_VER)
 #define PHYSVIB_DEPRECATED(instead) __declspec(deprecated(instead))
 #else
