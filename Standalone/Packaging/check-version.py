@@ -16,7 +16,7 @@ cmake = (root / "CMakeLists.txt").read_text()
 numbers = re.search(r"^project\(PhysVib VERSION (\d+\.\d+\.\d+) ", cmake, re.M)[1]
 prerelease = re.search(r'^set\(PHYSVIB_PRERELEASE "(.*?)"\)', cmake, re.M)[1]
 version = f"{numbers}-{prerelease}" if prerelease else numbers
-major, minor = numbers.split(".")[:2]
+major = numbers.split(".")[0]
 bad = []
 
 
@@ -35,8 +35,8 @@ for tag in tags:
 expect("CHANGELOG.md", first("CHANGELOG.md", r"^## (\S+)" + ("$" if tags else "")), version)
 expect("CITATION.cff", first("CITATION.cff", r'^version: "(.*)"'), version)
 expect("plugin.cfg", first("Source/Api/Godot/addons/physvib/plugin.cfg", r'^version="(.*)"'), version)
-expect("physvib.map", first("Source/Api/C/physvib.map", r"^PHYSVIB_(\S+)"), f"{major}.{minor}")
-expect("physvib-live.map", first("Source/Api/Live/physvib-live.map", r"^PHYSVIB_LIVE_(\S+)"), f"{major}.{minor}")
+expect("physvib.map", first("Source/Api/C/physvib.map", r"^PHYSVIB_(\S+)"), f"{major}.0")
+expect("physvib-live.map", first("Source/Api/Live/physvib-live.map", r"^PHYSVIB_LIVE_(\S+)"), f"{major}.0")
 # Sonames, and packages that are named by them: wherever a file says one.
 for file in sorted(path for folder in ("Source", "Standalone", "Tests") for path in (root / folder).rglob("*") if path.is_file() and path.suffix != ".pyc"):
     for name in set(re.findall(r"libphysvib(?:-live)?(?:\.so\.)?\d+", file.name + " " + file.read_text(errors="replace"))):

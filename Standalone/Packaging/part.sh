@@ -11,11 +11,11 @@ packages() {
     maintainer='The PhysVib developers <physvib@example.org>'
     cp -r Standalone/Packaging/debian debian
     version=$(echo "$RELEASE" | tr - '~') # a candidate comes before what it is one for
-    minor=$(echo "$VERSION" | cut -d. -f1,2)
-    next=${minor%.*}.$((${minor#*.} + 1))
+    next=$((${VERSION%%.*} + 1)).0
+    # shellcheck disable=SC2086 # a list of words
     depends=$(echo $physvib_build_packages | sed 's/ /, /g')
     for file in debian/*.in; do
-        sed "s/@MAINTAINER@/$maintainer/; s/@BUILD_DEPENDS@/$depends/; s/@MINOR@/$minor/g; s/@NEXT@/$next/g" "$file" >"${file%.in}"
+        sed "s/@MAINTAINER@/$maintainer/; s/@BUILD_DEPENDS@/$depends/; s/@NEXT@/$next/g" "$file" >"${file%.in}"
         rm "$file"
     done
     # Not Debian's own packages: those would come after.

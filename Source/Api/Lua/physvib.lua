@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: MIT
--- PhysVib for LÖVE and LuaJIT: one file beside your main.lua, and libphysvib.so.0 where the system finds it (or PHYSVIB_LIBRARY).
+-- PhysVib for LÖVE and LuaJIT: one file beside your main.lua, and libphysvib.so.1 where the system finds it (or PHYSVIB_LIBRARY).
 --
 --     local haptics = require("physvib").attach(world, {field_width_m = 24})
 --     haptics:set(ball_fixture, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
@@ -131,7 +131,7 @@ int physvib_live_silence(physvib_live, int);
 int physvib_live_get_status(physvib_live, physvib_live_status *);
 int physvib_live_explain(physvib_live, physvib_world, char *, size_t);
 ]]
-local library = os.getenv("PHYSVIB_LIBRARY") or "libphysvib.so.0"
+local library = os.getenv("PHYSVIB_LIBRARY") or "libphysvib.so.1"
 local c = ffi.load(library)
 local physvib = {c = c, automatic = -1, -- of full_scale_impulse_n_s: learned from the hits, see Docs/gain.md
     version = ffi.string(c.physvib_version())}
@@ -554,7 +554,7 @@ function physvib.follow_each(lives, haptics)
     return tonumber(count)
 end
 
--- A device, "JACK:system", a board, "BOARD:auto", or both, "JACK:system+BOARD:auto", by libphysvib-live.so.0 beside the other library or
+-- A device, "JACK:system", a board, "BOARD:auto", or both, "JACK:system+BOARD:auto", by libphysvib-live.so.1 beside the other library or
 -- named by PHYSVIB_LIVE_LIBRARY. Several may be open, also on one sound card, on other outputs (first_output). `settings` of physvib_live_settings, `renderer` of physvib_renderer_settings.
 function physvib.open(device, settings, renderer)
     local from = live_library()
