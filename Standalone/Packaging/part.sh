@@ -66,7 +66,7 @@ firmware() {
     pack $into "$OUT/physvib-$RELEASE-firmware.zip"
 }
 
-# foreign SYSTEM STRIP LIBRARY...: the library and the renderer for another system, as a folder.
+# foreign SYSTEM STRIP LIBRARY FILE...: the library, with the files that go with it, and the renderer for another system, as a folder.
 foreign() {
     system=$1 strip=$2
     shift 2
@@ -78,7 +78,7 @@ foreign() {
     house -DPHYSVIB_TESTS=OFF -DPHYSVIB_SESSION=OFF
     into=physvib-$system
     mkdir -p "$into/include/physvib" "$into/LICENSES"
-    (cd "$folder/house" && "$strip" --strip-unneeded "$@" bin/physvib-render*)
+    (cd "$folder/house" && "$strip" --strip-unneeded "$1" bin/physvib-render*)
     cp -P "$folder"/house/bin/physvib-render* "$into"
     for file in "$@"; do cp -P "$folder/house/$file" "$into"; done
     cp "$folder/house/include/physvib/physvib.h" "$into/include/physvib"
@@ -87,12 +87,12 @@ foreign() {
 }
 
 windows() {
-    foreign windows x86_64-w64-mingw32-strip bin/libphysvib.dll
+    foreign windows x86_64-w64-mingw32-strip bin/libphysvib.dll lib/libphysvib.dll.a
     pack physvib-windows "$OUT/physvib-$RELEASE-windows-x86_64.zip"
 }
 
 arm64() {
-    foreign arm64 aarch64-linux-gnu-strip "lib/libphysvib.so.${VERSION%%-*}"
+    foreign arm64 aarch64-linux-gnu-strip "lib/libphysvib.so.${VERSION%%-*}" "lib/libphysvib.so.${VERSION%%.*}" lib/libphysvib.so
     pack physvib-arm64 "$OUT/physvib-$RELEASE-linux-arm64.tar.gz"
 }
 
