@@ -68,8 +68,12 @@ names = {*options(), *fields(), *properties(json.loads(output(programs / "physvi
          *rows("column", "Source/Scene/EventColumns.h", r'^    \{"(\w+)", \w+Column'), *rows("message", "Source/Live/Messages/MessageTable.h", r'^    \{"(\w+)",'),
          *rows("argument", "Source/Live/Messages/MessageTable.h", r'MessageArgument(?: \w+)?\{\s*"(\w+)"'),
          *rows("parameter", "Plugin/ParameterTable.h", r'\{Parameter::\w+,\s*"(\w+)"')}
-promised = set(listed.read_text().splitlines()) if listed.exists() else set()
-if "--update" in sys.argv:
-    listed.write_text("".join(f"{name}\n" for name in sorted(promised | names)))
+promised = {f"{kind} {name}" for line in listed.read_text().splitlines() for kind, last in [line.split(": ")] for name in last.split()}
+if "--update" in sys.argv:  # a line per command, structure or kind
+    lines: dict[str, list[str]] = {}
+    for name in sorted(promised | names):
+        kind, last = name.rsplit(" ", 1)
+        lines.setdefault(kind, []).append(last)
+    listed.write_text("".join(f"{kind}: {' '.join(last)}\n" for kind, last in lines.items()))
 if gone := sorted(promised - names):
     sys.exit("promised, and gone (Docs/stable.md):\n" + "\n".join(gone))
