@@ -20,8 +20,7 @@ constexpr std::size_t mostHits = 48;     // simultaneous; more would only glare
 constexpr std::size_t mostTraces = 400;  // for 30 sliding pairs
 constexpr float wallPixels = 11.0f;      // bodies around the field are drawn as a frame of this width
 constexpr float lowBadge = 24.0f;        // has small text
-constexpr float leastSpokePixels = 4.0f; // of a circle; in a smaller one a line is not seen, and of thousands
-                                         // it costs as much as they
+constexpr float leastSpokePixels = 4.0f; // radius of a circle whose rotation is seen
 
 float levelOf(double amplitude) {
     return juce::jlimit(
