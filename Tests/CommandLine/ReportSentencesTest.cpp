@@ -47,6 +47,8 @@ std::vector<Sentence> sentences() {
                    fits = builtIn("model-or-sound"), grids = builtIn("phantom-grids"), field = places(),
                    constant = example("frequency-constant"), names = example("rhythm-names"),
                    matched = example("equal-sensation"), interleaved = example("level-mixed");
+    Protocol told = grid;
+    told.name = "told", told.sessions.back().task = StudyTask::describe;
     Protocol unknown = steps, alone = grid, mixed = steps;
     Protocol fine = grid; // answers vary
     fine.name = "fine";
@@ -192,6 +194,10 @@ std::vector<Sentence> sentences() {
          of(interleaved, 3, {}, true)},
         {"A smaller difference that was not found is no evidence", of(fine, 3), of(alone, 3)},
         {"Power of the design as it was run", of(fine, 3), of(alone, 3)},
+        {"in participants' own words", of(told, 2), of(grid, 3)},
+        {" of them empty: counted by stimulus", of(told, 2, set("response", "", "P2")), of(told, 2)},
+        {"16 answers in participants' own words: counted by stimulus, not analysed.", of(told, 1),
+         of(told, 1, set("phase", "training"))},
         {"Participants who differ need more.", of(steps, 3, set("correct", "")), of(steps, 3)},
     };
 }

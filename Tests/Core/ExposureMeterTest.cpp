@@ -31,9 +31,10 @@ TEST(HandWeighting, IsWithinATenthOfADecibelOfTheFormulaAtEveryRate) {
 }
 
 TEST(HandWeighting, IsTheStandardsTable) { // ISO 5349-1, table A.2
-    constexpr std::pair<double, double> table[] = {{8, 0.873},    {10, 0.951},   {12.5, 0.958}, {16, 0.896},
-                                                   {31.5, 0.519}, {63, 0.256},   {125, 0.127},  {250, 0.0634},
-                                                   {500, 0.0314}, {1000, 0.0135}};
+    constexpr std::pair<double, double> table[] = {
+        {6.3, 0.727}, {8, 0.873},    {10, 0.951},   {12.5, 0.958}, {16, 0.896},  {20, 0.782},
+        {25, 0.647},  {31.5, 0.519}, {40, 0.411},   {63, 0.256},   {100, 0.160}, {125, 0.127},
+        {160, 0.101}, {250, 0.0634}, {500, 0.0314}, {1000, 0.0135}};
     for (const auto& [hz, gain] : table)
         EXPECT_NEAR(decibels(handWeighting::gain(exactHz(hz)) / gain), 0.0, 0.1) << hz;
 }

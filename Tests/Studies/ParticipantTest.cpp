@@ -539,6 +539,34 @@ TEST_F(ByAParticipant, GivesNumbers) {
     analyse("levels");
 }
 
+TEST_F(ByAParticipant, DescribesInWords) {
+    for (const bool mayBeEmpty : {false, true}) {
+        begin(
+            std::string{R"({"name": "main", "task": "describe")"} +
+                (mayBeEmpty ? R"(, "may_be_empty": true})" : "}"),
+            R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
+        passPage();
+        p->feel();
+        ASSERT_TRUE(p->canUse("Words"));
+        EXPECT_EQ(p->isAnswerOpen("Next"), mayBeEmpty);
+        if (!mayBeEmpty) p->enter(); // nothing is written yet
+        p->type(mayBeEmpty ? "" : "like, ");
+        if (!mayBeEmpty) p->screen()->grabKeyboardFocus(); // as a busy display does
+        p->type(mayBeEmpty ? "" : "a \"tap\"");
+        EXPECT_EQ(p->screen()->plays(), 1) << "space is a letter";
+        p->enter();
+        p->feel();
+        ASSERT_TRUE(p->canUse("Words"));
+        p->type("=soft ");
+        p->enter();
+        close();
+        EXPECT_EQ(column("response", "describe"),
+                  (mayBeEmpty ? Texts{"", "=soft"} : Texts{"like, a \"tap\"", "=soft"}));
+        folder.getChildFile("short-P01.csv").deleteFile();
+        folder.getChildFile("short-P01.times.txt").deleteFile();
+    }
+}
+
 TEST_F(ByAParticipant, AnalysesFilesAsTheProgramDoesAndMarksWhatIsSimulated) {
     const auto call = [&](const std::string& words) {
         return std::system(
