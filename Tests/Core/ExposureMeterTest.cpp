@@ -91,6 +91,24 @@ TEST(ExposureMeter, PeaksAndPlainSumsStartAgainWhereTheyAreMarked) {
     EXPECT_NEAR(meter.read().plain[3], 0.0625 * 0.01, 1e-12);
 }
 
+TEST(ExposureMeter, MeasuresASpanWhereverItsBlocksEnd) {
+    const std::vector<float> half(480, 0.5f);
+    for (const int block : {1, 7, 480}) {
+        ExposureMeter meter;
+        meter.prepare(48000);
+        const auto mark = meter.restart({100, 340});
+        for (int at = 0; at < 480; at += block) {
+            const int frames = std::min(block, 480 - at);
+            meter.take(0, half.data(), frames, at);
+            meter.publish(at + frames);
+        }
+        const ExposureSums& sums = meter.read();
+        EXPECT_EQ(sums.mark, mark);
+        EXPECT_EQ(sums.until, 480);
+        EXPECT_NEAR(sums.plain[0], 0.25 * 240 / 48000, 1e-15) << block;
+    }
+}
+
 TEST(ExposureMeter, AddsNothingToSilence) {
     ExposureMeter meter;
     meter.prepare(48000);
