@@ -37,6 +37,7 @@ step() {
         apply) ensure_packages $physvib_apply_packages && Tests/Plugin/Formats/apply.sh "$PWD/build/release" ;;
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh ;;
+        breaks) Tests/Mixer/breaks.py build/nightly/breaks ;;
         studies) Tests/Studies/recorded.sh $bin ;;
         coverage) $bin/physvib-study-coverage ;;
         hours) Tests/ten-hours.sh ;;
