@@ -209,9 +209,13 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     addAndMakeVisible(*card_);
     placeCards();
     card_->grabKeyboardFocus();
-    // A menu that led to the card gives the focus back afterwards to where it was.
+}
+
+// A menu that led to a card gives the focus back afterwards to where it was, below the card.
+void MixerView::focusOfChildComponentChanged(FocusChangeType) {
+    if (!card_ || card_->hasKeyboardFocus(true) || !hasKeyboardFocus(true)) return;
     juce::MessageManager::callAsync([card = juce::Component::SafePointer<juce::Component>{card_.get()}] {
-        if (card != nullptr && !card->hasKeyboardFocus(true)) card->grabKeyboardFocus();
+        if (card != nullptr) card->grabKeyboardFocus();
     });
 }
 
