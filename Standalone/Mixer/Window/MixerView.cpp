@@ -211,14 +211,6 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     card_->grabKeyboardFocus();
 }
 
-// A menu that led to a card gives the focus back afterwards to where it was, below the card.
-void MixerView::focusOfChildComponentChanged(FocusChangeType) {
-    if (!card_ || card_->hasKeyboardFocus(true) || !hasKeyboardFocus(true)) return;
-    juce::MessageManager::callAsync([card = juce::Component::SafePointer<juce::Component>{card_.get()}] {
-        if (card != nullptr) card->grabKeyboardFocus();
-    });
-}
-
 void MixerView::setProgress(juce::Component* card) {
     progress_ = card;
     if (card == nullptr) return;

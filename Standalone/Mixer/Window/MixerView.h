@@ -63,7 +63,6 @@ public:
 
     void mouseDown(const juce::MouseEvent&) override { setHint(false); }
     bool keyPressed(const juce::KeyPress& key) override;
-    void focusOfChildComponentChanged(FocusChangeType) override;
     void paint(juce::Graphics& g) override;
     void paintOverChildren(juce::Graphics& g) override;
     void resized() override;
