@@ -25,8 +25,7 @@ public:
     std::vector<EmergencyStop*> stops;
 
 private:
-    static constexpr int lookMs = 20;           // shorter than a key press
-    static constexpr int minimisedLookMs = 200; // no key arrives, so that only opening again is to be seen
+    static constexpr int lookMs = 20; // shorter than a key press
 
     // Listens to components that opened since the last call. An Esc that was pressed before they opened is
     // still down.
@@ -36,17 +35,6 @@ private:
         const bool isDown = juce::Desktop::getInstance().getNumComponents() > 0 && isEscapeDown();
         if (isDown && !isHeld_ && target != nullptr) silence(*target);
         isHeld_ = isDown;
-        keepPace();
-    }
-    void keepPace() {
-        const auto& desktop = juce::Desktop::getInstance();
-        bool isAnyOpen = false;
-        for (int k = 0; k < desktop.getNumComponents(); ++k) {
-            const auto* peer = desktop.getComponent(k)->getPeer();
-            isAnyOpen = isAnyOpen || peer == nullptr || !peer->isMinimised();
-        }
-        const int wanted = isAnyOpen ? lookMs : minimisedLookMs;
-        if (getTimerInterval() != wanted) startTimer(wanted);
     }
     void globalFocusChanged(juce::Component*) override { listen(); }
     void mouseUp(const juce::MouseEvent&) override { listen(); }

@@ -209,10 +209,6 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     addAndMakeVisible(*card_);
     placeCards();
     card_->grabKeyboardFocus();
-    // A menu that led to the card gives the focus back afterwards to where it was.
-    juce::MessageManager::callAsync([card = juce::Component::SafePointer<juce::Component>{card_.get()}] {
-        if (card != nullptr && !card->hasKeyboardFocus(true)) card->grabKeyboardFocus();
-    });
 }
 
 void MixerView::setProgress(juce::Component* card) {
