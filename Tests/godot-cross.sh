@@ -32,7 +32,7 @@ needs() {
 }
 
 for library in "$bin"/linux.arm64/*; do
-    needs "$(readelf -d "$library" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p')" "$library" "libphysvib.so.0 libstdc++.so.6 libgcc_s.so.1 libm.so.6 libc.so.6 ld-linux-aarch64.so.1"
+    needs "$(readelf -d "$library" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p')" "$library" "libphysvib.so.1 libstdc++.so.6 libgcc_s.so.1 libm.so.6 libc.so.6 ld-linux-aarch64.so.1"
     printf '    and the versions %s\n' "$(for kind in GLIBC GLIBCXX; do readelf -V "$library" | grep -o "${kind}_[0-9.]*" | sort -uV | tail -n 1; done | xargs)"
 done
 for library in "$bin"/windows.x86_64/*; do

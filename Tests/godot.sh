@@ -68,7 +68,7 @@ done
 godot -s orders.gd --fixed-fps 60 -- changes=2000 >"$project/out" 2>&1 || failed=1
 grep -E '^[0-9]+ (orders|scenes)' "$project/out" || failed=1
 godot -s motors.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1
-PYTHONPATH=$root/Source/Api/Python PYTHONDONTWRITEBYTECODE=1 PHYSVIB_LIBRARY=$build/godot/addons/physvib/bin/linux.x86_64/libphysvib.so.0 /usr/bin/python3 "$root/Tests/Godot/motors.py" "$project/out" || failed=1
+PYTHONPATH=$root/Source/Api/Python PYTHONDONTWRITEBYTECODE=1 PHYSVIB_LIBRARY=$build/godot/addons/physvib/bin/linux.x86_64/libphysvib.so.1 /usr/bin/python3 "$root/Tests/Godot/motors.py" "$project/out" || failed=1
 # A JACK server of the tree, a recorder of its outputs, and the session that the world has written, rendered here.
 cp "$build/bin/physvib-jack-recorder" "$root/Tests/Godot/played.sh" "$project"
 # shellcheck disable=SC2016 # for the inner shell

@@ -29,7 +29,7 @@ step() {
         skipped) Tests/Plugin/skipped.sh $bin ;;
         engines) engines ;;
         box2d3) Tests/Engines/box2d3.sh build/release ;;
-        pymunk) Tests/Api/pymunk.sh $PWD/build/release/lib/libphysvib.so.0 ;;
+        pymunk) Tests/Api/pymunk.sh $PWD/build/release/lib/libphysvib.so.1 ;;
         quick) Tests/quick.py build/release ;;
         osc) Tests/Osc/run.sh $bin ;;
         jalv) ensure_packages jalv && Tests/Plugin/Formats/jalv.sh "$PWD/build/release" 5 ;;
@@ -37,6 +37,7 @@ step() {
         apply) ensure_packages $physvib_apply_packages && Tests/Plugin/Formats/apply.sh "$PWD/build/release" ;;
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh ;;
+        breaks) Tests/Mixer/breaks.py build/nightly/breaks ;;
         studies) Tests/Studies/recorded.sh $bin ;;
         coverage) $bin/physvib-study-coverage ;;
         hours) Tests/ten-hours.sh ;;

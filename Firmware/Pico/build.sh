@@ -16,7 +16,7 @@ if [ ! -e $sdk/pico_sdk_init.cmake ]; then
 fi
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_pico_packages
-version=$(sed -n 's/^project(PhysVib VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+version=$(version_of CMakeLists.txt)
 for board in "$@"; do
     into=build/firmware/$board
     mkdir -p "$into"

@@ -18,9 +18,10 @@ using PoseSource = std::function<void(std::int64_t everyNs, std::int64_t endNs, 
 class MovieOutput {
 public:
     /// Checks that the file can be written: error().
-    MovieOutput(const std::string& path, int sampleRateHz)
+    MovieOutput(const std::string& path, int sampleRateHz, int ears = 1)
         : path_{path}
         , sampleRateHz_{sampleRateHz}
+        , ears_{ears}
         , movie_{path} {
         if (!path.ends_with(".webp")) pictures_.emplace(path + ".pictures");
         if (hasSound()) sound_.emplace(path + ".sound");
@@ -28,10 +29,13 @@ public:
     const std::string& error() const noexcept { return movie_.error(); }
 
     bool hasSound() const noexcept { return path_.ends_with(".mp4"); }
-    /// Next frames of the mono sound track.
-    bool takeSound(const float* samples, int frames) {
-        const std::string_view bytes{reinterpret_cast<const char*>(samples),
-                                     sizeof(float) * static_cast<std::size_t>(frames)};
+    /// Next frames of the sound track.
+    bool takeSound(const float* const* channels, int frames) {
+        frames_.clear();
+        for (int k = 0; k < frames; ++k)
+            for (int c = 0; c < ears_; ++c) frames_.push_back(channels[c][k]);
+        const std::string_view bytes{reinterpret_cast<const char*>(frames_.data()),
+                                     sizeof(float) * frames_.size()};
         if (!sound_->writeAt(soundBytes_, bytes)) return false;
         soundBytes_ += static_cast<std::int64_t>(bytes.size());
         return true;
@@ -92,8 +96,8 @@ private:
             words.insert(words.end(), more.begin(), more.end());
         };
         if (sound_) {
-            add({"-f", "f32le", "-ac", "1", "-ar"});
-            words.push_back(std::to_string(sampleRateHz_));
+            add({"-f", "f32le", "-ac"});
+            words.insert(words.end(), {std::to_string(ears_), "-ar", std::to_string(sampleRateHz_)});
             words.insert(words.end(), {"-i", sound_->temporaryPath().string()});
             add({"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-c:a", "aac", "-movflags",
                  "+faststart", "-f", "mp4"});
@@ -105,11 +109,12 @@ private:
         if (!ran)
             return path_ + ": .gif and .mp4 need the program ffmpeg, which did not start (" + ran.error +
                    "); expected it on the path, or a name that ends in .webp";
-        return ran.value ? std::string{} : path_ + ": ffmpeg failed, for the reason above";
+        return ran.value ? std::string{} : path_ + ": ffmpeg failed, for the reason on standard error";
     }
 
     std::string path_;
-    int sampleRateHz_;
+    int sampleRateHz_, ears_;
+    std::vector<float> frames_; // interleaved, of one block
     AtomicFile movie_;
     std::optional<AtomicFile> pictures_, sound_; // temporary input files of ffmpeg, beside the movie
     std::int64_t pictureBytes_ = 0, soundBytes_ = 0;

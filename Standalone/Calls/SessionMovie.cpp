@@ -2,18 +2,23 @@
 // Creates a movie of a session: first its events, then its samples, then the pictures.
 #include "Calls/SessionMovie.h"
 #include "Calls/MovieOutput.h"
+#include "Calls/RenderJob.h"
 #include "Io/Disk/FileClash.h"
 #include "Live/Recordings/LoadRecordings.h"
+#include "Live/Session/HeardContacts.h"
 #include "Live/Session/SessionRender.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 namespace physvib {
 namespace {
 
-constexpr int movieRateHz = 8'000;                      // a column of the waveform picture is 40 ms
-constexpr double eventsShare = 0.1, samplesShare = 0.3; // shares of the total time, for the progress report
+constexpr int movieRateHz = 8'000; // a column of the waveform picture is 40 ms
+constexpr int soundRateHz = 48'000, ears = 2;
+// shares of the total time, for the progress report; ffmpeg's own work follows, if there is sound
+constexpr double eventsShare = 0.1, samplesShare = 0.3, picturesShareBeforeFfmpeg = 0.8;
 
 /// Part of a session; its first frame is at session time `fromNs`.
 struct MoviePart {
@@ -33,6 +38,38 @@ std::vector<CollisionEvent> eventsOf(const SavedSession& session, const MoviePar
     return events;
 }
 
+/// The fields and stops of the part; the last field before it counts from its start.
+std::vector<RenderControl> soundControls(const SavedSession& session, const MoviePart& part) {
+    auto controls = HeardContacts::controlsOf(controlsOf(session.log, true, session.channels), ears);
+    std::erase_if(controls, [&](const RenderControl& control) {
+        return control.kind == RenderControl::Kind::stopAll && control.timeNs < part.fromNs;
+    });
+    for (RenderControl& control : controls)
+        control.timeNs = std::max<std::int64_t>(0, control.timeNs - part.fromNs);
+    return controls;
+}
+
+/// What the monitor plays; false if cancelled.
+bool addSound(MovieOutput& movie, const SavedSession& session, const MoviePart& part,
+              std::vector<CollisionEvent> hits, const std::function<bool()>& goesOn) {
+    std::erase_if(hits, [](const CollisionEvent& event) { return isClip(event.sound); });
+    const auto gain = static_cast<float>(fromDecibels(usualContactDb));
+    std::array<std::vector<float>, ears> heard;
+    bool isWhole = true;
+    renderOffline(hits,
+                  {HeardContacts::settingsAt(soundRateHz, ears, session.panner),
+                   std::llround(part.seconds() * soundRateHz), 1024, soundControls(session, part)},
+                  [&](const float* const* channels, int frames) {
+                      for (std::size_t c = 0; c < ears; ++c) {
+                          heard[c].assign(channels[c], channels[c] + frames);
+                          for (float& sample : heard[c]) sample *= gain;
+                      }
+                      const float* const at[] = {heard[0].data(), heard[1].data()};
+                      return isWhole = movie.takeSound(at, frames) && goesOn();
+                  });
+    return isWhole;
+}
+
 } // namespace
 
 std::string writeSessionMovie(const SavedSession& session, const LayoutDescription& layout, double seconds,
@@ -42,7 +79,7 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
     const auto loaded = loadRecordings(session.log);
     if (!loaded) return loaded.error;
     if (auto clash = fileClash({&path, 1}, recordingPaths(session.log)); !clash.empty()) return clash;
-    MovieOutput movie{path, movieRateHz};
+    MovieOutput movie{path, soundRateHz, ears};
     if (!movie.error().empty()) return movie.error();
 
     bool goesOn = true;
@@ -59,6 +96,9 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
                                }};
     if (!renderSession(session, loaded.value, extent,
                        [&](const float* const* block, int n) { return waveform.add(block, n), true; }))
+        return "cancelled";
+    if (movie.hasSound() &&
+        !addSound(movie, session, part, events, [&] { return goesOn = progress(samplesShare); }) && !goesOn)
         return "cancelled";
 
     const SceneTake& last = session.log.takes.back();
@@ -81,8 +121,10 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
                         return see(timeNs - part.fromNs, scene, poses);
                     });
     };
-    const std::string error = movie.draw(
-        picture, bodies, [&](double share) { return progress(samplesShare + (1.0 - samplesShare) * share); });
+    const double drawnShare = movie.hasSound() ? picturesShareBeforeFfmpeg : 1.0;
+    const std::string error = movie.draw(picture, bodies, [&](double share) {
+        return progress(samplesShare + (drawnShare - samplesShare) * share);
+    });
     return error.empty() ? movie.commit() : error;
 }
 

@@ -88,11 +88,11 @@ void declareStimulus(OptionTable& command, StimulusOptions& o) {
     phantom.add(words::decay, o.phantom.decayPerSecond, "decay of the amplitude, 1/s; 0: a burst")
         .in(ranges::decayPerSecond.least, ranges::decayPerSecond.most);
     phantom
-        .add(words::levelOf, o.levelOf,
-             "--level-g is the peak, or that of a burst of the same rms over the length, or of a burst of 1 "
-             "s of the "
-             "same energy")
-        .oneOf({"peak", "rms", "energy"});
+        .add(
+            words::levelOf, o.levelOf,
+            "--level-g is the peak, or that of a burst of the same rms over the length, of a burst of 1 s of "
+            "the same energy, or of a burst whose rms is that behind the hand-arm weighting of ISO 5349-1")
+        .oneOf({levelOfNames.begin(), levelOfNames.end()});
     all.add("--enchanters", o.enchanters, "how many").in(1, 26);
     for (OptionTable* const one : {&pattern, &phantom}) declareCarrier(*one, o);
     for (OptionTable* const one : {&phantom, &wav}) declarePlace(*one, o);

@@ -39,6 +39,7 @@ struct Option {
     std::string range;                                ///< valid values: "0 to 1", "{on,off}"; empty: any
     std::vector<std::string> choices;                 ///< all valid values, or some built-in ones
     std::vector<std::pair<std::string, int>> numbers; ///< words and numbers of a function target
+    std::string instead; ///< of a deprecated option, which is said once on standard error; empty: it stays
     double low = 0.0, high = 0.0;
     enum class Check { none, range, positive, choice, number, folder, ending } check = Check::none;
     bool isPlace = false, isRequired = false, isWritten = false, isSingle = false;
@@ -52,6 +53,7 @@ struct Option {
     /// The same, for a name that must have the extension of `file`, "FILE.png", because programs derive the
     /// format from it.
     Option& writtenAs(std::string file) { return check = Check::ending, written(std::move(file)); }
+    Option& deprecated(std::string words) { return instead = std::move(words), *this; }
     Option& required() { return isRequired = true, *this; }
     Option& under(std::string heading) { return group = std::move(heading), *this; }
     Option& unshown() { return initial.clear(), *this; } ///< the help text describes the default

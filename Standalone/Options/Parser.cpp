@@ -4,6 +4,7 @@
 #include "Io/Disk/NameEnding.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <iostream>
 #include <list>
 #include <map>
 #include <sstream>
@@ -136,6 +137,12 @@ public:
         take();
         return {};
     }
+    void warn() const {
+        for (const auto& [option, row] : options_)
+            if (!row->said.empty() && !row->instead.empty())
+                std::cerr << row->spellings.front() << " is deprecated: " << row->instead << '\n';
+        for (const Parser& inner : commands_) inner.warn();
+    }
 
 private:
     void take() {
@@ -157,7 +164,10 @@ private:
 
 ParsedWords parseArguments(OptionTable& table, int argc, char** argv) {
     CLI::App app{table.meaning};
-    return Parser{app, table}.parse(argc, argv);
+    Parser parser{app, table};
+    const ParsedWords parsed = parser.parse(argc, argv);
+    parser.warn();
+    return parsed;
 }
 
 ParsedWords parseText(OptionTable& table, const std::string& call) {

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 namespace physvib {
 namespace {
@@ -157,7 +158,8 @@ std::string studyCallFault(const std::string& call, const ConditionPlan& conditi
     return {};
 }
 
-/// Checks a condition's calls: each value of each factor once, combined with the first values of the others.
+/// Checks a condition's calls: each value of each factor once, combined with the first values of the others,
+/// for each part.
 /// The reader has already checked all calls for forbidden options.
 std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condition) {
     const CallSet* const calls = callSetOf(condition.stimuli);
@@ -165,15 +167,16 @@ std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condi
     StimulusItem first;
     for (const StudyFactor& factor : calls->factors)
         first.values.emplace_back(factor.name, factor.values.front());
+    std::vector<StimulusItem> items{first};
     for (std::size_t f = 0; f < calls->factors.size(); ++f)
-        for (const std::string& value : calls->factors[f].values) {
-            StimulusItem item = first;
-            item.values[f].second = value;
-            if (auto fault = studyCallFault(callOf(*calls, item, *callPartsOf(protocol).begin(), 0.0),
-                                            condition, protocol.folder);
-                !fault.empty())
-                return fault;
-        }
+        for (const std::string& value : calls->factors[f].values)
+            items.emplace_back(first).values[f].second = value;
+    std::set<std::string> told; // parts may share a call
+    for (const StimulusItem& item : items)
+        for (const std::string& part : callPartsOf(protocol))
+            if (const std::string call = callOf(*calls, item, part, 0.0); told.insert(call).second)
+                if (auto fault = studyCallFault(call, condition, protocol.folder); !fault.empty())
+                    return fault;
     return {};
 }
 

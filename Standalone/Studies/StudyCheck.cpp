@@ -371,6 +371,7 @@ std::string limiterFault(const Protocol& protocol) {
             continue;
         }
         const CheckedStimulus checked = checkStimulus(protocol, planned);
+        if (!checked.error.empty()) return nameOf(protocol, checked) + ": " + checked.error;
         if (needsLimiter(checked)) return limiterWords(protocol, checked);
     }
     return {};

@@ -47,9 +47,9 @@ std::string htmlOf(const StudyCheck& check, const Protocol& protocol);
 /// participants; 0: not at all. Ends early once `goesOn` returns false. One thread at a time.
 StudyCheck checkStudy(const Protocol& protocol, int participants, const std::function<bool()>& goesOn = {});
 
-/// The first stimulus that needs the limiter or exceeds its layout at its maximum level, and the full scale
-/// it would need; empty if there is none. Interactive worlds are skipped, because their levels depend on the
-/// participant. Message thread only.
+/// The first stimulus that cannot be played, needs the limiter or exceeds its layout at its maximum level,
+/// and the full scale it would need; empty if there is none. Interactive worlds are skipped, because their
+/// levels depend on the participant. Message thread only.
 std::string limiterFault(const Protocol& protocol);
 
 } // namespace physvib

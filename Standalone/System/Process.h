@@ -56,8 +56,11 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
 int processNumber() noexcept;
 
 /// Runs a program with our standard streams until it ends: true if it exited with 0, or why it could not
-/// start. Message thread.
+/// start. Any thread but the render thread.
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments);
+
+/// True if the system's search path has that program. Any thread but the render thread.
+bool hasProgram(const std::string& name);
 
 /// True if a window can be opened. Any thread but the render thread.
 bool hasDisplay() noexcept;

@@ -15,6 +15,7 @@
 #include <iostream>
 #include <poll.h>
 #include <spawn.h>
+#include <sstream>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -83,6 +84,14 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+bool hasProgram(const std::string& name) {
+    const char* const path = std::getenv("PATH");
+    std::istringstream folders{path != nullptr ? path : ""};
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (access((std::filesystem::path{folder} / name).c_str(), X_OK) == 0) return true;
+    return false;
 }
 
 bool hasDisplay() noexcept {

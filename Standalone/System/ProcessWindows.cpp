@@ -80,6 +80,10 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     return code == 0;
 }
 
+bool hasProgram(const std::string& name) {
+    return SearchPathW(nullptr, std::filesystem::path{name}.c_str(), L".exe", 0, nullptr, nullptr) != 0;
+}
+
 bool hasDisplay() noexcept { return true; }
 
 // Windows searches the folder of the running program first.

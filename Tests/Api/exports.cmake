@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The library shows physvib_... of its version and nothing else, and is less than a megabyte, or as many as are told.
-# Usage: cmake -DLIBRARY=libphysvib.so.0 -DHEADER=physvib.h [-DMEGABYTES=1] -P exports.cmake
+# Usage: cmake -DLIBRARY=libphysvib.so.1 -DHEADER=physvib.h [-DMEGABYTES=1] -P exports.cmake
 cmake_policy(VERSION 3.22)
 execute_process(COMMAND nm -D --defined-only ${LIBRARY} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[^\n]+" lines "${symbols}")

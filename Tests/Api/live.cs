@@ -26,9 +26,9 @@ static class LiveFromCSharp {
         }
     }
     static int Main() {
-        Demand(LibraryNames.Of("libphysvib.so.0", PlatformID.Win32NT, false)[0] == "libphysvib.dll", "Windows' name");
-        Demand(LibraryNames.Of("libphysvib-live.so.0", PlatformID.Unix, true)[0] == "libphysvib-live.0.dylib", "macOS' name");
-        Demand(LibraryNames.Of("libphysvib.so.0", PlatformID.Unix, false)[0] == "libphysvib.so.0", "Linux' name");
+        Demand(LibraryNames.Of("libphysvib.so.1", PlatformID.Win32NT, false)[0] == "libphysvib.dll", "Windows' name");
+        Demand(LibraryNames.Of("libphysvib-live.so.1", PlatformID.Unix, true)[0] == "libphysvib-live.1.dylib", "macOS' name");
+        Demand(LibraryNames.Of("libphysvib.so.1", PlatformID.Unix, false)[0] == "libphysvib.so.1", "Linux' name");
         var settings = LiveSettings.Create();
         settings.LongestGapS = 0.15;
         using (var live = new Live("None:no device", RendererSettings.Create(), settings))

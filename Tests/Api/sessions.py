@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 os.environ["PHYSVIB_LIVE_LIBRARY"] = sys.argv[1]
-os.environ["PHYSVIB_LIBRARY"] = str(Path(sys.argv[1]).parent / "libphysvib.so.0")
+os.environ["PHYSVIB_LIBRARY"] = str(Path(sys.argv[1]).parent / "libphysvib.so.1")
 import numpy as np  # noqa: E402
 
 import physvib  # noqa: E402

@@ -44,6 +44,22 @@ struct Rig {
     OptionTable table{"program", "a program"};
 };
 
+TEST(OptionTables, ADeprecatedOptionSaysSoOnce) {
+    std::string quick = "--quick", program = "program";
+    for (const std::string& expected :
+         {std::string{"--quick is deprecated: write --speed 2\n"}, std::string{}}) {
+        bool isQuick = false;
+        OptionTable table{"program", "a program"};
+        table.addCommand("run", "runs").add("--quick", isQuick, "soon").deprecated("write --speed 2");
+        std::string run = "run";
+        char* words[]{program.data(), run.data(), quick.data()};
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(parseArguments(table, expected.empty() ? 2 : 3, words).fault, "");
+        EXPECT_EQ(testing::internal::GetCapturedStderr(), expected);
+        EXPECT_EQ(isQuick, !expected.empty());
+    }
+}
+
 TEST(OptionTables, WhatIsSaidLandsInItsValue) {
     Rig rig;
     EXPECT_EQ(rig.fault("bea --count 9 --level=0.25 --light off -f --several a --several b"), "");

@@ -260,7 +260,9 @@ TEST_F(Analyse, SimulatedDataIsMarkedWhereverItGoes) {
     write("c.csv", "observer,stimulus,response\nsimulated-PHONE,a,a\nsimulated-PHONE,b,b\n");
     const auto outcome = call("analyse confusion c.csv --export matrix.csv --picture s.svg");
     EXPECT_EQ(outcome.out.rfind("SIMULATED", 0), 0u);
-    EXPECT_EQ(read("matrix.csv").rfind("# physvib 0.2.0 analysis=confusion observer=simulated\n", 0), 0u);
+    EXPECT_EQ(
+        read("matrix.csv").rfind("# physvib " PHYSVIB_VERSION " analysis=confusion observer=simulated\n", 0),
+        0u);
     write("c.csv", "observer,stimulus,response\nperson,a,a\nperson,b,b\n");
     ASSERT_EQ(call("analyse confusion c.csv --picture p.svg").exitCode, 0);
     EXPECT_NE(read("s.svg").find(">SIMULATED<"), std::string::npos);

@@ -248,6 +248,8 @@ std::vector<PlantedField> plantedFields() {
          "begins with 0.4, which counts as 10"},
         {"session.modulus_number", session([](SessionPlan& s) { s.modulusNumber = 7; }), "which counts as 7",
          session([](SessionPlan& s) { s.modulus = "0.4"; })},
+        {"session.may_be_empty", session([](SessionPlan& s) { s.mayBeEmpty = true; }),
+         "an answer may be left empty"},
         {"session.interval_s", session([](SessionPlan& s) { s.intervalSeconds = 0.7; }),
          "one after the other, 0.7 s apart", two},
         {"calls.variables", variables({{"hz", 200.0}}), "; hz is 200 at a level of 0 dB", variables({})},

@@ -47,7 +47,11 @@ std::vector<Sentence> sentences() {
                    fits = builtIn("model-or-sound"), grids = builtIn("phantom-grids"), field = places(),
                    constant = example("frequency-constant"), names = example("rhythm-names"),
                    matched = example("equal-sensation"), interleaved = example("level-mixed");
+    Protocol told = grid;
+    told.name = "told", told.sessions.back().task = StudyTask::describe;
     Protocol unknown = steps, alone = grid, mixed = steps;
+    Protocol wide = field; // five columns: too many for Mauchly's test of three people
+    wide.name = "wide", wide.conditions.front().stimuli = GridSet{5, 2};
     Protocol fine = grid; // answers vary
     fine.name = "fine";
     for (ConditionPlan& condition : fine.conditions) condition.stimuli = GridSet{4, 3};
@@ -151,7 +155,11 @@ std::vector<Sentence> sentences() {
         {"As thesis Table 4.1, but over participants", of(field, 3), of(grid, 3)},
         {"The thesis' degrees of freedom are those of single trials.", of(field, 3), of(grid, 3)},
         {"Assumptions: by Shapiro and Wilk's test", of(fine, 3), of(alone, 3)},
-        {"Where an effect has more than one degree of freedom", of(fine, 3), of(alone, 3)},
+        {"its line has Mauchly's test of sphericity, where there are participants enough, and", of(field, 3),
+         of(wide, 3)},
+        {"its line has Greenhouse and Geisser's correction.", of(wide, 3), of(methods, 3)},
+        {"no share up to 95 % is found in 80 % of the studies.", of(fits, 3), of(fits, 6)},
+        {"% or more is found in 80 % of the studies.", of(fits, 6), of(fits, 3)},
         {"of them below 0.05 after correction", of(numbers, 3), of(grid, 3)},
         {"Share of right answers by stimulus.", of(constant, 3, {}, true), of(steps, 3)},
         {"thin lines: the function of each participant; thick: their mean threshold and width.",
@@ -192,6 +200,11 @@ std::vector<Sentence> sentences() {
          of(interleaved, 3, {}, true)},
         {"A smaller difference that was not found is no evidence", of(fine, 3), of(alone, 3)},
         {"Power of the design as it was run", of(fine, 3), of(alone, 3)},
+        {"no analysis is known for these trials", of(grid, 2, set("phase", "training")), of(grid, 3)},
+        {"in participants' own words", of(told, 2), of(grid, 3)},
+        {" of them empty: counted by stimulus", of(told, 2, set("response", "", "P2")), of(told, 2)},
+        {"16 answers in participants' own words: counted by stimulus, not analysed.", of(told, 1),
+         of(told, 1, set("phase", "training"))},
         {"Participants who differ need more.", of(steps, 3, set("correct", "")), of(steps, 3)},
     };
 }

@@ -31,9 +31,10 @@ TEST(HandWeighting, IsWithinATenthOfADecibelOfTheFormulaAtEveryRate) {
 }
 
 TEST(HandWeighting, IsTheStandardsTable) { // ISO 5349-1, table A.2
-    constexpr std::pair<double, double> table[] = {{8, 0.873},    {10, 0.951},   {12.5, 0.958}, {16, 0.896},
-                                                   {31.5, 0.519}, {63, 0.256},   {125, 0.127},  {250, 0.0634},
-                                                   {500, 0.0314}, {1000, 0.0135}};
+    constexpr std::pair<double, double> table[] = {
+        {6.3, 0.727}, {8, 0.873},    {10, 0.951},   {12.5, 0.958}, {16, 0.896},  {20, 0.782},
+        {25, 0.647},  {31.5, 0.519}, {40, 0.411},   {63, 0.256},   {100, 0.160}, {125, 0.127},
+        {160, 0.101}, {250, 0.0634}, {500, 0.0314}, {1000, 0.0135}};
     for (const auto& [hz, gain] : table)
         EXPECT_NEAR(decibels(handWeighting::gain(exactHz(hz)) / gain), 0.0, 0.1) << hz;
 }
@@ -88,6 +89,24 @@ TEST(ExposureMeter, PeaksAndPlainSumsStartAgainWhereTheyAreMarked) {
     meter.publish();
     EXPECT_EQ(meter.read().peaks[3], 0.25);
     EXPECT_NEAR(meter.read().plain[3], 0.0625 * 0.01, 1e-12);
+}
+
+TEST(ExposureMeter, MeasuresASpanWhereverItsBlocksEnd) {
+    const std::vector<float> half(480, 0.5f);
+    for (const int block : {1, 7, 480}) {
+        ExposureMeter meter;
+        meter.prepare(48000);
+        const auto mark = meter.restart({100, 340});
+        for (int at = 0; at < 480; at += block) {
+            const int frames = std::min(block, 480 - at);
+            meter.take(0, half.data(), frames, at);
+            meter.publish(at + frames);
+        }
+        const ExposureSums& sums = meter.read();
+        EXPECT_EQ(sums.mark, mark);
+        EXPECT_EQ(sums.until, 480);
+        EXPECT_NEAR(sums.plain[0], 0.25 * 240 / 48000, 1e-15) << block;
+    }
 }
 
 TEST(ExposureMeter, AddsNothingToSilence) {

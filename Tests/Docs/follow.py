@@ -44,7 +44,7 @@ def environment(home):
 
 def has_python():
     """What python.md leaves behind; on a bare Debian its own test does that (ten-minutes.sh)."""
-    libraries = {name: next(iter(build.glob(f"lib/{file}")), "") for name, file in (("PHYSVIB_LIBRARY", "libphysvib.so.0"), ("PHYSVIB_LIVE_LIBRARY", "libphysvib-live.so.0"))}
+    libraries = {name: next(iter(build.glob(f"lib/{file}")), "") for name, file in (("PHYSVIB_LIBRARY", "libphysvib.so.1"), ("PHYSVIB_LIVE_LIBRARY", "libphysvib-live.so.1"))}
     return "".join(f"export {name}='{file}'\n" for name, file in ({"PYTHONPATH": root / "Source/Api/Python"} | libraries).items())
 
 

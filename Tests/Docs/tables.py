@@ -1,31 +1,37 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tables of Docs are what their scripts print: tables.py ROOT PHYSVIB. Runs each script with the program and compares its tables, line by line, with those of its
-page; the table of deviations from the thesis is compared with the list in the source. Prints what differs; exit code 1 if anything does."""
+"""Tables of Docs are what their scripts print: tables.py ROOT PHYSVIB. Where a page names `Tests/figures/NAME.sh PHYSVIB`, a script that needs nothing else, the script is run with the program, and each line
+of the tables from there to the next heading has to be one that it prints; the table of deviations from the thesis is compared with the list in the source. Prints what
+differs; exit code 1 if anything does."""
 import re
 import subprocess
 import sys
+from functools import lru_cache
 from pathlib import Path
 
 root = Path(sys.argv[1]).resolve()
-pages = {"drop.sh": ["drop.md"], "methods.sh": ["methods.md"], "levels.sh": ["studies-thesis.md"]}
 bad = []
 
 
 def rows_of(text: str) -> list:
     """Lines of tables that hold figures; heads and rules may be written in other words."""
-    return [line for line in text.split("\n") if re.match(r"\| .*\d.* \|$", line)]
+    return [line for line in re.sub(r"^.*\n(?=\| --- )", "", text, flags=re.M).split("\n") if re.match(r"\| .*\d.* \|$", line)]
 
 
-for script, names in pages.items():
-    printed = subprocess.run([root / "Tests/figures" / script, sys.argv[2]], capture_output=True, encoding="utf-8")
-    if printed.returncode != 0:
-        bad.append(f"Tests/figures/{script}: exit code {printed.returncode}: {printed.stderr.strip()[-200:]}")
-        continue
-    found = [line for name in names for line in rows_of((root / "Docs" / name).read_text())]
-    for line in rows_of(printed.stdout):
-        if line not in found:
-            bad.append(f"Docs/{names[0]}: expected the line that Tests/figures/{script} prints, found none like it: {line}")
+@lru_cache(None)
+def printed_by(script: str) -> list:
+    run = subprocess.run([root / script, sys.argv[2]], capture_output=True, encoding="utf-8")
+    if run.returncode != 0:
+        bad.append(f"{script}: exit code {run.returncode}: {run.stderr.strip()[-200:]}")
+    return rows_of(run.stdout)
+
+
+for path in sorted((root / "Docs").glob("*.md")):
+    for script, text in re.findall(r"`(Tests/figures/(?:drop|levels|methods|timings)\.sh) PHYSVIB`(.*?)(?=^#|\Z)", path.read_text(), re.S | re.M):
+        rows = rows_of(text)
+        bad += [f"Docs/{path.name}: expected a line that {script} prints, found {row}" for row in rows if row not in printed_by(script)]
+        if not rows:
+            bad.append(f"Docs/{path.name}: {script}: expected a table below its name")
 
 cell = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # the formatter may have cut a text in two
 source = (root / "Source/Lab/Study/ThesisDeviations.h").read_text()
@@ -41,4 +47,4 @@ for line in re.findall(r"^\| `[a-z-]+` \d.*\|$", page, re.M):
 
 if bad or not deviations:
     sys.exit("\n".join(bad or ["no deviations were read"]))
-print(f"{len(pages)} scripts and {len(deviations)} deviations: the pages have their lines")
+print(f"{printed_by.cache_info().currsize} scripts and {len(deviations)} deviations: the pages have their lines")

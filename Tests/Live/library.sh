@@ -14,7 +14,7 @@ serve 48000 256 8
 recording=$!
 playing=$recording # ends with the script, also where the program has failed
 for _ in $(seq 100); do grep -qs ready "$folder/ready" && break; sleep 0.1; done
-PHYSVIB_LIVE_LIBRARY="$library" PHYSVIB_LIBRARY="$(dirname "$library")/libphysvib.so.0" "$@" "$folder/expected.raw" "$seconds"
+PHYSVIB_LIVE_LIBRARY="$library" PHYSVIB_LIBRARY="$(dirname "$library")/libphysvib.so.1" "$@" "$folder/expected.raw" "$seconds"
 wait "$recording"
 compare() { "$bin/physvib-compare-recording" "$folder/live.raw" "$1" 4 256 "$(sed -n 's/xruns //p' "$folder/ready")" >"$folder/report"; }
 compare "$folder/expected.raw" || {

@@ -55,6 +55,13 @@ TEST(Arrangement, TheWorldGetsTheLargestPart) {
     }
 }
 
+TEST(Arrangement, ManyStripsLeaveTheScopeItsPart) {
+    for (const auto& [width, height] : sizes) {
+        const auto a = arrange({width, height}, {1.78, 4500, 9000}, {});
+        EXPECT_LE(a.strips.getWidth(), std::max(width * 70 / 100, Arrangement::leastStrips)) << width;
+    }
+}
+
 TEST(Arrangement, DividersAreKeptAsTextAndNonsenseIsAutomatic) {
     const Dividers dividers{0.3125, 0.25, 0.5};
     EXPECT_EQ(Dividers::of(dividers.text()), dividers);
@@ -86,8 +93,10 @@ TEST(Arrangement, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
     EXPECT_EQ(widthOf("Strip A"), StripView::mostWidth);
     EXPECT_GE(narrow, StripView::width);
     EXPECT_LT(narrow, StripView::mostWidth);
+    EXPECT_TRUE(attach->isVisible());
     w.attach(64);
     EXPECT_EQ(widthOf("Strip A"), StripView::width) << "64 scroll";
+    EXPECT_FALSE(attach->isVisible()) << "there is no 65th";
 }
 
 TEST(Arrangement, ADividerIsDraggedMovedByKeysAndMadeAutomatic) {

@@ -37,6 +37,19 @@ TEST(FileCard, ATypedNameStaysInAnotherFolderAndGetsItsEnding) {
     EXPECT_EQ(asked.taken, asked.folder("inner").getChildFile("my hands.json"));
 }
 
+TEST(FileCard, WhatIsSaidBeforeItIsShownHasTheColoursOfTheWindow) {
+    Desk desk{onlyNoDevice(), noDevice, Desk::firstMix(), {.isPaused = true}};
+    MixerView view{desk};
+    Asked asked{true};
+    asked.card->enter(asked.folder("inner"));
+    EXPECT_TRUE(asked.card->words().startsWith("No folders")) << asked.card->words();
+    const auto& words = *find(*asked.card, "What is wrong");
+    view.setCard(std::move(asked.card));
+    EXPECT_EQ(words.findColour(juce::Label::textColourId), shade(view, Shade::muted));
+    view.setGround(Ground::light);
+    EXPECT_EQ(words.findColour(juce::Label::textColourId), shade(view, Shade::muted));
+}
+
 TEST(FileCard, AFileIsReplacedAtTheSecondPressOnly) {
     Asked asked{true, "there"};
     asked.card->take();

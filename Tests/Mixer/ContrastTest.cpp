@@ -106,6 +106,15 @@ TEST_P(Contrasts, OfStatesAndTools) {
     expectReadable("a body");
 }
 
+TEST_P(Contrasts, OfTheStrongestHit) {
+    const auto* sentence = dynamic_cast<juce::Label*>(find(view, "Strongest hit"));
+    ASSERT_NE(sentence, nullptr);
+    desk.setSlowness(1);
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), sentence->getText().contains(" g "); }, 10.0));
+    desk.setSlowness(0);
+    expectReadable("a hit");
+}
+
 TEST_P(Contrasts, OfSixtyFourActuators) {
     while (desk.mix().count() < 64 && desk.attach(0.5, 0.5)) {
     }

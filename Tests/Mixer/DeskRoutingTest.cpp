@@ -145,6 +145,18 @@ TEST(DeskRouting, ASessionWithAConflictPlaysWhatItCanAndHealsByOneClick) {
     EXPECT_FALSE(button->isVisible());
 }
 
+TEST(DeskRouting, FreeOutputsAreNeitherTheMonitorsNorTheMarkers) {
+    Mix mix = Desk::firstMix();
+    setOutputs(mix, {0, 0, 2, 2});
+    FakeInterface hands;
+    Desk desk{fakeDrivers({&hands}), {.name = "Fake:hands", .monitor = {4}, .marker = 1}, mix};
+    const auto heal = desk.messages().shown().act.run;
+    ASSERT_TRUE(heal);
+    heal();
+    EXPECT_EQ(desk.mix().strips[1].output, 3);
+    EXPECT_EQ(desk.mix().strips[3].output, 5);
+}
+
 TEST(DeskRouting, WhereNoOutputIsFreeItSaysSo) {
     Mix mix = Desk::firstMix();
     setOutputs(mix, {0, 0, 1, 1});

@@ -38,6 +38,25 @@ TEST(Desk, AFifthEnchanterIsAttachedWhileItPlaysStartsQuietlyAndCanBeTakenBack) 
     EXPECT_EQ(desk.mix().strips[1].output, 2) << "what plays it goes with it";
 }
 
+TEST(Desk, TheLastEnchanterStays) {
+    Desk desk{onlyNoDevice(), noDevice};
+    for (int k = 0; k < 5; ++k) desk.detach(0);
+    ASSERT_EQ(desk.mix().count(), 1);
+    EXPECT_EQ(desk.mix().layout.enchanters[0].label, "D");
+}
+
+TEST(Desk, StartsSilentIfItIsAsked) {
+    Desk desk{onlyNoDevice(), noDevice, Desk::firstMix(), {.isSilent = true}};
+    EXPECT_TRUE(desk.isSilent());
+    EXPECT_TRUE(desk.output().isSilent());
+}
+
+TEST(Desk, ASavedSessionIsAsLongAsItWasPlayed) {
+    Desk desk{onlyNoDevice(), noDevice};
+    ASSERT_TRUE(runUntil([&] { return desk.look().sessionNs > 200'000'000; }));
+    EXPECT_GT(desk.saved().lengthNs, 200'000'000);
+}
+
 TEST(Desk, SoloMutesTheOthers) {
     Desk desk{onlyNoDevice(), noDevice};
     desk.change("Solo", [](Mix& mix) { mix.strips[2].isSolo = true; });

@@ -108,6 +108,25 @@ TEST(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
     EXPECT_EQ(board.drawn().bodies.size(), before + 9) << "one rain, one step";
 }
 
+TEST(Drawing, ARainOfAClickIsWithinTheField) {
+    for (const double y : {0.02, 0.98}) {
+        Board board;
+        board.pane.setRainCount(50);
+        board.key('n');
+        board.drag(board.share(0.98, y), board.share(0.98, y));
+        const auto& scene = board.drawn();
+        const auto isInside = [&](const BodyDescription& b) {
+            return b.positionMetres.x > 0.0 && b.positionMetres.x < scene.fieldWidthMetres &&
+                   b.positionMetres.y > 0.0 && b.positionMetres.y < scene.fieldHeightMetres;
+        };
+        EXPECT_EQ(std::ranges::count_if(
+                      scene.bodies,
+                      [&](const BodyDescription& b) { return b.name.starts_with("rain") && isInside(b); }),
+                  50)
+            << y << ' ' << board.desk.trouble();
+    }
+}
+
 TEST(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
     Board board;
     const auto before = board.drawn().bodies.size();
@@ -128,6 +147,21 @@ TEST(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
     EXPECT_NE(board.desk.world().drawing().find("rain 10"), nullptr);
     board.desk.undoManager().undo();
     EXPECT_EQ(board.drawn().bodies.size(), before);
+}
+
+TEST(Drawing, WhoTakesAnotherToolChoosesNothing) {
+    Board board;
+    board.key('b');
+    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
+    board.pane.use(DrawTool::choose);
+    board.pane.choose({"ball 1"});
+    board.pane.use(DrawTool::choose);
+    EXPECT_EQ(board.pane.chosen(), (std::vector<std::string>{"ball 1"}));
+    board.pane.use(DrawTool::box);
+    EXPECT_TRUE(board.pane.chosen().empty());
+    board.pane.setMaterial(2);
+    EXPECT_NE(board.desk.world().drawing().find("ball 1")->fixtures[0].material, 2)
+        << "of the next box, not of what was chosen";
 }
 
 TEST(Drawing, ARefusedEditLeavesNoStepAndNoHalf) {
@@ -385,6 +419,18 @@ TEST(FirstStart, HeadphonesByNameComeBeforeAControllerAndOtherSpeakersBehindIt) 
     const auto many = feltChoices(fakeDrivers({&hands, &ears}), pad); // eight outputs
     EXPECT_EQ(many[0].outputs, 8);
     EXPECT_EQ(first(many, 1), "Headphones: Fake:USB Headset");
+}
+
+TEST(FirstStart, HeadphonesByNameComeBehindABoard) {
+    FakeInterface ears;
+    ears.name = "USB Headset";
+    ears.outputs = 2;
+    const auto choices = feltChoices(fakeDrivers({&ears}), {{&kindOf({"PAD", {}}), {"DualSense"}},
+                                                            {&kindOf({"BOARD", {}}), {"/dev/ttyACM0"}}});
+    ASSERT_GE(choices.size(), 3U);
+    EXPECT_TRUE(choices[0].title.startsWith("Four-channel board")) << choices[0].title;
+    EXPECT_TRUE(choices[1].isHeard) << choices[1].title;
+    EXPECT_TRUE(choices[2].title.startsWith("Game controller")) << choices[2].title;
 }
 
 TEST(FirstStart, ABoardIsOfferedBeforeControllers) {

@@ -74,6 +74,21 @@ TEST(FeltHint, ABodyThatGivesNothingIsMadeAHapticSourceThatVibrates) {
         << "and it is felt when it falls";
 }
 
+TEST(FeltHint, GoesWhenAFeltMaterialIsChosen) {
+    DullRig rig;
+    const auto press = [&](int material) {
+        rig.button("Material " + utf8(rig.drawn().materials[static_cast<std::size_t>(material)].name))
+            ->onClick();
+        rig.desk.dispatchPendingMessages();
+    };
+    press(rig.soundless());
+    ASSERT_NE(rig.desk.trouble(), "");
+    int felt = 0;
+    while (!whyNotFelt(rig.drawn(), felt).empty()) ASSERT_LT(++felt, std::ssize(rig.drawn().materials));
+    press(felt);
+    EXPECT_EQ(rig.desk.trouble(), "");
+}
+
 TEST(FeltHint, WhatMeetsAFeltWallIsFelt) {
     NewSceneRig rig; // its floor is a haptic source
     for (int i = 0; i < std::ssize(rig.drawn().materials); ++i)

@@ -117,7 +117,9 @@ TEST(MixerView, ReturnIsTheFirstAnswerAndTheOthersAreButtonsAndKeys) {
         else
             view.keyPressed(
                 juce::KeyPress{way == "key" ? juce::KeyPress::rightKey : juce::KeyPress::returnKey});
-        EXPECT_EQ(runUntil([&] { return answer == way; }, 1.0), way != "disabled") << way << ": " << answer;
+        const std::string expected = way == "disabled" ? "" : way;
+        runUntil([&] { return !answer.empty(); }, 1.0);
+        EXPECT_EQ(answer, expected) << way;
     }
 }
 
@@ -278,8 +280,11 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
     }
     view.keyPressed(juce::KeyPress{'z', juce::ModifierKeys::commandModifier, 0});
     EXPECT_EQ(desk.mix().count(), 4);
+    desk.dispatchPendingMessages();
+    EXPECT_TRUE(find(view, "Redo")->isEnabled());
     press("Redo");
     EXPECT_EQ(desk.mix().count(), 5);
+    EXPECT_FALSE(find(view, "Redo")->isEnabled()) << "nothing is left of it";
     press("Undo");
     EXPECT_EQ(desk.mix().count(), 4);
     EXPECT_TRUE(find(view, "Undo")->isEnabled());
@@ -382,6 +387,11 @@ TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
                 EXPECT_EQ(view.getComponentAt(corner), silence) << width << corner.toString();
             EXPECT_FALSE(find(view, "Trouble")->getBounds().intersects(at)) << width;
         }
+    juce::Component cover; // a card as large as the window
+    view.addAndMakeVisible(cover);
+    cover.setBounds(view.getLocalBounds());
+    EXPECT_EQ(view.getComponentAt(view.getLocalArea(silence, silence->getLocalBounds()).getCentre()),
+              silence);
     silence->onClick();
     desk.dispatchPendingMessages();
     EXPECT_TRUE(desk.isSilent());
@@ -395,6 +405,8 @@ TEST(MixerView, NoToolIsChosenWhereNoneIsShown) {
     view.setShow(true);
     view.keyPressed(juce::KeyPress{'B', {}, 'b'});
     EXPECT_EQ(pane.tool(), DrawTool::hand);
+    view.keyPressed(juce::KeyPress{'G', {}, 'g'});
+    EXPECT_FALSE(pane.snaps());
     pane.use(DrawTool::ball); // as a new scene does
     EXPECT_EQ(pane.tool(), DrawTool::hand);
     view.setShow(false);

@@ -3,6 +3,7 @@
 #include "Mixer/Window/PageLink.h"
 #include "Mixer/Desk/Desk.h"
 #include "MixerTesting.h"
+#include "OnlyScript.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include <gtest/gtest.h>
@@ -47,6 +48,22 @@ TEST(PageLink, ASceneOfOnesOwnGoesAlongWhole) {
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"));
     EXPECT_EQ(unpacked(words[1].substring(5)), sceneJson(own));
     EXPECT_LT(link.value.size(), 2900U) << "small enough for a QR code";
+}
+
+TEST(PageLink, ABrowserGetsTheLinkToTheLetterAndAShellNothing) {
+    const test::TestFolder folder;
+    const test::OnlyScript browser{folder, "xdg-open",
+                                   "printf %s \"$1\" >\"$0.part\"; mv \"$0.part\" \"$0.got\"\n"};
+    const auto got = folder("programs/xdg-open.got");
+    const juce::String link{"http://127.0.0.1:8000/#scene=my+scene+%26.json&file=rVVd-_&at=0,1+1,1"};
+    for (const auto& [opened, expected] :
+         {std::pair{link, link},
+          {juce::String{"http://a/`b` $(c)\"\\#d=1"}, juce::String{"http://a/%60b%60%20%24(c)%22%5C#d=1"}}}) {
+        got.deleteFile();
+        openLink(opened);
+        ASSERT_TRUE(test::runUntil([&] { return got.existsAsFile(); }));
+        EXPECT_EQ(got.loadFileAsString(), expected);
+    }
 }
 
 TEST(PageLink, WhatALinkCannotHoldIsSaid) {

@@ -98,6 +98,15 @@ TEST_F(RecordedLanes, AreFeltAsTheFadersThatWereMoved) {
     EXPECT_EQ(strip(2).lane.back().db, leastStripDb) << "silence, wherever the fader is put later";
 }
 
+TEST_F(RecordedLanes, AreAddedToTheLaneThatPlays) {
+    desk.change("Lane", [](Mix& mix) { mix.strips[0].lane = {{0.0, -6.0}}; });
+    start();
+    setFaders({-10.0, 0.0, 0.0});
+    stop();
+    EXPECT_EQ(gainDbAt(desk.mix(), 0, 0.0), -6.0);
+    EXPECT_EQ(gainDbAt(desk.mix(), 0, 1e9), -16.0);
+}
+
 TEST_F(RecordedLanes, AreOfTheGroupWhoseFaderWasMoved) {
     desk.change("Groups", [](Mix& mix) {
         addGroup(mix, "Left hand");

@@ -2,6 +2,7 @@
 // The last part of what the mixer played as a movie: whole, or not there at all.
 #include "Calls/SessionMovie.h"
 #include "MixerTesting.h"
+#include "OnlyScript.h"
 #include "Scene/SceneCatalogue.h"
 
 namespace physvib {
@@ -45,6 +46,58 @@ TEST(SessionMovie, ShowsTheLastPartOfASessionWithItsPausesAndScenes) {
     EXPECT_GT(last, 0.9);
     EXPECT_GE(picturesIn(folder("last.webp")), 15) << "twenty a second, but those where nothing is another";
     EXPECT_LE(picturesIn(folder("last.webp")), 22);
+}
+
+/// More than a second of the first scene.
+SavedSession someSecond(Desk& desk) {
+    EXPECT_TRUE(runUntil([&] { return desk.look().session.sessionNs >= 1'200'000'000; }));
+    return desk.saved();
+}
+
+TEST(SessionMovie, HasTheSoundOfTheContactsWhereFfmpegIs) {
+    const TestFolder folder;
+    Desk desk{onlyNoDevice(), noDevice};
+    const auto session = someSecond(desk);
+    // the second input becomes the movie
+    const OnlyScript ffmpeg{folder, "ffmpeg",
+                            "for word; do case $before in -i) sound=$word;; -ac) echo \"$word\" >\"$(dirname "
+                            "\"$0\")/channels\";; "
+                            "esac; before=$word; done\ncat \"$sound\" >\"$word\"\n"};
+    EXPECT_EQ(movieEnding(), ".mp4");
+    const auto path = folder("last.mp4").getFullPathName().toStdString();
+    ASSERT_EQ(writeSessionMovie(session, desk.mix().layout, 1.0, path, [](double) { return true; }), "");
+    EXPECT_EQ(folder("programs/channels").loadFileAsString().trim(), "2");
+    juce::MemoryBlock bytes;
+    folder("last.mp4").loadFileAsData(bytes);
+    ASSERT_EQ(bytes.getSize(), 48000U * 2U * sizeof(float));
+    const auto* samples = static_cast<const float*>(bytes.getData());
+    float most = 0.0f, apart = 0.0f;
+    for (int k = 0; k < 48000; ++k) {
+        most = std::max(most, std::abs(samples[2 * k]));
+        apart = std::max(apart, std::abs(samples[2 * k] - samples[2 * k + 1]));
+    }
+    EXPECT_GT(most, 0.001f);
+    EXPECT_LE(most, 0.1f) << "a full-scale impact is at -20 dB";
+    EXPECT_GT(apart, 0.0f) << "left and right";
+    EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles), 1) << "no pictures and no sound";
+}
+
+TEST(SessionMovie, WithoutFfmpegItIsAWebpAndAFailureLeavesNothing) {
+    const TestFolder folder;
+    Desk desk{onlyNoDevice(), noDevice};
+    const auto session = someSecond(desk);
+    const auto path = folder("last.mp4").getFullPathName().toStdString();
+    const auto write = [&] {
+        return writeSessionMovie(session, desk.mix().layout, 0.2, path, [](double) { return true; });
+    };
+    {
+        const OnlyScript other{folder, "another", "exit 0\n"};
+        EXPECT_EQ(movieEnding(), ".webp");
+        EXPECT_NE(write().find("need the program ffmpeg"), std::string::npos);
+    }
+    const OnlyScript ill{folder, "ffmpeg", "exit 3\n"};
+    EXPECT_EQ(write(), path + ": ffmpeg failed, for the reason on standard error");
+    EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles), 0);
 }
 
 TEST(SessionMovie, ACancelledOneLeavesNothing) {

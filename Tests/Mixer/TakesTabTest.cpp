@@ -2,6 +2,7 @@
 // Recordings are listed, played on the device, copied and deleted in the window.
 #include "Mixer/Output/TakesTab.h"
 #include "Live/Recordings/ReadRecording.h"
+#include "Mixer/Output/KeptPart.h"
 #include "Mixer/Output/TakePart.h"
 #include "MixerTesting.h"
 #include "Scene/EventsCsv.h"
@@ -137,6 +138,36 @@ TEST(TakesTab, OnePressCutsTheSilenceAndAnotherTakesItBack) {
     EXPECT_EQ(soundOf(t.folder("hands-take.wav")).channels[1].size(), 72000U) << "it stays as it is";
     trim.onClick();
     EXPECT_EQ(t.shown(), "hands-take, 1.5 s");
+}
+
+TEST(TakesTab, ATrimLastsBeyondTheProgramAndIsOfThatTakeAlone) {
+    Trimmed t;
+    auto& trim = t.button("Trim the take");
+    trim.onClick();
+    ASSERT_TRUE(runUntil([&] { return t.shown().contains("of"); }));
+    const auto shownAnew = [&] {
+        MixerView later{t.desk};
+        later.scope().choose("Takes");
+        return dynamic_cast<juce::ListBox&>(*find(later, "List of takes")).getModel()->getNameForRow(0);
+    };
+    EXPECT_EQ(shownAnew(), "hands-take, 0.5 s of 1.5 s");
+    const auto kept = t.folder("parts/hands-take.json");
+    const auto text = kept.loadFileAsString();
+    trim.onClick();
+    EXPECT_EQ(shownAnew(), "hands-take, 1.5 s");
+    EXPECT_FALSE(kept.existsAsFile()) << "nothing is left of a trim that was taken back";
+    auto* trimmer = find(t.view, "Start and end of the take");
+    trimmer->keyPressed(juce::KeyPress{juce::KeyPress::leftKey, juce::ModifierKeys::shiftModifier, 0});
+    EXPECT_EQ(keptPart(t.folder("hands-take.wav"), 1.5), (juce::Range{0.0, 1.49}));
+    EXPECT_EQ(keptPart(t.folder("hands-take.wav"), 1.6), (juce::Range{0.0, 1.6})) << "another of its name";
+    for (const char* broken : {"", "{", "[1]", R"({"from_s": 1, "to_s": 0.5, "of_s": 1.5})",
+                               R"({"from_s": 0, "to_s": 2, "of_s": 1.5})", R"({"from_s": "x"})"}) {
+        kept.replaceWithText(broken);
+        EXPECT_EQ(shownAnew(), "hands-take, 1.5 s") << broken;
+    }
+    kept.replaceWithText(text);
+    t.takes->erase();
+    EXPECT_FALSE(kept.existsAsFile());
 }
 
 TEST(TakesTab, ATrimmedTakeIsExportedWithTheEventsInIt) {

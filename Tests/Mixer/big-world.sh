@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # big-world.sh [BODIES] [BUILD]: what the mixer's window does with so many bodies (2,000) in one place, on a display of its own: when it shows
 # them, when it says that they are too much, how it draws meanwhile, and how long it takes to end; in seconds, and in processor time. For
-# Docs/mixer-measured.md; no test, since other programs share the machine.
+# Docs/mixer.md; no test, since other programs share the machine.
 set -eu
 bodies=${1:-2000} build=${2:-build/release}
 program=$build/bin/physvib-mixer-big-world

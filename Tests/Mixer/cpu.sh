@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cpu.sh [MIXER]: what the mixer costs on this machine, in shares of one core, and how fast it starts: on a display of its
-# own, drawn in software. For Docs/mixer-measured.md; no test, since other programs share the machine.
+# own, drawn in software. For Docs/mixer.md; no test, since other programs share the machine.
 set -eu
 mixer=${1:-build/release/bin/physvib-mixer}
 command -v xvfb-run >/dev/null && command -v xdotool >/dev/null || { echo "needs the packages xvfb, xauth and xdotool" >&2; exit 1; }

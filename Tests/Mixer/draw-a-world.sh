@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # draw-a-world.sh [BUILD] [FOLDER] [PAGE]: a person's act in the real window, by pointer and keys: draws a slope, a ball,
 # a pinned see-saw and a bell on a rope, changes materials, plays with it while hands are recorded as the script, and saves
-# the scene; pictures of it go to FOLDER. Then the hits that the mixer played must be those that physvib renders of the scene
-# file, to the bit. With PAGE, the folder of the built page, Chromium opens the scene there, shares it and opens the link: the
-# same samples. A script, since it needs a display and ten seconds of sound.
+# the scene, and shares it; pictures of it go to FOLDER. Then the hits that the mixer played must be those that physvib renders of the scene
+# file, to the bit. With PAGE, the folder of the built page, Chromium opens the scene there, shares it and opens the link, and
+# that of the mixer: the same samples. A script, since it needs a display and ten seconds of sound.
 set -eu
 build=${1:-build/release} out=${2:-$(mktemp -d)} page=${3:+$(realpath "$3")}
 here=$(cd "$(dirname "$0")" && pwd)
@@ -25,7 +25,10 @@ cat >"$home/floor.json" <<'JSON'
  "bodies": [{"name": "floor", "type": "static", "position_m": [3, -0.1], "fixtures": [{"shape": "box", "size_m": [6.4, 0.2], "material": "wood"}]}]}
 JSON
 cd "$home"
-"$here/../../$build/bin/physvib-mixer" floor.json --device "None:no device" &
+mkdir programs                    # the browser that the mixer opens keeps the link
+printf '#!/bin/sh\nprintf %%s "$1" >"%s/link"\n' "$home" >programs/xdg-open
+chmod +x programs/xdg-open
+PATH="$home/programs:$PATH" "$here/../../$build/bin/physvib-mixer" floor.json --device "None:no device" &
 pid=$!
 until xdotool search --name "PhysVib mixer" >/dev/null 2>&1; do sleep 0.1; done
 sleep 2
@@ -74,6 +77,13 @@ picture 6-save
 key Return; sleep 1               # under the name and in the folder that are suggested
 picture 7-saved
 cp config/physvib/scenes/scene.json own.json || { echo "the scene was not saved; see $out" >&2; exit 1; }
+xdotool mousemove 1100 500
+key F10; sleep 0.3
+for k in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16; do xdotool key Down sleep 0.1; done # to Share
+key Return; sleep 1
+picture 8-share
+xdotool mousemove 583 591 click 1 sleep 1 # Open it
+[ -s link ] || { echo "no link was opened; see $out" >&2; exit 1; }
 xdotool key ctrl+q sleep 0.5 key Tab key Return sleep 0.5 || :
 kill "$pid" 2>/dev/null || :
 wait "$pid" 2>/dev/null || :
@@ -96,5 +106,6 @@ print(f"time between a hit of the recording and of the render: {min(shifts):.9f}
 sys.exit(0 if rendered and len(live) >= len(rendered) and all(same) else 1)
 PY
 cp own.json "$out/drawn.json"
-[ -z "$page" ] || python3 "$here/opened-in-the-page.py" own.json "$page" "$here/../../$build/bin/physvib" "$out" 5
+cp link "$out/link"
+[ -z "$page" ] || python3 "$here/opened-in-the-page.py" own.json "$page" "$here/../../$build/bin/physvib" "$out" 5 "$(cat link)"
 echo "pictures in $out"

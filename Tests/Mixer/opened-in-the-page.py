@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A scene that was drawn in the mixer, opened in the page, shared, and opened by its link in another browser: the same samples in both, and
-# those of physvib. usage: opened-in-the-page.py SCENE.json FOLDER_OF_THE_PAGE PHYSVIB PICTURES_FOLDER SECONDS
+# those of physvib. LINK is one that the mixer made of the same scene. usage: opened-in-the-page.py SCENE.json FOLDER_OF_THE_PAGE PHYSVIB PICTURES_FOLDER SECONDS [LINK]
 import json
 import os
 import subprocess
@@ -39,6 +39,12 @@ try:
     other.picture("9-link.png", 1280, 800, 1)
     here, there = hash_in_page(one, wanted, seconds), hash_in_page(other, wanted, seconds)
     expect(here == there, f"a link of {len(link)} characters gives the same {seconds} s: {here[:16]}, {there[:16]}")
+    if len(sys.argv) > 6:
+        made = sys.argv[6].split("#", 1)[1]
+        other.call("Page.navigate", url="about:blank") # or the same page only gets another fragment
+        visit(other, origin + "#" + made)
+        mixers = hash_in_page(other, wanted, seconds)
+        expect(mixers == here, f"the mixer's link, {len(made)} characters behind the #, gives them too: {mixers[:16]}")
     native = os.path.join(work.name, "native.wav")
     subprocess.run([physvib, "render", scene, "--seconds", str(seconds), "--instructions", "scalar", "--out", native], check=True, stdout=subprocess.DEVNULL)
     expect(len(samples_of(native)) > 0 and hash_of(native) == here, f"and physvib render the same as the page: {hash_of(native)[:16]}")

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # soak.sh [SECONDS] [MIXER]: the mixer with two hundred bodies for ten minutes, on a display of its own, drawn in software: share of one core and memory
-# ten times meanwhile, what was played, late and dropped, and the exit code. For Docs/mixer-measured.md; no test, since it takes as long as it plays.
+# ten times meanwhile, what was played, late and dropped, and the exit code. For Docs/mixer.md; no test, since it takes as long as it plays.
 set -eu
 seconds=${1:-600} mixer=${2:-build/release/bin/physvib-mixer}
 command -v xvfb-run >/dev/null && command -v xdotool >/dev/null || { echo "needs the packages xvfb, xauth and xdotool" >&2; exit 1; }

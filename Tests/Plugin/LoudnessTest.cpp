@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Presets are as strong as each other at usual play, on any number of outputs: the measure that
-// Docs/plugin-reference.md writes down. Not the peak: a click and a long note of one peak differ by 15 dB in
-// what is felt.
+// Presets are as strong as each other at usual play, on any number of outputs. The measure: in 20 s (worlds
+// by themselves, notes of velocity 100 twice a second) at the initial level, the mean square in the band that
+// is felt, 20 to 400 Hz, of each 125 ms on the actuator where it is largest, over the eight strongest. Not
+// the peak: a click and a long note of one peak differ by 15 dB in what is felt.
 #include "Host/Music/BandPass.h"
 #include "MusicInput.h"
 #include "PluginTesting.h"

@@ -37,7 +37,7 @@ files() {
 
 tried="release: packages"
 make_machine "$mirror"
-[ -n "$release" ] || { release=$machine/root/release && Standalone/Packaging/release.sh "$release" >/dev/null; }
+[ -n "$release" ] || { release=$machine/root/release && Standalone/Packaging/release.sh "$release" HEAD packages >/dev/null; }
 (cd "$release" && sha256sum --quiet -c SHA256SUMS)
 lintian --allow-root --fail-on error,warning "$release"/*.deb && step "lintian has no errors and no warnings"
 

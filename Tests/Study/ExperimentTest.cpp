@@ -281,6 +281,19 @@ TEST(Experiment, RatingsWaitForEveryObject) {
     EXPECT_EQ(breaks, 3);
 }
 
+TEST(Experiment, WordsMayBeEmptyWhereTheProtocolSaysSo) {
+    for (const bool mayBeEmpty : {false, true}) {
+        const auto p = protocolOf(GridSet{2, 1},
+                                  {{.name = "main", .task = StudyTask::describe, .mayBeEmpty = mayBeEmpty}});
+        ASSERT_EQ(validate(p), "");
+        const Experiment experiment{p, {}};
+        EXPECT_EQ(experiment.refusal({}), mayBeEmpty ? "" : "expected words, found none");
+        EXPECT_EQ(experiment.refusal({.response = std::string(4000, 'x')}), "");
+        EXPECT_EQ(experiment.refusal({.response = std::string(4001, 'x')}),
+                  "expected at most 4000 bytes of words");
+    }
+}
+
 TEST(Experiment, PlaysCanBeLimited) {
     const SessionPlan session{.mostPlays = 2};
     TrialProgress progress{session, {}};

@@ -28,7 +28,7 @@ TEST(ProtocolFile, FaultsAreNamedByTheirField) {
               "p.json: sessions[0].repetitions: expected 1 to 1000, found 0");
     EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "guess" }] })"),
               "p.json: sessions[0].task: expected one of explore, identify, locate, choose, rate, adjust, "
-              "estimate, found \"guess\"");
+              "estimate, describe, found \"guess\"");
     EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "order": "random", "sound": 1 }] })"),
               "p.json: sessions[0]: unknown field \"sound\"");
     EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate" }] })"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Protocols of one's own: variables that follow the level, weighted staircases, levels that can be reached,
 // equal energy, the schema; and the times of a study.
+#include "Core/Actuators/HandWeighting.h"
 #include "Io/Disk/ReadFile.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/StudyCsv.h"
@@ -15,6 +16,7 @@
 #include "TestPlaces.h"
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <set>
 
 namespace physvib {
@@ -136,11 +138,11 @@ TEST(ProtocolLanguage, EqualRmsAndEnergyAreThoseOfTheSamples) {
             for (int i = 0; i < steps; ++i)
                 squares += std::exp(-2.0 * decay * seconds * (i + 0.5) / steps) * seconds / steps;
             PhantomJob job{FieldPlace{0.5, 0.5}, PanningLaw::linear, 1.0, seconds, decay};
-            EXPECT_EQ(job.peakFactor(), 1.0);
+            EXPECT_EQ(job.peakFactor(205.0), 1.0);
             job.levelOf = LevelOf::rms;
-            EXPECT_NEAR(job.peakFactor() * std::sqrt(squares / seconds), 1.0, 1e-6);
+            EXPECT_NEAR(job.peakFactor(205.0) * std::sqrt(squares / seconds), 1.0, 1e-6);
             job.levelOf = LevelOf::energy;
-            EXPECT_NEAR(job.peakFactor() * std::sqrt(squares), 1.0, 1e-6);
+            EXPECT_NEAR(job.peakFactor(205.0) * std::sqrt(squares), 1.0, 1e-6);
         }
     StimulusJob plain{PhantomJob{FieldPlace{0.5, 0.5}}};
     EXPECT_EQ(textOf(plain).find("--decay"), std::string::npos) << "rows of before stay the same";
@@ -148,6 +150,30 @@ TEST(ProtocolLanguage, EqualRmsAndEnergyAreThoseOfTheSamples) {
     std::get<PhantomJob>(plain.what).levelOf = LevelOf::energy;
     EXPECT_NE(textOf(plain).find("--decay 30 --level-of energy --seconds 1"), std::string::npos)
         << textOf(plain);
+}
+
+TEST(ProtocolLanguage, EqualWeightedLevelsAreThoseOfTheWeightedSamples) {
+    PhantomJob job{.at = FieldPlace{0.5, 0.5}, .levelOf = LevelOf::weighted};
+    constexpr int rate = 192000;
+    for (const double hz : {12.5, 40.0, 205.0, 1000.0})
+        for (const double decay : {0.0, 30.0, 300.0})
+            for (const double seconds : {0.005, 0.1, 1.0}) {
+                HandWeighting weighting{rate};
+                double squares = 0.0;
+                const int frames = static_cast<int>(seconds * rate);
+                for (int n = 0; n < frames; ++n) {
+                    const double t = static_cast<double>(n) / rate,
+                                 y = weighting.process(std::exp(-decay * t) *
+                                                       std::sin(2.0 * std::numbers::pi * hz * t));
+                    squares += y * y / frames;
+                }
+                job.seconds = seconds, job.decayPerSecond = decay;
+                EXPECT_NEAR(job.peakFactor(hz) * std::sqrt(2.0 * squares), 1.0, 0.02)
+                    << hz << " Hz, " << decay << " 1/s, " << seconds << " s";
+            }
+    job.seconds = 600.0, job.decayPerSecond = 0.0;
+    for (const double hz : {12.5, 205.0, 1000.0})
+        EXPECT_NEAR(job.peakFactor(hz) * handWeighting::gain(hz), 1.0, 1e-3) << hz;
 }
 
 TEST(ProtocolLanguage, TheSchemaHasEveryFieldThatIsReadAndItsRange) {

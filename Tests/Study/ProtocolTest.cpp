@@ -63,6 +63,8 @@ TEST(Protocol, FaultsAreNamedByTheirField) {
                   p.sessions[0].adjustment = Adjustment{"a", 0.0, 1.0, 5.0, -5.0};
               }),
               "sessions[0].adjustment: expected least_db <= start_db <= most_db");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].mayBeEmpty = true; }),
+              "sessions[0].may_be_empty: expected it of the task describe only");
     EXPECT_EQ(fault([](Protocol& p) { p.conditions.clear(); }),
               "conditions: expected one or more, found none");
 }

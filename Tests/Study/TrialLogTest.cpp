@@ -224,6 +224,20 @@ TEST_F(TrialLogFiles, SayWithWhatTrialsWereFelt) {
     }
 }
 
+TEST_F(TrialLogFiles, KeepAnswersInWords) {
+    Protocol p = findProtocol("magnitudes").value;
+    p.sessions = {{.name = "main", .task = StudyTask::describe, .mayBeEmpty = true}};
+    const std::vector<std::string> words{"a, b", "\"c\"", "=1+1", "'=x", "# no comment", "", "\uac15", "x'"};
+    std::size_t n = 0;
+    goOn(p, [&](Answer& answer) { answer.response = words[n++ % words.size()]; });
+    const auto log = readTrialLog(readFile(path, 1'000'000).value, "t.csv", p, participant);
+    ASSERT_TRUE(log) << log.error;
+    ASSERT_EQ(log.value.records.size(), n);
+    for (std::size_t i = 0; i < n; ++i)
+        EXPECT_EQ(log.value.records[i].answer.response, words[i % words.size()]);
+    EXPECT_NE(readFile(path, 1'000'000).value.find(",'=1+1,"), std::string::npos) << "no formula";
+}
+
 TEST_F(TrialLogFiles, HaveOneWriterAtATime) {
     const Protocol p = findProtocol("magnitudes").value;
     Experiment experiment{p, participant};

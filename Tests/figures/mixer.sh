@@ -6,6 +6,6 @@ set -eu
 shots=$1
 folder=${2:-Docs}
 for state in $("$shots" --states); do
-    case $state in sheet-*) continue ;; studies-*) name=$state ;; *) name=mixer-$state ;; esac
+    case $state in sheet-* | first-test) continue ;; studies-*) name=$state ;; *) name=mixer-$state ;; esac
     "$shots" "$folder/$name.png" "$state"
 done

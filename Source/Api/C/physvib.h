@@ -48,6 +48,15 @@ typedef long long physvib_int64; /**< of 64 bits */
 #define PHYSVIB_UNUSED
 #endif
 
+#if defined(__GNUC__)
+/** A function that goes: what to call instead. */
+#define PHYSVIB_DEPRECATED(instead) __attribute__((deprecated(instead)))
+#elif defined(_MSC_VER)
+#define PHYSVIB_DEPRECATED(instead) __declspec(deprecated(instead))
+#else
+#define PHYSVIB_DEPRECATED(instead)
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -295,7 +304,7 @@ typedef struct physvib_output_facts {
 #define PHYSVIB_NOTE_DISABLED 2 /**< of physvib_world_note: the engine does not simulate it */
 #define PHYSVIB_NOTE_ASLEEP 3   /**< of physvib_world_note: it rests until something wakes it */
 
-/** The version, "0.2.0". Any thread. */
+/** The version, as "1.0.0" or "1.0.0-rc.1". Any thread. */
 PHYSVIB_API const char* physvib_version(void);
 
 /** The name of a panning law, as options and files have it; they are numbered from 0 (PHYSVIB_LAW_...); NULL

@@ -382,10 +382,10 @@ public static class Haptics {
 
 /// <summary>How the library is called on each system. Unity finds it by its bare name, and Mono by the name that Linux has.</summary>
 public static class LibraryNames {
-    /// <summary>The names that are tried for "libphysvib.so.0", in their order; PHYSVIB_LIBRARY (or PHYSVIB_LIVE_LIBRARY) comes first.</summary>
+    /// <summary>The names that are tried for "libphysvib.so.1", in their order; PHYSVIB_LIBRARY (or PHYSVIB_LIVE_LIBRARY) comes first.</summary>
     public static string[] Of(string library, PlatformID system, bool isMac) {
-        var bare = library.Replace("lib", "").Replace(".so.0", "");
-        if (isMac) return new[] { "lib" + bare + ".0.dylib", "lib" + bare + ".dylib" };
+        var bare = library.Replace("lib", "").Replace(".so.1", "");
+        if (isMac) return new[] { "lib" + bare + ".1.dylib", "lib" + bare + ".dylib" };
         if (system == PlatformID.Win32NT) return new[] { "lib" + bare + ".dll", bare + ".dll" };
         return new[] { library, "lib" + bare + ".so" };
     }
@@ -423,7 +423,7 @@ static class Native {
 #if UNITY_5_3_OR_NEWER
     const string Library = "physvib";
 #else
-    const string Library = "libphysvib.so.0";
+    const string Library = "libphysvib.so.1";
 #endif
     static Native() { LibraryNames.Follow(); }
 

@@ -140,7 +140,7 @@ static class LiveNative {
 #if UNITY_5_3_OR_NEWER
     const string Library = "physvib-live";
 #else
-    const string Library = "libphysvib-live.so.0";
+    const string Library = "libphysvib-live.so.1";
 #endif
     static LiveNative() { LibraryNames.Follow(); }
 

@@ -18,10 +18,10 @@ struct Library {
     std::string missing; ///< why it could not be loaded
 
     Library() {
-        void* handle = dlopen("libphysvib-live.so.0", RTLD_NOW | RTLD_LOCAL);
+        void* handle = dlopen("libphysvib-live.so.1", RTLD_NOW | RTLD_LOCAL);
         if (handle == nullptr) {
             const char* reason = dlerror();
-            missing = reason != nullptr ? reason : "libphysvib-live.so.0: expected beside the addon";
+            missing = reason != nullptr ? reason : "libphysvib-live.so.1: expected beside the addon";
             return;
         }
         find(handle, "physvib_live_open", open), find(handle, "physvib_live_close", close);
@@ -32,7 +32,7 @@ struct Library {
     template <class Function>
     void find(void* handle, const char* name, Function& function) {
         function = reinterpret_cast<Function>(dlsym(handle, name));
-        if (function == nullptr) missing = std::string("libphysvib-live.so.0 lacks ") + name;
+        if (function == nullptr) missing = std::string("libphysvib-live.so.1 lacks ") + name;
     }
 };
 const Library& library() {

@@ -1,13 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Builds the addon for Godot: build/godot/addons/physvib, which one copies into a project, and the same as build/godot/physvib-VERSION.zip, as the asset library takes it.
-# GODOT is a program of Godot 4.4 or newer, which writes the header that the addon is compiled with; what compiles it comes from Debian.
+# GODOT is a program of Godot 4.4 or newer, which writes the header that the addon is compiled with, or that header; what compiles it comes from Debian.
 # With arm64 or windows it holds that system's library as well, cross-built as Tests/arm64.sh and Tests/windows.sh do; the first time that takes half an hour.
+# PHYSVIB_BUILD: a build folder of this tree that compiles it, instead of build/release.
 # usage: Source/Api/Godot/build-addon.sh GODOT [arm64] [windows]
 set -eu
 [ $# -ge 1 ] || { echo "usage: Source/Api/Godot/build-addon.sh GODOT [arm64] [windows]" >&2; exit 1; }
-godot=$(command -v "$1") || { echo "physvib: expected a program of Godot 4, found $1" >&2; exit 1; }
-godot=$(cd "$(dirname "$godot")" && pwd)/$(basename "$godot")
+godot=$1
+[ -f "$godot" ] || godot=$(command -v "$godot") || { echo "physvib: expected a program of Godot 4 or its header, found $1" >&2; exit 1; }
+godot=$(realpath "$godot")
 shift
 cd "$(dirname "$0")/../../.."
 . .ci/packages.sh
@@ -17,13 +19,16 @@ ensure_build_packages $physvib_run_packages
 work=$PWD/build/godot
 mkdir -p "$work"
 say "building the addon (log: build/godot/build.log)"
-if ! { (cd "$work" && HOME=$work "$godot" --headless --dump-gdextension-interface) && [ -f "$work/gdextension_interface.h" ] &&
-    cmake --preset release -DPHYSVIB_GODOT_HEADER="$work" && cmake --build --preset release --target physvib-godot; } >"$work/build.log" 2>&1; then
+build=${PHYSVIB_BUILD:-build/release}
+header() { case $godot in *.h) cp "$godot" "$work/gdextension_interface.h" ;; *) cd "$work" && HOME=$work "$godot" --headless --dump-gdextension-interface ;; esac; }
+configure() { if [ -n "${PHYSVIB_BUILD:-}" ]; then cmake "$build" "$@"; else cmake --preset release "$@"; fi; }
+if ! { (header) && [ -f "$work/gdextension_interface.h" ] &&
+    configure -DPHYSVIB_GODOT_HEADER="$work" && cmake --build "$build" --target physvib-godot; } >"$work/build.log" 2>&1; then
     cat "$work/build.log" >&2
     exit 1
 fi
 rm -rf "$work/addons" "$work"/*.zip
-cp -r build/release/godot/addons "$work"
+cp -r "$build/godot/addons" "$work"
 bin=$work/addons/physvib/bin
 strip --strip-unneeded "$bin"/linux.*/*
 # shellcheck disable=SC2034 # roots and targets: for cross.sh
@@ -47,6 +52,6 @@ for system in "$@"; do
 done
 cp /usr/share/doc/libhwy1/copyright "$bin/libhwy-LICENSE"
 version=$(sed -n 's/^version="\(.*\)"/\1/p' "$work/addons/physvib/plugin.cfg")
-(cd "$work" && cmake -E tar cf "physvib-$version.zip" --format=zip addons)
+SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git show -s --format=%ct)} python3 Standalone/Packaging/pack.py "$work/addons" "$work/physvib-$version.zip"
 say "build/godot/physvib-$version.zip: $(wc -c <"$work/physvib-$version.zip") bytes"
 say "build/godot/addons is ready: copy it into your project"

@@ -9,7 +9,11 @@ string(REGEX REPLACE ".* VERSION ([0-9]+)\\.([0-9]+)\\.([0-9]+) .*" "\\1;\\2;\\3
 list(GET numbers 0 PROJECT_VERSION_MAJOR)
 list(GET numbers 1 PROJECT_VERSION_MINOR)
 list(GET numbers 2 PROJECT_VERSION_PATCH)
-string(REPLACE ";" "." PROJECT_VERSION "${numbers}")
+string(REPLACE ";" "." PHYSVIB_VERSION "${numbers}")
+file(STRINGS ${physvib_root}/CMakeLists.txt prerelease REGEX "^set\\(PHYSVIB_PRERELEASE \"[^\"]")
+if(prerelease MATCHES "\"(.+)\"")
+    string(APPEND PHYSVIB_VERSION -${CMAKE_MATCH_1})
+endif()
 configure_file(${physvib_root}/Source/Package/Version.h.in include/physvib/Version.h @ONLY)
 # JavaScript calls all functions of the header except those of files, which a page lacks, of materials, for which it has materials.js, and of pads (Pads.cpp);
 # it reads all members of its structures.

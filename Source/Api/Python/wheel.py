@@ -56,11 +56,12 @@ def tag_of(libraries: list[Path]) -> str:
 
 def make(library: Path, folder: Path) -> Path:
     package = Path(__file__).parent / "physvib"
-    version = library.resolve().name.split(".so.")[1]
+    text = (Path(__file__).parents[3] / "CMakeLists.txt").read_text()
+    version = re.search(r"^project\(PhysVib VERSION (\S+)", text, re.M)[1] + re.search(r'^set\(PHYSVIB_PRERELEASE "(.*?)"', text, re.M)[1].replace(".", "")
     others = needed(library)
     tag = tag_of([library, *others.values()])
     files = {f"physvib/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.suffix in (".py", ".typed")}
-    files["physvib/libphysvib.so.0"] = library.read_bytes()
+    files["physvib/libphysvib.so.1"] = library.read_bytes()
     for name, path in others.items():
         files[f"physvib/{name}"] = path.read_bytes()
     about = f"physvib-{version}.dist-info"
@@ -83,7 +84,7 @@ def build_wheel(folder: str, config_settings: object = None, metadata_directory:
     with tempfile.TemporaryDirectory() as build:
         for command in (["cmake", "--preset", "library", "-B", build], ["cmake", "--build", build, "--target", "physvib-c"]):
             subprocess.run(command, check=True, cwd=root)
-        return make(next(Path(build).glob("lib/libphysvib.so.0")), Path(folder)).name
+        return make(next(Path(build).glob("lib/libphysvib.so.1")), Path(folder)).name
 
 
 def build_sdist(folder: str, config_settings: object = None) -> str:

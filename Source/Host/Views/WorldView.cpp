@@ -15,11 +15,12 @@ namespace physvib {
 
 namespace {
 
-constexpr double hitMs = 450.0;         // how long a hit glows
-constexpr std::size_t mostHits = 48;    // simultaneous; more would only glare
-constexpr std::size_t mostTraces = 400; // for 30 sliding pairs
-constexpr float wallPixels = 11.0f;     // bodies around the field are drawn as a frame of this width
-constexpr float lowBadge = 24.0f;       // has small text
+constexpr double hitMs = 450.0;          // how long a hit glows
+constexpr std::size_t mostHits = 48;     // simultaneous; more would only glare
+constexpr std::size_t mostTraces = 400;  // for 30 sliding pairs
+constexpr float wallPixels = 11.0f;      // bodies around the field are drawn as a frame of this width
+constexpr float lowBadge = 24.0f;        // has small text
+constexpr float leastSpokePixels = 4.0f; // radius of a circle whose rotation is seen
 
 float levelOf(double amplitude) {
     return juce::jlimit(
@@ -326,8 +327,9 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
                 g.strokePath(path, juce::PathStrokeType{3.0f}, place);
             else if (!drawMaterial(g, fixture, path, place))
                 g.fillPath(path, place);
-            if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) { // shows the rotation
-                const float r = static_cast<float>(circle->radiusMetres) * at.pixelsPerMetre;
+            const auto* circle = std::get_if<CircleShape>(&fixture.shape);
+            const float r = circle ? static_cast<float>(circle->radiusMetres) * at.pixelsPerMetre : 0.0f;
+            if (r >= leastSpokePixels) { // shows the rotation
                 juce::Path spoke;
                 spoke.startNewSubPath(0.0f, 0.0f);
                 spoke.lineTo(r * 0.9f, 0.0f);

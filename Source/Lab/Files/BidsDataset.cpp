@@ -41,7 +41,7 @@ constexpr ColumnMeaning meanings[] = {
     {"task", "task", "What the participant did: ", ""},
     {"stimulus", "stimulus", "Label of what was felt", ""},
     {"parts", "parts", "What was felt one by one, in that order, between vertical bars", ""},
-    {"response", "response", "Label that was answered", ""},
+    {"response", "response", "Label or words that were answered", ""},
     {"target_column", "target_column", "Column of the target, from 1 at the left", ""},
     {"target_row", "target_row", "Row of the target, from 1 at the top", ""},
     {"x", "x", "Where the participant pointed, to the right, as a share of the field's width", "1"},

@@ -170,6 +170,7 @@ void visitFields(auto& v, FieldsOf<SessionPlan>) {
     v.field("rove_db", &S::roveDb, Bounds{0.0, 40.0}, Need::optional);
     v.field("modulus", &S::modulus, anyText, Need::optional);
     v.field("modulus_number", &S::modulusNumber, Bounds{1e-6, 1e6}, Need::optional);
+    v.field("may_be_empty", &S::mayBeEmpty, {}, Need::optional);
     v.field("levels_from", &S::levelsFrom, anyText, Need::optional);
     v.field("levels_file", &S::levelsFile, anyText, Need::optional);
 }

@@ -208,6 +208,7 @@ std::string sessionWords(const SessionPlan& session) {
     if (!session.modulus.empty())
         words += "; each trial begins with " + session.modulus + ", which counts as " +
                  numberText(session.modulusNumber);
+    if (session.mayBeEmpty) words += "; an answer may be left empty";
     if (session.mostPlays > 0) words += "; felt at most " + std::to_string(session.mostPlays) + " times";
     if (session.breakBeforeSeconds > 0.0)
         words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";

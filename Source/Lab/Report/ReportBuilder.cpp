@@ -40,6 +40,17 @@ std::string shortened(const std::string& words, const std::string& table) {
            "\n";
 }
 
+/// From the columns of sphericity: what the lines of effects with several degrees of freedom have.
+std::string sphericitySentence(const std::vector<TestLine>& lines) {
+    const auto has = [&](auto isSo) { return std::ranges::any_of(lines, isSo); };
+    if (!has([](const TestLine& line) { return line.sphericity.has_value(); })) return {};
+    const bool isTested =
+        has([](const TestLine& line) { return line.sphericity && line.sphericity->mauchlyW; });
+    return std::string{" Where an effect has more than one degree of freedom, its line has "} +
+           (isTested ? "Mauchly's test of sphericity, where there are participants enough, and " : "") +
+           "Greenhouse and Geisser's correction.";
+}
+
 } // namespace
 
 std::string fileWord(const std::string& words) {
@@ -106,7 +117,8 @@ AnalysisReport ReportBuilder::analysis(const std::string& kind, const AnalysisJo
     return report;
 }
 
-void ReportBuilder::tellAssumptions(AnalysisJob options, const std::string& name) {
+void ReportBuilder::tellAssumptions(AnalysisJob options, const std::string& name,
+                                    const std::vector<TestLine>& lines) {
     options.correction = Correction::holm;
     const ReportTest check{"shapiro", options, "assumptions-" + name, 0};
     const AnalysisReport report = analyse("shapiro", options);
@@ -117,9 +129,8 @@ void ReportBuilder::tellAssumptions(AnalysisJob options, const std::string& name
     tables_[check.table] = report.table;
     page.paragraph("Assumptions: by Shapiro and Wilk's test the participants' values are not normal in " +
                    std::to_string(beyond) + " of " + std::to_string(report.lines.size()) +
-                   " cells (p < 0.05, corrected by Holm for the cells; " + check.table +
-                   "). Where an effect has more than one degree of freedom, its line has Mauchly's test of "
-                   "sphericity and Greenhouse and Geisser's correction.");
+                   " cells (p < 0.05, corrected by Holm for the cells; " + check.table + ")." +
+                   sphericitySentence(lines));
     page.call(check.call() + " --correction holm");
 }
 
@@ -134,7 +145,7 @@ std::vector<TestLine> ReportBuilder::test(const std::string& kind, AnalysisJob o
         return {};
     }
     tables_[name] = report.table;
-    if (kind == "anova") tellAssumptions(test.options, name);
+    if (kind == "anova") tellAssumptions(test.options, name, report.lines);
     if (isLong) {
         const auto count = std::ranges::count_if(report.lines, [](const TestLine& line) {
             return line.pCorrected.value_or(line.p.value_or(1.0)) < 0.05;

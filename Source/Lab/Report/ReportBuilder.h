@@ -69,9 +69,9 @@ public:
 
 private:
     void warn(const std::vector<std::string>& warnings);
-    void tellAssumptions(AnalysisJob options, const std::string& name); ///< assumptions of an analysis of
-                                                                        ///< variance
-    std::map<std::string, std::string> tables_;                         // by file name
+    /// Assumptions of an analysis of variance with these effects.
+    void tellAssumptions(AnalysisJob options, const std::string& name, const std::vector<TestLine>& lines);
+    std::map<std::string, std::string> tables_; // by file name
     std::vector<ReportTest> tests_;
     std::vector<std::string> warned_;
     int charts_ = 0;

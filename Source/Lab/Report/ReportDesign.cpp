@@ -145,13 +145,14 @@ void tellPower(ReportBuilder& report) {
     if (!report.tests().empty()) tellPairedPower(report, people, table);
     if (trials > 0) {
         const SharePower shares{people, trials};
-        report.page.paragraph("Of forced choices between two (" + std::to_string(trials) +
-                              " trials of each participant, all with the same true share; signed ranks "
-                              "against one half at p < 0.05): a share of " +
-                              (shares.smallestShare(0.8)
-                                   ? fixedNumber(100.0 * *shares.smallestShare(0.8), 0) + " %"
-                                   : std::string{"more than 95 %"}) +
-                              " or more is found in 80 % of the studies. Participants who differ need more.");
+        report.page.paragraph(
+            "Of forced choices between two (" + std::to_string(trials) +
+            " trials of each participant, all with the same true share; signed ranks "
+            "against one half at p < 0.05): " +
+            (shares.smallestShare(0.8)
+                 ? "a share of " + fixedNumber(100.0 * *shares.smallestShare(0.8), 0) + " % or more"
+                 : std::string{"no share up to 95 %"}) +
+            " is found in 80 % of the studies. Participants who differ need more.");
         for (const double share : {0.52, 0.55, 0.6, 0.65, 0.7, 0.8}) {
             table.row("signed ranks, share", share, shares.at(share), "");
         }

@@ -22,6 +22,8 @@ void tellPlaceErrors(ReportBuilder& report);    ///< targets without a grid: con
 void tellChoices(ReportBuilder& report);        ///< Fig. 5.8, 5.9
 void tellRatings(ReportBuilder& report);        ///< Fig. 5.13, 5.14
 void tellLevels(ReportBuilder& report); ///< staircases, adjustments, magnitudes; psychometric functions
+/// Counts answers in words by stimulus; true if there are any.
+bool tellDescriptions(ReportBuilder& report);
 
 /// "P01 began at ...": from the columns time_utc, event, language, outputs and noise_outputs. Precondition:
 /// there are moments. Any thread (allocates).

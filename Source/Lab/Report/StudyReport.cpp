@@ -55,7 +55,7 @@ StudyReport studyReport(const ReportTrials& trials) {
     const auto kinds = analysesFor(trials.all);
     for (const Section& section : sections)
         if (std::ranges::find(kinds, section.analysis) != kinds.end()) section.tell(report);
-    if (kinds.empty()) {
+    if (!tellDescriptions(report) && kinds.empty()) {
         made.notes.emplace_back(
             "no analysis is known for these trials: the report has their table and the participants only");
         report.page.heading("Results");

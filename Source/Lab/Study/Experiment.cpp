@@ -206,6 +206,11 @@ std::string Experiment::refusal(const Answer& answer) const {
         return answer.value >= leastEstimate && answer.value <= mostEstimate
                    ? ""
                    : "expected a number from 1e-12 to 1e12";
+    case AnswerKind::words:
+        if (answer.response.empty()) return s.mayBeEmpty ? "" : "expected words, found none";
+        return answer.response.size() <= mostAnswerBytes
+                   ? ""
+                   : "expected at most " + std::to_string(mostAnswerBytes) + " bytes of words";
     }
     return "expected a task";
 }

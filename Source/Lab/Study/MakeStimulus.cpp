@@ -56,7 +56,7 @@ Result<Stimulus> makeStimulus(const StimulusJob& job, const LayoutDescription& l
     Stimulus made = phantomStimulus(phantom.place(), layout.geometry, phantom.law, phantom.exponent, carrier,
                                     phantom.seconds);
     made.events.front().decayPerSecond = phantom.decayPerSecond;
-    made.events.front().amplitude *= phantom.peakFactor();
+    made.events.front().amplitude *= phantom.peakFactor(frequencyHz.value);
     return made;
 }
 

@@ -91,6 +91,8 @@ std::string taskFault(const SessionPlan& s) {
         return "rove_db: expected it of " + tasksThatAnswer({Kind::choice}) + " only";
     if (!s.modulus.empty() && answer != Kind::number)
         return "modulus: expected it of " + tasksThatAnswer({Kind::number}) + " only";
+    if (s.mayBeEmpty && answer != Kind::words)
+        return "may_be_empty: expected it of " + tasksThatAnswer({Kind::words}) + " only";
     if (answer != Kind::wish && s.fewestTouches > 0)
         return "fewest_touches: expected it of " + tasksThatAnswer({Kind::wish}) + " only";
     return {};

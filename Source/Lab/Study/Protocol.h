@@ -180,6 +180,7 @@ struct SessionPlan {
     double roveDb = 0.0;  ///< all parts of a trial are raised or lowered together by up to this, at random
     std::string modulus;  ///< estimate: the stimulus that each trial begins with
     double modulusNumber = 10.0; ///< and what it counts as
+    bool mayBeEmpty = false;     ///< describe: an answer without words is taken
     std::string levelsFrom;      ///< an earlier session whose adjusted levels apply here
     std::string levelsFile;      ///< or a file with the levels of other participants (Lab/Files/LevelsFile.h)
     bool operator==(const SessionPlan&) const = default;

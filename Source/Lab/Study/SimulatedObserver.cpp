@@ -3,6 +3,7 @@
 #include "Lab/Study/SimulatedObserver.h"
 #include "Core/Decibels.h"
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -113,6 +114,7 @@ Answer SimulatedObserver::answer(const Experiment& experiment) const {
     case AnswerKind::number:
         answer.value = std::clamp(magnitude(condition, trial, random), leastEstimate, mostEstimate);
         break;
+    case AnswerKind::words: answer.response = described(session, random); break;
     }
     return answer;
 }
@@ -191,6 +193,15 @@ std::string SimulatedObserver::chosen(const SessionPlan& session, const Trial& t
     if (!session.correct.empty() && random.chance(0.5)) return session.correct; // knows half of them
     if (random.chance(settings_.firstAlternativePreference)) return session.alternatives.front().name;
     return session.alternatives[1 + random.below(session.alternatives.size() - 1)].name;
+}
+
+/// Words that a table, a page and a spreadsheet must leave as they are; now and then none, where that is
+/// taken.
+std::string SimulatedObserver::described(const SessionPlan& session, SeededRandom& random) {
+    static constexpr std::array words{"weak, short", "like \"tapping\"", "=strong", "<rough> & deep",
+                                      "\uac15\ud55c"};
+    if (session.mayBeEmpty && random.chance(0.25)) return {};
+    return words[random.below(words.size())];
 }
 
 double SimulatedObserver::scored(const Trial& trial, SeededRandom& random) const {

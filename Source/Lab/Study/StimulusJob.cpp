@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Checks a stimulus job against its valid ranges.
 #include "Lab/Study/StimulusJob.h"
+#include "Core/Actuators/HandWeighting.h"
 #include "Lab/Study/NumberWord.h"
 #include "Lab/Study/PercentCounts.h"
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 namespace physvib {
 namespace {
@@ -45,6 +48,38 @@ JobFault faultOfKind(const PhantomJob& phantom) {
     return rangeFault(words::seconds, phantom.seconds, ranges::seconds);
 }
 
+/// Integral over the length of the squared weighted samples of a tone that begins at peak 1. Without a
+/// sample rate: by the poles of tone and weighting, so no transform warps frequencies.
+double weightedSquares(double frequencyHz, double decayPerSecond, double seconds) noexcept {
+    using Complex = std::complex<double>;
+    using namespace handWeighting;
+    const auto radians = [](double hz) { return 2.0 * std::numbers::pi * hz; };
+    std::array<Complex, 8> poles{Complex{-decayPerSecond, radians(frequencyHz)}};
+    std::size_t at = 1;
+    for (const auto& [hz, q] :
+         {std::pair{lowHz, bandQ}, std::pair{highHz, bandQ}, std::pair{transitionHz, transitionQ}}) {
+        poles[at] = radians(hz) * Complex{-0.5 / q, std::sqrt(1.0 - 0.25 / (q * q))};
+        ++at;
+    }
+    for (std::size_t k = 0; k < 4; ++k) poles[4 + k] = std::conj(poles[k]);
+    const double high = radians(highHz), transition = radians(transitionHz),
+                 gain = radians(frequencyHz) * high * high * transition;
+    std::array<Complex, 8> residues;
+    for (std::size_t k = 0; k < 8; ++k) {
+        residues[k] = gain * poles[k] * poles[k] * (poles[k] + transition);
+        for (std::size_t j = 0; j < 8; ++j)
+            if (j != k) residues[k] /= poles[k] - poles[j];
+    }
+    Complex squares;
+    for (std::size_t k = 0; k < 8; ++k)
+        for (std::size_t j = 0; j < 8; ++j) {
+            const Complex both = poles[k] + poles[j]; // 0 of a tone that does not decay
+            squares +=
+                residues[k] * residues[j] * (both == 0.0 ? seconds : (std::exp(both * seconds) - 1.0) / both);
+        }
+    return squares.real();
+}
+
 } // namespace
 
 FieldPlace PhantomJob::place() const noexcept {
@@ -52,7 +87,9 @@ FieldPlace PhantomJob::place() const noexcept {
     return *std::get_if<FieldPlace>(&at);
 }
 
-double PhantomJob::peakFactor() const noexcept {
+double PhantomJob::peakFactor(double frequencyHz) const noexcept {
+    if (levelOf == LevelOf::weighted)
+        return std::sqrt(0.5 * seconds / weightedSquares(frequencyHz, decayPerSecond, seconds));
     const double twice = 2.0 * decayPerSecond, // integral of the squared envelope, in s:
         envelopeSeconds = twice > 0.0 ? -std::expm1(-twice * seconds) / twice : seconds;
     return levelOf == LevelOf::peak ? 1.0

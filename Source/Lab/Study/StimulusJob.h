@@ -40,9 +40,10 @@ struct GridPlace {
 };
 
 /// What levelG is of: the peak; the peak of an undamped tone with the same root mean square over the length;
-/// or that of an undamped tone of one second with the same energy.
-enum class LevelOf { peak, rms, energy };
-inline constexpr std::array<std::string_view, 3> levelOfNames{"peak", "rms", "energy"};
+/// that of an undamped tone of one second with the same energy; or that of an undamped tone whose root mean
+/// square is the stimulus' over the length behind the weighting W_h (see HandWeighting.h).
+enum class LevelOf { peak, rms, energy, weighted };
+inline constexpr std::array<std::string_view, 4> levelOfNames{"peak", "rms", "energy", "weighted"};
 
 /// A phantom sensation between the actuators.
 struct PhantomJob {
@@ -56,8 +57,8 @@ struct PhantomJob {
     bool operator==(const PhantomJob&) const = default;
 
     FieldPlace place() const noexcept;
-    /// Peak over levelG that levelOf asks for.
-    double peakFactor() const noexcept;
+    /// Peak over levelG that levelOf asks for of a tone of that frequency.
+    double peakFactor(double frequencyHz) const noexcept;
 };
 
 struct StimulusJob {

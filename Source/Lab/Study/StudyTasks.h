@@ -13,7 +13,7 @@
 namespace physvib {
 
 /// The participant's task in a trial, in the order of the table.
-enum class StudyTask { explore, identify, locate, choose, rate, adjust, estimate };
+enum class StudyTask { explore, identify, locate, choose, rate, adjust, estimate, describe };
 
 /// Kind of an answer. It decides which fields of Answer and columns of the row are used, and what session and
 /// condition must have.
@@ -24,7 +24,8 @@ enum class AnswerKind {
     choice, ///< one of the session's alternatives
     scores, ///< one score per scale of the session
     level,  ///< level in dB of the alternative that is adjusted
-    number  ///< greater than 0
+    number, ///< greater than 0
+    words   ///< of the participant, on one line; listed, not analysed
 };
 
 /// English text, translated line by line. Where a variant is empty, `usual` applies.
@@ -88,7 +89,13 @@ inline constexpr std::array studyTasks{
                          AnswerKind::number,
                          "levels",
                          {"How much is it?"},
-                         {"Then type a number, and go on."}}};
+                         {"Then type a number, and go on."}},
+    StudyTaskDescription{StudyTask::describe,
+                         "describe",
+                         AnswerKind::words,
+                         "",
+                         {"What did it feel like?"},
+                         {"Then write it in your own words, and go on."}}};
 
 /// The task's entry. Any thread.
 constexpr const StudyTaskDescription& describe(StudyTask task) noexcept {

@@ -43,10 +43,12 @@ struct Apparatus {
 };
 
 constexpr double leastEstimate = 1e-12, mostEstimate = 1e12; // range of magnitude estimates
+constexpr std::size_t mostAnswerBytes = 4000;                // of an answer in words
 
 /// A participant's answer. Each task uses some of the fields.
 struct Answer {
-    std::string response; ///< identify: a label; choose: an alternative; explore: the stimulus that was felt
+    std::string response; ///< identify: a label; choose: an alternative; explore: the stimulus that was felt;
+                          ///< describe: words
     std::optional<FieldPlace> place; ///< locate; explore with free touches
     std::vector<double> scores;      ///< rate: one per scale
     double value = 0.0;              ///< adjust: dB; estimate: leastEstimate to mostEstimate

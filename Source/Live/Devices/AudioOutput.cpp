@@ -254,9 +254,11 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
         if (!motors_.has(j)) felt[static_cast<std::size_t>(j)] = out[k] + first;
     }
     guard_.process(felt.data(), frames);
+    const std::int64_t next = session.timeline().framesRendered() - session.timeline().playOutFrames();
     for (int j = 0; j < session.channels(); ++j)
-        if (const float* const at = felt[static_cast<std::size_t>(j)]) exposure_.take(j, at, frames);
-    exposure_.publish(); // on/off motors are left out: their vibration level is unknown
+        if (const float* const at = felt[static_cast<std::size_t>(j)])
+            exposure_.take(j, at, frames, next - frames);
+    exposure_.publish(next); // on/off motors are left out: their vibration level is unknown
 }
 
 AudioOutputStatus AudioOutput::status() {

@@ -29,15 +29,27 @@ struct HeardContacts::Source {
     }
 };
 
-RendererSettings HeardContacts::settingsAt(int sampleRateHz) {
+RendererSettings HeardContacts::settingsAt(int sampleRateHz, int ears, const PhantomPanner& field) {
     const EnchanterLayout here{1.0, 1.0, 1, {}};
-    return {.sampleRateHz = sampleRateHz, .panner = {here, PanningLaw::linear, 1.0, 1.0, 1.0}};
+    return {.sampleRateHz = sampleRateHz,
+            .panner = ears > 1 ? betweenEars(field.fieldWidthMetres(), field.fieldHeightMetres())
+                               : PhantomPanner{here, PanningLaw::linear, 1.0, 1.0, 1.0}};
+}
+
+std::vector<RenderControl> HeardContacts::controlsOf(std::vector<RenderControl> actuators, int ears) {
+    using enum RenderControl::Kind;
+    std::erase_if(actuators, [ears](const RenderControl& control) {
+        return control.kind != stopAll && !(control.kind == panner && ears > 1);
+    });
+    for (RenderControl& control : actuators)
+        if (control.kind == panner)
+            control.panner =
+                betweenEars(control.panner.fieldWidthMetres(), control.panner.fieldHeightMetres());
+    return actuators;
 }
 
 void HeardContacts::prepare(int sampleRateHz) {
-    RendererSettings settings = settingsAt(sampleRateHz);
-    if (ears_ > 1) settings.panner = betweenEars(field_.fieldWidthMetres(), field_.fieldHeightMetres());
-    renderer_->prepare(settings);
+    renderer_->prepare(settingsAt(sampleRateHz, ears_, field_));
     setContacts(sampleRateHz);
     for (CollisionEvent unplayed; events_.pop(unplayed);) {
     }

@@ -23,8 +23,11 @@ public:
         , field_{field}
         , ears_{ears} {}
 
-    /// Settings of the one-channel renderer, also for offline renders.
-    static RendererSettings settingsAt(int sampleRateHz);
+    /// Settings of its renderer, also for offline renders; `field` counts with two channels.
+    static RendererSettings settingsAt(int sampleRateHz, int ears = 1, const PhantomPanner& field = {});
+    /// What of the actuators' controls changes the audio, with two channels or one: stops, and fields, also
+    /// for offline renders.
+    static std::vector<RenderControl> controlsOf(std::vector<RenderControl> actuators, int ears);
 
     int ears() const noexcept { return ears_; } ///< Any thread.
 

@@ -76,15 +76,13 @@ OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderCont
 void renderContactSound(const LoadedRender& job, std::vector<RenderControl> controls,
                         RenderOutputs& outputs) {
     const ContactSounds sounds{job.recordings, job.options.sampleRateHz};
-    std::erase_if(controls,
-                  [](const RenderControl& control) { return control.kind != RenderControl::Kind::stopAll; });
     auto hits = job.made.events;
     std::erase_if(hits, [](const CollisionEvent& event) { return isClip(event.sound); });
     renderOffline(hits,
                   {HeardContacts::settingsAt(job.options.sampleRateHz),
                    job.frames(),
                    job.options.blockFrames,
-                   controls,
+                   HeardContacts::controlsOf(std::move(controls), 1),
                    {sounds.contacts(), true}},
                   [&](const float* const* channels, int frames) {
                       return outputs.takeContactSound(channels[0], frames);

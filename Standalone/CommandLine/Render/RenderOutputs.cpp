@@ -103,7 +103,7 @@ bool RenderOutputs::takeContactSound(const float* samples, int frames) {
     heard_.assign(samples, samples + frames);
     for (float& sample : heard_) sample *= gain;
     const float* const at = heard_.data();
-    if (movie_ && movie_->hasSound() && !movie_->takeSound(at, frames)) return false;
+    if (movie_ && movie_->hasSound() && !movie_->takeSound(&at, frames)) return false;
     return !contactWav_ || contactWav_->write(&at, frames);
 }
 

@@ -58,7 +58,7 @@ void TakeTrim::trimSilence() {
     if (levels_.empty())
         isWaiting_ = true;
     else
-        change(soundingPart(levels_, seconds_));
+        changeAtOnce(soundingPart(levels_, seconds_));
 }
 
 float TakeTrim::pixelOf(double seconds) const {
@@ -69,6 +69,19 @@ void TakeTrim::change(juce::Range<double> part) {
     part_ = part;
     repaint();
     if (onChange) onChange(part_);
+}
+
+void TakeTrim::changeAtOnce(juce::Range<double> part) {
+    change(part);
+    end();
+}
+
+void TakeTrim::end() {
+    if (onEnd) onEnd();
+}
+
+void TakeTrim::mouseUp(const juce::MouseEvent& e) {
+    if (e.mouseWasDraggedSinceMouseDown()) end();
 }
 
 void TakeTrim::moveTo(double seconds) {
@@ -91,6 +104,7 @@ bool TakeTrim::keyPressed(const juce::KeyPress& key) {
     if (!isLeft && !key.isKeyCode(juce::KeyPress::rightKey)) return false;
     movesEnd_ = key.getModifiers().isShiftDown();
     moveTo((movesEnd_ ? part_.getEnd() : part_.getStart()) + (isLeft ? -step : step));
+    end();
     return true;
 }
 

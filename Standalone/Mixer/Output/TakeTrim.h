@@ -19,17 +19,22 @@ public:
     void show(const juce::File& take, double seconds, juce::Range<double> part);
     /// Cuts the silence at both ends, as soon as the levels are there.
     void trimSilence();
+    void showAll() { changeAtOnce({0.0, seconds_}); }
     std::function<void(juce::Range<double> part)> onChange;
+    std::function<void()> onEnd; ///< after one or more changes: no more come
 
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent& e) override;
     void mouseDrag(const juce::MouseEvent& e) override { moveTo(seconds_ * e.position.x / getWidth()); }
-    void mouseDoubleClick(const juce::MouseEvent&) override { change({0.0, seconds_}); }
+    void mouseUp(const juce::MouseEvent& e) override;
+    void mouseDoubleClick(const juce::MouseEvent&) override { showAll(); }
     bool keyPressed(const juce::KeyPress& key) override;
 
 private:
     void moveTo(double seconds);
     void change(juce::Range<double> part);
+    void changeAtOnce(juce::Range<double> part);
+    void end();
     float pixelOf(double seconds) const;
     void handleAsyncUpdate() override;
 

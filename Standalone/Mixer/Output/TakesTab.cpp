@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lists, plays, copies and removes recordings.
 #include "Mixer/Output/TakesTab.h"
+#include "Mixer/Output/KeptPart.h"
 #include "Mixer/Output/TakePart.h"
 #include "Mixer/Window/CardHost.h"
 #include <algorithm>
@@ -21,6 +22,11 @@ juce::String lengthText(double seconds) {
 }
 
 } // namespace
+
+juce::String TakesTab::Take::length() const {
+    const auto all = lengthText(seconds);
+    return isTrimmed() ? lengthText(part.getLength()) + " of " + all : all;
+}
 
 TakesTab::TakesTab(Desk& desk)
     : desk_{desk} {
@@ -45,17 +51,19 @@ TakesTab::TakesTab(Desk& desk)
     addChildComponent(trimmer_);
     trimmer_.onChange = [this](juce::Range<double> part) {
         if (!take()) return;
-        if (part == juce::Range{0.0, take()->seconds})
-            parts_.erase(take()->file);
-        else
-            parts_[take()->file] = part;
+        take()->part = part;
         showChosen();
         list_.repaint();
+    };
+    trimmer_.onEnd = [this] {
+        if (!take()) return;
+        if (const auto error = keepPart(take()->file, take()->seconds, take()->part); !error.empty())
+            desk_.report(utf8(error));
     };
     showChosen();
 }
 
-const TakesTab::Take* TakesTab::take() const {
+TakesTab::Take* TakesTab::take() {
     const int row = list_.getSelectedRow();
     return row >= 0 && row < static_cast<int>(takes_.size()) ? &takes_[static_cast<std::size_t>(row)]
                                                              : nullptr;
@@ -80,9 +88,9 @@ void TakesTab::look() {
         const std::unique_ptr<juce::AudioFormatReader> reader{
             wav.createReaderFor(file.createInputStream().release(), true)};
         if (reader == nullptr || reader->sampleRate <= 0.0) continue; // not complete yet, or no recording
-        takes_.push_back({file, file.getLastModificationTime(),
-                          static_cast<double>(reader->lengthInSamples) / reader->sampleRate,
-                          static_cast<int>(reader->numChannels)});
+        const double seconds = static_cast<double>(reader->lengthInSamples) / reader->sampleRate;
+        takes_.push_back({file, file.getLastModificationTime(), seconds,
+                          static_cast<int>(reader->numChannels), keptPart(file, seconds)});
     }
     std::ranges::sort(takes_, [](const Take& a, const Take& b) { return b.at < a.at; });
     list_.updateContent();
@@ -99,26 +107,17 @@ void TakesTab::look() {
 void TakesTab::showChosen() {
     for (auto* button : {play_.get(), trim_.get(), export_.get(), erase_.get()})
         button->setEnabled(take() != nullptr);
-    trim_->setButtonText(take() && isTrimmed(*take()) ? "Whole" : "Trim");
-    if (take()) trimmer_.show(take()->file, take()->seconds, partOf(*take()));
+    trim_->setButtonText(take() && take()->isTrimmed() ? "Whole" : "Trim");
+    if (take()) trimmer_.show(take()->file, take()->seconds, take()->part);
     if (trimmer_.isVisible() == (take() != nullptr)) return;
     trimmer_.setVisible(take() != nullptr);
     resized();
 }
 
-juce::Range<double> TakesTab::partOf(const Take& take) const {
-    return isTrimmed(take) ? parts_.at(take.file) : juce::Range{0.0, take.seconds};
-}
-
-juce::String TakesTab::lengthOf(const Take& take) const {
-    const auto all = lengthText(take.seconds);
-    return isTrimmed(take) ? lengthText(partOf(take).getLength()) + " of " + all : all;
-}
-
 void TakesTab::trim() {
     if (!take()) return;
-    if (isTrimmed(*take()))
-        trimmer_.onChange({0.0, take()->seconds});
+    if (take()->isTrimmed())
+        trimmer_.showAll();
     else
         trimmer_.trimSilence();
 }
@@ -126,11 +125,12 @@ void TakesTab::trim() {
 // A session that plays a part keeps the part's file, so it stays; in a folder beside the takes.
 void TakesTab::play() {
     if (!take()) return;
-    if (!isTrimmed(*take())) return desk_.strikes().playTake(take()->file);
-    const auto part = partOf(*take());
-    const auto file = folder_->place().getChildFile("parts").getChildFile(
-        take()->file.getFileNameWithoutExtension() + " " + number(1e3 * part.getStart(), 0) + " to " +
-        number(1e3 * part.getEnd(), 0) + " ms.wav");
+    if (!take()->isTrimmed()) return desk_.strikes().playTake(take()->file);
+    const auto part = take()->part;
+    const auto file = partsFolder(take()->file)
+                          .getChildFile(take()->file.getFileNameWithoutExtension() + " " +
+                                        number(1e3 * part.getStart(), 0) + " to " +
+                                        number(1e3 * part.getEnd(), 0) + " ms.wav");
     if (!file.existsAsFile() || file.getLastModificationTime() < take()->at) {
         file.getParentDirectory().createDirectory();
         if (const auto error = writeTakePart(take()->file, part, file); !error.empty())
@@ -150,8 +150,8 @@ void TakesTab::exportTo(const juce::File& file) {
     if (!take() || file == take()->file) return;
     const auto from = take()->file;
     juce::String error;
-    if (isTrimmed(*take()))
-        error = utf8(writeTakePart(from, partOf(*take()), file));
+    if (take()->isTrimmed())
+        error = utf8(writeTakePart(from, take()->part, file));
     else if (!from.copyFileTo(file) ||
              (eventsOf(from).existsAsFile() && !eventsOf(from).copyFileTo(eventsOf(file))))
         error = file.getFullPathName() + ": cannot be written";
@@ -168,19 +168,22 @@ void TakesTab::askErase() {
 
 void TakesTab::erase() {
     if (!take()) return;
-    const auto file = take()->file;
+    const auto [file, seconds] = std::pair{take()->file, take()->seconds};
     const auto remove = [](const juce::File& f) { return f.moveToTrash() || f.deleteFile(); }; // some have no
                                                                                                // bin
     const bool isGone = remove(file);
     if (eventsOf(file).existsAsFile()) remove(eventsOf(file));
-    if (!isGone) desk_.report(file.getFullPathName() + ": cannot be deleted");
+    if (isGone)
+        (void)keepPart(file, seconds, {0.0, seconds}); // what stays is of no take
+    else
+        desk_.report(file.getFullPathName() + ": cannot be deleted");
     look();
 }
 
 juce::String TakesTab::getNameForRow(int row) {
     if (row < 0 || row >= static_cast<int>(takes_.size())) return {};
     const Take& t = takes_[static_cast<std::size_t>(row)];
-    return t.file.getFileNameWithoutExtension() + ", " + lengthOf(t);
+    return t.file.getFileNameWithoutExtension() + ", " + t.length();
 }
 
 void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
@@ -200,7 +203,7 @@ void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
     cell(t.at.formatted("%Y-%m-%d %H:%M"), 120);
     cell(juce::String{t.channels} + (t.channels == 1 ? " channel" : " channels"), 90);
     g.setColour(shade(*this, Shade::text));
-    cell(lengthOf(t), isTrimmed(t) ? 110 : 70);
+    cell(t.length(), t.isTrimmed() ? 110 : 70);
     g.setFont(juce::Font{text::medium});
     g.drawText(t.file.getFileNameWithoutExtension(), area, juce::Justification::centredLeft, true);
 }

@@ -4,7 +4,6 @@
 #include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Output/TakeTrim.h"
 #include "Mixer/Window/TabPanel.h"
-#include <map>
 
 namespace physvib {
 
@@ -34,6 +33,9 @@ private:
         juce::Time at;
         double seconds = 0.0;
         int channels = 0;
+        juce::Range<double> part; // that was chosen, s
+        bool isTrimmed() const { return part != juce::Range{0.0, seconds}; }
+        juce::String length() const; ///< as shown
     };
     int getNumRows() override { return static_cast<int>(takes_.size()); }
     void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
@@ -42,19 +44,15 @@ private:
     void returnKeyPressed(int) override { play(); }
     void deleteKeyPressed(int) override { askErase(); }
     juce::String getNameForRow(int row) override;
-    const Take* take() const;
+    Take* take();
     void showChosen();
-    juce::Range<double> partOf(const Take& take) const;
-    bool isTrimmed(const Take& take) const { return parts_.contains(take.file); }
-    juce::String lengthOf(const Take& take) const;
     void askExport();
     void askErase();
 
     Desk& desk_;
     juce::SharedResourcePointer<UserFolder> folder_;
-    std::vector<Take> takes_;                         // the newest first
-    std::map<juce::File, juce::Range<double>> parts_; // of those that were trimmed, s
-    juce::Time seenAt_;                               // last change of the folder that is listed
+    std::vector<Take> takes_; // the newest first
+    juce::Time seenAt_;       // last change of the folder that is listed
     double lookedAtMs_ = 0.0;
     juce::ListBox list_{"Takes", this};
     juce::Label none_;

@@ -7,7 +7,8 @@ namespace physvib {
 
 namespace {
 
-constexpr int scopeFootHeight = 16, mostLanes = SpectrumView::mostCurves, laneLabelWidth = 26, laneGap = 6;
+constexpr int scopeFootHeight = 16, mostLanes = SpectrumView::mostCurves, leastLabel = 26, afterLabel = 6,
+              laneGap = 6;
 
 float shownLevel(float sample) { return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample); }
 
@@ -64,7 +65,15 @@ void ScopeView::paint(juce::Graphics& g) {
     const auto& mix = desk_.mix();
     auto area = lanes_;
     const int lanes = std::min(mix.count(), mostLanes);
-    const auto foot = area.removeFromBottom(scopeFootHeight).withTrimmedLeft(laneLabelWidth);
+    const juce::Font bold{text::medium, juce::Font::bold};
+    const auto labelOf = [&](int j) {
+        return utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label);
+    };
+    int labelWidth = leastLabel;
+    for (int j = 0; j < lanes; ++j)
+        labelWidth = std::max(labelWidth, bold.getStringWidth(labelOf(j)) + afterLabel);
+    labelWidth = std::min(labelWidth, std::max(leastLabel, area.getWidth() / 5)); // the rest is cut
+    const auto foot = area.removeFromBottom(scopeFootHeight).withTrimmedLeft(labelWidth);
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
     const auto begin = mix.count() > lanes
@@ -81,10 +90,9 @@ void ScopeView::paint(juce::Graphics& g) {
     for (int j = 0; j < lanes; ++j) {
         auto lane = area.removeFromTop(height).withTrimmedBottom(j + 1 < lanes ? laneGap : 0);
         g.setColour(enchanterColour(*this, j));
-        g.setFont(juce::Font{text::medium, juce::Font::bold});
-        g.drawText(utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label),
-                   lane.removeFromLeft(laneLabelWidth).withTrimmedRight(2), juce::Justification::centredLeft,
-                   true);
+        g.setFont(bold);
+        g.drawText(labelOf(j), lane.removeFromLeft(labelWidth).withTrimmedRight(2),
+                   juce::Justification::centredLeft, true);
         drawLane(g, lane, j);
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Answers that need no field: labels, alternatives, scales, a level, a number.
+// Answers that need no field: labels, alternatives, scales, a level, a number, words.
 #include "Io/Text/NumberText.h"
 #include "Mixer/Studies/StudyAnswer.h"
 #include "Mixer/Studies/StudyParts.h"
@@ -281,6 +281,42 @@ private:
     } number_;
 };
 
+/// One paragraph in the participant's own words.
+class WordsAnswer final : public StudyAnswer {
+public:
+    explicit WordsAnswer(bool mayBeEmpty)
+        : mayBeEmpty_{mayBeEmpty} {
+        setTitle("Words");
+        words_.setTitle("Words");
+        words_.setMultiLine(true);
+        words_.setInputRestrictions(mostAnswerBytes / 4); // characters of UTF-8
+        words_.setFont(juce::Font{text::large});
+        words_.onTextChange = [this] {
+            if (onChange) onChange();
+        };
+        words_.setEscapeAndReturnKeysConsumed(false);
+        addAndMakeVisible(words_);
+    }
+    Answer answer() const override {
+        Answer answer;
+        answer.response = words_.getText().replaceCharacters("\r\n\t", "   ").trim().toStdString();
+        return answer;
+    }
+    bool isComplete() const override { return mayBeEmpty_ || !answer().response.empty(); }
+    std::string keys() const override { return "Write, then Enter."; }
+    bool takeKey(const juce::KeyPress& key) override { return isEnabled() && words_.keyPressed(key); }
+    void beginAnew() override { words_.grabKeyboardFocus(); }
+    void resized() override { words_.setBounds(column(getLocalBounds(), 760, 200)); }
+    void enablementChanged() override {
+        words_.setVisible(isEnabled()); // hidden until it may be answered
+        if (isEnabled()) words_.applyColourToAllText(shade(*this, Shade::text));
+    }
+
+private:
+    const bool mayBeEmpty_;
+    juce::TextEditor words_;
+};
+
 std::unique_ptr<StudyAnswer> labelled(const ConditionPlan& condition, const LayoutDescription& layout,
                                       const StudyWords& words) {
     if (std::holds_alternative<PatternSet>(condition.stimuli))
@@ -305,6 +341,7 @@ std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const
     case AnswerKind::level:
         return std::make_unique<AdjustAnswer>(*session.adjustment, experiment.trial().levelDb, words);
     case AnswerKind::number: return std::make_unique<NumberAnswer>();
+    case AnswerKind::words: return std::make_unique<WordsAnswer>(session.mayBeEmpty);
     }
     return nullptr;
 }

@@ -249,13 +249,13 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
     else if (page_ == Page::trial && pane_.takeKey(key)) {
     } else if (page_ == Page::trial && hasHands() && digit >= 0 && digit < static_cast<int>(parts_.size()))
         play(static_cast<std::size_t>(digit));
-    else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && pause_.isShowing() &&
-             pause_.isEnabled())
+    else if (page_ == Page::trial && isAnswerSeen() && answers_->takeKey(key)) {
+    } else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && pause_.isShowing() &&
+               pause_.isEnabled())
         pause();
     else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && !parts_.empty())
         play(nextPart());
-    else if (page_ == Page::trial && isAnswerSeen() && answers_->takeKey(key)) {
-    } else if (key.isKeyCode(KeyPress::returnKey) && page_ == Page::trial)
+    else if (key.isKeyCode(KeyPress::returnKey) && page_ == Page::trial)
         answers_.confirm();
     else if (key.isKeyCode(KeyPress::returnKey) && next_.isVisible() && next_.isEnabled())
         goOn();

@@ -122,7 +122,9 @@ void StudyScreen::markFelt() {
 /// Stores the felt level of the last part before another is played.
 void StudyScreen::noteFelt() {
     desk_.exposure().update();
-    if (progress_->plays() > 0) felt_[part_] = desk_.exposure().felt(feltSeconds());
+    if (progress_->plays() > 0)
+        felt_[part_] = desk_.exposure().felt(worldSet() != nullptr ? pane_.world().measuredSeconds()
+                                                                   : sound_.feltSeconds());
 }
 
 /// The participant's A(8) from this study's trials of today.

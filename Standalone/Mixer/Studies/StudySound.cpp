@@ -4,6 +4,7 @@
 #include "Live/Documents/StripGroups.h"
 #include "Mixer/Window/Parts.h"
 #include <algorithm>
+#include <cmath>
 
 namespace physvib {
 namespace {
@@ -11,6 +12,8 @@ namespace {
 using Kind = RenderControl::Kind;
 constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time may be applied after an
                                             // event, and gains are ramped
+
+constexpr double mostLateMs = 1000.0;
 
 constexpr const char* noControls = "The session took no more controls: expected a device that plays";
 
@@ -74,7 +77,6 @@ std::string StudySound::play(const FeltStimulus& stimulus) {
     const auto& strips = desk_.mix().strips;
     gains_.resize(strips.size());
     desk_.exposure().use(stimulus.layout);
-    desk_.exposure().restartLevels();
     post(Kind::panner, 0, 0.0f, stimulus.stimulus.panner);
     useRecordings(stimulus.recordings);
     for (std::size_t j = 0; j < stimulus.gains.size(); ++j) {
@@ -83,13 +85,21 @@ std::string StudySound::play(const FeltStimulus& stimulus) {
     }
     auto strikes = stimulus.stimulus.events;
     for (auto& strike : strikes) strike.timeNs += leadNs;
-    if (auto taken = desk_.session().take({Strikes{strikes}}); !taken) return taken.error;
+    const auto taken = desk_.session().take({Strikes{strikes}});
+    if (!taken) return taken.error;
+    const int rate = desk_.output().sampleRateHz();
+    const auto first = std::llround(1e-9 * static_cast<double>(taken.value + leadNs) * rate);
+    desk_.exposure().restartLevels({first, first + std::llround(stimulus.stimulus.seconds * rate)});
     beganAtMs_ = nowMs() + 1e-6 * static_cast<double>(leadNs) + 1e3 * desk_.device().playOutSeconds();
     seconds_ = stimulus.stimulus.seconds;
     return {};
 }
 
-bool StudySound::isPlaying() const { return seconds_ > 0.0 && nowMs() < beganAtMs_ + 1e3 * seconds_; }
+// A late device is waited for, one that has stopped is not.
+bool StudySound::isPlaying() const {
+    const double restMs = beganAtMs_ + 1e3 * seconds_ - nowMs();
+    return seconds_ > 0.0 && restMs > (desk_.exposure().isComplete() ? 0.0 : -mostLateMs);
+}
 
 double StudySound::feltSeconds() const { return std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_); }
 

@@ -4,6 +4,7 @@
 #include "Io/Disk/FileClash.h"
 #include "Scene/SceneEdits.h"
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace physvib {
@@ -41,9 +42,10 @@ std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesys
     std::filesystem::create_directories(folder, none);
     if (!isWithin(folder.parent_path(), folder)) return folder.string() + ": " + leadsElsewhere;
     session_ = std::make_unique<Session>(setup_);
-    if (!desk_.output().lend(session_.get())) return session_.reset(), "expected a device that plays";
     desk_.exposure().use(world.layout);
-    desk_.exposure().restartLevels();
+    desk_.exposure().restartLevels(
+        {0, hasHands ? SampleSpan{}.to : std::llround(seconds_ * desk_.output().sampleRateHz())});
+    if (!desk_.output().lend(session_.get())) return session_.reset(), "expected a device that plays";
     tellStrips();
     journal_ = std::make_unique<SessionJournal>(
         file, *session_, setup_,

@@ -36,6 +36,8 @@ public:
     bool isMoving() const noexcept { return isPlaying() && stoppedNs_ < 0; }
     /// Duration of the current or last world, without silences.
     double feltSeconds() const noexcept { return 1e-9 * static_cast<double>(feltNs_); }
+    /// What the levels are measured over: a set length, or what was felt.
+    double measuredSeconds() const noexcept { return seconds_ > 0.0 ? seconds_ : feltSeconds(); }
 
     /// Stops the world; sounding modes fade out.
     void end();

@@ -110,8 +110,11 @@ void FileCard::take() {
 
 void FileCard::tell(const juce::String& words, Shade which) {
     words_.setText(words, juce::dontSendNotification);
-    words_.setColour(juce::Label::textColourId, shade(*this, which));
+    wordsShade_ = which;
+    takeColours();
 }
+
+void FileCard::takeColours() { words_.setColour(juce::Label::textColourId, shade(*this, wordsShade_)); }
 
 bool FileCard::keyPressed(const juce::KeyPress& key) {
     if (key == juce::KeyPress::escapeKey) return onCancel(), true;

@@ -35,6 +35,8 @@ public:
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
+    void parentHierarchyChanged() override { takeColours(); }
+    void lookAndFeelChanged() override { takeColours(); }
 
 private:
     static constexpr int wide = 640, high = 470;
@@ -45,6 +47,7 @@ private:
     void returnKeyPressed(int) override { take(); }
     juce::String getNameForRow(int row) override { return entries_[row].getFileName(); }
     void tell(const juce::String& words, Shade which);
+    void takeColours(); // of the look, which comes with the parent
     bool isFolder() const { return choice_.ending.isEmpty(); }
     juce::String takeWords() const;
     bool hasEnding(const juce::File& file) const;
@@ -54,6 +57,7 @@ private:
     juce::Array<juce::File> entries_; // folders first
     juce::File replaced_;             // asked for; the next press takes it
     juce::Label title_, place_, words_;
+    Shade wordsShade_ = Shade::text;
     juce::ListBox list_{"Files", this};
     juce::TextEditor name_;
     juce::TextButton up_{"Up"}, take_, cancel_{"Cancel"};

@@ -272,12 +272,14 @@ void MixerWindow::saveMovie() {
     if (desk_->saved().lengthNs < 1'000'000'000)
         return say("Save movie: expected a session of at least a second");
     chooseFile(
-        "Save the last minute as a movie", ".webp", true,
+        "Save the last minute as a movie", utf8(movieEnding()), true,
         [this](const juce::File& file) { saveMovieTo(file, movieSeconds); }, documentName() + "-movie");
 }
 
 void MixerWindow::saveMovieTo(const juce::File& file, double seconds) {
-    make(file, "Saved the movie",
+    make(file,
+         file.hasFileExtension("mp4") ? "Saved the movie"
+                                      : "Saved the movie without sound, which needs the program ffmpeg:",
          [session = desk_->saved(), layout = desk_->mix().layout, seconds, path = pathOf(file)](
              const auto& progress) { return writeSessionMovie(session, layout, seconds, path, progress); });
 }

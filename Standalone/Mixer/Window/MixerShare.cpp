@@ -37,7 +37,7 @@ void MixerWindow::share() {
               juce::SystemClipboard::copyTextToClipboard(words);
               desk_->tell("Copied a link of " + juce::String{words.length()} + " characters");
           }},
-         {"Open it", [whole] { juce::URL{whole()}.launchInDefaultBrowser(); }}},
+         {"Open it", [whole] { openLink(whole()); }}},
         {{pageField, page, {}, {}, show}, {linkField, {}}});
     show(*view_->question(), page);
 }

@@ -78,6 +78,13 @@ Result<std::string> pageLink(const Mix& mix, const Scene& drawn) {
     return link;
 }
 
+// juce::URL would escape what separates the parts behind the #. A shell reads the words on some systems.
+void openLink(juce::String link) {
+    for (const char c : std::string_view{"\"$`\\ "})
+        link = link.replace(juce::String::charToString(c), juce::String{encoded({c})}.replace("+", "%20"));
+    juce::Process::openDocument(link, {});
+}
+
 juce::Image qrPicture(const std::string& link) {
     constexpr int most = 370; // the longest has 177 modules
     QrCode code{link};

@@ -11,6 +11,9 @@ namespace physvib {
 /// what a link cannot hold. Places are rounded to thousandths of the field, as the page does. Any thread.
 Result<std::string> pageLink(const Mix& mix, const Scene& drawn);
 
+/// In the system's browser, to the letter. Message thread.
+void openLink(juce::String link);
+
 /// A link as a QR code, dark on white in any look, of at most 370 pixels; null if it is too long. Any thread.
 juce::Image qrPicture(const std::string& link);
 

@@ -4,6 +4,7 @@
 #include "Mixer/World/DrawPane.h"
 #include "Mixer/World/FeltHint.h"
 #include "Scene/Drawing/DrawnBodies.h"
+#include <algorithm>
 #include <cmath>
 
 namespace physvib {
@@ -31,14 +32,16 @@ Result<BodyDescription> DrawPane::drawnNow() const {
     }
 }
 
-// A click gives a rain of the usual size.
+// A click gives a rain of the usual size, all of it within the field.
 Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
     const auto& scene = desk_.world().scene();
     const Vector from = stroke_.empty() ? to_ : stroke_[0];
     const bool isClick = between(from, to_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
     const double x = 0.15 * scene.fieldWidthMetres, y = 0.15 * scene.fieldHeightMetres;
-    return isClick ? drawnRain({from.x - x, from.y - y}, {from.x + x, from.y + y}, rainCount_)
-                   : drawnRain(from, to_, rainCount_);
+    if (!isClick) return drawnRain(from, to_, rainCount_);
+    const Vector at{std::clamp(from.x, x, scene.fieldWidthMetres - x),
+                    std::clamp(from.y, y, scene.fieldHeightMetres - y)};
+    return drawnRain({at.x - x, at.y - y}, {at.x + x, at.y + y}, rainCount_);
 }
 
 void DrawPane::addStroke() {

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
 -- What PhysVib takes from a game of LÖVE's: the same world, with and without it, in turn, so that whatever else the machine does is in both.
--- Usage: LUA_PATH="Source/Api/Lua/?.lua" PHYSVIB_LIBRARY=build/release/lib/libphysvib.so.0 love Tests/Benchmarks/love [BALLS]
+-- Usage: LUA_PATH="Source/Api/Lua/?.lua" PHYSVIB_LIBRARY=build/release/lib/libphysvib.so.1 love Tests/Benchmarks/love [BALLS]
 local physvib = require("physvib")
 local metre, dt, steps, rounds = 30, 1 / 60, 600, 15
 

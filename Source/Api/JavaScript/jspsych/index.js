@@ -5,7 +5,7 @@ import { eventsOf, lengthOf } from './stimulus.js';
 
 const info = {
     name: 'physvib',
-    version: '@PROJECT_VERSION@',
+    version: '@PHYSVIB_VERSION@',
     parameters: {
         /** Of play(physvib, context), from physvib/audio. */
         output: { type: ParameterType.COMPLEX, default: undefined },

@@ -104,8 +104,8 @@ def _path() -> str:
     for beside in sorted(here.glob("lib*.so.*")):  # of a wheel, for a machine that lacks them
         if not beside.name.startswith("libphysvib"):
             ctypes.CDLL(str(beside), mode=ctypes.RTLD_GLOBAL)
-    own = here / "libphysvib.so.0"
-    return os.environ.get("PHYSVIB_LIBRARY") or (str(own) if own.exists() else "libphysvib.so.0")
+    own = here / "libphysvib.so.1"
+    return os.environ.get("PHYSVIB_LIBRARY") or (str(own) if own.exists() else "libphysvib.so.1")
 
 
 _handle, _time, _events, _samples = c_void_p, c_int64, c_void_p, c_void_p

@@ -47,9 +47,9 @@ _long = frozenset({"live_devices", "live_open", "live_close", "session_load", "s
 
 @functools.lru_cache(maxsize=None)
 def live_library() -> SimpleNamespace:
-    """PHYSVIB_LIVE_LIBRARY, or libphysvib-live.so.0 beside the other one or where the system finds it."""
-    beside = Path(library.path).parent / "libphysvib-live.so.0"
-    return load(os.environ.get("PHYSVIB_LIVE_LIBRARY") or (str(beside) if beside.exists() else "libphysvib-live.so.0"), _signatures, _long)
+    """PHYSVIB_LIVE_LIBRARY, or libphysvib-live.so.1 beside the other one or where the system finds it."""
+    beside = Path(library.path).parent / "libphysvib-live.so.1"
+    return load(os.environ.get("PHYSVIB_LIVE_LIBRARY") or (str(beside) if beside.exists() else "libphysvib-live.so.1"), _signatures, _long)
 
 
 def live_call(name: str, *arguments: object) -> int:

@@ -11,7 +11,7 @@ shift 2
 . "$here/../../../../.ci/packages.sh"
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_daw_packages
-told=47 # frames: the limiter's (Docs/plugin-time.md)
+told=47 # frames: the limiter's (Docs/plugin-reference.md)
 uri=urn:physvib:plugin:2
 export HOME="$folder" XDG_RUNTIME_DIR="$folder" JACK_NO_AUDIO_RESERVATION=1 JACK_DEFAULT_SERVER=physvib-daws DISPLAY=:77 LV2_PATH="$folder/lv2" QT_QPA_PLATFORM=xcb
 mkdir -p "$folder/lv2/onset-probe.lv2"
