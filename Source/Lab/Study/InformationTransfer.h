@@ -5,7 +5,8 @@
 
 namespace physvib {
 
-/// Trials per matrix cell from which the bias-corrected estimate is reported (Docs/decisions/0017-correction-counts-what-was-seen.md).
+/// Trials per matrix cell from which the bias-corrected estimate is reported
+/// (Docs/decisions/0017-correction-counts-what-was-seen.md).
 constexpr double trialsPerCellForCorrection = 5.0;
 
 struct InformationTransfer {
