@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """How easily the pages read: reading.py ROOT [COMMIT]. SCOWL, where the package `scowl` is not installed, names its folder. Of README, CONTRIBUTING and Docs (decision records apart), as they are or as they were at a commit of git: words, mean words
 of a sentence, share of sentences over 25 words, and Flesch's reading ease (206.835 - 1.015 words per sentence - 84.6 syllables per word; 60 and more is plain English, 30 and less
-hard; technical terms cost points). The words of the old idiom (Docs/glossary.md) in 1,000, and the share of words that are neither among the 4,400 commonest of English (SCOWL's
+hard; technical terms cost points). The words of the old idiom (Tests/House/old-words.md) in 1,000, and the share of words that are neither among the 4,400 commonest of English (SCOWL's
 size 10, with plurals and the like) nor in the glossary, with those met most often. Then the ten hardest sentences. Code, tables, headings and links' targets are not counted. A figure to compare with itself, not a test."""
 import collections
 import os
@@ -52,8 +52,8 @@ def line(name, parts):
 
 
 def old_words():
-    """Those of the glossary's second table, as one expression."""
-    table = (root / "Docs/glossary.md").read_text().split("## Words that are being replaced")[1]
+    """As one expression."""
+    table = (root / "Tests/House/old-words.md").read_text()
     return re.compile("|".join(f"(?:{row})" for row in re.findall(r"^\| `(.+?)` \|", table, re.M)).replace("\\|", "|"), re.I)
 
 

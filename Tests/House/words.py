@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Words of the old idiom in what people read: words.py ROOT [--list] [--update].
 
-The words stand in Docs/glossary.md ("Words that are being replaced"); words.txt beside this script says how many of them a file may still have. A file with more fails, and so does
+The words stand in old-words.md beside this script; words.txt says how many of them a file may still have. A file with more fails, and so does
 one that has fewer than its line says: lower the number, so that it cannot grow again. --update writes the list; --list prints each word with its place. Comments and
 identifiers are read in the modules of COMMENTED only, identifiers word by word."""
 import re
@@ -12,12 +12,12 @@ from pathlib import Path
 root = Path(sys.argv[1]).resolve()
 allowed_file = Path(__file__).with_name("words.txt")
 COMMENTED = ("Source/Core", "Source/Contacts", "Source/Live/Session")
-HEAD = "# How many words of the old idiom (Docs/glossary.md) a file may still have. Numbers only go down: Tests/House/words.py ROOT --update.\n"
+HEAD = "# How many words of the old idiom (old-words.md) a file may still have. Numbers only go down: Tests/House/words.py ROOT --update.\n"
 
 
 def old_words():
-    """(expression, what to write instead) of the glossary's second table."""
-    text = (root / "Docs/glossary.md").read_text().split("## Words that are being replaced")[1]
+    """(expression, what to write instead) of each row."""
+    text = Path(__file__).with_name("old-words.md").read_text()
     for row in re.findall(r"^\| `(.+?)` \| (.+?) \|$", text, re.M):
         yield re.compile(row[0].replace("\\|", "|"), re.I), row[1]
 
