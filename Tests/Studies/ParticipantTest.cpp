@@ -478,12 +478,9 @@ TEST_F(ByAParticipant, RowsTellWhatWasReallyFelt) {
 }
 
 TEST_F(ByAParticipant, ATrialHasOneLevelWheneverItIsAnswered) {
+    // It still rings when the stimulus is over, and has faded when the next one begins.
     folder.getChildFile("ring.csv")
-        .replaceWithText("time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.02,200,4,0.2,0,0\n"); // rings
-                                                                                                     // on
-                                                                                                     // behind
-                                                                                                     // the
-                                                                                                     // end
+        .replaceWithText("time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.02,200,25,0.2,0,0\n");
     begin(
         R"({"name": "main", "task": "estimate", "repetitions": 3, "question": "How strong?"})",
         R"("layout": "study1", "stimuli": "calls", "call": "render --from-events ring.csv --layout study1 --seconds 0.1")");
@@ -493,6 +490,7 @@ TEST_F(ByAParticipant, ATrialHasOneLevelWheneverItIsAnswered) {
         for (int i = 0; i < 10 * n; ++i) p->pump();
         p->type("1");
         p->enter();
+        for (int i = 0; i < 60; ++i) p->pump();
     }
     close();
     const Texts rms = column("rms_g", "estimate");
