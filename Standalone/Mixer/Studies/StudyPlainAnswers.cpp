@@ -240,81 +240,82 @@ private:
     juce::Rectangle<float> bar_;
 };
 
-/// Magnitude estimation.
-class NumberAnswer final : public StudyAnswer {
+/// What is typed into one field.
+class TypedAnswer : public StudyAnswer {
 public:
-    NumberAnswer() {
-        setTitle("Number");
-        number_.setTitle("Number");
-        number_.setInputRestrictions(9, "0123456789.,");
-        number_.setJustification(juce::Justification::centred);
-        number_.setFont(juce::Font{text::large});
-        number_.onTextChange = [this] {
+    // for keys typed while the focus was elsewhere
+    bool takeKey(const juce::KeyPress& key) override { return isEnabled() && typed_.keyPressed(key); }
+    void beginAnew() override { typed_.grabKeyboardFocus(); }
+    void resized() override { typed_.setBounds(column(getLocalBounds(), width_, height_)); }
+    void enablementChanged() override {
+        typed_.setVisible(isEnabled()); // hidden until it may be answered
+        if (isEnabled()) typed_.applyColourToAllText(shade(*this, Shade::text));
+    }
+
+protected:
+    TypedAnswer(const juce::String& title, int width, int height, bool isSpaceTyped)
+        : width_{width}
+        , height_{height} {
+        setTitle(title);
+        typed_.isSpaceTyped = isSpaceTyped;
+        typed_.setTitle(title);
+        typed_.setFont(juce::Font{text::large});
+        typed_.onTextChange = [this] {
             if (onChange) onChange();
         };
-        number_.setEscapeAndReturnKeysConsumed(false); // so that Esc silences and Enter confirms
-        addAndMakeVisible(number_);
+        typed_.setEscapeAndReturnKeysConsumed(false); // so that Esc silences and Enter confirms
+        addAndMakeVisible(typed_);
+    }
+    juce::TextEditor& typed() { return typed_; }
+    juce::String written() const { return typed_.getText(); }
+
+private:
+    struct Editor final : juce::TextEditor {
+        bool isSpaceTyped = false; // else it plays again
+        bool keyPressed(const juce::KeyPress& key) override {
+            return (isSpaceTyped || !key.isKeyCode(juce::KeyPress::spaceKey)) &&
+                   juce::TextEditor::keyPressed(key);
+        }
+    } typed_;
+    const int width_, height_;
+};
+
+/// Magnitude estimation.
+class NumberAnswer final : public TypedAnswer {
+public:
+    NumberAnswer()
+        : TypedAnswer{"Number", 260, 64, false} {
+        typed().setInputRestrictions(9, "0123456789.,");
+        typed().setJustification(juce::Justification::centred);
     }
     Answer answer() const override {
         Answer answer;
-        answer.value =
-            parseNumber<double>(number_.getText().replaceCharacter(',', '.').toStdString()).value_or(0.0);
+        answer.value = parseNumber<double>(written().replaceCharacter(',', '.').toStdString()).value_or(0.0);
         return answer;
     }
     bool isComplete() const override { return answer().value > 0.0; }
     std::string keys() const override { return "Type a number, then Enter."; }
-    // for keys typed while the focus was elsewhere
-    bool takeKey(const juce::KeyPress& key) override { return isEnabled() && number_.keyPressed(key); }
-    void beginAnew() override { number_.grabKeyboardFocus(); }
-    void resized() override { number_.setBounds(column(getLocalBounds(), 260, 64)); }
-    void enablementChanged() override {
-        number_.setVisible(isEnabled()); // hidden until it may be answered
-        if (isEnabled()) number_.applyColourToAllText(shade(*this, Shade::text));
-    }
-
-private:
-    struct Editor final : juce::TextEditor {
-        // Space plays again
-        bool keyPressed(const juce::KeyPress& key) override {
-            return !key.isKeyCode(juce::KeyPress::spaceKey) && juce::TextEditor::keyPressed(key);
-        }
-    } number_;
 };
 
 /// One paragraph in the participant's own words.
-class WordsAnswer final : public StudyAnswer {
+class WordsAnswer final : public TypedAnswer {
 public:
     explicit WordsAnswer(bool mayBeEmpty)
-        : mayBeEmpty_{mayBeEmpty} {
-        setTitle("Words");
-        words_.setTitle("Words");
-        words_.setMultiLine(true);
-        words_.setInputRestrictions(mostAnswerBytes / 4); // characters of UTF-8
-        words_.setFont(juce::Font{text::large});
-        words_.onTextChange = [this] {
-            if (onChange) onChange();
-        };
-        words_.setEscapeAndReturnKeysConsumed(false);
-        addAndMakeVisible(words_);
+        : TypedAnswer{"Words", 760, 200, true}
+        , mayBeEmpty_{mayBeEmpty} {
+        typed().setMultiLine(true);
+        typed().setInputRestrictions(mostAnswerBytes / 4); // characters of UTF-8
     }
     Answer answer() const override {
         Answer answer;
-        answer.response = words_.getText().replaceCharacters("\r\n\t", "   ").trim().toStdString();
+        answer.response = written().replaceCharacters("\r\n\t", "   ").trim().toStdString();
         return answer;
     }
     bool isComplete() const override { return mayBeEmpty_ || !answer().response.empty(); }
     std::string keys() const override { return "Write, then Enter."; }
-    bool takeKey(const juce::KeyPress& key) override { return isEnabled() && words_.keyPressed(key); }
-    void beginAnew() override { words_.grabKeyboardFocus(); }
-    void resized() override { words_.setBounds(column(getLocalBounds(), 760, 200)); }
-    void enablementChanged() override {
-        words_.setVisible(isEnabled()); // hidden until it may be answered
-        if (isEnabled()) words_.applyColourToAllText(shade(*this, Shade::text));
-    }
 
 private:
     const bool mayBeEmpty_;
-    juce::TextEditor words_;
 };
 
 std::unique_ptr<StudyAnswer> labelled(const ConditionPlan& condition, const LayoutDescription& layout,
