@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Tables of Docs are what their scripts print: tables.py ROOT PHYSVIB. Where a page names `Tests/figures/NAME.sh PHYSVIB`, a script that needs nothing else, the script is run with the program, and each line
-of the tables from there to the next heading has to be one that it prints; the table of deviations from the thesis is compared with the list in the source. Prints what
+of the tables from there to the next heading has to be one that it prints, and each that it prints has to be there (timings.sh has more); the table of deviations from the thesis is compared with the list in the source. Prints what
 differs; exit code 1 if anything does."""
 import re
 import subprocess
@@ -26,12 +26,19 @@ def printed_by(script: str) -> list:
     return rows_of(run.stdout)
 
 
+told = {f"Tests/figures/{name}.sh": [] for name in ("drop", "levels", "methods", "timings")}
 for path in sorted((root / "Docs").glob("*.md")):
     for script, text in re.findall(r"`(Tests/figures/(?:drop|levels|methods|timings)\.sh) PHYSVIB`(.*?)(?=^#|\Z)", path.read_text(), re.S | re.M):
         rows = rows_of(text)
         bad += [f"Docs/{path.name}: expected a line that {script} prints, found {row}" for row in rows if row not in printed_by(script)]
+        told[script] += rows
         if not rows:
             bad.append(f"Docs/{path.name}: {script}: expected a table below its name")
+for script, rows in told.items():
+    if not rows:
+        bad.append(f"{script}: expected a page that has its table")
+    if not script.endswith("/timings.sh"):  # of which the page has a part
+        bad += [f"{script}: expected a page with the line that it prints: {row}" for row in printed_by(script) if row not in rows]
 
 cell = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # the formatter may have cut a text in two
 source = (root / "Source/Lab/Study/ThesisDeviations.h").read_text()
