@@ -55,9 +55,6 @@ physvib_site_test_packages="$physvib_site_packages chromium"
 # Of the test of sweeps on a cluster.
 physvib_cluster_packages="slurm-wlm munge"
 
-# version_of FILE: the version that CMakeLists.txt has.
-version_of() { sed -n 's/^project(PhysVib VERSION \([0-9.]*\) .*/\1/p; s/^set(PHYSVIB_PRERELEASE "\(..*\)").*/-\1/p' "$1" | tr -d '\n'; }
-
 say() { printf 'physvib: %s\n' "$*" >&2; }
 
 is_installed() { [ "$(dpkg-query -W -f='${db:Status-Abbrev}' "$1" 2>/dev/null)" = "ii " ]; }

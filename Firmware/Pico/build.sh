@@ -16,14 +16,13 @@ if [ ! -e $sdk/pico_sdk_init.cmake ]; then
 fi
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_pico_packages
-version=$(version_of CMakeLists.txt)
 for board in "$@"; do
     into=build/firmware/$board
     mkdir -p "$into"
     for channels in 4 8; do
         work=$into/work$channels log=$into/build$channels.log image=physvib-pico$channels
-        { cmake -S Firmware/Pico -B "$work" -G Ninja -DPICO_SDK_PATH="$sdk" -DPICO_BOARD="$board" -DPHYSVIB_PICO_CHANNELS=$channels \
-            -DPHYSVIB_VERSION="$version" && cmake --build "$work"; } >"$log" 2>&1 || { tail -n 20 "$log" >&2; say "the build failed: $log"; exit 1; }
+        { cmake -S Firmware/Pico -B "$work" -G Ninja -DPICO_SDK_PATH="$sdk" -DPICO_BOARD="$board" -DPHYSVIB_PICO_CHANNELS=$channels &&
+            cmake --build "$work"; } >"$log" 2>&1 || { tail -n 20 "$log" >&2; say "the build failed: $log"; exit 1; }
         cp "$work/$image.uf2" "$work/$image.bin" "$into"
         echo "$into/$image.uf2"
     done

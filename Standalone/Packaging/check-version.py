@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The version of CMakeLists.txt is that of all that cannot take it from there, and of the tag, if there is one: check-version.py ROOT [RELEASE].
+"""The version of VERSION.txt is that of all that cannot take it from there, and of the tag, if there is one: check-version.py ROOT [RELEASE].
 RELEASE: a folder that release.sh made, whose files have it too."""
 import json
 import re
@@ -12,11 +12,8 @@ from pathlib import Path
 
 root = Path(sys.argv[1])
 release = Path(sys.argv[2]) if len(sys.argv) > 2 else None
-cmake = (root / "CMakeLists.txt").read_text()
-numbers = re.search(r"^project\(PhysVib VERSION (\d+\.\d+\.\d+) ", cmake, re.M)[1]
-prerelease = re.search(r'^set\(PHYSVIB_PRERELEASE "(.*?)"\)', cmake, re.M)[1]
-version = f"{numbers}-{prerelease}" if prerelease else numbers
-major = numbers.split(".")[0]
+version = (root / "VERSION.txt").read_text().strip()
+major = version.split(".")[0]
 bad = []
 
 

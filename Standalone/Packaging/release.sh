@@ -27,8 +27,7 @@ for part in "$@"; do # what is missing is said before hours of work
     [ "$part" != godot ] || [ -e "$(command -v "${GODOT:-}")" ] || [ -f "${GODOT:-}" ] || { say "godot: expected GODOT, a program of Godot 4.4 or newer, or its header" && exit 1; }
 done
 
-# What is told of the version has its home in CMakeLists.txt.
-VERSION=$(git show "$commit:CMakeLists.txt" | version_of -)
+VERSION=$(git show "$commit:VERSION.txt")
 SOURCE_DATE_EPOCH=$(git show -s --format=%ct "$commit")
 RELEASE=$VERSION
 export OUT VERSION RELEASE GODOT SOURCE_DATE_EPOCH LC_ALL=C.UTF-8 TZ=UTC

@@ -3,17 +3,12 @@
 # ${exports}, the header's functions.
 get_filename_component(physvib_root ${CMAKE_CURRENT_LIST_DIR}/../../.. ABSOLUTE)
 
-# The version is read from where it is defined.
-file(STRINGS ${physvib_root}/CMakeLists.txt project REGEX "^project\\(PhysVib VERSION ")
-string(REGEX REPLACE ".* VERSION ([0-9]+)\\.([0-9]+)\\.([0-9]+) .*" "\\1;\\2;\\3" numbers "${project}")
+file(STRINGS ${physvib_root}/VERSION.txt PHYSVIB_VERSION)
+string(REGEX REPLACE "-.*" "" numbers ${PHYSVIB_VERSION})
+string(REPLACE "." ";" numbers ${numbers})
 list(GET numbers 0 PROJECT_VERSION_MAJOR)
 list(GET numbers 1 PROJECT_VERSION_MINOR)
 list(GET numbers 2 PROJECT_VERSION_PATCH)
-string(REPLACE ";" "." PHYSVIB_VERSION "${numbers}")
-file(STRINGS ${physvib_root}/CMakeLists.txt prerelease REGEX "^set\\(PHYSVIB_PRERELEASE \"[^\"]")
-if(prerelease MATCHES "\"(.+)\"")
-    string(APPEND PHYSVIB_VERSION -${CMAKE_MATCH_1})
-endif()
 configure_file(${physvib_root}/Source/Package/Version.h.in include/physvib/Version.h @ONLY)
 # JavaScript calls all functions of the header except those of files, which a page lacks, of materials, for which it has materials.js, and of pads (Pads.cpp);
 # it reads all members of its structures.

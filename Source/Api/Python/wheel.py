@@ -56,8 +56,7 @@ def tag_of(libraries: list[Path]) -> str:
 
 def make(library: Path, folder: Path) -> Path:
     package = Path(__file__).parent / "physvib"
-    text = (Path(__file__).parents[3] / "CMakeLists.txt").read_text()
-    version = re.search(r"^project\(PhysVib VERSION (\S+)", text, re.M)[1] + re.search(r'^set\(PHYSVIB_PRERELEASE "(.*?)"', text, re.M)[1].replace(".", "")
+    version = re.sub(r"-(\w+)\.", r"\1", (Path(__file__).parents[3] / "VERSION.txt").read_text().strip())  # 1.0.0rc1, as wheels write it
     others = needed(library)
     tag = tag_of([library, *others.values()])
     files = {f"physvib/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.suffix in (".py", ".typed")}
