@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 # Sourced by pico.sh and pico-linux.sh, in the root: the images, the emulator, what is expected at the pins, and what is played, in a folder that goes.
 seconds=${1:-10}
-images=$PWD/build/firmware/pico here=Tests/Firmware/pico
+images=${IMAGES:-} here=Tests/Firmware/pico
 # shellcheck disable=SC2086 # a list of words
 { command -v node && command -v npm; } >/dev/null || ensure_packages $physvib_pico_test_packages
-Firmware/Pico/build.sh pico >/dev/null
+[ -n "$images" ] || { Firmware/Pico/build.sh pico >/dev/null && images=$PWD/build/firmware/pico; }
 render=${RENDER:-$PWD/build/release/bin/physvib-render}
 [ -x "$render" ] || { say "no $render: cmake --preset release, then its target physvib-render; or say where it is: RENDER=PATH"; exit 1; }
 folder=$(mktemp -d)
