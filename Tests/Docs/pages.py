@@ -69,6 +69,9 @@ def check_length() -> None:
         expect(words <= most, f"{name_of(page)}: expected at most {most} words, found {words}")
         expect(most == 1500 or words > 1500, f"Tests/Docs/long-pages.txt: {name_of(page)} has {words} words and needs no line any more")
     expect(not allowed, f"Tests/Docs/long-pages.txt: no such page: {', '.join(allowed)}")
+    expect(len(pages) <= 60, f"Docs: expected at most 60 pages, found {len(pages)}")
+    everything = sum(len(page.read_text().split()) for page in pages)  # marks of tables included
+    expect(everything <= 60000, f"Docs: expected at most 60,000 words on all pages, found {everything}")
     decisions = sorted((docs / "decisions").glob("*.md"))
     expect(len(decisions) <= 100, f"Docs/decisions: expected at most 100 records, found {len(decisions)}: drop those that no longer hold")
     for page, most in [*((record, 220) for record in decisions), (root / "CHANGELOG.md", 1500)]:
