@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Each file of a release beside the packages (bare-debian.sh), as who downloads it: taken out of its archive, installed cold, and its first example run.
 # Source, wheel and npm package in a bare Debian 12, with no network from there on; what is for other systems under Wine, qemu and rp2040js,
-# on this machine. Needs root, a network, and what those take.
+# on this machine. Needs root, a network, Node 20.16 or newer, and what those take.
 # usage: artefacts.sh RELEASE [--godot FOLDER (of Tests/godot.sh)] [--cache FOLDER (a compiler cache)] [--mirror URL]
 # shellcheck disable=SC2016 # the machine's own shell expands what it is told
 set -eu
@@ -35,7 +35,7 @@ cp "$release"/physvib-*.tgz "$release"/*.whl "$work"
 there() { in_machine unshare --net sh -euc "cd /root && $1" >"$machine.log" 2>&1 || { tail -n 20 "$machine.log" && exit 1; }; }
 # shellcheck disable=SC2086 # a list of words
 in_machine sh -c "apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
-    python3-venv python3-numpy nodejs git $physvib_first_packages" >"$machine.log" 2>&1 || { tail "$machine.log" && exit 1; }
+    python3-venv python3-numpy git $physvib_first_packages" >"$machine.log" 2>&1 || { tail "$machine.log" && exit 1; }
 
 there 'mkdir source && tar -xzf source.tar.gz -C source --strip-components 1
     cd source && ./run.sh && test -s out/shake-the-box.wav && test -s out/shake-the-box.png'
@@ -46,6 +46,7 @@ there 'python3 -m venv --system-site-packages venv && venv/bin/pip install --no-
     venv/bin/python source/Tests/Api/drop.py && test -s drop.wav'
 step "wheel: $(tail -n 1 "$machine.log")"
 
+cp "$(readlink -f "$(command -v node)")" "$machine/usr/bin/node" # this machine's: Debian 12's is older than the package takes
 there 'mkdir -p node_modules/physvib && tar -xzf physvib-*.tgz -C node_modules/physvib --strip-components 1
     echo "import { load } from \"physvib\";
         const physvib = await load();
