@@ -4,9 +4,7 @@
 #pragma once
 #include "Formats/BitStream.h"
 #include "Formats/MpegNames.h"
-#include <array>
 #include <cstddef>
-#include <cstdint>
 
 namespace physvib::hmpg {
 

@@ -27,7 +27,6 @@
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace physvib {
 

@@ -9,7 +9,6 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Session/GrowingFile.h"
-#include "System/ExitCode.h"
 #include "System/Process.h"
 #include <chrono>
 #include <exception>
