@@ -9,6 +9,7 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Session/GrowingFile.h"
+#include "System/ExitCode.h"
 #include "System/Process.h"
 #include <chrono>
 #include <exception>
