@@ -4,7 +4,6 @@
 #include "FeltExport.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Recordings/HitExport.h"
-#include "PluginSettings.h"
 #include "Scene/EventsCsv.h"
 #include <algorithm>
 #include <array>

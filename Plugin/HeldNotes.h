@@ -23,7 +23,6 @@ class HeldNotes {
 public:
     static constexpr std::size_t most = 32;             ///< a further one takes the place of the oldest
     static constexpr double leastStrikeSeconds = 0.004; ///< of whole periods, one at least
-    static constexpr double mostStrikesPerSecond = 1.0 / leastStrikeSeconds;
 
     struct Note {
         int channel = 0, number = 0; ///< 1 to 16; 0 to 127

@@ -4,7 +4,6 @@
 #include "Live/Documents/PluginState.h"
 #include "Live/Session/Session.h"
 #include "MidiMap.h"
-#include "Parameters.h"
 #include <optional>
 #include <string>
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One run of a session from its seed on, with the settings it was made for, until it has played what is owed.
 #pragma once
-#include "ControlPace.h"
 #include "Core/Actuators/GainRamp.h"
 #include "Core/EventQueue.h"
-#include "Live/Documents/Mix.h"
 #include "Live/Session/Session.h"
 #include "MusicDelay.h"
 #include "TakeSettings.h"

@@ -286,12 +286,8 @@ std::vector<std::unique_ptr<Take>> Takes::takeOut() {
 }
 
 void Takes::drain(Take& take) {
-    for (PlayedEvent played; take.session.played().pop(played);) {
-        if (log_.size() < logSize)
-            log_.push_back({take.number, played});
-        else
-            ++lost_;
-    }
+    for (PlayedEvent played; take.session.played().pop(played);)
+        if (log_.size() < logSize) log_.push_back({take.number, played});
 }
 
 std::vector<TakeEvent> Takes::takeLog() {

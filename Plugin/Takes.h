@@ -133,12 +133,10 @@ public:
     /// Adds the samples of channel j to out[0..frames). R.
     void addTo(float* out, int channel, int frames) const noexcept;
 
-    /// What was played since the last call, at most `logSize` events; `lost` counts the rest. Any thread but
-    /// R.
+    /// What was played since the last call, at most `logSize` events. Any thread but R.
     std::vector<TakeEvent> takeLog();
     /// Where the bodies of the playing take are, and the session time of that; none: empty. Any thread but R.
     std::int64_t poses(std::vector<BodyPose>& now);
-    std::uint64_t lostFromLog() const noexcept { return lost_; }
     TakesStatus status() noexcept { return status_.read(); } ///< one reader
     /// why no take can be made, or a world stands still; empty while all is well. Any thread but R
     std::string fault() const;
@@ -195,7 +193,7 @@ private:
     std::atomic<bool> hasNext_{false}, stop_{false};
     std::atomic<std::int64_t> safeFrames_{0}, tightFrames_{0}, directFrames_{0}; // of the last settings
     std::atomic<TakeTiming> timing_{TakeTiming::safe};
-    std::atomic<std::uint64_t> lost_{0}, made_{0}, blocks_{0};
+    std::atomic<std::uint64_t> made_{0}, blocks_{0};
     std::atomic<double> idleSeconds_{0.0};
     std::atomic<int> ticksPerSecond_{TakePace::leastTicksPerSecond};
     LatestValue<TakesStatus> status_;

@@ -6,7 +6,6 @@
 #include "Contacts/Grains.h"
 #include "Contacts/Impact.h"
 #include "Contacts/StepMemory.h"
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include "Contacts/ContactGraph.h"
 #include "Contacts/IntegerMap.h"
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace physvib {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The output latency L as a formula: an event at world time w is played at w + L, and L is constant.
 #pragma once
-#include "Core/FrameClock.h"
 #include "Core/Limits.h"
 #include <algorithm>
 #include <cstdint>

@@ -21,7 +21,6 @@
 #include "Core/RenderControl.h"
 #include "Core/RendererSettings.h"
 #include "Core/SamplePlayer.h"
-#include <algorithm>
 #include <array>
 #include <cstdint>
 

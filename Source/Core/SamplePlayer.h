@@ -6,7 +6,6 @@
 #include "Core/RecordedContact.h"
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 

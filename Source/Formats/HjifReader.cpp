@@ -8,7 +8,6 @@
 #include "Formats/TimeOrder.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
-#include "Io/Text/NumberText.h"
 #include <map>
 #include <numbers>
 

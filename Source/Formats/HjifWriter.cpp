@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Writes .hjif: one line per effect, everything in a fixed order.
-#include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
 #include "Formats/MpegEffects.h"
 #include "Formats/MpegPlaces.h"
 #include "Io/Json/JsonLines.h"
-#include <map>
 
 namespace physvib {
 namespace {

@@ -4,9 +4,7 @@
 #pragma once
 #include "Formats/BitStream.h"
 #include "Formats/MpegNames.h"
-#include <array>
 #include <cstddef>
-#include <cstdint>
 
 namespace physvib::hmpg {
 
@@ -38,8 +36,8 @@ constexpr int priorityBits = 8, textLengthBits = 8, modalityBits = 8, exponentBi
 constexpr int libraryCountBits = 16, deviceCountBits = 8, channelCountBits = 16, bandCountBits = 8,
               effectCountBits = 16, keyframeCountBits = 16, timelineCountBits = 16, vertexCountBits = 16;
 constexpr int bodyMaskBits = 32, deviceMaskBits = 12, realBits = 32, channelMaskBits = 8, axisBits = 8,
-              targetCountBits = 8, samplingBits = 32, vertexBits = 32;
-constexpr int bandTypeBits = 3, curveTypeBits = 4, blockLengthBits = 8, bandLimitBits = 16;
+              targetCountBits = 8, samplingBits = 32;
+constexpr int bandTypeBits = 3, curveTypeBits = 4, bandLimitBits = 16;
 constexpr int effectTypeBits = 2, semanticBits = 4 + 8, positionBits = 25, phaseBits = 16, waveformBits = 4;
 constexpr int ticksBits = 16, amplitudeBits = 8, hertzBits = 16;
 
@@ -47,10 +45,9 @@ constexpr int ticksBits = 16, amplitudeBits = 8, hertzBits = 16;
 constexpr BitRange phases{0.0, mpeg::mostPhase}, amplitudes{-1.0, 1.0}, gains{-10'000.0, 10'000.0},
     positives{0.0, 10'000.0};
 
-constexpr int vibrotactile = 6; // a modality of perceptions
-constexpr int noDevice = 255;
-constexpr int hasBodyMask = 1, hasActuators = 2, hasDirection = 4; // flags of a channel
-constexpr int hasAmplitude = 1, hasFrequency = 2;                  // flags of a wave's keyframe
+constexpr int vibrotactile = 6;                   // a modality of perceptions
+constexpr int hasBodyMask = 1, hasActuators = 2;  // flags of a channel
+constexpr int hasAmplitude = 1, hasFrequency = 2; // flags of a wave's keyframe
 constexpr int libraryHasTicks = 1, libraryHasAmplitude = 2, libraryHasFrequency = 4;
 
 constexpr std::size_t most(int bits) { return (std::size_t{1} << bits) - 1; }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes .hmpg: one unit that describes all channels and bands, then one per uninterrupted stretch of sound,
 // and one per silence.
-#include "Formats/ClipLimits.h"
 #include "Formats/CurveWalk.h"
 #include "Formats/HmpgFile.h"
 #include "Formats/HmpgLayout.h"

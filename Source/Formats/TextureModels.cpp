@@ -6,7 +6,6 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>

@@ -2,7 +2,6 @@
 // Converts an autoregressive texture model to grains: position, width and strength of its spectral peak.
 #include "Contacts/Grains.h"
 #include "Core/Limits.h"
-#include "Io/Text/NumberText.h"
 #include "Measure/TextureExtractor.h"
 #include <algorithm>
 #include <cmath>

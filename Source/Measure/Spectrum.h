@@ -2,7 +2,6 @@
 // Spectra of short recordings: all bins by a fast Fourier transform, or the value at one frequency.
 #pragma once
 #include "Core/Trigonometry.h"
-#include <cstddef>
 #include <span>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Body states at the beginning of a step, and how far Box2D has advanced a body when it reports a contact.
 #pragma once
-#include "Contacts/BodyReader.h"
 #include "Contacts/IntegerMap.h"
 #include "Physics/BoxPrivates.h"
 #include "Physics/WorldNames.h"

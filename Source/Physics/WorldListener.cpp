@@ -2,7 +2,6 @@
 // Box2D listener that is one link in a chain of listeners.
 #include "Physics/WorldListener.h"
 #include "Physics/BoxPrivates.h"
-#include "Physics/WorldNames.h"
 #include <typeinfo>
 #include <utility>
 

@@ -6,7 +6,6 @@
 #include "Pictures/WorldParts.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
-#include <cmath>
 
 namespace physvib::picture {
 

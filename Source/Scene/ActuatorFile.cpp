@@ -6,7 +6,6 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/FieldJson.h"
 #include "Io/Text/NumberText.h"
-#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFileLimits.h"
 #include <array>
 

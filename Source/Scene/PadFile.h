@@ -3,7 +3,6 @@
 #pragma once
 #include "Core/Pads/PadLaw.h"
 #include "Io/Result.h"
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>

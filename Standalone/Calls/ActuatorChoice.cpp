@@ -4,7 +4,6 @@
 #include "Core/Decibels.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/ActuatorFile.h"
-#include "System/ExitCode.h"
 #include <algorithm>
 #include <cmath>
 #include <set>

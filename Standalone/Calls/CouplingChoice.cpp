@@ -4,7 +4,6 @@
 #include "Core/Decibels.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/CouplingFile.h"
-#include <cmath>
 
 namespace physvib {
 namespace {

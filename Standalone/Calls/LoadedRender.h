@@ -3,7 +3,6 @@
 #pragma once
 #include "Calls/ActuatorChoice.h"
 #include "Calls/CouplingChoice.h"
-#include "Calls/RenderOptions.h"
 #include "Core/Decibels.h"
 #include "Core/SoundNumber.h"
 #include "Formats/ClipFile.h"

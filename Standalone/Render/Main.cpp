@@ -14,7 +14,6 @@
 #include "Scene/SilentWords.h"
 #include "Scene/World/SceneRun.h"
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>

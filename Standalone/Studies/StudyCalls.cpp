@@ -13,7 +13,6 @@
 #include "Scene/EventsCsv.h"
 #include "Scene/LayoutNamed.h"
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <set>
 

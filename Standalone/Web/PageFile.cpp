@@ -5,7 +5,6 @@
 #include "Formats/ClipSound.h"
 #include "Formats/HjifFile.h"
 #include "Formats/HmpgFile.h"
-#include "Formats/MetaHapticFile.h"
 #include "Measure/SlowPart.h"
 #include "Scene/EventsCsv.h"
 

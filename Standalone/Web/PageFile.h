@@ -3,7 +3,6 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Io/Result.h"
-#include "Scene/SceneEdits.h"
 #include "Scene/SceneFile.h"
 #include <string_view>
 #include <vector>

@@ -21,8 +21,25 @@ const Json& schema() {
     return json;
 }
 
-/// The definition of a kind of thing; "" is the scene itself.
-const Json& definition(const std::string& name) { return name.empty() ? schema() : schema()["$defs"][name]; }
+const Json& referred(const Json& json) {
+    return schema()["$defs"][json["$ref"].get<std::string>().substr(std::string("#/$defs/").size())];
+}
+
+/// The definition of a kind of thing, with what it takes from another; "" is the scene itself.
+Json definition(const std::string& name) {
+    Json own = name.empty() ? schema() : schema()["$defs"][name];
+    if (!own.contains("$ref")) return own;
+    const Json& other = referred(own);
+    own["properties"].update(other["properties"]);
+    for (const Json& required : other["required"]) own["required"].push_back(required);
+    own["allOf"] = other["allOf"];
+    return own;
+}
+
+/// A field's values, where they are described once for several fields.
+const Json& values(const Json& json) {
+    return json.contains("$ref") && !referred(json).contains("properties") ? referred(json) : json;
+}
 
 template <class T>
 const char* definitionOf() {
@@ -77,7 +94,9 @@ public:
         EXPECT_EQ(properties, known_);
         EXPECT_EQ(required, required_);
         for (const auto& item : definition_["properties"].items())
-            EXPECT_TRUE(item.value().contains("description") || item.value().contains("$ref")) << item.key();
+            EXPECT_TRUE(item.value().contains("description") ||
+                        referred(item.value()).contains("description"))
+                << item.key();
     }
 
     std::set<std::string>& required() { return required_; }
@@ -86,16 +105,15 @@ private:
     const Json& take(std::string_view name, Need need) {
         known_.emplace(name);
         if (need == Need::required) required_.emplace(name);
-        return definition_["properties"][std::string(name)];
+        return values(definition_["properties"][std::string(name)]);
     }
 
     template <class Kind>
     void expectKind(std::string_view tag, const std::string& word, std::size_t index) {
         const Json& rule = definition_["allOf"][index];
         EXPECT_EQ(rule["if"]["properties"][std::string(tag)]["const"], word);
-        const std::string name =
-            rule["then"]["$ref"].get<std::string>().substr(std::string("#/$defs/").size());
-        expectDefinition<Kind>(name);
+        expectDefinition<Kind>(
+            rule["then"]["$ref"].get<std::string>().substr(std::string("#/$defs/").size()));
     }
 
     static void expect(const Json& json, std::type_identity<std::string>, const Bounds&) {
@@ -128,7 +146,7 @@ private:
     }
     template <class F>
     static void expect(const Json& json, std::type_identity<std::vector<F>>, const Bounds& bounds) {
-        expect(json["items"], std::type_identity<F>{}, bounds);
+        expect(values(json["items"]), std::type_identity<F>{}, bounds);
         EXPECT_EQ(json.value("minItems", 0U), bounds.fewestItems) << json;
         EXPECT_EQ(json["maxItems"], bounds.mostItems) << json;
     }

@@ -4,7 +4,6 @@
 #include "Api/C/Calls.h"
 #include "Core/CollisionEvent.h"
 #include "Core/RendererSettings.h"
-#include <cmath>
 #include <optional>
 #include <span>
 #include <string_view>

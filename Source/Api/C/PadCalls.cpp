@@ -3,7 +3,6 @@
 #include "Api/C/Convert.h"
 #include "Api/C/Objects.h"
 #include "Scene/PadFile.h"
-#include <limits>
 
 using namespace physvib;
 using namespace physvib::api;

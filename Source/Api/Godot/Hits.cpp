@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Events of a world, as outputs play them and as the signal `felt` says them.
-#include "Api/Godot/WorldProperties.h"
 #include "Api/Godot/Worlds.h"
 
 #include <algorithm>

@@ -6,7 +6,6 @@
 #include "Api/Live/Live.h"
 #include "Api/Live/physvib-live.h"
 #include "Core/Decibels.h"
-#include <cmath>
 #include <vector>
 
 namespace physvib::api {

@@ -6,7 +6,6 @@
 #include "Core/StandardGravity.h"
 #include <array>
 #include <cmath>
-#include <complex>
 
 namespace physvib {
 

@@ -2,7 +2,6 @@
 // Linear model of a resonant actuator: a mass on a spring, driven by a force; the output is the acceleration
 // of its case.
 #pragma once
-#include <cmath>
 #include <complex>
 #include <numbers>
 

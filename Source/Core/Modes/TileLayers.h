@@ -8,7 +8,6 @@
 #pragma once
 #include "Core/Limits.h"
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
 namespace physvib {

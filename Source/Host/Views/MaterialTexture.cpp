@@ -4,7 +4,6 @@
 #include "Host/Views/Palette.h"
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace physvib {
 namespace {

@@ -3,7 +3,6 @@
 #include "Io/Charts/ChartParts.h"
 #include "Io/Charts/Charts.h"
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <tuple>
 

@@ -7,7 +7,6 @@
 #include "Lab/Statistics/LevelFits.h"
 #include "Lab/Statistics/Moments.h"
 #include <algorithm>
-#include <map>
 #include <sstream>
 
 namespace physvib {

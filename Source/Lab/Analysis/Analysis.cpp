@@ -4,7 +4,6 @@
 #include "Lab/Files/TrialColumns.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 namespace physvib {

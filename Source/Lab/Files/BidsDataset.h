@@ -4,7 +4,6 @@
 #pragma once
 #include "Io/Text/CsvTable.h"
 #include <map>
-#include <span>
 #include <string>
 
 namespace physvib {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // JSON schema of protocol files, from the same table of fields that reads and writes them.
 #include "Io/Json/JsonLines.h"
-#include "Io/Json/JsonText.h"
 #include "Lab/Files/ProtocolFields.h"
 #include "Lab/Files/ProtocolFile.h"
 #include <type_traits>

@@ -11,7 +11,6 @@
 #include "Lab/Study/PlaceErrors.h"
 #include "Lab/Study/ResponseMap.h"
 #include "Lab/Study/Votes.h"
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>

@@ -2,7 +2,6 @@
 // Size limits of study files, with the reason for each value.
 #pragma once
 #include <cstddef>
-#include <cstdint>
 
 namespace physvib::limits {
 

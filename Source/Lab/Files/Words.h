@@ -3,7 +3,6 @@
 // another language.
 #pragma once
 #include "Io/Result.h"
-#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>

@@ -5,7 +5,6 @@
 #include "Lab/Files/ProtocolFile.h"
 #include "Scene/ActuatorFile.h"
 #include "Scene/LayoutNamed.h"
-#include <algorithm>
 #include <cmath>
 #include <set>
 

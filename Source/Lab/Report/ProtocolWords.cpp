@@ -5,7 +5,6 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFields.h"
 #include "Lab/Report/LevelChain.h"
-#include <algorithm>
 
 namespace physvib {
 namespace {

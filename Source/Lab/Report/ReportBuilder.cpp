@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs the analyses and tests of a report and shows each as a repeatable call.
 #include "Lab/Report/ReportBuilder.h"
-#include "Io/Text/NumberText.h"
 #include "Lab/Report/ReportCells.h"
 #include <algorithm>
 #include <set>

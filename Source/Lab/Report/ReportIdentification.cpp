@@ -7,7 +7,6 @@
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/InformationTransfer.h"
-#include <cmath>
 
 namespace physvib {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Report sections on participants and procedure, for the methods section of a paper, from the study's files.
-#include "Io/Text/CsvText.h"
 #include "Io/Text/NameList.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/ProtocolFile.h"
@@ -13,8 +12,6 @@
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
-#include <set>
-#include <sstream>
 #include <tuple>
 
 namespace physvib {

@@ -10,7 +10,6 @@
 #include "Lab/Statistics/Psychometric.h"
 #include "Lab/Study/Protocol.h"
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -6,7 +6,6 @@
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ConditionAxes.h"
 #include "Lab/Report/ReportSections.h"
-#include "Lab/Statistics/Moments.h"
 #include "Lab/Study/Votes.h"
 #include <set>
 

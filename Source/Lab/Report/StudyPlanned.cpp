@@ -8,7 +8,6 @@
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Report/ProtocolWords.h"
 #include "Lab/Report/StudyReport.h"
-#include "Lab/Report/UnfinishedRuns.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include <algorithm>
 #include <set>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Composes a report from the sections that fit its trials.
 #include "Lab/Report/StudyReport.h"
-#include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Report/ReportScript.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Report/StudyPlanned.h"

@@ -3,7 +3,6 @@
 #pragma once
 #include "Lab/Study/ConfusionMatrix.h"
 #include "Stimuli/FieldPlace.h"
-#include <string>
 #include <vector>
 
 namespace physvib {

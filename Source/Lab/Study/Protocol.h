@@ -2,7 +2,6 @@
 // A study protocol as data: conditions (stimuli and layouts) and sessions (tasks, repetitions and orders).
 #pragma once
 #include "Core/Actuators/HandWeighting.h"
-#include "Core/PhantomPanner.h"
 #include "Lab/Study/PhantomGrid.h"
 #include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/StimulusLevels.h"
@@ -11,7 +10,6 @@
 #include "Stimuli/PulsePattern.h"
 #include "Stimuli/Stimulus.h"
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <set>

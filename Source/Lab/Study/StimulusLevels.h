@@ -5,7 +5,6 @@
 #include "Lab/Study/LevelTrials.h"
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

@@ -2,7 +2,6 @@
 // Scores a trial and creates the jobs that reproduce its stimulus.
 #include "Lab/Study/Trial.h"
 #include "Core/Decibels.h"
-#include "Lab/Study/NumberWord.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -6,7 +6,6 @@
 #include "Lab/Study/Proportion.h"
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <set>
 

@@ -2,7 +2,6 @@
 // Sets up an ALSA device, and moves samples.
 #include "Live/Devices/AlsaPcm.h"
 #include <algorithm>
-#include <memory>
 
 namespace physvib {
 namespace {

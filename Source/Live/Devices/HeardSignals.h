@@ -11,7 +11,6 @@
 #include "Stimuli/PinkNoise.h"
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>

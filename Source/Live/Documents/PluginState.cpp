@@ -7,7 +7,6 @@
 #include "Scene/SceneFileLimits.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace physvib {

@@ -5,10 +5,8 @@
 #include "Core/SoundNumber.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Json/FieldTable.h"
-#include "Io/Result.h"
 #include <charconv>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -4,7 +4,6 @@
 #include "Live/Documents/ControlJson.h"
 #include "Live/Documents/MixJson.h"
 #include "Live/Documents/SessionFile.h"
-#include "Scene/SceneFileLimits.h"
 #include <cmath>
 
 namespace physvib {

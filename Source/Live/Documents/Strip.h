@@ -8,7 +8,6 @@
 #include "Io/Json/FieldTable.h"
 #include "Live/Documents/GainLane.h"
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <string>
 #include <vector>

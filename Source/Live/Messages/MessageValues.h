@@ -5,7 +5,6 @@
 #include "Core/PhantomPanner.h"
 #include "Live/Documents/PlainMessage.h"
 #include "Live/Messages/MessageTable.h"
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>

@@ -94,15 +94,6 @@ int Session::advance(const StepWatch& goesOn) {
     return steps;
 }
 
-// The world is restarted first, so that its driver does not take the added time for a stall.
-void Session::startLater(std::int64_t frames) noexcept {
-    if (frames <= 0) return;
-    time_.lengthen(frames);
-    if (setup_.direct != Direct::born) return;
-    world_.restart(frames);
-    time_.setFrames(time_.framesRendered() + frames);
-}
-
 void Session::wait(int frames) noexcept {
     world_.beginBlock(RenderMode::realtime);
     time_.waitFrames(frames);

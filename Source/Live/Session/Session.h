@@ -27,7 +27,6 @@
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace physvib {
 
@@ -78,10 +77,6 @@ public:
     /// not played, which shortens the output latency by as much. Only after it has grown, or if the world
     /// is far enough ahead. R, wait-free.
     void wait(float* const* unfelt, int frames) noexcept;
-
-    /// Before the first block: the output latency is unchanged; simulation time starts later by `frames`. R,
-    /// or M.
-    void startLater(std::int64_t frames) noexcept;
 
     /// Executes an input. Its effect is felt the output latency after its time, is logged, and is the same
     /// to the bit when the log is rendered. Returns the time that it was given; or an error (invalid, or too

@@ -103,10 +103,7 @@ private:
     }
     const ClockLaw& law() const noexcept { return law_; }
 
-    void setFrames(std::int64_t frames) noexcept { sessionFrames_ = frames; } ///< as set()
-
-    /// Changes the output latency. R or M, after prepare and before the first block; later R, if the
-    /// renderer's time changes by as much.
+    /// Changes the output latency. R, if the renderer's time changes by as much.
     void lengthen(std::int64_t frames) noexcept {
         playOutFrames_.fetch_add(frames, std::memory_order_relaxed);
         grownFrames_.fetch_add(frames, std::memory_order_release);

@@ -6,7 +6,6 @@
 #include "Scene/World/ShapeGeometry.h"
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <limits>
 
 namespace physvib {

@@ -3,7 +3,6 @@
 // (a car).
 #pragma once
 #include "Scene/Scene.h"
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Lab/Analysis/Analysis.h"
-#include "Lab/Statistics/RepeatedMeasures.h"
 #include <algorithm>
 
 namespace physvib {

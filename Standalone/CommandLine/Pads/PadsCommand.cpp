@@ -6,11 +6,9 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Devices/SystemDrivers.h"
-#include "Live/Pads/DualSense.h"
 #include "Live/Pads/PadTrial.h"
 #include "Scene/PadFile.h"
 #include "System/Interrupt.h"
-#include "System/Process.h"
 #include <chrono>
 #include <iostream>
 #include <thread>

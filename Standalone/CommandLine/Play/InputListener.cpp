@@ -9,7 +9,6 @@
 #include "System/Process.h"
 #include "System/StandardStreams.h"
 #include <iostream>
-#include <type_traits>
 
 namespace physvib {
 

@@ -6,7 +6,6 @@
 #include "Host/Osc/OscPort.h"
 #include "Live/Messages/ClipSource.h"
 #include "Live/Rig/Rig.h"
-#include "Live/Session/Session.h"
 #include <optional>
 #include <string>
 

@@ -14,10 +14,8 @@
 #include "Core/Decibels.h"
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/FileClash.h"
-#include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/SystemDrivers.h"
 #include "Live/Pads/DualSense.h"
-#include "Live/Session/SerialLine.h"
 #include "Scene/SceneEdits.h"
 #include <algorithm>
 #include <numbers>

@@ -9,10 +9,8 @@
 #include "Contacts/ContactCounts.h"
 #include "Core/Decibels.h"
 #include "Io/Disk/FileClash.h"
-#include "Io/Text/NumberText.h"
 #include "Live/Session/HeardContacts.h"
 #include "Live/Session/OfflineRender.h"
-#include "Live/Session/SessionRender.h"
 #include <algorithm>
 #include <iostream>
 #include <sstream>

@@ -2,7 +2,6 @@
 // Writes the index row by row from the task files, so memory does not grow with the number of tasks.
 #include "CommandLine/Sweep/SweepIndex.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Io/Disk/ContentHash.h"
 #include "Io/Provenance.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
