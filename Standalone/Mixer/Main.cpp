@@ -93,7 +93,7 @@ public:
     void systemRequestedQuit() override { window_->requestQuit(); }
 
 private:
-    static constexpr int milliseconds = 50;
+    static constexpr int milliseconds = 200; // until a signal is heeded
 
     void timerCallback() override {
         if (interrupted) quit();

@@ -209,7 +209,7 @@ TEST(Arrangement, APageWithoutRoomScrolls) {
     w.view.setSize(1280, 720);
     w.view.tabs().choose("Output");
     auto* page = w.view.tabs().find("Output");
-    EXPECT_GE(page->getHeight(), page->leastHeight());
+    EXPECT_GE(page->getHeight(), page->leastHeight(page->getWidth()));
     auto* viewport = page->findParentComponentOfClass<juce::Viewport>();
     ASSERT_NE(viewport, nullptr);
     EXPECT_LT(viewport->getHeight(), page->getHeight());

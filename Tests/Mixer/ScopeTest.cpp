@@ -47,6 +47,31 @@ TEST(SpectrumTrace, AxisAndLevelsMeetAtItsEnds) {
     EXPECT_EQ(spectrumLevels(short_, 10.0, 1.0).back(), FrequencyAxis::floorDb);
 }
 
+TEST(ScopeTrace, AWaveHasNoGapAndLosesNoPeakAtAnyWidth) {
+    constexpr int rate = 48000;
+    ScopeTrace trace;
+    trace.setRate(rate);
+    std::vector<float> wave(rate + rate / 10);
+    for (std::size_t i = 0; i < wave.size(); ++i)
+        wave[i] =
+            static_cast<float>(0.5 * std::sin(2.0 * std::numbers::pi * 70.0 * static_cast<double>(i) / rate));
+    wave[wave.size() - 20000] = 1.0f;
+    const float* channel = wave.data();
+    trace.add(&channel, 1, static_cast<int>(wave.size()));
+    for (const int width : {100, 333, 798, 2400}) {
+        auto before = trace.shown(0, 0, width);
+        float highest = 0.0f;
+        for (int x = 1; x < width; ++x) {
+            const auto now = trace.shown(0, x, width);
+            EXPECT_LE(now.lowest, before.highest) << x << " of " << width;
+            EXPECT_GE(now.highest, before.lowest) << x << " of " << width;
+            highest = std::max(highest, now.highest);
+            before = now;
+        }
+        EXPECT_EQ(highest, 1.0f) << width;
+    }
+}
+
 // A column of the old rate may already be longer than those of the new one: the mixer crashed there.
 TEST(ScopeTrace, AnotherRateInTheMiddleOfAColumnBeginsItAnew) {
     for (const int before : {44100, 48000, 192000})

@@ -24,6 +24,13 @@ public:
     }
     std::vector<EmergencyStop*> stops;
 
+    // JUCE wakes its threads for every picture anyway. The timer, which would wake them again, is put off and
+    // looks where no picture has been due for as long as that.
+    void lookWithPicture() {
+        startTimer(lookMs);
+        timerCallback();
+    }
+
 private:
     static constexpr int lookMs = 20; // shorter than a key press
 
@@ -95,7 +102,8 @@ private:
 
 EmergencyStop::EmergencyStop(juce::Component& window, std::function<void()> silence)
     : window_{window}
-    , silence_{std::move(silence)} {
+    , silence_{std::move(silence)}
+    , pictures_{&window, [this] { keys_->lookWithPicture(); }} {
     keys_->stops.push_back(this);
 }
 

@@ -23,6 +23,7 @@ private:
     juce::Component& window_;
     std::function<void()> silence_;
     juce::SharedResourcePointer<StopKeys> keys_;
+    juce::VBlankAttachment pictures_; // last: it calls the keys
 };
 
 } // namespace physvib

@@ -21,6 +21,7 @@ constexpr std::size_t mostTraces = 400;  // for 30 sliding pairs
 constexpr float wallPixels = 11.0f;      // bodies around the field are drawn as a frame of this width
 constexpr float lowBadge = 24.0f;        // has small text
 constexpr float leastSpokePixels = 4.0f; // radius of a circle whose rotation is seen
+constexpr std::size_t manyBodies = 200;  // small circles among them are drawn quickly
 
 float levelOf(double amplitude) {
     return juce::jlimit(
@@ -312,17 +313,37 @@ bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixtur
     return look.has_value();
 }
 
-void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
+// Of a plain circle that is small; false: nothing was drawn.
+bool WorldView::drawSmall(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour,
+                          double angle, const juce::AffineTransform& place, const Map& at) {
+    const auto* circle = std::get_if<CircleShape>(&fixture.shape);
+    if (circle == nullptr || showsMaterials_) return false;
+    const float r = static_cast<float>(circle->radiusMetres) * at.pixelsPerMetre;
+    if (r < leastSpokePixels) return false; // drawn larger than it is
+    const auto none = juce::Colours::transparentBlack;
+    return balls_.draw(
+        g, {r, colour, palette::well.withAlpha(0.45f), fixture.isCamera ? shade(*this, Shade::camera) : none},
+        juce::Point<float>{}.transformedBy(place), static_cast<float>(-angle));
+}
+
+void WorldView::drawBodies(juce::Graphics& g, const Map& at) {
+    const juce::Graphics::ScopedSaveState before{g};
+    const bool areMany = cast_.size() > manyBodies;
+    if (areMany) g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality); // whole pixels
     for (std::size_t i = 0; i < cast_.size(); ++i) {
         const auto& body = cast_[i];
         const BodyPose pose = poseOf(i);
         if (!pose.isPresent) continue;
         for (const auto& fixture : body.fixtures) {
             const auto place = placeOf(fixture, pose, at);
+            const auto colour =
+                palette::material(fixture.material)
+                    .withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f);
+            if (areMany && drawSmall(g, fixture, colour, pose.angleRadians + fixture.angleRadians, place, at))
+                continue;
             const auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
             const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
-            g.setColour(palette::material(fixture.material)
-                            .withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f));
+            g.setColour(colour);
             if (isLine)
                 g.strokePath(path, juce::PathStrokeType{3.0f}, place);
             else if (!drawMaterial(g, fixture, path, place))

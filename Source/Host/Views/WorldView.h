@@ -4,6 +4,7 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
+#include "Host/Views/BallPictures.h"
 #include "Host/Views/Look.h"
 #include "Host/Views/MaterialTexture.h"
 #include "Scene/LayoutFile.h"
@@ -185,7 +186,9 @@ private:
     juce::Font badgeFont() const;
     const std::vector<juce::Rectangle<float>>& badges() const;
     void drawGround(juce::Graphics& g, const Map& at);
-    void drawBodies(juce::Graphics& g, const Map& at) const;
+    void drawBodies(juce::Graphics& g, const Map& at);
+    bool drawSmall(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour, double angle,
+                   const juce::AffineTransform& place, const Map& at);
     void drawHits(juce::Graphics& g, const Map& at) const;
     void take(const CollisionEvent& event, double nowMs);
     void drawTraces(juce::Graphics& g, const Map& at) const;
@@ -201,6 +204,7 @@ private:
         bool isGone = false; // removed, or replaced by a body of the same name
         int before = -1;     // index of the body it replaces
     };
+    BallPictures balls_;
     std::vector<BodyDescription> cast_;
     std::vector<Fate> fates_;  // one per body of cast_
     std::size_t scripted_ = 0; // number of bodies from scriptedCast(), which come first

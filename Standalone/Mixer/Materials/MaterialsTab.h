@@ -40,7 +40,7 @@ public:
     void paint(juce::Graphics& g) override;
     void paintOverChildren(juce::Graphics& g) override;
     void resized() override;
-    int leastHeight() const override { return 380; } // with the plots of a recording
+    int leastHeight(int) const override { return 380; } // with the plots of a recording
 
 private:
     /// One row per material; materials with a frequency first.

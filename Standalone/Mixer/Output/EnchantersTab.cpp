@@ -19,6 +19,44 @@ int presetOf(const EnchanterLayout& layout) {
     return found == layoutPresetNames.end() ? -1 : static_cast<int>(found - layoutPresetNames.begin());
 }
 
+juce::Font nameFont() { return {text::medium, juce::Font::bold}; }
+juce::String placeText(const ActuatorPlace& at) {
+    return number(1e3 * at.xMetres, 0) + ", " + number(1e3 * at.yMetres, 0) + " mm";
+}
+juce::String profileText(const EnchanterDescription& e) {
+    return e.actuator == "none" ? juce::String{"no profile"} : utf8(e.actuator);
+}
+
+/// Widths of the longest name, place and profile, with what is kept after them.
+std::array<int, 3> widestOf(const LayoutDescription& layout) {
+    constexpr int after = 12;
+    const juce::Font font{text::medium};
+    std::array<int, 3> widest{};
+    const auto take = [&widest](std::size_t column, const juce::Font& in, const juce::String& words) {
+        widest[column] = std::max(widest[column], in.getStringWidth(words) + after);
+    };
+    for (std::size_t i = 0; i < layout.enchanters.size(); ++i) {
+        take(0, nameFont(), utf8(layout.enchanters[i].label));
+        take(1, font, placeText(layout.geometry.places[i]));
+        take(2, font, profileText(layout.enchanters[i]));
+    }
+    return widest;
+}
+
+/// Widths of these columns in a row; the full scale has the rest. Where there is no room, names and profiles
+/// share what numbers leave.
+std::array<int, 3> columnsIn(int width, const std::array<int, 3>& widest) {
+    constexpr int fullScale = 66, most = 3;
+    auto [name, place, profile] = widest;
+    const int rest = width - fullScale - place;
+    if (name + profile > rest) {
+        profile = std::max(std::min(profile, rest / 2), rest - name);
+        name = rest - profile;
+    }
+    const int more = std::max(0, rest - name - profile) / most;
+    return {name + more, place + more, profile};
+}
+
 } // namespace
 
 EnchantersTab::Module::Module()
@@ -76,14 +114,12 @@ void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width
         g.setColour(shade(tab_, which));
         g.drawText(words, area.removeFromLeft(w), where, true);
     };
-    g.setFont(juce::Font{text::medium, juce::Font::bold});
-    constexpr int leastName = 44, columnsNeed = 300; // what place, profile and full scale need
-    cell(utf8(e.label), std::max(leastName, area.getWidth() - columnsNeed), Shade::text);
+    const auto columns = columnsIn(area.getWidth(), tab_.widest_);
+    g.setFont(nameFont());
+    cell(utf8(e.label), columns[0], Shade::text);
     g.setFont(juce::Font{text::medium});
-    const int rest = area.getWidth();
-    cell(number(1e3 * place.xMetres, 0) + ", " + number(1e3 * place.yMetres, 0) + " mm", rest * 34 / 100,
-         Shade::text);
-    cell(e.actuator == "none" ? juce::String{"no profile"} : utf8(e.actuator), rest * 36 / 100, Shade::muted);
+    cell(placeText(place), columns[1], Shade::text);
+    cell(profileText(e), columns[2], Shade::muted);
     cell(number(e.fullScaleG, 2) + " g", area.getWidth(), Shade::muted, juce::Justification::centredRight);
 }
 
@@ -133,6 +169,7 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
     caption(lawName_, "Law");
     caption(exponentName_, "Exponent");
     caption(hint_, "Drag a badge to move it; out of the field: detached.");
+    hint_.setMinimumHorizontalScale(1.0f); // two lines rather than narrow letters
     for (juce::Component* c : std::initializer_list<juce::Component*>{
              &module_, &presetName_, &preset_, &lawName_, &law_, &exponentName_, &exponent_, &list_,
              edit_.get(), detach_.get(), &maps_, &hint_})
@@ -203,6 +240,7 @@ void EnchantersTab::takeMix() {
     preset_.setSelectedItemIndex(presetOf(mix.layout.geometry), juce::dontSendNotification);
     law_.setSelectedItemIndex(static_cast<int>(mix.law), juce::dontSendNotification);
     if (!exponent_.isMouseButtonDown()) exponent_.setValue(mix.exponent, juce::dontSendNotification);
+    widest_ = widestOf(mix.layout);
     list_.updateContent();
     list_.repaint();
     if (chosen_ >= mix.count()) list_.deselectAllRows();

@@ -3,6 +3,7 @@
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Window/TabPanel.h"
+#include <array>
 
 namespace physvib {
 
@@ -14,7 +15,7 @@ public:
     void editRow(int enchanter); ///< asks for name, profile and full scale
     void paint(juce::Graphics& g) override;
     void resized() override;
-    int leastHeight() const override { return 224; } // two rows of the list
+    int leastHeight(int) const override { return 224; } // two rows of the list
     void visibilityChanged() override {
         world_.showGainsOf(isVisible() && maps_.getToggleState() ? chosen_ : -1);
     }
@@ -50,6 +51,7 @@ private:
     Desk& desk_;
     WorldView& world_;
     int chosen_ = -1;
+    std::array<int, 3> widest_{}; // name, place and profile
     Module module_;
     juce::ComboBox preset_, law_;
     juce::Slider exponent_;

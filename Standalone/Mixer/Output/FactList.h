@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// List of names and values in columns; redraws only on changes.
+// List of names and values in columns, fewer where they are narrow; redraws only on changes.
 #pragma once
 #include "Host/Views/Look.h"
 #include <vector>
@@ -14,17 +14,24 @@ struct Fact {
 
 class FactList final : public juce::Component {
 public:
-    FactList(const juce::String& title, int columns);
+    FactList(const juce::String& title, int mostColumns);
 
     void set(std::vector<Fact> facts);
     const std::vector<Fact>& facts() const noexcept { return facts_; }
+    int heightFor(int width) const; ///< at which all of it is seen
     void paint(juce::Graphics& g) override;
     std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override {
         return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
     }
 
 private:
-    const int columns_;
+    struct Places {
+        int columns = 1, nameWidth = 0, rows = 0, lines = 0; // lines: of the highest column
+        std::vector<int> linesOf;                            // of each fact
+    };
+    Places placesIn(int width) const;
+
+    const int mostColumns_;
     std::vector<Fact> facts_;
 };
 

@@ -13,7 +13,7 @@ public:
     void takeMix() override;
     void refresh(const DeskMoment& moment) override;
     void resized() override;
-    int leastHeight() const override { return 470; } // all of its facts
+    int leastHeight(int) const override { return 470; } // all of its facts
     void visibilityChanged() override;
     /// Sets the receiver HOST:PORT as if typed; empty: none.
     void tellHits(const juce::String& receiver);

@@ -11,6 +11,7 @@ class TelemetryTab final : public Tab {
 public:
     explicit TelemetryTab(Desk& desk);
     void refresh(const DeskMoment& moment) override;
+    int leastHeight(int width) const override { return facts_.heightFor(width); }
     void resized() override { facts_.setBounds(getLocalBounds()); }
 
 private:

@@ -51,8 +51,7 @@ void ScopeView::drawLane(juce::Graphics& g, juce::Rectangle<int> lane, int chann
     juce::RectangleList<float> columns;
     const int width = lane.getWidth() - 4;
     for (int x = 0; x < width; ++x) {
-        const auto range =
-            desk_.signals().scope().at(channel, x * (ScopeTrace::columns - 1) / std::max(1, width));
+        const auto range = desk_.signals().scope().shown(channel, x, width);
         const float top = middle - reach * shownLevel(range.highest),
                     bottom = middle - reach * shownLevel(range.lowest);
         columns.addWithoutMerging(

@@ -162,15 +162,12 @@ void StripView::mouseDown(const juce::MouseEvent& e) {
 void StripView::paint(juce::Graphics& g) {
     if (!isThere()) return;
     auto area = getLocalBounds();
-    const auto& enchanter = desk_.mix().layout.enchanters[index_];
     const bool isSilent = desk_.mix().isSilent(static_cast<int>(index_));
     g.setColour(
         enchanterColour(*this, static_cast<int>(index_)).withMultipliedAlpha(isSilent ? 0.35f : 1.0f));
     g.fillRoundedRectangle(area.removeFromTop(4).toFloat(), 2.0f);
     area.removeFromTop(4);
-    g.setColour(shade(*this, isSilent ? Shade::muted : Shade::text));
-    g.setFont(juce::Font{text::medium, juce::Font::bold});
-    g.drawText(utf8(enchanter.label), area.removeFromTop(20), juce::Justification::centred, true);
+    drawName(g, area.removeFromTop(20), isSilent ? Shade::muted : Shade::text);
     g.setColour(shade(*this, Shade::muted));
     g.setFont(juce::Font{11.0f});
     for (const int db : {0, -20, -40, -60}) { // scale of the meter, right of the fader
@@ -181,6 +178,25 @@ void StripView::paint(juce::Graphics& g) {
             juce::Rectangle<float>{static_cast<float>(fader_.getRight()) - 3.0f, y - 7.0f, 24.0f, 14.0f},
             juce::Justification::centredRight, false);
     }
+}
+
+// With the fader's gain, unless that is 0 dB or the name needs the room.
+void StripView::drawName(juce::Graphics& g, juce::Rectangle<int> row, Shade which) const {
+    const auto name = utf8(desk_.mix().layout.enchanters[index_].label);
+    const juce::Font bold{text::medium, juce::Font::bold}, plain{text::small};
+    const double db = strip().gainDb;
+    const auto gain = db == 0.0 ? juce::String{} : fader_.textFromValueFunction(db);
+    constexpr int between = 5;
+    const int gainWidth = plain.getStringWidth(gain) + between, nameWidth = bold.getStringWidth(name);
+    if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {
+        row = row.withSizeKeepingCentre(nameWidth + gainWidth, row.getHeight());
+        g.setColour(shade(*this, Shade::muted));
+        g.setFont(plain);
+        g.drawText(gain, row.removeFromRight(gainWidth), juce::Justification::centredRight, false);
+    }
+    g.setColour(shade(*this, which));
+    g.setFont(bold);
+    g.drawText(name, row, juce::Justification::centred, true);
 }
 
 void StripView::setDropping(bool isDropping) {

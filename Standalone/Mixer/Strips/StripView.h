@@ -28,6 +28,7 @@ public:
 
 private:
     void setDropping(bool isDropping);
+    void drawName(juce::Graphics& g, juce::Rectangle<int> row, Shade which) const;
     bool isThere() const { return index_ < desk_.mix().strips.size(); } // false: its strip was removed
     const Strip& strip() const { return desk_.mix().strips[index_]; }
     template <class Change>

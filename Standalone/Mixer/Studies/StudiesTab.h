@@ -55,7 +55,7 @@ public:
     juce::Rectangle<int> adviceArea() const noexcept { return levelArea_; }
 
     void takeMix() override;
-    int leastHeight() const override { return 246; } // the controls without captions, and a line of advice
+    int leastHeight(int) const override { return 246; } // the controls without captions, and a line of advice
     /// The check of the protocol; none while it is made. It is made while the tab is seen.
     const std::optional<StudyCheck>& check() const noexcept { return check_; }
 

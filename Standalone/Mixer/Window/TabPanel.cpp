@@ -6,6 +6,7 @@ namespace physvib {
 
 namespace {
 
+constexpr int barRoom = 12;                  // of the scroll bar, and beside it
 constexpr int widestRest = 60, mostCut = 14; // margin beside a name, and what a narrow panel takes from it
 
 int widthOf(const juce::String& name) {
@@ -45,7 +46,7 @@ void TabPanel::add(const juce::String& name, std::unique_ptr<Tab> tab) {
     tab->setVisible(false); // tabs tell by their visibility whether they are chosen
     view->setScrollBarThickness(8);
     addChildComponent(*view);
-    pages_.push_back({std::move(button), std::move(tab), std::move(view)});
+    pages_.push_back({std::move(button), std::move(tab), std::move(view), 0});
     if (pages_.size() == 1) choose(name);
 }
 
@@ -77,7 +78,10 @@ void TabPanel::takeMix() {
 }
 
 void TabPanel::refresh(const DeskMoment& moment) {
-    if (chosen_ < pages_.size()) pages_[chosen_].tab->refresh(moment);
+    if (chosen_ >= pages_.size()) return;
+    const auto& page = pages_[chosen_];
+    page.tab->refresh(moment);
+    if (page.tab->leastHeight(page.view->getWidth()) != page.least) resized(); // it says more, or less
 }
 
 void TabPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
@@ -95,8 +99,10 @@ void TabPanel::resized() {
     area.removeFromTop(10);
     for (auto& page : pages_) {
         page.view->setBounds(area);
-        const int least = page.tab->leastHeight(), room = least > area.getHeight() ? 12 : 0;
-        page.tab->setSize(area.getWidth() - room, std::max(area.getHeight(), least));
+        page.least = page.tab->leastHeight(area.getWidth());
+        const int room = page.least > area.getHeight() ? barRoom : 0;
+        page.tab->setSize(area.getWidth() - room,
+                          std::max(area.getHeight(), page.tab->leastHeight(area.getWidth() - room)));
     }
 }
 

@@ -9,9 +9,9 @@ namespace physvib {
 /// Base class of a page. To add one, derive from it and name it in MixerView's constructor.
 class Tab : public juce::Component {
 public:
-    virtual void takeMix() {}                     ///< the mixer state changed
-    virtual void refresh(const DeskMoment&) {}    ///< while visible, at most about 30 times a second
-    virtual int leastHeight() const { return 0; } ///< a panel that has less lets the page scroll
+    virtual void takeMix() {}                        ///< the mixer state changed
+    virtual void refresh(const DeskMoment&) {}       ///< while visible, at most about 30 times a second
+    virtual int leastHeight(int) const { return 0; } ///< at a width; a panel that has less lets it scroll
 };
 
 class TabPanel final : public juce::Component {
@@ -33,6 +33,7 @@ private:
         std::unique_ptr<Name> name;
         std::unique_ptr<Tab> tab;
         std::unique_ptr<juce::Viewport> view; // of the tab
+        int least = 0;                        // its height when it was placed
     };
     std::vector<Page> pages_;
     std::size_t chosen_ = 0;

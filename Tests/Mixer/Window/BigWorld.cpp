@@ -2,11 +2,13 @@
 // What the mixer's window does with a world that is too much: prints how long the first picture, the message,
 // other pictures and the end took, and what processor time of the window's own thread. With --spread: a world
 // that can be played, its pictures a second, share of a processor, and time from a click to the picture of
-// the body that it draws. ../big-world.sh runs it; no test, since it measures times.
+// the body that it draws. With --paint: processor time of a picture of that world, without a display.
+// ../big-world.sh runs it; no test, since it measures times.
 #include "Host/MessageLoop.h"
 #include "Live/Session/ThreadTime.h"
 #include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Window/MixerWindow.h"
+#include "Scene/SceneFile.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -133,6 +135,34 @@ void measureSpread(int bodies, const juce::File& folder) {
     share("paused", painted);
 }
 
+/// Bodies that sway and turn about where they begin: what is measured is the picture alone.
+void measurePaint(int bodies) {
+    constexpr int pictures = 40;
+    const Scene scene = readScene(shower(bodies), "shower").value;
+    WorldView view;
+    view.setSize(1000, 562);
+    view.show(scene);
+    const juce::Image image{juce::Image::RGB, view.getWidth(), view.getHeight(), true,
+                            juce::SoftwareImageType{}};
+    double spent = 0.0;
+    for (int k = -1; k < pictures; ++k) {
+        std::vector<BodyPose> poses;
+        for (const auto& body : scene.bodies) {
+            const double at = body.type == BodyType::dynamicBody ? 0.3 * k + body.positionMetres.x : 0.0;
+            poses.push_back({body.positionMetres.x + 0.02 * std::sin(at),
+                             body.positionMetres.y + 0.02 * std::sin(1.7 * at), at, true});
+        }
+        const double from = threadSeconds();
+        view.update({std::move(poses), 20'000'000LL * (k + 2), 0, {}, {}});
+        {
+            juce::Graphics g{image};
+            view.paintEntireComponent(g, true);
+        }
+        if (k >= 0) spent += threadSeconds() - from; // the first fills what is kept
+    }
+    std::printf("%d bodies: %.2f ms of a core for a picture\n", bodies, 1e3 * spent / pictures);
+}
+
 void measure(int bodies, const juce::File& folder) {
     const auto scene = folder.getChildFile("heap.json");
     scene.replaceWithText(heap(bodies));
@@ -173,9 +203,14 @@ int main(int argc, char* argv[]) {
     const juce::ScopedJuceInitialiser_GUI juce;
     const auto folder = juce::File::createTempFile("physvib-big-world");
     folder.createDirectory();
-    const bool isSpread = argc > 2 && std::string{argv[2]} == "--spread";
+    const std::string how = argc > 2 ? argv[2] : "";
     const int bodies = argc > 1 ? std::atoi(argv[1]) : 2000;
-    isSpread ? physvib::test::measureSpread(bodies, folder) : physvib::test::measure(bodies, folder);
+    if (how == "--spread")
+        physvib::test::measureSpread(bodies, folder);
+    else if (how == "--paint")
+        physvib::test::measurePaint(bodies);
+    else
+        physvib::test::measure(bodies, folder);
     folder.deleteRecursively();
     return 0;
 }
