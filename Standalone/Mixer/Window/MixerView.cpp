@@ -200,7 +200,7 @@ void MixerView::setFirstStart(std::unique_ptr<FirstStart> card) {
     if (!firstStart_) return grabKeyboardFocus();
     addAndMakeVisible(*firstStart_);
     placeCards();
-    firstStart_->grabKeyboardFocus();
+    cardFocus_.give(*firstStart_);
 }
 
 void MixerView::setCard(std::unique_ptr<juce::Component> card) {
@@ -208,7 +208,7 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     if (!card_) return grabKeyboardFocus();
     addAndMakeVisible(*card_);
     placeCards();
-    card_->grabKeyboardFocus();
+    cardFocus_.give(*card_);
 }
 
 void MixerView::setProgress(juce::Component* card) {

@@ -4,6 +4,7 @@
 #include "Host/Views/EmergencyStop.h"
 #include "Mixer/Strips/StripsPanel.h"
 #include "Mixer/Window/Arrangement.h"
+#include "Mixer/Window/CardFocus.h"
 #include "Mixer/Window/CardHost.h"
 #include "Mixer/Window/Divider.h"
 #include "Mixer/Window/FirstStart.h"
@@ -91,6 +92,7 @@ private:
     std::unique_ptr<juce::TextButton> dismiss_, act_;
     std::unique_ptr<FirstStart> firstStart_;
     std::unique_ptr<juce::Component> card_;
+    CardFocus cardFocus_;
     juce::Component::SafePointer<juce::Component> progress_;
     ShownLetters letters_;
     std::uint64_t lettersOf_ = ~std::uint64_t{0}; // edit count of the world at the last check

@@ -35,6 +35,7 @@ TopBar::TopBar(Desk& desk)
     setTitle("Transport and device");
     menu_.setTitle("Menu");
     menu_.setTooltip("Open, save, record, render (F10)");
+    menu_.setMouseClickGrabsKeyboardFocus(false); // after its menu the keys are again of who had them
     menu_.onClick = [this] {
         if (onMenu) onMenu(menu_);
     };

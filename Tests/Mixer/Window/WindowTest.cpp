@@ -777,6 +777,39 @@ TEST(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
     EXPECT_TRUE(window.isChanged());
 }
 
+TEST(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    Hand hand{window};
+    const auto menu = [] { return juce::Component::getCurrentlyModalComponent(); };
+    const auto choose = [&](int fromTheEnd) {
+        hand.click(*find(window.view(), "Menu"));
+        ASSERT_TRUE(runUntil([&] { return menu() != nullptr; }));
+        menu()->getPeer()->toFront(true); // as a press on an item does: the window loses the keys
+        runFor(0.3);
+        for (int k = 0; k < fromTheEnd; ++k)
+            menu()->getPeer()->handleKeyPress(juce::KeyPress{juce::KeyPress::upKey});
+        menu()->getPeer()->handleKeyPress(juce::KeyPress{juce::KeyPress::returnKey});
+        ASSERT_TRUE(runUntil([&] { return menu() == nullptr; }));
+        runFor(0.3);
+    };
+    choose(3); // Width of the display
+    ASSERT_NE(window.view().card(), nullptr);
+    EXPECT_TRUE(window.view().card()->hasKeyboardFocus(true)) << "though the menu gives them back late";
+    hand.key(juce::KeyPress::returnKey);
+    ASSERT_TRUE(runUntil([&] { return window.view().card() == nullptr; })) << "Return answers";
+    runFor(0.3);
+    EXPECT_EQ(menu(), nullptr);
+    hand.key(juce::KeyPress::spaceKey);
+    EXPECT_EQ(menu(), nullptr);
+    EXPECT_EQ(window.desk().session().world().slowness(), 0) << "Space is the world's";
+    choose(2); // Hint
+    EXPECT_TRUE(window.view().isHintShown());
+    hand.key(juce::KeyPress::spaceKey);
+    EXPECT_EQ(menu(), nullptr);
+    EXPECT_EQ(window.desk().session().world().slowness(), 1) << "without a card as well";
+}
+
 TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
     TestFolder folder;
     const auto copies = [&] {
