@@ -2,7 +2,6 @@
 // Derives panner, session settings, tail length and parameter values from a plug-in state.
 #include "PluginSettings.h"
 #include "Io/Text/NameList.h"
-#include "MidiMap.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>

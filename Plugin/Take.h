@@ -4,8 +4,8 @@
 #include "Core/Actuators/GainRamp.h"
 #include "Core/EventQueue.h"
 #include "Live/Session/Session.h"
+#include "MidiMap.h"
 #include "MusicDelay.h"
-#include "TakeSettings.h"
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -13,6 +13,14 @@
 #include <vector>
 
 namespace physvib {
+
+/// The part of a plug-in state that the render thread needs. Each scene run carries its own, so it is never
+/// played with the settings of another.
+struct TakeSettings {
+    TransportMode transport = TransportMode::free;
+    EnchanterLayout layout;
+    MidiTable midi;
+};
 
 /// What takes are made of; the next settings have the next number.
 struct TakeOrder {

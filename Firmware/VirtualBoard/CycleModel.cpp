@@ -99,7 +99,6 @@ BlockCost CycleModel::cost(std::span<const std::uint8_t> code, std::uint32_t add
         shortest += plainCycles(i, wasAccess, CostModel::optimistic) + stall;
         lastResult = i.isArithmetic() ? i.reg(0) : ARM_REG_INVALID;
         wasAccess = i.isLoad() || i.isStore();
-        ++b.instructions;
     }
     if (count > 0) cs_free(found, count);
     const auto fetches = static_cast<std::uint32_t>((code.size() + bytesPerFetch - 1) / bytesPerFetch);

@@ -20,7 +20,7 @@ enum class CostModel { optimistic, pessimistic };
 
 /// A straight run of instructions, without branches.
 struct BlockCost {
-    std::uint32_t instructions = 0, cycles = 0;
+    std::uint32_t cycles = 0;
     std::uint32_t takenCycles = 0;          ///< extra cycles if it was reached by a branch
     std::vector<std::uint32_t> storeCycles; ///< earliest cycle at which each stored word leaves the core
 };

@@ -31,8 +31,7 @@ void demand(uc_err error, const char* what) {
 } // namespace
 
 VirtualBoard::VirtualBoard(const ElfImage& image, CostModel model, bool hasCrystal)
-    : image_{image}
-    , model_{model} {
+    : model_{model} {
     io_.hasCrystal = hasCrystal;
     demand(uc_open(UC_ARCH_ARM, static_cast<uc_mode>(UC_MODE_THUMB | UC_MODE_MCLASS), &engine_), "open");
     demand(uc_ctl_set_cpu_model(engine_, UC_CPU_ARM_CORTEX_M4), "processor");
@@ -55,9 +54,6 @@ VirtualBoard::VirtualBoard(const ElfImage& image, CostModel model, bool hasCryst
            "hook");
     demand(uc_hook_add(engine_, &hook, UC_HOOK_MEM_WRITE, reinterpret_cast<void*>(onStore), this, 1, 0),
            "hook");
-    for (const auto& [name, symbol] : image.symbols)
-        if (symbol.size > 0) functions_.push_back({symbol.address & ~1u, name});
-    std::sort(functions_.begin(), functions_.end());
     reset(false);
 }
 
@@ -104,24 +100,20 @@ void VirtualBoard::poke(std::uint32_t address, std::span<const std::uint8_t> byt
                         static_cast<std::uint64_t>(address + bytes.size()));
 }
 
-// --- time
-// -----------------------------------------------------------------------------------------------------
+// Time:
 
 void VirtualBoard::commit() {
     cycle_ += pendingCycles_;
     pendingCycles_ = 0;
 }
 
-const VirtualBoard::Block& VirtualBoard::blockAt(std::uint32_t address, std::uint32_t size) {
+const BlockCost& VirtualBoard::blockAt(std::uint32_t address, std::uint32_t size) {
     const std::uint64_t key = static_cast<std::uint64_t>(address) << 32 | size;
     const auto found = blocks_.find(key);
     if (found != blocks_.end()) return found->second;
     std::vector<std::uint8_t> code(size);
     uc_mem_read(engine_, address, code.data(), size);
-    const auto after =
-        std::upper_bound(functions_.begin(), functions_.end(), std::pair{address, std::string("\x7f")});
-    const std::string name = after == functions_.begin() ? "?" : std::prev(after)->second;
-    return blocks_.emplace(key, Block{model_.cost(code, address), &spent_[name]}).first->second;
+    return blocks_.emplace(key, model_.cost(code, address)).first->second;
 }
 
 void VirtualBoard::enterBlock(std::uint32_t address, std::uint32_t size) {
@@ -132,18 +124,15 @@ void VirtualBoard::enterBlock(std::uint32_t address, std::uint32_t size) {
         return;
     }
     current_ = &blockAt(address, size);
-    const std::uint64_t cost =
-        current_->cost.cycles + (address != expectedAddress_ ? current_->cost.takenCycles : 0);
+    const std::uint64_t cost = current_->cycles + (address != expectedAddress_ ? current_->takenCycles : 0);
     expectedAddress_ = address + size;
     storesInBlock_ = 0;
-    instructions_ += current_->cost.instructions;
-    *current_->spent += cost;
     pendingCycles_ = cost;
 }
 
 std::uint64_t VirtualBoard::storeTime() const {
     if (current_ == nullptr || storesInBlock_ == 0) return cycle_;
-    const auto& at = current_->cost.storeCycles;
+    const auto& at = current_->storeCycles;
     return cycle_ + (at.empty() ? 0 : at[std::min<std::size_t>(storesInBlock_, at.size()) - 1]);
 }
 
@@ -176,8 +165,7 @@ void VirtualBoard::onWrite(uc_engine*, std::uint64_t offset, unsigned size, std:
     r.board->deadline_ = std::min(r.board->deadline_, next);
 }
 
-// --- exceptions (ARMv7-M manual, B1.5)
-// -----------------------------------------------------------------------
+// Exceptions (ARMv7-M manual, B1.5):
 
 void VirtualBoard::enterException(int vector, int number, int priority) {
     std::array<std::uint32_t, frameBytes / 4> frame{};
@@ -223,8 +211,7 @@ void VirtualBoard::fault() {
     enterException(hardFault, -hardFault, faultPriority);
 }
 
-// --- running
-// -------------------------------------------------------------------------------------------------
+// Running:
 
 void VirtualBoard::runSlice(std::uint64_t end) {
     io_.advance(cycle_);
@@ -249,13 +236,6 @@ void VirtualBoard::runSlice(std::uint64_t end) {
 void VirtualBoard::runUntil(double seconds) {
     const auto end = static_cast<std::uint64_t>(seconds * io_.hz());
     while (cycle_ < end) runSlice(end);
-}
-
-std::vector<std::pair<std::uint64_t, std::string>> VirtualBoard::profile() const {
-    std::vector<std::pair<std::uint64_t, std::string>> all;
-    for (const auto& [name, cycles] : spent_) all.push_back({cycles, name});
-    std::sort(all.rbegin(), all.rend());
-    return all;
 }
 
 } // namespace physvib::virtualboard

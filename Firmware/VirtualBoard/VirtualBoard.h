@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -43,15 +42,11 @@ public:
 
     std::uint64_t cycle() const { return cycle_; }
     std::uint64_t idleCycles() const { return idle_; }
-    std::uint64_t instructions() const { return instructions_; }
     /// Whether the processor waits for an interrupt; its memory is then in a consistent state of the main
     /// loop.
     bool isAsleep() const { return asleep_; }
     int resets() const { return resets_; }
     int faults() const { return faults_; }
-
-    /// Cycles per function since power-on.
-    std::vector<std::pair<std::uint64_t, std::string>> profile() const;
 
 private:
     struct Exception {
@@ -67,13 +62,9 @@ private:
         VirtualBoard* board;
         std::uint32_t base;
     };
-    struct Block {
-        BlockCost cost;
-        std::uint64_t* spent = nullptr; // cycles spent in its function
-    };
 
     void enterBlock(std::uint32_t address, std::uint32_t size);
-    const Block& blockAt(std::uint32_t address, std::uint32_t size);
+    const BlockCost& blockAt(std::uint32_t address, std::uint32_t size);
     std::uint64_t storeTime() const;
     void commit();
     int currentPriority() const { return active_.empty() ? 256 : active_.back().priority; }
@@ -87,17 +78,14 @@ private:
     void setReg(int id, std::uint32_t value);
 
     uc_engine* engine_ = nullptr;
-    ElfImage image_;
     CycleModel model_;
     Peripherals io_;
     std::vector<std::unique_ptr<Region>> regions_;
-    std::unordered_map<std::uint64_t, Block> blocks_;
-    std::unordered_map<std::string, std::uint64_t> spent_;
-    std::vector<std::pair<std::uint32_t, std::string>> functions_; // sorted by address
+    std::unordered_map<std::uint64_t, BlockCost> blocks_;
     std::vector<Exception> active_;
-    const Block* current_ = nullptr;
+    const BlockCost* current_ = nullptr;
     std::uint32_t storesInBlock_ = 0, expectedAddress_ = 0;
-    std::uint64_t cycle_ = 0, idle_ = 0, pendingCycles_ = 0, deadline_ = 0, instructions_ = 0;
+    std::uint64_t cycle_ = 0, idle_ = 0, pendingCycles_ = 0, deadline_ = 0;
     bool stopped_ = false, asleep_ = false;
     int exception_ = -1, resets_ = 0, faults_ = 0;
 };

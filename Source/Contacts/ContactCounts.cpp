@@ -3,7 +3,6 @@
 #include "Contacts/ContactCounts.h"
 #include "Contacts/Explanations.h"
 #include <algorithm>
-#include <array>
 #include <cstdio>
 
 namespace physvib {

@@ -2,7 +2,6 @@
 // How a tone that moves begins: its phase, its decay and its end in whole numbers.
 #include "Core/MovingTones.h"
 #include "Core/Modes/ModeIncrements.h"
-#include <algorithm>
 
 namespace physvib {
 

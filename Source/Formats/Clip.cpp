@@ -4,7 +4,6 @@
 #include "Formats/ClipLimits.h"
 #include "Formats/TimeOrder.h"
 #include "Io/Text/NumberText.h"
-#include <cmath>
 
 namespace physvib {
 namespace {

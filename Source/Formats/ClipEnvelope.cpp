@@ -2,7 +2,6 @@
 // Computes a channel's envelope: the sum of all waves just before and just after each point.
 #include "Formats/ClipEnvelope.h"
 #include <algorithm>
-#include <cmath>
 
 namespace physvib {
 namespace {

@@ -2,6 +2,8 @@
 // Writes completion scripts for bash, zsh and fish. The bash and zsh scripts determine the command from the
 // words typed so far.
 #include "Options/Completions.h"
+#include "Io/Text/NameList.h"
+#include "Lab/Study/CallWords.h"
 #include <functional>
 #include <sstream>
 
@@ -15,24 +17,8 @@ void each(const OptionTable& command, const Visit& visit) {
     for (const OptionTable& inner : command.commands) each(inner, visit);
 }
 
-std::string shellWord(std::string_view text) {
-    std::string out(1, '\'');
-    for (const char c : text) {
-        if (c == '\'') out += "'\\'";
-        out += c;
-    }
-    out += '\'';
-    return out;
-}
-
-std::string joinedWords(const std::vector<std::string>& words) {
-    std::string out;
-    for (const std::string& word : words) out += (out.empty() ? "" : " ") + word;
-    return out;
-}
-
 std::string bracketed(const std::vector<std::string>& words) {
-    std::string out = joinedWords(words);
+    std::string out = joined(words, " ");
     out.insert(out.begin(), '(');
     out += ')';
     return out;
@@ -98,7 +84,7 @@ std::string fishCondition(const OptionTable& program, const OptionTable& command
             (condition.empty() ? "__fish_seen_subcommand_from " : "; and __fish_seen_subcommand_from ") +
             word;
     if (!command.commands.empty())
-        (condition += "; and not __fish_seen_subcommand_from ") += joinedWords(namesWithin(command));
+        (condition += "; and not __fish_seen_subcommand_from ") += joined(namesWithin(command), " ");
     return std::string{" -n "}.append(shellWord(condition));
 }
 
@@ -110,7 +96,7 @@ std::string fishOption(const Option& option) {
                                             : std::string{" -s "}.append(name, 1);
     if (!option.choices.empty())
         words +=
-            std::string{option.isPlace ? " -a " : " -x -a "}.append(shellWord(joinedWords(option.choices)));
+            std::string{option.isPlace ? " -a " : " -x -a "}.append(shellWord(joined(option.choices, " ")));
     else if (!option.isPlace && !option.value().empty())
         words += " -r";
     if (!option.meaning.empty()) (words += " -d ") += shellWord(option.meaning);
@@ -134,7 +120,7 @@ std::string bashCompletion(const OptionTable& program) {
                     out << "        " << shellWord(command.words + ' ' + name) << ") "
                         << (option.choices.empty()
                                 ? "return"
-                                : std::string{"choices="}.append(shellWord(joinedWords(option.choices))))
+                                : std::string{"choices="}.append(shellWord(joined(option.choices, " "))))
                         << " ;;\n";
     });
     out << "    esac\n    [ -n \"$choices\" ] || case $call in\n";
@@ -144,7 +130,7 @@ std::string bashCompletion(const OptionTable& program) {
             const auto& more = option.isPlace ? option.choices : option.spellings;
             words.insert(words.end(), more.begin(), more.end());
         }
-        out << "        " << shellWord(command.words) << ") choices=" << shellWord(joinedWords(words))
+        out << "        " << shellWord(command.words) << ") choices=" << shellWord(joined(words, " "))
             << " ;;\n";
     });
     out << "    esac\n    COMPREPLY=($(compgen -W \"$choices\" -- \"$current\"))\n}\ncomplete -o default -F "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes a manual page: name, synopsis, options, commands, exit codes.
 #include "Options/ManPage.h"
+#include "Io/Text/NameList.h"
 #include <algorithm>
 #include <array>
 #include <sstream>
@@ -21,12 +22,6 @@ std::string shown(std::string_view text) {
         else
             out += c;
     }
-    return out;
-}
-
-std::string joined(const std::vector<std::string>& words, std::string_view between) {
-    std::string out;
-    for (const std::string& word : words) out += (out.empty() ? std::string{} : std::string{between}) + word;
     return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Creates option entries with defaults from the type of their target, or from a usage text.
 #include "Options/OptionTable.h"
+#include "Io/Text/NameList.h"
 #include "Scene/SceneCatalogue.h"
 #include <algorithm>
 #include <regex>
@@ -37,11 +38,7 @@ std::vector<std::string> split(const std::string& text) {
     return words;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string all;
-    for (const std::string& word : words) all += (all.empty() ? "" : ",") + word;
-    return '{' + all + '}';
-}
+std::string braced(const std::vector<std::string>& words) { return '{' + joined(words, ",") + '}'; }
 
 std::vector<std::string> sceneNames() {
     std::vector<std::string> names;
@@ -52,7 +49,7 @@ std::vector<std::string> sceneNames() {
 } // namespace
 
 Option& Option::oneOf(std::vector<std::string> words) {
-    range = joined(words);
+    range = braced(words);
     choices = std::move(words);
     check = Check::choice;
     return *this;
@@ -66,7 +63,7 @@ Option& Option::numbered(std::vector<std::pair<std::string, int>> words) {
         bare.push_back(std::to_string(number));
         shown.push_back(word + "->" + bare.back());
     }
-    range = "value in " + joined(shown) + " OR " + joined(bare);
+    range = "value in " + braced(shown) + " OR " + braced(bare);
     numbers = std::move(words);
     check = Check::number;
     return *this;

@@ -2,6 +2,7 @@
 // Declares a table's options in CLI11 and copies the results back.
 #include "Options/Parser.h"
 #include "Io/Disk/NameEnding.h"
+#include "Io/Text/NameList.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
@@ -65,18 +66,12 @@ void check(CLI::Option& option, const Option& row) {
     }
 }
 
-std::string namesOf(const Option& row) {
-    std::string names;
-    for (const std::string& spelling : row.spellings) names += (names.empty() ? "" : ",") + spelling;
-    return names;
-}
-
 template <class Words, class Reader>
 CLI::Option* readBy(CLI::App& app, const Option& row, const Reader& read) {
     const auto take = [name = row.spellings.front(), read](const Words& words) {
         if (const std::string fault = read(words); !fault.empty()) throw CLI::ValidationError(name, fault);
     };
-    return app.add_option_function<Words>(namesOf(row), take, row.meaning);
+    return app.add_option_function<Words>(joined(row.spellings, ","), take, row.meaning);
 }
 
 /// Declares the option; null for options that CLI11 provides itself.
@@ -86,15 +81,15 @@ CLI::Option* declare(CLI::App& app, const Option& row) {
         if constexpr (std::is_same_v<Target, std::monostate>)
             return nullptr;
         else if constexpr (std::is_same_v<Target, bool*>)
-            return app.add_flag(namesOf(row), *target, row.meaning);
+            return app.add_flag(joined(row.spellings, ","), *target, row.meaning);
         else if constexpr (std::is_same_v<Target, std::function<void(int)>>)
-            return app.add_option_function<int>(namesOf(row), target, row.meaning);
+            return app.add_option_function<int>(joined(row.spellings, ","), target, row.meaning);
         else if constexpr (std::is_same_v<Target, WordReader>)
             return readBy<std::string>(app, row, target);
         else if constexpr (std::is_same_v<Target, WordsReader>)
             return readBy<std::vector<std::string>>(app, row, target);
         else
-            return app.add_option(namesOf(row), *target, row.meaning);
+            return app.add_option(joined(row.spellings, ","), *target, row.meaning);
     };
     CLI::Option* const option = std::visit(make, row.target);
     if (!option) return nullptr;

@@ -4,11 +4,9 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Options/Completions.h"
 #include "Options/ManPage.h"
-#include "Options/OptionTable.h"
 #include <algorithm>
 #include <cctype>
 #include <sstream>
-#include <string>
 #include <system_error>
 
 namespace physvib {

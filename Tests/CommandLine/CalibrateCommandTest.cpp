@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib calibrate` from two recordings, and how bad ones are told.
 #include "Calls.h"
-#include "Core/Actuators/SimulatedActuator.h"
 #include "Scene/ActuatorFile.h"
 #include "Scene/LayoutFile.h"
+#include "Support/SimulatedActuator.h"
 #include <algorithm>
 #include <cstring>
 #include <limits>

@@ -2,7 +2,7 @@
 // The equaliser against the analogue resonator and against the simulated actuator, driven as hard as both
 // allow.
 #include "Core/Actuators/ActuatorEqualiser.h"
-#include "Core/Actuators/SimulatedActuator.h"
+#include "Support/SimulatedActuator.h"
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A JACK client that is an actuator with its accelerometer: what comes in at `in` is felt at `out`, a cycle
 // later or more. Usage: physvib-jack-actuator RESONANCE_HZ Q GAIN DELAY_FRAMES; runs until it is killed.
-#include "Core/Actuators/SimulatedActuator.h"
+#include "Support/SimulatedActuator.h"
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

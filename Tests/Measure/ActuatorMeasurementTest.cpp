@@ -2,7 +2,7 @@
 // A sweep through the simulated actuator gives back what it was made of, under noise and delay; nothing else
 // passes.
 #include "Measure/ActuatorMeasurement.h"
-#include "Core/Actuators/SimulatedActuator.h"
+#include "Support/SimulatedActuator.h"
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>

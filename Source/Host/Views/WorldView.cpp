@@ -3,7 +3,6 @@
 #include "Host/Views/WorldView.h"
 #include "Host/Views/Badges.h"
 #include "Host/Views/DisplayScale.h"
-#include "Host/Views/MaterialTexture.h"
 #include "Pictures/ShapeOutline.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>

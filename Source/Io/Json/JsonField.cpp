@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Type and range checks of JSON values, with their error messages.
 #include "Io/Json/JsonField.h"
-#include "Io/Disk/FileLimits.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"

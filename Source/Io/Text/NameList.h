@@ -18,6 +18,14 @@ constexpr std::array<std::string_view, size> namesOf(const std::array<Row, size>
     return names;
 }
 
+/// The names with `between` in between. Any thread.
+template <class Names>
+std::string joined(const Names& names, std::string_view between) {
+    std::string all;
+    for (const auto& name : names) all.append(all.empty() ? std::string_view{} : between).append(name);
+    return all;
+}
+
 /// "linear, log, energy", or with another separator before the last: "linear, log or energy". Any thread.
 template <class Names>
 std::string listed(const Names& names, std::string_view last = ", ") {

@@ -2,7 +2,6 @@
 // Writes WAV headers; RIFF and RF64 headers have equal length.
 #include "Io/Wav/WavHead.h"
 #include "Io/Text/CleanText.h"
-#include <string>
 #include <utility>
 
 namespace physvib {

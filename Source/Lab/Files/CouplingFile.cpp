@@ -11,7 +11,6 @@
 #include "Scene/SceneFileLimits.h"
 #include <cmath>
 #include <numbers>
-#include <string>
 
 namespace physvib {
 namespace {

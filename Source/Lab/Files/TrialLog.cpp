@@ -5,6 +5,7 @@
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/CsvTable.h"
+#include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFields.h"
 #include "Lab/Files/ProtocolFile.h"
@@ -21,12 +22,6 @@ namespace columns = trialColumns;
 
 void appendPart(std::string& text, const std::string& part) {
     text.append(text.empty() ? "" : "|").append(part);
-}
-
-std::string joined(const std::vector<std::string>& parts) {
-    std::string text;
-    for (const auto& part : parts) appendPart(text, part);
-    return text;
 }
 
 /// With six digits, the precision of the measurement.
@@ -63,7 +58,7 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     cells["trial"] = std::to_string(trial.number);
     cells["task"] = describe(trial.task).name;
     cells["stimulus"] = trial.stimulus;
-    cells["parts"] = joined(trial.parts);
+    cells["parts"] = joined(trial.parts, "|");
     cells[session.answer() == AnswerKind::choice ? "choice" : "response"] = answer.response;
     if (const auto target = targetOf(protocol.conditions[trial.condition], trial)) {
         cells["target_column"] = std::to_string(target->column);

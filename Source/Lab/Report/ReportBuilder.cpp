@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Runs the analyses and tests of a report and shows each as a repeatable call.
 #include "Lab/Report/ReportBuilder.h"
+#include "Io/Text/NameList.h"
 #include "Lab/Report/ReportCells.h"
+#include "Lab/Study/CallWords.h"
 #include <algorithm>
 #include <set>
 
@@ -12,20 +14,7 @@ std::string quoted(const std::string& word) {
     constexpr std::string_view plain =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.,=/:+";
     if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string out = "'";
-    for (const char c : word) {
-        if (c == '\'')
-            out += "'\\''";
-        else
-            out += c;
-    }
-    return out.append("'");
-}
-
-std::string withCommas(const std::vector<std::string>& words) {
-    std::string all;
-    for (const std::string& word : words) all.append(all.empty() ? "" : ",").append(word);
-    return all;
+    return shellWord(word);
 }
 
 /// Shortens text that is longer than a page.
@@ -71,7 +60,7 @@ std::string ReportTest::call() const {
     };
     for (const std::string& file : options.files) say(" ", file);
     say(" --measure ", options.measure);
-    if (!options.within.empty()) say(" --within ", withCommas(options.within));
+    if (!options.within.empty()) say(" --within ", joined(options.within, ","));
     for (const std::string& where : options.where) say(" --where ", where);
     if (options.pairTest == PairTest::ranks) words += " --test ranks";
     if (options.correction == Correction::bonferroni) words += " --correction bonferroni";

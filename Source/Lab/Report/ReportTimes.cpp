@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Report section on when participants answered, from the files of times beside the trial files.
+#include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Report/ReportSections.h"
@@ -16,9 +17,7 @@ std::string listedOf(const std::vector<StudyMoment>& moments, std::string StudyM
     std::set<std::string> values;
     for (const StudyMoment& m : moments)
         if (m.isBegin()) values.insert((m.*field).empty() ? none : m.*field);
-    std::string words;
-    for (const std::string& value : values) words.append(words.empty() ? "" : ", then ").append(value);
-    return words;
+    return joined(values, ", then ");
 }
 
 } // namespace

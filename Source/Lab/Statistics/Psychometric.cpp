@@ -7,7 +7,6 @@
 #include "Lab/Statistics/Psychometric.h"
 #include "Lab/Statistics/Distributions.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -6,7 +6,6 @@
 #include "Lab/Study/Trial.h"
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace physvib {
 namespace {

@@ -4,7 +4,6 @@
 #include "Live/Devices/ThisThread.h"
 #include <algorithm>
 #include <condition_variable>
-#include <memory>
 #include <mutex>
 #include <utility>
 

@@ -4,7 +4,6 @@
 #include "Live/Devices/NoDevice.h"
 #include "Live/Devices/PicoDevice.h"
 #include <algorithm>
-#include <string_view>
 
 namespace physvib {
 namespace {

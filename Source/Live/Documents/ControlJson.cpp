@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads and writes render controls and panners as JSON, with their value ranges.
 #include "Live/Documents/ControlJson.h"
-#include "Live/Documents/Mix.h"
 #include "Scene/LayoutJson.h"
 #include "Scene/SceneFileLimits.h"
 #include <algorithm>

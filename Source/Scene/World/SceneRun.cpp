@@ -3,7 +3,6 @@
 #include "Scene/World/SceneRun.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
-#include <cstdint>
 #include <memory>
 
 namespace physvib {

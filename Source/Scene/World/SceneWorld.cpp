@@ -5,7 +5,6 @@
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 namespace physvib {

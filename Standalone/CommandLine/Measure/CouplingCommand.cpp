@@ -109,9 +109,7 @@ int runCoupling(const CouplingOptions& o) {
                                           "measured: recordings of one driven actuator at a time");
     // rejects implausible values, e.g. a neighbour with five times the amplitude
     if (const auto read = readCoupling(text, o.outPath); !read) return leave(exitFailed, read.error);
-    AtomicFile file{o.outPath};
-    if (const auto& error = file.write(text); !error.empty()) return leave(exitFailed, error);
-    if (const auto& error = file.commit(); !error.empty()) return leave(exitFailed, error);
+    if (const auto error = writeFile(o.outPath, text); !error.empty()) return leave(exitFailed, error);
     std::cout << o.outPath << "  " << coupling.value.enchanters() << " actuators at "
               << coupling.value.frequenciesHz.size()
               << (coupling.value.frequenciesHz.size() == 1 ? " frequency\n" : " frequencies\n");

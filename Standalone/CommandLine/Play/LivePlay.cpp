@@ -20,7 +20,6 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <utility>
 
 namespace physvib {
