@@ -79,9 +79,9 @@ INSTANTIATE_TEST_SUITE_P(
                                      std::pair{1920, 1080}, std::pair{2560, 1440}, std::pair{3840, 2160}),
                      testing::Values(1, 4, 16, 64)),
     [](const auto& p) {
-        const auto& [size, actuators] = p.param;
+        const auto size = std::get<0>(p.param);
         return std::to_string(size.first) + "x" + std::to_string(size.second) + "_" +
-               std::to_string(actuators);
+               std::to_string(std::get<1>(p.param));
     });
 
 } // namespace

@@ -24,15 +24,19 @@ public:
     }
     std::vector<EmergencyStop*> stops;
 
-    // JUCE wakes its threads for every picture anyway. The timer, which would wake them again, is put off and
-    // looks where no picture has been due for as long as that.
+    // JUCE wakes its threads for every picture anyway: those look. The timer, which would wake them again, is
+    // put off then, and looks where no picture has for as long as that.
     void lookWithPicture() {
+        const auto now = juce::Time::getMillisecondCounter();
+        if (now - lookedAtMs_ < leastMs) return; // pictures are many
         startTimer(lookMs);
+        lookedAtMs_ = now;
         timerCallback();
     }
 
 private:
     static constexpr int lookMs = 20; // shorter than a key press
+    static constexpr juce::uint32 leastMs = 12;
 
     // Listens to components that opened since the last call. An Esc that was pressed before they opened is
     // still down.
@@ -98,6 +102,7 @@ private:
 
     std::vector<juce::WeakReference<juce::Component>> heard_;
     bool isHeld_ = false; // state of the Esc key at the last check
+    juce::uint32 lookedAtMs_ = 0;
 };
 
 EmergencyStop::EmergencyStop(juce::Component& window, std::function<void()> silence)

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A small disc that is copied looks as one that is drawn, wherever it lies.
+#include "Host/Views/BallPictures.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+constexpr int side = 40;
+const BallPictures::Ball ball{5.3f, juce::Colours::orange, juce::Colours::black.withAlpha(0.45f),
+                              juce::Colours::yellow};
+
+template <class Draw>
+juce::Image drawn(float scale, Draw draw) {
+    const int pixels = juce::roundToInt(scale * side);
+    const juce::Image image{juce::Image::RGB, pixels, pixels, true, juce::SoftwareImageType{}};
+    juce::Graphics g{image};
+    g.addTransform(juce::AffineTransform::scale(scale));
+    g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality);
+    draw(g);
+    return image;
+}
+
+juce::Image byHand(float scale, juce::Point<float> at, float angle) {
+    return drawn(scale, [&](juce::Graphics& g) {
+        const auto place = juce::AffineTransform::rotation(angle).translated(at);
+        juce::Path disc, spoke;
+        disc.addEllipse(-ball.radius, -ball.radius, 2.0f * ball.radius, 2.0f * ball.radius);
+        spoke.startNewSubPath(0.0f, 0.0f);
+        spoke.lineTo(0.9f * ball.radius, 0.0f);
+        g.setColour(ball.fill);
+        g.fillPath(disc, place);
+        g.setColour(ball.spoke);
+        g.strokePath(spoke, juce::PathStrokeType{1.5f}, place);
+        g.setColour(ball.rim);
+        g.strokePath(disc, juce::PathStrokeType{2.0f}, place);
+    });
+}
+
+/// The mean over pixels and colours of how much they differ, 0 to 255.
+double difference(const juce::Image& a, const juce::Image& b) {
+    double sum = 0.0;
+    for (int y = 0; y < a.getHeight(); ++y)
+        for (int x = 0; x < a.getWidth(); ++x) {
+            const auto p = a.getPixelAt(x, y), q = b.getPixelAt(x, y);
+            sum += std::abs(p.getRed() - q.getRed()) + std::abs(p.getGreen() - q.getGreen()) +
+                   std::abs(p.getBlue() - q.getBlue());
+        }
+    return sum / (3.0 * a.getWidth() * a.getHeight());
+}
+
+TEST(BallPictures, LookAsDrawnAtAnyPlaceAngleAndScale) {
+    BallPictures pictures;
+    juce::Random random{3};
+    for (const float scale : {1.0f, 1.25f, 2.0f})
+        for (int k = 0; k < 40; ++k) {
+            const juce::Point<float> at{15.0f + 9.0f * random.nextFloat(), 15.0f + 9.0f * random.nextFloat()};
+            const float angle = 40.0f * (random.nextFloat() - 0.5f);
+            bool isDrawn = false;
+            const auto image =
+                drawn(scale, [&](juce::Graphics& g) { isDrawn = pictures.draw(g, ball, at, angle); });
+            ASSERT_TRUE(isDrawn);
+            const auto wanted = byHand(scale, at, angle);
+            EXPECT_LT(difference(image, wanted), 1.2) << at.toString() << ", " << angle << " at " << scale;
+            EXPECT_GT(difference(image, byHand(scale, at + juce::Point<float>{1.0f, 0.0f}, angle)), 1.5);
+        }
+}
+
+TEST(BallPictures, ALargeOneIsLeftToBeDrawn) {
+    BallPictures pictures;
+    auto large = ball;
+    large.radius = 9.0f;
+    const auto image = drawn(2.0f, [&](juce::Graphics& g) {
+        EXPECT_FALSE(pictures.draw(g, large, {20.0f, 20.0f}, 0.0f));
+    });
+    EXPECT_EQ(difference(image, drawn(2.0f, [](juce::Graphics&) {})), 0.0);
+}
+
+} // namespace
+} // namespace physvib
