@@ -91,23 +91,14 @@ private:
             if (*beside && !(*beside)->error().empty())
                 return path_ + (*beside)->error().substr((*beside)->error().find(": cannot be written"));
         if (!goesOn()) return {};
-        // without -xerror, ffmpeg takes a full disk at the end of its file for success
-        std::vector<std::string> words{"-v",
-                                       "error",
-                                       "-xerror",
-                                       "-nostdin",
-                                       "-y",
-                                       "-f",
-                                       "image2pipe",
-                                       "-framerate",
-                                       std::to_string(RenderMovie::picturesPerSecond),
-                                       "-c:v",
-                                       "png",
-                                       "-i",
-                                       pictures_->temporaryPath().string()};
+        std::vector<std::string> words;
         const auto add = [&words](std::initializer_list<const char*> more) {
             words.insert(words.end(), more.begin(), more.end());
         };
+        // without -xerror, ffmpeg takes a full disk at the end of its file for success
+        add({"-v", "error", "-xerror", "-nostdin", "-y", "-f", "image2pipe", "-c:v", "png", "-framerate"});
+        words.insert(words.end(), {std::to_string(RenderMovie::picturesPerSecond), "-i",
+                                   pictures_->temporaryPath().string()});
         if (sound_) {
             add({"-f", "f32le", "-ac"});
             words.insert(words.end(), {std::to_string(ears_), "-ar", std::to_string(sampleRateHz_)});
