@@ -61,7 +61,8 @@ public:
             for (std::int64_t timeNs = 0; timeNs < endNs; timeNs += everyNs)
                 if (!one(timeNs, movie.at(timeNs, {}))) return;
         };
-        const std::string error = pictures_ ? drawByFfmpeg(all) : drawWebp(movie, all);
+        const auto watch = [&] { return isWhole = isWhole && (!goesOn || goesOn(1.0)); };
+        const std::string error = pictures_ ? drawByFfmpeg(all, watch) : drawWebp(movie, all);
         return isWhole ? error : "cancelled";
     }
     [[nodiscard]] const std::string& commit() { return movie_.commit(); }
@@ -79,22 +80,25 @@ private:
     }
     // ffmpeg reads finished files (concatenated PNGs, 32-bit samples) and writes a temporary file, which
     // commit() renames.
-    std::string drawByFfmpeg(const Pictures& all) {
+    std::string drawByFfmpeg(const Pictures& all, const std::function<bool()>& goesOn) {
         all([&](std::int64_t, const picture::Image& image) {
             const std::string png = image.png();
             const bool isWritten = pictures_->writeAt(pictureBytes_, png);
             pictureBytes_ += static_cast<std::int64_t>(png.size());
             return isWritten;
         });
-        if (!pictures_->error().empty()) return pictures_->error();
-        if (sound_ && !sound_->error().empty()) return sound_->error();
-        std::vector<std::string> words{
-            "-v",   "error",      "-nostdin",   "-y",
-            "-f",   "image2pipe", "-framerate", std::to_string(RenderMovie::picturesPerSecond),
-            "-c:v", "png",        "-i",         pictures_->temporaryPath().string()};
+        for (const auto* beside : {&pictures_, &sound_})
+            if (*beside && !(*beside)->error().empty())
+                return path_ + (*beside)->error().substr((*beside)->error().find(": cannot be written"));
+        if (!goesOn()) return {};
+        std::vector<std::string> words;
         const auto add = [&words](std::initializer_list<const char*> more) {
             words.insert(words.end(), more.begin(), more.end());
         };
+        // without -xerror, ffmpeg takes a full disk at the end of its file for success
+        add({"-v", "error", "-xerror", "-nostdin", "-y", "-f", "image2pipe", "-c:v", "png", "-framerate"});
+        words.insert(words.end(), {std::to_string(RenderMovie::picturesPerSecond), "-i",
+                                   pictures_->temporaryPath().string()});
         if (sound_) {
             add({"-f", "f32le", "-ac"});
             words.insert(words.end(), {std::to_string(ears_), "-ar", std::to_string(sampleRateHz_)});
@@ -105,11 +109,11 @@ private:
             add({"-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none", "-f",
                  "gif"});
         words.push_back(movie_.temporaryPath().string());
-        const auto ran = runProgram("ffmpeg", words);
+        const auto ran = runWatched("ffmpeg", words, goesOn);
         if (!ran)
             return path_ + ": .gif and .mp4 need the program ffmpeg, which did not start (" + ran.error +
                    "); expected it on the path, or a name that ends in .webp";
-        return ran.value ? std::string{} : path_ + ": ffmpeg failed, for the reason on standard error";
+        return ran.value.empty() ? std::string{} : path_ + ": ffmpeg failed: " + ran.value;
     }
 
     std::string path_;

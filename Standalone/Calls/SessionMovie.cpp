@@ -8,7 +8,6 @@
 #include "Live/Session/HeardContacts.h"
 #include "Live/Session/SessionRender.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace physvib {
@@ -37,9 +36,9 @@ std::vector<CollisionEvent> eventsOf(const SavedSession& session, const MoviePar
     return events;
 }
 
-/// The fields and stops of the part; the last field before it counts from its start.
-std::vector<RenderControl> soundControls(const SavedSession& session, const MoviePart& part) {
-    auto controls = HeardContacts::controlsOf(controlsOf(session.log, true, session.channels), ears);
+/// The controls of the part; the last field before it counts from its start.
+std::vector<RenderControl> controlsIn(const SavedSession& session, const MoviePart& part) {
+    auto controls = controlsOf(session.log, true, session.channels);
     std::erase_if(controls, [&](const RenderControl& control) {
         return control.kind == RenderControl::Kind::stopAll && control.timeNs < part.fromNs;
     });
@@ -50,22 +49,15 @@ std::vector<RenderControl> soundControls(const SavedSession& session, const Movi
 
 /// What the monitor plays; false if cancelled.
 bool addSound(MovieOutput& movie, const SavedSession& session, const MoviePart& part,
-              std::vector<CollisionEvent> hits, const std::function<bool()>& goesOn) {
-    std::erase_if(hits, [](const CollisionEvent& event) { return isClip(event.sound); });
-    const auto gain = static_cast<float>(fromDecibels(usualContactDb));
-    std::array<std::vector<float>, ears> heard;
+              const std::vector<CollisionEvent>& hits, const std::function<bool()>& goesOn) {
     bool isWhole = true;
-    renderOffline(hits,
-                  {HeardContacts::settingsAt(soundRateHz, ears, session.panner),
-                   std::llround(part.seconds() * soundRateHz), 1024, soundControls(session, part)},
-                  [&](const float* const* channels, int frames) {
-                      for (std::size_t c = 0; c < ears; ++c) {
-                          heard[c].assign(channels[c], channels[c] + frames);
-                          for (float& sample : heard[c]) sample *= gain;
-                      }
-                      const float* const at[] = {heard[0].data(), heard[1].data()};
-                      return isWhole = movie.takeSound(at, frames) && goesOn();
-                  });
+    HeardRender heard{soundRateHz, std::llround(part.seconds() * soundRateHz)};
+    heard.ears = ears;
+    heard.field = session.panner;
+    heard.levelDb = usualContactDb;
+    renderHeard(hits, controlsIn(session, part), heard, [&](const float* const* channels, int frames) {
+        return isWhole = movie.takeSound(channels, frames) && goesOn();
+    });
     return isWhole;
 }
 

@@ -2,6 +2,7 @@
 // POSIX implementation: descriptors 0 to 2, signals, processes.
 #if !defined(_WIN32)
 #include "Io/Disk/SystemFile.h"
+#include "Io/Text/CleanText.h"
 #include "System/Process.h"
 #include <algorithm>
 #include <array>
@@ -31,6 +32,26 @@ void openStandardDescriptors() {
         if (fcntl(standard, F_GETFD) < 0 &&
             open("/dev/null", standard == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
             std::_Exit(1);
+}
+
+Result<pid_t> start(std::string& name, std::vector<std::string>& arguments,
+                    const posix_spawn_file_actions_t* actions) {
+    std::vector<char*> words{name.data()};
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    pid_t child = 0;
+    std::cout.flush();
+    if (const int fault = posix_spawnp(&child, name.c_str(), actions, nullptr, words.data(), environ))
+        return Failure{name + ": " + std::generic_category().message(fault)};
+    return child;
+}
+
+std::string lastLine(const std::string& text) {
+    const auto end = text.find_last_not_of("\r\n ");
+    if (end == std::string::npos) return {};
+    const auto before = text.find_last_of("\r\n", end);
+    return text.substr(before == std::string::npos ? 0 : before + 1,
+                       end - (before == std::string::npos ? std::size_t{0} : before + 1) + 1);
 }
 
 } // namespace
@@ -72,17 +93,53 @@ std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) 
 int processNumber() noexcept { return getpid(); }
 
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
-    std::vector<char*> words{name.data()};
-    for (std::string& argument : arguments) words.push_back(argument.data());
-    words.push_back(nullptr);
-    pid_t child = 0;
-    std::cout.flush();
-    if (const int fault = posix_spawnp(&child, name.c_str(), nullptr, nullptr, words.data(), environ))
-        return Failure{name + ": " + std::generic_category().message(fault)};
+    const auto child = start(name, arguments, nullptr);
+    if (!child) return Failure{child.error};
     int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    while (waitpid(child.value, &status, 0) < 0 && errno == EINTR) {
     }
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+Result<std::string> runWatched(std::string name, std::vector<std::string> arguments,
+                               const std::function<bool()>& goesOn) {
+    constexpr int lookMs = 100;
+    constexpr std::size_t mostKept = 4096;
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) return Failure{name + ": " + std::generic_category().message(errno)};
+    for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC); // another program may start meanwhile
+    posix_spawn_file_actions_t errors;
+    posix_spawn_file_actions_init(&errors);
+    posix_spawn_file_actions_adddup2(&errors, ends[1], STDERR_FILENO);
+    const auto child = start(name, arguments, &errors);
+    posix_spawn_file_actions_destroy(&errors);
+    close(ends[1]);
+    std::string said;
+    int status = 0;
+    bool isWanted = true;
+    for (bool hasEnded = !child; !hasEnded;) {
+        pollfd words{ends[0], POLLIN, 0};
+        poll(&words, 1, lookMs);
+        hasEnded = waitpid(child.value, &status, WNOHANG) == child.value;
+        std::array<char, 1024> some{};
+        while (poll(&words, 1, 0) > 0) {
+            const ssize_t count = read(ends[0], some.data(), some.size());
+            if (count <= 0) break;
+            said.append(some.data(), static_cast<std::size_t>(count));
+            if (said.size() > mostKept) said.erase(0, said.size() - mostKept);
+        }
+        if ((words.revents & POLLHUP) != 0 && !hasEnded) poll(nullptr, 0, lookMs / 10); // it said all
+        if (isWanted && !goesOn()) {
+            isWanted = false;
+            kill(child.value, SIGKILL);
+        }
+    }
+    close(ends[0]);
+    if (!child) return Failure{child.error};
+    if (WIFSIGNALED(status)) return "it was ended by signal " + std::to_string(WTERMSIG(status));
+    if (WEXITSTATUS(status) == 0) return std::string{};
+    const auto last = lastLine(said);
+    return last.empty() ? "it ended with code " + std::to_string(WEXITSTATUS(status)) : cleanLine(last);
 }
 
 bool hasProgram(const std::string& name) {

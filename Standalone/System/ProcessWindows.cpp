@@ -15,6 +15,7 @@
 #include <iostream>
 #include <process.h>
 #include <system_error>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -78,6 +79,13 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     const std::intptr_t code = _wspawnvp(_P_WAIT, program.c_str(), words.data());
     if (code == -1) return Failure{name + ": " + std::generic_category().message(errno)};
     return code == 0;
+}
+
+Result<std::string> runWatched(std::string name, std::vector<std::string> arguments,
+                               const std::function<bool()>&) {
+    const auto ran = runProgram(std::move(name), std::move(arguments));
+    if (!ran) return Failure{ran.error};
+    return std::string{ran.value ? "" : "for the reason on standard error"};
 }
 
 bool hasProgram(const std::string& name) {

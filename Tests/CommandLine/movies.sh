@@ -18,4 +18,11 @@ expect "$(tell drop.gif stream=codec_name,width,height,r_frame_rate)" "gif,960,6
 expect "$(tell drop.gif format=duration)" "2.000000 "
 ffmpeg -v error -nostdin -i drop.mp4 -ac 1 -f f32le -y heard # not silent: the object lands after 0.78 s
 expect "$(od -An -v -t f4 -w4 heard | awk '{ if ($1 < 0) $1 = -$1; if ($1 > most) most = $1; if ($1 > 0.005 && !first) first = NR } END { print (most > 0.005 && first > 0.7 * 44100 && first < 0.9 * 48000) }')" 1
-echo "movies: an MP4 with audio and a GIF, two seconds each"
+mkdir limited # for ffmpeg alone the disk is full
+printf '#!/bin/sh\ntrap "" XFSZ\nulimit -f 40\nexec %s "$@"\n' "$(command -v ffmpeg)" >limited/ffmpeg
+chmod +x limited/ffmpeg
+for kind in mp4 gif; do
+    expect "$(PATH="$PWD/limited:$PATH" "$physvib" render shake-the-box --seconds 3 --movie full.$kind 2>&1 >/dev/null | grep -c "full.$kind: ffmpeg failed: .*File too large")" 1
+    expect "$(ls | grep full || :)" ""
+done
+echo "movies: an MP4 with audio and a GIF, two seconds each; none on a full disk"

@@ -4,6 +4,7 @@
 #include "MixerTesting.h"
 #include "OnlyScript.h"
 #include "Scene/SceneCatalogue.h"
+#include "Support/FullDisk.h"
 
 namespace physvib {
 namespace {
@@ -95,8 +96,43 @@ TEST(SessionMovie, WithoutFfmpegItIsAWebpAndAFailureLeavesNothing) {
         EXPECT_EQ(movieEnding(), ".webp");
         EXPECT_NE(write().find("need the program ffmpeg"), std::string::npos);
     }
-    const OnlyScript ill{folder, "ffmpeg", "exit 3\n"};
-    EXPECT_EQ(write(), path + ": ffmpeg failed, for the reason on standard error");
+    for (const auto& [script, why] :
+         {std::pair{"echo No space left on device >&2; exit 1\n", "No space left on device"},
+          {"kill -9 $$\n", "it was ended by signal 9"}}) {
+        const OnlyScript ill{folder, "ffmpeg", script};
+        EXPECT_EQ(write(), path + ": ffmpeg failed: " + why);
+        EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles), 0);
+    }
+}
+
+TEST(SessionMovie, OnAFullDiskItSaysSoByItsOwnNameAndLeavesNothingNew) {
+    const TestFolder folder;
+    Desk desk{onlyNoDevice(), noDevice};
+    const auto session = someSecond(desk);
+    const OnlyScript ffmpeg{folder, "ffmpeg", "exit 0\n"};
+    folder("last.mp4").replaceWithText("an earlier one");
+    const auto path = folder("last.mp4").getFullPathName().toStdString();
+    for (const rlim_t bytes : {1000, 400'000}) { // at the sound, at the pictures
+        const FileSizeLimit full{bytes};
+        const auto error =
+            writeSessionMovie(session, desk.mix().layout, 1.0, path, [](double) { return true; });
+        EXPECT_TRUE(error.starts_with(path + ": cannot be written: ")) << error;
+    }
+    EXPECT_EQ(folder("last.mp4").loadFileAsString(), "an earlier one");
+    EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles), 1);
+}
+
+TEST(SessionMovie, IsCancelledWhileFfmpegWorks) {
+    const TestFolder folder;
+    Desk desk{onlyNoDevice(), noDevice};
+    const auto session = someSecond(desk);
+    const OnlyScript ffmpeg{folder, "ffmpeg", "touch \"$(dirname \"$0\")/begun\"\nexec sleep 60\n"};
+    const auto begin = juce::Time::getMillisecondCounter();
+    EXPECT_EQ(writeSessionMovie(session, desk.mix().layout, 0.2,
+                                folder("last.mp4").getFullPathName().toStdString(),
+                                [&](double) { return !folder("programs/begun").exists(); }),
+              "cancelled");
+    EXPECT_LT(juce::Time::getMillisecondCounter() - begin, 20'000u);
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles), 0);
 }
 

@@ -48,6 +48,25 @@ TEST(Processes, AProgramSaysWhetherAllIsWell) {
     EXPECT_TRUE(none.error.starts_with("physvib-no-such-program: ")) << none.error;
 }
 
+TEST(Processes, AWatchedProgramsLastWordsAreTheReasonAndItIsEndedWhenNobodyWantsIt) {
+    const auto run = [](const char* script, bool isWanted = true) {
+        return runWatched("sh", {"-c", script}, [isWanted] { return isWanted; });
+    };
+    const auto why = [&](const char* script) { return run(script).value; };
+    EXPECT_EQ(why("echo only a warning >&2"), "");
+    EXPECT_EQ(why("exit 3"), "it ended with code 3");
+    EXPECT_EQ(why("echo first >&2; echo 'no room' >&2; exit 1"), "no room");
+    EXPECT_EQ(why("i=0; while [ $i -lt 20000 ]; do echo line $i; i=$((i+1)); done >&2; exit 1"), "line 19999")
+        << "more than a pipe holds";
+    EXPECT_EQ(why("kill -9 $$"), "it was ended by signal 9");
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(run("exec sleep 60", false).value, "it was ended by signal 9");
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds{20});
+    EXPECT_TRUE(runWatched("physvib-no-such-program", {}, [] {
+                    return true;
+                }).error.starts_with("physvib-no-such-program: "));
+}
+
 /// Gets a signal, and does not end for a minute.
 int hangAfterSignal() {
     heedInterrupts();

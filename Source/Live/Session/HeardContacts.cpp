@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Renders the audio of contacts on one channel, or panned to two.
 #include "Live/Session/HeardContacts.h"
+#include "Core/Decibels.h"
+#include "Core/SoundNumber.h"
+#include <utility>
 
 namespace physvib {
 
@@ -10,6 +13,27 @@ namespace {
 PhantomPanner betweenEars(double fieldWidthMetres, double fieldHeightMetres) noexcept {
     const EnchanterLayout ears{1.0, 1.0, 2, {{{0.0, 0.5}, {1.0, 0.5}}}};
     return {ears, PanningLaw::energy, 1.0, fieldWidthMetres, fieldHeightMetres};
+}
+
+// With one channel the place does not matter.
+RendererSettings settingsAt(int sampleRateHz, int ears, const PhantomPanner& field) {
+    const EnchanterLayout here{1.0, 1.0, 1, {}};
+    return {.sampleRateHz = sampleRateHz,
+            .panner = ears > 1 ? betweenEars(field.fieldWidthMetres(), field.fieldHeightMetres())
+                               : PhantomPanner{here, PanningLaw::linear, 1.0, 1.0, 1.0}};
+}
+
+// What of the actuators' controls changes the audio: stops, and with two channels fields.
+std::vector<RenderControl> controlsOf(std::vector<RenderControl> actuators, int ears) {
+    using enum RenderControl::Kind;
+    std::erase_if(actuators, [ears](const RenderControl& control) {
+        return control.kind != stopAll && !(control.kind == panner && ears > 1);
+    });
+    for (RenderControl& control : actuators)
+        if (control.kind == panner)
+            control.panner =
+                betweenEars(control.panner.fieldWidthMetres(), control.panner.fieldHeightMetres());
+    return actuators;
 }
 
 } // namespace
@@ -28,25 +52,6 @@ struct HeardContacts::Source {
         return true;
     }
 };
-
-RendererSettings HeardContacts::settingsAt(int sampleRateHz, int ears, const PhantomPanner& field) {
-    const EnchanterLayout here{1.0, 1.0, 1, {}};
-    return {.sampleRateHz = sampleRateHz,
-            .panner = ears > 1 ? betweenEars(field.fieldWidthMetres(), field.fieldHeightMetres())
-                               : PhantomPanner{here, PanningLaw::linear, 1.0, 1.0, 1.0}};
-}
-
-std::vector<RenderControl> HeardContacts::controlsOf(std::vector<RenderControl> actuators, int ears) {
-    using enum RenderControl::Kind;
-    std::erase_if(actuators, [ears](const RenderControl& control) {
-        return control.kind != stopAll && !(control.kind == panner && ears > 1);
-    });
-    for (RenderControl& control : actuators)
-        if (control.kind == panner)
-            control.panner =
-                betweenEars(control.panner.fieldWidthMetres(), control.panner.fieldHeightMetres());
-    return actuators;
-}
 
 void HeardContacts::prepare(int sampleRateHz) {
     renderer_->prepare(settingsAt(sampleRateHz, ears_, field_));
@@ -72,6 +77,26 @@ void HeardContacts::render(float* const* out, int frames) noexcept PHYSVIB_NONBL
     renderer_->render(source, out, frames);
     for (PlayedEvent told; renderer_->played().pop(told);) {
     } // discarded: the actuators' renderer has reported them
+}
+
+RenderStatus renderHeard(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
+                         const HeardRender& heard, const BlockConsumer& consume) {
+    std::erase_if(events, [](const CollisionEvent& event) { return isClip(event.sound); });
+    const auto changes = controlsOf(std::move(controls), heard.ears);
+    const auto gain = static_cast<float>(fromDecibels(heard.levelDb));
+    std::vector<std::vector<float>> scaled(static_cast<std::size_t>(heard.ears));
+    std::vector<const float*> at(scaled.size());
+    return renderOffline(events,
+                         {settingsAt(heard.sampleRateHz, heard.ears, heard.field), heard.frames,
+                          heard.blockFrames, changes, heard.recordings},
+                         [&](const float* const* channels, int frames) {
+                             for (std::size_t c = 0; c < scaled.size(); ++c) {
+                                 scaled[c].assign(channels[c], channels[c] + frames);
+                                 for (float& sample : scaled[c]) sample *= gain;
+                                 at[c] = scaled[c].data();
+                             }
+                             return consume(at.data(), frames);
+                         });
 }
 
 } // namespace physvib

@@ -5,6 +5,7 @@
 #include "Core/EventQueue.h"
 #include "Core/HapticRenderer.h"
 #include "Live/Session/ContactSounds.h"
+#include "Live/Session/OfflineRender.h"
 #include <memory>
 #include <vector>
 
@@ -22,12 +23,6 @@ public:
         : recordings_{std::move(recordings)}
         , field_{field}
         , ears_{ears} {}
-
-    /// Settings of its renderer, also for offline renders; `field` counts with two channels.
-    static RendererSettings settingsAt(int sampleRateHz, int ears = 1, const PhantomPanner& field = {});
-    /// What of the actuators' controls changes the audio, with two channels or one: stops, and fields, also
-    /// for offline renders.
-    static std::vector<RenderControl> controlsOf(std::vector<RenderControl> actuators, int ears);
 
     int ears() const noexcept { return ears_; } ///< Any thread.
 
@@ -69,5 +64,21 @@ private:
     ContactSounds contacts_;
     std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
 };
+
+/// The audio of a render; see HeardContacts.
+struct HeardRender {
+    int sampleRateHz = 48000;
+    std::int64_t frames = 0;
+    int blockFrames = 1024;
+    int ears = 1;
+    PhantomPanner field{}; ///< at the start, with two channels
+    double levelDb = 0.0;  ///< of an impact at full scale
+    RecordedContacts recordings{};
+};
+
+/// Renders offline what HeardContacts plays of `events`, of which clips are not heard, and of the actuators'
+/// `controls`. Message thread (M) only.
+RenderStatus renderHeard(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
+                         const HeardRender& heard, const BlockConsumer& consume);
 
 } // namespace physvib

@@ -73,18 +73,14 @@ OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderCont
 /// stop.
 void renderContactSound(const LoadedRender& job, std::vector<RenderControl> controls,
                         RenderOutputs& outputs) {
-    const ContactSounds sounds{job.recordings, job.options.sampleRateHz};
-    auto hits = job.made.events;
-    std::erase_if(hits, [](const CollisionEvent& event) { return isClip(event.sound); });
-    renderOffline(hits,
-                  {HeardContacts::settingsAt(job.options.sampleRateHz),
-                   job.frames(),
-                   job.options.blockFrames,
-                   HeardContacts::controlsOf(std::move(controls), 1),
-                   {sounds.contacts(), true}},
-                  [&](const float* const* channels, int frames) {
-                      return outputs.takeContactSound(channels[0], frames);
-                  });
+    const RenderJob& o = job.options;
+    const ContactSounds sounds{job.recordings, o.sampleRateHz};
+    HeardRender heard{o.sampleRateHz, job.frames(), o.blockFrames};
+    heard.levelDb = o.contactSoundDb;
+    heard.recordings = {sounds.contacts(), true};
+    renderHeard(job.made.events, std::move(controls), heard, [&](const float* const* channels, int frames) {
+        return outputs.takeContactSound(channels, frames);
+    });
 }
 
 /// The clip's own samples; no collisions, no controls.

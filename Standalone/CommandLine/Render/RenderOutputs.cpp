@@ -98,13 +98,9 @@ bool RenderOutputs::writeWav(const float* const* channels, int frames) {
     return wav_->write(at.data(), frames);
 }
 
-bool RenderOutputs::takeContactSound(const float* samples, int frames) {
-    const auto gain = static_cast<float>(fromDecibels(job_.options.contactSoundDb));
-    heard_.assign(samples, samples + frames);
-    for (float& sample : heard_) sample *= gain;
-    const float* const at = heard_.data();
-    if (movie_ && movie_->hasSound() && !movie_->takeSound(&at, frames)) return false;
-    return !contactWav_ || contactWav_->write(&at, frames);
+bool RenderOutputs::takeContactSound(const float* const* channels, int frames) {
+    if (movie_ && movie_->hasSound() && !movie_->takeSound(channels, frames)) return false;
+    return !contactWav_ || contactWav_->write(channels, frames);
 }
 
 void RenderOutputs::tellMarks(const OnsetMarks& marks) { markWords_ = physvib::markWords(marks); }

@@ -41,7 +41,7 @@ public:
     bool wantsContactSound() const noexcept { return contactWav_ || (movie_ && movie_->hasSound()); }
 
     /// The next frames of what is heard, if that is wanted; false after an error.
-    bool takeContactSound(const float* samples, int frames);
+    bool takeContactSound(const float* const* channels, int frames);
 
     /// The same of marks.
     bool takeMarks(const float* samples, int frames) { return markerWav_->write(&samples, frames); }
@@ -74,7 +74,6 @@ private:
     std::unique_ptr<WavSink> wav_, contactWav_, markerWav_;
     std::vector<std::vector<float>> scaled_; // for the interface's voltage
     std::string markWords_;
-    std::vector<float> heard_;
     OnOffPattern pattern_;
     WaveformEnvelope whole_;
     std::optional<MovieOutput> movie_;
