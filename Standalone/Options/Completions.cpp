@@ -3,7 +3,6 @@
 // words typed so far.
 #include "Options/Completions.h"
 #include "Io/Text/NameList.h"
-#include "Lab/Study/CallWords.h"
 #include <functional>
 #include <sstream>
 

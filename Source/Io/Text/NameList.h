@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats lists of names for help texts and error messages: "linear, log or energy".
+// Formats lists of names for help texts and error messages: "linear, log or energy"; and words of a shell.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -24,6 +24,17 @@ std::string joined(const Names& names, std::string_view between) {
     std::string all;
     for (const auto& name : names) all.append(all.empty() ? std::string_view{} : between).append(name);
     return all;
+}
+
+/// `text` in quotes, as one word of a shell. Any thread (allocates).
+inline std::string shellWord(std::string_view text) {
+    std::string out(1, '\'');
+    for (const char c : text) {
+        if (c == '\'') out += "'\\'";
+        out += c;
+    }
+    out += '\'';
+    return out;
 }
 
 /// "linear, log, energy", or with another separator before the last: "linear, log or energy". Any thread.

@@ -3,7 +3,6 @@
 #include "Lab/Report/ReportBuilder.h"
 #include "Io/Text/NameList.h"
 #include "Lab/Report/ReportCells.h"
-#include "Lab/Study/CallWords.h"
 #include <algorithm>
 #include <set>
 

@@ -20,17 +20,6 @@ constexpr bool isPlainCharacter(char c) noexcept {
            std::string_view{"_-+.,:=/%"}.find(c) != std::string_view::npos;
 }
 
-/// `text` in quotes, as one word of a shell. Any thread (allocates).
-inline std::string shellWord(std::string_view text) {
-    std::string out(1, '\'');
-    for (const char c : text) {
-        if (c == '\'') out += "'\\'";
-        out += c;
-    }
-    out += '\'';
-    return out;
-}
-
 /// True for a relative path that stays below its starting folder and has only plain characters and spaces.
 /// Names that are not paths pass too. Any thread.
 constexpr bool isPlainPath(std::string_view path) noexcept {
