@@ -33,6 +33,9 @@ end_mixer
 python3 - "$bin/physvib" <<'PY'
 import csv, json, subprocess, sys
 scene = json.load(open("own.json"))
+drawn = [(b["name"], b["fixtures"][0]["material"]) for b in scene["bodies"]]
+if drawn != [("floor", "wood"), ("wall 1", "wood"), ("ball 1", "wood"), ("box 1", "wood"), ("polygon 1", "steel")] or len(scene["joints"]) != 2:
+    sys.exit(f"another world was drawn: {drawn}")
 script = [i for i in scene["script"]]
 end = max(i["time_s"] for i in script)
 subprocess.run([sys.argv[1], "render", "own.json", "--out", "own.wav", "--events", "own.csv", "--seconds", f"{end:.2f}"], check=True)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# film.sh [BUILD] [FOLDER] [SECONDS]: draws a world in the real window, tilts and shakes it as a phone does, records what is felt, saves all of it
-# as a movie and shares it, in SECONDS (120; 600 at most); FOLDER keeps movie, take, session, link and pictures. The movie must show every moment and
+# film.sh [BUILD] [FOLDER] [SECONDS]: draws a world in the real window, tilts and shakes it as a phone does, records what is felt, in SECONDS (120; 590
+# at most), saves all of it as a movie and shares it; FOLDER keeps movie, take, session, link and pictures. The movie must show every moment and
 # have a stereo sound whose loudest hit is within a picture of an impact. A script, since it needs a display, the port 9000 and the time.
 set -eu
 build=${1:-build/release} out=${2:-$(mktemp -d)} seconds=${3:-120}
@@ -37,7 +37,7 @@ key space
 key ctrl+s; sleep 1; key Return; sleep 1 # under the name and in the folder that are suggested
 menu Up 9                         # Save movie
 picture 4-movie
-key Tab; xdotool type "$seconds"
+key Tab; xdotool type 600        # all of it
 key Return; sleep 1
 picture 5-file
 made=$(date +%s)
@@ -52,9 +52,10 @@ end_mixer
 cp Documents/PhysVib/* "$out"
 cd "$out"
 [ -s session-movie.mp4 ] || { echo "there is no movie; see $out" >&2; exit 1; }
-"$bin/physvib" render session.json --events hits.csv --seconds "$(ffprobe -v error -show_entries format=duration -of csv=p=0 session-movie.mp4)" >/dev/null
+long=$(ffprobe -v error -show_entries format=duration -of csv=p=0 session-movie.mp4)
+"$bin/physvib" render session.json --events hits.csv --seconds "$long" >/dev/null
 for at in 10 50 90; do
-    ffmpeg -v error -y -ss "$(awk "BEGIN { print $seconds * $at / 100 }")" -i session-movie.mp4 -frames:v 1 "frame-$at.png"
+    ffmpeg -v error -y -ss "$(awk "BEGIN { print $long * $at / 100 }")" -i session-movie.mp4 -frames:v 1 "frame-$at.png"
 done
 python3 - "$made" <<'PY'
 import array, csv, json, os, subprocess, sys
