@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Validates a render job before any file is read.
 #include "Calls/RenderJob.h"
+#include "Calls/SessionMovie.h"
 #include "Io/Disk/NameEnding.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
@@ -21,7 +22,6 @@ namespace {
 
 /// Checks the movie's file name and length.
 std::string movieFault(const RenderJob& o) {
-    constexpr double longestMovieSeconds = 600.0; // limits memory and disk space for pictures
     if (auto fault = endingFault(o.moviePath, {".webp", ".gif", ".mp4"}); !fault.empty())
         return "--movie: " + fault;
     return o.seconds <= longestMovieSeconds ? std::string{} : "--movie: expected --seconds of at most 600";

@@ -8,6 +8,8 @@
 
 namespace physvib {
 
+constexpr double longestMovieSeconds = 600.0; ///< limits memory and disk space for pictures
+
 /// The ending of a movie with sound, if this computer can write one, else of one without. Any thread but the
 /// render thread.
 inline std::string movieEnding() { return hasProgram("ffmpeg") ? ".mp4" : ".webp"; }

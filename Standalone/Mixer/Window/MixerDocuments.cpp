@@ -12,8 +12,13 @@ namespace physvib {
 namespace {
 
 constexpr const char* sessionEnding = ".json";
-constexpr double movieSeconds = 60.0;
+constexpr double leastMovieSeconds = 1.0, usualMovieSeconds = 60.0;
 constexpr double longestRender = 86'400.0; // the limit of `physvib render`
+
+// without thousands separators
+QuestionCard::Field secondsField(double seconds) {
+    return {"Seconds", juce::String{std::ceil(10.0 * seconds) / 10.0, 1}, "0123456789."};
+}
 
 std::string pathOf(const juce::File& file) { return file.getFullPathName().toStdString(); }
 
@@ -228,8 +233,10 @@ void MixerWindow::record() {
     if (!error.empty()) say(utf8(error));
 }
 
+double MixerWindow::playedSeconds() const { return 1e-9 * static_cast<double>(desk_->saved().lengthNs); }
+
 void MixerWindow::renderOffline() {
-    const double played = 1e-9 * static_cast<double>(desk_->saved().lengthNs);
+    const double played = playedSeconds();
     ask("Render the session",
         "It was played for " + number(played, 1) + " s. Beyond that its last scene goes on by itself.",
         {{"Choose a file" + dots(),
@@ -241,8 +248,7 @@ void MixerWindow::renderOffline() {
                   "Render the session to", ".wav", true,
                   [this, seconds](const juce::File& file) { renderTo(file, seconds); }, documentName());
           }}},
-        // without thousands separators
-        {{"Seconds", juce::String{std::ceil(10.0 * played) / 10.0, 1}, "0123456789."}});
+        {secondsField(played)});
 }
 
 void MixerWindow::make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work) {
@@ -269,11 +275,22 @@ void MixerWindow::renderTo(const juce::File& file, double seconds) {
 }
 
 void MixerWindow::saveMovie() {
-    if (desk_->saved().lengthNs < 1'000'000'000)
-        return say("Save movie: expected a session of at least a second");
-    chooseFile(
-        "Save the last minute as a movie", utf8(movieEnding()), true,
-        [this](const juce::File& file) { saveMovieTo(file, movieSeconds); }, documentName() + "-movie");
+    const double played = playedSeconds();
+    if (played < leastMovieSeconds) return say("Save movie: expected a session of at least a second");
+    ask("Save a movie",
+        "It was played for " + number(played, 1) + " s. The movie has the last seconds of that.",
+        {{"Choose a file" + dots(),
+          [this] {
+              const double seconds = takeAnswer("Seconds").getDoubleValue();
+              if (!(seconds >= leastMovieSeconds && seconds <= longestMovieSeconds))
+                  return say("Seconds of the movie: expected " + number(leastMovieSeconds, 0) + " to " +
+                             number(longestMovieSeconds, 0));
+              chooseFile(
+                  "Save the movie", utf8(movieEnding()), true,
+                  [this, seconds](const juce::File& file) { saveMovieTo(file, seconds); },
+                  documentName() + "-movie");
+          }}},
+        {secondsField(std::min(usualMovieSeconds, played))});
 }
 
 void MixerWindow::saveMovieTo(const juce::File& file, double seconds) {

@@ -33,7 +33,7 @@ public:
     void record();        ///< starts or ends
     void renderOffline(); ///< asks for duration and file
     void renderTo(const juce::File& file, double seconds);
-    void saveMovie(); ///< of the last minute; asks for a file
+    void saveMovie(); ///< of the last seconds; asks how many, and for a file
     void saveMovieTo(const juce::File& file, double seconds);
     void import(const juce::String& title); ///< a scene or a layout
     void exportLayout();
@@ -111,6 +111,7 @@ private:
     void chooseFolder();
     juce::File folderOfDocuments() const;
     juce::String documentName() const;
+    double playedSeconds() const;
     void make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work);
 
     AudioDrivers drivers_;

@@ -8,6 +8,7 @@
 #include "Live/Session/SessionRender.h"
 #include "Mixer/Knock.h"
 #include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/OnlyScript.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
@@ -650,6 +651,55 @@ TEST(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesN
     EXPECT_TRUE(runUntil([&] { return desk.trouble().contains("nothing was written"); })) << desk.trouble();
     EXPECT_EQ(find(window.view(), "Progress"), nullptr);
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "*cancelled*"), 0);
+}
+
+TEST(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    auto& desk = window.desk();
+    const OnlyScript noFfmpeg{folder, "another", "exit 0\n"};
+    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 2'500'000'000; }));
+    const auto ask = [&](const char* seconds) {
+        window.saveMovie();
+        EXPECT_GE(window.view().question()->value("Seconds").getDoubleValue(), 2.5) << "all of it";
+        window.view().question()->setValue("Seconds", seconds);
+        window.view().question()->answer("Choose a file" + dots());
+    };
+    ask("601");
+    ASSERT_TRUE(runUntil([&] { return desk.trouble().contains("expected 1 to 600"); })) << desk.trouble();
+    EXPECT_EQ(window.view().card(), nullptr);
+    desk.report({}); // news wait behind trouble
+    ask("1.0");
+    FileCard* card = nullptr;
+    ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
+    card->enter(folder.folder);
+    card->setName("short");
+    card->take();
+    const auto movie = folder("short.webp");
+    ASSERT_TRUE(runUntil([&] { return desk.isNews() && desk.trouble().contains("short.webp"); }, 60.0))
+        << desk.trouble();
+    juce::MemoryBlock bytes;
+    movie.loadFileAsData(bytes);
+    const std::string_view text{static_cast<const char*>(bytes.getData()), bytes.getSize()};
+    int pictures = 0;
+    for (auto at = text.find("ANMF"); at != std::string_view::npos; at = text.find("ANMF", at + 4))
+        ++pictures;
+    EXPECT_GE(pictures, 15);
+    EXPECT_LE(pictures, 21) << "a second";
+
+    const auto before = desk.look().session.sessionNs;
+    {
+        const FileSizeLimit full{20'000};
+        window.saveMovieTo(folder("full.webp"), 2.0);
+        const auto told = folder("full.webp").getFullPathName() + ": cannot be written";
+        ASSERT_TRUE(runUntil([&] { return desk.trouble().contains(told); }, 60.0)) << desk.trouble();
+        EXPECT_FALSE(desk.isNews());
+    }
+    EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "full*"), 0);
+    EXPECT_EQ(find(window.view(), "Progress"), nullptr);
+    EXPECT_TRUE(runUntil([&] { return desk.look().session.sessionNs > before + 500'000'000; }));
+    window.saveMovieTo(folder("full.webp"), 1.0);
+    EXPECT_TRUE(runUntil([&] { return folder("full.webp").existsAsFile(); }, 60.0)) << "once there is room";
 }
 
 /// A folder as a crash leaves it: a copy of a session at -30 dB, settings of a desk that was then turned down
