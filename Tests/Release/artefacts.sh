@@ -73,8 +73,8 @@ for folder in map(pathlib.Path, sys.argv[1:]):
 sys.exit("\n".join(missing) or print(f"artefacts: {pages} pages name {named} files, which are all there"))
 END
 
-# Other systems: the same bytes as from source.
-"$render" marbles --seconds 10 --seed 3 --instructions scalar --out "$work/here.wav" --events "$work/here.csv" >/dev/null
+# Other systems: the same bytes as from source, of a scene where they must be (Docs/platforms.md).
+"$render" fruit-basket --seconds 10 --seed 3 --instructions scalar --out "$work/here.wav" --events "$work/here.csv" >/dev/null
 for system in windows arm64; do
     mkdir "$work/$system"
     case $system in
@@ -87,12 +87,12 @@ for system in windows arm64; do
             set -- qemu-aarch64 -L /usr/aarch64-linux-gnu ;;
     esac
     program=$(find "$work/$system" -name 'physvib-render*' -type f)
-    (cd "$work" && timeout 600 "$@" "$program" marbles --seconds 10 --seed 3 --instructions scalar --out there.wav --events there.csv </dev/null >"$machine.log" 2>&1) ||
+    (cd "$work" && timeout 600 "$@" "$program" fruit-basket --seconds 10 --seed 3 --instructions scalar --out there.wav --events there.csv </dev/null >"$machine.log" 2>&1) ||
         { tail "$machine.log" && exit 1; }
     [ $system != windows ] || wineserver -k || true
     tr -d '\r' <"$work/there.csv" >"$work/there.lf"
     cmp "$work/here.wav" "$work/there.wav"
-    step "$system: marbles, $(wc -c <"$work/there.wav") bytes, as from source; events $(cmp -s "$work/here.csv" "$work/there.lf" && echo the same || echo others)"
+    step "$system: fruit-basket, $(wc -c <"$work/there.wav") bytes, as from source; events $(cmp -s "$work/here.csv" "$work/there.lf" && echo the same || echo others)"
 done
 
 # The Pico's files: what is dropped onto a board is what the emulator plays.
