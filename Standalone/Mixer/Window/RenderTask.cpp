@@ -43,8 +43,9 @@ void RenderTask::timerCallback() {
     repaint();
     if (isThreadRunning()) return;
     stopTimer();
-    const auto done = done_; // which may destroy this object
-    done(error_, threadShouldExit());
+    const auto done = done_; // which may destroy this object and its error
+    const auto error = error_;
+    done(error, threadShouldExit());
 }
 
 void RenderTask::paint(juce::Graphics& g) {
