@@ -7,13 +7,13 @@
 namespace physvib {
 namespace {
 
-constexpr int side = 40;
-const BallPictures::Ball ball{5.3f, juce::Colours::orange, juce::Colours::black.withAlpha(0.45f),
-                              juce::Colours::yellow};
+constexpr int sidePixels = 40;
+const BallPictures::Ball orangeBall{5.3f, juce::Colours::orange, juce::Colours::black.withAlpha(0.45f),
+                                    juce::Colours::yellow};
 
 template <class Draw>
-juce::Image drawn(float scale, Draw draw) {
-    const int pixels = juce::roundToInt(scale * side);
+juce::Image drawnBall(float scale, Draw draw) {
+    const int pixels = juce::roundToInt(scale * sidePixels);
     const juce::Image image{juce::Image::RGB, pixels, pixels, true, juce::SoftwareImageType{}};
     juce::Graphics g{image};
     g.addTransform(juce::AffineTransform::scale(scale));
@@ -22,24 +22,25 @@ juce::Image drawn(float scale, Draw draw) {
     return image;
 }
 
-juce::Image byHand(float scale, juce::Point<float> at, float angle) {
-    return drawn(scale, [&](juce::Graphics& g) {
+juce::Image ballByHand(float scale, juce::Point<float> at, float angle) {
+    return drawnBall(scale, [&](juce::Graphics& g) {
         const auto place = juce::AffineTransform::rotation(angle).translated(at);
         juce::Path disc, spoke;
-        disc.addEllipse(-ball.radius, -ball.radius, 2.0f * ball.radius, 2.0f * ball.radius);
+        disc.addEllipse(-orangeBall.radius, -orangeBall.radius, 2.0f * orangeBall.radius,
+                        2.0f * orangeBall.radius);
         spoke.startNewSubPath(0.0f, 0.0f);
-        spoke.lineTo(0.9f * ball.radius, 0.0f);
-        g.setColour(ball.fill);
+        spoke.lineTo(0.9f * orangeBall.radius, 0.0f);
+        g.setColour(orangeBall.fill);
         g.fillPath(disc, place);
-        g.setColour(ball.spoke);
+        g.setColour(orangeBall.spoke);
         g.strokePath(spoke, juce::PathStrokeType{1.5f}, place);
-        g.setColour(ball.rim);
+        g.setColour(orangeBall.rim);
         g.strokePath(disc, juce::PathStrokeType{2.0f}, place);
     });
 }
 
 /// The mean over pixels and colours of how much they differ, 0 to 255.
-double difference(const juce::Image& a, const juce::Image& b) {
+double meanDifference(const juce::Image& a, const juce::Image& b) {
     double sum = 0.0;
     for (int y = 0; y < a.getHeight(); ++y)
         for (int x = 0; x < a.getWidth(); ++x) {
@@ -58,23 +59,25 @@ TEST(BallPictures, LookAsDrawnAtAnyPlaceAngleAndScale) {
             const juce::Point<float> at{15.0f + 9.0f * random.nextFloat(), 15.0f + 9.0f * random.nextFloat()};
             const float angle = 40.0f * (random.nextFloat() - 0.5f);
             bool isDrawn = false;
-            const auto image =
-                drawn(scale, [&](juce::Graphics& g) { isDrawn = pictures.draw(g, ball, at, angle); });
+            const auto image = drawnBall(
+                scale, [&](juce::Graphics& g) { isDrawn = pictures.draw(g, orangeBall, at, angle); });
             ASSERT_TRUE(isDrawn);
-            const auto wanted = byHand(scale, at, angle);
-            EXPECT_LT(difference(image, wanted), 1.2) << at.toString() << ", " << angle << " at " << scale;
-            EXPECT_GT(difference(image, byHand(scale, at + juce::Point<float>{1.0f, 0.0f}, angle)), 1.5);
+            const auto wanted = ballByHand(scale, at, angle);
+            EXPECT_LT(meanDifference(image, wanted), 1.2)
+                << at.toString() << ", " << angle << " at " << scale;
+            EXPECT_GT(meanDifference(image, ballByHand(scale, at + juce::Point<float>{1.0f, 0.0f}, angle)),
+                      1.5);
         }
 }
 
 TEST(BallPictures, ALargeOneIsLeftToBeDrawn) {
     BallPictures pictures;
-    auto large = ball;
+    auto large = orangeBall;
     large.radius = 9.0f;
-    const auto image = drawn(2.0f, [&](juce::Graphics& g) {
+    const auto image = drawnBall(2.0f, [&](juce::Graphics& g) {
         EXPECT_FALSE(pictures.draw(g, large, {20.0f, 20.0f}, 0.0f));
     });
-    EXPECT_EQ(difference(image, drawn(2.0f, [](juce::Graphics&) {})), 0.0);
+    EXPECT_EQ(meanDifference(image, drawnBall(2.0f, [](juce::Graphics&) {})), 0.0);
 }
 
 } // namespace

@@ -14,7 +14,7 @@ struct CutText {
     juce::Point<int> at; // in pixels of the root
 };
 
-/// Draws as JUCE does, and reads what it draws.
+/// Reads what is drawn; the letters themselves do not appear.
 class ReadingRenderer final : public juce::LowLevelGraphicsSoftwareRenderer {
 public:
     explicit ReadingRenderer(const juce::Image& image, float scale)
@@ -22,7 +22,6 @@ public:
         , scale_{scale} {}
 
     void drawGlyph(int glyph, const juce::AffineTransform& t) override {
-        juce::LowLevelGraphicsSoftwareRenderer::drawGlyph(glyph, t);
         if (!stack->clip) return;
         const auto at = stack->transform.getTransformWith(t);
         const auto& font = stack->font;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// No text of the window is cut or crushed, on any page, at six sizes and two scales, with up to 64 actuators.
+// No text of the window is cut or crushed, on any page, at seven sizes, with up to 64 actuators.
 #include "CutTexts.h"
 #include "MixerTesting.h"
 
@@ -12,11 +12,12 @@ class CutTexts : public testing::TestWithParam<std::tuple<std::pair<int, int>, i
 protected:
     Desk desk{onlyNoDevice(), noDevice, Desk::firstMix(), {.isPaused = true}};
     MixerView view{desk};
-    std::size_t texts = 0;
+    int texts = 0;
 
     CutTexts() {
         const auto& [size, actuators] = GetParam();
         view.setSize(size.first, size.second);
+        for (int k = 0; k < 12; ++k) view.refresh(); // some numbers wait for the twelfth
         while (desk.mix().count() < actuators && desk.attach(0.5, 0.5)) {
         }
         if (actuators == 1)
@@ -27,21 +28,24 @@ protected:
                 m.resizeStrips();
             });
     }
+    /// JUCE places letters by a component's own pixels: a scale changes the picture and not what is cut.
     void expectWhole(const std::string& state) {
         desk.dispatchPendingMessages();
-        for (int k = 0; k < 12; ++k) view.refresh(); // some numbers wait for the twelfth
-        for (const float scale : {1.0f, 2.0f}) {
-            if (scale * static_cast<float>(view.getWidth()) > 6000.0f) continue; // larger than any display
-            const auto read = readTexts(view, scale);
-            texts += static_cast<std::size_t>(read.words.size());
-            EXPECT_GT(read.words.size(), 20) << state;
-            for (const auto& cut : read.cut) {
-                juce::String where;
-                for (auto* c = view.getComponentAt(cut.at); c != nullptr; c = c->getParentComponent())
-                    if (c->getTitle().isNotEmpty()) where << " < " << c->getTitle();
-                ADD_FAILURE() << state << " at " << scale << ": \"" << cut.words << "\" " << cut.why << " at "
-                              << cut.at.toString() << where;
+        for (int k = 0; k < 2; ++k) view.refresh();
+        const auto read = readTexts(view, 1.0f);
+        texts += read.words.size();
+        EXPECT_GT(read.words.size(), 20) << state;
+        for (const auto& cut : read.cut) {
+            juce::String where;
+            bool isScrolled = false; // what a row hides that is longer than its panel
+            for (auto* c = view.getComponentAt(cut.at); c != nullptr; c = c->getParentComponent()) {
+                if (c->getTitle().isNotEmpty()) where << " < " << c->getTitle();
+                const auto* page = dynamic_cast<juce::Viewport*>(c);
+                isScrolled = isScrolled || (page != nullptr && page->isHorizontalScrollBarShown());
             }
+            if (isScrolled && cut.why == "cut by an edge") continue;
+            ADD_FAILURE() << state << ": \"" << cut.words << "\" " << cut.why << " at " << cut.at.toString()
+                          << where;
         }
     }
     void TearDown() override { std::cout << texts << " texts\n"; }

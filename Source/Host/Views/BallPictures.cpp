@@ -30,10 +30,11 @@ juce::Image BallPictures::pictureOf(const Ball& ball, int turn, juce::Point<int>
     juce::Image image{juce::Image::ARGB, side, side, true, juce::SoftwareImageType{}};
     juce::Graphics g{image};
     const auto middle = static_cast<float>(side / 2);
+    const auto centre = juce::Point<float>{middle, middle} + phase.toFloat() / static_cast<float>(phases);
+    g.addTransform(juce::AffineTransform::scale(scale_)); // strokes as well
     const auto place =
         juce::AffineTransform::rotation(juce::MathConstants<float>::twoPi * static_cast<float>(turn) / turns)
-            .scaled(scale_)
-            .translated(juce::Point<float>{middle, middle} + phase.toFloat() / static_cast<float>(phases));
+            .translated(centre / scale_);
     juce::Path disc, spoke;
     disc.addEllipse(juce::Rectangle<float>{2.0f * ball.radius, 2.0f * ball.radius}.withCentre({}));
     spoke.addRectangle(0.0f, -0.5f * spokeWidth, spokeShare * ball.radius, spokeWidth);

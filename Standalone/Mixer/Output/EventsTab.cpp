@@ -15,10 +15,17 @@ constexpr int eventRowPixels = 22, eventHeadPixels = 18, formatPixels = 26, foot
 constexpr double showMs = 250.0;
 constexpr std::size_t mostListed = 1000; // a minute of many hits
 
+constexpr int wideRow = 560; // has room for every column
+
 struct Columns {
     juce::Rectangle<int> time, dot, name, frequency, decay, level, enchanter, place;
     explicit Columns(juce::Rectangle<int> row) {
         row.reduce(10, 0);
+        row.getWidth() < wideRow ? takeNarrow(row) : takeWide(row);
+    }
+
+private:
+    void takeWide(juce::Rectangle<int> row) {
         const int each = row.getWidth() / 8;
         time = row.removeFromLeft(each);
         dot = row.removeFromLeft(20);
@@ -27,6 +34,20 @@ struct Columns {
         level = row.removeFromRight(each - 22);
         decay = row.removeFromRight(each - 6);
         frequency = row.removeFromRight(each - 6);
+        name = row;
+    }
+    // Numbers as wide as they are; where names would have no room, decay is left out, then the place.
+    void takeNarrow(juce::Rectangle<int> row) {
+        constexpr int number = 50, placeWidth = 92, leastName = 96;
+        time = row.removeFromLeft(60);
+        dot = row.removeFromLeft(20);
+        const auto hasRoom = [&row](int more) { return row.getWidth() - 3 * number - more >= leastName; };
+        const bool hasPlace = hasRoom(placeWidth), hasDecay = hasRoom(number + (hasPlace ? placeWidth : 0));
+        if (hasPlace) place = row.removeFromRight(placeWidth);
+        enchanter = row.removeFromRight(number + 4);
+        level = row.removeFromRight(number);
+        if (hasDecay) decay = row.removeFromRight(number);
+        frequency = row.removeFromRight(number);
         name = row;
     }
 };
@@ -54,6 +75,7 @@ EventsTab::EventsTab(Desk& desk)
     list_.setRowHeight(eventRowPixels);
     list_.setMultipleSelectionEnabled(true);
     caption(choice_, {});
+    choice_.setMinimumHorizontalScale(1.0f); // two lines rather than narrow letters
     for (int k = 0; k < hitEndings().size(); ++k) format_.addItem("as " + hitEndings()[k], k + 1);
     format_.setTitle("Dragged as");
     format_.setTooltip(".wav: a channel for each actuator. .hjif, .hmpg: channels and places. .haptic, "
@@ -130,7 +152,8 @@ void EventsTab::takeChoice(int row) {
 void EventsTab::tellChoice() {
     save_->setEnabled(!chosen_.empty());
     if (chosen_.empty())
-        return choice_.setText("Choose contacts, then drag them into another program",
+        return choice_.setText(isNarrow() ? "Choose some, then drag them out"
+                                          : "Choose contacts, then drag them into another program",
                                juce::dontSendNotification);
     std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
     for (const RecentContact& contact : shown_)
@@ -139,7 +162,7 @@ void EventsTab::tellChoice() {
     const auto count =
         juce::String{static_cast<int>(chosen_.size())} + (chosen_.size() == 1 ? " contact" : " contacts");
     choice_.setText(count + (last > first ? " within " + timeText(last - first) : juce::String{}) +
-                        ", to be dragged out",
+                        (isNarrow() ? "" : ", to be dragged out"),
                     juce::dontSendNotification);
 }
 
@@ -206,11 +229,13 @@ void EventsTab::resized() {
     auto foot = area.removeFromBottom(footPixels);
     list_.setBounds(area);
     foot.removeFromTop(footPixels - formatPixels);
-    save_->setBounds(foot.removeFromRight(110));
-    foot.removeFromRight(gap);
-    format_.setBounds(foot.removeFromRight(110));
-    foot.removeFromRight(gap);
+    const int button = isNarrow() ? 98 : 110, between = isNarrow() ? 4 : gap;
+    save_->setBounds(foot.removeFromRight(button));
+    foot.removeFromRight(between);
+    format_.setBounds(foot.removeFromRight(button));
+    foot.removeFromRight(between);
     choice_.setBounds(foot.withTrimmedLeft(5));
+    tellChoice();
 }
 
 } // namespace physvib

@@ -49,6 +49,7 @@ private:
     int rowOf(std::uint64_t number) const;
     bool isChosen(const RecentContact& contact) const { return chosen_.contains(contact.number); }
     void tellChoice();
+    bool isNarrow() const { return getWidth() < 420; }
     void showMenu();
     void saveAs();
     juce::String fileName() const;

@@ -326,7 +326,13 @@ void OutputTab::resized() {
     std::vector<Cell> first{{rateName_, rate_, 0}, {blockName_, block_, 0}};
     for (const auto& sink : sinks_) first.push_back({sink->name, sink->box, 0});
     const int cells = static_cast<int>(first.size());
-    for (Cell& cell : first) cell.width = (area.getWidth() - (cells - 1) * gap) / cells;
+    const int each = (area.getWidth() - (cells - 1) * gap) / cells;
+    for (Cell& cell : first) cell.width = each;
+    for (const auto& sink : sinks_) {
+        const juce::String title{sink->kind.title.data()};
+        const bool fits = sink->name.getFont().getStringWidth(title) <= each;
+        sink->name.setText(fits ? title : titleOf(std::string{sink->kind.name}), juce::dontSendNotification);
+    }
     placeRow(area, first);
     placeRow(area, {{oscName_, osc_, 2 * fifth},
                     {hitsName_, hits_, 2 * fifth - gap},

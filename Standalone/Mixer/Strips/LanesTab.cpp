@@ -79,8 +79,11 @@ void LanesTab::paint(juce::Graphics& g) {
     g.drawText("0", axis, juce::Justification::centredLeft, false);
     g.drawText(number(std::max(10.0, spanSeconds_), 0) + " s of the scene", axis,
                juce::Justification::centredRight, false);
-    g.drawFittedText("Click adds a point. Record (Ctrl+R), and the faders you move are written.",
-                     axis.withTrimmedLeft(20).withTrimmedRight(110), juce::Justification::centred, 1, 0.8f);
+    const auto room = axis.withTrimmedLeft(20).withTrimmedRight(110);
+    for (const char* words : {"Click adds a point. Record (Ctrl+R), and the faders you move are written.",
+                              "Click adds a point. Ctrl+R records faders.", "Click adds a point."})
+        if (g.getCurrentFont().getStringWidth(words) <= room.getWidth())
+            return g.drawText(words, room, juce::Justification::centred, false);
 }
 
 void LanesTab::resized() {

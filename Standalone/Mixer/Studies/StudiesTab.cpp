@@ -430,7 +430,7 @@ void StudiesTab::takeMix() {
 juce::StringArray StudiesTab::advice() const {
     juce::StringArray lines;
     if (protocol_ && protocol_->hasPinkNoise && listening().noise.empty())
-        lines.add("The protocol asks for pink noise on headphones: choose their outputs.");
+        lines.add("It asks for pink noise: choose headphones.");
     if (level_.isNotEmpty()) lines.add(level_);
     if (check_ && !check_->errors.empty())
         lines.add(utf8(check_->errors.front()));
