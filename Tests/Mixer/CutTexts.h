@@ -11,7 +11,7 @@ namespace physvib::test {
 
 struct CutText {
     juce::String words, why;
-    juce::Point<int> at; // in pixels of the root
+    juce::Point<int> at, edge; // in pixels of the root; which edge cuts
 };
 
 /// Reads what is drawn; the letters themselves do not appear.
@@ -73,7 +73,11 @@ private:
             return;
         const float left = at.getTranslationX() + ink.getX() * stack->font.getHorizontalScale(),
                     right = at.getTranslationX() + ink.getRight() * stack->font.getHorizontalScale();
-        isEdgeCut_ = isEdgeCut_ || left < clip.getX() - scale_ || right > clip.getRight() + scale_;
+        const bool isCutLeft = left < clip.getX() - scale_;
+        if (!isCutLeft && right <= clip.getRight() + scale_) return;
+        isEdgeCut_ = true;
+        edge_ =
+            (juce::Point{isCutLeft ? clip.getX() : clip.getRight(), at.getTranslationY()} / scale_).toInt();
     }
 
     void endRun() {
@@ -92,7 +96,7 @@ private:
                          : narrowest < leastNarrow ? "narrowed"
                          : isEdgeCut_              ? "cut by an edge"
                                                    : "";
-        if (*why != 0) cut_.push_back({words, why, run_.front().at.toInt()});
+        if (*why != 0) cut_.push_back({words, why, run_.front().at.toInt(), edge_});
         run_.clear();
         isEdgeCut_ = false;
     }
@@ -104,6 +108,7 @@ private:
     std::vector<Letter> run_;
     std::vector<CutText> cut_;
     bool isEdgeCut_ = false;
+    juce::Point<int> edge_;
     juce::StringArray words_;
 };
 

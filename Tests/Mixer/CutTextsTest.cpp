@@ -36,17 +36,27 @@ protected:
         texts += read.words.size();
         EXPECT_GT(read.words.size(), 20) << state;
         for (const auto& cut : read.cut) {
+            if (cut.why == "cut by an edge" && isEdgeOfRow(view, cut.edge)) continue;
             juce::String where;
-            bool isScrolled = false; // what a row hides that is longer than its panel
-            for (auto* c = view.getComponentAt(cut.at); c != nullptr; c = c->getParentComponent()) {
+            for (auto* c = view.getComponentAt(cut.at); c != nullptr; c = c->getParentComponent())
                 if (c->getTitle().isNotEmpty()) where << " < " << c->getTitle();
-                const auto* page = dynamic_cast<juce::Viewport*>(c);
-                isScrolled = isScrolled || (page != nullptr && page->isHorizontalScrollBarShown());
-            }
-            if (isScrolled && cut.why == "cut by an edge") continue;
             ADD_FAILURE() << state << ": \"" << cut.words << "\" " << cut.why << " at " << cut.at.toString()
                           << where;
         }
+    }
+    /// Whether a row that scrolls sideways, such as the strips', ends there: it hides what is longer than its
+    /// panel.
+    bool isEdgeOfRow(const juce::Component& in, juce::Point<int> edge) const {
+        for (const auto* child : in.getChildren()) {
+            const auto* page = dynamic_cast<const juce::Viewport*>(child);
+            const auto area = view.getLocalArea(child, child->getLocalBounds());
+            if (child->isVisible() && page != nullptr && page->isHorizontalScrollBarShown() &&
+                edge.y >= area.getY() && edge.y <= area.getBottom() &&
+                std::min(std::abs(edge.x - area.getX()), std::abs(edge.x - area.getRight())) <= 1)
+                return true;
+            if (child->isVisible() && isEdgeOfRow(*child, edge)) return true;
+        }
+        return false;
     }
     void TearDown() override { std::cout << texts << " texts\n"; }
 };
