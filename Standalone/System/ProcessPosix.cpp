@@ -116,11 +116,13 @@ Result<std::string> runWatched(std::string name, std::vector<std::string> argume
     close(ends[1]);
     std::string said;
     int status = 0;
-    bool isWanted = true;
+    bool isWanted = true, isTold = true;
     for (bool hasEnded = !child; !hasEnded;) {
         pollfd words{ends[0], POLLIN, 0};
         poll(&words, 1, lookMs);
-        hasEnded = waitpid(child.value, &status, WNOHANG) == child.value;
+        const pid_t ended = waitpid(child.value, &status, WNOHANG);
+        hasEnded = ended != 0;
+        isTold = ended == child.value; // not if whoever started us has children's ends ignored
         std::array<char, 1024> some{};
         while (poll(&words, 1, 0) > 0) {
             const ssize_t count = read(ends[0], some.data(), some.size());
@@ -136,6 +138,7 @@ Result<std::string> runWatched(std::string name, std::vector<std::string> argume
     }
     close(ends[0]);
     if (!child) return Failure{child.error};
+    if (!isTold) return Failure{name + ": the system does not tell how it ended"};
     if (WIFSIGNALED(status)) return "it was ended by signal " + std::to_string(WTERMSIG(status));
     if (WEXITSTATUS(status) == 0) return std::string{};
     const auto last = lastLine(said);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Small discs as pictures that are drawn once: a world of thousands is then as quick as it is to copy them.
 #pragma once
-#include <array>
 #include <juce_gui_basics/juce_gui_basics.h>
 #include <vector>
 
