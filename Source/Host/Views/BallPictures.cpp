@@ -9,10 +9,9 @@ namespace physvib {
 namespace {
 
 constexpr std::size_t mostKinds = 12; // at most some megabytes
-constexpr float rimWidth = 2.0f, spokeWidth = 1.5f, spokeShare = 0.9f;
 
 int sideOf(float radius, float scale) {
-    return 2 * static_cast<int>(std::ceil((radius + 0.5f * rimWidth) * scale)) + 3;
+    return 2 * static_cast<int>(std::ceil((radius + 0.5f * BallPictures::rimWidth) * scale)) + 3;
 }
 
 } // namespace

@@ -9,6 +9,9 @@ namespace physvib {
 class BallPictures {
 public:
     static constexpr float mostPixels = 16.0f; ///< radius, in pixels of the display
+    /// Of every disc, copied or drawn: the lines in pixels of the component, the spoke as a share of the
+    /// radius.
+    static constexpr float rimWidth = 2.0f, spokeWidth = 1.5f, spokeShare = 0.9f;
 
     struct Ball {
         float radius = 0.0f; ///< in pixels of the component

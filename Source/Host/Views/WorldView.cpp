@@ -352,13 +352,13 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) {
             if (r >= leastSpokePixels) { // shows the rotation
                 juce::Path spoke;
                 spoke.startNewSubPath(0.0f, 0.0f);
-                spoke.lineTo(r * 0.9f, 0.0f);
+                spoke.lineTo(r * BallPictures::spokeShare, 0.0f);
                 g.setColour(palette::well.withAlpha(0.45f));
-                g.strokePath(spoke, juce::PathStrokeType{1.5f}, place);
+                g.strokePath(spoke, juce::PathStrokeType{BallPictures::spokeWidth}, place);
             }
             if (!fixture.isCamera) continue;
             g.setColour(shade(*this, Shade::camera));
-            g.strokePath(path, juce::PathStrokeType{isLine ? 1.0f : 2.0f}, place);
+            g.strokePath(path, juce::PathStrokeType{isLine ? 1.0f : BallPictures::rimWidth}, place);
         }
     }
 }
