@@ -122,14 +122,16 @@ from_debian() (
 juce_needs="libx11-dev libxext-dev libxinerama-dev libxrandr-dev libxcursor-dev libxrender-dev libjpeg-dev zlib1g-dev fontconfig-config"
 juce_folder=$PWD/build/juce # where Source/Host/CMakeLists.txt finds it
 
-# unpack_juce: puts JUCE's sources there without installing them; its build files name the paths of an installed one.
+# unpack_juce: puts JUCE's sources there without installing them. Its build files name the paths of an installed one: here those of whatever copy
+# of this repository reads them.
 unpack_juce() {
     unpacked=$juce_folder.new
     rm -rf "$unpacked" && mkdir -p "$unpacked" || return 1
     from_debian "$unpacked" download juce-modules-source juce-modules-source-data || return 1
     for archive in "$unpacked"/*.deb; do dpkg-deb -x "$archive" "$unpacked" || return 1; done
     rm "$unpacked"/*.deb
-    find "$unpacked/usr/lib" -name '*.cmake' -exec sed -i "s|\"/usr/|\"$juce_folder/usr/|" {} + || return 1
+    # shellcheck disable=SC2016 # CMake's own variable
+    find "$unpacked/usr/lib" -name '*.cmake' -exec sed -i 's|"/usr/|"${PROJECT_SOURCE_DIR}/build/juce/usr/|' {} + || return 1
     rm -rf "$juce_folder" && mv "$unpacked" "$juce_folder"
 }
 

@@ -51,7 +51,6 @@ awk -v head="## $VERSION" 'index($0, "## ") == 1 { on = index($0, head) == 1 } o
 for sources in juce pico sources web/box2d-2.4.1 web/qr-code-generator; do
     [ ! -e "build/$sources" ] || { mkdir -p "$source/build/$sources" && cp -r "build/$sources/." "$source/build/$sources"; }
 done
-[ ! -e "$source/build/juce" ] || find "$source/build/juce/usr/lib" -name '*.cmake' -exec sed -i "s|$juce_folder|$source/build/juce|" {} +
 if command -v ccache >/dev/null; then # the packages' build has a home of its own
     CCACHE_DIR=${CCACHE_DIR:-$(ccache -k cache_dir)}
     export CCACHE_DIR

@@ -23,7 +23,7 @@ while [ $# -gt 0 ]; do
     shift
 done
 # shellcheck disable=SC2086 # a list of words
-ensure_packages $physvib_release_test_packages
+ensure_build_packages $physvib_release_test_packages
 
 step() { echo "release: $*"; }
 quietly() { "$@" >"$machine.log" 2>&1 || { tail -n 30 "$machine.log" && return 1; }; }
