@@ -57,8 +57,8 @@ def other_rows(runs):
     yield "| --- | --- |"
     for run in starting("block/"):
         channels, modes, cold = re.findall(r":(\d+)", run["name"])[:3]
-        yield (f"| whole chain, 64-frame block, {modes} modes x {channels} channels, {'cold' if cold == '1' else 'warm'}, % of the block's time | "
-               f"median {run['median_%']:.3f}, p99.9 by processor time {run['cpu_p99.9_%']:.2f} |")
+        yield (f"| % of 64 frames' time (median), {modes} modes x {channels} channels, {'cold' if cold == '1' else 'warm'} | "
+               f"{run['median_%']:.3f}, p99.9 of processor time {run['cpu_p99.9_%']:.2f} |")
     for run in starting("silence"):
         yield f"| one silent 64-frame block, 8 channels | {run['cpu_time']:.0f} ns |"
     for run in starting("strikes/"):
@@ -69,7 +69,7 @@ def other_rows(runs):
         channels, modes = re.findall(r":(\d+)", run["name"])[:2]
         yield f"| whole chain, {modes} modes x {channels} channels | {run['x_real_time']:,.0f} times real time |"
     for run in (run for name in ("shake-the-box", "driving", "marbles") for run in starting(f"sceneToWav/{name}")):
-        yield f"| {run['name'].split('/')[1]}, 4 channels, from the scene to a WAV file | {run['times_real_time']:,.0f} times real time |"
+        yield f"| {run['name'].split('/')[1]}, 4 channels, scene to file | {run['times_real_time']:,.0f} times real time |"
 
 
 def plot(runs):

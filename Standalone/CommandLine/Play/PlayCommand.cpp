@@ -163,7 +163,7 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
                 "low-latency mode for messages and controls: one block plus the limiter's look-ahead. "
                 "Collisions keep the normal output latency");
     command.add("--listen", o.listens,
-                "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
+                "take inputs and controls from standard input, a line of JSON each (Docs/sessions.md)");
     command.add("--keep-playing", o.keepsPlaying,
                 "play on when standard input has ended, until --seconds are over: for a file of lines. "
                 "Without it that is silence and the end: who controls may have died");
