@@ -80,11 +80,12 @@ Result<std::string> asClip(const FeltExport& felt, const std::string& path, Clip
 } // namespace
 
 void FeltEvents::add(std::uint64_t prepares, std::span<const TakeEvent> events) {
-    for (const auto& [run, played] : events) {
+    for (const auto& [run, played, place] : events) {
         if (prepares == prepares_ && run < run_) continue; // the end of the one before
         if (prepares != prepares_ || run > run_) events_.clear();
         prepares_ = prepares;
         run_ = run;
+        told_ = place + 1;
         events_.push_back(played.event);
     }
     if (events_.size() > mostKept)

@@ -22,11 +22,13 @@ public:
 
     /// Playable, in time order, the first at 0 if `fromFirst`, else from the run's beginning.
     std::vector<CollisionEvent> events(bool fromFirst) const;
+    /// Earlier events of that run that are not kept.
+    std::uint64_t leftOut() const noexcept { return told_ - events_.size(); }
     bool areThere() const noexcept { return !events_.empty(); }
 
 private:
     std::vector<CollisionEvent> events_;
-    std::uint64_t prepares_ = 0;
+    std::uint64_t prepares_ = 0, told_ = 0;
     int run_ = 0;
 };
 

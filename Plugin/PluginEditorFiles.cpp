@@ -95,7 +95,10 @@ void PluginEditor::exportFeltAs(const juce::File& file) {
     const auto written =
         exportFelt({events, state, pannerOf(state, lawOf(value(Parameter::law)), value(Parameter::exponent))},
                    file.getFullPathName().toStdString());
-    report(written ? words(written.value).trim() : words(written.error));
+    const auto leftOut = plugin_.felt().leftOut();
+    const juce::String without =
+        leftOut > 0 ? ", without " + juce::String{leftOut} + " earlier ones, which had no room" : "";
+    report(written ? words(written.value).trim() + without : words(written.error));
 }
 
 // What the host has for this parameter, and below it what is ours.

@@ -41,6 +41,7 @@ void Take::rewind(TakeTiming timing) {
     owed_ = -1;
     over_ = false;
     number = 0;
+    logged = 0;
     isEnded = false;
     if (music_) music_->reset();
     told_ = {};

@@ -82,6 +82,7 @@ public:
 
     Session session;
     std::atomic<int> number{0};       ///< set by R when it starts
+    std::uint64_t logged = 0;         ///< events that left the session for the log; guarded as the log is
     std::atomic<bool> isEnded{false}; ///< R lets go of it
     bool isStill = false;             ///< its world could not go on; whoever steps it
     std::vector<std::vector<float>> out;

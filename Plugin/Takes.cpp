@@ -286,8 +286,10 @@ std::vector<std::unique_ptr<Take>> Takes::takeOut() {
 }
 
 void Takes::drain(Take& take) {
-    for (PlayedEvent played; take.session.played().pop(played);)
-        if (log_.size() < logSize) log_.push_back({take.number, played});
+    for (PlayedEvent played; take.session.played().pop(played);) {
+        if (log_.size() == logSize) log_.erase(log_.begin(), log_.begin() + logSize / 2);
+        log_.push_back({take.number, played, take.logged++});
+    }
 }
 
 std::vector<TakeEvent> Takes::takeLog() {

@@ -55,6 +55,7 @@ struct TakePace {
 struct TakeEvent {
     int take = 0; ///< counted from 1 since prepare
     PlayedEvent played;
+    std::uint64_t place = 0; ///< among those of its take
 };
 
 /// Counts and figures for people.
@@ -133,7 +134,7 @@ public:
     /// Adds the samples of channel j to out[0..frames). R.
     void addTo(float* out, int channel, int frames) const noexcept;
 
-    /// What was played since the last call, at most `logSize` events. Any thread but R.
+    /// What was played since the last call, at most the newest `logSize` events. Any thread but R.
     std::vector<TakeEvent> takeLog();
     /// Where the bodies of the playing take are, and the session time of that; none: empty. Any thread but R.
     std::int64_t poses(std::vector<BodyPose>& now);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws the world panel: field, bodies, impacts as light, actuators.
+#include "Pictures/JointOutline.h"
 #include "Pictures/PictureLight.h"
 #include "Pictures/PictureParts.h"
 #include "Pictures/ShapeOutline.h"
@@ -68,6 +69,13 @@ void drawBody(const Canvas& canvas, const BodyDescription& body, const BodyPose&
         drawFixture(canvas, fixture, body.type == BodyType::dynamicBody, move, map);
 }
 
+void drawJoint(const Canvas& canvas, const JointPose& joint, const FieldMap& map) {
+    canvas.graphics.setColour(palette::text.withAlpha(0.6f));
+    canvas.graphics.strokePath(jointOutline<Path>(joint.joint, map.at(joint.aMetres.x, joint.aMetres.y),
+                                                  map.at(joint.bMetres.x, joint.bMetres.y)),
+                               jointPixels);
+}
+
 } // namespace
 
 void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
@@ -75,12 +83,16 @@ void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap&
     const Painter::Saved whole(canvas.graphics);
     canvas.graphics.reduceClip(map.field.expanded(wallPixels).rounded());
     const auto cast = sceneCast(*input.scene);
+    const auto& poses = input.poses.bodies;
     for (std::size_t i = 0; i < cast.size(); ++i) {
         const auto& at = cast[i].positionMetres;
         const BodyPose start{at.x, at.y, cast[i].angleRadians, i < input.scene->bodies.size()};
-        const BodyPose& mark = i < input.bodies.size() ? input.bodies[i] : start;
+        const BodyPose& mark = i < poses.size() ? poses[i] : start;
         if (mark.isPresent) drawBody(canvas, cast[i], mark, map);
     }
+    for (const JointPose& joint : input.poses.joints) drawJoint(canvas, joint, map);
+    if (poses.empty())
+        for (const auto& joint : input.scene->joints) drawJoint(canvas, describedPose(joint), map);
 }
 
 // ---- hits

@@ -137,11 +137,11 @@ std::int64_t RenderMovie::count() const noexcept {
                                   std::llround(std::ceil(parts_->input.durationSeconds * picturesPerSecond)));
 }
 
-Image RenderMovie::at(std::int64_t momentNs, std::span<const BodyPose> bodies, const Scene* scene) const {
+Image RenderMovie::at(std::int64_t momentNs, const WorldPoses& poses, const Scene* scene) const {
     Image image = parts_->still;
     Painter painter{image};
     PictureInput moving = parts_->input;
-    moving.bodies.assign(bodies.begin(), bodies.end());
+    moving.poses = poses;
     if (scene != nullptr && scene != moving.scene) {
         moving.scene = scene;
         moving.fieldWidthMetres = scene->fieldWidthMetres;

@@ -27,10 +27,9 @@ public:
         return index * (1'000'000'000 / picturesPerSecond);
     }
 
-    /// The picture of that moment, with the bodies where they are then (per body of sceneCast()); of another
-    /// scene than the input's, if one is given.
-    picture::Image at(std::int64_t momentNs, std::span<const BodyPose> bodies,
-                      const Scene* scene = nullptr) const;
+    /// The picture of that moment, with bodies and joints where they are then; of another scene than the
+    /// input's, if one is given.
+    picture::Image at(std::int64_t momentNs, const WorldPoses& poses, const Scene* scene = nullptr) const;
 
 private:
     struct Parts;

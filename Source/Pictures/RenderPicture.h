@@ -21,8 +21,8 @@ struct PictureInput {
     std::string subtitle;
     double fieldWidthMetres = 0.0; ///< mapped on the layout's extent
     double fieldHeightMetres = 0.0;
-    const Scene* scene = nullptr; ///< null: events without a world
-    std::vector<BodyPose> bodies; ///< at the strongest event, per body of sceneCast(); missing: as it began
+    const Scene* scene = nullptr;               ///< null: events without a world
+    WorldPoses poses;                           ///< at the strongest event; without bodies: as it began
     std::span<const CollisionEvent> events;     ///< in any order
     EnchanterLayout layout;                     ///< channel j of the waveforms is place j
     std::vector<std::string> labels;            ///< of the enchanters; missing ones are A, B, ... or numbers
@@ -38,8 +38,7 @@ struct PictureInput {
 std::ptrdiff_t strongestEvent(std::span<const CollisionEvent> events) noexcept;
 
 /// Where the bodies of a scene stand at its strongest event; none if nothing was struck. Any thread.
-std::vector<BodyPose> bodiesAtStrongest(const Scene& scene, const SceneRun& run,
-                                        std::span<const CollisionEvent> events);
+WorldPoses posesAtStrongest(const Scene& scene, const SceneRun& run, std::span<const CollisionEvent> events);
 
 /// Frames of a render, which may reach beyond its ends.
 struct FrameWindow {

@@ -25,7 +25,7 @@ Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, 
 /// Where actuator `channel` stands, the layout being mapped on the field.
 Spot placeOf(const PictureInput& input, const FieldMap& map, int channel);
 
-/// All bodies that are present, at `input.bodies`; nothing without a scene.
+/// All bodies that are present, and the joints between them, at `input.poses`; nothing without a scene.
 void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map);
 
 /// A badge per actuator, within `panel`.

@@ -55,7 +55,7 @@ public:
             };
             if (bodies)
                 return bodies(everyNs, endNs,
-                              [&](std::int64_t timeNs, const Scene& scene, std::span<const BodyPose> poses) {
+                              [&](std::int64_t timeNs, const Scene& scene, const WorldPoses& poses) {
                                   return one(timeNs, movie.at(timeNs, poses, &scene));
                               });
             for (std::int64_t timeNs = 0; timeNs < endNs; timeNs += everyNs)

@@ -108,7 +108,7 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
     const PoseSource bodies = [&](std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see) {
         followTakes(session.log.takes, session.run, part.fromNs, everyNs,
                     std::min(part.endNs, part.fromNs + endNs),
-                    [&](std::int64_t timeNs, const Scene& scene, std::span<const BodyPose> poses) {
+                    [&](std::int64_t timeNs, const Scene& scene, const WorldPoses& poses) {
                         return see(timeNs - part.fromNs, scene, poses);
                     });
     };

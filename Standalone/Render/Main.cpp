@@ -121,7 +121,7 @@ PictureInput pictureWords(const Options& o, const Source& source, const LayoutDe
     picture.fieldHeightMetres = settings.panner.fieldHeightMetres();
     if (source.scene) {
         picture.scene = &*source.scene;
-        picture.bodies = bodiesAtStrongest(*source.scene, o.run, source.events);
+        picture.poses = posesAtStrongest(*source.scene, o.run, source.events);
     }
     picture.layout = layout.geometry;
     for (const auto& enchanter : layout.enchanters) picture.labels.push_back(enchanter.label);

@@ -21,12 +21,29 @@ int picturesIn(const juce::File& webp) {
     return found;
 }
 
-TEST(SessionMovie, ShowsTheLastPartOfASessionWithItsPausesAndScenes) {
+class SessionMovie : public testing::Test {
+protected:
+    bool play(std::int64_t untilNs) {
+        return runUntil([&] { return desk.look().session.sessionNs >= untilNs; });
+    }
+    /// More than a second of the first scene.
+    SavedSession someSecond() {
+        EXPECT_TRUE(play(1'200'000'000));
+        return desk.saved();
+    }
+    std::string path(const char* name) const { return folder(name).getFullPathName().toStdString(); }
+    template <class GoesOn>
+    std::string write(const SavedSession& session, double seconds, const std::string& to, GoesOn goesOn) {
+        return writeSessionMovie(session, desk.mix().layout, seconds, to, goesOn);
+    }
+    int files() const { return folder.folder.getNumberOfChildFiles(juce::File::findFiles); }
+
+    static constexpr auto on = [](double) { return true; };
     const TestFolder folder;
     Desk desk{onlyNoDevice(), noDevice};
-    const auto play = [&](std::int64_t untilNs) {
-        return runUntil([&] { return desk.look().session.sessionNs >= untilNs; });
-    };
+};
+
+TEST_F(SessionMovie, ShowsTheLastPartOfASessionWithItsPausesAndScenes) {
     ASSERT_TRUE(play(400'000'000));
     desk.setSlowness(0);
     ASSERT_TRUE(play(600'000'000));
@@ -36,37 +53,27 @@ TEST(SessionMovie, ShowsTheLastPartOfASessionWithItsPausesAndScenes) {
     ASSERT_TRUE(play(1'200'000'000));
     const SavedSession session = desk.saved();
     double last = 0.0;
-    const auto path = folder("last.webp").getFullPathName().toStdString();
-    EXPECT_EQ(writeSessionMovie(session, desk.mix().layout, 1.0, path,
-                                [&](double share) {
-                                    EXPECT_GE(share, last - 1e-9);
-                                    last = share;
-                                    return true;
-                                }),
+    EXPECT_EQ(write(session, 1.0, path("last.webp"),
+                    [&](double share) {
+                        EXPECT_GE(share, last - 1e-9);
+                        last = share;
+                        return true;
+                    }),
               "");
     EXPECT_GT(last, 0.9);
     EXPECT_GE(picturesIn(folder("last.webp")), 15) << "twenty a second, but those where nothing is another";
     EXPECT_LE(picturesIn(folder("last.webp")), 22);
 }
 
-/// More than a second of the first scene.
-SavedSession someSecond(Desk& desk) {
-    EXPECT_TRUE(runUntil([&] { return desk.look().session.sessionNs >= 1'200'000'000; }));
-    return desk.saved();
-}
-
-TEST(SessionMovie, HasTheSoundOfTheContactsWhereFfmpegIs) {
-    const TestFolder folder;
-    Desk desk{onlyNoDevice(), noDevice};
-    const auto session = someSecond(desk);
+TEST_F(SessionMovie, HasTheSoundOfTheContactsWhereFfmpegIs) {
+    const auto session = someSecond();
     // the second input becomes the movie
     const OnlyScript ffmpeg{folder, "ffmpeg",
                             "for word; do case $before in -i) sound=$word;; -ac) echo \"$word\" >\"$(dirname "
                             "\"$0\")/channels\";; "
                             "esac; before=$word; done\ncat \"$sound\" >\"$word\"\n"};
     EXPECT_EQ(movieEnding(), ".mp4");
-    const auto path = folder("last.mp4").getFullPathName().toStdString();
-    ASSERT_EQ(writeSessionMovie(session, desk.mix().layout, 1.0, path, [](double) { return true; }), "");
+    ASSERT_EQ(write(session, 1.0, path("last.mp4"), on), "");
     EXPECT_EQ(folder("programs/channels").loadFileAsString().trim(), "2");
     juce::MemoryBlock bytes;
     folder("last.mp4").loadFileAsData(bytes);
@@ -80,70 +87,54 @@ TEST(SessionMovie, HasTheSoundOfTheContactsWhereFfmpegIs) {
     EXPECT_GT(most, 0.001f);
     EXPECT_LE(most, 0.1f) << "a full-scale impact is at -20 dB";
     EXPECT_GT(apart, 0.0f) << "left and right";
-    EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles), 1) << "no pictures and no sound";
+    EXPECT_EQ(files(), 1) << "no pictures and no sound";
 }
 
-TEST(SessionMovie, WithoutFfmpegItIsAWebpAndAFailureLeavesNothing) {
-    const TestFolder folder;
-    Desk desk{onlyNoDevice(), noDevice};
-    const auto session = someSecond(desk);
-    const auto path = folder("last.mp4").getFullPathName().toStdString();
-    const auto write = [&] {
-        return writeSessionMovie(session, desk.mix().layout, 0.2, path, [](double) { return true; });
-    };
+TEST_F(SessionMovie, WithoutFfmpegItIsAWebpAndAFailureLeavesNothing) {
+    const auto session = someSecond();
+    const auto writeOne = [&] { return write(session, 0.2, path("last.mp4"), on); };
     {
         const OnlyScript other{folder, "another", "exit 0\n"};
         EXPECT_EQ(movieEnding(), ".webp");
-        EXPECT_NE(write().find("need the program ffmpeg"), std::string::npos);
+        EXPECT_NE(writeOne().find("need the program ffmpeg"), std::string::npos);
     }
     for (const auto& [script, why] :
          {std::pair{"echo No space left on device >&2; exit 1\n", "No space left on device"},
           {"kill -9 $$\n", "it was ended by signal 9"}}) {
         const OnlyScript ill{folder, "ffmpeg", script};
-        EXPECT_EQ(write(), path + ": ffmpeg failed: " + why);
-        EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles), 0);
+        EXPECT_EQ(writeOne(), path("last.mp4") + ": ffmpeg failed: " + why);
+        EXPECT_EQ(files(), 0);
     }
 }
 
-TEST(SessionMovie, OnAFullDiskItSaysSoByItsOwnNameAndLeavesNothingNew) {
-    const TestFolder folder;
-    Desk desk{onlyNoDevice(), noDevice};
-    const auto session = someSecond(desk);
+TEST_F(SessionMovie, OnAFullDiskItSaysSoByItsOwnNameAndLeavesNothingNew) {
+    const auto session = someSecond();
     const OnlyScript ffmpeg{folder, "ffmpeg", "exit 0\n"};
     folder("last.mp4").replaceWithText("an earlier one");
-    const auto path = folder("last.mp4").getFullPathName().toStdString();
     for (const rlim_t bytes : {1000, 400'000}) { // at the sound, at the pictures
         const FileSizeLimit full{bytes};
-        const auto error =
-            writeSessionMovie(session, desk.mix().layout, 1.0, path, [](double) { return true; });
-        EXPECT_TRUE(error.starts_with(path + ": cannot be written: ")) << error;
+        const auto error = write(session, 1.0, path("last.mp4"), on);
+        EXPECT_TRUE(error.starts_with(path("last.mp4") + ": cannot be written: ")) << error;
     }
     EXPECT_EQ(folder("last.mp4").loadFileAsString(), "an earlier one");
-    EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles), 1);
+    EXPECT_EQ(files(), 1);
 }
 
-TEST(SessionMovie, IsCancelledWhileFfmpegWorks) {
-    const TestFolder folder;
-    Desk desk{onlyNoDevice(), noDevice};
-    const auto session = someSecond(desk);
+TEST_F(SessionMovie, IsCancelledWhileFfmpegWorks) {
+    const auto session = someSecond();
     const OnlyScript ffmpeg{folder, "ffmpeg", "touch \"$(dirname \"$0\")/begun\"\nexec sleep 60\n"};
     const auto begin = juce::Time::getMillisecondCounter();
-    EXPECT_EQ(writeSessionMovie(session, desk.mix().layout, 0.2,
-                                folder("last.mp4").getFullPathName().toStdString(),
-                                [&](double) { return !folder("programs/begun").exists(); }),
-              "cancelled");
+    EXPECT_EQ(
+        write(session, 0.2, path("last.mp4"), [&](double) { return !folder("programs/begun").exists(); }),
+        "cancelled");
     EXPECT_LT(juce::Time::getMillisecondCounter() - begin, 20'000u);
-    EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles), 0);
+    EXPECT_EQ(files(), 0);
 }
 
-TEST(SessionMovie, ACancelledOneLeavesNothing) {
-    const TestFolder folder;
-    Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs >= 300'000'000; }));
-    const auto path = folder("last.webp").getFullPathName().toStdString();
+TEST_F(SessionMovie, ACancelledOneLeavesNothing) {
+    ASSERT_TRUE(play(300'000'000));
     for (const double end : {0.0, 0.2, 0.6})
-        EXPECT_EQ(writeSessionMovie(desk.saved(), desk.mix().layout, 60.0, path,
-                                    [end](double share) { return share < end; }),
+        EXPECT_EQ(write(desk.saved(), 60.0, path("last.webp"), [end](double share) { return share < end; }),
                   "cancelled");
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFilesAndDirectories), 0);
 }

@@ -2,6 +2,7 @@
 #include "Pictures/RenderPicture.h"
 #include "Pictures/Palette.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <png.h>
@@ -237,7 +238,7 @@ TEST(RenderPicture, StemsStandAtTheirTimes) {
 TEST(RenderPicture, BodiesStandWhereTheMarksSay) {
     const auto ballAt = [](std::vector<BodyPose> bodies) {
         Render render(1, 0);
-        render.input.bodies = std::move(bodies);
+        render.input.poses.bodies = std::move(bodies);
         return find(drawPicture(render.input), palette::material(1).withMultipliedBrightness(0.9f),
                     {24, 120, 760, 500});
     };
@@ -245,6 +246,34 @@ TEST(RenderPicture, BodiesStandWhereTheMarksSay) {
     ASSERT_GT(start.count, 100);
     EXPECT_GT(moved.x, start.x + 100.0);
     EXPECT_NEAR(moved.y, start.y, 0.6);
+}
+
+TEST(RenderPicture, JointsAreDrawnWhereTheyAreNow) {
+    const auto changedBy = [](const Joint& joint, bool hasPoses) {
+        Render bare(1, 0), joined(1, 0);
+        joined.scene.joints = {{"joint", "floor", "ball", joint}};
+        if (hasPoses) {
+            bare.input.poses.bodies = joined.input.poses.bodies = {{2.0, 0.05, 0.0}, {1.0, 1.0, 0.0}};
+            joined.input.poses.joints = {{joint, {3.0, 1.5}, {3.5, 1.5}}};
+        }
+        const Image without = drawPicture(bare.input), with = drawPicture(joined.input);
+        std::array<int, 2> pixels{}; // of the panel's left and right half
+        for (int y = 120; y < 620; ++y)
+            for (int x = 24; x < 784; ++x)
+                if (with.at(x, y) != without.at(x, y)) ++pixels[x < 404 ? 0 : 1];
+        return pixels;
+    };
+    const DistanceJoint rod{{0.5, 1.5}, {1.0, 1.0}}, spring{{0.5, 1.5}, {1.0, 1.0}, 2.0};
+    const auto drawn = changedBy(rod, false), moved = changedBy(rod, true), coil = changedBy(spring, false);
+    EXPECT_GT(drawn[0], 100);
+    EXPECT_EQ(drawn[1], 0) << "as described";
+    EXPECT_EQ(moved[0], 0);
+    EXPECT_GT(moved[1], 100) << "where it is now";
+    EXPECT_GT(coil[0], drawn[0]);
+    const RevoluteJoint hinge{{1.0, 1.0}};
+    RevoluteJoint motor = hinge;
+    motor.maxTorqueNewtonMetres = 1.0;
+    EXPECT_GT(changedBy(motor, false)[0], changedBy(hinge, false)[0]);
 }
 
 TEST(RenderPicture, BodiesThatAreNotThereAreNotDrawn) {
@@ -255,9 +284,9 @@ TEST(RenderPicture, BodiesThatAreNotThereAreNotDrawn) {
     };
     Render render(1, 0);
     EXPECT_GT(ballIn(render), 100);
-    render.input.bodies = {{2.0, 0.05, 0.0}, {1.0, 1.0, 0.0, false}};
+    render.input.poses.bodies = {{2.0, 0.05, 0.0}, {1.0, 1.0, 0.0, false}};
     EXPECT_EQ(ballIn(render), 0);
-    render.input.bodies.clear();
+    render.input.poses.bodies.clear();
     render.scene.script = {{1.0, 1, 0.0, SpawnAction{render.scene.bodies[1], {}}}};
     render.scene.bodies.pop_back();
     EXPECT_EQ(ballIn(render), 0);

@@ -108,21 +108,32 @@ TEST(FeltExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
     folder.deleteRecursively();
 }
 
+std::vector<TakeEvent> row(TakeEvent event, std::size_t count) {
+    std::vector all(count, event);
+    for (std::size_t k = 0; k < count; ++k) all[k].place = event.place + k;
+    return all;
+}
+
 TEST(FeltExport, OnlyTheNewestRunIsKeptAndNotWithoutEnd) {
     FeltEvents felt;
     TakeEvent event;
     event.played.event = {1'000'000, 100.0, 10.0, 0.5, 0.0, 0.0, 0, {}};
     event.take = 1;
-    felt.add(1, std::vector(3, event));
+    felt.add(1, row(event, 3));
     event.take = 2;
-    felt.add(1, std::vector(2, event));
+    felt.add(1, row(event, 2));
     event.take = 1; // the end of the one before
-    felt.add(1, std::vector(5, event));
+    felt.add(1, row(event, 5));
     EXPECT_EQ(felt.events(false).size(), 2u);
     EXPECT_EQ(felt.events(false)[0].timeNs, 1'000'000);
     EXPECT_EQ(felt.events(true)[0].timeNs, 0);
-    felt.add(2, std::vector(FeltEvents::mostKept + 7, event)); // prepared anew
+    EXPECT_EQ(felt.leftOut(), 0u);
+    felt.add(2, row(event, FeltEvents::mostKept + 7)); // prepared anew
     EXPECT_EQ(felt.events(false).size(), FeltEvents::mostKept);
+    EXPECT_EQ(felt.leftOut(), 7u);
+    event.place = FeltEvents::mostKept + 10; // three that the log had no room for
+    felt.add(2, row(event, 1));
+    EXPECT_EQ(felt.leftOut(), 7u + 3u + 1u);
 }
 
 TEST(Keyboard, EveryKeyIsFoundWhereItIsAndSaysWhatItIs) {

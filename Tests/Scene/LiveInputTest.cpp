@@ -72,7 +72,7 @@ TEST(LiveInputs, AWorldWithThemInItsSceneDoesTheSameAgain) {
         EXPECT_EQ(again.pose(i).xMetres, live.pose(i).xMetres);
         EXPECT_EQ(again.pose(i).isPresent, live.pose(i).isPresent);
     }
-    EXPECT_EQ(posesAt(live.scene(), {3, stepsPerSecond}, 1'000'000'000).size(),
+    EXPECT_EQ(posesAt(live.scene(), {3, stepsPerSecond}, 1'000'000'000).bodies.size(),
               sceneCast(live.scene()).size());
 }
 

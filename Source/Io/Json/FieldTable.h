@@ -57,9 +57,9 @@ inline constexpr auto text = [](const auto& json) { return json.text(); };
 inline constexpr auto number = [](const auto& json) { return json.number(); };
 inline constexpr auto positive = [](const auto& json) { return json.positiveNumber(); };
 inline constexpr auto name = [](const auto& json) {
-    auto text = json.text();
-    if (text.empty()) json.fail("expected a name, found an empty string");
-    return text;
+    auto found = json.text();
+    if (found.empty()) json.fail("expected a name, found an empty string");
+    return found;
 };
 constexpr auto upTo(double most) {
     return [=](const auto& json) { return json.numberUpTo(most); };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Creates Box2D joints from a scene's descriptions.
 #include "Scene/World/SceneBodies.h"
+#include "Scene/World/SceneWorld.h"
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 namespace physvib {
 
@@ -186,6 +188,39 @@ b2Joint& moveJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
 
 b2Joint& createJoint(b2World& world, const JointDescription& joint, b2Body& bodyA, b2Body& bodyB) {
     return std::visit(Maker(world, joint, bodyA, bodyB), joint.joint);
+}
+
+JointPose describedPose(const JointDescription& joint) {
+    return std::visit(
+        [&joint](const auto& kind) -> JointPose {
+            if constexpr (requires { kind.anchorMetres; }) {
+                Vector end = kind.anchorMetres;
+                if constexpr (std::is_same_v<decltype(kind), const SliderJoint&>) {
+                    const double length = kind.travelMetres ? kind.travelMetres->upper : 0.0;
+                    end = {end.x + length * unit(kind.axis).x, end.y + length * unit(kind.axis).y};
+                }
+                return {joint.joint, kind.anchorMetres, end};
+            } else
+                return {joint.joint, kind.anchorAMetres, kind.anchorBMetres};
+        },
+        joint.joint);
+}
+
+std::vector<JointPose> SceneWorld::jointPoses() const {
+    std::vector<JointPose> poses;
+    for (const auto& [name, held] : joints_) {
+        b2Joint& made = *held.made;
+        if (!made.IsEnabled()) continue;
+        const b2Vec2 a = made.GetAnchorA();
+        b2Vec2 b = made.GetAnchorB();
+        if (made.GetType() == e_prismaticJoint) {
+            const auto& slider = static_cast<const b2PrismaticJoint&>(made);
+            const float way = slider.IsLimitEnabled() ? slider.GetUpperLimit() : 0.0F;
+            b = made.GetBodyA()->GetWorldPoint(slider.GetLocalAnchorA() + way * slider.GetLocalAxisA());
+        }
+        poses.push_back({held.described, {a.x, a.y}, {b.x, b.y}});
+    }
+    return poses;
 }
 
 } // namespace physvib

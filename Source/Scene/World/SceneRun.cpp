@@ -36,12 +36,12 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
     return all;
 }
 
-std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs) {
-    std::vector<BodyPose> last;
+WorldPoses posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs) {
+    WorldPoses last;
     timeNs = std::max<std::int64_t>(timeNs, 0);
     followPoses(scene, run, std::max<std::int64_t>(timeNs, 1), timeNs + 1,
-                [&](std::int64_t, std::span<const BodyPose> poses) {
-                    last.assign(poses.begin(), poses.end());
+                [&](std::int64_t, const WorldPoses& poses) {
+                    last = poses;
                     return true;
                 });
     return last;
@@ -59,17 +59,18 @@ public:
         , originNs_{take.startNs + stalls_.lengthBefore(0)}
         , stepNs_{1'000'000'000 / run.stepsPerSecond}
         , endNs_{isLast ? INT64_MAX : take.worldEndNs}
-        , poses_(sceneCast(scene_).size(), BodyPose{0.0, 0.0, 0.0, false}) {}
+        , poses_{std::vector<BodyPose>(sceneCast(scene_).size(), BodyPose{0.0, 0.0, 0.0, false}), {}} {}
 
     void moveTo(std::int64_t timeNs) {
         for (; world_.timeNs() < endNs_ && originNs_ + world_.timeNs() + stepNs_ <= timeNs; unused_.clear()) {
             world_.step(unused_);
             originNs_ += stalls_.lengthBefore(world_.timeNs());
         }
-        for (std::size_t i = 0; i < world_.bodyCount(); ++i) poses_[i] = world_.pose(i);
+        for (std::size_t i = 0; i < world_.bodyCount(); ++i) poses_.bodies[i] = world_.pose(i);
+        poses_.joints = world_.jointPoses();
     }
     const Scene& scene() const noexcept { return scene_; }
-    std::span<const BodyPose> poses() const noexcept { return poses_; }
+    const WorldPoses& poses() const noexcept { return poses_; }
 
 private:
     const Scene scene_;
@@ -77,7 +78,7 @@ private:
     StallReader stalls_;
     std::int64_t originNs_;
     const std::int64_t stepNs_, endNs_;
-    std::vector<BodyPose> poses_;
+    WorldPoses poses_;
     std::vector<CollisionEvent> unused_;
 };
 
@@ -101,10 +102,9 @@ void followPoses(const Scene& scene, const SceneRun& run, std::int64_t everyNs, 
                  const PoseWatch& see) {
     const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
     const SceneTake take{0, 0, run.seed, shared, {}, {}};
-    followTakes({&take, 1}, run, 0, everyNs, endNs,
-                [&](std::int64_t timeNs, const Scene&, std::span<const BodyPose> poses) {
-                    return see(timeNs, poses);
-                });
+    followTakes(
+        {&take, 1}, run, 0, everyNs, endNs,
+        [&](std::int64_t timeNs, const Scene&, const WorldPoses& poses) { return see(timeNs, poses); });
 }
 
 } // namespace physvib

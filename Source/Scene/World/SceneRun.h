@@ -41,21 +41,20 @@ SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs
 SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs,
                      const StepWatch& goesOn = {});
 
-/// Poses of all bodies at the last step not after `timeNs`. M only; simulates from the start.
-std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);
+/// Poses at the last step not after `timeNs`. M only; simulates from the start.
+WorldPoses posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);
 
-/// Receives a session time, the scene of its run with all inputs, and the poses of that scene's cast at the
-/// last step not after it; false stops.
-using TakeWatch =
-    std::function<bool(std::int64_t timeNs, const Scene& scene, std::span<const BodyPose> poses)>;
+/// Receives a session time, the scene of its run with all inputs, and the poses at the last step not after
+/// it; false stops.
+using TakeWatch = std::function<bool(std::int64_t timeNs, const Scene& scene, const WorldPoses& poses)>;
 
 /// Follows a session at fromNs, fromNs + everyNs... before `endNs`, with its pauses and slow motion. `run`,
 /// thread and errors as of runTakes.
 void followTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t fromNs,
                  std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see);
 
-/// Receives a time and the poses of all bodies at the last step not after it; false stops.
-using PoseWatch = std::function<bool(std::int64_t timeNs, std::span<const BodyPose> poses)>;
+/// Receives a time and the poses at the last step not after it; false stops.
+using PoseWatch = std::function<bool(std::int64_t timeNs, const WorldPoses& poses)>;
 
 /// The same at 0, everyNs, 2 everyNs... before `endNs`, in one go. M only; simulates from the start. Throws
 /// what Simulation throws.

@@ -48,8 +48,9 @@ void SceneWorld::build() {
     scripted_ = nextBody_;
     scriptedNames_ = bodyNames_;
     for (const JointDescription& joint : scene_.joints)
-        joints_.emplace(joint.name,
-                        &createJoint(world_, joint, *find(joint.bodyA)->body, *find(joint.bodyB)->body));
+        joints_.emplace(joint.name, HeldJoint{&createJoint(world_, joint, *find(joint.bodyA)->body,
+                                                           *find(joint.bodyB)->body),
+                                              joint.joint});
     std::size_t next = scene_.bodies.size();
     for (const ScriptInput& input : scene_.script)
         if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) {
@@ -266,13 +267,13 @@ void SceneWorld::retire(std::size_t number) {
 
 void SceneWorld::moveJoints(b2Body& from, b2Body& to) {
     for (auto& [name, joint] : joints_)
-        if (joint->GetBodyA() == &from || joint->GetBodyB() == &from)
-            joint = &moveJoint(world_, *joint, from, to);
+        if (joint.made->GetBodyA() == &from || joint.made->GetBodyB() == &from)
+            joint.made = &moveJoint(world_, *joint.made, from, to);
 }
 
 void SceneWorld::dropJoints(b2Body& body) {
     std::erase_if(joints_, [&](const auto& named) {
-        b2Joint* const joint = named.second;
+        b2Joint* const joint = named.second.made;
         if (joint->GetBodyA() != &body && joint->GetBodyB() != &body) return false;
         world_.DestroyJoint(joint);
         return true;
@@ -306,7 +307,7 @@ template <>
 bool SceneWorld::act(const UnjoinAction& action) {
     const auto joint = joints_.find(action.joint);
     if (joint == joints_.end()) return false;
-    world_.DestroyJoint(joint->second); // wakes both bodies
+    world_.DestroyJoint(joint->second.made); // wakes both bodies
     joints_.erase(joint);
     return false;
 }
@@ -316,7 +317,8 @@ bool SceneWorld::act(const JoinAction& action) {
     act(UnjoinAction{action.joint.name});
     b2Body *const a = findInWorld(action.joint.bodyA), *const b = findInWorld(action.joint.bodyB);
     if (a != nullptr && b != nullptr)
-        joints_.emplace(action.joint.name, &createJoint(world_, action.joint, *a, *b));
+        joints_.emplace(action.joint.name,
+                        HeldJoint{&createJoint(world_, action.joint, *a, *b), action.joint.joint});
     return false;
 }
 
@@ -329,8 +331,9 @@ bool SceneWorld::act(const MotorAction& action) {
         if (action.maxTorqueNewtonMetres)
             joint.SetMaxMotorTorque(static_cast<float>(*action.maxTorqueNewtonMetres));
     };
-    if (place->second->GetType() == e_revoluteJoint) set(static_cast<b2RevoluteJoint&>(*place->second));
-    if (place->second->GetType() == e_wheelJoint) set(static_cast<b2WheelJoint&>(*place->second));
+    b2Joint& made = *place->second.made;
+    if (made.GetType() == e_revoluteJoint) set(static_cast<b2RevoluteJoint&>(made));
+    if (made.GetType() == e_wheelJoint) set(static_cast<b2WheelJoint&>(made));
     return false;
 }
 

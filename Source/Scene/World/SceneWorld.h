@@ -28,6 +28,21 @@ struct BodyPose {
     bool isPresent = true; ///< false: not spawned yet, or removed
 };
 
+/// A joint between two bodies that are present, and its points: both ends of a rod, rope or spring, or both
+/// ends of a slider's way, or the axle twice.
+struct JointPose {
+    Joint joint; ///< as described
+    Vector aMetres, bMetres;
+};
+
+/// As the scene describes it. Any thread.
+JointPose describedPose(const JointDescription& joint);
+
+struct WorldPoses {
+    std::vector<BodyPose> bodies; ///< of the scene's cast
+    std::vector<JointPose> joints;
+};
+
 /// All bodies of scriptedCast() exist from the start. Absent ones are disabled, without contacts in Box2D,
 /// because the script may spawn them. Bodies that a live input spawns or changes are created when it acts,
 /// under the following numbers, and destroyed soon after they are removed or replaced. Numbers are never
@@ -61,6 +76,7 @@ public:
     std::size_t bodyCount() const noexcept { return nextBody_; }
     std::size_t bodiesInBox2d() const noexcept { return bodies_.size(); }
     BodyPose pose(std::size_t body) const noexcept; ///< of a removed body: not present
+    std::vector<JointPose> jointPoses() const;      ///< in the order of their names
     /// Calls `use` with number and pose of those that Box2D has, in the order of their numbers.
     template <class Use>
     void forAllBodies(Use use) const {
@@ -141,7 +157,11 @@ private:
     std::map<std::string, std::size_t, std::less<>> bodyNames_;
     std::deque<Leaving> leaving_;                                   // in the order of their steps
     std::map<std::string, std::size_t, std::less<>> scriptedNames_; // of scriptedCast()
-    std::map<std::string, b2Joint*, std::less<>> joints_;
+    struct HeldJoint {
+        b2Joint* made;
+        Joint described;
+    };
+    std::map<std::string, HeldJoint, std::less<>> joints_;
     std::map<const SpawnAction*, std::size_t> spawned_; // the body of the script's first repetition
     std::size_t nextInput_ = 0;
     double lastInputSeconds_ = 0.0;

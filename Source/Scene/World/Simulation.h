@@ -52,6 +52,7 @@ public:
 
     /// Pose of body `index` (< bodyCount()) of sceneCast(), at timeNs(). Live inputs add bodies.
     BodyPose pose(std::size_t index) const noexcept { return world_.pose(index); }
+    std::vector<JointPose> jointPoses() const { return world_.jointPoses(); }
     std::size_t bodyCount() const noexcept { return world_.bodyCount(); }
     template <class Use>
     void forAllBodies(Use use) const {

@@ -177,10 +177,9 @@ PoseSource RenderOutputs::poses() const {
     if (!job_.scene) return {};
     return [this](std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see) {
         if (job_.session) return followTakes(job_.session->log.takes, sceneRun(), 0, everyNs, endNs, see);
-        followPoses(*job_.scene, sceneRun(), everyNs, endNs,
-                    [&](std::int64_t timeNs, std::span<const BodyPose> bodies) {
-                        return see(timeNs, *job_.scene, bodies);
-                    });
+        followPoses(
+            *job_.scene, sceneRun(), everyNs, endNs,
+            [&](std::int64_t timeNs, const WorldPoses& poses) { return see(timeNs, *job_.scene, poses); });
     };
 }
 
@@ -206,7 +205,7 @@ PictureInput RenderOutputs::pictureInput() const {
 
 std::string RenderOutputs::writePictureFile() {
     PictureInput picture = pictureInput();
-    if (job_.scene) picture.bodies = bodiesAtStrongest(*job_.scene, sceneRun(), job_.made.events);
+    if (job_.scene) picture.poses = posesAtStrongest(*job_.scene, sceneRun(), job_.made.events);
     return pictureFile_->write(picturePng(picture));
 }
 

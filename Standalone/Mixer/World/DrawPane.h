@@ -93,7 +93,8 @@ private:
     bool takeToolKey(const juce::KeyPress& key);
     std::string fieldBody(std::vector<Action>& actions, const Vector& place);
     std::string jointAt(juce::Point<float> place) const;
-    Vector anchorNow(const JointDescription& joint, const Vector& anchor, const std::string& body) const;
+    Vector carried(const Vector& point, const std::string& body) const;
+    juce::Line<float> lineNow(const JointDescription& joint) const;
     void drawJoints(juce::Graphics& g) const;
     void drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place,
                      juce::Colour colour, bool isFilled) const;

@@ -1,30 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws joints, the selection with its handles, and the shape being drawn.
 #include "Mixer/World/DrawPane.h"
+#include "Pictures/JointOutline.h"
 #include "Pictures/ShapeOutline.h"
 #include <cmath>
 
 namespace physvib {
-
-namespace {
-
-/// A line with turns between straight ends.
-juce::Path coil(juce::Point<float> from, juce::Point<float> to, float wide, int turns) {
-    const auto along = to - from;
-    const float length = std::max(1e-3f, from.getDistanceFrom(to));
-    const juce::Point<float> across{-along.y * wide / length, along.x * wide / length};
-    juce::Path path;
-    path.startNewSubPath(from);
-    for (int k = 0; k < 2 * turns; ++k)
-        path.lineTo(from +
-                    along *
-                        (0.15f + 0.7f * (static_cast<float>(k) + 0.5f) / (2.0f * static_cast<float>(turns))) +
-                    across * (k % 2 == 0 ? 1.0f : -1.0f));
-    path.lineTo(to);
-    return path;
-}
-
-} // namespace
 
 juce::Path signOf(DrawTool tool) {
     juce::Path p, line;
@@ -77,7 +58,7 @@ juce::Path signOf(DrawTool tool) {
         stroke(1.4f);
         break;
     case DrawTool::spring:
-        line = coil({-9.0f, 0.0f}, {9.0f, 0.0f}, 6.0f, 3);
+        line = coilOutline<juce::Path>(juce::Point{-9.0f, 0.0f}, juce::Point{9.0f, 0.0f}, 6.0f, 3);
         stroke(1.6f);
         break;
     case DrawTool::slider:
@@ -101,74 +82,40 @@ juce::Path signOf(DrawTool tool) {
     return p;
 }
 
-// Rotates and moves the anchor with the body from its drawn to its current pose.
-Vector DrawPane::anchorNow(const JointDescription&, const Vector& anchor, const std::string& name) const {
+// Rotates and moves the point with the body from its drawn to its current pose.
+Vector DrawPane::carried(const Vector& point, const std::string& name) const {
     const auto* body = desk_.world().drawing().find(name);
     const auto place = placeNow(name);
-    if (body == nullptr || !place) return anchor;
+    if (body == nullptr || !place) return point;
     const double turned = place->angleRadians - body->angleRadians, c = std::cos(turned),
                  s = std::sin(turned);
-    const double x = anchor.x - body->positionMetres.x, y = anchor.y - body->positionMetres.y;
+    const double x = point.x - body->positionMetres.x, y = point.y - body->positionMetres.y;
     return {place->metres.x + c * x - s * y, place->metres.y + s * x + c * y};
+}
+
+juce::Line<float> DrawPane::lineNow(const JointDescription& joint) const {
+    const auto pose = describedPose(joint);
+    const bool isBetween = std::holds_alternative<DistanceJoint>(joint.joint);
+    return {view_.placeOfMetres(carried(pose.aMetres, joint.bodyA)),
+            view_.placeOfMetres(carried(pose.bMetres, isBetween ? joint.bodyB : joint.bodyA))};
 }
 
 std::string DrawPane::jointAt(juce::Point<float> place) const {
     constexpr float near = 8.0f;
     for (const auto& joint : desk_.world().drawing().drawn().joints) {
-        const bool isNear = std::visit(
-            [&](const auto& kind) {
-                if constexpr (requires { kind.anchorMetres; })
-                    return view_.placeOfMetres(anchorNow(joint, kind.anchorMetres, joint.bodyA))
-                               .getDistanceFrom(place) < near;
-                else {
-                    juce::Point<float> on;
-                    const juce::Line<float> rope{
-                        view_.placeOfMetres(anchorNow(joint, kind.anchorAMetres, joint.bodyA)),
-                        view_.placeOfMetres(anchorNow(joint, kind.anchorBMetres, joint.bodyB))};
-                    return rope.getDistanceFromPoint(place, on) < near;
-                }
-            },
-            joint.joint);
-        if (isNear) return joint.name;
+        juce::Point<float> on;
+        if (lineNow(joint).getDistanceFromPoint(place, on) < near) return joint.name;
     }
     return {};
 }
 
 void DrawPane::drawJoints(juce::Graphics& g) const {
+    g.setColour(shade(*this, Shade::text).withAlpha(tool_ == DrawTool::hand ? 0.45f : 0.9f));
     for (const auto& joint : desk_.world().drawing().drawn().joints) {
         if (!placeNow(joint.bodyA) || !placeNow(joint.bodyB)) continue;
-        g.setColour(shade(*this, Shade::text).withAlpha(tool_ == DrawTool::hand ? 0.45f : 0.9f));
-        const auto dot = [&](juce::Point<float> at, float radius) {
-            g.fillEllipse(juce::Rectangle<float>{2.0f * radius, 2.0f * radius}.withCentre(at));
-        };
-        std::visit(
-            [&](const auto& kind) {
-                if constexpr (requires { kind.anchorMetres; }) {
-                    const auto at = view_.placeOfMetres(anchorNow(joint, kind.anchorMetres, joint.bodyA));
-                    dot(at, 3.0f);
-                    if constexpr (requires { kind.maxForceNewtons; }) {
-                        const double length = kind.travelMetres ? kind.travelMetres->upper : 0.0,
-                                     size = std::hypot(kind.axis.x, kind.axis.y);
-                        const Vector end{kind.anchorMetres.x + length * kind.axis.x / size,
-                                         kind.anchorMetres.y + length * kind.axis.y / size};
-                        g.drawLine({at, view_.placeOfMetres(anchorNow(joint, end, joint.bodyA))}, 1.5f);
-                    } else
-                        g.drawEllipse(juce::Rectangle<float>{12.0f, 12.0f}.withCentre(at), 1.4f);
-                    if constexpr (requires { kind.maxTorqueNewtonMetres; })
-                        if (kind.maxTorqueNewtonMetres > 0.0)
-                            g.drawEllipse(juce::Rectangle<float>{17.0f, 17.0f}.withCentre(at), 1.4f);
-                } else {
-                    const auto a = view_.placeOfMetres(anchorNow(joint, kind.anchorAMetres, joint.bodyA)),
-                               b = view_.placeOfMetres(anchorNow(joint, kind.anchorBMetres, joint.bodyB));
-                    if (springHzOf(joint) > 0.0)
-                        g.strokePath(coil(a, b, 6.0f, 6), juce::PathStrokeType{1.8f});
-                    else
-                        g.drawLine({a, b}, 1.8f);
-                    dot(a, 3.0f);
-                    dot(b, 3.0f);
-                }
-            },
-            joint.joint);
+        const auto line = lineNow(joint);
+        g.strokePath(jointOutline<juce::Path>(joint.joint, line.getStart(), line.getEnd()),
+                     juce::PathStrokeType{jointPixels});
     }
 }
 
@@ -231,7 +178,8 @@ void DrawPane::drawStroke(juce::Graphics& g) const {
         path.lineTo(to);
         return g.strokePath(path, juce::PathStrokeType{2.0f});
     }
-    if (tool_ == DrawTool::spring) return g.strokePath(coil(from, to, 6.0f, 6), juce::PathStrokeType{2.0f});
+    if (tool_ == DrawTool::spring)
+        return g.strokePath(coilOutline<juce::Path>(from, to, 6.0f, 6), juce::PathStrokeType{2.0f});
     if (tool_ == DrawTool::rope || tool_ == DrawTool::slider) return g.drawLine({from, to}, 2.0f);
     if (tool_ == DrawTool::rain) {
         if (const auto bodies = rainNow())
