@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Events of a world, as outputs play them and as the signal `felt` says them.
+#include "Api/Godot/WorldProperties.h"
 #include "Api/Godot/Worlds.h"
-
 #include <algorithm>
 
 namespace physvib::godot {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which bodies a haptic world observes, and what they are to physvib.
 #include "Api/Godot/Vectors.h"
+#include "Api/Godot/WorldProperties.h"
 #include "Api/Godot/Worlds.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The field of a haptic world, and where the actuators are in it.
+#include "Api/Godot/WorldProperties.h"
 #include "Api/Godot/Worlds.h"
 
 namespace physvib::godot {
