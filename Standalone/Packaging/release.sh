@@ -12,7 +12,7 @@ cd "$(dirname "$0")/../.."
 commit=$(git rev-parse --quiet --verify "${2:-HEAD}^{commit}") || { say "$2: expected a commit or a tag" && exit 1; }
 [ ! -e "$OUT" ] || { say "$OUT: expected nothing there" && exit 1; }
 shift $(($# < 2 ? $# : 2))
-[ $# -gt 0 ] || set -- packages wheel npm page site firmware windows arm64 godot sbom
+[ $# -gt 0 ] || set -- npm page site firmware windows arm64 packages wheel godot sbom # the shortest first: what fails is told soon
 
 # shellcheck disable=SC2086 # lists of words
 for part in "$@"; do # what is missing is said before hours of work
