@@ -61,7 +61,7 @@ step() {
         pico) .ci/pico-sources.sh && build release physvib-pico physvib-render && Tests/Firmware/pico.sh ;;
         pads) /usr/bin/python3 Tests/Pads/judge.py $bin/physvib build/release/Tests/Pads/libphysvib-plug-in.so 600 ;;
         packages) Tests/Release/bare-debian.sh ;;
-        reproducible) Tests/Release/reproducible.sh ;;
+        reproducible) Tests/Release/reproducible.sh npm page site firmware windows arm64 packages wheel sbom ;;
         *) echo "no step of this name" && return 2 ;;
     esac
 }
