@@ -38,15 +38,16 @@ else
     RELEASE=$VERSION~git$(date -d "@$SOURCE_DATE_EPOCH" +%Y%m%d).$(printf %.8s "$commit")
 fi
 
-work=$(mktemp -d "${TMPDIR:-/tmp}/physvib-release-XXXXXX")
+work=${TMPDIR:-/tmp}/physvib-release # always the same, by which a compiler cache finds what it has
+mkdir "$work" || { say "$work: expected nothing there: another release is being made, or was cut off" && exit 1; }
 trap 'rm -rf -- "$work"' EXIT
 trap 'exit 130' INT TERM
-source=$work/physvib-$RELEASE
+source=$work/source
 made=$OUT
 OUT=$work/out
-mkdir "$OUT"
+mkdir "$OUT" "$source"
 git -c tar.umask=0022 archive --format=tar --prefix="physvib-$RELEASE/" "$commit" | gzip -n9 >"$OUT/physvib-$RELEASE.tar.gz"
-tar -xzf "$OUT/physvib-$RELEASE.tar.gz" -C "$work"
+tar -xzf "$OUT/physvib-$RELEASE.tar.gz" -C "$source" --strip-components 1
 awk -v head="## $VERSION" 'index($0, "## ") == 1 { on = index($0, head) == 1 } on' "$source/CHANGELOG.md" >"$OUT/physvib-$RELEASE.changes.md"
 for sources in juce pico sources web/box2d-2.4.1 web/qr-code-generator; do
     [ ! -e "build/$sources" ] || { mkdir -p "$source/build/$sources" && cp -r "build/$sources/." "$source/build/$sources"; }
