@@ -59,7 +59,11 @@ fi
 
 for part in "$@"; do
     began=$(date +%s)
-    "$source/Standalone/Packaging/part.sh" "$part" >"$work/log" 2>&1 || { cat "$work/log" >&2 && say "$part: failed" && exit 1; }
+    "$source/Standalone/Packaging/part.sh" "$part" >"$work/log" 2>&1 || {
+        cat "$work/log" >&2
+        rm -rf "$made.unfinished" && mkdir -p "$(dirname "$made")" && mv "$OUT" "$made.unfinished"
+        say "$part: failed; what was made before it is in $made.unfinished" && exit 1
+    }
     say "$part: $(awk "BEGIN { printf \"%.1f\", ($(date +%s) - $began) / 60 }") minutes"
 done
 python3 "$source/Standalone/Packaging/check-version.py" "$source" "$OUT"

@@ -14,7 +14,7 @@ shift
 cd "$(dirname "$0")/../../.."
 . .ci/packages.sh
 # shellcheck disable=SC2086 # a list of words
-ensure_build_packages $physvib_run_packages
+[ -n "${PHYSVIB_BUILD:-}" ] || ensure_build_packages $physvib_run_packages
 
 work=$PWD/build/godot
 mkdir -p "$work"
