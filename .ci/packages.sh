@@ -180,16 +180,17 @@ progress() {
     done
 }
 
-# build PRESET TARGET...: configures and builds; all of the output if something goes wrong.
+# build PRESET TARGET...: configures and builds; all of the output if something goes wrong. A release's warnings are errors where PHYSVIB_STRICT=ON is exported.
 build() {
-    preset=$1
+    preset=$1 strict=OFF
     shift
+    [ "$preset" != release ] || strict=${PHYSVIB_STRICT:-OFF}
     mkdir -p build
     log="build/$preset.log"
     say "building $preset (log: $log)"
     failed="build/$preset.failed"
     rm -f "$failed"
-    { { cmake --preset "$preset" && cmake --build --preset "$preset" --target "$@"; } 2>&1 || : >"$failed"; } | progress >"$log"
+    { { cmake --preset "$preset" -DPHYSVIB_STRICT="$strict" && cmake --build --preset "$preset" --target "$@"; } 2>&1 || : >"$failed"; } | progress >"$log"
     if [ -e "$failed" ]; then
         rm -f "$failed"
         cat "$log" >&2
