@@ -88,16 +88,16 @@ private:
     // still in it.
     static std::int32_t followLoad(Channel& c, std::int32_t mean) noexcept {
         constexpr double step = radians / tilesPerSecond, half = 0.5 / radians;
-        constexpr std::int32_t rootLess1 = 27146; // sqrt(2) - 1, times 2^16
-        c.v += scaled(mean - c.z - c.v - ((c.v >> 10) * rootLess1 >> 6), step);
+        static_assert(limits::guardDamping == 1.0f, "without a product");
+        c.v += scaled(mean - c.z - c.v, step);
         c.z += scaled(c.v, step);
         const std::int32_t z = c.z >> 10, v = c.v >> 10, zz = z * z;
         // The mean of zz over a second, kept as a sum of 2^-24 so that nothing is lost to rounding. Its bound
         // is far above maxLoad, where the gain is 0.
         constexpr std::int32_t maxSum = 1 << 30;
         c.loadSum = std::min(maxSum, c.loadSum + (zz >> 4) - c.loadSum / tilesPerSecond);
-        return c.loadSum / (tilesPerSecond / 8) * 2 + scaled(zz, 1.0606602 * half) + scaled(z * v, half) +
-               scaled(v * v, 0.3535534 * half);
+        return c.loadSum / (tilesPerSecond / 8) * 2 + scaled(zz, limits::guardOfSlow * half) +
+               scaled(z * v, half) + scaled(v * v, limits::guardOfSpeed * half);
     }
 
     static constexpr std::int32_t roomOf(std::int32_t area) noexcept {

@@ -6,8 +6,10 @@
 // because it is stored in five parts) may hold more than 12.5 ms of one sign. So no mean over 250 ms exceeds
 // limits::guardShare, even if the channel is muted in between. Load: the squared output of a low-pass at
 // limits::slowestToneHz, with a forgetting time of a second, plus half of what the filter's state would still
-// put out. Both grow by what a tile adds, so the gain follows the remaining margin and closes before a bound
-// is reached. A signal that closes it repeatedly lowers the resting gain, until the tone passes undistorted
+// put out. The low-pass is damped so that nothing below that frequency is weakened, and a burst with what is
+// permitted after it stays within a second's bound: half of the load's bound would be the share's square.
+// Both grow by what a tile adds, so the gain follows the remaining margin and closes before a bound is
+// reached. A signal that closes it repeatedly lowers the resting gain, until the tone passes undistorted
 // at that gain. Below half of both bounds the gain rises, within limits::guardReleaseSeconds.
 #pragma once
 #include "Core/Limits.h"
@@ -21,8 +23,13 @@ namespace physvib {
 namespace limits {
 constexpr double guardShare = 0.05; // of full scale: a quarter of a percent of its power, whatever else plays
 constexpr double guardSeconds = 0.25; // a mean over a shorter time is a perceptible vibration
-constexpr float guardLoad = 0.00125f; // of full scale squared, below slowestToneHz: half of it passes at that
-                                      // very frequency
+constexpr float guardLoad = 0.00125f; // of full scale squared, below slowestToneHz: half of guardShare's
+                                      // square, as much again may come within the second in which it is
+                                      // forgotten
+constexpr float guardDamping = 1.0f;  // of the low-pass: 1 at direct current and at slowestToneHz, more
+                                      // between
+constexpr float guardOfSlow = 0.5f / guardDamping + 0.5f * guardDamping, // the energy that is still in it
+    guardOfSpeed = 0.5f / guardDamping;
 constexpr float guardPerLoad = 7000.0f;     // the gain closes over the last ninth of the load
 constexpr float guardReleaseSeconds = 1.0f; // from silence to full gain: slower than the signals that it
                                             // reduces
@@ -31,6 +38,12 @@ constexpr float guardRestSeconds = 0.1f;    // time constant of the resting gain
 
 /// Position of a guard in the signal path. `rendered` has lower bounds than `last`, so `last` seldom acts.
 enum class GuardPlace { rendered, last };
+
+/// What a channel has had: how far its area was above and below what it is now, the state of the low-pass,
+/// the load and the resting gain.
+struct GuardSums {
+    float high = 0.0f, low = 0.0f, slow = 0.0f, speed = 0.0f, load = 0.0f, rest = 1.0f;
+};
 
 /// Render thread (R) only; prepare: message thread (M).
 template <int Most>
@@ -48,6 +61,7 @@ public:
 
     /// Duration of a tile from now on, at most about 1 ms; the sums stay. M, not while rendering.
     void setTile(float seconds) noexcept {
+        partTile_ = 0;               // the current part takes longer, never shorter
         constexpr float zone = 3.0f; // tiles; with fewer, a ramp of one tile would overshoot
         const bool isLast = place_ == GuardPlace::last;
         tile_ = seconds;
@@ -59,6 +73,27 @@ public:
         maxLoad_ = (isLast ? 1.0f : 0.88f) * limits::guardLoad;
         partTiles_ = static_cast<int>(limits::guardSeconds / (parts * seconds)) + 1;
     }
+
+    GuardSums sums(std::size_t j) const noexcept {
+        return {std::max(high_[j], oldHigh_[j]) - sum_[j],
+                std::min(low_[j], oldLow_[j]) - sum_[j],
+                slow_[j],
+                speed_[j],
+                load_[j],
+                rest_[j]};
+    }
+    /// Goes on with them in a channel, as if their extremes had just happened. After prepare().
+    void recall(std::size_t j, const GuardSums& m) noexcept {
+        const std::size_t newest = (part_ + parts - 1) % parts;
+        oldHigh_[j] = highs_[newest][j] = m.high;
+        oldLow_[j] = lows_[newest][j] = m.low;
+        sum_[j] = high_[j] = low_[j] = 0.0f;
+        slow_[j] = m.slow, speed_[j] = m.speed, load_[j] = m.load;
+        rest_[j] = to_[j] = m.rest;
+        silentSeconds_ = 0.0f;
+    }
+    /// One channel more, at rest. R.
+    void widen() noexcept { ++channels_; }
 
     /// `areas` of the tile that has just been sent, in seconds at full scale. False: the next tile is played
     /// unchanged.
@@ -91,7 +126,7 @@ public:
 
 private:
     static constexpr int parts = 4; // complete ones, beside the current one
-    static constexpr float forgetSeconds = 8.0f, root2 = 1.41421356f;
+    static constexpr float forgetSeconds = 8.0f;
 
     // Not inlined, like endPart: a board keeps only per-tile code in its small fast memory.
     [[gnu::noinline]] void clear() noexcept {
@@ -107,8 +142,8 @@ private:
         part_ = 0;
     }
 
-    // A second-order Butterworth low-pass in steps of a tile. The quadratic form is the energy that its
-    // output would still have without further input. Returns the lowest of the new gains.
+    // A second-order low-pass in steps of a tile. The quadratic form, by w, is the energy that its output
+    // would still have without further input. Returns the lowest of the new gains.
     float follow(const Row& areas) noexcept {
         constexpr auto w = static_cast<float>(6.283185307 * limits::slowestToneHz);
         const float step = w * tile_;
@@ -120,11 +155,12 @@ private:
             low_[j] = std::min(low_[j], sum);
             const float most =
                 std::max(std::max(high_[j], oldHigh_[j]) - sum, sum - std::min(low_[j], oldLow_[j]));
-            speed_[j] += w * areas[j] - step * (slow_[j] + root2 * speed_[j]);
+            speed_[j] += w * areas[j] - step * (slow_[j] + limits::guardDamping * speed_[j]);
             slow_[j] += step * speed_[j];
             const float z = slow_[j], v = speed_[j];
             load_[j] += tile_ * (z * z - load_[j]);
-            const float load = load_[j] + (1.0606602f * z * z + z * v + 0.3535534f * v * v) * (0.5f / w);
+            const float load =
+                load_[j] + (limits::guardOfSlow * z * z + z * v + limits::guardOfSpeed * v * v) * (0.5f / w);
             const float room =
                 std::min((maxArea_ - most) * perArea_, (maxLoad_ - load) * limits::guardPerLoad);
             from_[j] = to_[j];

@@ -20,17 +20,32 @@ public:
     void prepare(int sampleRateHz, int channels, GuardPlace place) noexcept {
         channels_ = static_cast<std::size_t>(channels);
         law_.prepare(channels, place);
+        sums_.fill(0);
+        acts_ = hasSums_ = false;
         changeRate(sampleRateHz);
     }
     /// Changes the sample rate and keeps the sums. M, not while rendering.
     void changeRate(int sampleRateHz) noexcept {
+        if (hasSums_) endTile();
         tile_ = std::max(1, static_cast<int>(std::lround(sampleRateHz * tileSeconds)));
         law_.setTile(static_cast<float>(tile_) / static_cast<float>(sampleRateHz));
         perUnit_ = 1.0f / (unit * static_cast<float>(sampleRateHz));
         filled_ = 0;
-        sums_.fill(0);
-        acts_ = hasSums_ = false;
     }
+
+    /// M, not while rendering.
+    GuardSums sums(std::size_t channel) noexcept {
+        if (hasSums_) endTile();
+        return law_.sums(channel);
+    }
+    /// Goes on with these, one per channel. M, after prepare().
+    void recall(const GuardSums* sums) noexcept {
+        for (std::size_t j = 0; j < channels_; ++j) law_.recall(j, sums[j]);
+        for (int k = 0; k < 2; ++k) acts_ = law_.take({}); // both ends of the next tile's ramp
+    }
+    std::size_t channels() const noexcept { return channels_; }
+    /// One channel more, at rest. R.
+    void widen() noexcept { law_.widen(), ++channels_; }
 
     /// Sets the absolute number of the next frame. Tiles lie on the grid of these numbers, so that samples do
     /// not depend on the output latency. Without it the grid starts at prepare. R.

@@ -130,6 +130,7 @@ void AudioOutput::fadeOut() {
 void AudioOutput::stop() {
     fadeOut();
     keeper_.letGo();
+    guard_.giveBack();
     running_ = false;
 }
 
@@ -193,7 +194,7 @@ void AudioOutput::aboutToStart(AudioDevice& device) {
     played_.begin(rate, block, latencyFrames(device));
     inputTap_ = settings_.tap;
     exposure_.prepare(rate);
-    guard_.prepare(rate, played_.own().channels());
+    guard_.begin(keeper_.fullName(), device.activeOutputs(), rate);
     motors_.prepare(settings_.onOff, rate, settings_.onOffThreshold);
     heard_.prepare(rate, block);
     map_.place(device.activeOutputs());
@@ -251,7 +252,9 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
         const int k = map_.play(j, at, frames);
         if (k < 0 || k >= outputs) continue;
         std::copy_n(at, frames, out[k] + first);
-        if (!motors_.has(j)) felt[static_cast<std::size_t>(j)] = out[k] + first;
+        if (motors_.has(j)) continue;
+        felt[static_cast<std::size_t>(j)] = out[k] + first;
+        guard_.follow(j, k);
     }
     guard_.process(felt.data(), frames);
     const std::int64_t next = session.timeline().framesRendered() - session.timeline().playOutFrames();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // OutputGuard at the device output, for every session that plays there, with its state readable by other
-// threads.
+// threads. What an output has had stays with that output: whichever actuator plays there, whatever the
+// device's period and rate become, and when it is opened again (GuardMemory).
 #pragma once
-#include "Core/Actuators/OutputGuard.h"
+#include "Live/Devices/AudioDevice.h"
+#include "Live/Devices/GuardMemory.h"
 #include <atomic>
 #include <utility>
 
@@ -10,13 +12,54 @@ namespace physvib {
 
 class DeviceGuard {
 public:
-    /// M, while the device is stopped.
-    void prepare(int sampleRateHz, int channels) noexcept {
-        guard_.prepare(sampleRateHz, channels, GuardPlace::last);
+    DeviceGuard() noexcept { at_.fill(none); }
+    ~DeviceGuard() { giveBack(); }
+    DeviceGuard(const DeviceGuard&) = delete;
+    DeviceGuard& operator=(const DeviceGuard&) = delete;
+
+    /// Blocks of that device with these outputs follow. M, while the device is stopped.
+    void begin(const std::string& device, const ChannelSet& outputs, int sampleRateHz) {
+        giveBack();
+        device_ = device;
+        outputs_.assign(outputs.begin(), outputs.end());
+        std::array<GuardSums, width> sums;
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < outputs_.size() && count < width; ++k)
+            if (const auto had = GuardMemory::at(device_, outputs_[k]); had.load > 0.0f)
+                sums[count] = had, channelAt_[count++] = static_cast<int>(k);
+        at_.fill(none);
+        guard_.prepare(sampleRateHz, static_cast<int>(count), GuardPlace::last);
+        if (count > 0) guard_.recall(sums.data());
     }
-    /// As OutputGuard. R, wait-free.
+    /// Its outputs have had what they had. M, when the render thread has left.
+    void giveBack() noexcept {
+        for (std::size_t c = 0; c < guard_.channels(); ++c)
+            if (const auto k = static_cast<std::size_t>(channelAt_[c]); k < outputs_.size())
+                if (const auto sums = guard_.sums(c); sums.load > 0.0f)
+                    GuardMemory::keep(device_, outputs_[k], sums);
+        outputs_.clear();
+    }
+
+    /// Actuator j plays on that channel of the callback. R.
+    void follow(int j, int channel) noexcept {
+        std::size_t& at = at_[static_cast<std::size_t>(j)];
+        const std::size_t count = guard_.channels();
+        if (at < count && channelAt_[at] == channel) return;
+        at = none;
+        std::size_t c = 0;
+        while (c < count && channelAt_[c] != channel) ++c;
+        if (c == width) // more outputs than it has channels: takes over what one that rests has had
+            for (c = 0; std::ranges::find(at_, c) != at_.end();) ++c;
+        if (c == count) guard_.widen();
+        channelAt_[c] = channel;
+        at = c;
+    }
+    /// As OutputGuard, per actuator that has followed. R, wait-free.
     void process(float* const* io, int frames) noexcept {
-        guard_.process(io, frames);
+        std::array<float*, width> out{};
+        for (std::size_t j = 0; j < width; ++j)
+            io[j] != nullptr ? void(out[at_[j]] = io[j]) : void(at_[j] = none);
+        guard_.process(out.data(), frames);
         gain_.store(guard_.gain(), std::memory_order_relaxed);
         episodes_.store(guard_.episodes(), std::memory_order_relaxed);
     }
@@ -28,7 +71,13 @@ public:
     bool hasNews(std::uint64_t episodes) noexcept { return std::exchange(told_, episodes) < episodes; }
 
 private:
+    static constexpr std::size_t width = limits::maxEnchanters, none = width;
+
     OutputGuard guard_;
+    std::string device_;
+    std::vector<int> outputs_;            // of the device, per channel of its callback
+    std::array<int, width> channelAt_{};  // of the callback, per channel of the guard
+    std::array<std::size_t, width> at_{}; // channel of the guard, per actuator that plays
     std::atomic<float> gain_{1.0f};
     std::atomic<std::uint32_t> episodes_{0};
     std::uint64_t told_ = 0;
