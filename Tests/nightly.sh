@@ -24,6 +24,7 @@ step() {
         fuzz) build asan physvib-fuzzers && Tests/Fuzz/run.sh 1000000 ;;
         freed) Tests/Physics/freed.sh ;;
         hostile) Tests/Hostile/run.sh 10000 ;;
+        guard) $bin/physvib-guard-figures attack 20000 ;;
         kills) Tests/CommandLine/kills.sh $bin 200 render study sweep play ;;
         full-disk) Tests/CommandLine/full-disk.sh $bin ;;
         skipped) Tests/Plugin/skipped.sh $bin ;;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The guard in integers: its bounds, and that it is the guard of a computer.
 #include "Core/Actuators/GuardLaw.h"
+#include "FixedGuardPath.h"
 #include "Streams.h"
 #include "Support/SlowFigures.h"
 #include <gtest/gtest.h>
@@ -75,6 +76,18 @@ TEST(PicoGuard, IsTheGuardOfAComputer) {
         EXPECT_NEAR(std::sqrt(powerThere / powerHere), 1.0, 0.005) << hz << " Hz";
         EXPECT_EQ(there.episodes(), here.episodes()) << hz << " Hz";
     }
+}
+
+TEST(PicoGuard, AnAttackFindsNoneThatPasses) {
+    const auto path = test::fixedGuardPath();
+    test::AttackSearch search{[&](const test::GuardAttack& a) { return test::figuresBehind(path, a).rms; },
+                              5};
+    search.climb(400, 10);
+    search.shape(400, 60);
+    const auto worst = test::figuresBehind(path, search.worst);
+    EXPECT_LE(worst.rms, limits::guardShare);
+    EXPECT_LE(worst.mean, limits::guardShare);
+    EXPECT_GT(worst.rms, 0.7 * limits::guardShare) << "it hardly searches";
 }
 
 TEST(PicoGuard, LeavesWhatIsFelt) {

@@ -10,16 +10,29 @@
 
 namespace physvib {
 
+/// What one output has had, and when that was.
+struct KeptGuardSums {
+    struct Output {
+        std::size_t device; ///< hash of its name
+        int output;         ///< from 0
+        bool operator==(const Output&) const = default;
+    };
+    Output output{0, -1};
+    GuardSums sums{};
+    std::chrono::steady_clock::time_point since{};
+};
+
 /// M.
 class GuardMemory {
 public:
     using Clock = std::chrono::steady_clock;
+    using Kept = KeptGuardSums;
     static inline Clock::time_point (*now)() = Clock::now; ///< tests set it
 
     /// Of an output, from 0; of two, what is more of each.
     static void keep(const std::string& device, int output, GuardSums sums) noexcept {
         const std::lock_guard lock{mutex_};
-        const Key key{std::hash<std::string>{}(device), output};
+        const Kept::Output key{std::hash<std::string>{}(device), output};
         Kept* at = find(key);
         if (at != nullptr)
             sums = most(sums, aged(*at));
@@ -35,19 +48,8 @@ public:
     }
 
 private:
-    struct Key {
-        std::size_t device = 0;
-        int output = -1;
-        bool operator==(const Key&) const = default;
-    };
-    struct Kept {
-        Key key;
-        GuardSums sums;
-        Clock::time_point since{};
-    };
-
-    static Kept* find(const Key& key) noexcept {
-        const auto at = std::ranges::find(kept_, key, &Kept::key);
+    static Kept* find(const Kept::Output& output) noexcept {
+        const auto at = std::ranges::find(kept_, output, &Kept::output);
         return at != kept_.end() ? &*at : nullptr;
     }
     static GuardSums most(const GuardSums& a, const GuardSums& b) noexcept {

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an output has had is not forgotten when the device's period or rate changes, when it is opened anew,
+// or when another actuator plays there.
+#include "FakeAudioDevice.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Session/FakeHost.h"
+#include "Support/GuardPaths.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+/// The clock that outputs keep what they had by: that of what is played.
+class PlayedTime {
+public:
+    PlayedTime() {
+        seconds_ += 100.0; // what other tests have played is over
+        GuardMemory::now = [] {
+            return GuardMemory::Clock::time_point{std::chrono::duration_cast<GuardMemory::Clock::duration>(
+                std::chrono::duration<double>(seconds_))};
+        };
+    }
+    ~PlayedTime() { GuardMemory::now = GuardMemory::Clock::now; }
+    PlayedTime(const PlayedTime&) = delete;
+    PlayedTime& operator=(const PlayedTime&) = delete;
+    static void pass(double seconds) { seconds_ += seconds; }
+
+private:
+    static inline double seconds_ = 1000.0;
+};
+
+/// Half waves of 200 Hz on one actuator, without limiter and so without the session's guard.
+class HalfWaves {
+public:
+    explicit HalfWaves(FakeInterface& interface)
+        : interface_{interface} {}
+
+    void open(AudioOutput& output) { ASSERT_EQ(output.open({"hands", {}, 0, 0, 1.0f, 0, true}), ""); }
+    void play(Session& session, double seconds, double x = 0.0) {
+        for (int left = static_cast<int>(seconds * interface_.rate); left > 0; left -= interface_.block) {
+            const CollisionEvent half{
+                .durationNs = 2'500'000, .frequencyHz = 200.0, .amplitude = 4.0, .x = x, .y = 0.5};
+            session.take({Strikes{{&half, 1}}});
+            session.advance();
+            const auto blocks = interface_.play(interface_.block);
+            for (std::size_t k = 0; k < blocks.size(); ++k) // at 48 kHz, as if it were a slower clock's
+                for (std::size_t n = 0; n < blocks[k].size();
+                     n += static_cast<std::size_t>(interface_.rate / 8000))
+                    left_.at(k).push_back(blocks[k][n]);
+            PlayedTime::pass(double(interface_.block) / interface_.rate);
+        }
+    }
+    SlowFigures worst() const {
+        SlowFigures all;
+        for (const auto& output : left_) all.join(slowFigures(output, 8000));
+        return all;
+    }
+    void expectWithin() const {
+        EXPECT_LE(worst().mean, limits::guardShare);
+        EXPECT_LE(worst().rms, limits::guardShare);
+        EXPECT_GT(worst().mean, 0.5 * limits::guardShare) << "something is played";
+    }
+
+private:
+    FakeInterface& interface_;
+    std::array<std::vector<float>, 8> left_;
+};
+
+SessionSetup twoActuators() {
+    auto s = shakeTheBoxSetup(0.02);
+    s.hasWorld = false;
+    s.channels = 2;
+    EnchanterLayout places{1, 1, 2, {}};
+    places.places[0] = {0.0, 0.5};
+    places.places[1] = {1.0, 0.5};
+    s.panner = {places, PanningLaw::linear, 1, 1, 1};
+    s.limiterEnabled = false;
+    return s;
+}
+
+struct GuardRig {
+    PlayedTime time;
+    FakeInterface interface;
+    HalfWaves waves{interface};
+    AudioDrivers drivers = fakeDrivers({&interface});
+};
+
+TEST(DeviceGuard, PeriodsAndRatesThatChangeAreNoWayAround) {
+    GuardRig rig;
+    Session session{twoActuators()};
+    AudioOutput output{session, rig.drivers};
+    rig.waves.open(output);
+    int changes = 0;
+    for (const auto& [rate, block] : std::vector<std::pair<int, int>>{{48000, 64},
+                                                                      {48000, 128},
+                                                                      {48000, 256},
+                                                                      {96000, 256},
+                                                                      {48000, 512},
+                                                                      {8000, 512},
+                                                                      {48000, 1024}}) {
+        rig.interface.rate = rate;
+        rig.interface.block = block;
+        output.maintain();
+        rig.waves.play(session, 0.12);
+        ++changes;
+    }
+    EXPECT_GE(rig.interface.timesStarted, changes - 1);
+    rig.waves.expectWithin();
+}
+
+// As a program that opens the device for each hit.
+TEST(DeviceGuard, OpeningAnewIsNoWayAround) {
+    GuardRig rig;
+    for (int k = 0; k < 20; ++k) {
+        Session session{twoActuators()};
+        AudioOutput output{session, rig.drivers};
+        rig.waves.open(output);
+        rig.waves.play(session, k % 3 == 0 ? 0.06 : 0.1);
+    }
+    rig.waves.expectWithin();
+}
+
+TEST(DeviceGuard, ADeviceThatGoesAndComesIsNoWayAround) {
+    GuardRig rig;
+    Session session{twoActuators()};
+    AudioOutput output{session, rig.drivers};
+    rig.waves.open(output);
+    for (int k = 0; k < 20; ++k) {
+        rig.waves.play(session, 0.08);
+        rig.interface.unplug(true);
+        rig.interface.isPlugged = true;
+        output.maintain();
+    }
+    rig.waves.expectWithin();
+}
+
+// Two actuators exchange their outputs, and each is loud where the other has been.
+TEST(DeviceGuard, AnotherActuatorOnTheOutputIsNoWayAround) {
+    GuardRig rig;
+    Session session{twoActuators()};
+    AudioOutput output{session, rig.drivers};
+    rig.waves.open(output);
+    for (int k = 0; k < 20; ++k) {
+        ASSERT_EQ(output.assign(k % 2 == 0 ? std::vector<int>{0, 1} : std::vector<int>{1, 0}, 2), "");
+        rig.waves.play(session, 0.1, k % 2);
+    }
+    rig.waves.expectWithin();
+}
+
+TEST(DeviceGuard, WhatAnOutputHadIsForgottenInTimeAndElsewhereNeverKnown) {
+    const PlayedTime time;
+    const auto hadBy = [](const std::string& device, int output) {
+        return GuardMemory::at(device, output).load;
+    };
+    std::vector<float> slow(12000, 0.2f);
+    {
+        DeviceGuard guard;
+        guard.begin("A:one", {0, 2}, 48000);
+        std::array<float*, limits::maxEnchanters> at{};
+        at[0] = slow.data();
+        guard.follow(0, 1);
+        guard.process(at.data(), 12000);
+    }
+    const float had = hadBy("A:one", 2);
+    EXPECT_GT(had, 0.8f * limits::guardLoad);
+    EXPECT_EQ(hadBy("A:one", 0) + hadBy("A:one", 1) + hadBy("A:two", 2), 0.0f);
+    PlayedTime::pass(2.0);
+    EXPECT_NEAR(hadBy("A:one", 2), had * std::exp(-2.0f), 0.2f * had * std::exp(-2.0f));
+    PlayedTime::pass(6.5);
+    EXPECT_EQ(hadBy("A:one", 2), 0.0f);
+    for (int k = 0; k < 1000; ++k) GuardMemory::keep("A:three", k, {.load = 1e-3f}); // of bounded size
+    EXPECT_GT(hadBy("A:three", 999), 0.0f);
+}
+
+// The samples of a felt tone are the same in the first opening and in the tenth.
+TEST(DeviceGuard, WhatItDoesNotActOnKeepsItsBits) {
+    const PlayedTime time;
+    std::vector<float> first;
+    for (int k = 0; k < 10; ++k) {
+        DeviceGuard guard;
+        guard.begin("A:one", {0}, 48000);
+        std::vector<float> tone(4800);
+        for (std::size_t n = 0; n < tone.size(); ++n) tone[n] = std::sin(0.0262f * static_cast<float>(n));
+        if (first.empty()) first = tone;
+        std::array<float*, limits::maxEnchanters> at{};
+        at[0] = tone.data();
+        guard.follow(0, 0);
+        guard.process(at.data(), 4800);
+        ASSERT_EQ(tone, first) << k;
+        PlayedTime::pass(0.1);
+    }
+}
+
+// The search of GuardAttack, over openings.
+TEST(DeviceGuard, AnAttackOverOpeningsFindsNoneThatPasses) {
+    const PlayedTime time;
+    const GuardPath path{"openings", 8000, [](std::vector<float> samples) {
+                             PlayedTime::pass(100.0);
+                             static constexpr std::array<std::size_t, 5> opens{700, 1800, 333, 5000, 1111};
+                             std::size_t next = 0;
+                             for (std::size_t n = 0, count; n < samples.size(); n += count) {
+                                 count = std::min(opens[next++ % opens.size()], samples.size() - n);
+                                 DeviceGuard guard;
+                                 guard.begin("A:one", {3}, 8000);
+                                 std::array<float*, limits::maxEnchanters> at{};
+                                 at[0] = samples.data() + n;
+                                 guard.follow(0, 0);
+                                 guard.process(at.data(), static_cast<int>(count));
+                                 PlayedTime::pass(double(count) / 8000);
+                             }
+                             return samples;
+                         }};
+    AttackSearch search{[&](const GuardAttack& a) { return figuresBehind(path, a).rms; }, 7};
+    search.climb(100, 10);
+    search.shape(100, 60);
+    const auto worst = figuresBehind(path, search.worst);
+    EXPECT_LE(worst.rms, limits::guardShare);
+    EXPECT_LE(worst.mean, limits::guardShare);
+}
+
+} // namespace
+} // namespace physvib
