@@ -33,7 +33,8 @@ constexpr float guardOfSlow = 0.5f / guardDamping + 0.5f * guardDamping, // the 
 constexpr float guardPerLoad = 7000.0f;     // the gain closes over the last ninth of the load
 constexpr float guardReleaseSeconds = 1.0f; // from silence to full gain: slower than the signals that it
                                             // reduces
-constexpr float guardRestSeconds = 0.1f;    // time constant of the resting gain: a few periods of such a tone
+constexpr float guardRestSeconds = 0.2f;    // time constant of the resting gain: longer than a burst keeps it
+                                            // shut
 } // namespace limits
 
 /// Position of a guard in the signal path. `rendered` has lower bounds than `last`, so `last` seldom acts.
