@@ -40,8 +40,12 @@ public:
     void open(AudioOutput& output) { ASSERT_EQ(output.open({"hands", {}, 0, 0, 1.0f, 0, true}), ""); }
     void play(Session& session, double seconds, double x = 0.0) {
         for (int left = static_cast<int>(seconds * interface_.rate); left > 0; left -= interface_.block) {
-            const CollisionEvent half{
-                .durationNs = 2'500'000, .frequencyHz = 200.0, .amplitude = 4.0, .x = x, .y = 0.5};
+            CollisionEvent half;
+            half.frequencyHz = 200.0;
+            half.durationNs = 2'500'000;
+            half.amplitude = 4.0;
+            half.x = x;
+            half.y = 0.5;
             session.take({Strikes{{&half, 1}}});
             session.advance();
             const auto blocks = interface_.play(interface_.block);
