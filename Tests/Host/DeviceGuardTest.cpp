@@ -6,6 +6,7 @@
 #include "Session/FakeHost.h"
 #include "Support/GuardPaths.h"
 #include <gtest/gtest.h>
+#include <numeric>
 
 namespace physvib {
 namespace {
@@ -49,10 +50,12 @@ public:
             session.take({Strikes{{&half, 1}}});
             session.advance();
             const auto blocks = interface_.play(interface_.block);
-            for (std::size_t k = 0; k < blocks.size(); ++k) // at 48 kHz, as if it were a slower clock's
-                for (std::size_t n = 0; n < blocks[k].size();
-                     n += static_cast<std::size_t>(interface_.rate / 8000))
-                    left_.at(k).push_back(blocks[k][n]);
+            const auto count = static_cast<std::size_t>(interface_.rate / 8000); // means: what is slow is
+                                                                                 // kept
+            for (std::size_t k = 0; k < blocks.size(); ++k)
+                for (std::size_t n = 0; n + count <= blocks[k].size(); n += count)
+                    left_.at(k).push_back(std::accumulate(&blocks[k][n], &blocks[k][n] + count, 0.0f) /
+                                          static_cast<float>(count));
             PlayedTime::pass(double(interface_.block) / interface_.rate);
         }
     }
