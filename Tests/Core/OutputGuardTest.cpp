@@ -169,13 +169,8 @@ TEST(OutputGuard, WhatIsFeltStaysAsItIs) {
 // Turned down, and no more than it must: after three seconds one gain, so a sine stays a sine.
 TEST(OutputGuard, ASlowToneIsWeakerAndKeepsItsShape) {
     constexpr int rate = 48000;
-    for (const auto& [hz, share] : std::vector<std::pair<double, double>>{{1.0, 0.035},
-                                                                          {5.0, 0.04},
-                                                                          {10.0, 0.13},
-                                                                          {16.0, 0.4},
-                                                                          {20.0, 0.6},
-                                                                          {25.0, 0.78},
-                                                                          {30.0, 0.93}}) {
+    for (const auto& [hz, share] : std::vector<std::pair<double, double>>{
+             {1.0, 0.035}, {5.0, 0.04}, {10.0, 0.13}, {16.0, 0.4}, {20.0, 0.6}, {25.0, 0.78}, {30.0, 0.93}}) {
         const Samples in = samplesOf(tone(hz), rate, 6.0), out = guarded(in, rate);
         double inIn = 0.0, inOut = 0.0, outOut = 0.0;
         for (std::size_t n = 3 * rate; n < in.size(); ++n) {
