@@ -35,7 +35,8 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
         IS_SYNTH ${is_synth}
         NEEDS_MIDI_INPUT TRUE
         VST3_CATEGORIES ${categories}
-        AU_MAIN_TYPE ${au_type})
+        AU_MAIN_TYPE ${au_type}
+        ${physvib_vst3_manifest})
     target_sources(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Entry.cpp)
     target_compile_definitions(${target} PUBLIC PHYSVIB_BUSES=${buses} PHYSVIB_CHANNELS=${channels} PHYSVIB_MUSIC_PORTS=${music_ports} JUCE_VST3_CAN_REPLACE_VST2=0
         JucePlugin_LV2URI="${lv2uri}") # juce_add_plugin's own argument is lost in Debian's package
