@@ -12,8 +12,9 @@ mono-mcs | mono-devel
 libasound2 | libasound2t64
 libssl3 | libssl3t64"
 
-# What the first picture is made with: physvib-render, and nothing else (preset "first"; Tests/House/first-build.sh holds its size).
-physvib_first_packages="g++ cmake ninja-build libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libfreetype-dev libpng-dev fonts-dejavu-core"
+# What the first picture is made with: physvib-render, and nothing else (preset "first"; Tests/House/first-build.sh
+# holds its size). A compiler cache that came later would change every rule, and compile all of it again.
+physvib_first_packages="g++ cmake ninja-build libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libfreetype-dev libpng-dev fonts-dejavu-core ccache"
 # What the programs, the library and the plug-ins are made with, beside a compiler.
 physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev libboost-dev \
     pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev libflac-dev libvorbis-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev libqrcodegen-dev"
@@ -93,22 +94,29 @@ spelled() { printf '%s\n' "$physvib_other_names" | awk -v name="$1" 'BEGIN { pri
 # known NAME...: those that apt can install here.
 known() { LC_ALL=C apt-cache policy "$@" | awk '/^[^ ]/ { name = substr($1, 1, length($1) - 1) } /^  Candidate: [^(]/ { print name }'; }
 
-# here NAME...: what these packages are called here, in $names, and those that are not to be had, in $unknown; what is installed is in neither.
+# called NAME...: what these packages are called here; one that is not to be had comes with a "?" before it.
+called() {
+    # shellcheck disable=SC2046 # a list of words
+    there=$(known $(for name in "$@"; do spelled "$name" && echo; done))
+    for name in "$@"; do
+        for other in $(spelled "$name"); do
+            [ "$other" = - ] && continue 2
+            printf '%s\n' "$there" | grep -xF -e "$other" && continue 2
+        done
+        echo "?$name"
+    done
+}
+
+# here NAME...: as called, of those that are not installed: in $names, and what is not to be had in $unknown.
 here() {
     names="" unknown="" asked=""
     for name in "$@"; do
         for other in $(spelled "$name"); do is_installed "$other" && continue 2; done
         asked="$asked $name"
     done
-    [ -n "$asked" ] || return 0
-    # shellcheck disable=SC2046 # a list of words
-    there=$(known $(for name in $asked; do spelled "$name"; echo; done))
-    for name in $asked; do
-        for other in $(spelled "$name"); do
-            [ "$other" = - ] && continue 2
-            printf '%s\n' "$there" | grep -qxF -e "$other" && names="$names $other" && continue 2
-        done
-        unknown="$unknown $name"
+    # shellcheck disable=SC2046,SC2086 # lists of words
+    [ -z "$asked" ] || for name in $(called $asked); do
+        case $name in "?"*) unknown="$unknown ${name#?}" ;; *) names="$names $name" ;; esac
     done
 }
 
