@@ -5,6 +5,7 @@
 #   --same-as BUILD afterwards, renders there are compared with those of this build here: all scenes, layouts and lists
 #   --run-only      run.sh alone
 #   --programs      run.sh, then run.sh with the programs and a plug-in of each format
+#   --own-juce      instead of them, these programs with the JUCE of that suite (8 or 9), installed, and not Debian 12's
 #   --tutorials     instead of them, README and the tutorials, typed by follow.py, and what they make felt
 #   --pages         instead of them, what the pages of C, Chipmunk, Python, Lua and C# say
 #   --keep          leave the folder behind
@@ -19,6 +20,7 @@ commands="run.sh test.sh"
 keep=""
 mirror=""
 cache=""
+suite=""
 same_as=""
 while [ $# -gt 0 ]; do
     case $1 in
@@ -26,12 +28,13 @@ while [ $# -gt 0 ]; do
         --same-as) same_as=$(realpath "${2:?"--same-as needs the folder of a build"}") && shift ;;
         --run-only) commands="run.sh" ;;
         --programs) commands="run.sh programs" ;;
+        --own-juce) commands="own-juce programs" ;;
         --tutorials) commands="Tests/Docs/tutorials.sh" ;;
         --pages) commands="Tests/Api/ten-minutes.sh" ;;
         --keep) keep=yes ;;
         --cache) cache=$(realpath "${2:?"--cache needs a folder"}") && shift ;;
         --mirror) mirror=${2:?"--mirror needs a URL"} && shift ;;
-        *) say "expected --suite NAME, --same-as BUILD, --run-only, --programs, --tutorials, --pages, --keep, --cache FOLDER or --mirror URL, not $1" && exit 2 ;;
+        *) say "expected --suite NAME, --same-as BUILD, --run-only, --programs, --own-juce, --tutorials, --pages, --keep, --cache FOLDER or --mirror URL, not $1" && exit 2 ;;
     esac
     shift
 done
@@ -52,13 +55,16 @@ for command in $commands; do
     before=$(packages)
     count_work
     started=$(date +%s) before_work=$worked
-    [ "$command" != programs ] || command=$programs
-    in_machine sh -c "exec /root/PhysVib/$command"
+    case $command in
+        own-juce) in_machine sh -c "apt-get install -y -qq --no-install-recommends juce-modules-source >/dev/null" ;;
+        programs) command=$programs && in_machine sh -c "exec /root/PhysVib/$programs" ;;
+        *) in_machine "/root/PhysVib/$command" ;;
+    esac
     seconds=$(($(date +%s) - started))
     count_work
-    say "$command took $((seconds / 60)):$(printf %02d $((seconds % 60))) min and $(((worked - before_work) / 60)) processor minutes, with $(($(packages) - before)) packages beyond the $before that were there"
+    say "$command took $((seconds / 60)):$(printf %02d $((seconds % 60))) min and $(((worked - before_work) / 60)) processor minutes, with $(($(packages) - before)) packages beyond the $before that were there; warnings of the compiler: $(cat "$machine"/root/PhysVib/build/*.log | grep -c ' warning: ' || :)"
 done
-case $commands in Tests/*) exit 0 ;; esac
+case $commands in Tests/* | own-juce*) exit 0 ;; esac
 for file in shake-the-box.wav shake-the-box.csv shake-the-box.png; do
     [ -s "$machine/root/PhysVib/out/$file" ] || { say "out/$file is missing" && exit 1; }
 done
