@@ -6,8 +6,8 @@
 physvib_other_names="
 clang-format-14 | -
 clang-tidy-14 | clang-tidy
-libnewlib-arm-none-eabi | -
-libstdc++-arm-none-eabi-newlib | -
+libnewlib-arm-none-eabi | picolibc-arm-none-eabi
+libstdc++-arm-none-eabi-newlib | libstdc++-arm-none-eabi
 mono-mcs | mono-devel
 libasound2 | libasound2t64
 libssl3 | libssl3t64"
