@@ -12,8 +12,8 @@ constexpr std::array preferred{"NanumGothic", "Noto Sans CJK KR", "Noto Sans CJK
                                "UnDotum"}; // typefaces known to be legible
 
 #if JUCE_MAJOR_VERSION >= 8
-bool has(juce::Typeface& typeface, juce::juce_wchar letter) {
-    return typeface.getNominalGlyphForCodepoint(letter).has_value();
+auto lettersIn(juce::Typeface& typeface) {
+    return [&](juce::juce_wchar letter) { return typeface.getNominalGlyphForCodepoint(letter).has_value(); };
 }
 #else
 constexpr juce::juce_wchar nobodys = 0xfffe; // a non-character of Unicode
@@ -27,8 +27,10 @@ juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
     return path.toString();
 }
 
-bool has(juce::Typeface& typeface, juce::juce_wchar letter) {
-    return outlineOf(typeface, letter) != outlineOf(typeface, nobodys);
+auto lettersIn(juce::Typeface& typeface) {
+    return [&, box = outlineOf(typeface, nobodys)](juce::juce_wchar letter) {
+        return outlineOf(typeface, letter) != box;
+    };
 }
 #endif
 
@@ -55,8 +57,9 @@ bool hasLetters(const juce::String& typeface, const juce::String& letters) {
         typeface.isEmpty() ? juce::Font{20.0f} : juce::Font{typeface, 20.0f, juce::Font::plain};
     const auto face = font.getTypefacePtr();
     if (face == nullptr) return false;
+    const auto has = lettersIn(*face);
     for (const auto letter : letters)
-        if (!has(*face, letter)) return false;
+        if (!has(letter)) return false;
     return true;
 }
 
