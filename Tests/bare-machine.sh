@@ -21,7 +21,7 @@ in_machine() {
 }
 
 # shellcheck disable=SC2016 # apt's own variable
-debian_mirror() { apt-get indextargets --no-release-info --format '$(REPO_URI)' 'Label: Debian' | head -n 1; }
+debian_mirror() { apt-get indextargets --format '$(REPO_URI)' 'Label: Debian' | head -n 1; }
 debian_called() { case $1 in bookworm) echo "Debian 12" ;; trixie) echo "Debian 13" ;; *) echo "Debian $1" ;; esac; }
 
 # make_machine [MIRROR]: $machine is its folder, which goes with the script unless $keep says something. The script's last line says
