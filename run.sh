@@ -15,6 +15,7 @@ programs() {
 if [ $# -gt 0 ]; then
     programs "$@"
     for name in "$@"; do echo "build/release/bin/$name"; done
+    sed -n 's/^-- \(JUCE [0-9].*\)/\1/p' build/release.log 2>/dev/null || :
     # shellcheck disable=SC2016 # for the reader's shell
     echo 'Pages call it by its name alone; for that, here: export PATH="$PWD/build/release/bin:$PATH"'
     exit 0

@@ -1,14 +1,26 @@
 # SPDX-License-Identifier: MIT
 # What PhysVib needs from Debian, and how it gets there. Sourced by run.sh and test.sh.
 
-# What the first picture is made with: physvib-render, and nothing else (preset "first"; Tests/House/first-build.sh holds its size).
-physvib_first_packages="g++ cmake ninja-build libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libfreetype-dev libpng-dev fonts-dejavu-core"
+# Packages that are not in each of Debian 12, 13 and sid by one name: the lists below have the first. The first that is installed, or that apt
+# knows, is taken; "-": done without, and Tests/House/skips.txt says what is not tested then.
+physvib_other_names="
+clang-format-14 | -
+clang-tidy-14 | clang-tidy
+libnewlib-arm-none-eabi | picolibc-arm-none-eabi
+libstdc++-arm-none-eabi-newlib | libstdc++-arm-none-eabi
+mono-mcs | mono-devel
+libasound2 | libasound2t64
+libssl3 | libssl3t64"
+
+# What the first picture is made with: physvib-render, and nothing else (preset "first"; Tests/House/first-build.sh
+# holds its size). A compiler cache that came later would change every rule, and compile all of it again.
+physvib_first_packages="g++ cmake ninja-build libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libfreetype-dev libpng-dev fonts-dejavu-core ccache"
 # What the programs, the library and the plug-ins are made with, beside a compiler.
 physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev libboost-dev \
     pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev libflac-dev libvorbis-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev libqrcodegen-dev"
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
-physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool zbar-tools clang clang-format-14 libclang-rt-14-dev \
+physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool zbar-tools clang libclang-rt-dev clang-format-14 \
     liblo-tools python3-numpy python3-pandas luajit doxygen cmark-gfm \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
 # Of .ci/pico-sources.sh alone, and of Tests/Firmware/pico.sh.
@@ -76,24 +88,63 @@ may_install() {
 
 apt_install() { as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@"; }
 
-# ensure_packages NAME...: installs those that are missing; silent if none is.
+# spelled NAME: it, and what it is called elsewhere.
+spelled() { printf '%s\n' "$physvib_other_names" | awk -v name="$1" 'BEGIN { printf "%s", name } $1 == name { for (i = 3; i <= NF; i += 2) printf " %s", $i }'; }
+
+# known NAME...: those that apt can install here.
+known() { LC_ALL=C apt-cache policy "$@" | awk '/^[^ ]/ { name = substr($1, 1, length($1) - 1) } /^  Candidate: [^(]/ { print name }'; }
+
+# called NAME...: what these packages are called here; one that is not to be had comes with a "?" before it.
+called() {
+    # shellcheck disable=SC2046 # a list of words
+    there=$(known $(for name in "$@"; do spelled "$name" && echo; done))
+    for name in "$@"; do
+        for other in $(spelled "$name"); do
+            [ "$other" = - ] && continue 2
+            printf '%s\n' "$there" | grep -xF -e "$other" && continue 2
+        done
+        echo "?$name"
+    done
+}
+
+# here NAME...: as called, of those that are not installed: in $names, and what is not to be had in $unknown.
+here() {
+    names="" unknown="" asked=""
+    for name in "$@"; do
+        for other in $(spelled "$name"); do is_installed "$other" && continue 2; done
+        asked="$asked $name"
+    done
+    # shellcheck disable=SC2046,SC2086 # lists of words
+    [ -z "$asked" ] || for name in $(called $asked); do
+        case $name in "?"*) unknown="$unknown ${name#?}" ;; *) names="$names $name" ;; esac
+    done
+}
+
+# without_apt NAME...: what holds the same elsewhere, and the ways on.
+without_apt() {
+    say "this is not a Debian system. Please install what these hold (names of others are untried; Box2D has to be 2.4):"
+    awk -F ' *[|] *' -v wanted=" Debian $* " 'index(wanted, " " $1 " ") { printf "  %-22s %-42s %-16s %s\n", $1, $2, $3, $4 }' .ci/other-systems.txt >&2
+    say "then type: PHYSVIB_INSTALLED=yes $0. Or use a container, with these two lines (docker does it too):"
+    # shellcheck disable=SC2016 # of the reader's shell
+    printf '  podman run -it -v "$PWD:/physvib:z" -w /physvib docker.io/debian:13\n  %s\n' "$0" >&2
+}
+
+# ensure_packages NAME...: installs those that are missing; silent if none is. What cannot be had is told before anything is installed.
 ensure_packages() {
-    missing=""
-    for name in "$@"; do is_installed "$name" || missing="$missing $name"; done
-    [ -z "$missing" ] && return 0
-    if ! command -v apt-get >/dev/null 2>&1; then
-        say "this is not a Debian system; please install what these packages hold:$missing"
-        return 1
-    fi
-    say "to be installed:$missing"
-    may_install "$missing" || return 1
+    [ -z "${PHYSVIB_INSTALLED:-}" ] || return 0
+    command -v apt-get >/dev/null 2>&1 || { without_apt "$@" && return 1; }
+    here "$@"
+    [ -n "$names$unknown" ] || return 0
+    say "to be installed:$names$unknown"
+    may_install "$names$unknown" || return 1
     log=$(mktemp)
     # A list of packages that is old or absent is the usual reason for a first failure.
-    # shellcheck disable=SC2086 # a list of words
-    if ! { apt_install $missing || { as_root apt-get update -qq && apt_install $missing; }; } >"$log" 2>&1; then
+    # shellcheck disable=SC2086 # lists of words
+    if ! { { [ -z "$unknown" ] && apt_install $names; } || { as_root apt-get update -qq && here "$@" && [ -z "$unknown" ] && apt_install $names; }; } >"$log" 2>&1; then
         tail -n 5 "$log" >&2
-        for name in $missing; do is_installed "$name" || say "could not install the package $name"; done
         rm -f "$log"
+        for name in $unknown; do say "apt knows no package $(spelled "$name" | sed 's/ / or /g') here"; done
+        [ -n "$unknown" ] || for name in $names; do is_installed "$name" || say "could not install the package $name"; done
         return 1
     fi
     rm -f "$log"

@@ -35,7 +35,8 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
         IS_SYNTH ${is_synth}
         NEEDS_MIDI_INPUT TRUE
         VST3_CATEGORIES ${categories}
-        AU_MAIN_TYPE ${au_type})
+        AU_MAIN_TYPE ${au_type}
+        ${physvib_vst3_manifest})
     target_sources(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Entry.cpp)
     target_compile_definitions(${target} PUBLIC PHYSVIB_BUSES=${buses} PHYSVIB_CHANNELS=${channels} PHYSVIB_MUSIC_PORTS=${music_ports} JUCE_VST3_CAN_REPLACE_VST2=0
         JucePlugin_LV2URI="${lv2uri}") # juce_add_plugin's own argument is lost in Debian's package
@@ -64,7 +65,10 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
     endif()
     foreach(format vst3 lv2) # where hosts look
         string(TOUPPER ${format} module)
-        if(PHYSVIB_INSTALL AND TARGET ${target}_${module})
+        if(PHYSVIB_INSTALL AND TARGET ${target}_${module}) # its folder is there before it is built
+            install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${target}_${module}>\")
+                message(FATAL_ERROR \"${file}.${format} is not built yet: cmake --build comes before cmake --install\")
+            endif()" COMPONENT plugins)
             install(DIRECTORY ${plugins}/${file}.${format} DESTINATION lib/${format} COMPONENT plugins USE_SOURCE_PERMISSIONS)
         endif()
     endforeach()

@@ -8,7 +8,12 @@ namespace physvib {
 // Above all that is not audio, below what is: few users are allowed that.
 Stepper::Stepper()
     : Thread{"PhysVib worlds"} {
-    if (!startRealtimeThread({1, 0})) startThread(Priority::highest);
+#if JUCE_MAJOR_VERSION >= 8
+    const auto lowest = RealtimeOptions{}.withPriority(1);
+#else
+    const RealtimeOptions lowest{1, 0};
+#endif
+    if (!startRealtimeThread(lowest)) startThread(Priority::highest);
 }
 
 Stepper::~Stepper() {

@@ -4,6 +4,9 @@
 # becomes JUCE's is written here with that one word mended and with a line that hands the points over (Vst3Points.h), into the folder
 # `physvib_vst3_headers`, which the wrapper searches before JUCE's own.
 set(header juce_audio_processors/format_types/juce_VST3Common.h)
+if(NOT EXISTS ${juce_modules}/${header}) # as of JUCE 9
+    set(header juce_audio_processors_headless/format_types/juce_VST3Common.h)
+endif()
 set(physvib_vst3_headers ${CMAKE_CURRENT_BINARY_DIR}/vst3)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${juce_modules}/${header})
 set(mended_file ${juce_modules}/${header})
@@ -23,7 +26,7 @@ string(FIND "${text}" "const auto& mapping = map[busIndex];" place)
 if(place EQUAL -1)
     physvib_mend("blocks that take no memory" "const auto mapping = map[busIndex];" "const auto& mapping = map[busIndex];")
 endif()
-physvib_mend("points of parameters" "#ifndef DOXYGEN\n\nnamespace juce\n{" "#ifndef DOXYGEN\n\n#include \"Vst3Points.h\"\n\nnamespace juce\n{")
+physvib_mend("points of parameters" "\nnamespace juce\n{" "\n#include \"Vst3Points.h\"\n\nnamespace juce\n{")
 physvib_mend("points of parameters" "    void updateFromProcessor (const AudioProcessor& processor)\n    {\n"
     "    const AudioProcessor* physvibInstance = nullptr;\n    void updateFromProcessor (const AudioProcessor& processor)\n    {\n        physvibInstance = &processor;\n")
 physvib_mend("points of parameters" "                                hostData)\n    {}\n" "                                hostData)\n    { physvibPoints.emplace (mapperIn.physvibInstance, hostData.inputParameterChanges); }\n")
@@ -42,6 +45,10 @@ endif()
 # channels apart for bend, pressure, slide (CC 74) and pedal (CC 64) alone; the stand-ins of the others are those of the first channel, for all of
 # them (decision 93). Numbers stay. JUCE's wrapper is compiled in that wording instead of its own.
 set(wrapper juce_audio_plugin_client/VST3/juce_VST3_Wrapper.cpp)
+if(NOT EXISTS ${juce_modules}/${wrapper}) # as of JUCE 8
+    set(wrapper juce_audio_plugin_client/juce_audio_plugin_client_VST3.cpp)
+    set(physvib_vst3_manifest VST3_AUTO_MANIFEST FALSE) # or it would run each module to describe it in a file
+endif()
 set(physvib_vst3_wrapper ${CMAKE_CURRENT_BINARY_DIR}/vst3/physvib_VST3_Wrapper.cpp)
 set(mended_file ${juce_modules}/${wrapper})
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${mended_file})

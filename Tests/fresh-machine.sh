@@ -1,7 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Tries README's two commands on a bare Debian 12 that it makes in a folder of its own; needs root and a network.
+# Tries README's two commands on a bare Debian that it makes in a folder of its own; needs root and a network.
+#   --suite NAME    bookworm (Debian 12, as is said without it), trixie (13) or sid
+#   --same-as BUILD afterwards, renders there are compared with those of this build here: all scenes, layouts and lists
 #   --run-only      run.sh alone
+#   --programs      run.sh, then run.sh with the programs and a plug-in of each format
+#   --own-juce      instead of them, these programs with the JUCE of that suite (8 or 9), installed, and not Debian 12's
 #   --tutorials     instead of them, README and the tutorials, typed by follow.py, and what they make felt
 #   --pages         instead of them, what the pages of C, Chipmunk, Python, Lua and C# say
 #   --keep          leave the folder behind
@@ -16,15 +20,21 @@ commands="run.sh test.sh"
 keep=""
 mirror=""
 cache=""
+suite=""
+same_as=""
 while [ $# -gt 0 ]; do
     case $1 in
+        --suite) suite=${2:?"--suite needs a name"} && shift ;;
+        --same-as) same_as=$(realpath "${2:?"--same-as needs the folder of a build"}") && shift ;;
         --run-only) commands="run.sh" ;;
+        --programs) commands="run.sh programs" ;;
+        --own-juce) commands="own-juce programs" ;;
         --tutorials) commands="Tests/Docs/tutorials.sh" ;;
         --pages) commands="Tests/Api/ten-minutes.sh" ;;
         --keep) keep=yes ;;
         --cache) cache=$(realpath "${2:?"--cache needs a folder"}") && shift ;;
         --mirror) mirror=${2:?"--mirror needs a URL"} && shift ;;
-        *) say "expected --run-only, --tutorials, --pages, --keep, --cache FOLDER or --mirror URL, not $1" && exit 2 ;;
+        *) say "expected --suite NAME, --same-as BUILD, --run-only, --programs, --own-juce, --tutorials, --pages, --keep, --cache FOLDER or --mirror URL, not $1" && exit 2 ;;
     esac
     shift
 done
@@ -39,17 +49,30 @@ count_work() {
     times >"$machine/times"
     worked=$(sed 's/[ms]/ /g' "$machine/times" | awk 'NR == 2 { print int(60 * ($1 + $3) + $2 + $4) }')
 }
+programs="run.sh physvib physvib-mixer PhysVibPlugin_VST3 PhysVibPlugin_LV2"
 packages() { in_machine dpkg-query -W -f '.' | wc -c; }
 for command in $commands; do
     before=$(packages)
     count_work
     started=$(date +%s) before_work=$worked
-    in_machine "/root/PhysVib/$command"
+    case $command in
+        own-juce) in_machine sh -c "apt-get install -y -qq --no-install-recommends juce-modules-source >/dev/null" ;;
+        programs) command=$programs && in_machine sh -c "exec /root/PhysVib/$programs" ;;
+        *) in_machine "/root/PhysVib/$command" ;;
+    esac
     seconds=$(($(date +%s) - started))
     count_work
-    say "$command took $((seconds / 60)):$(printf %02d $((seconds % 60))) min and $(((worked - before_work) / 60)) processor minutes, with $(($(packages) - before)) packages beyond the $before that were there"
+    say "$command took $((seconds / 60)):$(printf %02d $((seconds % 60))) min and $(((worked - before_work) / 60)) processor minutes, with $(($(packages) - before)) packages beyond the $before that were there; warnings of the compiler: $(cat "$machine"/root/PhysVib/build/*.log | grep -c ' warning: ' || :)"
 done
-case $commands in Tests/*) exit 0 ;; esac
+case $commands in Tests/* | own-juce*) exit 0 ;; esac
 for file in shake-the-box.wav shake-the-box.csv shake-the-box.png; do
     [ -s "$machine/root/PhysVib/out/$file" ] || { say "out/$file is missing" && exit 1; }
 done
+[ -n "$same_as" ] || exit 0
+# What the first build renders is compared: physvib-render is what every machine has.
+PHYSVIB_FINGERPRINT=render Tests/figures/fingerprint.sh "$same_as" >"$machine.here"
+in_machine sh -c "cd /root/PhysVib && Tests/figures/fingerprint.sh build/first" >"$machine.there"
+differ=$(diff "$machine.here" "$machine.there" | sed -n 's/^> [^ ]* //p' | sort -u)
+say "of $(wc -l <"$machine.here") renders, lists of events and pictures, $(diff "$machine.here" "$machine.there" | grep -c '^>' || :) have other bytes than here"
+rm -f "$machine.here" "$machine.there"
+[ -z "$differ" ] || { printf '%s\n' "$differ" && exit 1; }

@@ -57,6 +57,10 @@ step() {
         arm64) Tests/arm64.sh $bin/physvib-render ;;
         windows) Tests/windows.sh $bin/physvib-render ;;
         fresh) Tests/fresh-machine.sh ;;
+        fresh-13) Tests/fresh-machine.sh --suite trixie --same-as build/release ;;
+        fresh-sid) Tests/fresh-machine.sh --suite sid --same-as build/release ;;
+        juce-8) Tests/fresh-machine.sh --suite trixie --own-juce ;;
+        juce-9) Tests/fresh-machine.sh --suite sid --own-juce ;;
         no-lab) Tests/House/no-lab.sh build/no-lab ;;
         pages) Tests/fresh-machine.sh --pages ;;
         pico) .ci/pico-sources.sh && build release physvib-pico physvib-render && Tests/Firmware/pico.sh ;;

@@ -10,7 +10,7 @@
 extern "C" {
 extern std::uint32_t linkStackTop, linkStackBottom, linkDataLoad, linkData, linkDataEnd, linkBss, linkBssEnd;
 extern std::uint32_t linkFastLoad, linkFast, linkFastEnd;
-int main();
+void work();
 void sampleTimerInterrupt();
 void serialInterrupt();
 [[noreturn]] void startUp();
@@ -58,7 +58,7 @@ void startUp() {
     copy(&linkData, &linkDataEnd, &linkDataLoad);
     copy(&linkFast, &linkFastEnd, &linkFastLoad);
     fill(&linkBss, &linkBssEnd, 0);
-    main();
+    work();
     fault();
 }
 

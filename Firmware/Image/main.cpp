@@ -98,5 +98,5 @@ void sampleTimerInterrupt() {
 
 void serialInterrupt() { physvib::board::serial.serve(); }
 
-int main() { physvib::board::run(); }
+void work() { physvib::board::run(); }
 }

@@ -23,11 +23,13 @@ FT_Vector fixed(Spot p) {
     return {part(p.x), part(p.y)};
 }
 
-/// FreeType's outline, and what it holds.
+/// FreeType's outline, and what it holds. FreeType 2.13.3 made tags, ends and their counts unsigned.
 struct Outline {
+    using Count = decltype(FT_Outline::n_points);
+    using End = std::remove_pointer_t<decltype(FT_Outline::contours)>;
     std::vector<FT_Vector> points;
-    std::vector<char> tags;
-    std::vector<short> ends;
+    std::vector<std::remove_pointer_t<decltype(FT_Outline::tags)>> tags;
+    std::vector<End> ends;
 
     void add(const Path& path, const Transform& move) {
         for (const Path::Part& part : path.parts()) {
@@ -41,13 +43,13 @@ struct Outline {
                                                                : FT_CURVE_TAG_CONIC);
                 }
             }
-            ends.push_back(static_cast<short>(points.size() - 1));
+            ends.push_back(static_cast<End>(points.size() - 1));
         }
     }
     bool fits() const { return points.size() < 32768; }
     FT_Outline view() {
-        return {static_cast<short>(ends.size()),
-                static_cast<short>(points.size()),
+        return {static_cast<Count>(ends.size()),
+                static_cast<Count>(points.size()),
                 points.data(),
                 tags.data(),
                 ends.data(),

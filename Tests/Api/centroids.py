@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Where hits are felt by each panning law, as the table of Docs/panning.md says of four actuators: rendered, and the centroid of what comes out. Then what travels over rows and a
 sleeve by the default law. PHYSVIB_LIBRARY and PYTHONPATH are set. centroids.py Docs/panning.md"""

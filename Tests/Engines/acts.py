@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Ten acts at 240 steps a second through every engine: `acts.py NAME=COMMAND...`, commands as of worlds.py. Each has a closed form, of rigid bodies.
 Prints the table of Docs/engines.md. A cell has ms and % of strength from the closed form; where one of them is beyond 1 ms or 5 %, behind "own" the

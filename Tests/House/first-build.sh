@@ -36,15 +36,15 @@ if [ "${bare% *}" -eq 0 ]; then
     echo "packages: not counted, apt has no lists here"
     exit 0
 fi
-# shellcheck disable=SC2086 # a list of words
-whole=$(fetched $physvib_first_packages)
+# shellcheck disable=SC2046,SC2086 # lists of words
+whole=$(fetched $(called $physvib_first_packages))
 count=$((${whole% *} - ${bare% *}))
 megabytes=$(((${whole#* } - ${bare#* } + 999999) / 1000000))
 echo "packages: $count of at most $most_packages, $megabytes MB of at most $most_megabytes"
 [ $count -le $most_packages ] || fail "run.sh installs $count packages: at most $most_packages"
 [ $megabytes -le $most_megabytes ] || fail "run.sh fetches $megabytes MB: at most $most_megabytes"
 # shellcheck disable=SC2046,SC2086 # lists of words
-tests=$(fetched $physvib_first_packages $(with_juce_unpacked $physvib_test_packages))
+tests=$(fetched $(called $physvib_first_packages $(with_juce_unpacked $physvib_test_packages)))
 count=$((${tests% *} - ${whole% *}))
 echo "packages of test.sh beyond them: $count of at most $most_test_packages"
 [ $count -le $most_test_packages ] || fail "test.sh installs $count packages beyond those of run.sh: at most $most_test_packages"

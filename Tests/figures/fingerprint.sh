@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: MIT
 # Prints a checksum of everything that must not change when only the house does: samples and events of every scene, layout,
 # law, timing, location and method, the same list on other layouts, a session, the rows of simulated studies, the
-# board's image. Compare the output of two builds with diff.
+# board's image. Compare the output of two builds with diff. Of a build that has physvib-render alone: what that takes, and pictures;
+# PHYSVIB_FINGERPRINT=render asks for this of a whole build too.
 # Usage: fingerprint.sh BUILD_FOLDER [SECONDS]
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "$1" && pwd)
 physvib=$build/bin/physvib seconds=${2:-5}
 measured=$here/Fuzz/corpus/actuator/measured.json
+render="$physvib render" scenes=$(cd "$here/../Source/Scene/Scenes" && ls ./*.json | sed -n '/schema/d; s|^./\(.*\).json|\1|p')
+[ -x "$physvib" ] && [ "${PHYSVIB_FINGERPRINT:-}" != render ] || render=$build/bin/physvib-render
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -25,12 +28,28 @@ sum() {
 rendered() {
     name=$1
     shift
-    "$physvib" render "$@" --seconds "$seconds" --out a.wav --events a.csv >/dev/null 2>&1 || { echo "failed $name"; return 0; }
+    # shellcheck disable=SC2086 # a program and its command
+    $render "$@" --seconds "$seconds" --out a.wav --events a.csv >/dev/null 2>&1 || { echo "failed $name"; return 0; }
     ! grep -q '^time_s.*,material$' a.csv || sed -i '/^#/!s/,[^,]*$//' a.csv # a name is no figure, and older builds write none
     sum "$name" a.wav a.csv
 }
 
-for scene in $("$physvib" scenes | cut -d' ' -f1); do
+if [ "$render" = "$build/bin/physvib-render" ]; then
+    for scene in $scenes; do
+        for layout in phone1 phone2 phone3 phone4 ring1 ring2 ring3 ring4 cabinet4 pico4 pico8 glove5 sleeve8 vest16; do
+            for set in best scalar; do rendered "$scene $layout $set" "$scene" --layout $layout --instructions $set; done
+        done
+        for option in '--seed 7 --rate 44100' '--steps-per-second 1000'; do
+            # shellcheck disable=SC2086 # an option and its value
+            rendered "$scene $option" "$scene" $option
+        done
+        $render "$scene" --seconds "$seconds" --events list.csv --picture a.png >/dev/null
+        sum "$scene picture" a.png
+        for layout in phone4 ring2; do rendered "$scene list $layout" list.csv --field 6.4,3.6 --layout $layout; done
+    done
+    exit 0
+fi
+for scene in $scenes; do
     for layout in phone1 phone2 phone3 phone4 ring1 ring2 ring3 ring4; do
         for law in linear log log-outer energy; do rendered "$scene $layout $law" "$scene" --layout $layout --law $law; done
     done

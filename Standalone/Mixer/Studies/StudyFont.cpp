@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finds typefaces by glyph outlines: a letter whose outline equals that of a non-character is missing.
+// Finds typefaces by glyph outlines: a letter whose outline equals that of a non-character is missing. JUCE 8
+// tells.
 #include "Mixer/Studies/StudyFont.h"
 #include <array>
 #include <set>
@@ -7,9 +8,15 @@
 namespace physvib {
 namespace {
 
-constexpr juce::juce_wchar nobodys = 0xfffe; // a non-character of Unicode
 constexpr std::array preferred{"NanumGothic", "Noto Sans CJK KR", "Noto Sans CJK SC",
                                "UnDotum"}; // typefaces known to be legible
+
+#if JUCE_MAJOR_VERSION >= 8
+auto lettersIn(juce::Typeface& typeface) {
+    return [&](juce::juce_wchar letter) { return typeface.getNominalGlyphForCodepoint(letter).has_value(); };
+}
+#else
+constexpr juce::juce_wchar nobodys = 0xfffe; // a non-character of Unicode
 
 juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
     juce::Array<int> glyphs;
@@ -19,6 +26,13 @@ juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
     for (const int glyph : glyphs) typeface.getOutlineForGlyph(glyph, path);
     return path.toString();
 }
+
+auto lettersIn(juce::Typeface& typeface) {
+    return [&, box = outlineOf(typeface, nobodys)](juce::juce_wchar letter) {
+        return outlineOf(typeface, letter) != box;
+    };
+}
+#endif
 
 /// The typeface in use for all text; empty: the default.
 juce::String& inUse() {
@@ -43,9 +57,9 @@ bool hasLetters(const juce::String& typeface, const juce::String& letters) {
         typeface.isEmpty() ? juce::Font{20.0f} : juce::Font{typeface, 20.0f, juce::Font::plain};
     const auto face = font.getTypefacePtr();
     if (face == nullptr) return false;
-    const auto box = outlineOf(*face, nobodys);
+    const auto has = lettersIn(*face);
     for (const auto letter : letters)
-        if (outlineOf(*face, letter) == box) return false;
+        if (!has(letter)) return false;
     return true;
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<const char*, 3> oscUseNames{"off", "this-computer", "any-computer"};
 
 OscUse oscUseNamed(const juce::String& name) {
-    const auto found = std::ranges::find(oscUseNames, name);
+    const auto found = std::ranges::find(oscUseNames, name.toStdString());
     return found == oscUseNames.end() ? OscUse::off : static_cast<OscUse>(found - oscUseNames.begin());
 }
 
