@@ -6,7 +6,7 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
 #include "Io/Text/NumberText.h"
-#include "Io/Wav/WavFile.h"
+#include "Io/Wav/WavHead.h"
 #include "Lab/Files/StudyFileLimits.h"
 #include "Scene/SceneFileLimits.h"
 #include <algorithm>
