@@ -51,7 +51,8 @@ TEST_F(SoundPlay, WhatFitsNothingIsOneLine) {
     refuses("play nothing.wav" + std::string{nobody}, 1, "nothing.wav: cannot be read");
     refuses("play nothing.wav --board /dev/nowhere", 2, "boards and controllers play no recordings");
     write("text.wav", "no sound");
-    refuses("play text.wav" + std::string{nobody}, 1, "text.wav: expected a WAV, FLAC or Ogg Vorbis file", 1);
+    refuses("play text.wav" + std::string{nobody}, 1,
+            "text.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 1);
     std::string six = R"({"name": "six", "extent_m": [1, 1], "enchanters": [)";
     for (const char* label : {"A", "B", "C", "D", "E", "F"})
         six += std::string{*label > 'A' ? ", " : ""} + R"({"label": ")" + label + R"(", "x_m": 0.)" +

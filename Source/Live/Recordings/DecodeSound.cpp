@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 #include <sndfile.h>
+#include <span>
 #include <vector>
 
 namespace physvib {
@@ -121,22 +122,27 @@ std::string damage(const std::string& expected, std::int64_t frames) {
     return "expected " + expected + ", found damage or the end after " + std::to_string(frames);
 }
 
-/// What only a pass over all samples shows: how many there are, and whether they use the upper bits of their
-/// room. WAVE means samples to stand there; ALSA's arecord writes them into the lower ones.
+/// What only a pass over all samples shows: how many there are, and where they stand in more room than they
+/// need. WAVE has them in the upper bits; ALSA's arecord writes them into the lower ones.
 std::string survey(std::FILE& file, const SoundHead& sound, std::int64_t mostSeconds, SoundShape& shape,
                    float& gain) {
     SoundPass pass{file, sound};
     if (!pass.fault().empty()) return pass.fault();
-    const float most = std::ldexp(1.0f, sound.bits - sound.room);
-    bool isLow = sound.bits > 0;
+    const float most = std::ldexp(1.0f, sound.bits - sound.room), steps = std::ldexp(1.0f, sound.bits - 1);
+    bool fitsLow = sound.bits < sound.room, isBetween = false;
     std::int64_t frames = 0;
-    for (std::int64_t count;
-         frames <= mostSeconds * shape.sampleRateHz && (count = pass.next(4096)) > 0 && !pass.isDamaged();
-         frames += count)
-        isLow = isLow && std::all_of(pass.samples().begin(), pass.samples().begin() + count * shape.channels,
-                                     [most](float x) { return x >= -most && x < most; });
-    if (pass.isDamaged()) return damage("samples to the end", frames);
-    if (isLow) gain = 1.0f / most;
+    while (frames <= mostSeconds * shape.sampleRateHz) {
+        const auto count = pass.next(4096);
+        if (pass.isDamaged()) return damage("samples to the end", frames);
+        if (count <= 0) break;
+        for (const float x :
+             std::span{pass.samples()}.first(static_cast<std::size_t>(count * shape.channels))) {
+            fitsLow = fitsLow && x >= -most && x < most;
+            isBetween = isBetween || x * steps != std::trunc(x * steps);
+        }
+        frames += count;
+    }
+    if (fitsLow && (isBetween || sound.isLowRather)) gain = 1.0f / most;
     shape.frames = frames;
     return {};
 }

@@ -164,8 +164,9 @@ private:
         if (block > frameBytes_)
             return "expected blocks of " + std::to_string(channels * width) + " bytes, found " +
                    std::to_string(block);
-        head_.isSurveyed = room > width;
-        if (head_.isSurveyed) head_.bits = static_cast<int>(bits), head_.room = static_cast<int>(8 * room);
+        head_.isSurveyed = tag == pcm && bits < 8 * room && width > 1;
+        head_.bits = static_cast<int>(bits), head_.room = static_cast<int>(8 * room);
+        head_.isLowRather = room > width;
         return {};
     }
 

@@ -11,13 +11,14 @@ namespace physvib {
 
 /// The part of a file that libsndfile is to read, and how.
 struct SoundHead {
-    int format = 0;          ///< of libsndfile, where the part is bare samples; 0: a file of its own
-    std::string head;        ///< what stands before the part, instead of what the file has there
-    std::int64_t begin = 0;  ///< of the part, in bytes
-    std::int64_t bytes = 0;  ///< its length
-    SoundShape shape{};      ///< as the file says; 0 frames: libsndfile knows
-    bool isSurveyed = false; ///< all samples are looked at first: for their number, or their place
-    int bits = 0, room = 0;  ///< of a sample and of its place, where that is wider; otherwise 0
+    int format = 0;           ///< of libsndfile, where the part is bare samples; 0: a file of its own
+    std::string head;         ///< what stands before the part, instead of what the file has there
+    std::int64_t begin = 0;   ///< of the part, in bytes
+    std::int64_t bytes = 0;   ///< its length
+    SoundShape shape{};       ///< as the file says; 0 frames: libsndfile knows
+    bool isSurveyed = false;  ///< all samples are looked at first: for their number, or their place
+    int bits = 0, room = 0;   ///< of a sample of WAVE, and of its place
+    bool isLowRather = false; ///< it stands in the lower bits, if the samples do not show where
 };
 
 /// Of a file that is `bytes` long. Or what is wrong with it, without its name: another kind of file, fewer
