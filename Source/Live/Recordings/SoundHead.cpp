@@ -19,11 +19,16 @@ public:
         , bytes_{bytes} {}
 
     Result<SoundHead> read() {
-        std::int64_t at = 0; // after tags of MP3, which other kinds have as well
-        for (auto tag = bytesAt(0, 10); tag.size() == 10 && tag.starts_with("ID3"); tag = bytesAt(at, 10))
-            at += 10 + (tag[6] << 21 | tag[7] << 14 | tag[8] << 7 | tag[9]); // the upper bits are 0
+        std::int64_t at = 0;
+        std::string tag = bytesAt(0, 10); // tags of MP3 stand before other kinds as well
+        for (int i = 0; i < mostParts && tag.size() == 10 && tag.starts_with("ID3"); ++i) {
+            std::int64_t length = 0;
+            for (const char c : tag.substr(6)) length = length << 7 | (c & 127);
+            tag = bytesAt(at += 10 + length, 10);
+        }
         const std::string head = bytesAt(at, 12), name = head.substr(0, 4), form = head.substr(name.size());
         head_.begin = at;
+        head_.bytes = bytes_ - at;
         std::string fault = notASound;
         if (name == "fLaC")
             fault = readFlac(at + 4);
@@ -31,9 +36,9 @@ public:
             fault = readPages(at);
         else if (form.ends_with("WAVE") &&
                  (name == "RIFF" || name == "RIFX" || name == "RF64" || name == "BW64"))
-            fault = readWave(at + 12, name == "RIFX", name.ends_with("64"));
+            fault = readChunks(at + 12, "data", name == "RIFX", name.ends_with("64"));
         else if (name == "FORM" && (form.ends_with("AIFF") || form.ends_with("AIFC")))
-            fault = readAiff(at + 12);
+            fault = readChunks(at + 12, "SSND", true, false);
         if (!fault.empty()) return Failure{std::move(fault)};
         return std::move(head_);
     }
@@ -66,18 +71,6 @@ private:
         if (head.size() < 8) return {};
         return {head.substr(0, 4), at + 8, number(std::string_view{head}.substr(4), isBig)};
     }
-    /// The first chunk of that name from `at`; without a name if there is none. `each` sees those before.
-    template <class Each>
-    Chunk find(const char* name, std::int64_t at, bool isBig, Each each) {
-        for (int i = 0; i < mostParts; ++i) {
-            const Chunk chunk = chunkAt(at, isBig);
-            if (chunk.name.empty() || chunk.name == name) return chunk;
-            each(chunk);
-            at = chunk.end();
-        }
-        return {};
-    }
-
     /// True if chunks reach from `at` to the end, or to a few zeros or a tag of MP3 there. The last one may
     /// lack the byte that makes it even.
     bool areChunks(std::int64_t at, bool isBig) {
@@ -93,8 +86,8 @@ private:
                (rest.size() <= sector && rest.find_first_not_of('\0') == std::string::npos);
     }
 
-    /// The bytes of samples in a chunk that tells `told`, in *bytes; or why there are others.
-    std::string takeData(const Chunk& data, std::int64_t told, bool isBig, bool isLong, std::int64_t& bytes) {
+    /// How many bytes of samples there are in a chunk that tells `told`.
+    std::string takeData(const Chunk& data, std::int64_t told, bool isBig, bool isLong) {
         // What programs write which do not know the length yet: 0, near 2 or 4 GiB; of 64 bits, the largest.
         constexpr std::int64_t near = 1 << 16;
         const std::int64_t present = bytes_ - data.begin;
@@ -102,7 +95,8 @@ private:
             isLong ? told >> 56 != 0
                    : std::abs(told - fourGigabytes / 2) <= near || told >= fourGigabytes - near;
         if (told == 0 && areChunks(data.begin, isBig)) return noSamples;
-        bytes = told == 0 || (isPlaceholder && (told < 0 || told > present)) ? present : told;
+        const auto bytes = dataBytes_ =
+            told == 0 || (isPlaceholder && (told < 0 || told > present)) ? present : told;
         const std::string expected =
             "expected " + std::to_string(bytes) + " bytes of samples, as its header says, found ";
         if (bytes > present) return expected + std::to_string(present) + ": it ends early";
@@ -113,33 +107,29 @@ private:
                    : expected + std::to_string(bytes_ - end) + " more, which are no chunks";
     }
 
-    std::string readWave(std::int64_t at, bool isBig, bool isLong) {
+    /// The chunks before the samples.
+    std::string readChunks(std::int64_t at, const char* samples, bool isBig, bool isLong) {
         std::string format;
-        std::int64_t longBytes = 0, bytes = 0;
-        const Chunk data = find("data", at, isBig, [&](const Chunk& chunk) {
+        std::int64_t longBytes = 0;
+        Chunk chunk = chunkAt(at, isBig);
+        for (int i = 0; i < mostParts && !chunk.name.empty() && chunk.name != samples; ++i) {
             if (chunk.name == "ds64" && isLong) longBytes = number(bytesAt(chunk.begin + 8, 8));
-            if (chunk.name == "fmt ")
-                format =
-                    bytesAt(chunk.begin, static_cast<std::size_t>(std::min<std::int64_t>(chunk.bytes, 40)));
-        });
-        if (!data.name.empty() && format.empty()) return "expected a format before the samples";
-        if (auto fault = data.name.empty() ? noSamples : takeFormat(format, isBig); !fault.empty())
+            const auto begins = std::min<std::int64_t>(chunk.bytes, 40); // of a format, all that we read
+            if (chunk.name == "fmt ") format = bytesAt(chunk.begin, static_cast<std::size_t>(begins));
+            chunk = chunkAt(chunk.end(), isBig);
+        }
+        if (chunk.name != samples) return noSamples;
+        const bool isToldLong = isLong && (longBytes != 0 || chunk.bytes == fourGigabytes - 1);
+        if (auto fault = takeData(chunk, isToldLong ? longBytes : chunk.bytes, isBig, isLong); !fault.empty())
             return fault;
-        const bool isToldLong = isLong && (longBytes != 0 || data.bytes == fourGigabytes - 1);
-        if (auto fault = takeData(data, isToldLong ? longBytes : data.bytes, isBig, isLong, bytes);
-            !fault.empty())
-            return fault;
-        head_.begin = data.begin;
-        head_.shape.frames = bytes / frameBytes_;
-        head_.bytes = head_.shape.frames * frameBytes_;
-        return head_.shape.frames > 0 ? "" : noSamples;
+        return chunk.name == "data" ? takeFormat(format, isBig, chunk.begin) : std::string{};
     }
 
     /// How each sample stands in its block.
-    std::string takeFormat(const std::string& format, bool isBig) {
+    std::string takeFormat(const std::string& format, bool isBig, std::int64_t begin) {
         constexpr std::int64_t pcm = 1, ieeeFloat = 3, aLaw = 6, muLaw = 7, extensible = 0xfffe;
         constexpr std::array types{SF_FORMAT_PCM_U8, SF_FORMAT_PCM_16, SF_FORMAT_PCM_24, SF_FORMAT_PCM_32};
-        if (format.size() < 16) return "expected a format of 16 bytes or more";
+        if (format.size() < 16) return "expected a format before the samples, of 16 bytes or more";
         const auto field = [&](std::size_t i, std::size_t width) {
             return number(std::string_view{format}.substr(i, width), isBig);
         };
@@ -159,23 +149,17 @@ private:
         else
             return "expected PCM of 8 to 32 bits, float of 32 or 64, or G.711";
         head_.format |= SF_FORMAT_RAW | (isBig ? SF_ENDIAN_BIG : SF_ENDIAN_LITTLE);
-        frameBytes_ = channels * room;
-        head_.shape = {field(4, 4), channels, 0};
-        if (block > frameBytes_)
+        const auto frameBytes = channels * room;
+        if (block > frameBytes)
             return "expected blocks of " + std::to_string(channels * width) + " bytes, found " +
                    std::to_string(block);
+        head_.shape = {field(4, 4), channels, dataBytes_ / frameBytes};
+        head_.begin = begin;
+        head_.bytes = head_.shape.frames * frameBytes;
         head_.isSurveyed = tag == pcm && bits < 8 * room && width > 1;
         head_.bits = static_cast<int>(bits), head_.room = static_cast<int>(8 * room);
         head_.isLowRather = room > width;
-        return {};
-    }
-
-    std::string readAiff(std::int64_t at) {
-        std::int64_t bytes = 0;
-        const Chunk data = find("SSND", at, true, [](const Chunk&) {});
-        if (data.name.empty()) return noSamples;
-        head_.bytes = bytes_ - head_.begin;
-        return takeData(data, data.bytes, true, false, bytes);
+        return head_.shape.frames > 0 ? "" : noSamples;
     }
 
     /// A description of our own, without the length: what is there is read and then compared. The other
@@ -247,7 +231,7 @@ private:
     }
 
     std::FILE& file_;
-    std::int64_t bytes_, frameBytes_ = 0;
+    std::int64_t bytes_, dataBytes_ = 0;
     SoundHead head_;
 };
 
