@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 """JSON and AHAP of every kind, made here by rule: texts.py PHYSVIB. Each is read, or refused in one line that names the file; JSON as RFC 8259 has it,
 but a field twice and more than 16 levels are refused, and .ahap may have a comma after the last item. Exit code 1 if one is otherwise."""
 import concurrent.futures

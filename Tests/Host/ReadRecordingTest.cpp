@@ -210,7 +210,8 @@ TEST_F(ReadRecording, RefusesWhatIsNoWav) {
     EXPECT_EQ(fault(wavBytes({.channels = 0}, "1234")), width);
     EXPECT_EQ(fault(wavBytes({.format = 2}, "1234")), width) << "ADPCM";
     EXPECT_EQ(fault(wavBytes({}, "")), "expected samples, found none");
-    EXPECT_EQ(fault(whole.substr(0, 12) + whole.substr(36)), "expected a format before the samples, of 16 bytes or more");
+    EXPECT_EQ(fault(whole.substr(0, 12) + whole.substr(36)),
+              "expected a format before the samples, of 16 bytes or more");
     EXPECT_EQ(fault(wavBytes({.before = "LIST\xff\xff\xff\xff"s}, "1234")), "expected samples, found none")
         << "a chunk that is longer than the file";
 }
