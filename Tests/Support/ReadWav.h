@@ -3,7 +3,6 @@
 #pragma once
 #include "Io/Result.h"
 #include "Io/Wav/SampledSound.h"
-#include "Io/Wav/WavHead.h"
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -16,10 +15,12 @@ inline Result<SampledSound> readWav(std::FILE& file) {
     char block[4096];
     while (const std::size_t count = std::fread(block, 1, sizeof block, &file)) bytes.append(block, count);
     const auto format = bytes.find("fmt "), data = bytes.find("data");
-    if (data == std::string::npos || wavFileBytes(bytes) != std::ssize(bytes))
-        return Failure{"expected a whole file of WavSink"};
     std::uint16_t channels = 0;
-    std::uint32_t rateHz = 0;
+    std::uint32_t rateHz = 0, dataBytes = 0;
+    if (data != std::string::npos && data + 8 <= bytes.size())
+        std::memcpy(&dataBytes, &bytes[data + 4], sizeof dataBytes);
+    if (dataBytes == 0 || data + 8 + dataBytes != bytes.size())
+        return Failure{"expected a whole file of WavSink"};
     std::memcpy(&channels, &bytes[format + 10], sizeof channels);
     std::memcpy(&rateHz, &bytes[format + 12], sizeof rateHz);
     SampledSound sound{static_cast<int>(rateHz), std::vector<std::vector<float>>(channels)};

@@ -39,12 +39,6 @@ std::string formatChunk(int channels, int sampleRateHz, bool isExtensible) {
     return chunk("fmt ", content);
 }
 
-std::int64_t numberAt(std::string_view bytes, std::size_t at, std::size_t width) noexcept {
-    std::int64_t value = 0;
-    for (std::size_t i = width; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-    return value;
-}
-
 } // namespace
 
 std::string wavInfo(const std::string& comment) {
@@ -73,13 +67,6 @@ std::string wavHead(int channels, int sampleRateHz, std::int64_t dataBytes, cons
              formatChunk(channels, sampleRateHz, isExtensible) + info + "data";
     add(bytes, isLong ? -1 : dataBytes, 4);
     return bytes;
-}
-
-std::int64_t wavFileBytes(std::string_view head) noexcept {
-    constexpr std::size_t idBytes = 4, longSizeAt = 20; // of RF64, in its chunk ds64
-    if (head.size() < wavSizeBytes) return 0;
-    if (head.starts_with("RIFF")) return 8 + numberAt(head, idBytes, 4);
-    return head.starts_with("RF64") ? 8 + numberAt(head, longSizeAt, 8) : 0;
 }
 
 } // namespace physvib

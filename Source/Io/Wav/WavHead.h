@@ -3,7 +3,6 @@
 #pragma once
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 namespace physvib {
 
@@ -15,12 +14,6 @@ std::string wavInfo(const std::string& comment);
 /// 32-bit float, one and two channels plain, three and more WAVE_FORMAT_EXTENSIBLE with an empty speaker
 /// mask; 4 GB and more RF64. `info`: of wavInfo. Any thread.
 std::string wavHead(int channels, int sampleRateHz, std::int64_t dataBytes, const std::string& info);
-
-constexpr std::size_t wavSizeBytes = 28;
-
-/// Length of a WAVE file (RIFF or RF64) according to its first wavSizeBytes bytes; 0 if they are not its
-/// beginning. Any thread.
-std::int64_t wavFileBytes(std::string_view head) noexcept;
 
 /// True if a WAVE file of that size does not need RF64. Any thread.
 constexpr bool fitsWav(int channels, std::int64_t frames) noexcept {
