@@ -17,7 +17,7 @@ libssl3 | libssl3t64"
 physvib_first_packages="g++ cmake ninja-build libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libfreetype-dev libpng-dev fonts-dejavu-core ccache"
 # What the programs, the library and the plug-ins are made with, beside a compiler.
 physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev libboost-dev \
-    pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev libflac-dev libvorbis-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev libqrcodegen-dev"
+    pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev libsndfile1-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev libqrcodegen-dev"
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool zbar-tools clang libclang-rt-dev clang-format-14 \

@@ -360,7 +360,7 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {
 // session that was opened with an older PhysVib loses nothing.
 void PluginProcessor::setStateInformation(const void* data, int size) {
     const std::string_view text{static_cast<const char*>(data), static_cast<std::size_t>(std::max(0, size))};
-    if (takeChunk(text)) return;
+    if (takeChunk(text.substr(0, text.find_last_not_of('\0') + 1))) return; // a host may end it with NULs
     followsWidth_ = false;
     const std::lock_guard lock{mutex_};
     refused_ = juce::MemoryBlock{text.data(), text.size()};

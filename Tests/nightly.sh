@@ -27,6 +27,7 @@ step() {
         guard) $bin/physvib-guard-figures attack 20000 ;;
         kills) Tests/CommandLine/kills.sh $bin 200 render study sweep play ;;
         full-disk) Tests/CommandLine/full-disk.sh $bin ;;
+        kinds) ensure_packages ffmpeg sox && Tests/Live/sounds.py $bin/physvib-sound-kinds --judges && Tests/Formats/texts.py $bin/physvib ;;
         skipped) Tests/Plugin/skipped.sh $bin ;;
         engines) engines ;;
         box2d3) Tests/Engines/box2d3.sh build/release ;;

@@ -41,15 +41,18 @@ inline bool isSilent(const std::vector<float>& x) {
     return std::ranges::all_of(x, [&](float s) { return s == x.front(); });
 }
 
+inline std::string notFinite(float x, std::size_t sample, double rateHz) {
+    return "expected finite samples, found " + std::string(std::isnan(x) ? "NaN" : "infinity") +
+           placeOf(sample, rateHz);
+}
+
 /// Empty, or the error that it is too short or has NaN, infinite or huge samples.
 inline std::string recordingFault(const std::vector<float>& x, double rateHz, double shortestSeconds) {
     if (static_cast<double>(x.size()) < shortestSeconds * rateHz)
         return "expected at least " + numberText(shortestSeconds) + " s, found " + std::to_string(x.size()) +
                (x.size() == 1 ? " sample" : " samples");
     const auto bad = std::ranges::find_if(x, [](float s) { return !std::isfinite(s) || std::abs(s) > 1e6f; });
-    if (bad == x.end()) return {};
-    return "expected finite samples, found " + std::string(std::isnan(*bad) ? "NaN" : "infinity") +
-           placeOf(static_cast<std::size_t>(bad - x.begin()), rateHz);
+    return bad == x.end() ? "" : notFinite(*bad, static_cast<std::size_t>(bad - x.begin()), rateHz);
 }
 
 } // namespace physvib

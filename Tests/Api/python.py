@@ -167,6 +167,38 @@ class Package(unittest.TestCase):
         shown = subprocess.run([program, "render", "--help"], capture_output=True, text=True, check=True).stdout
         self.assertIn("panning law: " + ", ".join(LAWS), " ".join(shown.split()))
 
+    def test_sounds_are_scaled_by_their_type_or_refused(self) -> None:
+        def saved(samples: object) -> np.ndarray:
+            physvib.save_wav(self.folder / "s.wav", samples)
+            content = (self.folder / "s.wav").read_bytes()
+            return np.frombuffer(content[content.index(b"data") + 8:], "<f4")
+
+        quiet = np.array([0.0, 0.01, -0.01, -1.0])
+        for kind, half in (("i1", 128), ("<i2", 32768), (">i2", 32768), ("i4", 2**31)):
+            whole = np.rint(quiet * half).astype(kind)
+            self.assertEqual(saved(whole).tolist(), (whole.astype(float) / half).astype("f4").tolist(), kind)
+        self.assertEqual(saved(np.array([128, 0, 255, 192], "u1")).tolist(), [0.0, -1.0, 127 / 128, 0.5])
+        self.assertEqual(saved(np.array([1 << 15, 0], "u2")).tolist(), [0.0, -1.0])
+        for kind in ("f2", "f4", "f8", ">f8"):
+            self.assertEqual(saved(np.array([[0.5, -2.0]], kind)).tolist(), [0.5, -2.0], kind)
+        self.assertEqual(saved(np.ma.array([0.5, 0.25], mask=[0, 0])).tolist(), [0.5, 0.25])
+        (self.folder / "s.wav").unlink()
+        for bad, words in ((np.zeros(4, bool), "found bool"), (np.zeros(4, complex), "found complex128"), (np.array([0.5, None]), "found object"), (["a"], "found <U1"),
+                           ([0, 1], "floats, or integers of 8, 16 or 32 bits, found int64"), (np.zeros((1, 2, 3)), "shape"), (np.ma.array([0.0, 1.0], mask=[0, 1]), "masked"),
+                           ([0.0, np.nan], "expected finite samples, found NaN or infinity in frame 1 of channel 0"), ([[0.0, 0.0], [np.inf, 0.0]], "in frame 0 of channel 1"), ([1e300], "finite")):
+            with self.assertRaisesRegex(physvib.PhysVibError, words):
+                physvib.save_wav(self.folder / "s.wav", bad)
+        self.assertFalse((self.folder / "s.wav").exists())
+
+    def test_events_are_not_masked_and_of_one_dimension(self) -> None:
+        with self.assertRaisesRegex(physvib.PhysVibError, "masked"):
+            physvib.events(np.ma.array([0.0, 0.05], mask=[0, 1]), frequency_hz=200.0, decay_per_s=30.0)
+        with self.assertRaisesRegex(physvib.PhysVibError, "masked"):
+            physvib.events([0.0, 0.05], frequency_hz=200.0, decay_per_s=30.0, amplitude=np.ma.array([1.0, 0.5], mask=[1, 0]))
+        self.assertEqual(len(physvib.events(np.ma.array([0.0, 0.05]), frequency_hz=200.0, decay_per_s=30.0)), 2)
+        with self.assertRaisesRegex(physvib.PhysVibError, r"shape \(2, 2\)"):
+            physvib.events(np.zeros((2, 2)), frequency_hz=200.0, decay_per_s=30.0)
+
     def test_refusals_say_what_was_expected(self) -> None:
         for wrong, line in ((lambda: physvib.Layout.preset("phone9"), "phone1 to phone4"), (lambda: physvib.Renderer(rate_hz=1), "5000 to 192000"),
                             (lambda: physvib.render(many(2)[::-1], 1.0), "order of their times"), (lambda: physvib.render(np.zeros(3), 1.0), "physvib.EVENT"),

@@ -101,7 +101,8 @@ TEST_F(BeatsCommand, RefusesInOneLineAndLeavesNothing) {
     write("silence.wav", test::wavBytes({}, std::string(96000, '\0')));
     write("slow.wav", test::wavBytes({.rateHz = 1000}, std::string(2000, '\1')));
     write("short.wav", test::wavBytes({.dataBytes = 50'000}, std::string(2000, '\1')));
-    refuses("beats noise.wav --out beats.csv", 1, "noise.wav: expected a WAV, FLAC or Ogg Vorbis file", 4);
+    refuses("beats noise.wav --out beats.csv", 1,
+            "noise.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 4);
     refuses("beats silence.wav --out beats.csv", 1, "silence.wav: expected beats, found none", 4);
     refuses("beats slow.wav --render felt.wav", 1,
             "slow.wav: expected a rate of 5000 to 192000 Hz, found 1000 Hz", 4);

@@ -105,7 +105,7 @@ TEST_F(CalibrateCommand, BadRecordingsAreOneLineAndLeaveNoProfile) {
     refusesIt(samples, "felt.wav: what was recorded: expected a recording that is not clipped");
     refusesIt(sweep_, "felt.wav: expected a resonance from 20 to 1000 Hz, found none"); // a cable
     write("felt.wav", "not a recording");
-    refuses(pair, 1, "felt.wav: expected a WAV, FLAC or Ogg Vorbis file", 2);
+    refuses(pair, 1, "felt.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 2);
     refuses("calibrate --device Nowhere --out mine.json", 1, "Nowhere: no such audio device", 2);
 }
 

@@ -58,7 +58,7 @@ TEST_F(MaterialCommand, BadRecordingsAreOneLine) {
     record("0.1,349,106.99,0,0,0");
     refuses("material hit.wav", 1, "hit.wav: expected a hit, found silence", 2);
     write("text.wav", "not a recording");
-    refuses("material text.wav", 1, "text.wav: expected a WAV, FLAC or Ogg Vorbis file", 3);
+    refuses("material text.wav", 1, "text.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 3);
     refuses("material none.wav", 1, "none.wav: cannot be read", 3);
     writeWav("one.wav", 48000, 1, {"\1\2", 2});
     refuses("material one.wav", 1, "one.wav: expected at least 0.01 s, found 1 sample", 4);

@@ -150,7 +150,7 @@ TEST_F(SoundMethod, WhatIsMissingOrNoHitIsToldInOneLine) {
             "hits.csv: expected a --sound for 349 Hz, found none", 3);
     refuses(render + "--method SV --sound 349=none.wav", 1, "none.wav: cannot be read", 3);
     refuses(render + "--method SV --sound 349=hits.csv", 1,
-            "hits.csv: expected a WAV, FLAC or Ogg Vorbis file", 3);
+            "hits.csv: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 3);
     write("silence.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,349,40,0,0,0\n");
     ASSERT_EQ(call("render --from-events silence.csv --layout phone1 --seconds 1 --out silence.wav").exitCode,
               0);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib play FILE.wav`: what leaves is what is in the file, each channel for its actuator.
 #include "Calls.h"
+#include "Support/WavBytes.h"
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace physvib {
 namespace {
@@ -51,7 +55,8 @@ TEST_F(SoundPlay, WhatFitsNothingIsOneLine) {
     refuses("play nothing.wav" + std::string{nobody}, 1, "nothing.wav: cannot be read");
     refuses("play nothing.wav --board /dev/nowhere", 2, "boards and controllers play no recordings");
     write("text.wav", "no sound");
-    refuses("play text.wav" + std::string{nobody}, 1, "text.wav: expected a WAV, FLAC or Ogg Vorbis file", 1);
+    refuses("play text.wav" + std::string{nobody}, 1,
+            "text.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 1);
     std::string six = R"({"name": "six", "extent_m": [1, 1], "enchanters": [)";
     for (const char* label : {"A", "B", "C", "D", "E", "F"})
         six += std::string{*label > 'A' ? ", " : ""} + R"({"label": ")" + label + R"(", "x_m": 0.)" +
@@ -61,6 +66,27 @@ TEST_F(SoundPlay, WhatFitsNothingIsOneLine) {
     refuses("play six.wav" + std::string{nobody}, 1,
             "six.wav: 6 channels: expected --layout with a file of as many actuators", 3);
     EXPECT_EQ(call("play six.wav --layout six.json --seconds 0.1" + std::string{nobody}).exitCode, 0);
+}
+
+TEST_F(SoundPlay, WhatExceedsFullScaleOrIsNoNumberIsTold) {
+    const auto sound = [](float peak) {
+        std::string samples;
+        for (int n = 0; n < 4800; ++n)
+            samples += test::numberBytes(
+                std::bit_cast<std::uint32_t>(peak * static_cast<float>(std::sin(0.026 * n))), 4);
+        return test::wavBytes({.format = 3, .bits = 32}, samples);
+    };
+    write("loud.wav", sound(327.0f));
+    const auto loud = call("play loud.wav" + std::string{nobody});
+    EXPECT_EQ(loud.exitCode, 0) << loud.err;
+    EXPECT_NE(loud.err.find("loud.wav: exceeds full scale by 50.3 dB"), std::string::npos) << loud.err;
+    write("full.wav", sound(1.0f));
+    EXPECT_EQ(call("play full.wav" + std::string{nobody}).err.find("exceeds"), std::string::npos);
+    write("nan.wav", sound(std::numeric_limits<float>::quiet_NaN()));
+    for (const std::string& words :
+         {"play nan.wav" + std::string{nobody}, std::string{"beats nan.wav --out b.csv"},
+          std::string{"material nan.wav"}, std::string{"stimulus wav nan.wav --at 0.3,0.4 --out o.wav"}})
+        refuses(words, 1, "nan.wav: expected finite samples, found NaN at 0.0000 s in channel 1", 3);
 }
 
 } // namespace

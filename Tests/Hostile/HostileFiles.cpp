@@ -5,6 +5,7 @@
 #include "Io/Text/CleanText.h"
 #include "Support/Mutations.h"
 #include "Support/WavBytes.h"
+#include "Support/WriteSound.h"
 #include "TestPlaces.h"
 #include <algorithm>
 #include <array>
@@ -14,7 +15,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <juce_audio_formats/juce_audio_formats.h>
 #include <map>
 #include <sstream>
 #include <sys/resource.h>
@@ -57,23 +57,15 @@ std::vector<std::string> filesIn(const fs::path& folder) {
     return texts;
 }
 
-/// A knock of half a second as these bytes: 16 bits, one channel.
-std::string knock(const std::string& ending, const fs::path& folder) {
-    juce::AudioFormatManager formats;
-    formats.registerBasicFormats();
-    const auto path = folder / ("knock." + ending);
-    juce::AudioBuffer<float> sound(1, 22050);
-    for (int n = 0; n < sound.getNumSamples(); ++n)
-        sound.setSample(
-            0, n,
+/// A knock of half a second as these bytes, one channel.
+std::string knock(int format, const fs::path& folder) {
+    std::vector<float> samples;
+    for (int n = 0; n < 22050; ++n)
+        samples.push_back(
             n < 2000 ? 0.0f : static_cast<float>(0.8 * std::sin(0.03 * n) * std::exp(-0.001 * (n - 2000))));
-    auto stream = std::make_unique<juce::FileOutputStream>(juce::File{path.string()});
-    std::unique_ptr<juce::AudioFormatWriter> writer{
-        formats.findFormatForFileExtension(ending)->createWriterFor(stream.get(), 44100.0, 1u, 16, {}, 0)};
-    if (!writer) throw std::runtime_error("no writer for " + ending);
-    stream.release();
-    writer->writeFromAudioSampleBuffer(sound, 0, sound.getNumSamples());
-    writer.reset();
+    const auto path = folder / "knock";
+    if (!test::writeSound(path, format, {48000, {samples}}))
+        throw std::runtime_error("no writer for the format " + std::to_string(format));
     const std::string bytes = bytesOf(path);
     fs::remove(path);
     return bytes;
@@ -141,9 +133,11 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
             {"haptic", "haptic", filesIn(corpus / "haptic"), clipCalls},
             {"ahap", "ahap", filesIn(corpus / "ahap"), clipCalls},
             {"texture", "xml", filesIn(corpus / "texture"), {"material --texture FILE --speed 0.1"}},
-            {"wav", "wav", {knock("wav", folder)}, recordingCalls},
-            {"flac", "flac", {knock("flac", folder)}, recordingCalls},
-            {"ogg", "ogg", {knock("ogg", folder)}, recordingCalls}};
+            {"wav", "wav", {knock(SF_FORMAT_WAV | SF_FORMAT_PCM_16, folder)}, recordingCalls},
+            {"aiff", "aiff", {knock(SF_FORMAT_AIFF | SF_FORMAT_PCM_16, folder)}, recordingCalls},
+            {"flac", "flac", {knock(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, folder)}, recordingCalls},
+            {"ogg", "ogg", {knock(SF_FORMAT_OGG | SF_FORMAT_VORBIS, folder)}, recordingCalls},
+            {"opus", "opus", {knock(SF_FORMAT_OGG | SF_FORMAT_OPUS, folder)}, recordingCalls}};
 }
 
 Outcome run(const std::string& program, const fs::path& folder, const std::string& words) {

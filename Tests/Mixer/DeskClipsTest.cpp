@@ -90,7 +90,7 @@ TEST_F(DeskClipsTest, OnABadgeOrAStripItIsFeltOnThatEnchanterAlone) {
 TEST_F(DeskClipsTest, RefusalsAreOneLine) {
     folder("broken.wav").replaceWithText("no sound");
     drop(field, {folder("broken.wav").getFullPathName()}, field.placeOfShare({0.5, 0.5}));
-    EXPECT_TRUE(refused().endsWith("broken.wav: expected a WAV, FLAC or Ogg Vorbis file"));
+    EXPECT_TRUE(refused().endsWith("broken.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file"));
     drop(strip("Strip A"), {"a.wav", "b.wav"});
     EXPECT_EQ(refused(), "Expected one clip, found 2 files");
     drop(strip("Strip A"), {folder("gone.ahap").getFullPathName()});

@@ -3,9 +3,11 @@
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Io/Wav/WavSink.h"
 #include "Live/Documents/SessionFile.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "Live/Recordings/SessionWav.h"
 #include "Mixer/Knock.h"
 #include "MixerTesting.h"
+#include "Support/WriteSound.h"
 
 namespace physvib {
 namespace {
@@ -168,18 +170,12 @@ TEST_F(Materials, ARecordingThatIsDroppedOnARowIsOfThatMaterial) {
 
 TEST_F(Materials, FlacAndOggAreReadAsWell) {
     ASSERT_TRUE(writeKnock(folder("knock.wav")));
-    juce::AudioFormatManager formats;
-    formats.registerBasicFormats();
-    for (const auto* ending : {"flac", "ogg"}) {
+    const auto knock = readRecording(folder("knock.wav").getFullPathName().toStdString());
+    ASSERT_EQ(knock.error, "");
+    for (const auto& [ending, format] : {std::pair{"flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_16},
+                                         std::pair{"ogg", SF_FORMAT_OGG | SF_FORMAT_VORBIS}}) {
         const auto file = folder("knock").withFileExtension(ending);
-        auto* format = formats.findFormatForFileExtension(ending);
-        ASSERT_NE(format, nullptr) << ending;
-        const std::unique_ptr<juce::AudioFormatReader> wav{formats.createReaderFor(folder("knock.wav"))};
-        std::unique_ptr<juce::AudioFormatWriter> writer{format->createWriterFor(
-            new juce::FileOutputStream{file}, 48000.0, 1, 16, {}, format->getQualityOptions().size() - 1)};
-        ASSERT_NE(writer, nullptr) << ending;
-        writer->writeFromAudioReader(*wav, 0, wav->lengthInSamples);
-        writer.reset();
+        ASSERT_TRUE(test::writeSound(file.getFullPathName().toStdString(), format, knock.value)) << ending;
         tab.measure(file);
         tab.finishMeasuring();
         EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();

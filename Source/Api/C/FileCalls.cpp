@@ -10,8 +10,11 @@
 #include "Scene/EventsCsv.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/PartNames.h"
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <physvib/Version.h>
+#include <span>
 #include <vector>
 
 using namespace physvib;
@@ -221,6 +224,13 @@ int physvib_wav_save(const char* path, const float* samples, int channels, physv
             !fitsWav(channels, frames))
             return fail(PHYSVIB_ERROR_ARGUMENT,
                         "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and less than 4 GB");
+        const std::span all{samples, static_cast<std::size_t>(channels * frames)};
+        if (const auto bad = std::ranges::find_if_not(all, [](float x) { return std::isfinite(x); });
+            bad != all.end())
+            return fail(PHYSVIB_ERROR_ARGUMENT,
+                        "sound: expected finite samples, found NaN or infinity in frame " +
+                            std::to_string((bad - all.begin()) % frames) + " of channel " +
+                            std::to_string((bad - all.begin()) / frames));
         WavSink file{path, channels, rateHz};
         std::vector<const float*> block(static_cast<std::size_t>(channels));
         for (physvib_int64 from = 0; from < frames && file.error().empty(); from += limits::maxBlockFrames) {

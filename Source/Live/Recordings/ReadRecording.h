@@ -4,15 +4,21 @@
 #include "Formats/Clip.h"
 #include "Io/Result.h"
 #include "Io/Wav/SampledSound.h"
+#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace physvib {
 
-/// Reads a recording (WAV, FLAC or Ogg Vorbis, recognised by content) with its own rate and channels, or a
-/// clip (recognised by file extension: Formats/ClipFile.h) at 48 kHz. Or one line naming the file. Only
-/// regular files within the limits of recordings, whose content is as long as the header says. Any thread but
-/// R.
+/// Names of recordings usually end so; what they are is decided by their content.
+inline constexpr std::array<std::string_view, 6> soundEndings{".wav",  ".aiff", ".aif",
+                                                              ".flac", ".ogg",  ".opus"};
+
+/// Reads a recording (DecodeSound.h, recognised by content) with its own rate and channels, or a clip
+/// (recognised by file extension: Formats/ClipFile.h) at 48 kHz. Or one line naming the file. Only regular
+/// files within the limits of recordings, whose content is as long as the header says, and finite. Any thread
+/// but R.
 Result<SampledSound> readRecording(const std::filesystem::path& path);
 
 /// Samples of a clip that was read from that file. Any thread.

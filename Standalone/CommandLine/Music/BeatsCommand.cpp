@@ -55,8 +55,6 @@ public:
         const float share = 1.0f / static_cast<float>(shape_.channels);
         for (std::int64_t j = 0; j < shape_.channels; ++j)
             for (std::size_t i = 0; i < mono_.size(); ++i) mono_[i] += share * channels[j][i];
-        for (float& sample : mono_)
-            if (!std::isfinite(sample)) sample = 0.0f;
         return take(mono_);
     }
 
@@ -228,7 +226,9 @@ int runThrough(const BeatsOptions& o, const LayoutDescription& layout) {
 }
 
 void declareBeats(OptionTable& command, BeatsOptions& o) {
-    command.add("music", o.music, "WAV, FLAC or Ogg Vorbis, of up to a day").required().as("MUSIC.wav");
+    command.add("music", o.music, "WAV, AIFF, FLAC, Ogg Vorbis or Opus, of up to a day")
+        .required()
+        .as("MUSIC.wav");
     command.add("--out", o.eventsPath, "its beats as an event list").written("EVENTS.csv");
     command
         .add("--render", o.wavPath,

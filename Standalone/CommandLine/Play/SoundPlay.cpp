@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays a sound file as a `clip` message, with each channel on its own actuator.
 #include "CommandLine/Play/SoundPlay.h"
+#include "Core/Decibels.h"
+#include "Core/SamplePeak.h"
+#include "Io/Text/NumberText.h"
 #include "Live/Devices/LikelyDevices.h"
 #include "Live/Recordings/ClipFolder.h"
+#include "Live/Recordings/ReadRecording.h"
 #include <algorithm>
-#include <array>
 #include <cctype>
 
 namespace physvib {
 
 namespace {
-
-constexpr std::array<std::string_view, 3> endings{".wav", ".flac", ".ogg"};
 
 std::string channelsOf(const LoadedClip& sound) {
     return std::to_string(sound.channels.size()) + " channels";
@@ -26,7 +27,7 @@ bool namesSound(std::string_view file) {
     std::string small{file};
     for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     const auto ends = [&](std::string_view ending) { return small.ends_with(ending); };
-    return clipFormatOf(file) || std::ranges::any_of(endings, ends);
+    return clipFormatOf(file) || std::ranges::any_of(soundEndings, ends);
 }
 
 Result<LoadedClip> takeSound(RenderJob& options, std::string_view device, LoadedRender& job) {
@@ -47,6 +48,12 @@ Result<LoadedClip> takeSound(RenderJob& options, std::string_view device, Loaded
     scene.name = std::filesystem::path{options.scene}.filename().string();
     scene.fieldWidthMetres = scene.fieldHeightMetres = 1.0;
     if (!first.note.empty()) tell(first.note);
+    float peak = 0.0f;
+    for (const ContactRecording& channel : sound.value.channels)
+        peak = std::max(peak, peakOf(channel.samples));
+    if (const double db = toDecibels(peak); db >= 0.1)
+        tell(options.scene + ": exceeds full scale by " + fixedNumber(db, 1) +
+             " dB, by which its peaks are limited at level 0 dB");
     return sound;
 }
 

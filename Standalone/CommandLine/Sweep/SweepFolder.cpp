@@ -6,8 +6,8 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
 #include "Io/Text/NumberText.h"
-#include "Io/Wav/WavFile.h"
 #include "Lab/Files/StudyFileLimits.h"
+#include "Live/Recordings/SoundHead.h"
 #include "Scene/SceneFileLimits.h"
 #include <algorithm>
 #include <chrono>
@@ -24,15 +24,12 @@ std::string headOf(const PlannedTask& task) {
         {PHYSVIB_VERSION, {{"task", task.hash}, {"call", task.task.call}, {"files", task.files}}});
 }
 
-/// True if the file has the size in its header. After a power failure, a file may exist but be empty or
-/// truncated.
+/// True if the file has as many samples as its header says. After a power failure, a file may exist but be
+/// empty or truncated.
 bool isWavWhole(const std::string& path) {
     if (path.empty()) return true;
-    std::string head(wavSizeBytes, '\0');
     const auto file = openRegular(path, std::numeric_limits<std::size_t>::max());
-    if (!file || std::fread(head.data(), 1, head.size(), file.value.stream.get()) != head.size())
-        return false;
-    return wavFileBytes(head) == static_cast<std::int64_t>(file.value.bytes);
+    return file && readSoundHead(*file.value.stream, static_cast<std::int64_t>(file.value.bytes));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // Controls of the materials tab: list, frequency and decay, surface, test spot, and a thread that measures
 // recordings.
 #include "Mixer/Materials/MaterialsTab.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Materials/FeltRange.h"
 #include "Mixer/Materials/MaterialColumns.h"
@@ -239,7 +240,9 @@ void MaterialsTab::visibilityChanged() {
 void MaterialsTab::browse() {
     const auto folder = juce::SharedResourcePointer<UserFolder> {
         } -> place();
-    askForFile(*this, {"A recording of one hit", ".wav", folder, false, {}, {".flac", ".ogg"}},
+    juce::StringArray others;
+    for (const auto ending : soundEndings) others.add(std::string{ending});
+    askForFile(*this, {"A recording of one hit", ".wav", folder, false, {}, others},
                [this](const juce::File& file) { measure(file); });
 }
 

@@ -40,10 +40,15 @@ def events(time_s: ArrayLike, *, frequency_hz: ArrayLike, decay_per_s: ArrayLike
            duration_s: ArrayLike = 0.0, kind: ArrayLike = HIT, z_m: ArrayLike = 0.0, part: ArrayLike = 0) -> NDArray[np.void]:
     """Events of dtype EVENT, shape (n,), sorted by time; each argument one number, or n of them. Times are rounded to nanoseconds.
     `kind`: HIT, or ROLL or SLIDE of a grain. `part`: the name or number of the part of a body on whose actuators they are felt; 0: on all."""
+    if any(np.ma.is_masked(values) for values in (time_s, frequency_hz, decay_per_s, amplitude, x_m, y_m, duration_s, kind, z_m, part)):
+        raise PhysVibError("events: expected values that are not masked (leave these events out: array.compressed())", -2)
     seconds, durations = np.asarray(time_s, dtype=np.float64), np.asarray(duration_s, dtype=np.float64)
     if not (np.isfinite(seconds).all() and np.isfinite(durations).all()) or np.abs(seconds).max(initial=0.0) > 1e8 or np.abs(durations).max(initial=0.0) > 1e8:
         raise PhysVibError("time: expected 0 to 10^8 s", -2)
-    made = np.zeros(np.broadcast(seconds, frequency_hz, decay_per_s, amplitude, x_m, y_m, durations, kind, z_m, part).shape or (1,), dtype=EVENT)
+    shape = np.broadcast(seconds, frequency_hz, decay_per_s, amplitude, x_m, y_m, durations, kind, z_m, part).shape or (1,)
+    if len(shape) > 1:
+        raise PhysVibError(f"events: expected one number, or n of them, for each, found an array of shape {shape}", -2)
+    made = np.zeros(shape, dtype=EVENT)
     made["time_ns"], made["duration_ns"] = np.rint(seconds * 1e9), np.rint(durations * 1e9)
     for name, values in (("frequency_hz", frequency_hz), ("decay_per_s", decay_per_s), ("amplitude", amplitude), ("x_m", x_m), ("y_m", y_m), ("kind", kind), ("z_m", z_m), ("part", _parts(part))):
         made[name] = values
@@ -153,6 +158,19 @@ def render(list_of: NDArray[np.void], seconds: float, *, layout: str | Layout = 
 
 
 def save_wav(path: str | os.PathLike[str], samples: ArrayLike, rate_hz: int = 48000) -> None:
-    """Samples of shape (channels, frames), or (frames,), as a WAVE file of 32-bit floats."""
-    array = np.ascontiguousarray(np.atleast_2d(samples), dtype=np.float32)
+    """Samples of shape (channels, frames), or (frames,), as a WAVE file of 32-bit floats, whose full scale is 1. Integers of 8, 16 and 32 bits
+    are scaled by the range of their type, as WAV files have them: int16 by 32768, uint8 (whose silence is 128) by 128. Others are refused
+    (PhysVibError), and samples that are masked, NaN or infinite."""
+    if np.ma.is_masked(samples):
+        raise PhysVibError("samples: expected none that are masked (array.filled(0.0) makes silence of them)", -2)
+    array = np.atleast_2d(samples)
+    if array.dtype.kind in "iu" and array.dtype.itemsize <= 4:
+        half = 2.0 ** (8 * array.dtype.itemsize - 1)
+        array = (array.astype(np.float64) - (half if array.dtype.kind == "u" else 0.0)) / half
+    elif array.dtype.kind != "f":
+        raise PhysVibError(f"samples: expected floats, or integers of 8, 16 or 32 bits, found {array.dtype}", -2)
+    if array.ndim > 2:
+        raise PhysVibError(f"samples: expected the shape (channels, frames), found {array.shape}", -2)
+    with np.errstate(over="ignore"):  # infinite then, which the library refuses
+        array = np.ascontiguousarray(array, dtype=np.float32)
     call("wav_save", encoded(path), array.ctypes.data, array.shape[0], array.shape[1], rate_hz)
