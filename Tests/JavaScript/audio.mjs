@@ -388,7 +388,13 @@ test('what is meant for now is dropped, and counted, where the context stands st
     await later(1);
     assert.ok(context.peaks()[0] > 0.1 && output.dropped === 1);
     assert.deepEqual(states, ['suspended', 'running', 'suspended', 'running']);
-    output.strike([{ timeNs: 0, frequencyHz: 100, decayPerSecond: 20, amplitude: 0.5, x: 0.5, y: 0.5 }], 0); // long over
+    const { currentTime } = context, { port } = output.node, post = port.postMessage;
+    port.postMessage = message => { context.run(5); post(message); }; // it comes later
+    output.impact({ x: 0.5, y: 0.5 });
+    context.run(200);
+    await null;
+    assert.equal(output.status.late, 0, 'what is meant for now is not late');
+    output.strike([{ timeNs: currentTime * 1e9, frequencyHz: 100, decayPerSecond: 20, amplitude: 0.5, x: 0.5, y: 0.5 }], 0);
     context.run(200);
     await null;
     assert.equal(output.state, 'late');

@@ -169,12 +169,13 @@ class Output extends EventTarget {
 
     /** Events, `laterNs` after the times they have: left out, now, and dropped where the context stands still for half a second. Late ones are played at once, and counted. */
     strike(events, laterNs) {
-        const offsetNs = laterNs ?? this.#now(), bytes = this.#physvib.eventBytes(events.map(event => ({ ...event, timeNs: Math.max(0, event.timeNs + offsetNs) })));
-        if (laterNs !== undefined || !stands(this.#context)) return this.#tell({ events: bytes });
+        const nowNs = laterNs === undefined ? this.#now() : undefined, bytes = this.#physvib.eventBytes(events.map(event => ({ ...event, timeNs: Math.max(0, event.timeNs + (nowNs ?? laterNs)) })));
+        const tell = () => this.#tell({ events: bytes, nowNs });
+        if (nowNs === undefined || !stands(this.#context)) return tell();
         const act = ({ type }) => {
             this.#context.removeEventListener('statechange', act);
             clearTimeout(timer);
-            if (type !== undefined && !stands(this.#context)) this.#tell({ events: bytes });
+            if (type === 'statechange' && !stands(this.#context)) tell();
             else this.dropped += events.length;
         }, timer = setTimeout(act, waitMs, {});
         this.#context.addEventListener('statechange', act);

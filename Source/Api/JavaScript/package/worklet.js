@@ -48,7 +48,7 @@ class PhysVibProcessor extends AudioWorkletProcessor {
     }
 
     // Times are those of the context; the renderer counts from its first frame.
-    obey({ close, startFrame, events, call, timeNs, values = [], settings, isAsked }) {
+    obey({ close, startFrame, events, nowNs, call, timeNs, values = [], settings, isAsked }) {
         if (isAsked) {
             this.port.postMessage({ hasArrived: true });
             return;
@@ -61,7 +61,8 @@ class PhysVibProcessor extends AudioWorkletProcessor {
         if (!this.isOpen) return;
         this.firstFrame ??= startFrame ?? currentFrame;
         const offset = BigInt(Math.round(this.firstFrame * 1e9 / sampleRate)), after = ns => { const time = BigInt(Math.round(ns)) - offset; return time > 0n ? time : 0n; };
-        if (events) this.given(events, at => this.strike(at, events.length / this.eventBytes, after));
+        const behindNs = nowNs === undefined ? 0 : Math.max(0, currentFrame * 1e9 / sampleRate - nowNs); // of what was meant for now, while its message came
+        if (events) this.given(events, at => this.strike(at, events.length / this.eventBytes, ns => after(ns + behindNs)));
         else {
             const act = (...all) => this.lib[`physvib_renderer_${call}`](this.renderer, after(timeNs), ...all);
             const code = settings ? this.given(settings, act) : act(...values.map(value => (call === 'silence' ? after(value) : value)));
