@@ -284,6 +284,7 @@ test('another device: what isDirect says is how it is connected', async () => {
     await later(1);
     context.heard = [];
     assert.ok(!output.isDirect && context.destination.channelCount === 2);
+    assert.equal((await play(physvib, new Context(8), onRow(9))).context.destination.channelCount, 8, 'a monitor takes no outputs from another output of its context');
     assert.equal(await heardAt(context, output), '0+1 0+1 0+1 0+1');
     context.destination.maxChannelCount = 6;
     context.dispatchEvent(new Event('sinkchange'));
@@ -418,8 +419,8 @@ test('Chromium: a device that fails, is away, and comes back is said, and taken 
     context.run(20);
     devices = [];
     context.resume = async () => new Promise(() => {}); // as Chromium has it while there is no device
-    context.state = 'suspended';
     context.dispatchEvent(new Event('error'));
+    context.state = 'suspended';
     await later(10);
     assert.equal(output.state, 'device lost');
     assert.match(output.hint(), /^The sound device is lost/);
@@ -431,6 +432,14 @@ test('Chromium: a device that fails, is away, and comes back is said, and taken 
     assert.deepEqual(asked, [{ type: 'none' }, '']);
     assert.deepEqual(states, heard);
     assert.deepEqual(states.filter((state, i) => state !== states[i - 1]), ['suspended', 'device lost', 'running'].slice(states[0] === 'suspended' ? 0 : 1));
+    // One that a game has suspended itself stays so.
+    context.state = 'suspended';
+    await later(10);
+    context.dispatchEvent(new Event('error'));
+    await later(1300);
+    assert.equal(output.state, 'device lost');
+    assert.equal(context.state, 'suspended');
+    assert.equal(asked.length, 2);
     // Made where there is none, it runs, and nothing leaves.
     devices = [];
     const feigned = await play(physvib, new (class extends Context { sinkId = ''; async setSinkId() {} })(2), onRow(1));

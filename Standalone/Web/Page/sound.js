@@ -14,7 +14,7 @@ export function silentBecause() {
 }
 
 export class Sound {
-    #context; #node; #mix; #master; #route; #watch; #outputs; #connected = '';
+    #context; #node; #mix; #master; #route; #watch; #outputs; #connected = ''; #isPaused = false;
     /// `onState`: called when what `state` or `isDirect` say may have changed.
     constructor(onTold, onState) { Object.assign(this, { onTold, onState }); }
 
@@ -53,6 +53,7 @@ export class Sound {
 
     #changed() {
         this.#route?.follow();
+        if (this.#isPaused && this.#context.state === 'running') this.#context.suspend(); // its device is back
         this.onState();
     }
     connect(places) {
@@ -78,5 +79,5 @@ export class Sound {
     tell(message, given) { this.#node?.port.postMessage(message, given); }
     setLevel(gain) { this.#master?.gain.setTargetAtTime(gain, this.#context.currentTime, rampSeconds); }
     resume() { return this.#watch.resume(); }
-    pause(isPaused) { return isPaused ? this.#context.suspend() : this.resume(); }
+    pause(isPaused) { return (this.#isPaused = isPaused) ? this.#context.suspend() : this.resume(); }
 }

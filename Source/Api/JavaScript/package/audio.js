@@ -131,7 +131,7 @@ class Output extends EventTarget {
         return { channels: this.channels, level: this.#gain, mutedChannels, late, rejected, settings: this.settings };
     }
     hint() {
-        const { state } = this.#watch, missed = this.dropped > 0 && state !== 'running' ? ` ${this.dropped} hits were dropped while it stood still.` : '';
+        const { state } = this.#watch, missed = this.dropped > 0 ? ` Hits that came while it stood still and were dropped: ${this.dropped}.` : '';
         const why = this.#context.state === 'closed' ? 'The AudioContext is closed: play anew.' : { suspended: 'The AudioContext is suspended: call resume() in a click.', 'device lost': 'The sound device is lost: connect one, and call resume() of the output in a click.' }[state];
         return this.error?.message ?? (why && why + missed);
     }
@@ -279,5 +279,9 @@ export async function play(physvib, context, options = {}) {
             : 'audio: expected a browser with AudioWorklet');
     }
     await added(context, physvib, options.worklet);
-    return new Output(physvib, context, options).opened;
+    const output = new Output(physvib, context, options);
+    return output.opened.catch(error => {
+        output.close();
+        throw error;
+    });
 }

@@ -40,10 +40,10 @@ export class Route {
         this.disconnect();
         [this.#pans, this.#outputs, this.#most] = [pans, outputs, most];
         this.isDirect = outputs ? outputs.every(output => output <= most) : most > 2 && most >= pans.length;
-        if (most > 0 && isReal(context)) destination.channelCount = this.isDirect ? most : Math.min(2, most); // all of them, or a sound server would spread loudspeakers; WebKit tells none
-        destination.channelInterpretation = this.isDirect ? 'discrete' : 'speakers';
+        if (most > 0 && isReal(context)) destination.channelCount = most; // all of them: fewer are loudspeakers, which sound servers spread; WebKit tells none
+        destination.channelInterpretation = most > 1 ? 'discrete' : 'speakers';
         this.#nodes = [split, ...(this.isDirect ? [new ChannelMergerNode(context, { numberOfInputs: most })] : pans.map(pan => new StereoPannerNode(context, { pan })))];
-        const channels = isReal(context) ? channelsOfOutputs(most) : pans.map((_, j) => j);
+        const channels = channelsOfOutputs(most, isReal(context) ? undefined : {});
         this.#from.connect(split);
         pans.forEach((_, j) => (this.isDirect ? split.connect(this.#nodes[1], j, channels[(outputs?.[j] ?? j + 1) - 1]) : split.connect(this.#nodes[1 + j], j)));
         for (const node of this.#nodes.slice(1)) node.connect(destination);
@@ -55,7 +55,7 @@ export class Route {
 
 /** Whether a device takes what a context plays. `changed()` is called when that, or the device, may be another. A device that was lost and is there again is taken. */
 export class Watch {
-    #context; #changed; #sink; #timer; #devices = globalThis.navigator?.mediaDevices; #hasFailed = false; #isMissing = false; #isRenewing = false; #looks = 0;
+    #context; #changed; #sink; #timer; #devices = globalThis.navigator?.mediaDevices; #hasRun = false; #hasFailed = false; #isMissing = false; #isRenewing = false; #looks = 0;
     /** The context's time when it was looked at last. */
     since = 0;
     constructor(context, changed) {
@@ -99,8 +99,9 @@ export class Watch {
     #look = async ({ type }) => {
         const context = this.#context, look = ++this.#looks, { currentTime } = context;
         if (type === 'error') this.#hasFailed = true;
-        else if (context.state === 'running') this.#hasFailed = false;
-        if (type === 'sinkchange' && !this.#isRenewing) this.#sink = context.sinkId; // a game's own wish
+        else if (context.state === 'running') [this.#hasRun, this.#hasFailed] = [true, false];
+        else if (!this.#hasFailed) this.#hasRun = false; // a game's own wish, as is a sink
+        if (type === 'sinkchange' && !this.#isRenewing) this.#sink = context.sinkId;
         const isThere = await this.#isThere();
         if (look !== this.#looks) return; // a newer one knows better
         this.#isMissing = !isThere || context.sinkId?.type === 'none';
@@ -108,7 +109,7 @@ export class Watch {
         this.#changed();
         clearTimeout(this.#timer);
         if (this.state !== 'device lost' || !context.setSinkId || context.state === 'closed' || this.#sink.type === 'none') return;
-        this.#timer = setTimeout(isThere ? () => this.resume() : this.#look, patienceMs, {}); // Chromium does not always say when devices come
+        this.#timer = setTimeout(isThere && this.#hasRun ? () => this.resume() : this.#look, patienceMs, {}); // Chromium does not always say when devices come
     };
     // Chromium runs on without a device, and lists those that there are; Firefox runs on, and answers resume() when there is one.
     async #isThere() {
