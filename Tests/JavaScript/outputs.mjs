@@ -85,6 +85,9 @@ for (const browser of browsers) {
     const pageLost = await told(browser, 'page-lost');
     expect(/no sound device/.test(pageLost.gone) && !/no sound device/.test(pageLost.back) && pageLost.moved && pageLost.heard > 0.001, `${browser}, the page: unplugged "${pageLost.gone}"; plugged in "${pageLost.back}", the world ${pageLost.moved ? 'moves' : 'stands'}, peak ${pageLost.heard}`);
     acts.unplug();
+    const begun = await told(browser, 'page-later');
+    expect(begun.movedBefore && /no sound device/.test(begun.before) && begun.began && begun.moved && begun.heard > 0.001, `${browser}, the page, started before its device was there: "${begun.before}", then "${begun.line}", peak ${begun.heard}`);
+    acts.unplug();
     const none = await told(browser, 'page-none', 120, { PULSE_SERVER: 'unix:/nowhere' });
     expect(none.moved && /no sound device/.test(none.line) && none.canStart !== false, `${browser}, the page without a device: "${none.line}", the world ${none.moved ? 'moves' : 'stands'}`);
 }

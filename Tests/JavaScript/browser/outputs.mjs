@@ -139,6 +139,18 @@ const parts = {
         await later(3000);
         return { gone, back: line(), moved, heard: Math.max(...await ask('heard')) };
     },
+    /** Start where there is no device yet. */
+    async later() {
+        const { $, isMoving } = await started(3000), before = $('output').textContent, movedBefore = await until(isMoving, 3000);
+        await ask('plug');
+        const began = await until(() => $('begin').hidden && !/no sound device/.test($('output').textContent), 15000);
+        await later(1500);
+        await ask('hear');
+        const moved = await until(isMoving, 3000);
+        $('again').click();
+        await later(4000);
+        return { before, movedBefore, began, moved, line: $('output').textContent, heard: Math.max(...await ask('heard')) };
+    },
     async none() {
         const { $, isMoving } = await started(8000);
         const moved = await until(isMoving, 3000);

@@ -4,6 +4,7 @@ import { PhysVibError } from './module.js';
 
 const patienceMs = 1000; // a browser may never answer where there is no device
 const soon = promise => Promise.race([promise.then(() => true, () => false), new Promise(done => setTimeout(done, patienceMs, false))]);
+const renewed = new WeakSet(); // contexts that get another device just now
 const isReal = context => !('length' in context); // an OfflineAudioContext has no device
 /** A context whose time stands still. */
 export const stands = context => isReal(context) && ['suspended', 'interrupted', 'closed'].includes(context.state);
@@ -55,7 +56,7 @@ export class Route {
 
 /** Whether a device takes what a context plays. `changed()` is called when that, or the device, may be another. A device that was lost and is there again is taken. */
 export class Watch {
-    #context; #changed; #sink; #timer; #devices = globalThis.navigator?.mediaDevices; #hasRun = false; #hasFailed = false; #isMissing = false; #isRenewing = false; #looks = 0;
+    #context; #changed; #sink; #timer; #devices = globalThis.navigator?.mediaDevices; #hasRun = false; #hasFailed = false; #isMissing = false; #looks = 0;
     /** The context's time when it was looked at last. */
     since = 0;
     constructor(context, changed) {
@@ -86,12 +87,12 @@ export class Watch {
     /** Whether it runs within a second; on another device where the one it had is gone. To be called in a click. */
     async resume() {
         const context = this.#context;
-        if (this.state === 'device lost' && context.setSinkId) { // Chromium's context is tied to what is gone, or to a device that it feigns
-            this.#isRenewing = true;
+        if (this.state === 'device lost' && context.setSinkId && !renewed.has(context)) { // Chromium's context is tied to what is gone, or to a device that it feigns
+            renewed.add(context);
             await context.setSinkId({ type: 'none' }).then(() => context.setSinkId(this.#sink)).catch(() => {}); // where there is none, time goes on without
         }
         const isRunning = await soon(context.resume());
-        this.#isRenewing = false;
+        renewed.delete(context);
         await this.#look({});
         return isRunning;
     }
@@ -101,14 +102,14 @@ export class Watch {
         if (type === 'error') this.#hasFailed = true;
         else if (context.state === 'running') [this.#hasRun, this.#hasFailed] = [true, false];
         else if (!this.#hasFailed) this.#hasRun = false; // a game's own wish, as is a sink
-        if (type === 'sinkchange' && !this.#isRenewing) this.#sink = context.sinkId;
+        if (type === 'sinkchange' && !renewed.has(context)) this.#sink = context.sinkId;
         const isThere = await this.#isThere();
         if (look !== this.#looks) return; // a newer one knows better
         this.#isMissing = !isThere || context.sinkId?.type === 'none';
         this.since = currentTime;
         this.#changed();
         clearTimeout(this.#timer);
-        if (this.state !== 'device lost' || !context.setSinkId || context.state === 'closed' || this.#sink.type === 'none') return;
+        if (this.state !== 'device lost' || !context.setSinkId || context.state === 'closed' || this.#sink?.type === 'none') return;
         this.#timer = setTimeout(isThere && this.#hasRun ? () => this.resume() : this.#look, patienceMs, {}); // Chromium does not always say when devices come
     };
     // Chromium runs on without a device, and lists those that there are; Firefox runs on, and answers resume() when there is one.
