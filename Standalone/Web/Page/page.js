@@ -237,7 +237,7 @@ $('start').onclick = async () => {
     if (hasStarted) return;
     $('start').disabled = false;
     engine.run();
-    if (isWaiting) $('beginText').textContent = $('output').textContent = `No sound yet: ${noDevice}. When there is one, it begins.`;
+    if (isWaiting) $('beginText').textContent = $('output').textContent = 'No sound yet: this machine has no sound device, or one that is slow. When it answers, sound begins.';
 };
 function goOnWithSound() {
     engine.end();

@@ -65,7 +65,7 @@ class Output extends EventTarget {
         this.#level = new GainNode(context, { ...each, gain: this.#gain = level });
         this.#meter = new AudioWorkletNode(context, 'physvib-meter', { ...each, outputChannelCount: [channels] });
         this.#receipts = new Receipts(channels, context.sampleRate);
-        this.#meter.port.onmessage = ({ data }) => { if (this.#watch.state !== 'device lost') this.#receipts.add(data); };
+        this.#meter.port.onmessage = ({ data }) => { if (!this.#watch.isMissing) this.#receipts.add(data); };
         this.#node.connect(this.#mix).connect(this.#level).connect(this.#meter);
         this.#route = new Route(context, this.#meter);
         this.#connect();
@@ -95,7 +95,7 @@ class Output extends EventTarget {
         this.#route.follow();
         if (state === this.#told) return;
         this.#told = state;
-        if (state === 'device lost') this.#receipts.forget(this.#watch.since);
+        if (this.#watch.isMissing) this.#receipts.forget(this.#watch.since);
         const event = Object.assign(new Event('state'), { state });
         this.onstate?.(event);
         this.dispatchEvent(event);

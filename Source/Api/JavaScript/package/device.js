@@ -56,8 +56,9 @@ export class Route {
 
 /** Whether a device takes what a context plays. `changed()` is called when that, or the device, may be another. A device that was lost and is there again is taken. */
 export class Watch {
-    #context; #changed; #sink; #timer; #devices = globalThis.navigator?.mediaDevices; #hasRun = false; #hasFailed = false; #isMissing = false; #looks = 0;
-    /** The context's time when it was looked at last. */
+    #context; #changed; #sink; #timer; #devices = globalThis.navigator?.mediaDevices; #hasRun = false; #hasFailed = false; #looks = 0;
+    /** Whether the context runs without a device; and the context's time when it was looked at last. */
+    isMissing = false;
     since = 0;
     constructor(context, changed) {
         this.#context = context;
@@ -80,7 +81,7 @@ export class Watch {
     /** 'running', 'suspended' or 'device lost'. */
     get state() {
         const { state = 'running' } = this.#context;
-        if (!isReal(this.#context) || (state === 'running' && !this.#isMissing)) return 'running';
+        if (!isReal(this.#context) || (state === 'running' && !this.isMissing)) return 'running';
         return state === 'suspended' && !this.#hasFailed ? 'suspended' : 'device lost';
     }
 
@@ -93,6 +94,7 @@ export class Watch {
         }
         const isRunning = await soon(context.resume());
         renewed.delete(context);
+        if (!isRunning && globalThis.navigator?.userActivation?.hasBeenActive) this.#hasFailed = true; // so no browser waits for a click: Firefox without a device
         await this.#look({});
         return isRunning;
     }
@@ -102,10 +104,11 @@ export class Watch {
         if (type === 'error') this.#hasFailed = true;
         else if (context.state === 'running') [this.#hasRun, this.#hasFailed] = [true, false];
         else if (!this.#hasFailed) this.#hasRun = false; // a game's own wish, as is a sink
+        if (type === 'sinkchange') this.isMissing = false;
         if (type === 'sinkchange' && !renewed.has(context)) this.#sink = context.sinkId;
         const isThere = await this.#isThere();
         if (look !== this.#looks) return; // a newer one knows better
-        this.#isMissing = !isThere || context.sinkId?.type === 'none';
+        this.isMissing = !isThere || context.sinkId?.type === 'none' || (this.isMissing && context.setSinkId !== undefined); // one that was feigned is kept until another is taken
         this.since = currentTime;
         this.#changed();
         clearTimeout(this.#timer);

@@ -27,7 +27,11 @@ export class Receipts {
         }
     }
     /** What has gone nowhere since then: the device was lost. */
-    forget(seconds) { this.#frames.forEach((frame, slot) => { if (frame >= seconds * this.#rate) this.#frames[slot] = -1; }); }
+    forget(seconds) {
+        this.#frames.forEach((frame, slot) => { if (frame >= seconds * this.#rate) this.#frames[slot] = -1; });
+        this.#strongest = 0;
+        if (this.last > seconds) this.last = seconds || null;
+    }
 
     /** Of each channel, in the blocks that lie in or across these times. */
     left(from, to) {
