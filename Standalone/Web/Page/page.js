@@ -113,6 +113,7 @@ function tellOutput() {
 function soundChanged() {
     if (hasStarted) tellOutput();
     else if (isWaiting && sound.state === 'running') goOnWithSound(), open(state);
+    else if (isWaiting && sound.isLate && !$('start').disabled) start();
 }
 
 // ---- actuators
@@ -223,12 +224,13 @@ function stayAwake() {
     awake = hasStarted && !document.hidden && !isPressed('pause') ? navigator.wakeLock?.request('screen').catch(() => null) : null;
 }
 document.addEventListener('visibilitychange', stayAwake);
-$('start').onclick = async () => {
+async function start() {
+    isWaiting = false;
     $('start').disabled = true;
     const leaning = Tilt.hasSensor ? tilt.follow(true) : false; // phones ask on a click only
     engine.end();
     try {
-        isWaiting = !await sound.start(code, opened(state));
+        isWaiting = !await sound.start(code, opened(state)) && sound.state !== 'running';
         if (!isWaiting) goOnWithSound();
         setPressed('sensor', await leaning);
     } catch (error) {
@@ -236,9 +238,10 @@ $('start').onclick = async () => {
     }
     if (hasStarted) return;
     $('start').disabled = false;
-    engine.run();
+    if (!isPressed('pause')) engine.run();
     if (isWaiting) $('beginText').textContent = $('output').textContent = 'No sound yet: this machine has no sound device, or one that is slow. When it answers, sound begins.';
-};
+}
+$('start').onclick = start;
 function goOnWithSound() {
     engine.end();
     engine = sound;

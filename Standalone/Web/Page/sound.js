@@ -14,7 +14,7 @@ export function silentBecause() {
 }
 
 export class Sound {
-    #context; #node; #mix; #master; #route; #watch; #outputs; #connected = ''; #isPaused = false;
+    #context; #node; #mix; #master; #route; #watch; #outputs; #connected; #isPaused = false; #firstOutputs;
     /// `onState`: called when what `state` or `isDirect` say may have changed.
     constructor(onTold, onState) { Object.assign(this, { onTold, onState }); }
 
@@ -22,17 +22,13 @@ export class Sound {
     async start(code, first) {
         const why = silentBecause();
         if (why) throw new Error(why);
-        if (this.#context) return this.#watch.resume();
+        this.#watch?.end();
+        this.#context?.close(); // of Firefox, which found no device: it never finds one
         const context = this.#context = new AudioContext({ latencyHint: 'interactive' });
+        this.#firstOutputs = this.outputs;
         this.#watch = new Watch(context, () => this.#changed());
         const isRunning = this.#watch.resume(); // while it is a click's doing
-        try {
-            await context.audioWorklet.addModule('worklet.js');
-        } catch (error) {
-            this.#watch.end();
-            this.#context = undefined;
-            throw error;
-        }
+        await context.audioWorklet.addModule('worklet.js');
         const node = this.#node = new AudioWorkletNode(context, 'physvib', { numberOfInputs: 0, outputChannelCount: [mostEnchanters], processorOptions: { code, first } });
         node.port.onmessage = ({ data }) => this.onTold(data);
         node.onprocessorerror = () => this.onTold({ fault: 'the sound has stopped; load the page again' });
@@ -41,6 +37,7 @@ export class Sound {
         this.#master = new GainNode(context, { ...each, gain: firstLevel });
         node.connect(this.#mix).connect(this.#master);
         this.#route = new Route(context, this.#master);
+        this.#connected = '';
         this.connect(first.places);
         return isRunning;
     }
@@ -50,6 +47,9 @@ export class Sound {
     get isDirect() { return this.#route.isDirect; }
     /// 'running', 'suspended' or 'device lost'.
     get state() { return this.#watch.state; }
+
+    /// Whether there was no device at the start, and now is: start anew.
+    get isLate() { return this.#firstOutputs === 0 && this.outputs > 0; }
 
     #changed() {
         this.#route?.follow();

@@ -132,7 +132,7 @@ class Output extends EventTarget {
     }
     hint() {
         const { state } = this.#watch, missed = this.dropped > 0 ? ` Hits that came while it stood still and were dropped: ${this.dropped}.` : '';
-        const why = this.#context.state === 'closed' ? 'The AudioContext is closed: play anew.' : { suspended: 'The AudioContext is suspended: call resume() in a click.', 'device lost': 'The sound device is lost: connect one, and call resume() of the output in a click.' }[state];
+        const why = this.#context.state === 'closed' ? 'The AudioContext is closed: play anew.' : { suspended: 'The AudioContext is suspended: call resume() in a click.', 'device lost': 'The sound device is lost: connect one, and call resume() of the output in a click; if that does not help, play in another AudioContext.' }[state];
         return this.error?.message ?? (why && why + missed);
     }
     /** For World.explain, of its sentence: what left since the last one, instead of what should have. */
