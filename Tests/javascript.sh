@@ -8,6 +8,9 @@ cd "$(dirname "$0")/.."
 physvib=$(realpath "${1:-build/release/bin/physvib}")
 . .ci/packages.sh
 Source/Api/JavaScript/build-package.sh
+# What a page loads that reads no clips; inline.js is instead of physvib.wasm.
+bytes=$(tar -C build/web/javascript/package --exclude=files.wasm --exclude=inline.js -cz . | wc -c)
+[ "$bytes" -lt 180000 ] || { say "the package: expected less than 180 KB compressed, found $bytes bytes"; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 package=$(ls "$PWD"/build/web/physvib-*.tgz)

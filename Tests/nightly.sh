@@ -51,7 +51,7 @@ step() {
         godot) Tests/godot.sh build/release build/nightly/godot && Tests/godot-sanitized.sh build/nightly/godot && Tests/godot-cross.sh build/nightly/godot-arm64 ;;
         web) Tests/web.sh $bin/physvib ;;
         javascript) Tests/javascript.sh $bin/physvib ;;
-        bundlers) Source/Api/JavaScript/build-package.sh && Tests/JavaScript/bundlers.sh && Tests/JavaScript/browsers.sh ;;
+        bundlers) Source/Api/JavaScript/build-package.sh && Tests/JavaScript/bundlers.sh && Tests/JavaScript/browsers.sh && Tests/JavaScript/outputs.sh ;;
         site) Tests/site.sh ;;
         movies) Tests/CommandLine/movies.sh $bin/physvib ;;
         report) Tests/figures/report.sh $bin/physvib build/nightly/report ;;

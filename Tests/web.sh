@@ -10,6 +10,8 @@ physvib=${1:-build/release/bin/physvib}
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_web_test_packages
 Standalone/Web/build-web.sh
+bytes=$(tar -C build/web -cz page | wc -c)
+[ "$bytes" -lt 310000 ] || { say "the page: expected less than 310 KB compressed, found $bytes bytes"; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 seconds=10

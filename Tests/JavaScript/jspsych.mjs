@@ -11,12 +11,12 @@ const physvib = await (await load(folder, 'physvib')).load(), { default: Plugin 
 function run(stimulus, more = {}) {
     const settings = { layout: 'phone4', fieldWidth: 1, fieldHeight: 1 }, struck = [], played = [], timers = [], element = {};
     const output = { context: { currentTime: 1.00001, sampleRate: 48000, outputLatency: 0.02 }, physvib, settings, latencyFrames: 47, status: { late: 0 },
-        strike: (events, laterNs) => struck.push({ events, laterNs }), playSamples: (channels, seconds) => played.push({ channels, seconds }) };
+        strike: (events, laterNs) => struck.push({ events, laterNs }), playSamples: (channels, seconds) => played.push({ channels, seconds }), left: (from, to) => [from, to] };
     let result = null, key = null;
     const pluginAPI = { clearAllTimeouts() {}, cancelAllKeyboardResponses() {}, setTimeout: (call, ms) => timers.push({ call, ms }), getKeyboardResponse: ({ callback_function }) => { key = callback_function; } };
     const defaults = Object.fromEntries(Object.entries(Plugin.info.parameters).map(([name, { default: value }]) => [name, value]));
     new Plugin({ finishTrial: data => { result = data; }, pluginAPI }).trial(element, { ...defaults, output, stimulus, ...more });
-    return { struck, played, timers, end() { timers[0].call(); return result; }, press(letter) { key({ key: letter }); return result; }, element };
+    return { struck, played, timers, end(passed = 10) { output.context.currentTime += passed; timers[0].call(); return result; }, press(letter) { key({ key: letter }); return result; }, element };
 }
 
 test('a strike has its onset to the sample, and the trial says so', () => {
@@ -24,6 +24,9 @@ test('a strike has its onset to the sample, and the trial says so', () => {
     const frame = Math.ceil(1.05001 * 48000), data = end();
     assert.deepEqual([data.onset_frame, laterNs, data.output_latency_s, data.late], [frame + 47, Math.round(frame / 48000 * 1e9), 0.02, false]);
     assert.deepEqual(data.gains, [[0.375, 0.125, 0.375, 0.125]]);
+    assert.ok(data.left[0] === data.onset_s && Math.abs(data.left[1] - data.onset_s - 6.9 / 30) < 1e-9, 'what left, from its onset to its end');
+    const early = run({ message: 'phantom' }).end(0.2), untilNow = 1.00001 + 0.2 - 0.1;
+    assert.ok(Math.abs(early.left[1] - untilNow) < 1e-9, 'and no more than is known');
     assert.deepEqual(JSON.parse(data.call), { message: 'strike', frequencyHz: 200, decayPerSecond: 30, place: { x: 0.25, y: 0.5 } });
     assert.ok(events.length === 1 && timers[0].ms > 280);
     // What an audio thread would make of it begins at that frame.

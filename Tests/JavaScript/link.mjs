@@ -35,13 +35,18 @@ test('what a player opens of it', () => {
 });
 
 for (const [words, line] of [['seed=-1', /seed: expected 0 to/], ['seed=1.5', /seed/], ['seed=1e3', /seed/], ['at=0,0 2,0', /at: expected places/], ['at=0', /at/], ['at=' + Array(9).fill('0,0').join('+'), /at: expected 1 to 8/],
-    ['field=1', /field: expected two lengths/], ['field=0,1', /field/], ['sound=0,200', /sound/], ['sound=a,1,1', /sound/], ['sound=0.5,1,1', /sound/], ['set=height', /set: expected NAME=VALUE/], ['file=%%%', /file: expected a whole file/], ['file=AAAA', /file/]])
+    ['field=1', /field: expected two lengths/], ['field=0,1', /field/], ['sound=0,200', /sound/], ['sound=a,1,1', /sound/], ['sound=0.5,1,1', /sound/], ['sound=4294967296,100,30', /sound/], ['scene=drop%00x', /scene: expected a name/], ['set=height', /set: expected NAME=VALUE/], ['file=%%%', /file: expected a whole file/], ['file=AAAA', /file/]])
     test(`${words.slice(0, 30)} is refused`, async () => assert.rejects(worldOf(words), line));
 
-test('a bomb is not unpacked', async () => {
-    const link = await linkOf({ ...freshWorld(), text: ' '.repeat(4 << 20) });
-    assert.ok(link.length < 10000);
-    await assert.rejects(worldOf(link), /file: expected a whole file/);
+test('what is larger than a link may hold is refused on both sides, with its reason', async () => {
+    const line = { message: 'link: file: expected at most 1 MB, which a link can hold: send the file itself' }, most = 1 << 20;
+    await assert.rejects(linkOf({ ...freshWorld(), scene: 'list.csv', text: ' '.repeat(most + 1) }), line);
+    await assert.rejects(linkOf({ ...freshWorld(), text: '\u00e9'.repeat(most / 2 + 1) }), line); // bytes, not letters
+    const link = await linkOf({ ...freshWorld(), text: ' '.repeat(most) });
+    assert.equal((await worldOf(link)).text.length, most);
+    const bomb = new Blob([new Uint8Array(4 * most)]).stream().pipeThrough(new CompressionStream('deflate-raw')), code = Buffer.from(await new Response(bomb).arrayBuffer()).toString('base64url');
+    assert.ok(code.length < 10000);
+    await assert.rejects(worldOf(`file=${code}`), line);
 });
 
 test('anything else is a world or an error of one line', async () => {

@@ -121,6 +121,25 @@ test('what an engine feels is felt with constant latency, however its frames fal
     assert.equal(followers.size, 0);
 });
 
+test('two worlds of other ages: each hit is felt at its time', () => {
+    const page = new Page(), pads = rumble(physvib, page.system), followers = [], due = [];
+    const add = () => pads.follow({ follow: follower => { followers.push({ follower, ms: 0 }); return () => {}; } });
+    add();
+    for (let step = 0; step < 900; ++step) {
+        page.run(page.ms + 16);
+        if (step === 400) add();
+        for (const [j, one] of followers.entries()) {
+            const isHit = step > 500 && step % 50 === 25 * j;
+            if (isHit) due.push(page.ms);
+            one.follower(isHit ? [hit(one.ms, 1)] : [], { timeNs: (one.ms += 16) * 1e6 });
+        }
+    }
+    page.run(page.ms + 8000);
+    const starts = page.sent.filter(({ low }, i) => low > 0.3 && !(page.sent[i - 1]?.low > 0.3)).map(({ ms }) => ms);
+    assert.deepEqual(starts.map((ms, i) => ms - due[i] >= 0 && ms - due[i] < 100), due.map(() => true), `${starts} for ${due}`);
+    pads.close();
+});
+
 /** A page whose controller plays samples, or says that it does not. */
 function wavePage(answer) {
     const page = new Page(), buffers = [];

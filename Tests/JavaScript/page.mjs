@@ -23,8 +23,13 @@ import { attachVelocities } from 'physvib/velocities';
 import { load as loadInline } from 'physvib/inline';
 import wasm from 'physvib/physvib.wasm';
 import worklet from 'physvib/worklet.js';
-const output = await play(physvib, new AudioContext(), { layout: 'ring3' });
+const output = await play(physvib, new AudioContext(), { layout: 'ring3', outputs: [3, 1, 2] });
 output.follow(haptics);
+output.onstate = ({ state }) => { if (state === 'device lost') output.resume().then((isRunning: boolean) => isRunning); };
+output.addEventListener('state', event => event.state === 'late');
+const [left] = output.left(0, 1), hasLeft: boolean = left!.running && left!.peak > 0 && left!.meanSquare > 0 && left!.frames > output.dropped, over: Promise<void> = output.buzz(0);
+// @ts-expect-error: no such state
+output.onstate = ({ state }) => state === 'lost';
 rumble(physvib, { profile: 'pad-xbox' }).follow(haptics);
 box2d3(physvib, {}, { b2: {}, metresPerUnit: 1 }).update(0.01);
 planck(physvib, {}).update(1 / 60);

@@ -15,7 +15,8 @@ from served import expect, failures, hash_in_page, hash_of, serve
 page, physvib, pictures, *axe = (os.path.abspath(path) for path in sys.argv[1:])
 seconds = 10
 server = serve(page)
-origin = f"http://127.0.0.1:{server.server_port}/"
+origin = f"http://physvib.test:{server.server_port}/"  # an address that others could open, so links have codes
+as_https = ("--host-resolver-rules=MAP *.test 127.0.0.1", f"--unsafely-treat-insecure-origin-as-secure={origin[:-1]}")
 work = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
 browsers = []
 wanted = "(await import('./page.js')).wanted()"
@@ -24,7 +25,7 @@ sizes = (("desk", 1280, 800, 1), ("laptop", 1366, 680, 1), ("phone", 390, 844, 2
 
 
 def visitor(*options):
-    browsers.append(Browser(tempfile.mkdtemp(dir=work.name), origin, pictures, options))
+    browsers.append(Browser(tempfile.mkdtemp(dir=work.name), origin, pictures, options or as_https))
     browsers[-1].call("Emulation.setDeviceMetricsOverride", width=1280, height=800, deviceScaleFactor=1, mobile=False)
     return browsers[-1]
 
@@ -360,8 +361,8 @@ def still():
 
 
 def plain_http():
-    browser = visitor("--host-resolver-rules=MAP physvib.test 127.0.0.1")
-    browser.origin = f"http://physvib.test:{server.server_port}/"
+    browser = visitor("--host-resolver-rules=MAP *.test 127.0.0.1")
+    browser.origin = f"http://plain.test:{server.server_port}/"
     visit(browser, browser.origin)
     text = browser.value("document.getElementById('beginText').textContent")
     expect(not browser.value("isSecureContext") and text.startswith("No sound here: this page came by http;") and browser.value("document.getElementById('start').hidden"), f"http: {text}")
@@ -369,6 +370,23 @@ def plain_http():
     browser.wait("(globalThis.before ??= [...world.poses]) && world.poses.some((value, i) => Math.abs(value - before[i]) > 0.05)", "a world over http")
     browser.picture("web-http-phone.png", 390, 844, 2)
     return browser
+
+
+def own_address():
+    """An address that only this computer has is no phone's; a page that is opened as a file says what to do."""
+    browser = visitor()
+    browser.origin = f"http://127.0.0.1:{server.server_port}/"
+    visit(browser, browser.origin)
+    share(browser)
+    text = browser.value("document.getElementById('codeNote').textContent")
+    expect(browser.value("document.getElementById('code').hidden") and "serve.py" in text, f"no code of 127.0.0.1: {text}")
+    leave(browser)
+    browser = visitor()
+    browser.origin = "file://"
+    browser.call("Page.navigate", url=f"file://{os.path.abspath(page)}/index.html")
+    browser.wait("document.getElementById('beginText')?.textContent.startsWith('If nothing moves: ')", "a page from a file that says what to do")
+    browsers.remove(browser)
+    browser.end()
 
 
 try:
@@ -384,6 +402,7 @@ try:
     leave(fingers())
     leave(still())
     leave(plain_http())
+    own_address()
     one.wait("navigator.serviceWorker.controller !== null", "a service worker")
     server.shutdown()
     server.server_close()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Encodes a complete world in a URL that gives the same samples in every browser. It follows the #, so servers do not receive it. Defaults are omitted.
-import { mostEnchanters } from './sound.js';
-
+export const mostEnchanters = 8;
 export const corners = [[0, 1], [1, 1], [0, 0], [1, 0]];
 export const firstScene = 'shake-the-box';
 const mostBytes = 1 << 20; // of a scene in a link, unpacked
@@ -18,13 +17,18 @@ const toBase64 = bytes => btoa(Array.from(bytes, byte => String.fromCharCode(byt
 const fromBase64 = text => Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), letter => letter.charCodeAt(0));
 const through = (bytes, stream) => new Blob([bytes]).stream().pipeThrough(stream);
 
+const tooLarge = new Error('link: file: expected at most 1 MB, which a link can hold: send the file itself');
+function expectFits(text) {
+    if (new TextEncoder().encode(text).length > mostBytes) throw tooLarge;
+    return text;
+}
 async function packed(text) { return toBase64(new Uint8Array(await new Response(through(new TextEncoder().encode(text), new CompressionStream('deflate-raw'))).arrayBuffer())); }
 async function unpacked(code) {
     const parts = [], reader = through(fromBase64(code), new DecompressionStream('deflate-raw')).getReader();
     for (let bytes = 0; ;) {
         const { done, value } = await reader.read();
         if (done) return new TextDecoder().decode(new Uint8Array(await new Blob(parts).arrayBuffer()));
-        if ((bytes += value.length) > mostBytes) throw new Error('expected at most 1 MB');
+        if ((bytes += value.length) > mostBytes) throw tooLarge;
         parts.push(value);
     }
 }
@@ -35,7 +39,7 @@ export const isList = world => world.text !== null && world.scene.endsWith('.csv
 /// The URL part after the # for this world.
 export async function linkOf(world) {
     const words = new URLSearchParams({ scene: world.scene });
-    if (world.text !== null) words.set('file', await packed(world.text));
+    if (world.text !== null) words.set('file', await packed(expectFits(world.text)));
     if (isList(world)) words.set('field', world.field.join(','));
     if (world.seed !== 1) words.set('seed', world.seed);
     if (world.byHand) words.set('by', 'hand');
@@ -57,8 +61,9 @@ const numbersOf = (text, count, what, expected, isGood) => {
 export async function worldOf(text) {
     const words = new URLSearchParams(text), world = freshWorld();
     world.scene = (words.get('scene') || firstScene).slice(0, 200);
+    if (/[\0-\x1f]/.test(world.scene)) throw wrong('scene', 'a name', world.scene);
     if (words.has('file')) {
-        try { world.text = await unpacked(words.get('file')); } catch { throw new Error('link: file: expected a whole file; was the link cut off?'); }
+        try { world.text = await unpacked(words.get('file')); } catch (error) { throw error === tooLarge ? error : new Error('link: file: expected a whole file; was the link cut off?'); }
     }
     if (words.has('field')) world.field = numbersOf(words.get('field'), 2, 'field', 'two lengths, m', value => value > 0 && value <= 1e6);
     if (words.has('seed')) [world.seed] = numbersOf(words.get('seed'), 1, 'seed', '0 to 4294967295', value => Number.isInteger(value) && value >= 0 && value < 2 ** 32);
@@ -76,7 +81,7 @@ export async function worldOf(text) {
     world.law = words.get('law') ?? '';
     for (const sound of words.getAll('sound').slice(0, mostMaterials)) {
         const [index, ...values] = numbersOf(sound, 3, 'sound', 'NUMBER,HZ,DECAY', value => value >= 0);
-        if (!Number.isInteger(index)) throw wrong('sound', 'NUMBER,HZ,DECAY', sound);
+        if (!Number.isInteger(index) || index >= mostMaterials) throw wrong('sound', 'NUMBER,HZ,DECAY', sound);
         world.materials.set(index, values);
     }
     return world;

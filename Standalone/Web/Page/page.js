@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Main module of the page: its controls, and display of the player's reports.
 import { Tilt, dragOn } from './hands.js';
-import { freshWorld, openedBy, rounded, worldOf } from './link.js';
+import { freshWorld, mostEnchanters, openedBy, rounded, worldOf } from './link.js';
 import { badgeButtons, materialRows, variableRows } from './mix.js';
 import { Module } from './module.js';
 import { Pads } from './pads.js';
@@ -9,7 +9,7 @@ import { Preview } from './preview.js';
 import { fileLinks, filesOf } from './record.js';
 import { Scope } from './scope.js';
 import { share } from './share.js';
-import { Sound, mostEnchanters, silentBecause } from './sound.js';
+import { Sound, silentBecause } from './sound.js';
 import { World } from './world.js';
 
 const $ = id => document.getElementById(id);
@@ -19,9 +19,9 @@ const recordSeconds = 10;
 const arrangements = { 'four corners': [[0, 1], [1, 1], [0, 0], [1, 0]], 'left and right': [[0, 0.5], [1, 0.5]], 'three in a row': [[0, 0.5], [0.5, 0.5], [1, 0.5]], 'one in the middle': [[0.5, 0.5]] };
 
 export const world = new World($('world'));
-const sound = new Sound(told), scope = new Scope($('scope')), tilt = new Tilt($('tilt'), message => engine?.tell(message));
+const sound = new Sound(told, soundChanged), scope = new Scope($('scope')), tilt = new Tilt($('tilt'), message => engine?.tell(message));
 let engine = null, code, compiled, pads, laws = []; // engine: the preview, and after Start the sound
-let state = freshWorld(), key = 0, best = { at: 0 }, hasStarted = false, hasFallenBack = false; // state: all that a link holds; best: hit of the last second
+let state = freshWorld(), key = 0, best = { at: 0 }, hasStarted = false, isWaiting = false, hasFallenBack = false; // state: all that a link holds; best: hit of the last second
 const own = new Option('', ''); // a file that is no built-in scene
 const asked = new Map(); // worlds that the player has not opened yet, by key
 
@@ -104,9 +104,16 @@ function tellHit([, , hz, decay, amplitude]) {
     const material = world.scene.materials.find((m, i) => Math.abs((state.materials.get(i)?.[0] ?? m.frequency_hz) - hz) < 0.01);
     $('sentence').textContent = `${material ? material.name + ' · ' : ''}${hz.toFixed(0)} Hz · falls by 60 dB in ${(6.908 / decay).toFixed(2)} s · ${decibels(20 * Math.log10(best.amplitude))}`;
 }
+const noDevice = 'this machine has no sound device: nothing is heard or felt';
 function tellOutput() {
-    const count = world.places.length, way = sound.isDirect(count) ? 'each actuator on its own output' : 'heard as a stereo monitor: this device has ' + sound.outputs + (sound.outputs === 1 ? ' output' : ' outputs');
-    $('output').textContent = `${count} ${count === 1 ? 'actuator' : 'actuators'}, ${way} · ${sound.rate / 1000} kHz`;
+    const count = world.places.length, monitor = `heard as a stereo monitor: this device has ${sound.outputs} ${sound.outputs === 1 ? 'output' : 'outputs'}`;
+    const way = { running: `${sound.isDirect ? 'each actuator on its own output' : monitor} · ${sound.rate / 1000} kHz`, 'device lost': noDevice, suspended: isPressed('pause') ? 'paused' : 'the browser has stopped the sound: Restart goes on' }[sound.state];
+    $('output').textContent = `${count} ${count === 1 ? 'actuator' : 'actuators'}, ${way}`;
+}
+function soundChanged() {
+    if (hasStarted) tellOutput();
+    else if (isWaiting && sound.state === 'running') goOnWithSound(), open(state);
+    else if (isWaiting && sound.isLate && !$('start').disabled) start();
 }
 
 // ---- actuators
@@ -129,6 +136,21 @@ $('preset').onchange = () => {
     $('preset').value = '';
 };
 $('attach').onclick = () => arrange([...world.places, [0.5, rounded(0.5 - 0.08 * (world.places.length % 5))]]); // beside the last one
+$('buzz').onclick = async () => {
+    $('buzz').disabled = true;
+    for (let j = 0; j < world.places.length; ++j) {
+        const badge = $('badges').children[j];
+        badge.setAttribute('aria-pressed', true);
+        sound.buzz(j);
+        await new Promise(done => setTimeout(done, 800));
+        badge.removeAttribute('aria-pressed');
+    }
+    $('buzz').disabled = false;
+};
+$('outputs').onchange = () => {
+    const words = $('outputs').value.split(/[\s,]+/).filter(Boolean);
+    try { sound.setOutputs(words.length > 0 ? words.map(Number) : undefined, world.places), fault(''), tellOutput(); } catch (error) { fault(error.message); }
+};
 $('detach').onclick = () => arrange(world.places.filter((_, j) => j !== (world.chosen < 0 ? world.places.length - 1 : world.chosen)));
 $('law').onchange = () => { state.law = $('law').value; place(); };
 dragOn(world, message => engine?.tell(message), isDone => (isDone ? arrange(world.places.map(at => at.map(rounded))) : place()));
@@ -148,7 +170,10 @@ $('scene').onchange = () => choose({ ...freshWorld(), scene: $('scene').value, s
 $('seed').onchange = () => choose({ ...state, seed: Math.min(2 ** 32 - 1, Math.max(0, Math.round(+$('seed').value))) });
 $('open').onclick = () => $('file').click();
 $('file').onchange = () => openFile($('file').files[0]).then(() => ($('file').value = ''));
-$('again').onclick = () => open(state);
+$('again').onclick = () => {
+    if (hasStarted && sound.state !== 'running' && !isPressed('pause')) sound.resume();
+    open(state);
+};
 $('byItself').onchange = () => open({ ...state, byHand: !$('byItself').checked });
 $('sharing').onclick = () => share(compiled, state).catch(error => fault(`link: ${error.message}`));
 $('shared').onclick = () => $('share').close();
@@ -199,28 +224,39 @@ function stayAwake() {
     awake = hasStarted && !document.hidden && !isPressed('pause') ? navigator.wakeLock?.request('screen').catch(() => null) : null;
 }
 document.addEventListener('visibilitychange', stayAwake);
-$('start').onclick = async () => {
+async function start() {
+    isWaiting = false;
     $('start').disabled = true;
-    const preview = engine, leaning = Tilt.hasSensor ? tilt.follow(true) : false; // phones ask on a click only
-    preview.end();
+    const leaning = Tilt.hasSensor ? tilt.follow(true) : false; // phones ask on a click only
+    engine.end();
     try {
-        await sound.start(code, opened(state));
-        engine = sound;
-        hasStarted = true;
-        $('begin').hidden = true;
-        $('record').disabled = false;
+        isWaiting = !await sound.start(code, opened(state)) && sound.state !== 'running';
+        if (!isWaiting) goOnWithSound();
         setPressed('sensor', await leaning);
-        setPressed('pause', false);
-        $('paused').hidden = true;
-        tellOutput();
-        setLevel();
-        stayAwake();
     } catch (error) {
         fault(error.message);
-        $('start').disabled = false;
-        preview.run();
     }
-};
+    if (hasStarted) return;
+    $('start').disabled = false;
+    if (!isPressed('pause')) engine.run();
+    if (isWaiting) $('beginText').textContent = $('output').textContent = 'No sound yet: this machine has no sound device, or one that is slow. When it answers, sound begins.';
+}
+$('start').onclick = start;
+function goOnWithSound() {
+    engine.end();
+    engine = sound;
+    hasStarted = true;
+    isWaiting = false;
+    $('begin').hidden = true;
+    for (const id of ['record', 'buzz', 'outputs']) $(id).disabled = false;
+    setPressed('pause', false);
+    $('paused').hidden = true;
+    $('world').focus({ preventScroll: true });
+    sound.connect(world.places);
+    tellOutput();
+    setLevel();
+    stayAwake();
+}
 function draw() {
     world.draw();
     scope.draw();
@@ -241,6 +277,7 @@ async function begin() {
     if (matchMedia('(prefers-reduced-motion: reduce)').matches) pause(true);
     else preview.run();
     draw();
+    $('beginText').textContent = 'Collisions that can be felt. Drag something; Start adds sound and vibration, 12\u00a0dB below full scale.';
     const why = silentBecause();
     $('start').hidden = why !== '';
     if (why) $('beginText').textContent = why, $('output').textContent = 'Silent.';

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Routes actuator channels to the device: one output each if there are enough, else a stereo monitor panned by their places.
-export const mostEnchanters = 8;
+// Takes actuator channels to the device, by the package's own routes: one output each if there are enough, else a stereo monitor panned by their places.
+import { Route, Watch, buzzOf, expectOutputs } from './device.js';
+import { mostEnchanters } from './link.js';
+
 export const firstLevel = 0.25; // 12 dB below full scale: hands and ears may be attached
 const rampSeconds = 0.0015; // time constant: 58 dB within 10 ms, and still no click
 
@@ -12,52 +14,70 @@ export function silentBecause() {
 }
 
 export class Sound {
-    #context; #node; #master; #pans = []; #connected = '';
-    constructor(onTold) { this.onTold = onTold; }
+    #context; #node; #mix; #master; #route; #watch; #outputs; #connected; #isPaused = false; #firstOutputs;
+    /// `onState`: called when what `state` or `isDirect` say may have changed.
+    constructor(onTold, onState) { Object.assign(this, { onTold, onState }); }
 
-    /// To be called on a click. `code`: the WebAssembly in bytes; `first`: the first scene.
+    /// To be called on a click. `code`: the WebAssembly in bytes; `first`: the first scene. False: no device has answered within a second; onState tells when one does.
     async start(code, first) {
         const why = silentBecause();
         if (why) throw new Error(why);
-        const context = this.#context = new AudioContext({ latencyHint: 'interactive' }), running = context.resume(); // while it is a click's doing
+        this.#watch?.end();
+        this.#context?.close(); // of Firefox, which found no device: it never finds one
+        const context = this.#context = new AudioContext({ latencyHint: 'interactive' });
+        this.#firstOutputs = this.outputs;
+        this.#watch = new Watch(context, () => this.#changed());
+        const isRunning = this.#watch.resume(); // while it is a click's doing
         await context.audioWorklet.addModule('worklet.js');
         const node = this.#node = new AudioWorkletNode(context, 'physvib', { numberOfInputs: 0, outputChannelCount: [mostEnchanters], processorOptions: { code, first } });
         node.port.onmessage = ({ data }) => this.onTold(data);
         node.onprocessorerror = () => this.onTold({ fault: 'the sound has stopped; load the page again' });
-        this.#master = new GainNode(context, { gain: firstLevel });
+        const each = { channelCount: mostEnchanters, channelCountMode: 'explicit', channelInterpretation: 'discrete' };
+        this.#mix = new GainNode(context, each);
+        this.#master = new GainNode(context, { ...each, gain: firstLevel });
+        node.connect(this.#mix).connect(this.#master);
+        this.#route = new Route(context, this.#master);
+        this.#connected = '';
         this.connect(first.places);
-        await running;
+        return isRunning;
     }
 
     get outputs() { return this.#context.destination.maxChannelCount; }
     get rate() { return this.#context.sampleRate; }
+    get isDirect() { return this.#route.isDirect; }
+    /// 'running', 'suspended' or 'device lost'.
+    get state() { return this.#watch.state; }
 
-    /// True if each of that number of actuators has an output.
-    isDirect(count) { return this.outputs >= count && this.outputs > 2; }
+    /// Whether there was no device at the start, and now is: start anew.
+    get isLate() { return this.#firstOutputs === 0 && this.outputs > 0; }
 
+    #changed() {
+        this.#route?.follow();
+        if (this.#isPaused && this.#context.state === 'running') this.#context.suspend(); // its device is back
+        this.onState();
+    }
     connect(places) {
         if (this.#connected === String(places)) return;
         this.#connected = String(places);
-        const destination = this.#context.destination, direct = this.isDirect(places.length), width = direct ? places.length : 2;
-        for (const node of [this.#node, this.#master, ...this.#pans]) node.disconnect();
-        if (this.outputs > 0) destination.channelCount = Math.min(width, this.outputs); // WebKit tells none
-        destination.channelInterpretation = 'discrete';
-        Object.assign(this.#master, { channelCount: width, channelCountMode: 'explicit', channelInterpretation: direct ? 'discrete' : 'speakers' });
-        this.#master.connect(destination);
-        this.#pans = [];
-        if (direct) return void this.#node.connect(this.#master);
-        const split = new ChannelSplitterNode(this.#context, { numberOfOutputs: mostEnchanters });
-        this.#node.connect(split);
-        this.#pans = [split];
-        places.forEach(([x], j) => {
-            const pan = new StereoPannerNode(this.#context, { pan: 2 * x - 1 });
-            split.connect(pan, j);
-            pan.connect(this.#master);
-            this.#pans.push(pan);
-        });
+        if (this.#outputs?.length !== places.length) this.#outputs = undefined; // they were of another number of actuators
+        this.#route.connect(places.map(([x]) => 2 * x - 1), this.#outputs);
+    }
+    /// The device output of each actuator, from 1; undefined: in order.
+    setOutputs(outputs, places) {
+        expectOutputs(outputs, places.length, this.#context);
+        this.#outputs = outputs;
+        this.#connected = '';
+        this.connect(places);
+    }
+    /// 0.3 s at one actuator.
+    buzz(actuator) {
+        const source = buzzOf(this.#context, mostEnchanters, actuator);
+        source.connect(this.#mix);
+        source.start();
     }
 
     tell(message, given) { this.#node?.port.postMessage(message, given); }
     setLevel(gain) { this.#master?.gain.setTargetAtTime(gain, this.#context.currentTime, rampSeconds); }
-    pause(isPaused) { return isPaused ? this.#context.suspend() : this.#context.resume(); }
+    resume() { return this.#watch.resume(); }
+    pause(isPaused) { return (this.#isPaused = isPaused) ? this.#context.suspend() : this.resume(); }
 }

@@ -21,7 +21,7 @@ export class World {
         this.materials = new Map(scene.materials.map((material, index) => [material.name, index]));
         for (const body of scene.bodies) for (const fixture of body.fixtures) fixture.outline = outlineOf(fixture);
     }
-    add(hits) { for (const hit of hits) this.#hits.push({ hit, at: performance.now() }); }
+    add(hits) { if (!document.hidden) for (const hit of hits) this.#hits.push({ hit, at: performance.now() }); } // a page that is hidden draws none, and forgets none
 
     /// Maps metres of the field to pixels of the canvas, and back.
     get map() {

@@ -32,12 +32,12 @@ const browsers = {
     },
     WebKitGTK: (profile, place) => ['xvfb-run', '-a', execFileSync('sh', ['-c', 'ls /usr/lib/*/webkit2gtk-4.*/MiniBrowser | tail -1'], { encoding: 'utf8' }).trim(), '--autoplay-policy=allow', place],
 };
-/** What each told, by its name: `expect(done)` gives done to what comes by POST; nothing within so many seconds: {}. */
-export async function inBrowsers(wanted, place, seconds, expect) {
+/** What each told, by its name: `expect(done)` gives done to what comes by POST; nothing within so many seconds: {}. `more`: of their environment. */
+export async function inBrowsers(wanted, place, seconds, expect, more = {}) {
     const results = {};
     for (const [name, words] of Object.entries(browsers).filter(([name]) => wanted.length === 0 || wanted.includes(name))) {
         const profile = mkdtempSync(join(tmpdir(), 'physvib-browser-')), [program, ...rest] = words(profile, place);
-        const child = spawn(program, rest, { stdio: 'ignore', detached: true, env: { ...process.env, WEBKIT_DISABLE_COMPOSITING_MODE: '1', XDG_CACHE_HOME: profile, XDG_DATA_HOME: profile } });
+        const child = spawn(program, rest, { stdio: 'ignore', detached: true, env: { ...process.env, WEBKIT_DISABLE_COMPOSITING_MODE: '1', XDG_CACHE_HOME: profile, XDG_DATA_HOME: profile, ...more } });
         results[name] = await new Promise(done => {
             expect(done);
             child.on('error', error => done({ error: error.message }));

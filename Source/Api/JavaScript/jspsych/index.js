@@ -32,6 +32,8 @@ const info = {
         gains: { type: ParameterType.COMPLEX },
         /** Whether it came too late for its onset. */
         late: { type: ParameterType.BOOL },
+        /** What left for the device from its onset to its end, as measured, of each channel: { frames, peak, meanSquare, running }. Not running: not all of it left. */
+        left: { type: ParameterType.COMPLEX },
         response: { type: ParameterType.STRING },
         /** From the onset, ms. */
         rt: { type: ParameterType.INT },
@@ -58,7 +60,8 @@ export default class PhysVibPlugin {
         };
         this.#wait(trial, data, start, (onset / rate - now + length) * 1000, () => {
             element.innerHTML = '';
-            this.jsPsych.finishTrial({ ...data, late: output.status.late > lateBefore });
+            const known = Math.max(data.onset_s, Math.min(data.onset_s + length, context.currentTime - 0.1)); // what is newer is not yet told
+            this.jsPsych.finishTrial({ ...data, late: output.status.late > lateBefore, left: output.left(data.onset_s, known) });
         });
     }
 

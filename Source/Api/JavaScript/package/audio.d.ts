@@ -9,12 +9,43 @@ export interface AudioOptions extends RendererSettings {
     level?: number;
     /** Where worklet.js is, for bundlers that move it. */
     worklet?: string | URL;
+    /** The device output of each actuator, from 1 (in order: 1, 2, 3 ...). */
+    outputs?: readonly number[];
+}
+
+/** 'late' for a second after events came after their time. */
+export type OutputState = 'running' | 'suspended' | 'device lost' | 'late';
+export interface StateEvent extends Event { readonly state: OutputState }
+
+/** What left for the device at one actuator. */
+export interface Receipt {
+    /** That a device took. */
+    frames: number;
+    /** Of full scale, behind level, gains and mutes. */
+    peak: number;
+    meanSquare: number;
+    /** Whether a device took every frame between the two times. */
+    running: boolean;
 }
 
 export interface Output {
     readonly channels: number;
-    /** Whether each actuator has an output of its own; else one hears a stereo monitor. */
+    /** Whether each actuator has an output of its own, as it is connected now; else one hears a stereo monitor. */
     readonly isDirect: boolean;
+    readonly state: OutputState;
+    onstate: ((event: StateEvent) => void) | null;
+    addEventListener(type: 'state', listener: (event: StateEvent) => void): void;
+    removeEventListener(type: 'state', listener: (event: StateEvent) => void): void;
+    /** Whether it runs within a second, on another device where its own is gone. To be called in a click. */
+    resume(): Promise<boolean>;
+    /** What left for the device between two times of the context (s; context.outputLatency later it is there): one for each actuator, in whole blocks of 128 frames.
+     * It is told within 0.1 s, and kept for 20. */
+    left(from: number, to: number): Receipt[];
+    /** Which is which: 0.3 s of 200 Hz at one actuator, at half of full scale times the level; resolves when it is over. */
+    buzz(actuator: number): Promise<void>;
+    /** Hits that were meant for a time at which the context stood still: they are over. */
+    readonly dropped: number;
+    /** Of several worlds that follow, the longest. */
     readonly latency: number;
     /** Frames that the browser left out while its audio thread stood still. */
     readonly skipped: number;
@@ -33,14 +64,17 @@ export interface Output {
     /** Samples of yours, a channel per actuator, at the context's rate, from that time of the context (s) on. */
     playSamples(channels: readonly Float32Array[], seconds?: number): AudioBufferSourceNode;
     follow(haptics: Haptics): () => void;
+    /** `laterNs`: from the times of the events to the context's; left out: now. */
     strike(events: readonly HapticEvent[], laterNs?: Nanoseconds): void;
     /** Resolves when what was struck so far is on the audio thread: wait for it before an OfflineAudioContext renders, which may be faster than messages. */
     arrived(): Promise<void>;
     /** One impact now. */
     impact(hit?: Impact): void;
+    /** 0 to 10000. */
     setGain(channel: number, gain: number): void;
     setMute(channel: number, isMuted: boolean): void;
     setLevel(gain: number): void;
+    /** As many actuators as it has. */
     setLayout(settings: RendererSettings): void;
     silence(): void;
     close(): void;

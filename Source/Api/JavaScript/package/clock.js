@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // When a world's time is felt: a line from its time to another clock's, and a latency. A game that steps 1/60 s at each of 45 pictures a second lasts a third longer
 // than its own time, and so does what is felt of it. The line is learned in a second, and anew when the game's pace changes or it has stood still.
+import { PhysVibError } from './module.js';
+
 const nsPerMs = 1e6;
 const frameNs = 15e3; // less than one of audio: by so much a picture may move a line that is learned
 const firstLearningNs = 1000 * nsPerMs, learningNs = 700 * nsPerMs; // meanwhile each picture may move it
@@ -162,12 +164,12 @@ export class Clock {
 }
 
 /** Calls `act(events)` for each step of `source`, an attachment, or of a world whose events are struck by hand; their times are `nowNs`'s, which is undefined while
- * that clock stands still. */
-export function followed(source, clock, nowNs, act) {
-    if (typeof source?.follow !== 'function') throw new TypeError('follow: expected what attach returns');
+ * that clock stands still: events of then are over, `missed(count)`. */
+export function followed(source, clock, nowNs, act, missed) {
+    if (typeof source?.follow !== 'function') throw new PhysVibError(-2, `follow: expected what attach returns, found ${source?.constructor?.name ?? source}`);
     return source.follow((events, world) => {
         const now = nowNs();
-        if (now === undefined) return;
+        if (now === undefined) return missed(events.length);
         clock.align(world.timeNs, now);
         if (events.length > 0) act(events.map(event => ({ ...event, timeNs: Math.max(0, clock.at(event.timeNs)) })));
     });

@@ -18,7 +18,7 @@ function phoneMotor(navigator) {
 }
 
 class Pads {
-    #waves; #motors; #clock; #timer = null; #ends = new Set(); #level; #now; #pads; #vibrate; #setTimer; #clearTimer; #last = { low: 0, high: 0 };
+    #waves; #motors; #latency; #timer = null; #ends = new Set(); #level; #now; #pads; #vibrate; #setTimer; #clearTimer; #last = { low: 0, high: 0 };
     /** Commands sent so far, and those that a controller has refused. */
     commands = 0;
     refused = 0;
@@ -29,7 +29,8 @@ class Pads {
         if (!(level >= 0)) throw new PhysVibError(-2, `level: expected 0 or more, found ${level}`);
         this.#motors = physvib.pad(profile, { fieldWidth, fieldHeight });
         this.#waves = new Waves(physvib, { fieldWidth, fieldHeight }, system.audioBuffer);
-        this.#clock = new Clock(latency);
+        new Clock(latency); // refuses what is none
+        this.#latency = latency;
         this.#level = level;
         this.#now = system.now ?? (() => performance.now());
         this.#pads = system.getGamepads ?? (() => globalThis.navigator?.getGamepads?.() ?? []);
@@ -40,7 +41,7 @@ class Pads {
 
     /** What `haptics` (of attach) feels from now on. What it returns ends that. */
     follow(haptics) {
-        const end = followed(haptics, this.#clock, () => this.#now() * nsPerMs, events => this.strike(events, 0));
+        const end = followed(haptics, new Clock(this.#latency), () => this.#now() * nsPerMs, events => this.strike(events, 0));
         this.#ends.add(end);
         return () => {
             this.#ends.delete(end);

@@ -48,7 +48,7 @@ class PhysVibProcessor extends AudioWorkletProcessor {
     }
 
     // Times are those of the context; the renderer counts from its first frame.
-    obey({ close, startFrame, events, call, timeNs, values = [], settings, isAsked }) {
+    obey({ close, startFrame, events, nowNs, call, timeNs, values = [], settings, isAsked }) {
         if (isAsked) {
             this.port.postMessage({ hasArrived: true });
             return;
@@ -61,9 +61,13 @@ class PhysVibProcessor extends AudioWorkletProcessor {
         if (!this.isOpen) return;
         this.firstFrame ??= startFrame ?? currentFrame;
         const offset = BigInt(Math.round(this.firstFrame * 1e9 / sampleRate)), after = ns => { const time = BigInt(Math.round(ns)) - offset; return time > 0n ? time : 0n; };
-        if (events) this.given(events, at => this.strike(at, events.length / this.eventBytes, after));
-        else if (settings) this.given(settings, at => this.lib[`physvib_renderer_${call}`](this.renderer, after(timeNs), at));
-        else this.lib[`physvib_renderer_${call}`](this.renderer, after(timeNs), ...values.map(value => (call === 'silence' ? after(value) : value)));
+        const behindNs = nowNs === undefined ? 0 : Math.max(0, currentFrame * 1e9 / sampleRate - nowNs); // of what was meant for now, while its message came
+        if (events) this.given(events, at => this.strike(at, events.length / this.eventBytes, ns => after(ns + behindNs)));
+        else {
+            const act = (...all) => this.lib[`physvib_renderer_${call}`](this.renderer, after(timeNs), ...all);
+            const code = settings ? this.given(settings, act) : act(...values.map(value => (call === 'silence' ? after(value) : value)));
+            if (code < 0) this.port.postMessage({ refused: call });
+        }
     }
 
     strike(at, count, after) {
@@ -110,3 +114,41 @@ class PhysVibProcessor extends AudioWorkletProcessor {
     }
 }
 registerProcessor('physvib', PhysVibProcessor);
+
+// The last point before the device: hands on what it gets, and tells peak and mean square of each channel of each block.
+const blocksAtOnce = 16; // 43 ms at 48 kHz
+class PhysVibMeter extends AudioWorkletProcessor {
+    constructor({ outputChannelCount: [channels] }) {
+        super();
+        this.levels = new Float32Array(2 * channels * blocksAtOnce);
+        this.filled = 0; // of them
+        this.isOpen = true;
+        this.port.onmessage = () => { this.isOpen = false; };
+    }
+
+    process([channels], [out]) {
+        const quantum = out[0].length, isNext = currentFrame === this.nextFrame; // the browser leaves quanta out at times
+        if (this.filled > 0 && !isNext) this.tell(quantum);
+        this.nextFrame = currentFrame + quantum;
+        out.forEach((to, j) => {
+            let peak = 0, sum = 0;
+            const samples = channels[j] ?? to; // silence where nothing is connected
+            for (let i = 0; i < quantum; ++i) {
+                const value = samples[i], size = value < 0 ? -value : value;
+                if (size > peak) peak = size;
+                sum += value * value;
+            }
+            if (samples !== to) to.set(samples);
+            this.levels[this.filled++] = peak;
+            this.levels[this.filled++] = sum / quantum;
+        });
+        if (this.filled === this.levels.length) this.tell(quantum);
+        return this.isOpen;
+    }
+    tell(quantum) {
+        const frame = this.nextFrame - quantum * this.filled / this.levels.length * blocksAtOnce;
+        this.port.postMessage({ frame, quantum, levels: this.levels.slice(0, this.filled) });
+        this.filled = 0;
+    }
+}
+registerProcessor('physvib-meter', PhysVibMeter);

@@ -120,7 +120,8 @@ export class World {
             else if (output instanceof Renderer) module.call('renderer_explain', output.name, this.#name, at, most);
             else if (settings) withSettings(module, settings, tell);
             else tell();
-            return (hint ? `${hint} ` : '') + inWords(module.text(at));
+            const said = inWords(module.text(at));
+            return (hint ? `${hint} ` : '') + (output?.measured?.(said) ?? said);
         });
     }
     note(body, note) { this.#module.call('world_note', this.#name, body, notes.indexOf(note)); }
