@@ -2,8 +2,8 @@
 // Packets and lines of any kind to the doors of a session: physvib-hostile-doors COUNT [SEED]. For the
 // sanitizers; prints the one that broke a promise, or before which the program ended (the last line of a log
 // of all would be it: run again with its number as COUNT).
-#include "Support/DoorGrammar.h"
-#include "Support/DoorTrial.h"
+#include "Osc/DoorGrammar.h"
+#include "Osc/DoorTrial.h"
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
