@@ -22,6 +22,7 @@ step() {
         asan) under asan ;;
         tsan) under tsan ;;
         fuzz) build asan physvib-fuzzers && Tests/Fuzz/run.sh 1000000 ;;
+        doors) build asan physvib-hostile-doors && build/asan/bin/physvib-hostile-doors 1000000 "$(date +%j)" ;;
         freed) Tests/Physics/freed.sh ;;
         hostile) Tests/Hostile/run.sh 10000 ;;
         guard) $bin/physvib-guard-figures attack 20000 ;;

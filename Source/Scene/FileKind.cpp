@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Detects the kind of a JSON file by a field that only this kind has.
 #include "Scene/FileKind.h"
+#include "Io/Disk/ReadFile.h"
 #include <array>
-#include <fstream>
+#include <cstdio>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,7 +26,8 @@ constexpr std::array<std::pair<std::string_view, FileKind>, 4> fields{
 
 FileKind fileKind(const std::filesystem::path& path) {
     std::string head(headBytes, '\0');
-    std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+    if (const auto file = openRegular(path, std::numeric_limits<std::size_t>::max()))
+        head.resize(std::fread(head.data(), 1, head.size(), file.value.stream.get()));
     for (const auto& [field, kind] : fields)
         if (head.find(field) != std::string::npos) return kind;
     return FileKind::unknown;

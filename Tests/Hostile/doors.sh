@@ -451,7 +451,8 @@ try_wrong() {
     done
     for words in /physvib/silence "/physvib/silence i 1" "/physvib/silence i 0" "/physvib/silence ss on 1" "/physvib/silence ss on false" "/physvib/silence si off 1" "/physvib/silence s on" \
         "/physvib/silence sisi on 1 id 7" "/physvib/silence sisi on 0 on 0" "/physvib/silence sii on 0 0" "/physvib/silence sb on blob" "/physvib/silence sf on nan" "/physvib/silence sN on -" \
-        "/physvib/silence F -" "/physvib/silence/ si on 0" "/physvib/silence/on i 1" "/physvib/Silence si on 1" "/physvib/silences"; do
+        "/physvib/silence F -" "/physvib/silence/ si on 0" "/physvib/silence/on i 1" "/physvib/Silence si on 1" "/physvib/silences" \
+        "/physvib/silence ss message stop" "/physvib/silence ss input tilt" "/physvib/sil* si on 0" "/*/{stop,silence}"; do
         # shellcheck disable=SC2086 # words
         osc say $words >answer; wrong "/physvib/silence" "${words#/physvib/}" answer "$(sed -n 's/^sent //p' answer)"
     done

@@ -162,5 +162,37 @@ TEST_F(AtomicFilePosixTest, CommitFailsIfTheTemporaryIsGone) {
     EXPECT_EQ(filesInFolder(), 0u);
 }
 
+// Who records reads this at the end, and not that all is well.
+TEST_F(AtomicFilePosixTest, WhatOthersDoToAShownFileIsTold) {
+    const std::string
+        path = (folder / "out.wav").string(),
+        gone = path + ": cannot be written: it was removed, moved or replaced while it was being written",
+        cut = path + ": cannot be written: another program changed its length while it was being written";
+    const auto after = [&](auto act) {
+        AtomicFile file(path);
+        file.writeAt(0, "begun");
+        EXPECT_EQ(file.show(), "");
+        act();
+        file.writeAt(5, " and ended");
+        return file.commit();
+    };
+    EXPECT_EQ(after([] {}), "");
+    EXPECT_EQ(contentOf(path), "begun and ended");
+    EXPECT_EQ(after([&] { fs::remove(path); }), gone);
+    EXPECT_EQ(after([&] { fs::rename(path, folder / "kept.wav"); }), gone);
+    EXPECT_EQ(contentOf(folder / "kept.wav"), "begun and ended") << "a move loses nothing";
+    EXPECT_EQ(after([&] { put(folder / "other", "mine"), fs::rename(folder / "other", path); }), gone);
+    EXPECT_EQ(contentOf(path), "mine");
+    EXPECT_EQ(after([&] { fs::resize_file(path, 0); }), cut);
+    EXPECT_EQ(after([&] { fs::resize_file(path, 1000); }), cut);
+    fs::remove(path);
+    fs::create_directory(folder / "sub");
+    put(folder / "sub" / "real.wav", "old");
+    fs::create_symlink("sub/real.wav", path);
+    EXPECT_EQ(after([] {}), "") << "through a link";
+    EXPECT_EQ(contentOf(folder / "sub" / "real.wav"), "begun and ended");
+    EXPECT_EQ(after([&] { fs::remove(folder / "sub" / "real.wav"); }), gone);
+}
+
 } // namespace
 } // namespace physvib

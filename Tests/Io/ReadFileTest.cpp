@@ -3,6 +3,11 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Support/FileTesting.h"
+#if !defined(_WIN32)
+#include <csignal>
+#include <sys/stat.h>
+#include <thread>
+#endif
 
 namespace physvib {
 namespace {
@@ -28,7 +33,45 @@ TEST_F(ReadFileTest, RefusesAFileAboveTheLimit) {
 }
 
 #if !defined(_WIN32)
-TEST_F(ReadFileTest, EndsAtTheLimitOfAnEndlessDevice) { EXPECT_FALSE(readFile("/dev/zero", 1'000'000)); }
+TEST_F(ReadFileTest, RefusesWhatMayNeverEndBeforeItReads) {
+    for (const char* device : {"/dev/zero", "/dev/full", "/dev/null", "/dev"})
+        EXPECT_EQ(readFile(device, 1'000'000).error,
+                  std::string(device) +
+                      ": cannot be read: expected a file or a pipe, found a folder or a device");
+}
+
+TEST_F(ReadFileTest, ReadsAPipeToItsEndHoweverLateItBegins) {
+    const std::string path = (folder / "pipe").string();
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    for (const int ms : {0, 300}) {
+        std::thread writer{[&] { // as `slow command | cat >pipe`
+            const OpenFile pipe{std::fopen(path.c_str(), "wb")};
+            std::this_thread::sleep_for(std::chrono::milliseconds{ms});
+            for (int k = 0; k < 30'000; ++k) std::fputs("line\n", pipe.get());
+        }};
+        const auto read = readFile(path, 1'000'000);
+        writer.join();
+        EXPECT_EQ(read.error, "");
+        EXPECT_EQ(read.value.size(), 150'000U);
+        EXPECT_TRUE(read.value.starts_with("line\nline\n"));
+    }
+    EXPECT_EQ(readFile(path, 1'000'000).error, path + ": cannot be read: no program writes to this pipe");
+}
+
+TEST_F(ReadFileTest, EndsAtTheLimitOfAPipeWithoutEnd) {
+    const std::string path = (folder / "pipe").string();
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    std::thread writer{[&] {
+        std::signal(SIGPIPE, SIG_IGN);
+        const OpenFile pipe{std::fopen(path.c_str(), "wb")};
+        const std::string block(100'000, 'x');
+        while (std::fwrite(block.data(), 1, block.size(), pipe.get()) == block.size()) {
+        }
+    }};
+    const auto read = readFile(path, 10 * maxPipeBytes);
+    writer.join();
+    EXPECT_EQ(read.error, path + ": expected at most " + std::to_string(maxPipeBytes) + " bytes, found more");
+}
 #endif
 
 TEST_F(ReadFileTest, NamesAMissingFile) {

@@ -7,7 +7,9 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 namespace physvib {
@@ -136,6 +138,38 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
     for (const auto live : lives) EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
 }
 
+// As a program does that starts others without exec(): a child has none of the threads.
+TEST(LiveCalls, AChildOfForkLetsGoAndItsParentPlaysOn) {
+    physvib_live live = nullptr;
+    ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK)
+        << physvib_live_error();
+    const auto endsWith = [](auto act) {
+        const pid_t child = fork();
+        if (child == 0) {
+            alarm(20);
+            act();
+            std::exit(7); // with what is registered for the end of a program
+        }
+        int status = 0;
+        waitpid(child, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    };
+    EXPECT_EQ(endsWith([] {}), 7);
+    EXPECT_EQ(endsWith([live] { _exit(physvib_live_close(live) == PHYSVIB_OK ? 3 : 4); }), 3);
+    EXPECT_EQ(endsWith([live] { physvib_live_close(live); }), 7);
+    EXPECT_EQ(endsWith([live] {
+                  const int code = physvib_live_silence(live, 1);
+                  _exit(code == PHYSVIB_ERROR_DEVICE ? 3 : 4);
+              }),
+              3)
+        << "nothing is silenced there, and nobody told so";
+    physvib_live_status status;
+    physvib_live_status_init(&status, sizeof status);
+    EXPECT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
+    EXPECT_EQ(status.is_running, 1);
+    EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
+}
+
 TEST(LiveCalls, DevicesAreListedInTheCallersStructures) {
     const int count = physvib_live_devices(nullptr, 0, 0);
     ASSERT_GE(count, 0);
@@ -153,6 +187,7 @@ TEST(LiveCalls, DevicesAreListedInTheCallersStructures) {
     }
     physvib_device one;
     EXPECT_EQ(physvib_live_devices(&one, 1, 8), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(physvib_live_devices(&one, 1, std::numeric_limits<std::size_t>::max()), PHYSVIB_ERROR_ARGUMENT);
     EXPECT_EQ(physvib_live_devices(nullptr, 1, sizeof one), PHYSVIB_ERROR_ARGUMENT);
 }
 

@@ -334,10 +334,19 @@ TEST(OscDoors, SilenceIsTakenAndAnsweredAlwaysAndInOrder) {
 }
 
 TEST(OscDoors, WhatIsNoOffInItsRightFormSilencesAndIsRefused) {
-    for (const auto& packet : {oscPacket("/physvib/silence", {}), oscWords("/physvib/silence", {"on", "1"}),
-                               oscPacket("/physvib/silence", {"", {{"on", 0.0}, {"id", 7.0}}}),
-                               oscPacket("/physvib/silence/", {"", {{"on", 0.0}}}),
-                               std::vector<char>{'/', 's', 'i', 'l', 'e', 'n', 'c', 'e'}}) {
+    for (const auto& packet :
+         {oscPacket("/physvib/silence", {}), oscWords("/physvib/silence", {"on", "1"}),
+          oscPacket("/physvib/silence", {"", {{"on", 0.0}, {"id", 7.0}}}),
+          oscPacket("/physvib/silence/", {"", {{"on", 0.0}}}),
+          oscWords("/physvib/silence", {"message", "stop"}), // a line of another kind
+          oscWords("/physvib/silence", {"input", "tilt"}), oscWords("/physvib/silence", {"control", "gain"}),
+          oscWords("/physvib/silence", {"", ""}), oscPacket("/physvib/sil*", {"", {{"on", 0.0}}}), // only the
+                                                                                                   // address
+                                                                                                   // itself
+                                                                                                   // lifts
+          oscPacket("/physvib/s?lenc[d-f]", {}), oscPacket("/*/{stop,silence}", {}),
+          std::vector<char>{'/', 'p', 'h', 'y', 's', 'v', 'i', 'b', '/', 's', 'i', '*'},
+          std::vector<char>{'/', 's', 'i', 'l', 'e', 'n', 'c', 'e'}}) {
         Open open;
         open.door.take(packet, open.clock, open.answers, 6);
         ASSERT_EQ(open.acted.size(), 1U);
@@ -366,6 +375,9 @@ TEST(OscDoors, SilencesOfAPacketAreCountedAsTheyAreRead) {
         silencesIn(oscPacket("/physvib/gain", {"", {{"channel", 1.0}, {"value", "/physvib/silence"s}}})), 0U);
     EXPECT_EQ(silencesIn(std::string{"/physvib/silence"}), 1U) << "broken, but readable so far";
     EXPECT_EQ(silencesIn(std::string{"/physvib/strike"}), 0U);
+    EXPECT_EQ(silencesIn(std::string{"/physvib/str*"}), 0U);
+    EXPECT_EQ(silencesIn(oscPacket("/physvib/st{op,rike}", {})), 0U);
+    EXPECT_EQ(silencesIn(oscPacket("/physvib/answer/*", on)), 0U);
     auto both = oscBundle("/physvib/silence", on, oscNow);
     const auto second = oscBundle("/physvib/silence", off, oscNow);
     both.insert(both.end(), second.begin() + 16, second.end());

@@ -102,5 +102,22 @@ TEST(OscPackets, ValuesHaveNames) {
     EXPECT_EQ(plainOf("strike", {"level"s}).error, "strike: level: expected a value");
 }
 
+TEST(OscPackets, PatternsAreThoseOfTheStandard) {
+    constexpr std::string_view address = "/physvib/silence";
+    for (const char* pattern :
+         {"/physvib/silence", "*", "/*", "/*/*", "/physvib/sil*", "/physvib/*e", "/physvib/*silence*",
+          "/physvib/?ilence", "/physvib/[a-z]ilence", "/physvib/[xs]ilence", "/physvib/[!a-r]ilence",
+          "/physvib/{silence}", "/physvib/{stop,silence}", "/physvib/{sil,si}ence", "/{a,phys}vib/s*n*e",
+          "/physvib/silence*", "/physvib/silence{,s}"})
+        EXPECT_TRUE(matchesOscPattern(pattern, address)) << pattern;
+    for (const char* pattern :
+         {"", "/", "/physvib/silenc", "/physvib/silences", "/physvib/?silence", "/physvib/silence?",
+          "/physvib/[t-z]ilence", "/physvib/[!s]ilence", "/physvib/{stop,strike}", "/physvib/str*", "*x*",
+          "/physvib/[]silence", "/physvib/sil[", "/physvib/{silence,", "/physvib/{}", "/physvib/sil{ence,}s"})
+        EXPECT_FALSE(matchesOscPattern(pattern, address)) << pattern;
+    EXPECT_FALSE(matchesOscPattern(std::string(60'000, '*') + "!", address)) << "and soon";
+    EXPECT_TRUE(matchesOscPattern("", ""));
+}
+
 } // namespace
 } // namespace physvib

@@ -123,6 +123,38 @@ TEST_F(SessionJournals, WaitForADiskThatIsFullAndMissNothing) {
     EXPECT_EQ(rows(), events);
 }
 
+TEST_F(SessionJournals, SayWhatOthersDidToTheirFiles) {
+    const auto file = folder / "monday.json", list = folder / "monday.events.csv";
+    const std::string
+        gone = ": cannot be written: it was removed, moved or replaced while it was being written",
+        cut = ": cannot be written: another program changed its length while it was being written";
+    const auto after = [&](auto act) {
+        Session session{setup};
+        session.prepare(hostRate, 480);
+        SessionJournal journal{file, session, setup, {}};
+        EXPECT_EQ(journal.error(), "");
+        play(session, journal, 100);
+        act();
+        play(session, journal, 100);
+        journal.end(session.status().sessionNs);
+        return journal.finish();
+    };
+    EXPECT_EQ(after([] {}), "");
+    EXPECT_EQ(after([&] { std::filesystem::remove(file); }), file.string() + gone);
+    EXPECT_EQ(after([&] { std::filesystem::resize_file(file, 10); }), file.string() + cut);
+    EXPECT_EQ(after([&] { std::filesystem::remove(list); }), list.string() + gone);
+    EXPECT_EQ(loadSession(file).error, "") << "the other is whole";
+    EXPECT_EQ(after([&] { std::filesystem::resize_file(list, 3); }), list.string() + cut);
+    EXPECT_EQ(
+        after([&] { std::filesystem::rename(list, folder / "kept.csv"), std::ofstream{list} << "mine"; }),
+        list.string() + gone);
+    EXPECT_EQ(text("monday.events.csv"), "mine");
+    EXPECT_EQ(
+        after([&] { std::filesystem::rename(file, folder / "kept.json"), std::ofstream{file} << "mine"; }),
+        file.string() + gone);
+    EXPECT_EQ(text("monday.json"), "mine");
+}
+
 TEST_F(SessionJournals, TouchNeitherFileIfOneCannotBe) {
     Session session{setup};
     session.prepare(hostRate, 480);

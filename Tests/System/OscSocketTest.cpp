@@ -48,6 +48,9 @@ TEST(OscSockets, APortHasOneOwner) {
 
 TEST(OscSockets, WhatCannotBeIsToldInALine) {
     EXPECT_FALSE(OscSocket::listening("not an address", 9000));
+    for (const char* many : {"255.255.255.255", "224.0.0.1", "239.1.2.3", "ff02::1"})
+        EXPECT_FALSE(OscSocket::listening(many, 0)) << many;
+    EXPECT_TRUE(OscSocket::listening("localhost", 0));
     EXPECT_EQ(OscSocket::connected("nowhere").error, "expected HOST:PORT, found \"nowhere\"");
     EXPECT_FALSE(OscSocket::connected(here + ":70000"));
     EXPECT_FALSE(OscSocket{}.wait(1)) << "where none is open, nothing comes";

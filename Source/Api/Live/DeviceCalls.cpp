@@ -44,9 +44,9 @@ std::vector<physvib_device> allDevices() {
 
 int physvib_live_devices(physvib_device* devices, int capacity, size_t size) {
     return guarded([&] {
-        constexpr std::size_t least = offsetof(physvib_device, channels) + sizeof(int);
-        if (capacity < 0 || (capacity > 0 && (devices == nullptr || size < least)))
-            return nothingThere("devices: expected a place for them");
+        constexpr std::size_t least = offsetof(physvib_device, channels) + sizeof(int), most = 1 << 16;
+        if (capacity < 0 || (capacity > 0 && (devices == nullptr || size < least || size > most)))
+            return nothingThere("devices: expected a place for them, and the size of one");
         const auto all = allDevices();
         const std::size_t written = std::min(size, sizeof(physvib_device));
         auto* at = reinterpret_cast<std::byte*>(devices); // the caller's structures may be longer

@@ -2,6 +2,7 @@
 // A live rig for programs without a message loop: session, audio device and sinks, with a message thread of
 // their own. The session has no world of its own.
 #pragma once
+#include "Live/Devices/ThisThread.h"
 #include "Live/Rig/Rig.h"
 #include <atomic>
 #include <future>
@@ -22,7 +23,8 @@ struct LiveStatus {
     std::string trouble;
 };
 
-/// Created and ended on any thread, one call at a time.
+/// Created and ended on any thread, one call at a time. A child of fork() has its memory and none of its
+/// threads: there it is neither used nor destroyed.
 class Live {
 public:
     explicit Live(RigSettings settings)
@@ -42,6 +44,7 @@ public:
     Session& session() noexcept { return rig_->session(); }
     AudioOutput& output() noexcept { return rig_->output(); }
     LiveStatus status() const;
+    bool isOfThisProcess() const noexcept { return process_ == thisProcess(); }
     double longestGapSeconds() const noexcept { return rig_->settings().setup.longestGapSeconds; }
 
 private:
@@ -49,6 +52,7 @@ private:
     void run(std::promise<std::string> opened);
     bool watch();
 
+    const int process_ = thisProcess();
     RigSettings settings_;   // until the rig is created
     std::optional<Rig> rig_; // owned by the message thread, which outlives every call
     std::atomic<bool> isEnding_{false};

@@ -26,6 +26,9 @@ auto in(physvib_live name, Call call) noexcept -> decltype(call(std::declval<Liv
     return guarded([&]() -> decltype(call(std::declval<Live&>())) {
         const auto live = lives().use(nameOf(name));
         if (!live) return unknownHandle();
+        if (!live->isOfThisProcess())
+            return fail(PHYSVIB_ERROR_DEVICE, "live: the process that opened it plays on; expected a device "
+                                              "that is opened after fork()");
         return call(*live);
     });
 }

@@ -42,12 +42,13 @@ Opened& opened() {
 int closeNamed(std::uintptr_t name) noexcept {
     return guarded([&] {
         const std::lock_guard lock{openMutex()};
-        const auto live = lives().take(name);
+        auto live = lives().take(name);
         if (!live) return unknownHandle();
         {
             const std::lock_guard listed{opened().mutex};
             std::erase_if(opened().all, [name](const Open& open) { return open.name == name; });
         }
+        if (!live->isOfThisProcess()) return live.release(), PHYSVIB_OK;
         return resultOf(live->end(), PHYSVIB_ERROR_FILE);
     });
 }

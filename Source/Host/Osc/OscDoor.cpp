@@ -20,8 +20,19 @@ std::string_view addressIn(std::span<const char> bytes) {
     return text.starts_with('/') ? text.substr(0, text.find('\0')) : std::string_view{};
 }
 
+/// An address of silence, also as a pattern of OSC ("/physvib/sil*"), which no other address may be.
 bool isForSilence(std::string_view address) {
-    return address.starts_with(oscPrefix) && namesSilence(address) && !isReply(address);
+    return !isReply(address) && ((address.starts_with(oscPrefix) && namesSilence(address)) ||
+                                 matchesOscPattern(address, oscSilenceAddress));
+}
+
+/// Whether a packet that cannot be read may have been meant for silence.
+bool resemblesSilence(std::span<const char> bytes) {
+    const std::string_view text = textOf(bytes);
+    if (namesSilence(text)) return true;
+    for (std::size_t at = text.find('/'); at != text.npos; at = text.find('/', text.find('\0', at)))
+        if (isForSilence(text.substr(at, text.find('\0', at) - at))) return true;
+    return false;
 }
 
 /// What a message to such an address requests. A malformed message has an error and still requests silence.
@@ -29,9 +40,7 @@ bool isForSilence(std::string_view address) {
 Result<SilenceControl> silenceOf(const OscMessage& message) {
     if (message.address != oscSilenceAddress) return Failure{"expected " + std::string(oscSilenceAddress)};
     const auto plain = plainOf(oscSilenceAddress.substr(oscPrefix.size()), message.values);
-    if (!plain) return Failure{plain.error};
-    const auto input = readPlainInput(plain.value, {}, 1);
-    return input ? Result{std::get<SilenceControl>(input.value)} : Failure{input.error};
+    return plain ? readPlainSilence(plain.value.values) : Failure{plain.error};
 }
 
 bool isMessage(const std::string& name) {
@@ -56,8 +65,7 @@ void OscDoor::take(std::span<const char> bytes, const OscClock& clock,
     if (!read) {
         ++counts_.bad;
         origin_.address = addressIn(bytes);
-        refuse(origin_.address,
-               namesSilence(textOf(bytes)) ? silence(Failure{read.error}, answers) : read.error);
+        refuse(origin_.address, resemblesSilence(bytes) ? silence(Failure{read.error}, answers) : read.error);
     }
     for (const OscMessage& message : read.value) {
         ++counts_.messages;
@@ -146,12 +154,15 @@ PlainMessage OscDoor::status() {
 }
 
 std::uint64_t silencesIn(std::span<const char> bytes) {
-    if (!namesSilence(textOf(bytes))) return 0;
+    if (!namesSilence(textOf(bytes)) &&
+        textOf(bytes).find_first_of(oscPatternMarks) == std::string_view::npos)
+        return 0;
     const auto read = readOscPacket(bytes);
     const auto silences = [](const OscMessage& message) {
         return isForSilence(message.address) && silenceOf(message).value.isOn;
     };
-    return read ? static_cast<std::uint64_t>(std::ranges::count_if(read.value, silences)) : 1;
+    return read ? static_cast<std::uint64_t>(std::ranges::count_if(read.value, silences))
+                : static_cast<std::uint64_t>(resemblesSilence(bytes));
 }
 
 } // namespace physvib

@@ -2,6 +2,8 @@
 // Parses and writes OSC bundles and messages, and converts values with names.
 #include "Host/Osc/OscPacket.h"
 #include "Io/Text/NumberText.h"
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <lo/lo.h>
@@ -113,6 +115,18 @@ std::vector<char> bytesOf(const MessagePointer& message, const std::string& addr
     return bytes;
 }
 
+/// Whether the set of a pattern, as it stands between the brackets, has `c`.
+bool isInSet(std::string_view set, char c) noexcept {
+    const bool isNegated = set.starts_with('!');
+    bool has = false;
+    for (std::size_t i = isNegated ? 1 : 0; i < set.size(); ++i) {
+        const std::size_t last = i + 2 < set.size() && set[i + 1] == '-' ? i + 2 : i;
+        has = has || (set[i] <= c && c <= set[last]);
+        i = last;
+    }
+    return has != isNegated;
+}
+
 } // namespace
 
 Result<std::vector<OscMessage>> readOscPacket(std::span<const char> bytes) {
@@ -142,6 +156,36 @@ std::vector<char> oscBundle(const std::string& address, const PlainMessage& mess
     std::vector<char> bytes(lo_bundle_length(bundle.get()));
     lo_bundle_serialise(bundle.get(), bytes.data(), nullptr);
     return bytes;
+}
+
+// Bit i of `reached`: the first i characters of the address match what was read of the pattern. (liblo's own
+// matcher reads beyond the end of an address.)
+bool matchesOscPattern(std::string_view pattern, std::string_view address) {
+    const auto next = [&](std::uint64_t reached, auto takes) {
+        std::uint64_t further = 0;
+        for (std::size_t i = 0; i < address.size(); ++i)
+            if ((reached >> i & 1U) != 0 && takes(address[i])) further |= std::uint64_t{2} << i;
+        return further;
+    };
+    std::uint64_t reached = 1;
+    for (std::size_t at = 0; at < pattern.size() && reached != 0; ++at) {
+        const char mark = pattern[at];
+        const std::size_t end = pattern.find(mark == '[' ? ']' : mark == '{' ? '}' : mark, at);
+        if (end == pattern.npos) return false; // cut
+        const std::string_view inside = pattern.substr(at + 1, end - std::min(end, at + 1));
+        at = end;
+        if (mark == '*')
+            reached = ~std::uint64_t{0} << std::countr_zero(reached);
+        else if (mark == '{') {
+            std::uint64_t any = 0, one = reached;
+            for (const char c : inside)
+                one = c == ',' ? (any |= one, reached) : next(one, [c](char found) { return found == c; });
+            reached = any | one;
+        } else
+            reached = next(
+                reached, [&](char c) { return mark == '[' ? isInSet(inside, c) : mark == '?' || mark == c; });
+    }
+    return (reached >> address.size() & 1U) != 0;
 }
 
 Result<PlainMessage> plainOf(std::string_view name, const std::vector<OscValue>& values) {

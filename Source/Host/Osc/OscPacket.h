@@ -40,6 +40,11 @@ std::vector<char> oscBundle(const std::string& address, const PlainMessage& mess
 /// A message that has strings only. Any thread but R.
 std::vector<char> oscWords(const std::string& address, std::initializer_list<std::string> words);
 
+/// Whether `address` (at most 62 characters) matches an address pattern of OSC 1.0; `*` and `?` also match
+/// `/`. Any thread.
+bool matchesOscPattern(std::string_view pattern, std::string_view address);
+constexpr std::string_view oscPatternMarks = "?*[{";
+
 /// Parses `level 0.5 place 1 0.5 law energy`: a name, then a string or one or more numbers, and so on. Or the
 /// error. Any thread but R.
 Result<PlainMessage> plainOf(std::string_view name, const std::vector<OscValue>& values);

@@ -34,6 +34,13 @@ Result<std::shared_ptr<addrinfo>> lookUp(const std::string& host, int port, int 
     return std::shared_ptr<addrinfo>(Addresses{found});
 }
 
+/// A broadcast or multicast address, to which a packet is for many computers.
+bool isOfMany(const addrinfo& found) {
+    if (found.ai_family == AF_INET6)
+        return reinterpret_cast<const sockaddr_in6*>(found.ai_addr)->sin6_addr.s6_addr[0] == 0xff;
+    return ntohl(reinterpret_cast<const sockaddr_in*>(found.ai_addr)->sin_addr.s_addr) >= 0xe0000000;
+}
+
 int portOf(const sockaddr_storage& address) {
     const auto port = address.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
                                                     : reinterpret_cast<const sockaddr_in&>(address).sin_port;
@@ -69,8 +76,11 @@ OscSocket::~OscSocket() {
 
 Result<OscSocket> OscSocket::listening(const std::string& address, int port) {
     for (int tried = port; tried < port + triedPorts && tried <= 65'535; ++tried) {
-        const auto found = lookUp(address, tried, AI_PASSIVE | AI_NUMERICHOST);
+        const auto found =
+            lookUp(address == "localhost" ? "127.0.0.1" : address, tried, AI_PASSIVE | AI_NUMERICHOST);
         if (!found) return Failure{found.error};
+        if (isOfMany(*found.value))
+            return Failure{address + ": expected an address of this computer alone, or 0.0.0.0"};
         OscSocket own{openedFor(*found.value)};
         if (own.isOpen() &&
             sockets::takePort(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value))) {

@@ -3,6 +3,7 @@
 // messages.
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
@@ -69,7 +70,12 @@ AtomicFile::AtomicFile(const fs::path& path)
 AtomicFile::~AtomicFile() { removeTemporary(); }
 
 bool AtomicFile::writeAt(std::int64_t position, std::string_view bytes) {
-    if (!error_.empty() || file_.writeAt(position, bytes)) return error_.empty();
+    if (error_.empty() && lock_ && file_.size() != bytes_) failIfChanged(), removeTemporary();
+    if (!error_.empty()) return false;
+    if (file_.writeAt(position, bytes)) {
+        bytes_ = std::max(bytes_, position + static_cast<std::int64_t>(bytes.size()));
+        return true;
+    }
     fail(file_.reason());
     file_.forgetError();
     if (lock_ && position > 0) file_.resize(position); // cuts off the partially written block
@@ -78,7 +84,7 @@ bool AtomicFile::writeAt(std::int64_t position, std::string_view bytes) {
 }
 
 const std::string& AtomicFile::write(std::string_view bytes) {
-    if (error_.empty()) file_.resize(0);
+    if (error_.empty()) file_.resize(bytes_ = 0);
     writeAt(0, bytes);
     return error_;
 }
@@ -97,6 +103,8 @@ const std::string& AtomicFile::commit() {
     if (!error_.empty()) return error_;
     place();
     removeTemporary();
+    if (error_.empty() && folderError_ != 0)
+        error_ = named_.string() + ": its folder cannot be flushed to the disk: " + reasonOf(folderError_);
     return error_;
 }
 
@@ -107,13 +115,17 @@ void AtomicFile::place() {
     if (!file_.sync()) {
         fail(file_.reason());
     } else if (lock_) {
-        return;
+        return failIfChanged();
     } else if (!file_.isAt(temporary_) && fs::exists(fs::symlink_status(temporary_, code))) {
         fail("its temporary file was replaced by another");
     } else if (fs::rename(temporary_, target_, code); code) {
         fail(code.message());
     }
-    if (error_.empty()) SystemFile::syncFolder(folderOf(target_));
+    if (error_.empty()) folderError_ = SystemFile::syncFolder(folderOf(target_));
+}
+
+void AtomicFile::failIfChanged() {
+    if (const std::string change = file_.changeByOthers(target_, bytes_); !change.empty()) fail(change);
 }
 
 std::string AtomicFile::prepare() {

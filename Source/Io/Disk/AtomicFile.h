@@ -35,7 +35,8 @@ public:
     const std::string& write(std::string_view bytes);
 
     /// Puts the file in its place early, once: later data is written there, and stays even if the program
-    /// ends or an error occurs. Returns error().
+    /// ends or an error occurs. Returns error(). Once others remove or replace it, commit() fails; once they
+    /// change its length, the next write does.
     const std::string& show();
 
     /// Renames the temporary file onto the path, once, and flushes file and folder to disk, so that the
@@ -49,6 +50,7 @@ private:
     std::string prepare(); // why it cannot be written, empty once the temporary file exists
     std::string make(const std::filesystem::path& sibling);
     void place();
+    void failIfChanged();
     void fail(std::string_view reason);
     void removeTemporary() noexcept;
 
@@ -58,6 +60,8 @@ private:
     SystemFile file_;
     RemovedOnEnd onEnd_;
     std::unique_ptr<AtomicFile> lock_; // locks the path after show()
+    std::int64_t bytes_ = 0;           // written, up to the last
+    int folderError_ = 0;              // why the folder was not flushed; 0: it was
     std::string error_;
     bool isTaken_ = false;
 };

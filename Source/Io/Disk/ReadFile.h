@@ -3,6 +3,7 @@
 #pragma once
 #include "Io/Disk/SystemFile.h"
 #include "Io/Result.h"
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstddef>
@@ -25,23 +26,31 @@ inline Failure unreadable(const std::filesystem::path& path, const std::string& 
     return {path.string() + ": cannot be read: " + why};
 }
 inline Failure unreadable(const std::filesystem::path& path, int code) {
-    return unreadable(path, std::generic_category().message(code));
+    if (code == EINVAL || code == EISDIR)
+        return unreadable(path, "expected a file or a pipe, found a folder or a device");
+    return unreadable(path, code == EPIPE ? "no program writes to this pipe"
+                                          : std::generic_category().message(code));
 }
 inline Failure tooLong(const std::filesystem::path& path, std::size_t maxBytes) {
     return {path.string() + ": expected at most " + std::to_string(maxBytes) + " bytes, found more"};
 }
 
-/// The bytes of the file, at most `maxBytes`. Pipes are read to their end. Any thread but R.
+constexpr std::size_t maxPipeBytes = 64'000'000; ///< a pipe has no size, and may never end
+
+/// The bytes of the file, at most `maxBytes`, or of a pipe until its end, at most `maxPipeBytes` as well. Any
+/// thread but R.
 inline Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
-    const OpenFile file{openStream(path, "rb")};
+    const OpenFile file{openReadable(path)};
     if (!file) return unreadable(path, errno);
     std::string text;
-    std::error_code unknown; // pipes and devices have no size: the buffer grows
-    if (const auto bytes = std::filesystem::file_size(path, unknown); !unknown && bytes <= maxBytes)
-        text.reserve(bytes);
-    else if (!unknown)
+    std::error_code unknown; // pipes have no size: the buffer grows
+    if (const auto bytes = std::filesystem::file_size(path, unknown); unknown)
+        maxBytes = std::min(maxBytes, maxPipeBytes);
+    else if (bytes > maxBytes)
         return tooLong(path, maxBytes);
-    std::array<char, 65536> block;
+    else
+        text.reserve(bytes);
+    std::array<char, 4096> block; // stacks may be small
     while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
         text.append(block.data(), count);
         if (text.size() > maxBytes) return tooLong(path, maxBytes);

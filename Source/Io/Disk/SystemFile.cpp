@@ -65,6 +65,15 @@ bool SystemFile::append(std::string_view bytes) noexcept {
 
 bool SystemFile::isAt(const std::filesystem::path& path) const noexcept { return isAt(handle_, path); }
 
+std::string SystemFile::changeByOthers(const std::filesystem::path& path, std::int64_t bytes) {
+    if (error_ != 0) return {}; // then its length is not known
+    std::error_code gone;
+    const auto place = std::filesystem::canonical(path, gone);
+    if (gone || !isAt(place)) return "it was removed, moved or replaced while it was being written";
+    if (size() != bytes) return "another program changed its length while it was being written";
+    return {};
+}
+
 RemovedOnEnd::RemovedOnEnd(const SystemFile& file, const std::filesystem::path& name) {
     auto removal = std::make_unique<Removal>(Removal{file.handle_, std::filesystem::absolute(name)});
     for (std::size_t i = 0; i < removals.size() && slot_ < 0; ++i) {

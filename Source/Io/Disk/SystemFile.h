@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -58,12 +59,17 @@ public:
     /// True if `path` names this very file, not through a link.
     bool isAt(const std::filesystem::path& path) const noexcept;
 
+    /// Empty, or what others did to a file that was placed at `path`, or where a link there leads, and that
+    /// has `bytes`: removed or replaced it, or changed its length.
+    std::string changeByOthers(const std::filesystem::path& path, std::int64_t bytes);
+
     /// Copies permissions from `path`. Best effort: another owner's permissions cannot always be copied, and
     /// on Windows a new file has its folder's.
     void takePermissionsOf(const std::filesystem::path& path) const noexcept;
 
-    /// Flushes the names in a folder after a file was created or renamed. No effect on systems without that.
-    static void syncFolder(const std::filesystem::path& folder) noexcept;
+    /// Flushes the names in a folder after a file was created or renamed. Returns 0, also on systems without
+    /// that, or the error number if the disk failed.
+    static int syncFolder(const std::filesystem::path& folder) noexcept;
 
 private:
     friend class RemovedOnEnd;
@@ -119,8 +125,15 @@ private:
 /// for HeldSignals).
 void removeAllOnEnd() noexcept;
 
-/// The signals that ask a program to end: Ctrl-C, `kill`, a closed terminal. Any thread.
+/// The signals that end a program unless it handles them: Ctrl-C, `kill`, a closed terminal, time limits. Any
+/// thread.
 std::span<const int> endingSignals() noexcept;
+
+/// Opens a file or a pipe for reading; nullptr and errno if it cannot be opened: EINVAL for a folder or a
+/// device, which may never end; EPIPE for a pipe that no program writes to within `writerPatience`. Blocks
+/// that long, not for a file. Any thread but R.
+std::FILE* openReadable(const std::filesystem::path& path) noexcept;
+constexpr std::chrono::seconds writerPatience{3};
 
 /// std::fopen for a path; nullptr and errno if it cannot be opened. Any thread but R.
 std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept;

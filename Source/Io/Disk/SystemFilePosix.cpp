@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,7 +25,7 @@ bool isRegular(int descriptor) noexcept {
     return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-constexpr std::array ending{SIGINT, SIGTERM, SIGHUP};
+constexpr std::array ending{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU};
 
 } // namespace
 
@@ -35,7 +36,9 @@ SystemFile SystemFile::opened(const std::filesystem::path& path, Opening opening
     const int descriptor = open(path.c_str(), flags[static_cast<std::size_t>(opening)] | always, asUmaskSays);
     if (!file.note(descriptor >= 0)) return file;
     file.handle_ = descriptor;
-    if (!isRegular(descriptor)) file.refuse();
+    if (isRegular(descriptor)) return file;
+    file.refuse();
+    if (opening == Opening::create) removeNow(path); // it is this call's, but fstat failed
     return file;
 }
 
@@ -63,11 +66,12 @@ bool SystemFile::sync() noexcept {
     return error_ == 0 && note(fsync(descriptorOf(handle_)) == 0 || errno == EINVAL);
 }
 
-void SystemFile::syncFolder(const std::filesystem::path& folder) noexcept {
+int SystemFile::syncFolder(const std::filesystem::path& folder) noexcept {
     const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return; // writable, but not readable
-    fsync(descriptor);
+    if (descriptor < 0) return 0; // writable, but not readable
+    const int error = fsync(descriptor) == 0 ? 0 : errno;
     close(descriptor);
+    return error == EIO || error == ENOSPC || error == EDQUOT ? error : 0; // others: not supported
 }
 
 bool SystemFile::resize(std::int64_t bytes) noexcept {
@@ -119,6 +123,29 @@ HeldSignals::~HeldSignals() {
 void removeAllOnEnd() noexcept { RemovedOnEnd::removeAll(); }
 
 std::span<const int> endingSignals() noexcept { return ending; }
+
+// Only reading tells a pipe whose writer has said nothing yet (EAGAIN) from one without a writer (0 bytes).
+std::FILE* openReadable(const std::filesystem::path& path) noexcept {
+    const int descriptor = open(path.c_str(), O_RDONLY | always);
+    if (descriptor < 0) return nullptr;
+    struct stat status {};
+    const bool isPipe = fstat(descriptor, &status) == 0 && S_ISFIFO(status.st_mode);
+    std::FILE* const file = isPipe || S_ISREG(status.st_mode) ? fdopen(descriptor, "rb") : nullptr;
+    char first = 0;
+    pollfd come{descriptor, POLLIN, 0};
+    const ssize_t count =
+        isPipe && poll(&come, 1, static_cast<int>(std::chrono::milliseconds{writerPatience}.count())) == 0
+            ? read(descriptor, &first, 1)
+            : ssize_t{-1};
+    if (file != nullptr && count != 0) {
+        fcntl(descriptor, F_SETFL, O_RDONLY); // from now on reading waits
+        if (count == 1) std::ungetc(static_cast<unsigned char>(first), file);
+        return file;
+    }
+    file == nullptr ? close(descriptor) : std::fclose(file);
+    errno = file == nullptr ? EINVAL : EPIPE;
+    return nullptr;
+}
 
 std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept {
     return std::fopen(path.c_str(), mode);

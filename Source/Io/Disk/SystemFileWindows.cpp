@@ -118,7 +118,7 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
 
 bool SystemFile::sync() noexcept { return error_ == 0 && note(FlushFileBuffers(handleOf(handle_)) != 0); }
 
-void SystemFile::syncFolder(const std::filesystem::path&) noexcept {} // NTFS journals its names
+int SystemFile::syncFolder(const std::filesystem::path&) noexcept { return 0; } // NTFS journals its names
 
 bool SystemFile::resize(std::int64_t bytes) noexcept {
     FILE_END_OF_FILE_INFO end{};
@@ -161,6 +161,8 @@ void removeAllOnEnd() noexcept {
     RemovedOnEnd::removeAll();
     ReleaseSRWLockExclusive(&makers);
 }
+
+std::FILE* openReadable(const std::filesystem::path& path) noexcept { return openStream(path, "rb"); }
 
 std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept {
     wchar_t wide[8]{};

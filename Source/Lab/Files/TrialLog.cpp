@@ -292,8 +292,8 @@ void TrialLogFile::open(std::string_view version) {
     std::error_code ignored;
     if (kept == 0 && !(write(trialHeader(protocol_, participant_, version)) && sync()))
         std::filesystem::remove(path_, ignored);
-    else
-        SystemFile::syncFolder(folderOf(path_));
+    else if (const int code = SystemFile::syncFolder(folderOf(path_)); code != 0)
+        fail("its folder: " + std::generic_category().message(code));
 }
 
 bool TrialLogFile::write(const std::string& text) {
@@ -303,6 +303,8 @@ bool TrialLogFile::write(const std::string& text) {
 
 bool TrialLogFile::sync() {
     if (error_.empty() && !file_.sync()) failToWrite();
+    if (const auto change = file_.changeByOthers(path_, file_.size()); error_.empty() && !change.empty())
+        fail(change);
     return error_.empty();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The system's rules for threads that drive devices and worlds.
+// The system's rules for threads that drive devices and worlds, and for their process.
 #pragma once
 
 namespace physvib {
@@ -9,5 +9,8 @@ void raiseThreadPriority() noexcept;
 
 /// Whether the thread that creates a driver must make all its calls.
 bool areDriversBoundToTheirThread() noexcept;
+
+/// Number of the calling thread's process: another one after fork(), where no other thread is left.
+int thisProcess() noexcept;
 
 } // namespace physvib

@@ -4,6 +4,7 @@
 #include "Live/Devices/ThisThread.h"
 #include <pthread.h>
 #include <sched.h>
+#include <unistd.h>
 
 namespace physvib {
 
@@ -16,6 +17,8 @@ void raiseThreadPriority() noexcept {
 }
 
 bool areDriversBoundToTheirThread() noexcept { return false; }
+
+int thisProcess() noexcept { return getpid(); }
 
 } // namespace physvib
 #endif

@@ -11,5 +11,7 @@ void raiseThreadPriority() noexcept { SetThreadPriority(GetCurrentThread(), THRE
 // they need the COM apartment of that thread
 bool areDriversBoundToTheirThread() noexcept { return true; }
 
+int thisProcess() noexcept { return static_cast<int>(GetCurrentProcessId()); }
+
 } // namespace physvib
 #endif

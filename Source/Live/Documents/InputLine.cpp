@@ -46,9 +46,8 @@ PlainMessage readMessage(const JsonField& json) {
     return message;
 }
 
-LineInput readLine(const JsonField& json, const std::vector<Material>& materials, int channels) {
-    json.expectObject();
-    if (json.has("message")) return readMessage(json);
+/// An input or a control, whatever other kinds its fields name.
+LineInput readAct(const JsonField& json, const std::vector<Material>& materials, int channels) {
     if (!json.has("control")) {
         ActionLine line;
         detail::readValue(json, line, {}, materials);
@@ -57,6 +56,11 @@ LineInput readLine(const JsonField& json, const std::vector<Material>& materials
     if (!json["control"].is(silenceName)) return readControl(json, channels);
     json.expectObject({"control", "on"});
     return SilenceControl{json["on"].truth()};
+}
+
+LineInput readLine(const JsonField& json, const std::vector<Material>& materials, int channels) {
+    json.expectObject();
+    return json.has("message") ? LineInput{readMessage(json)} : readAct(json, materials, channels);
 }
 
 constexpr std::string_view idName = "id";
@@ -157,10 +161,16 @@ Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Ma
             json[value.name] = std::visit([](const auto& found) { return Json(found); }, value.value);
     }
     try {
-        return readLine(JsonField(json, {}), materials, channels);
+        return readAct(JsonField(json, {}), materials, channels);
     } catch (const JsonError& error) {
         return Failure{plain.name + ": " + error.what()};
     }
+}
+
+Result<SilenceControl> readPlainSilence(const std::vector<NamedValue>& values) {
+    const auto* on = values.size() == 1 ? std::get_if<double>(&values.front().value) : nullptr;
+    if (on == nullptr || values.front().name != truthName) return Failure{"silence: expected on, and 1 or 0"};
+    return SilenceControl{*on != 0.0};
 }
 
 } // namespace physvib

@@ -53,4 +53,7 @@ inline constexpr std::string_view silencedAllTheSame = "; silenced all the same"
 Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials,
                                  int channels);
 
+/// Reads the values of a control `silence`. Any thread.
+Result<SilenceControl> readPlainSilence(const std::vector<NamedValue>& values);
+
 } // namespace physvib

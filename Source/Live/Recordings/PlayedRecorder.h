@@ -59,7 +59,7 @@ public:
     std::string finish() {
         end();
         write();
-        return wav_.finish();
+        return error_ = wav_.finish();
     }
 
     /// In session time; -1: no frame yet.

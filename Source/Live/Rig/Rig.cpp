@@ -120,7 +120,7 @@ std::string Rig::finish(bool isHurried) {
     if (journal_) saved = isHurried ? journal_->finish(SessionJournal::quickBytes) : journal_->finish();
     driver_.reset();
     session_.sinks().follow(nullptr);
-    return !saved.empty() ? saved : recorded_;
+    return saved + (saved.empty() || recorded_.empty() ? "" : "; ") + recorded_;
 }
 
 void Rig::close() {

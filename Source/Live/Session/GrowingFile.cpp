@@ -11,6 +11,15 @@ void GrowingFile::open(const std::filesystem::path& path) {
         fail(file_.reason());
     else if (file_.lock() == SystemFile::Lock::others)
         fail("it is being written already");
+    bytes_ = file_.size();
+}
+
+bool GrowingFile::sync() {
+    if (!error_.empty()) return true;
+    if (!file_.sync()) fail(file_.reason());
+    const auto change = file_.changeByOthers(path_, bytes_);
+    if (!change.empty()) fail(change);
+    return change.empty();
 }
 
 void GrowingFile::append(std::string_view lines) {
@@ -24,6 +33,7 @@ void GrowingFile::append(std::string_view lines) {
     waiting_ += lines;
     file_.forgetError();
     if (!file_.append(waiting_)) return fail(file_.reason());
+    bytes_ += static_cast<std::int64_t>(waiting_.size());
     waiting_.clear();
     error_.clear();
 }

@@ -19,10 +19,9 @@ public:
     /// Adds whole lines, after the pending ones.
     void append(std::string_view lines);
 
-    /// Flushes to disk; on failure error() has the reason.
-    void sync() {
-        if (error_.empty() && !file_.sync()) fail(file_.reason());
-    }
+    /// Flushes to disk; on failure error() has the reason. False if others have removed, replaced or cut the
+    /// file.
+    bool sync();
 
     /// Empty, or one line: why lines are pending, or that maxWaitingBytes were exceeded; after that the file
     /// grows no more.
@@ -36,6 +35,7 @@ private:
     std::filesystem::path path_;
     SystemFile file_;
     std::string waiting_, error_;
+    std::int64_t bytes_ = 0; // of the file, as it was left
     bool isOver_ = false;
 };
 

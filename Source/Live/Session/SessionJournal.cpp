@@ -133,9 +133,8 @@ void SessionJournal::end(std::int64_t sessionNs) {
 
 std::string SessionJournal::finish(std::size_t mostBytes) {
     events_.sync();
-    file_.sync();
-    std::error_code none;
-    if (std::filesystem::file_size(path_, none) > mostBytes) return fault();
+    std::error_code gone;
+    if (!file_.sync() || std::filesystem::file_size(path_, gone) > mostBytes) return fault();
     const auto text = readFile(path_, limits::maxSessionFileBytes);
     if (!text) return text.error;
     const auto session = readSession(text.value, path_.string());

@@ -17,7 +17,9 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
                      const StepWatch& goesOn) {
     SceneEvents all;
     for (const SceneTake& take : takes) {
-        Simulation world{take.whole(), take.seed, run.stepsPerSecond, run.timing, run.location};
+        const auto owned = std::make_unique<Simulation>(take.whole(), take.seed, run.stepsPerSecond,
+                                                        run.timing, run.location);
+        Simulation& world = *owned; // Box2D's has 100 kB, and the stack may be small
         const bool isLast = &take == &takes.back();
         std::int64_t originNs = take.startNs;
         StallReader stalls{take.stalls};

@@ -4,10 +4,12 @@
 // silences so far.
 // Worker: processes the lines in order, and prints answers and errors.
 #include "CommandLine/Play/InputListener.h"
+#include "Io/Text/NumberText.h"
 #include "Live/Session/BoardLink.h"
 #include "System/ExitCode.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"
+#include <algorithm>
 #include <iostream>
 
 namespace physvib {
@@ -17,6 +19,17 @@ namespace {
 constexpr int pollMilliseconds = 50; // only delays the end of the program
 constexpr double ringSeconds = 0.5;  // an impact lasts at most this long; a board waits as long for its
                                      // computer
+
+/// A ceiling that comes from outside is at most as high as the person at the machine has set it.
+std::string takeControl(const RenderControl& control, Session& session) {
+    if (control.kind == RenderControl::Kind::ceiling)
+        if (const float most = session.rendered().ceiling(control.channel); control.value > most) {
+            std::string fault = "ceiling: expected at most ";
+            appendNumber(fault, most); // shortest: read back, it is the same number
+            return fault + ", as --ceiling was set, found " + numberText(control.value);
+        }
+    return session.take({control}).error;
+}
 
 } // namespace
 
@@ -126,7 +139,7 @@ void InputListener::tellLeftOut() {
 
 std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from) {
     if (const auto* action = std::get_if<Action>(&input)) return session.take({*action}).error;
-    if (const auto* control = std::get_if<RenderControl>(&input)) return session.take({*control}).error;
+    if (const auto* control = std::get_if<RenderControl>(&input)) return takeControl(*control, session);
     if (const auto* silence = std::get_if<SilenceControl>(&input))
         return takeSilence(output.silence(), *silence, from);
     return {};

@@ -153,7 +153,7 @@ void summariseRecording(const PlayedRecorder& recording, const std::string& path
         std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
     if (recording.framesLost() > 0)
         std::cerr << "physvib: warning: frames missing in the recording: " << recording.framesLost() << '\n';
-    if (recording.beginsSeconds())
+    if (recording.beginsSeconds() && recording.error().empty())
         std::cout << path << "  begins at session time " << fixedNumber(*recording.beginsSeconds(), 6)
                   << " s\n";
 }

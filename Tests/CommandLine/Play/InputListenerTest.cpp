@@ -64,7 +64,13 @@ struct Listening {
     }
     static constexpr const char* heldUp = "{\"message\": \"clip\", \"file\": \"a.wav\", \"place\": \"A\"}\n";
 
-    Session session{test::shakeTheBoxSetup(0.05)};
+    static SessionSetup setup() {
+        auto setup = test::shakeTheBoxSetup(0.05);
+        setup.ceilings[0] = 0.1f; // -20 dB
+        return setup;
+    }
+
+    Session session{setup()};
     AudioOutput output{session, [] { return std::vector<std::unique_ptr<AudioDriver>>{}; }};
     MessageRouter messages{session};
     std::atomic<bool> isHeldUp{false}, goesOn{false};
@@ -125,6 +131,24 @@ TEST(InputListeners, WhatOneInputAsksForAnotherDoesNotLift) {
     one.output.setSilent(true);
     EXPECT_NE(byOsc(false), "");
     EXPECT_TRUE(one.output.isSilent());
+}
+
+TEST(InputListeners, ADoorSetsNoCeilingAboveThatOfTheMachine) {
+    Listening one;
+    const auto ask = [&](int channel, float value) {
+        RenderControl control;
+        control.kind = RenderControl::Kind::ceiling;
+        control.channel = channel;
+        control.value = value;
+        return actOn(control, one.session, one.output, SilenceHolder::osc);
+    };
+    EXPECT_EQ(ask(0, 1.0f), "ceiling: expected at most 0.1, as --ceiling was set, found 1");
+    EXPECT_EQ(ask(0, 0.1001f).substr(0, 32), "ceiling: expected at most 0.1, a");
+    EXPECT_EQ(ask(0, 0.01f), "") << "lower";
+    EXPECT_EQ(ask(0, 0.1f), "") << "and up to it again";
+    EXPECT_NE(ask(0, 0.5f), "") << "no further, whatever was between";
+    EXPECT_EQ(ask(1, 1.0f), "") << "where none was set";
+    EXPECT_EQ(one.session.rendered().ceiling(0), 0.1f);
 }
 
 } // namespace
