@@ -5,8 +5,7 @@
 set -eu
 cd "$(dirname "$0")/../.."
 . .ci/packages.sh
-# shellcheck disable=SC2086 # a list of words
-ensure_packages $physvib_browser_packages
+ensure_packages chromium firefox-esr
 work=$(mktemp -d)
 trap '[ -z "${sound_pid:-}" ] || kill "$sound_pid"; rm -rf "$work"' EXIT
 . Tests/JavaScript/sound-server.sh

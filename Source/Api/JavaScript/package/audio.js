@@ -138,7 +138,7 @@ class Output extends EventTarget {
     /** For World.explain, of its sentence: what left since the last one, instead of what should have. */
     measured(sentence) {
         const strongest = this.#receipts.takeStrongest(), { last } = this.#receipts, { state } = this.#watch;
-        const why = state === 'running' ? 'they are on their way, or gains are 0; ask again in a tenth of a second' : state === 'suspended' ? 'the context is suspended' : 'the device is lost';
+        const why = this.error ? 'its audio thread has ended' : state === 'running' ? 'they are on their way, or gains are 0; ask again in a tenth of a second' : state === 'suspended' ? 'the context is suspended' : 'the device is lost';
         return sentence.replace(/, and reach the output: (if .*)$/, (_, then) => (strongest > 0 ? `, and what left the output reached ${(100 * strongest).toPrecision(2)} % of full scale: ${then}`
             : `, and nothing has left the output ${last === null ? 'since it was opened' : `since ${last.toFixed(1)} s of the context's time`}: ${why}.`));
     }
