@@ -33,7 +33,7 @@ FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& aske
             const auto names = driver->deviceNames(inputs);
             return std::ranges::find(names, name) != names.end();
         };
-        if (!has(false) && name == picoDeviceName) name = picoAmong(driver->deviceNames(false));
+        if (name == picoDeviceName && !has(false)) name = picoAmong(driver->deviceNames(false));
         if (name.empty()) continue;
         auto device = driver->create(name, withInputs && has(true));
         if (device) return {std::move(driver), std::move(device)};

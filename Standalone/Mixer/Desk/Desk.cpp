@@ -130,9 +130,11 @@ void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
         mix_.scene = std::make_shared<const Scene>(drawn);
     Mix settled = next;
     quietenNew(mix_.strips, settled.strips);
+    const auto withoutEar = placeNew(device_.choice(), settled.strips, mix_.strips.size());
     const auto without = settleOutputs(settled.strips);
     undo_.perform(new MixEdit{*this, mix_, std::move(settled)});
     reportWithout(*this, without);
+    reportNoEar(*this, withoutEar);
 }
 
 bool Desk::apply(const Mix& next) {
@@ -218,6 +220,7 @@ std::string Desk::open(const DeviceChoice& choice) {
     else
         messages_.withdraw(deviceLabel);
     signals_.setRate(output().sampleRateHz());
+    sendChangeMessage(); // it may have other outputs, or name them otherwise
     return error;
 }
 
@@ -230,6 +233,24 @@ std::string Desk::monitorInstead(std::vector<int> outputs, double db) {
                 if (std::ranges::find(outputs, strip.output) != outputs.end()) strip.output = -1;
         });
     return device_.listening().monitor(std::move(outputs), db);
+}
+
+std::string Desk::useHeadphones(DeviceChoice choice) {
+    choice.isHeadphones = true;
+    choice.monitor.clear();
+    if (choice.marker < DeviceChoice::ears) choice.marker = -1;
+    std::vector<std::size_t> others;
+    change("Headphones", [&](Mix& mix) {
+        for (std::size_t j = 0; j < mix.strips.size(); ++j) {
+            const bool hasEar = j < DeviceChoice::ears;
+            mix.strips[j].output = hasEar ? static_cast<int>(j) : -1;
+            if (!hasEar) others.push_back(j);
+        }
+        mix.levelDb = std::min(mix.levelDb, safeContactDb);
+    });
+    auto error = open(choice);
+    reportNoEar(*this, others);
+    return error;
 }
 
 void Desk::watchOutput() {

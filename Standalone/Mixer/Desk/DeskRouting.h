@@ -9,9 +9,17 @@
 namespace physvib {
 
 class Desk;
+struct DeviceChoice;
 
 /// Sets the strips' outputs to those that are played, by actuator. Any thread.
 void takeOutputs(const std::vector<int>& played, std::span<Strip> strips);
+
+/// Leaves to listeners and measuring devices what they use: strips from number `first` on, which are new, get
+/// other outputs. Headphones have two. Returns the strips without one. Any thread.
+std::vector<std::size_t> placeNew(const DeviceChoice& choice, std::span<Strip> strips, std::size_t first);
+
+/// Reports strips for which headphones have no output. Message thread only.
+void reportNoEar(Desk& desk, const std::vector<std::size_t>& strips);
 
 /// Reports strips that lost their output to another one, with a button that gives them free outputs. Message
 /// thread only.
