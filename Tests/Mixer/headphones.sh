@@ -37,7 +37,7 @@ output() { sed -n "s/.*name=\"$1\" val=\"\([^\"]*\)\".*/\1/p" "$settings"; }
 again() { # LABEL: within 20 s it is connected to both ears of a new server
     for _ in $(seq 200); do
         kill -0 "$mixer" 2>/dev/null || fail "$1: the mixer has ended"
-        [ "$(jack_lsp -c 2>/dev/null | grep -A1 "out_[12]$" | grep -c "system:playback_[12]$")" = 2 ] && return
+        [ "$(jack_lsp -c 2>/dev/null | grep -c "^ .*:out_[12]$")" = 2 ] && return
         sleep 0.1
     done
     fail "$1: it does not play again"

@@ -608,12 +608,16 @@ TEST(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
         EXPECT_EQ(juce::PopupMenu::dismissAllActiveMenus(), false) << card.name;
         auto& silence = *find(view, "Silence");
         desk.setSilent(false);
+        auto* const at = window.getComponentAt(hand.middleOf(silence).roundToInt());
+        EXPECT_EQ(at, &silence) << card.name
+                                << (at != nullptr ? at->getTitle() + at->getName() : juce::String{});
         hand.click(silence);
         EXPECT_TRUE(desk.isSilent()) << card.name;
         runFor(0.1);
         EXPECT_TRUE(opened->hasKeyboardFocus(true)) << card.name << ": silence does not take the keyboard";
         desk.setSilent(false);
         slow.grabKeyboardFocus(); // as a menu that closes gives it back
+        runFor(0.1);
         EXPECT_TRUE(opened->hasKeyboardFocus(true)) << card.name;
         view.setCard(nullptr);
         EXPECT_TRUE(view.hasKeyboardFocus(true)) << card.name;
