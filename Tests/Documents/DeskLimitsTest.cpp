@@ -68,6 +68,8 @@ TEST(DeskLimits, TheLoudestOutputCountsAndOneThatIsNotInUseDoesNot) {
     own.strips[1].gainDb = -6.0;
     own.strips[2].output = -1;
     EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), -18.0);
+    own.strips[1].ceilingDb = -20.0;
+    EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), -32.0);
     for (Strip& strip : own.strips) strip.output = -1;
     EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), -12.0);
     own.strips[0] = {.gainDb = leastStripDb, .output = 0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the strips say of outputs is what the device plays, whatever is chosen, refused, saved and opened.
+#include "Mixer/Desk/DeskRouting.h"
 #include "Host/FakeAudioDevice.h"
 #include "Live/Documents/SessionFile.h"
 #include "MixerTesting.h"
@@ -227,7 +228,7 @@ TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
     }()};
     Desk& desk = routed.desk;
     MixerView view{desk};
-    ASSERT_EQ(desk.useHeadphones({"Fake:hands", 0, 0}), "");
+    ASSERT_EQ(useHeadphones(desk, {"Fake:hands", 0, 0}), "");
     EXPECT_EQ(routed.outputs(), (std::vector{0, 1}));
     EXPECT_EQ(shownOutput(view, desk, "A"), "L");
     EXPECT_EQ(shownOutput(view, desk, "B"), "R");
@@ -253,7 +254,7 @@ TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
 TEST(Headphones, ThoseOfAFourActuatorDeskAreToldAndTheLevelIsLow) {
     RoutedDesk routed;
     routed.desk.change("Loud", [](Mix& mix) { mix.levelDb = -3.0; });
-    ASSERT_EQ(routed.desk.useHeadphones({.name = "Fake:hands", .monitor = {4, 5}, .marker = 1}), "");
+    ASSERT_EQ(useHeadphones(routed.desk, {.name = "Fake:hands", .monitor = {4, 5}, .marker = 1}), "");
     EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1, -1}));
     EXPECT_EQ(routed.desk.trouble(), "C, D have no output: headphones have two, L and R");
     EXPECT_EQ(routed.desk.mix().levelDb, safeContactDb);
@@ -306,7 +307,7 @@ TEST(DeskRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
     says("Heard: not there: an actuator, or no output");
     desk.undoManager().redo();
     EXPECT_EQ(monitor(), "outputs 1 and 2");
-    ASSERT_EQ(desk.useHeadphones(desk.device().choice()), "");
+    ASSERT_EQ(useHeadphones(desk, desk.device().choice()), "");
     EXPECT_EQ(monitor(), "none");
     says("Heard: left: A, right: B");
     desk.change("None", [](Mix& mix) { mix.strips[1].output = -1; });

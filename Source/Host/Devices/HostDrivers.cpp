@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JUCE's device types and devices behind the interface of this project, where JUCE's module for them is linked.
+// JUCE's device types and devices behind the interface of this project, where JUCE's module for them is
+// linked.
 #include "Host/Devices/HostDrivers.h"
 #if !JUCE_MODULE_AVAILABLE_juce_audio_devices
 #include "Live/Devices/SystemDrivers.h"

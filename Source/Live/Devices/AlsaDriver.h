@@ -11,7 +11,8 @@ namespace physvib {
 /// out: a second client of the server in this process, which outlives it and is used when JACK has freed it.
 class AlsaDriver final : public AudioDriver {
 public:
-    /// `isJackThere`: a JACK server runs. What ends in PulseAudio is then created by its name, but not listed.
+    /// `isJackThere`: a JACK server runs. What ends in PulseAudio is then created by its name, but not
+    /// listed.
     AlsaDriver(const AlsaLibrary& alsa, bool (*isJackThere)())
         : alsa_{alsa}
         , isJackThere_{isJackThere} {}
@@ -27,8 +28,8 @@ private:
     using List = std::vector<Listed>;
 
     void addHint(const void* hint);
-    /// The type of the last in a device's chain of plug-ins: "hw", "jack", "pulse"; empty: not known. Opens no
-    /// device. A chain may be a circle.
+    /// The type of the last in a device's chain of plug-ins: "hw", "jack", "pulse"; empty: not known. Opens
+    /// no device. A chain may be a circle.
     std::string endOf(const std::string& id, int mostPlugins = 16) const;
     std::string configText(snd_config_t* node) const;
     void addUnlisted(const std::string& id, const std::string& name);

@@ -61,7 +61,7 @@ DeskLimits DeskLimits::of(const Mix& mix) {
 double DeskLimits::loudestOutputDb() const {
     std::vector<double> gains;
     for (const Strip& strip : strips)
-        if (strip.output >= 0) gains.push_back(strip.gainDb);
+        if (strip.output >= 0) gains.push_back(std::min(strip.gainDb, strip.ceilingDb));
     return gains.empty() ? levelDb : std::max(leastStripDb, levelDb + std::ranges::max(gains));
 }
 

@@ -16,7 +16,7 @@ struct DeskLimits {
     std::vector<Strip> strips; ///< one per output in use, with the gain that reaches it
 
     static DeskLimits of(const Mix& mix);
-    /// Level of the loudest output, with the master's; the master's alone if no output is in use.
+    /// Level of the loudest output by gain, ceiling and master; the master's alone if no output is in use.
     double loudestOutputDb() const;
 };
 

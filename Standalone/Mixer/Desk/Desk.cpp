@@ -235,24 +235,6 @@ std::string Desk::monitorInstead(std::vector<int> outputs, double db) {
     return device_.listening().monitor(std::move(outputs), db);
 }
 
-std::string Desk::useHeadphones(DeviceChoice choice) {
-    choice.isHeadphones = true;
-    choice.monitor.clear();
-    if (choice.marker < DeviceChoice::ears) choice.marker = -1;
-    std::vector<std::size_t> others;
-    change("Headphones", [&](Mix& mix) {
-        for (std::size_t j = 0; j < mix.strips.size(); ++j) {
-            const bool hasEar = j < DeviceChoice::ears;
-            mix.strips[j].output = hasEar ? static_cast<int>(j) : -1;
-            if (!hasEar) others.push_back(j);
-        }
-        mix.levelDb = std::min(mix.levelDb, safeContactDb);
-    });
-    auto error = open(choice);
-    reportNoEar(*this, others);
-    return error;
-}
-
 void Desk::watchOutput() {
     told_.tell(session(), mix_); // retries controls for which the queue was full
     if (isSilent_ != output().isSilent()) showSilence();

@@ -73,9 +73,6 @@ public:
     const DeskSignals& signals() const noexcept { return signals_; }
     const RecentContacts& recent() const noexcept { return recent_; } ///< the last contacts that were played
     std::string open(const DeviceChoice& choice);
-    /// Opens it as headphones: the first actuator is heard left and the second right, at the level at which a
-    /// monitor begins, or lower. Result as open().
-    std::string useHeadphones(DeviceChoice choice);
     /// As DeskListening::monitor. Actuators on these outputs lose them, which can be undone.
     std::string monitorInstead(std::vector<int> outputs, double db);
     void setSilent(bool silent);                         ///< set by the user at the machine

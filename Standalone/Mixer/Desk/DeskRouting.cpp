@@ -58,6 +58,24 @@ void reportNoEar(Desk& desk, const std::vector<std::size_t>& strips) {
                          "ears"});
 }
 
+std::string useHeadphones(Desk& desk, DeviceChoice choice) {
+    choice.isHeadphones = true;
+    choice.monitor.clear();
+    if (choice.marker < DeviceChoice::ears) choice.marker = -1;
+    std::vector<std::size_t> others;
+    desk.change("Headphones", [&](Mix& mix) {
+        for (std::size_t j = 0; j < mix.strips.size(); ++j) {
+            const bool hasEar = j < DeviceChoice::ears;
+            mix.strips[j].output = hasEar ? static_cast<int>(j) : -1;
+            if (!hasEar) others.push_back(j);
+        }
+        mix.levelDb = std::min(mix.levelDb, safeContactDb);
+    });
+    auto error = desk.open(choice);
+    reportNoEar(desk, others);
+    return error;
+}
+
 void reportWithout(Desk& desk, const std::vector<std::size_t>& strips) {
     if (strips.empty()) return;
     const bool isOne = strips.size() == 1;

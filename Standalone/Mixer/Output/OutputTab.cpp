@@ -2,6 +2,7 @@
 // Controls for the device, and its status text.
 #include "Mixer/Output/OutputTab.h"
 #include "Live/Devices/NoDevice.h"
+#include "Mixer/Desk/DeskRouting.h"
 #include "Mixer/Window/CardHost.h"
 #include "Mixer/Window/Parts.h"
 
@@ -164,7 +165,7 @@ void OutputTab::open() {
     if (index >= 0) choice.isHeadphones = index == static_cast<int>(found_.size()); // the last item
     choice.sampleRateHz = rate_.getSelectedId() > 1 ? rate_.getSelectedId() : 0;
     choice.blockFrames = block_.getSelectedId() > 1 ? block_.getSelectedId() : 0;
-    choice.isHeadphones && !wereEars ? desk_.useHeadphones(choice) : desk_.open(choice);
+    choice.isHeadphones && !wereEars ? useHeadphones(desk_, choice) : desk_.open(choice);
     takeMix();
 }
 

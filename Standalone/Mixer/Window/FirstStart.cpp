@@ -6,6 +6,7 @@
 #include "Live/Devices/LikelyDevices.h"
 #include "Live/Devices/NoDevice.h"
 #include "Live/Devices/PicoDevice.h"
+#include "Mixer/Desk/DeskRouting.h"
 #include <algorithm>
 #include <optional>
 
@@ -142,7 +143,7 @@ void FirstStart::playHere() {
     }
     if (choice.isHeard) {
         desk_.change("Headphones", [](Mix& mix) { keepTo(DeviceChoice::ears, mix); });
-        return desk_.useHeadphones(choice.device).empty() ? end(true) : show();
+        return useHeadphones(desk_, choice.device).empty() ? end(true) : show();
     }
     if (const auto error = desk_.open(choice.device); !error.empty()) return show();
     test(std::max(1, std::min(choice.outputs, desk_.device().outputs())));

@@ -243,10 +243,13 @@ Mix MixerWindow::firstMix() {
     if (const int outputs = settings.getIntValue("outputs");
         outputs > 0 && settings.getValue("device") == utf8(device_.name))
         keepTo(outputs, mix, device_.name);
-    mix.levelDb = std::min(mix.levelDb, limits().loudestOutputDb());
+    const DeskLimits left = limits();
+    mix.levelDb = std::min(mix.levelDb, left.loudestOutputDb());
     if (device_.isHeadphones) mix.levelDb = std::min(mix.levelDb, safeContactDb);
     for (Strip& strip : mix.strips)
-        if (std::ranges::find(device_.monitor, strip.output) != device_.monitor.end()) strip.output = -1;
+        if (std::ranges::find(left.strips, strip.output, &Strip::output) == left.strips.end() ||
+            std::ranges::find(device_.monitor, strip.output) != device_.monitor.end())
+            strip.output = -1;
     return mix;
 }
 
