@@ -27,7 +27,7 @@ MixStrip::MixStrip(const MixHands& hands, int strip, const juce::String& label)
     , meter_{"Level of " + label}
     , ceiling_{label} {
     setTitle("Strip " + label);
-    setUpFader(fader_, leastStripDb, mostStripDb, "Gain of " + label);
+    fader_.setUp(leastStripDb, mostStripDb, "Gain of " + label);
     fader_.onValueChange = [this] { change([this](Strip& s) { s.gainDb = fader_.getValue(); }); };
     ceiling_.textFromValueFunction = [this](double db) {
         return "ceiling " + number(db, 1) + " dB, " + inG(fromDecibels(db) * enchanter_.fullScaleG) + " g";
@@ -197,7 +197,7 @@ void MixStrip::resized() {
 
 MixPanel::MixPanel(PluginProcessor& plugin, MixHands hands)
     : hands_{std::move(hands)}
-    , levelAttachment_{(setUpFader(level_, leastStripDb, 0.0, "Level"), plugin.parameter(Parameter::level)),
+    , levelAttachment_{(level_.setUp(leastStripDb, 0.0, "Level"), plugin.parameter(Parameter::level)),
                        level_} {
     setTitle("Mix");
     level_.setDoubleClickReturnValue(true, rowOf(Parameter::level).initial);

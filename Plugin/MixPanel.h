@@ -42,7 +42,7 @@ private:
     float hold_ = 0.0f;
     double holdUntilMs_ = 0.0;
     PeakMeter meter_;
-    juce::Slider fader_;
+    Fader fader_;
     CeilingHandle ceiling_;
     juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"},
         actuator_;
@@ -65,7 +65,7 @@ private:
     juce::Component row_;
     std::vector<std::unique_ptr<MixStrip>> strips_;
     juce::StringArray labels_;
-    juce::Slider level_;
+    Fader level_;
     juce::SliderParameterAttachment levelAttachment_;
     juce::TextButton limiter_{"Limiter"};
     float limiterGain_ = 1.0f; // or the guard's

@@ -39,7 +39,7 @@ step() {
         daws) Tests/Plugin/Formats/Daws/daws.sh build/release build/nightly/daws ;;
         apply) ensure_packages $physvib_apply_packages && Tests/Plugin/Formats/apply.sh "$PWD/build/release" ;;
         live) Tests/Live/soak.sh ;;
-        mixer) Tests/Mixer/soak.sh ;;
+        mixer) Tests/Mixer/soak.sh && ensure_packages openbox && Tests/Mixer/headphones.sh $bin ;;
         breaks) Tests/Mixer/breaks.py build/nightly/breaks ;;
         studies) Tests/Studies/recorded.sh $bin ;;
         coverage) $bin/physvib-study-coverage ;;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Main program of the application `physvib-mixer`.
-#include "Host/Devices/JuceDrivers.h"
+#include "Host/Devices/HostDrivers.h"
 #include "Live/Devices/DeviceThread.h"
 #include "Live/Devices/NoDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
@@ -80,7 +80,7 @@ public:
         const juce::ArgumentList arguments{"physvib-mixer", getCommandLineParameterArray()};
         const auto device = valueOf(arguments, "--device");
         hasSummary_ = arguments.containsOption("--summary");
-        window_ = std::make_unique<MixerWindow>(withNoDevice(juceAudioDrivers), device, fileOf(arguments));
+        window_ = std::make_unique<MixerWindow>(withNoDevice(hostAudioDrivers), device, fileOf(arguments));
         if (arguments.containsOption("--study")) chooseStudy(window_->view(), studyCallOf(arguments));
         heedInterrupts();
         startTimer(milliseconds);

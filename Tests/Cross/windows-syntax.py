@@ -17,7 +17,7 @@ import tempfile
 
 ROOMS = r"(Source/(Session|Host|Api/Live)|Plugin|Standalone/(CommandLine|Mixer))/"
 HEADERS = ["nlohmann", "boost", "CLI", "box2d", "hwy", "lo", "aubio", "libserialport.h", "samplerate.h", "eigen3/Eigen", "eigen3/unsupported"]
-OTHER_SYSTEM = re.compile(r"-D(JUCE_LINUX|LINUX|JUCE_JACK|JUCE_ALSA)\b|-I/usr/include")
+OTHER_SYSTEM = re.compile(r"-D(JUCE_LINUX|LINUX)\b|-I/usr/include")
 
 
 def flags(command: str) -> list[str]:
@@ -43,7 +43,7 @@ def main() -> int:
 
         def read(item):
             path, entry = item
-            compiler = ["x86_64-w64-mingw32-g++-posix", "-std=c++20", "-fsyntax-only", "-w", "-isystem", headers, "-isystem", "/usr/share/juce/modules"]
+            compiler = ["x86_64-w64-mingw32-g++-posix", "-std=c++20", "-fsyntax-only", "-w", "-DJUCE_MODULE_AVAILABLE_juce_audio_devices=1", "-isystem", headers, "-isystem", "/usr/share/juce/modules"]
             return path, subprocess.run(compiler + flags(entry["command"]) + [entry["file"]], cwd=entry["directory"], capture_output=True, text=True)
 
         bad = 0

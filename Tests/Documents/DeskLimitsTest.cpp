@@ -61,6 +61,21 @@ TEST(DeskLimits, OthersThatAreSoloMakeAStripSilent) {
     EXPECT_TRUE(asked.strips[1].isMuted);
 }
 
+TEST(DeskLimits, TheLoudestOutputCountsAndOneThatIsNotInUseDoesNot) {
+    Mix own = mixOn("phone3");
+    own.levelDb = -12.0;
+    own.strips[0].gainDb = -27.7;
+    own.strips[1].gainDb = -6.0;
+    own.strips[2].output = -1;
+    EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), -18.0);
+    own.strips[1].ceilingDb = -20.0;
+    EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), -32.0);
+    for (Strip& strip : own.strips) strip.output = -1;
+    EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), -12.0);
+    own.strips[0] = {.gainDb = leastStripDb, .output = 0};
+    EXPECT_EQ(DeskLimits::of(own).loudestOutputDb(), leastStripDb) << "silent";
+}
+
 TEST(DeskLimits, AreKeptAsText) {
     Mix own = mixOn("ring3");
     own.levelDb = -17.5;

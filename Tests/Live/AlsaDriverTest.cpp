@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Devices of ALSA without hardware: null devices that write to files what a sound card would get.
+#include "Live/Devices/AlsaDriver.h"
 #include "DeviceNoise.h"
+#include "Live/Devices/AudioDevices.h"
+#include "Live/Devices/SystemDrivers.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -43,7 +46,13 @@ protected:
             << "pcm.ears { type file slave.pcm { type null } file /dev/null infile \"" +
                    (folder / "input").string() + "\" format raw hint { show on description Ears } }\n"
             << "pcm.unplugged { type hw card 30 hint { show on description Unplugged } }\n"
-            << "pcm.twin { type null hint { show on description Hands } }\n";
+            << "pcm.twin { type null hint { show on description Hands } }\n"
+            << "pcm.server { type jack hint { show on description \"JACK Audio Connection Kit\" } }\n"
+            << "pcm.far { type plug slave.pcm { type softvol slave.pcm server } hint { show on description "
+               "Far } }\n"
+            << "pcm.round { type plug slave.pcm round hint { show on description Round } }\n"
+            << "pcm.pulsed { type plug slave.pcm near hint { show on description Pulsed } }\n"
+            << "pcm.near { type pulse }\n";
         driver = driverNamed("ALSA");
         if (driver == nullptr) GTEST_SKIP() << "expected libasound.so.2";
         driver->scan();
@@ -136,16 +145,35 @@ TEST_F(AlsaDriverTest, InputsAreThoseOfTheSameName) {
     EXPECT_EQ(user.loudest, 0.5f);
 }
 
-TEST_F(AlsaDriverTest, ADeviceThatIsNotThereIsOneLine) {
-    const auto device = driver->create("Unplugged", false);
-    ASSERT_NE(device, nullptr) << "it is listed";
-    EXPECT_EQ(device->outputs(), 0);
-    const std::string error = device->open({}, {0}, 0, 0);
-    EXPECT_FALSE(error.empty());
-    EXPECT_EQ(error.find('\n'), std::string::npos);
-    EXPECT_FALSE(device->isOpen());
-    device->start(user);
-    EXPECT_EQ(user.noise.starts, 0);
+TEST_F(AlsaDriverTest, WhatCannotBeOpenedIsNoDevice) {
+    const auto listed = listAudioDevices(systemAudioDrivers);
+    const auto has = [&](const std::string& name) {
+        return std::ranges::find(listed, name, &AudioDeviceName::name) != listed.end();
+    };
+    EXPECT_TRUE(has("Short hands"));
+    for (const char* const gone : {"Unplugged", "Round"}) {
+        EXPECT_EQ(driver->create(gone, false), nullptr) << gone;
+        EXPECT_FALSE(has(gone)) << gone;
+    }
+    for (const AudioDeviceName& one : listed) EXPECT_GT(one.channels, 0) << one.name;
+    EXPECT_EQ(findAudioDevice(systemAudioDrivers, "ALSA:Unplugged").device, nullptr);
+}
+
+TEST_F(AlsaDriverTest, NothingLeadsToJackAndToPulseOnlyWithoutJack) {
+    const auto has = [&](AudioDriver& of, const std::string& name) {
+        of.scan();
+        const auto names = of.deviceNames(false);
+        return std::ranges::find(names, name) != names.end();
+    };
+    AlsaDriver without{*alsaLibrary(), [] { return false; }}, with{*alsaLibrary(), [] { return true; }};
+    for (AlsaDriver* const one : {&without, &with}) {
+        EXPECT_FALSE(has(*one, "JACK Audio Connection Kit"));
+        EXPECT_FALSE(has(*one, "Far")) << "behind two plug-ins";
+        EXPECT_TRUE(has(*one, "Short hands"));
+        EXPECT_EQ(one->create("JACK Audio Connection Kit", false), nullptr);
+    }
+    EXPECT_TRUE(has(without, "Pulsed"));
+    EXPECT_FALSE(has(with, "Pulsed"));
 }
 
 TEST_F(AlsaDriverTest, ThreeHundredOpensAndCloses) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Devices of a JACK server: samples at the ports, and connections.
 #include "JackDriverFixture.h"
+#include "Live/Devices/AudioDevices.h"
 #include "PortRecorder.h"
 #include <algorithm>
 #include <atomic>
@@ -137,6 +138,12 @@ TEST_F(JackDriverTest, SeveralDevicesPlayAtOnceAndAreNoDevicesThemselves) {
     first->close();
     const std::uint32_t before = other.blocks;
     EXPECT_TRUE(comes([&] { return other.blocks > before + 3; }));
+}
+
+TEST_F(JackDriverTest, WhatOlderVersionsSavedOfAlsasWayToJackIsJacksSystem) {
+    const auto found = findAudioDevice(systemAudioDrivers, "ALSA:JACK Audio Connection Kit");
+    ASSERT_NE(found.device, nullptr);
+    EXPECT_EQ(found.fullName(), "JACK:system");
 }
 
 } // namespace

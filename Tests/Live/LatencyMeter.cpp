@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measures how long after its contact a collision comes out of a JACK server: a session on it, and in the
 // same process a client that records what it plays and notes which frame of the session each cycle is. Prints
-// a row of a table. Usage: physvib-latency-meter message|thread SECONDS [juce], through the drivers of JUCE
-// then
-#include "Host/Devices/JuceDrivers.h"
+// a row of a table. Usage: physvib-latency-meter message|thread SECONDS
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/RepeatEvery.h"
 #include "Live/Devices/SimulationDriver.h"
@@ -14,7 +12,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <juce_events/juce_events.h>
 #include <optional>
 #include <string>
 
@@ -36,13 +33,12 @@ SessionSetup setupFor(const std::string& driver) {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 3 && argc != 4) return 2;
+    if (argc != 3) return 2;
     const std::string driverName = argv[1];
     const double seconds = std::atof(argv[2]);
-    const juce::ScopedJuceInitialiser_GUI juce; // its drivers want a message thread
     const SessionSetup setup = setupFor(driverName);
     Session session{setup};
-    AudioOutput output{session, argc == 4 ? juceAudioDrivers : systemAudioDrivers};
+    AudioOutput output{session, systemAudioDrivers};
     if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty())
         return std::puts(error.c_str()), 1;
     std::optional<ThreadDriver> driver;

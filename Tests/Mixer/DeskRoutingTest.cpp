@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the strips say of outputs is what the device plays, whatever is chosen, refused, saved and opened.
+#include "Mixer/Desk/DeskRouting.h"
 #include "Host/FakeAudioDevice.h"
 #include "Live/Documents/SessionFile.h"
 #include "MixerTesting.h"
@@ -208,6 +209,127 @@ TEST(DeskRouting, TwoHundredRandomRoutingsAreSavedAndOpened) {
         ASSERT_EQ(mixOf(again.value).strips, routed.desk.mix().strips) << k;
         if (k % 20 == 0) routed.expectAsShown("routing " + std::to_string(k));
     }
+}
+
+/// What the strip's list shows.
+juce::String shownOutput(MixerView& view, Desk& desk, const juce::String& label) {
+    desk.dispatchPendingMessages();
+    view.refresh();
+    const auto* list = dynamic_cast<juce::ComboBox*>(find(view, "Output of " + label));
+    return list != nullptr ? list->getText() : juce::String{"no list"};
+}
+
+TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
+    RoutedDesk routed{[] {
+        Mix mix = Desk::firstMix();
+        mix.layout = presetLayout("phone2");
+        mix.resizeStrips();
+        return mix;
+    }()};
+    Desk& desk = routed.desk;
+    MixerView view{desk};
+    ASSERT_EQ(useHeadphones(desk, {"Fake:hands", 0, 0}), "");
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1}));
+    EXPECT_EQ(shownOutput(view, desk, "A"), "L");
+    EXPECT_EQ(shownOutput(view, desk, "B"), "R");
+    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+    ASSERT_TRUE(desk.attach(0.5, 0.5));
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1})) << "though the device has eight";
+    EXPECT_EQ(desk.trouble(), "C has no output: headphones have two, L and R");
+    EXPECT_EQ(shownOutput(view, desk, "C"), "none");
+    routed.expectAsShown("attached");
+    desk.report({});
+    desk.change("Preset", [](Mix& mix) {
+        mix.layout = presetLayout("phone4");
+        mix.resizeStrips();
+    });
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1, -1}));
+    EXPECT_EQ(desk.output().channelMap(), (std::vector{0, 1, -1, -1}));
+    EXPECT_EQ(desk.trouble(), "D has no output: headphones have two, L and R");
+    routed.give(2, 4); // whoever asks for it gets it
+    EXPECT_EQ(shownOutput(view, desk, "C"), "out 5");
+    routed.expectAsShown("asked for");
+}
+
+TEST(Headphones, ThoseOfAFourActuatorDeskAreToldAndTheLevelIsLow) {
+    RoutedDesk routed;
+    routed.desk.change("Loud", [](Mix& mix) { mix.levelDb = -3.0; });
+    ASSERT_EQ(useHeadphones(routed.desk, {.name = "Fake:hands", .monitor = {4, 5}, .marker = 1}), "");
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1, -1}));
+    EXPECT_EQ(routed.desk.trouble(), "C, D have no output: headphones have two, L and R");
+    EXPECT_EQ(routed.desk.mix().levelDb, safeContactDb);
+    EXPECT_TRUE(routed.desk.device().choice().monitor.empty()) << "A and B are heard in its place";
+    EXPECT_EQ(routed.desk.device().choice().marker, -1);
+    routed.expectAsShown("headphones");
+}
+
+TEST(DeskRouting, ANewActuatorLeavesTheMonitorAndTheMarkerWhatTheyUse) {
+    FakeInterface hands;
+    Mix mix = Desk::firstMix();
+    mix.layout = presetLayout("phone2");
+    mix.resizeStrips();
+    setOutputs(mix, {2, 3});
+    Desk desk{fakeDrivers({&hands}), {.name = "Fake:hands", .monitor = {0, 1}, .marker = 4}, mix};
+    MixerView view{desk};
+    ASSERT_TRUE(desk.attach(0.5, 0.5));
+    EXPECT_EQ(desk.mix().strips[2].output, 5);
+    EXPECT_EQ(desk.device().listening().settings().contacts, (std::vector{0, 1})) << "both ears";
+    EXPECT_EQ(desk.device().listening().settings().marks, std::vector{4});
+    desk.dispatchPendingMessages();
+    const auto* list = dynamic_cast<juce::ComboBox*>(find(view, "Output of C"));
+    ASSERT_NE(list, nullptr);
+    for (int k = 0; k < 8; ++k)
+        EXPECT_EQ(list->isItemEnabled(k + 2), k != 0 && k != 1 && k != 4) << list->getItemText(k + 1);
+    EXPECT_EQ(list->getItemText(1), "out 1 (monitor)");
+}
+
+TEST(DeskRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
+    FakeInterface hands;
+    Desk desk{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
+    MixerView view{desk};
+    const auto monitor = [&] {
+        desk.dispatchPendingMessages();
+        return dynamic_cast<juce::ComboBox&>(*find(view, "Monitor")).getText();
+    };
+    const auto says = [&](const juce::String& words) {
+        view.tabs().choose("Output");
+        view.refresh();
+        const auto facts = find(view, "What follows from it")->getDescription();
+        EXPECT_TRUE(facts.contains(words)) << facts;
+    };
+    says("Actuators: 4 of 4 have an output there");
+    ASSERT_EQ(desk.monitorInstead({0, 1}, -20.0), "");
+    EXPECT_EQ(monitor(), "outputs 1 and 2");
+    says("Actuators: 2 of 4 have an output there");
+    says("Heard: left on 1, right on 2");
+    desk.undoManager().undo();
+    EXPECT_EQ(monitor(), "off: outputs 1 and 2, which are of A B");
+    says("Heard: not there: an actuator, or no output");
+    desk.undoManager().redo();
+    EXPECT_EQ(monitor(), "outputs 1 and 2");
+    ASSERT_EQ(useHeadphones(desk, desk.device().choice()), "");
+    EXPECT_EQ(monitor(), "none");
+    says("Heard: left: A, right: B");
+    desk.change("None", [](Mix& mix) { mix.strips[1].output = -1; });
+    says("Heard: left: A, right: nobody");
+    says("Actuators: 1 of 4 have an output there");
+}
+
+TEST(DeskRouting, AnOutputThatIsDisconnectedIsNeitherCountedNorShownAsThere) {
+    FakeInterface hands;
+    Desk desk{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
+    MixerView view{desk};
+    for (int j = 0; j < 4; ++j) EXPECT_TRUE(desk.output().isPlaced(j)) << j;
+    EXPECT_EQ(shownOutput(view, desk, "D"), "out 4");
+    hands.outputs = 3;
+    hands.unplug(true);
+    ASSERT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("no such device"); }));
+    EXPECT_EQ(shownOutput(view, desk, "A"), "out 1 (not there)");
+    hands.isPlugged = true;
+    ASSERT_TRUE(runUntil([&] { return desk.look(), desk.output().isPlaced(0); }));
+    EXPECT_FALSE(desk.output().isPlaced(3));
+    EXPECT_EQ(shownOutput(view, desk, "A"), "out 1");
+    EXPECT_EQ(shownOutput(view, desk, "D"), "out 4 (not there)");
 }
 
 } // namespace

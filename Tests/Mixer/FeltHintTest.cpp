@@ -98,5 +98,33 @@ TEST(FeltHint, WhatMeetsAFeltWallIsFelt) {
     EXPECT_EQ(rig.desk.trouble(), "");
 }
 
+TEST(FeltHint, LevelsThatLetNothingBeFeltAreToldOnceAndNoLongerThanTheyDo) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    const auto told = [&] { return desk.dispatchPendingMessages(), desk.trouble(); };
+    const auto all = [&](auto change) { desk.change("All", [&](Mix& mix) { change(mix); }); };
+    EXPECT_EQ(told(), "");
+    all([](Mix& mix) { mix.levelDb = leastStripDb; });
+    EXPECT_EQ(told(), "Nothing is felt: the master is at " + number(-60.0, 0) + " dB, which is silent");
+    desk.report({}); // dismissed
+    all([](Mix& mix) { mix.strips[0].gainDb = -3.0; });
+    EXPECT_EQ(told(), "") << "it was read";
+    all([](Mix& mix) { mix.levelDb = -59.9; });
+    EXPECT_EQ(told(), "");
+    for (std::size_t j = 0; j < 4; ++j) {
+        EXPECT_EQ(told(), "") << j;
+        all([j](Mix& mix) { mix.strips[j].isMuted = true; });
+    }
+    EXPECT_EQ(told(), "Nothing is felt: every strip is muted");
+    all([](Mix& mix) { mix.strips[2].isMuted = false; });
+    EXPECT_EQ(told(), "");
+    all([](Mix& mix) {
+        for (Strip& strip : mix.strips) strip.gainDb = leastStripDb;
+    });
+    EXPECT_EQ(told(), "Nothing is felt: every strip's fader is at silence");
+    desk.undoManager().undo();
+    EXPECT_EQ(told(), "");
+}
+
 } // namespace
 } // namespace physvib

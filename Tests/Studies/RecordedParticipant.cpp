@@ -2,7 +2,7 @@
 // physvib-studies-recorded FOLDER PROTOCOL.json DEVICE: a participant takes a whole study of worlds in the
 // mixer's window, on a real device at a master level of 0 dB: feels each part of each trial to its end (where
 // there are hands: drags and tilts for as long as asked), answers anything.
-#include "Host/Devices/JuceDrivers.h"
+#include "Host/Devices/HostDrivers.h"
 #include "Live/Devices/AudioDevices.h"
 #include "Participant.h"
 
@@ -12,7 +12,7 @@ namespace {
 class Recorded {
 public:
     Recorded(const juce::File& folder, const std::string& device)
-        : participant_{juceAudioDrivers, device} {
+        : participant_{hostAudioDrivers, device} {
         participant_.tab().setFolder(folder);
         participant_.desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
         participant_.desk.setDisplayWidth(1440.0 / 4000.0);

@@ -7,19 +7,26 @@
 
 namespace physvib {
 
-void setUpFader(juce::Slider& fader, double least, double most, const juce::String& title) {
-    fader.setSliderStyle(juce::Slider::LinearVertical);
-    fader.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
-    fader.getProperties().set(faderProperty, true);
-    fader.setRange(least, most, 0.1);
-    fader.setSkewFactorFromMidPoint(-15.0);
-    fader.setTitle(title);
-    fader.setDoubleClickReturnValue(true, 0.0);
-    fader.textFromValueFunction = [](double db) {
+void Fader::setUp(double least, double most, const juce::String& title, double byDefault) {
+    setSliderStyle(LinearVertical);
+    setSliderSnapsToMousePosition(false);
+    setTextBoxStyle(NoTextBox, true, 0, 0);
+    getProperties().set(faderProperty, true);
+    setRange(least, most, 0.1);
+    setSkewFactorFromMidPoint(-15.0);
+    setTitle(title);
+    setDoubleClickReturnValue(true, byDefault);
+    textFromValueFunction = [](double db) {
         return db <= leastStripDb ? juce::String{"silent"} : readable::words(db, 1) + " dB";
     };
-    fader.setPopupDisplayEnabled(true, true, nullptr);
-    fader.setWantsKeyboardFocus(true);
+    setPopupDisplayEnabled(true, true, nullptr);
+    setWantsKeyboardFocus(true);
+}
+
+void Fader::resized() {
+    juce::Slider::resized();
+    const int margins = 2 * getLookAndFeel().getSliderThumbRadius(*this); // that JUCE keeps at the ends
+    setMouseDragSensitivity(std::max(1, getHeight() - margins));          // the handle follows the pointer
 }
 
 PeakMeter::PeakMeter(const juce::String& title) { setTitle(title); }

@@ -28,8 +28,14 @@ private:
     float peak_ = 0.0f, hold_ = 0.0f; // as heights of the meter
 };
 
-/// A fader in dB; its lowest position is silence. M.
-void setUpFader(juce::Slider& fader, double leastDb, double mostDb, const juce::String& title);
+/// A fader in dB; its lowest position is silence. It goes where it is dragged, not where it is clicked, since
+/// hands may be on the actuators; a double click gives the default.
+class Fader final : public juce::Slider {
+public:
+    /// M.
+    void setUp(double leastDb, double mostDb, const juce::String& title, double defaultDb = 0.0);
+    void resized() override;
+};
 
 /// Slider for the ceiling of a strip, the highest level of its actuator, in dB of full scale. It only reacts
 /// to dragging: a click, a double click or the wheel could raise the limit by accident while the actuator

@@ -17,6 +17,8 @@ public:
                const std::string& inputId);
     ~AlsaDevice() override { close(); }
 
+    bool isThere() const noexcept { return !outputRange_.isMissing; } ///< when it was made
+
     std::string name() const override { return name_; }
     int outputs() override { return outputRange_.maxChannels; }
     int inputs() override { return inputRange_.maxChannels; }

@@ -30,24 +30,57 @@ std::string AlsaDriver::hintText(const void* hint, const char* kind) const {
     return found;
 }
 
+std::string AlsaDriver::configText(snd_config_t* node) const {
+    const char* text = nullptr;
+    return alsa_.config_get_string(node, &text) >= 0 && text != nullptr ? text : "";
+}
+
+// A plug-in names the next one, or has its definition inside of its own.
+std::string AlsaDriver::endOf(const std::string& id, int mostPlugins) const {
+    snd_config_t *all = nullptr, *definition = nullptr;
+    if (mostPlugins < 1 || alsa_.config_update_ref(&all) < 0) return {};
+    std::string end, next;
+    if (alsa_.config_search_definition(all, "pcm", id.c_str(), &definition) >= 0) {
+        const auto in = [this](snd_config_t* node, std::initializer_list<const char*> keys) {
+            snd_config_t* found = nullptr;
+            for (const char* key : keys)
+                if (found == nullptr && alsa_.config_search(node, key, &found) < 0) found = nullptr;
+            return found;
+        };
+        for (auto* node = definition; node != nullptr && next.empty();) {
+            if (auto* const type = in(node, {"type"})) end = configText(type);
+            node = in(node, {"slave.pcm", "playback.pcm", "slave"});
+            if (node != nullptr) next = configText(node);
+        }
+        alsa_.config_delete(definition);
+    }
+    alsa_.config_unref(all);
+    const std::string further = next.empty() ? std::string{} : endOf(next, mostPlugins - 1);
+    return further.empty() ? end : further;
+}
+
 void AlsaDriver::addHint(const void* hint) {
     const std::string id = hintText(hint, "NAME"), direction = hintText(hint, "IOID");
     if (isLeftOut(id)) return;
+    const std::string end = endOf(id);
+    if (end == "jack") return;
     std::string name = inOneLine(hintText(hint, "DESC"));
     if (name.empty()) name = id;
     // ALSA says of dmix and dsnoop that they have both directions, but they have one each.
-    if (direction != "Output" && !id.starts_with("dmix")) inputs_.push_back({id, name});
-    if (direction != "Input" && !id.starts_with("dsnoop")) outputs_.push_back({id, name});
+    if (direction != "Output" && !id.starts_with("dmix")) inputs_.push_back({id, name, end});
+    if (direction != "Input" && !id.starts_with("dsnoop")) outputs_.push_back({id, name, end});
 }
 
 void AlsaDriver::addUnlisted(const std::string& id, const std::string& name) {
     if (std::ranges::find(outputs_, id, &Listed::id) != outputs_.end()) return;
+    const std::string end = endOf(id);
+    if (end == "jack") return;
     const auto offers = [&](snd_pcm_stream_t direction) {
         const AlsaRange range = AlsaPcm{alsa_, id, direction}.range();
         return range.maxChannels > 0 && range.rateHz > 0;
     };
-    if (offers(SND_PCM_STREAM_PLAYBACK)) outputs_.push_back({id, name + " output"});
-    if (offers(SND_PCM_STREAM_CAPTURE)) inputs_.push_back({id, name + " input"});
+    if (offers(SND_PCM_STREAM_PLAYBACK)) outputs_.push_back({id, name + " output", end});
+    if (offers(SND_PCM_STREAM_CAPTURE)) inputs_.push_back({id, name + " input", end});
 }
 
 void AlsaDriver::scan() {
@@ -73,7 +106,9 @@ void AlsaDriver::scan() {
 
 std::vector<std::string> AlsaDriver::deviceNames(bool inputs) {
     std::vector<std::string> names;
-    for (const Listed& l : inputs ? inputs_ : outputs_) names.push_back(l.name);
+    const bool withPulse = !isJackThere_();
+    for (const Listed& l : inputs ? inputs_ : outputs_)
+        if (withPulse || l.end != "pulse") names.push_back(l.name);
     return names;
 }
 
@@ -85,7 +120,8 @@ std::string AlsaDriver::idOf(const List& list, const std::string& name) {
 std::unique_ptr<AudioDevice> AlsaDriver::create(const std::string& name, bool withInputs) {
     const std::string id = idOf(outputs_, name);
     if (id.empty()) return nullptr;
-    return std::make_unique<AlsaDevice>(alsa_, name, id, withInputs ? idOf(inputs_, name) : "");
+    auto device = std::make_unique<AlsaDevice>(alsa_, name, id, withInputs ? idOf(inputs_, name) : "");
+    return device->isThere() ? std::move(device) : nullptr;
 }
 
 } // namespace physvib

@@ -35,7 +35,9 @@ AlsaRange AlsaPcm::range() const {
     AlsaPcm other{alsa_, id_, direction_};
     HardwareParameters parameters{alsa_};
     unsigned int least = 0, most = 0;
-    if (other.openAs(id_) < 0 || alsa_.pcm_hw_params_any(other.pcm_, parameters.get()) < 0 ||
+    if (const int fault = other.openAs(id_); fault < 0)
+        return {.isMissing = fault != -EBUSY && fault != -EAGAIN && fault != -EACCES && fault != -EPERM};
+    if (alsa_.pcm_hw_params_any(other.pcm_, parameters.get()) < 0 ||
         alsa_.pcm_hw_params_get_channels_min(parameters.get(), &least) < 0 ||
         alsa_.pcm_hw_params_get_channels_max(parameters.get(), &most) < 0)
         return {};
@@ -43,7 +45,7 @@ AlsaRange AlsaPcm::range() const {
     const auto* rate = std::ranges::find_if(usualRatesHz, [&](unsigned int hz) {
         return alsa_.pcm_hw_params_test_rate(other.pcm_, parameters.get(), hz, 0) == 0;
     });
-    return {static_cast<int>(std::min(least, most)), static_cast<int>(most),
+    return {static_cast<int>(std::min(least, most)), static_cast<int>(most), false,
             rate != std::end(usualRatesHz) ? static_cast<int>(*rate) : 0};
 }
 

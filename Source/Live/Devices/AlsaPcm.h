@@ -11,7 +11,9 @@ namespace physvib {
 /// What a device offers in one direction; no channels if it cannot be asked.
 struct AlsaRange {
     int minChannels = 0, maxChannels = 0;
-    int rateHz = 0; ///< the first usual rate from 44.1 kHz on that it has; 0: none
+    bool isMissing = false; ///< it cannot be opened, and not because another program has it or because of
+                            ///< rights
+    int rateHz = 0;         ///< the first usual rate from 44.1 kHz on that it has; 0: none
 };
 
 class AlsaPcm {

@@ -11,16 +11,17 @@ std::vector<AudioDeviceName> listAudioDevices(const AudioDrivers& drivers) {
     std::vector<AudioDeviceName> devices;
     for (const auto& driver : drivers()) {
         driver->scan();
-        for (const std::string& name : driver->deviceNames(false)) {
-            const auto device = driver->create(name, false);
-            devices.push_back({driver->name(), name, device ? device->outputs() : 0});
-        }
+        for (const std::string& name : driver->deviceNames(false))
+            if (const auto device = driver->create(name, false))
+                devices.push_back({driver->name(), name, device->outputs()});
     }
     return devices;
 }
 
-FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& wanted, bool withInputs) {
+FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& asked, bool withInputs) {
     auto all = drivers();
+    // what older versions saved: a way to these very outputs that is not taken any more (AlsaDriver)
+    const std::string wanted = asked == "ALSA:JACK Audio Connection Kit" ? "JACK:system" : asked;
     const auto prefix = [](const auto& driver) { return driver->name() + ":"; };
     const auto isNamed = [&](const auto& driver) { return wanted.starts_with(prefix(driver)); };
     const bool hasDriver = std::ranges::any_of(all, isNamed);
@@ -32,8 +33,8 @@ FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& want
             const auto names = driver->deviceNames(inputs);
             return std::ranges::find(names, name) != names.end();
         };
-        if (!has(false) && name == picoDeviceName) name = picoAmong(driver->deviceNames(false));
-        if (!has(false)) continue;
+        if (name == picoDeviceName && !has(false)) name = picoAmong(driver->deviceNames(false));
+        if (name.empty()) continue;
         auto device = driver->create(name, withInputs && has(true));
         if (device) return {std::move(driver), std::move(device)};
     }

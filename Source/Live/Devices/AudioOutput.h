@@ -43,6 +43,9 @@ public:
     /// The device output of each actuator, from 0, as assigned last; -1: none. M.
     const std::vector<int>& channelMap() const noexcept { return settings_.channelMap; }
 
+    /// Whether a device runs that has the actuator's output. Any thread.
+    bool isPlaced(int enchanter) const noexcept { return running_ && map_.at(enchanter) >= 0; }
+
     /// Changes what plays on the listening outputs, without interruption as in assign(). Returns empty, or
     /// one line with the reason, in which case nothing changes. M.
     std::string hear(const ListeningSettings& listening);

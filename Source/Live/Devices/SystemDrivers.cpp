@@ -2,14 +2,23 @@
 // The drivers whose libraries this machine has.
 #include "Live/Devices/SystemDrivers.h"
 #include "Live/Devices/AlsaDriver.h"
+#include "Live/Devices/JackClient.h"
 #include "Live/Devices/JackDriver.h"
 
 namespace physvib {
+namespace {
+
+bool isJackThere() {
+    const JackLibrary* const jack = jackLibrary();
+    return jack != nullptr && JackClient{*jack, "physvib-scan"}.isAlive();
+}
+
+} // namespace
 
 std::vector<std::unique_ptr<AudioDriver>> systemAudioDrivers() {
     std::vector<std::unique_ptr<AudioDriver>> drivers;
     if (const JackLibrary* jack = jackLibrary()) drivers.push_back(std::make_unique<JackDriver>(*jack));
-    if (const AlsaLibrary* alsa = alsaLibrary()) drivers.push_back(std::make_unique<AlsaDriver>(*alsa));
+    if (const AlsaLibrary* alsa = alsaLibrary()) drivers.push_back(std::make_unique<AlsaDriver>(*alsa, isJackThere));
     return drivers;
 }
 

@@ -58,6 +58,13 @@ DeskLimits DeskLimits::of(const Mix& mix) {
     return {mix.levelDb, strips};
 }
 
+double DeskLimits::loudestOutputDb() const {
+    std::vector<double> gains;
+    for (const Strip& strip : strips)
+        if (strip.output >= 0) gains.push_back(std::min(strip.gainDb, strip.ceilingDb));
+    return gains.empty() ? levelDb : std::max(leastStripDb, levelDb + std::ranges::max(gains));
+}
+
 std::string lowerTo(const DeskLimits& most, Mix& mix) {
     Notes notes;
     notes.lower(mix.levelDb, most.levelDb, "master");

@@ -16,6 +16,8 @@ struct DeskLimits {
     std::vector<Strip> strips; ///< one per output in use, with the gain that reaches it
 
     static DeskLimits of(const Mix& mix);
+    /// Level of the loudest output by gain, ceiling and master; the master's alone if no output is in use.
+    double loudestOutputDb() const;
 };
 
 void visitFields(auto& v, FieldsOf<DeskLimits>) {

@@ -77,10 +77,14 @@ void visitFields(auto& v, FieldsOf<StripGroup>) {
     v.field("lane", &StripGroup::lane, Own<GainLane>{}, Need::optional);
 }
 
-/// The lowest output that no strip uses. Any thread.
-inline int freeOutput(std::span<const Strip> strips) noexcept {
-    for (int k = 0;; ++k)
-        if (std::ranges::find(strips, k, &Strip::output) == strips.end()) return k;
+/// The lowest of `outputs` outputs that no strip uses and that is not in use otherwise; -1: none. Any thread.
+inline int freeOutput(std::span<const Strip> strips, std::span<const int> inUse = {},
+                      int outputs = mostStripOutputs) noexcept {
+    for (int k = 0; k < outputs; ++k)
+        if (std::ranges::find(strips, k, &Strip::output) == strips.end() &&
+            std::ranges::find(inUse, k) == inUse.end())
+            return k;
+    return -1;
 }
 
 /// Gives a strip an output; -1: none. A strip that has this output gets the other's former one. Any thread.

@@ -130,9 +130,11 @@ void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
         mix_.scene = std::make_shared<const Scene>(drawn);
     Mix settled = next;
     quietenNew(mix_.strips, settled.strips);
+    const auto withoutEar = placeNew(device_.choice(), settled.strips, mix_.strips.size());
     const auto without = settleOutputs(settled.strips);
     undo_.perform(new MixEdit{*this, mix_, std::move(settled)});
     reportWithout(*this, without);
+    reportNoEar(*this, withoutEar);
 }
 
 bool Desk::apply(const Mix& next) {
@@ -218,6 +220,7 @@ std::string Desk::open(const DeviceChoice& choice) {
     else
         messages_.withdraw(deviceLabel);
     signals_.setRate(output().sampleRateHz());
+    sendChangeMessage(); // it may have other outputs, or name them otherwise
     return error;
 }
 

@@ -41,6 +41,20 @@ struct DeviceChoice {
     std::vector<int> monitor{};       ///< its outputs for left and right ear, from 0; empty: no monitor
     double monitorDb = safeContactDb; ///< as ListeningSettings::contactDb
     int marker = -1;                  ///< its marker output, from 0; -1: none
+    bool isHeadphones = false;        ///< its first two outputs, L and R, are the ears, in place of actuators
+
+    static constexpr int ears = 2;
+    /// Outputs of listeners and measuring devices, which are not given to actuators.
+    std::vector<int> inUse() const {
+        std::vector<int> outputs = monitor;
+        outputs.push_back(marker);
+        return outputs;
+    }
+    /// As the mixer's strips name an output, from 0.
+    std::string nameOf(int output) const {
+        if (isHeadphones && output < ears) return output == 0 ? "L" : "R";
+        return "out " + std::to_string(output + 1);
+    }
 
     /// Address of the requested sink of that kind; empty: none.
     std::string placeOf(const SinkKind& kind) const {

@@ -2,6 +2,7 @@
 // Controls for the device, and its status text.
 #include "Mixer/Output/OutputTab.h"
 #include "Live/Devices/NoDevice.h"
+#include "Mixer/Desk/DeskRouting.h"
 #include "Mixer/Window/CardHost.h"
 #include "Mixer/Window/Parts.h"
 
@@ -160,22 +161,25 @@ void OutputTab::open() {
     if (index >= 0 && index < static_cast<int>(found_.size()))
         choice.name =
             found_[static_cast<std::size_t>(index)].type + ":" + found_[static_cast<std::size_t>(index)].name;
+    const bool wereEars = choice.isHeadphones;
+    if (index >= 0) choice.isHeadphones = index == static_cast<int>(found_.size()); // the last item
     choice.sampleRateHz = rate_.getSelectedId() > 1 ? rate_.getSelectedId() : 0;
     choice.blockFrames = block_.getSelectedId() > 1 ? block_.getSelectedId() : 0;
-    desk_.open(choice);
+    choice.isHeadphones && !wereEars ? useHeadphones(desk_, choice) : desk_.open(choice);
     takeMix();
+}
+
+juce::String OutputTab::ownersOf(int output) const {
+    const auto& mix = desk_.mix();
+    juce::String owners;
+    for (std::size_t j = 0; j < mix.strips.size(); ++j)
+        if (mix.strips[j].output == output) owners << " " << utf8(mix.layout.enchanters[j].label);
+    return owners;
 }
 
 // Lists output pairs for headphones, with the labels of actuators that would lose an output.
 void OutputTab::listHeard() {
     const auto& choice = desk_.device().choice();
-    const auto& mix = desk_.mix();
-    const auto ownersOf = [&](int output) {
-        juce::String owners;
-        for (std::size_t j = 0; j < mix.strips.size(); ++j)
-            if (mix.strips[j].output == output) owners << " " << utf8(mix.layout.enchanters[j].label);
-        return owners;
-    };
     monitor_.clear(juce::dontSendNotification);
     marks_.clear(juce::dontSendNotification);
     monitor_.addItem("none", noneId);
@@ -190,6 +194,13 @@ void OutputTab::listHeard() {
     }
     monitor_.setSelectedId(choice.monitor.empty() ? noneId : noneId + 1 + choice.monitor[0],
                            juce::dontSendNotification);
+    if (choice.monitor.size() == 2 && desk_.device().listening().settings().contacts.empty()) {
+        const auto owners = ownersOf(choice.monitor[0]) + ownersOf(choice.monitor[1]);
+        monitor_.setText("off: outputs " + juce::String{choice.monitor[0] + 1} + " and " +
+                             juce::String{choice.monitor[1] + 1} +
+                             (owners.isEmpty() ? juce::String{} : ", which are of" + owners),
+                         juce::dontSendNotification);
+    }
     monitorLevel_.setSelectedId(levelId - juce::roundToInt(choice.monitorDb), juce::dontSendNotification);
     if (monitorLevel_.getSelectedId() == 0)
         monitorLevel_.setText(number(choice.monitorDb, 1) + " dBFS", juce::dontSendNotification);
@@ -216,7 +227,11 @@ void OutputTab::chooseMarks() {
 juce::String OutputTab::heardWords() const {
     const auto& heard = desk_.device().listening().settings();
     juce::String words;
-    if (heard.contacts.size() == 2)
+    if (desk_.device().choice().isHeadphones)
+        for (int ear = 0; ear < DeviceChoice::ears; ++ear)
+            words << (ear == 0 ? "left:" : ", right:")
+                  << (ownersOf(ear).isEmpty() ? juce::String{" nobody"} : ownersOf(ear));
+    else if (heard.contacts.size() == 2)
         words << "left on " << heard.contacts[0] + 1 << ", right on " << heard.contacts[1] + 1;
     else if (!desk_.device().choice().monitor.empty())
         words << "not there: an actuator, or no output";
@@ -258,6 +273,11 @@ void OutputTab::takeMix() {
         if (d.type + ":" + d.name == choice.name) chosen = id;
         ++id;
     }
+    const bool isNone = choice.name.starts_with(noDeviceType);
+    if (!isNone)
+        device_.addItem("Headphones: " + utf8(choice.name) + " (L and R)",
+                        static_cast<int>(found_.size()) + 1);
+    if (choice.isHeadphones && !isNone) chosen = static_cast<int>(found_.size()) + 1;
     device_.setSelectedId(chosen, juce::dontSendNotification);
     if (chosen == 0) device_.setText(utf8(choice.name), juce::dontSendNotification);
     rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
@@ -276,10 +296,9 @@ void OutputTab::refresh(const DeskMoment& moment) {
     const double rate = std::max(1, output.sampleRateHz());
     const bool isNone = juce::String{utf8(output.device())}.startsWith(noDeviceType);
     const auto& r = moment.session.render;
-    int connected = 0;
-    for (const Strip& strip : desk_.mix().strips)
-        connected += strip.output >= 0 && strip.output < desk_.device().outputs() ? 1 : 0;
     const int all = desk_.mix().count();
+    int connected = 0;
+    for (int j = 0; j < all; ++j) connected += output.isPlaced(j) ? 1 : 0;
     Shade oscShade = Shade::muted;
     const auto osc = oscState(oscShade);
     const double slipped = 1e-6 * static_cast<double>(desk_.session().world().slippedNs());

@@ -25,7 +25,7 @@ GroupView::GroupView(Desk& desk, int group)
     level_.setFont(juce::Font{text::small});
     level_.setJustificationType(juce::Justification::centred);
     level_.setTitle("Gain of the group " + label);
-    setUpFader(fader_, leastStripDb, mostStripDb, "Gain of the group " + label);
+    fader_.setUp(leastStripDb, mostStripDb, "Gain of the group " + label);
     onSlide(fader_, [this](bool goesOn) {
         change(
             "Gain", [this](StripGroup& g) { g.gainDb = fader_.getValue(); }, goesOn);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // View of a strip group: name, fader, mute, and members.
 #pragma once
+#include "Host/Views/StripParts.h"
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
 
@@ -26,7 +27,7 @@ private:
     Desk& desk_;
     const std::size_t index_;
     juce::Label name_, level_;
-    juce::Slider fader_;
+    Fader fader_;
     juce::TextButton mute_{"M"};
     std::unique_ptr<juce::TextButton> remove_;
 };

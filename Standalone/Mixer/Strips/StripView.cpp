@@ -31,7 +31,7 @@ StripView::StripView(Desk& desk, int strip)
     , sweep_{Sign::sweep, "Sweep on " + utf8(desk.mix().layout.enchanters[index_].label)} {
     const auto label = utf8(desk.mix().layout.enchanters[index_].label);
     setTitle("Strip " + label);
-    setUpFader(fader_, leastStripDb, mostStripDb, "Gain of " + label);
+    fader_.setUp(leastStripDb, mostStripDb, "Gain of " + label);
     onSlide(fader_, [this](bool goesOn) {
         change(
             "Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, goesOn);
@@ -96,15 +96,25 @@ void StripView::fillOutputs() {
     output_.clear(juce::dontSendNotification);
     output_.addItem("none", 1);
     std::vector<juce::String> names;
-    for (int k = 0; k < desk_.device().outputs(); ++k) names.push_back("out " + juce::String{k + 1});
+    const DeviceChoice& choice = desk_.device().choice();
+    for (int k = 0; k < desk_.device().outputs(); ++k) names.push_back(utf8(choice.nameOf(k)));
     const Mix& mix = desk_.mix();
     for (std::size_t j = 0; j < mix.strips.size(); ++j) // who would be exchanged
         if (const auto k = static_cast<std::size_t>(mix.strips[j].output);
             j != index_ && mix.strips[j].output >= 0 && k < names.size())
             names[k] += " of " + utf8(mix.layout.enchanters[j].label);
-    for (int id = 2; const auto& name : names) output_.addItem(name, id++);
-    if (strip().output >= desk_.device().outputs())
-        output_.addItem("out " + juce::String{strip().output + 1} + " (not there)", strip().output + 2);
+    const int own = strip().output;
+    isPlaced_ = desk_.output().isPlaced(static_cast<int>(index_));
+    const juce::String gone = isPlaced_ ? "" : " (not there)";
+    const auto inUse = choice.inUse();
+    for (int k = 0; const auto& name : names) {
+        const bool isInUse = std::ranges::find(inUse, k) != inUse.end();
+        const juce::String by = !isInUse ? "" : k == choice.marker ? " (triggers)" : " (monitor)";
+        output_.addItem(name + (k == own ? gone : by), k + 2);
+        output_.setItemEnabled(k++ + 2, !isInUse);
+    }
+    if (own >= desk_.device().outputs()) output_.addItem(utf8(choice.nameOf(own)) + gone, own + 2);
+    output_.setSelectedId(strip().output + 2, juce::dontSendNotification);
 }
 
 void StripView::takeMix() {
@@ -126,7 +136,6 @@ void StripView::takeMix() {
     group_->setTooltip("Strips of a group share a fader and a mute (G). Actuator: " +
                        (profile == "none" ? juce::String{"no profile"} : utf8(profile)));
     fillOutputs();
-    output_.setSelectedId(s.output + 2, juce::dontSendNotification);
     repaint();
 }
 
@@ -141,6 +150,7 @@ void StripView::askDelay() {
 
 void StripView::refresh(const DeskMoment& moment) {
     if (!isThere()) return;
+    if (strip().output >= 0 && isPlaced_ != desk_.output().isPlaced(static_cast<int>(index_))) fillOutputs();
     meter_.set(moment.meters.peaks[index_], moment.holds[index_]);
     level_.setText(inG(desk_.isSilent() ? 0.0 : gOf(desk_, index_, moment.holds[index_])),
                    juce::dontSendNotification);
@@ -242,8 +252,7 @@ void StripView::resized() {
 MasterStrip::MasterStrip(Desk& desk)
     : desk_{desk} {
     setTitle("Master");
-    setUpFader(fader_, leastStripDb, 0.0, "Master gain");
-    fader_.setDoubleClickReturnValue(true, -12.0);
+    fader_.setUp(leastStripDb, 0.0, "Master gain", safeStartDecibels);
     onSlide(fader_, [this](bool goesOn) {
         desk_.change(
             "Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, goesOn);

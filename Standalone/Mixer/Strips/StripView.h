@@ -39,13 +39,14 @@ private:
     Desk& desk_;
     const std::size_t index_;
     PeakMeter meter_;
-    juce::Slider fader_;
+    Fader fader_;
     CeilingHandle ceiling_;
     juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"};
     juce::Label level_, most_;
     juce::ComboBox output_;
     std::unique_ptr<juce::TextButton> group_, test_;
     SignButton sweep_;
+    bool isPlaced_ = false;   // its output, as shown
     bool isDropping_ = false; // a clip is being dragged over it
 };
 
@@ -63,7 +64,7 @@ public:
 private:
     Desk& desk_;
     PeakMeter meter_{"Master level"};
-    juce::Slider fader_;
+    Fader fader_;
     float limiterDb_ = 0.0f; // or of the guard
     bool isGuard_ = false;
     juce::Rectangle<int> limiterBar_, limiterText_, ceilingName_, ceiling_;

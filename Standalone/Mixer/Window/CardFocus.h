@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gives a card the keyboard, and keeps it there.
+// Keeps the keyboard and the mouse from what is behind an open card.
 #pragma once
+#include "Host/Views/Look.h"
 #include <juce_gui_basics/juce_gui_basics.h>
 
 namespace physvib {
 
-/// A menu that is pressed by the mouse has a window of its own, with the keyboard. The system gives that back
-/// to our window only after the menu's card was shown, and JUCE then gives it to what had it before the menu:
-/// from there it goes to the card, once. Message thread.
+/// Gives a card the keyboard, its first text field if it has one, and keeps it there. What would take it
+/// away: a menu that is pressed by the mouse has a window of its own, and when that closes, JUCE gives the
+/// keyboard to what had it before. Message thread.
 class CardFocus final : private juce::FocusChangeListener {
 public:
     CardFocus() { juce::Desktop::getInstance().addFocusChangeListener(this); }
@@ -15,20 +16,47 @@ public:
 
     /// The card is shown.
     void give(juce::Component& card) {
-        behind_ = juce::Component::getCurrentlyFocusedComponent();
-        if (auto* peer = card.getPeer(); behind_ == nullptr && peer != nullptr)
-            behind_ = peer->getLastFocusedSubcomponent();
         card_ = &card;
-        card.grabKeyboardFocus();
+        card.setFocusContainerType(juce::Component::FocusContainerType::keyboardFocusContainer); // for Tab
+        auto* const field = fieldOf(card);
+        (field != nullptr ? *field : card).grabKeyboardFocus();
     }
 
 private:
-    void globalFocusChanged(juce::Component* focused) override {
-        if (card_ == nullptr || focused == nullptr || focused != behind_) return;
-        behind_ = nullptr;
-        card_->grabKeyboardFocus();
+    static juce::Component* fieldOf(juce::Component& in) {
+        for (auto* child : in.getChildren()) {
+            if (dynamic_cast<juce::TextEditor*>(child) != nullptr && child->isVisible()) return child;
+            if (auto* const within = fieldOf(*child)) return within;
+        }
+        return nullptr;
     }
-    juce::Component::SafePointer<juce::Component> card_, behind_;
+    void globalFocusChanged(juce::Component* focused) override {
+        if (card_ == nullptr || focused == nullptr || focused == card_ || card_->isParentOf(focused)) return;
+        if (focused->getTopLevelComponent() == card_->getTopLevelComponent()) give(*card_);
+    }
+    juce::Component::SafePointer<juce::Component> card_;
+};
+
+/// Lies between a card and the window: only the button that silences is reached through it. Message thread.
+class Curtain final : public juce::Component {
+public:
+    void paint(juce::Graphics& g) override {
+        if (const auto* stop = stopButton(*getParentComponent()))
+            g.excludeClipRegion(getLocalArea(stop, stop->getLocalBounds()));
+        g.fillAll(shade(*this, Shade::ground).withAlpha(0.45f));
+    }
+    bool hitTest(int x, int y) override {
+        const auto* stop = stopButton(*getParentComponent());
+        return stop == nullptr || !getLocalArea(stop, stop->getLocalBounds()).contains(x, y);
+    }
+
+private:
+    static const juce::Component* stopButton(const juce::Component& in) {
+        if (in.getProperties()[stopProperty] && in.isShowing()) return &in;
+        for (const auto* child : in.getChildren())
+            if (const auto* found = stopButton(*child)) return found;
+        return nullptr;
+    }
 };
 
 } // namespace physvib

@@ -20,6 +20,7 @@ FileCard::FileCard(const Choice& choice)
     name_.setTitle("Name of the file");
     name_.setFont(juce::Font{text::medium});
     name_.setText(choice.name, false);
+    name_.setSelectAllWhenFocused(true);
     name_.setTextToShowWhenEmpty("name or path", juce::Colours::grey);
     name_.onReturnKey = [this] { take(); };
     name_.onEscapeKey = [this] { onCancel(); };

@@ -6,6 +6,7 @@
 #include "Live/Devices/LikelyDevices.h"
 #include "Live/Devices/NoDevice.h"
 #include "Live/Devices/PicoDevice.h"
+#include "Mixer/Desk/DeskRouting.h"
 #include <algorithm>
 #include <optional>
 
@@ -140,17 +141,12 @@ void FirstStart::playHere() {
         if (onBeside) onBeside(choice.device);
         return;
     }
+    if (choice.isHeard) {
+        desk_.change("Headphones", [](Mix& mix) { keepTo(DeviceChoice::ears, mix); });
+        return useHeadphones(desk_, choice.device).empty() ? end(true) : show();
+    }
     if (const auto error = desk_.open(choice.device); !error.empty()) return show();
-    if (choice.isHeard) return listen();
     test(std::max(1, std::min(choice.outputs, desk_.device().outputs())));
-}
-
-void FirstStart::listen() {
-    constexpr int ears = 2;
-    desk_.change("Headphones", [](Mix& mix) { keepTo(ears, mix); });
-    if (const auto error = desk_.monitorInstead({0, 1}, safeContactDb); !error.empty())
-        desk_.report(utf8(error));
-    end(true);
 }
 
 void FirstStart::test(int outputs) {

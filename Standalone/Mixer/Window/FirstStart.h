@@ -53,7 +53,6 @@ public:
     void choose(int index);
     int chosen() const noexcept { return chosen_; }
     void playHere();        ///< opens the chosen device and starts the test
-    void listen();          ///< plays contact sounds on the open device
     void test(int outputs); ///< tests an actuator per output, four at most, from a low level; waits for sinks
     void pulse();           ///< repeats the pulse of the tested actuator
     void felt();            ///< at its drawn place; goes on to the next

@@ -10,6 +10,7 @@
 #include "Mixer/Strips/LanesTab.h"
 #include "Mixer/Strips/ScopeView.h"
 #include "Mixer/Studies/StudiesTab.h"
+#include "Mixer/World/FeltHint.h"
 #include <utility>
 
 namespace physvib {
@@ -65,6 +66,7 @@ MixerView::MixerView(Desk& desk)
             dividers_.*which = 0.0;
             resized();
         };
+    addChildComponent(curtain_);
     addChildComponent(trouble_);
     addChildComponent(*dismiss_);
     addChildComponent(*act_);
@@ -97,6 +99,10 @@ void MixerView::takeMix() {
     tabs_.takeMix();
     strips_.takeMix();
     scope_.takeMix();
+    if (const auto why = whySilent(desk_.mix()); why != whySilent_) {
+        whySilent_ = why;
+        hintOnLevels(desk_, why);
+    }
     const bool isTrouble = desk_.trouble().isNotEmpty();
     trouble_.setText(desk_.trouble(), juce::dontSendNotification);
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
@@ -197,18 +203,23 @@ void MixerView::setHint(bool isShown) {
 
 void MixerView::setFirstStart(std::unique_ptr<FirstStart> card) {
     firstStart_ = std::move(card);
-    if (!firstStart_) return grabKeyboardFocus();
-    addAndMakeVisible(*firstStart_);
-    placeCards();
-    cardFocus_.give(*firstStart_);
+    raiseCard();
 }
 
 void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     card_ = std::move(card);
-    if (!card_) return grabKeyboardFocus();
-    addAndMakeVisible(*card_);
+    raiseCard();
+}
+
+void MixerView::raiseCard() {
+    auto* const open = openCard();
+    curtain_.setVisible(open != nullptr);
+    if (open == nullptr) return grabKeyboardFocus();
+    curtain_.toFront(false);
+    addAndMakeVisible(*open);
+    open->toFront(false);
     placeCards();
-    cardFocus_.give(*card_);
+    cardFocus_.give(*open);
 }
 
 void MixerView::setProgress(juce::Component* card) {
@@ -232,6 +243,17 @@ bool MixerView::shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarg
     return !files.isEmpty();
 }
 
+void MixerView::mouseDown(const juce::MouseEvent& e) {
+    setHint(false);
+    releaseAtRightClick(e);
+}
+
+// JUCE's buttons take every button of the mouse. One that is not down when it is released does nothing.
+void MixerView::releaseAtRightClick(const juce::MouseEvent& e) {
+    auto* const button = dynamic_cast<juce::Button*>(e.eventComponent);
+    if (button != nullptr && e.mods.isPopupMenu()) button->setState(juce::Button::buttonNormal);
+}
+
 // A screen covers everything. Without a focused component, keys go to the screen before the world.
 bool MixerView::covered(const juce::KeyPress& key) {
     const auto screen = std::ranges::find_if(getChildren(), [](const auto* child) {
@@ -242,9 +264,12 @@ bool MixerView::covered(const juce::KeyPress& key) {
 
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
+    if (auto* const open = openCard()) { // regardless of the focus, which Tab moves within it
+        if (key.isKeyCode(KeyPress::tabKey)) return false;
+        if (!open->keyPressed(key) && key == KeyPress::escapeKey) desk_.setSilent(true);
+        return true;
+    }
     if (!world_.isVisible() && covered(key)) return true;
-    if (card_ && card_->keyPressed(key)) return true; // regardless of the focus
-    if (firstStart_ && firstStart_->keyPressed(key)) return true;
     setHint(false);
     if (key == KeyPress::escapeKey) return desk_.setSilent(true), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
@@ -314,6 +339,7 @@ void MixerView::resized() {
 }
 
 void MixerView::placeCards() {
+    curtain_.setBounds(getLocalBounds());
     const auto middle = getLocalBounds().withTrimmedTop(TopBar::heightFor(getWidth())).getCentre();
     if (firstStart_) firstStart_->setCentrePosition(middle);
     if (card_) card_->setCentrePosition(middle);

@@ -52,6 +52,10 @@ public:
     /// Shows a question or a choice of files in the centre; null: none.
     void setCard(std::unique_ptr<juce::Component> card) override;
     juce::Component* card() noexcept { return card_.get(); }
+    /// Nothing but that card and the button that silences hears keys and the mouse; null: none is open.
+    juce::Component* openCard() noexcept {
+        return card_ ? card_.get() : static_cast<juce::Component*>(firstStart_.get());
+    }
     void setQuestion(std::unique_ptr<QuestionCard> card) { setCard(std::move(card)); }
     QuestionCard* question() noexcept { return dynamic_cast<QuestionCard*>(card_.get()); }
     /// Shows a small card over a corner of the world, which does not take the keyboard; null: none.
@@ -62,7 +66,8 @@ public:
     bool shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details,
                                               juce::StringArray& files, bool& canMoveFiles) override;
 
-    void mouseDown(const juce::MouseEvent&) override { setHint(false); }
+    void mouseDown(const juce::MouseEvent& e) override;
+    void mouseDrag(const juce::MouseEvent& e) override { releaseAtRightClick(e); }
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void paintOverChildren(juce::Graphics& g) override;
@@ -73,6 +78,8 @@ private:
     void timerCallback() override;
     void look();
     void moveDivider(double Dividers::*which, int pixels, int whole, int now);
+    static void releaseAtRightClick(const juce::MouseEvent& e);
+    void raiseCard();
     void placeCards();
     bool covered(const juce::KeyPress& key);
     void takeMix();
@@ -90,12 +97,14 @@ private:
         between_{"Divider of scope and strips", true};
     juce::Label trouble_; // over the world
     std::unique_ptr<juce::TextButton> dismiss_, act_;
+    Curtain curtain_;
     std::unique_ptr<FirstStart> firstStart_;
     std::unique_ptr<juce::Component> card_;
     CardFocus cardFocus_;
     juce::Component::SafePointer<juce::Component> progress_;
     ShownLetters letters_;
     std::uint64_t lettersOf_ = ~std::uint64_t{0}; // edit count of the world at the last check
+    juce::String whySilent_;                      // as told
     bool isHintShown_ = false, isDropShown_ = false, isShow_ = false;
     DeskMoment latest_;
     int restedLooks_ = 0, looks_ = 0;

@@ -47,6 +47,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
         device_.monitor = {left - 1, right - 1};
     device_.monitorDb = settings.getDoubleValue("monitor-db", safeContactDb);
     device_.marker = settings.getIntValue("marker") - 1;
+    device_.isHeadphones = device.isEmpty() && settings.getBoolValue("headphones");
     for (const SinkKind& kind : sinkKinds())
         device_.want(kind, settings.getValue(kind.setting.data()).toStdString());
     folder_->choose(juce::File::createFileWithoutCheckingPath(settings.getValue(folderSetting)));
@@ -212,8 +213,11 @@ void MixerWindow::timerCallback() {
     settings.setValue("device", utf8(device_.name));
     const auto colon = device_.name.find(':');
     if (const int all = desk_->device().outputs(); all > 0 && colon != std::string::npos)
-        settings.setValue("outputs",
-                          ownOutputs({device_.name.substr(0, colon), device_.name.substr(colon + 1), all}));
+        settings.setValue("outputs", device_.isHeadphones
+                                         ? DeviceChoice::ears
+                                         : ownOutputs({device_.name.substr(0, colon),
+                                                       device_.name.substr(colon + 1), all}));
+    settings.setValue("headphones", device_.isHeadphones);
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
     settings.setValue("osc", oscUseNames[static_cast<std::size_t>(desk_->inputs().choice().use)]);
@@ -239,9 +243,13 @@ Mix MixerWindow::firstMix() {
     if (const int outputs = settings.getIntValue("outputs");
         outputs > 0 && settings.getValue("device") == utf8(device_.name))
         keepTo(outputs, mix, device_.name);
-    lowerTo(limits(), mix);
+    const DeskLimits left = limits();
+    mix.levelDb = std::min(mix.levelDb, left.loudestOutputDb());
+    if (device_.isHeadphones) mix.levelDb = std::min(mix.levelDb, safeContactDb);
     for (Strip& strip : mix.strips)
-        if (std::ranges::find(device_.monitor, strip.output) != device_.monitor.end()) strip.output = -1;
+        if (std::ranges::find(left.strips, strip.output, &Strip::output) == left.strips.end() ||
+            std::ranges::find(device_.monitor, strip.output) != device_.monitor.end())
+            strip.output = -1;
     return mix;
 }
 
@@ -249,18 +257,19 @@ Mix MixerWindow::firstMix() {
 void MixerWindow::offerMonitor() {
     auto& settings = files_.settings();
     if (settings.getBoolValue("monitor-offered") || desk_->device().outputs() != 2 ||
-        !device_.sinks.empty() || !device_.monitor.empty())
+        !device_.sinks.empty() || !device_.monitor.empty() || device_.isHeadphones)
         return;
     settings.setValue("monitor-offered", true);
     desk_->messages().add(
         {"This device has two outputs. With headphones there, what is felt can be heard: choose "
-         "Monitor under Output",
+         "them under Output",
          true});
 }
 
-// Not while a study uses the mixer's output.
+// Not while a study uses the mixer's output, or behind a card.
 bool MixerWindow::isInterestedInFileDrag(const juce::StringArray& files) {
-    return files.size() == 1 && juce::File{files[0]}.hasFileExtension("json") && view_->world().isVisible();
+    return files.size() == 1 && juce::File{files[0]}.hasFileExtension("json") && view_->world().isVisible() &&
+           view_->openCard() == nullptr;
 }
 
 void MixerWindow::filesDropped(const juce::StringArray& files, int, int) {
@@ -317,6 +326,7 @@ void MixerWindow::askDisplayWidth() {
 
 bool MixerWindow::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
+    if (view_->openCard() != nullptr) return view_->keyPressed(key);
     if (key == KeyPress{'n', command, 0}) return newDocument(), true;
     if (key == KeyPress{'o', command, 0}) return openDocument(), true;
     if (key == KeyPress{'s', command, 0}) return save(), true;

@@ -96,7 +96,9 @@ private:
     void showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at);
     void takeUp(const std::filesystem::path& copy);
     void offerMonitor();
-    Mix firstMix(); ///< no louder than the mixer was left, and not on the monitor's outputs
+    /// With the default levels, but no louder than the loudest actuator was left; on outputs that were in
+    /// use, and not on the monitor's.
+    Mix firstMix();
     void showMenu(juce::Component& from);
     void setGround(Ground ground);
     void applyZoom();

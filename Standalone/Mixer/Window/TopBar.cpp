@@ -78,6 +78,7 @@ TopBar::TopBar(Desk& desk)
         if (onRecord) onRecord();
     };
     silence_.getProperties().set(stopProperty, true);
+    silence_.setMouseClickGrabsKeyboardFocus(false); // an open card keeps it
     silence_.setTitle("Silence");
     silence_.setTooltip("Silence every actuator at once (Esc); a press lifts the silence");
     silence_.onClick = [this] { desk_.setSilent(!desk_.isSilent()); };

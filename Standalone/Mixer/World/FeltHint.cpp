@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tries a material or a body in a world of its own, and reports what that world explains.
 #include "Mixer/World/FeltHint.h"
+#include "Live/Documents/StripGroups.h"
 #include "Mixer/Desk/DeskWords.h"
+#include "Mixer/Window/Parts.h"
 #include "Scene/Drawing/FeltTrial.h"
+#include <algorithm>
+#include <ranges>
 #include <utility>
 
 namespace physvib {
@@ -37,6 +41,22 @@ void hintOnMaterial(Desk& desk, int material) {
             hintOnMaterial(desk, material);
         };
     showHint(desk, asked.name, whyNotFelt(scene, material), std::move(mend));
+}
+
+juce::String whySilent(const Mix& mix) {
+    const auto all = std::views::iota(0, mix.count());
+    if (masterGain(mix) == 0.0f)
+        return "the master is at " + number(leastStripDb, 0) + " dB, which is silent";
+    if (std::ranges::all_of(all, [&](int j) { return mix.isSilent(j); })) return "every strip is muted";
+    const bool areDown = std::ranges::all_of(
+        all, [&](int j) { return loudestDb(mix, static_cast<std::size_t>(j)) <= leastStripDb; });
+    return areDown ? "every strip's fader is at silence" : "";
+}
+
+void hintOnLevels(Desk& desk, const juce::String& why) {
+    constexpr const char* label = "levels-silent";
+    if (why.isEmpty()) return desk.messages().withdraw(label);
+    desk.messages().show({"Nothing is felt: " + why, false, {}, label});
 }
 
 void hintOnBody(Desk& desk, const std::string& name) {

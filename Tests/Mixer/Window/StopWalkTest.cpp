@@ -2,7 +2,7 @@
 // SILENCE and Esc in every state that the mixer can be brought into by its own controls and menus.
 #include "Host/StopWalk.h"
 #include "../MixerTesting.h"
-#include "Host/Devices/JuceDrivers.h"
+#include "Host/Devices/HostDrivers.h"
 #include "Mixer/Window/MixerWindow.h"
 #include <limits>
 
@@ -24,7 +24,7 @@ TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
     StopWalk walk{
         {[&] {
              window.reset();
-             window = std::make_unique<MixerWindow>(device ? withNoDevice(juceAudioDrivers) : onlyNoDevice(),
+             window = std::make_unique<MixerWindow>(device ? withNoDevice(hostAudioDrivers) : onlyNoDevice(),
                                                     device ? device : "None:no device", juce::File{},
                                                     folder("config"));
              if (device == nullptr) window->desk().setSlowness(0); // pictures of a world at rest are few

@@ -6,10 +6,12 @@
 #include "Host/Views/DisplayScale.h"
 #include "Live/Session/OfflineRender.h"
 #include "Live/Session/SessionRender.h"
+#include "Mixer/Desk/DeskRouting.h"
 #include "Mixer/Knock.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/OnlyScript.h"
 #include "Mixer/Window/MixerWindow.h"
+#include "Mixer/World/DrawTool.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "Support/FullDisk.h"
@@ -441,8 +443,8 @@ TEST(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     };
     leave(-24.0, false); // as the first start does
     auto strips = next(-24.0, -24.0, false);
-    EXPECT_EQ(strips[1].gainDb, -20.0);
-    EXPECT_EQ(strips[2].output, -1);
+    EXPECT_EQ(strips[1].gainDb, 0.0) << "levels belong to the session that was left";
+    EXPECT_EQ(strips[2].output, -1) << "no new output";
     leave(-6.0, true);
     next(-6.0, Desk::firstMix().levelDb, true); // the lower of what was left and what is asked
     folder("left.json").deleteFile();
@@ -502,6 +504,195 @@ TEST(Window, TheHintComesAfterTheFirstStart) {
     window.view().firstStart()->playHere();
     ASSERT_TRUE(runUntil([&] { return window.view().firstStart() == nullptr; }));
     EXPECT_TRUE(window.view().isHintShown());
+}
+
+TEST(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    Hand hand{window};
+    Desk& desk = window.desk();
+    desk.setSlowness(0);
+    desk.change("Levels", [](Mix& mix) { mix.strips[1].gainDb = mix.levelDb = -20.0; });
+    desk.dispatchPendingMessages();
+    const auto levelOf = [&](const juce::String& fader) {
+        return fader == "Master gain" ? desk.mix().levelDb : desk.mix().strips[1].gainDb;
+    };
+    for (const juce::String title : {"Master gain", "Gain of B"}) {
+        auto& fader = dynamic_cast<juce::Slider&>(*find(window.view(), title));
+        const float middle = 0.5f * static_cast<float>(fader.getWidth());
+        const auto high = static_cast<float>(fader.getHeight());
+        const auto edits = desk.edits();
+        for (const float share : {0.1f, 0.25f, 0.4f, 0.8f, 0.95f})
+            hand.click(fader, {middle, share * high}), runFor(0.6); // no double click
+        EXPECT_EQ(levelOf(title), -20.0) << title;
+        EXPECT_EQ(desk.edits(), edits) << title;
+        const float handle = fader.getPositionOfValue(-20.0);
+        hand.drag(hand.placeOf(fader, {middle, 0.9f * high}),
+                  hand.placeOf(fader, {middle, 0.9f * high - 30.0f}));
+        EXPECT_NEAR(fader.getPositionOfValue(levelOf(title)), handle - 30.0f, 1.5f)
+            << title << ": with the pointer, from any place of the lane";
+        for (int k = 0; k < 2; ++k) hand.click(fader, {middle, 0.9f * high});
+        EXPECT_EQ(levelOf(title), title == "Master gain" ? -12.0 : 0.0) << title << ": a double click";
+    }
+}
+
+TEST(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    Hand hand{window};
+    Desk& desk = window.desk();
+    auto& view = window.view();
+    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 200'000'000; }));
+    desk.setSlowness(0);
+    const auto bodies = desk.world().drawing().drawn().bodies.size();
+    const auto edits = desk.edits();
+    auto& slow = *find(view, "Slow motion");
+    const struct {
+        const char* name;
+        std::function<void()> open;
+        const char* field;
+    } cards[]{
+        {"render", [&] { window.renderOffline(); }, "Seconds"},
+        {"save", [&] { window.saveAs(); }, "Name of the file"},
+        {"open", [&] { window.openDocument(); }, "Name of the file"},
+        {"share", [&] { window.share(); }, nullptr},
+        {"values",
+         [&] {
+             askForValues(view.tabs(), "Hits by OSC", "Connect", {{"Address", ""}}, [](auto&) {});
+         },
+         "Address"},
+        {"question",
+         [&] {
+             view.setQuestion(std::make_unique<QuestionCard>(
+                 "Quit?", "Really?", std::vector<QuestionCard::Answer>{{"Yes", [] {}, false}}));
+         },
+         nullptr},
+    };
+    for (const auto& card : cards) {
+        view.grabKeyboardFocus();
+        card.open();
+        ASSERT_TRUE(runUntil([&] { return view.openCard() != nullptr; })) << card.name;
+        runFor(0.1);
+        auto* const opened = view.openCard();
+        auto* const focused = juce::Component::getCurrentlyFocusedComponent();
+        ASSERT_NE(focused, nullptr) << card.name;
+        EXPECT_TRUE(focused == opened || opened->isParentOf(focused)) << card.name << focused->getTitle();
+        if (card.field != nullptr) {
+            EXPECT_EQ(focused->getTitle(), card.field) << card.name;
+            hand.key('a', juce::ModifierKeys::commandModifier);
+            hand.key(juce::KeyPress::deleteKey);
+            for (const char letter : {'1', '2', '.', '5'})
+                window.getPeer()->handleKeyPress(
+                    juce::KeyPress{letter, 0, static_cast<juce::juce_wchar>(letter)});
+            EXPECT_EQ(dynamic_cast<juce::TextEditor&>(*focused).getText(), "12.5") << card.name;
+        }
+        for (const int key : std::initializer_list<int>{'b', 'n', 'r', 's', 'a', '.',
+                                                        juce::KeyPress::spaceKey, juce::KeyPress::deleteKey,
+                                                        juce::KeyPress::F10Key, juce::KeyPress::F11Key}) {
+            view.keyPressed(juce::KeyPress{key});
+            window.keyPressed(juce::KeyPress{key, juce::ModifierKeys::commandModifier, 0});
+            window.keyPressed(juce::KeyPress{key});
+        }
+        for (int k = 0; k < 12; ++k) hand.key(juce::KeyPress::tabKey);
+        EXPECT_TRUE(opened->hasKeyboardFocus(true)) << card.name << ": Tab stays in it";
+        for (const char* const title : {"Mute A", "Menu", "Attach an actuator"})
+            if (auto* const behind = find(view, title);
+                !opened->getScreenBounds().contains(behind->getScreenBounds().getCentre()))
+                hand.click(*behind);
+        EXPECT_FALSE(window.isInterestedInFileDrag({folder("scene.json").getFullPathName()}));
+        EXPECT_EQ(view.openCard(), opened) << card.name;
+        EXPECT_EQ(desk.edits(), edits) << card.name;
+        EXPECT_EQ(desk.world().drawing().drawn().bodies.size(), bodies) << card.name;
+        EXPECT_EQ(desk.session().world().slowness(), 0) << card.name;
+        EXPECT_EQ(view.world().drawing().tool(), DrawTool::hand) << card.name;
+        EXPECT_FALSE(view.isShow()) << card.name;
+        EXPECT_EQ(juce::PopupMenu::dismissAllActiveMenus(), false) << card.name;
+        auto& silence = *find(view, "Silence");
+        desk.setSilent(false);
+        auto* const at = window.getComponentAt(hand.middleOf(silence).roundToInt());
+        EXPECT_EQ(at, &silence) << card.name
+                                << (at != nullptr ? at->getTitle() + at->getName() : juce::String{});
+        hand.click(silence);
+        EXPECT_TRUE(desk.isSilent()) << card.name;
+        runFor(0.1);
+        EXPECT_TRUE(opened->hasKeyboardFocus(true)) << card.name << ": silence does not take the keyboard";
+        desk.setSilent(false);
+        slow.grabKeyboardFocus(); // as a menu that closes gives it back
+        runFor(0.1);
+        EXPECT_TRUE(opened->hasKeyboardFocus(true)) << card.name;
+        view.setCard(nullptr);
+        EXPECT_TRUE(view.hasKeyboardFocus(true)) << card.name;
+    }
+    hand.click(*find(view, "Mute A"));
+    EXPECT_TRUE(desk.mix().strips[0].isMuted) << "without a card it does";
+}
+
+TEST(Window, TheRightButtonOfTheMousePressesNoButton) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    Hand hand{window};
+    for (const char* const title : {"Mute A", "Attach an actuator", "Solo B", "Record"}) {
+        auto* const button = find(window.view(), title);
+        ASSERT_NE(button, nullptr) << title;
+        const auto at = hand.middleOf(*button);
+        for (const int buttons : {0, static_cast<int>(juce::ModifierKeys::rightButtonModifier)})
+            hand.move(at, buttons);
+        hand.move(at + juce::Point<float>{1.0f, 0.0f}, juce::ModifierKeys::rightButtonModifier);
+        hand.release(at);
+    }
+    EXPECT_EQ(window.desk().mix().count(), 4);
+    EXPECT_FALSE(window.desk().mix().strips[0].isMuted);
+    EXPECT_FALSE(window.desk().mix().strips[1].isSolo);
+    EXPECT_FALSE(window.desk().recording().isRunning());
+    hand.click(*find(window.view(), "Solo B"));
+    EXPECT_TRUE(window.desk().mix().strips[1].isSolo) << "the left one does";
+}
+
+TEST(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
+    TestFolder folder;
+    const auto levels = [](const Mix& mix) {
+        std::vector<double> all{mix.levelDb};
+        for (const Strip& strip : mix.strips) all.push_back(strip.gainDb);
+        return all;
+    };
+    const auto leave = [&](auto change) {
+        MixerWindow window{onlyNoDevice(), "None:no device", folder("left.json"), folder("config")};
+        window.desk().change("Left", change);
+        window.save();
+        runFor(0.7); // the settings are written twice a second
+    };
+    leave([](Mix& mix) { // C where A will be
+        giveOutput(mix.strips, 2, 0);
+        mix.strips[2].gainDb = -27.7;
+    });
+    {
+        MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+        EXPECT_EQ(levels(window.desk().mix()), (std::vector{-12.0, 0.0, 0.0, 0.0, 0.0}));
+    }
+    leave([](Mix& mix) {
+        for (Strip& strip : mix.strips) strip.gainDb = -20.0;
+    });
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    EXPECT_EQ(levels(window.desk().mix()), (std::vector{-32.0, 0.0, 0.0, 0.0, 0.0}));
+}
+
+TEST(Window, HeadphonesAreKept) {
+    TestFolder folder;
+    FakeInterface hands; // of eight outputs
+    {
+        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("ears.json"), folder("config")};
+        ASSERT_EQ(useHeadphones(window.desk(), window.desk().device().choice()), "");
+        window.save();
+        runFor(0.7);
+    }
+    {
+        MixerWindow again{fakeDrivers({&hands}), "", {}, folder("config")};
+        EXPECT_TRUE(again.desk().device().choice().isHeadphones);
+        EXPECT_EQ(again.desk().output().channelMap(), (std::vector{0, 1})) << "two actuators";
+        EXPECT_EQ(again.desk().mix().levelDb, safeContactDb);
+    }
+    MixerWindow asked{fakeDrivers({&hands}), "Fake:hands", {}, folder("config")};
+    EXPECT_FALSE(asked.desk().device().choice().isHeadphones) << "a device that is asked for has actuators";
 }
 
 TEST(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {

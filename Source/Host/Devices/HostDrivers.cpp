@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JUCE's device types and devices behind the interface of this project.
-#include "Host/Devices/JuceDrivers.h"
+// JUCE's device types and devices behind the interface of this project, where JUCE's module for them is
+// linked.
+#include "Host/Devices/HostDrivers.h"
+#if !JUCE_MODULE_AVAILABLE_juce_audio_devices
+#include "Live/Devices/SystemDrivers.h"
+
+namespace physvib {
+
+std::vector<std::unique_ptr<AudioDriver>> hostAudioDrivers() { return systemAudioDrivers(); }
+
+} // namespace physvib
+#else
 #include <juce_audio_devices/juce_audio_devices.h>
 #include <utility>
 
@@ -83,23 +93,12 @@ private:
     std::unique_ptr<juce::AudioIODeviceType> type_;
 };
 
-// Without a running server, JACK's library prints five lines to stderr for each query. PhysVib reports that
-// in one line of its own.
-void quietenJack() {
-    using Handler = void (*)(const char*);
-    static juce::DynamicLibrary jack{"libjack.so.0"};
-    if (auto* set = reinterpret_cast<void (*)(Handler)>(jack.getFunction("jack_set_error_function")))
-        set([](const char*) {});
-}
-
 } // namespace
 
-std::vector<std::unique_ptr<AudioDriver>> juceAudioDrivers() {
-    quietenJack();
+std::vector<std::unique_ptr<AudioDriver>> hostAudioDrivers() {
     using Type = juce::AudioIODeviceType;
     std::vector<std::unique_ptr<AudioDriver>> drivers;
-    for (Type* type : {Type::createAudioIODeviceType_JACK(), Type::createAudioIODeviceType_ALSA(),
-                       Type::createAudioIODeviceType_CoreAudio(),
+    for (Type* type : {Type::createAudioIODeviceType_CoreAudio(),
                        Type::createAudioIODeviceType_WASAPI(juce::WASAPIDeviceMode::exclusive),
                        Type::createAudioIODeviceType_ASIO()})
         if (type != nullptr)
@@ -108,3 +107,4 @@ std::vector<std::unique_ptr<AudioDriver>> juceAudioDrivers() {
 }
 
 } // namespace physvib
+#endif
