@@ -3,6 +3,7 @@
 // by the header of that wrapper which vst3-header.cmake writes, where the host's block is made into ours;
 // VST3's own headers come before it.
 #pragma once
+#undef Complex // X11's: as of JUCE 9 its headers come before this one
 #include "PluginProcessor.h"
 #include <array>
 #include <cstdint>
