@@ -76,7 +76,7 @@ void tellProtocol(ReportPage& page, const Protocol& protocol) {
     std::vector<std::string> conditions, sessions;
     for (const ConditionPlan& condition : protocol.conditions)
         conditions.push_back(conditionWords(condition));
-    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session));
+    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session, protocol));
     page.list(conditions);
     page.subheading("Sessions");
     page.list(sessions);
