@@ -38,7 +38,7 @@ step() {
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh ;;
         breaks) Tests/Mixer/breaks.py build/nightly/breaks ;;
-        studies) Tests/Studies/recorded.sh $bin ;;
+        studies) Tests/Studies/recorded.sh $bin && Tests/Studies/faults.sh $bin ;;
         coverage) $bin/physvib-study-coverage ;;
         hours) Tests/ten-hours.sh ;;
         realtime) Tests/Realtime/rtsan.sh ;;
