@@ -87,7 +87,8 @@ void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
         for (std::size_t j = 0; j < channels; ++j) {
             // silent blocks are left out, as nobody feels how long the silence at the end is
             if (std::any_of(blocks[j], blocks[j] + frames, [](float sample) { return sample != 0.0f; })) {
-                addTo(checked.print, &block, 1);
+                const double at[]{block, static_cast<double>(j)};
+                addTo(checked.print, at, std::size(at));
                 addTo(checked.print, blocks[j], static_cast<std::size_t>(frames));
             }
             for (int n = 0; n < frames; ++n) {

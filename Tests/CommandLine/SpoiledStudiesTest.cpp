@@ -67,8 +67,8 @@ constexpr Spoiled spoiled[] = {
     {"breaks after the last trial", false, TONE(""), RATE(R"(, "repetitions": 10, "break_every": 20, "break_s": 60)"), "break_every: 20 trials are never over before the last of 10"},
     // the study as a whole
     {"a training only", false, TONE(""), RATE(R"(, "training": true)"), "expected one that is no training"},
-    {"a day's work", false, TONE(""), RATE(R"(, "repetitions": 1000), {"name": "more", "task": "estimate", "repetitions": 1000, "break_every": 10, "break_s": 60)"), "more than 180 min"},
-    {"hours of breaks", false, TONE(""), RATE(R"(, "break_before_s": 3600), {"name": "b", "task": "estimate", "break_before_s": 3600}, {"name": "c", "task": "estimate", "break_before_s": 3600}, {"name": "d", "task": "estimate", "break_before_s": 3600)"), "more than 180 min"},
+    {"a day's work", false, TONE(""), RATE(R"(, "repetitions": 1000}, {"name": "more", "task": "estimate", "repetitions": 1000, "break_every": 10, "break_s": 60)"), "more than 180 min"},
+    {"hours of breaks", false, TONE(""), RATE(R"(, "break_before_s": 3600}, {"name": "b", "task": "estimate", "break_before_s": 3600}, {"name": "c", "task": "estimate", "break_before_s": 3600}, {"name": "d", "task": "estimate", "break_before_s": 3600)"), "more than 180 min"},
     {"a roving of what is no level", false, CALL("c", R"("variables": [{"name": "hz", "at_0_db": 150}], )", "--frequency {hz} --level-g 0.2"), CHOOSE(R"(, "rove_db": 2, "staircase": {"alternative": "b", "start_db": 4, "least_db": 0.1, "most_db": 6, "step_db": 1})"), "rove_db moves hz of condition c by a factor of up to 1.26"},
 };
 // clang-format on

@@ -12,7 +12,7 @@ table = Path(__file__).with_name("claims.txt")
 places = ("Standalone", "Source/Lab/Report", "Plugin", "Source/Api")
 endings = {".cpp", ".h", ".js", ".mjs", ".ts", ".html", ".gd", ".cs", ".lua", ".py"}
 strings = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
-claims = re.compile(r"\b(was|were|been) (not )?(felt|played)\b|^ ?felt $|\b(collisions|strikes|events|hits) played\b|^ played,|\bfelt (once|\{n\} times)|\bnobody felt\b"
+claims = re.compile(r"\b(was|were|been) (not )?(felt|played)\b|^ ?felt $|\b(collisions|strikes|events|hits) (played|left)\b|^ played,|\bfelt (once|\{n\} times)|\bnobody felt\b"
                     r"|\bleft (through|for|at)\b|\b(that|they|parts?|trials?|what) left\b|reach the output|through the device|\bplayed for\b|^Felt $", re.I)
 
 
