@@ -176,6 +176,7 @@ void StudyScreen::take(Answer answer) {
     if (!staysOpen) return showNext();
     exploring_.reset(); // stays on this screen and marks what was felt
     progress_.emplace(experiment().session(), experiment().trial());
+    unlike_.assign(1, 0);
     answers_->mark(experiment().explored());
     refresh();
     answers_->repaint();
