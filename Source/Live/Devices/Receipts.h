@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Receipts: what went into the device's buffer for each actuator, after map, level, guard and clip, in the
-// session time at which it is felt. Whoever says that something was played or felt asks here.
+// session time at which it is felt. What is reported as played or felt is read from them.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/Nonblocking.h"

@@ -136,8 +136,8 @@ void WorldRunner::tellScene() noexcept {
     take_.store(world_.takeCount(), std::memory_order_relaxed);
 }
 
-// After a pause of the device no strike is left that waited for it. Whoever reads a session time after the
-// pause, and then calls this, sees the pause too.
+// After a pause of the device no strike is left that waited for it. A thread that reads a session time after
+// the pause, and then calls this, sees the pause too.
 void WorldRunner::dropWaiting() {
     const DevicePulse::Return now = pulse_.returns(), before = std::exchange(returns_, now);
     if (now.pauses == before.pauses) return;
