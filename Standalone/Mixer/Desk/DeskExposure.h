@@ -28,9 +28,7 @@ public:
     double daily() const noexcept { return dailyExposure(squareGSeconds_); }
 
     /// Starts a new measurement of felt(), of these frames of the session that is played.
-    void restartLevels(const SampleSpan& span) {
-        mark_ = output_.restartLevels(span);
-    }
+    void restartLevels(const SampleSpan& span) { mark_ = output_.restartLevels(span); }
     /// Level of the strongest actuator in the span, over `seconds`; zeros if nothing was played.
     FeltLevel felt(double seconds) const;
 
