@@ -2,7 +2,6 @@
 // Report section on the apparatus, from the rows of the trials and not from the protocol.
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/AnalysisFiles.h"
-#include "Lab/Files/LeftRows.h"
 #include "Lab/Files/TrialColumns.h"
 #include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
@@ -85,7 +84,6 @@ void tellApparatus(ReportBuilder& report) {
         report.page.note(std::to_string(unknown) +
                          " trials do not say on which device, at which level and with which noise they were "
                          "felt: nothing is claimed about that");
-    if (!report.trials.notLeft.empty()) report.page.note(notLeftWords(report.trials.notLeft.size()));
     if (kinds.empty()) return tellNoise(report, kinds);
     ExportTable table{"apparatus", report.isSimulated(),
                       "device,master_db,noise_db,version,trials,trials_with_the_limiter,most_limiter_db"};
