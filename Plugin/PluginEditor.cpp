@@ -425,7 +425,7 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMe
          gainOfLevel(plugin_.parameter(Parameter::music).value()) > 0.0))
         line << "   |   no beats and no music: the side chain is off";
     line << "   |   run " << status.take << "   |   " << juce::String{static_cast<juce::int64>(r.played)}
-         << " played, " << juce::String{static_cast<juce::int64>(status.late)} << " late, "
+         << " rendered, " << juce::String{static_cast<juce::int64>(status.late)} << " late, "
          << juce::String{static_cast<juce::int64>(r.rejected + status.session.refused)} << " refused";
     if (const auto displaced = plugin_.displacedMessages(); displaced > 0)
         line << ", " << juce::String{static_cast<juce::int64>(displaced)} << " behind their block";

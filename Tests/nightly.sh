@@ -41,7 +41,7 @@ step() {
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh && ensure_packages openbox && Tests/Mixer/headphones.sh $bin ;;
         breaks) Tests/Mixer/breaks.py build/nightly/breaks ;;
-        studies) Tests/Studies/recorded.sh $bin ;;
+        studies) Tests/Studies/recorded.sh $bin && Tests/Studies/faults.sh $bin ;;
         coverage) $bin/physvib-study-coverage ;;
         hours) Tests/ten-hours.sh ;;
         realtime) Tests/Realtime/rtsan.sh ;;

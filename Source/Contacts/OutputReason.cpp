@@ -99,6 +99,9 @@ std::string outputReason(const ContactCounts& made, const OutputFacts& output) {
                (output.silentBy.empty() ? std::string{} : " by " + std::string(output.silentBy)) +
                ": end it where it was asked for.";
     if (output.levelGain <= 0.0) return "The level of the output is 0: set it to 1, or to -12 dB.";
+    if (output.levelGain < 1.01 * inaudible)
+        return "The level of the output is " + threeDigits(toDecibels(output.levelGain)) +
+               " dB, which nobody feels: raise it, to -12 dB at first.";
     if (output.dropped > 0)
         return counted(output.dropped, "event") +
                " found the renderer's queue full: pull samples all the time, or send fewer events.";

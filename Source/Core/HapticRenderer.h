@@ -57,6 +57,13 @@ public:
     template <class Source>
     void render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
+    /// Discards waiting events, here and in `source`, up to that time and that no world produced (or `all`);
+    /// returns how many they were. R, wait-free.
+    template <class Source>
+    int discard(Source& source, std::int64_t untilNs, bool all) noexcept PHYSVIB_NONBLOCKING;
+    /// What sounds fades out, as at a silence. R, wait-free.
+    void fadeAll() noexcept PHYSVIB_NONBLOCKING;
+
     /// Events that have been played, for one reader on another thread.
     PlayedQueue& played() noexcept { return playedQueue_; }
 
@@ -90,6 +97,8 @@ private:
     bool takeMemory() noexcept;
     bool strike(const CollisionEvent& event, FramePosition onset) noexcept;
     bool isSilenced(const CollisionEvent& event) const noexcept;
+    int discardWaiting(std::int64_t untilNs, bool all) noexcept;
+    void fadeModes(double perSecond) noexcept;
     bool strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
     bool strikeCoupled(Strike strike) noexcept;
     MovingTones::Drive driveAt(const CollisionEvent& event) noexcept;

@@ -49,6 +49,16 @@ int HapticRenderer::strikeAndReach(Source& source, int most) noexcept {
 }
 
 template <class Source>
+int HapticRenderer::discard(Source& source, std::int64_t untilNs, bool all) noexcept PHYSVIB_NONBLOCKING {
+    int count = 0;
+    for (int last = -1; last != 0;) { // more than the pending store takes may wait in the source
+        refill(source);
+        count += last = discardWaiting(untilNs, all);
+    }
+    return count;
+}
+
+template <class Source>
 void HapticRenderer::render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
     if (!isPrepared_) {
         for (int j = 0; j < channels_; ++j) std::fill_n(out[j], frames, 0.0f);

@@ -71,8 +71,8 @@ public:
         --size_;
     }
 
-    /// Gives every item a new time: `newTime(oldTime, item)`, which may change the item too. M, not while
-    /// rendering.
+    /// Gives every item a new time: `newTime(oldTime, item)`, which may change the item too. Linear time; not
+    /// between next() and pop().
     template <class Function>
     void retime(Function newTime) noexcept {
         for (; first_ != none; first_ = node(first_).next)

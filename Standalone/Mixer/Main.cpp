@@ -61,7 +61,7 @@ void summarise(Desk& desk) {
     const auto moment = desk.look();
     const auto& r = moment.session.render;
     std::cout << "session of " << number(1e-9 * static_cast<double>(moment.session.sessionNs), 1)
-              << " s: " << r.played << " collisions played, " << r.late << " late, "
+              << " s: " << r.played << " collisions rendered, " << r.late << " late, "
               << desk.session().world().drops() + r.untold << " dropped, "
               << number(1e-6 * static_cast<double>(desk.session().world().slippedNs()), 0)
               << " ms of stalls; worst load " << number(100.0 * moment.device.worstLoad, 1) << " %"

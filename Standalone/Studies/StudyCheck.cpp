@@ -5,6 +5,7 @@
 #include "Core/Actuators/OutputGuard.h"
 #include "Core/Actuators/PerceivedLevel.h"
 #include "Core/Decibels.h"
+#include "Core/Fnv1a.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NameList.h"
@@ -19,9 +20,11 @@
 #include "Live/Session/StimulusRender.h"
 #include "Scene/LayoutNamed.h"
 #include "Studies/StudyCalls.h"
+#include "Studies/StudyRules.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -30,6 +33,7 @@ namespace {
 
 constexpr int checkRateHz = 48000;
 constexpr double longestWithoutBreakSeconds = 30.0 * 60.0;
+constexpr double longestSeconds = 3.0 * 3600.0; // of one participant, breaks included: more tires anyone
 constexpr double weakDb = 6.0; // above the detection threshold; most people feel this at once
 
 /// Minimum gain that the output guard would apply to a stimulus.
@@ -56,6 +60,11 @@ private:
     double least_ = 1.0;
 };
 
+template <class Number>
+void addTo(std::uint64_t& print, const Number* numbers, std::size_t count) {
+    print = fnv1a({reinterpret_cast<const char*>(numbers), count * sizeof(Number)}, print);
+}
+
 /// Sums of one actuator.
 struct ChannelSums {
     double peak = 0.0, squares = 0.0, weightedSquares = 0.0;
@@ -70,8 +79,18 @@ void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
     const OfflineSettings settings{.renderer = {checkRateHz, 0, felt.stimulus.panner, false},
                                    .frames = std::llround(felt.stimulus.seconds * checkRateHz),
                                    .contacts = {sounds.contacts()}};
+    double block = 0.0;
+    checked.print = fnv1a({});
+    addTo(checked.print, felt.gains.data(), channels);
     renderOffline(felt.stimulus.events, settings, [&](const float* const* blocks, int frames) {
-        for (std::size_t j = 0; j < channels; ++j)
+        ++block;
+        for (std::size_t j = 0; j < channels; ++j) {
+            // silent blocks are left out, as nobody feels how long the silence at the end is
+            if (std::any_of(blocks[j], blocks[j] + frames, [](float sample) { return sample != 0.0f; })) {
+                const double at[]{block, static_cast<double>(j)};
+                addTo(checked.print, at, std::size(at));
+                addTo(checked.print, blocks[j], static_cast<std::size_t>(frames));
+            }
             for (int n = 0; n < frames; ++n) {
                 const double sample = static_cast<double>(blocks[j][n]) * felt.gains[j],
                              weighted = sums[j].weighting.process(sample);
@@ -79,6 +98,7 @@ void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
                 sums[j].squares += sample * sample;
                 sums[j].weightedSquares += weighted * weighted;
             }
+        }
         guard.take(blocks, felt.gains, frames);
         return true;
     });
@@ -97,23 +117,6 @@ void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
     }
     const auto strongest = std::ranges::max_element(felt.stimulus.events, {}, &CollisionEvent::amplitude);
     if (strongest != felt.stimulus.events.end()) checked.frequencyHz = strongest->frequencyHz;
-}
-
-CheckedStimulus checkStimulus(const Protocol& protocol, const PlannedStimulus& planned) {
-    CheckedStimulus checked{.condition = planned.condition,
-                            .label = planned.label,
-                            .part = planned.part,
-                            .levelDb = planned.levelDb,
-                            .isHighest = planned.isHighest,
-                            .error = {}};
-    const auto* const world = std::get_if<WorldSet>(&protocol.conditions[planned.condition].stimuli);
-    checked.isOpenEnded = world != nullptr && world->hasHands;
-    const auto felt = feltStimulus(planned.job(protocol), checkRateHz, protocol.folder);
-    if (!felt)
-        checked.error = felt.error;
-    else
-        measure(felt.value, checked);
-    return checked;
 }
 
 std::string signedNumber(double number, int decimals) {
@@ -240,6 +243,9 @@ void judgePlan(const Protocol& protocol, int participants, StudyCheck& check) {
         check.warnings.push_back("exposure: A(8) of " + fixedNumber(exposure, 2) +
                                  " m/s2 is above the protocol's limit of " +
                                  numberText(protocol.exposureLimit) + ", at which the study pauses");
+    if (time.seconds > longestSeconds)
+        check.warnings.push_back("time: " + minutes(time.seconds) + " of one participant, more than " +
+                                 minutes(longestSeconds) + ": expected fewer repetitions or conditions");
     if (time.longestStretchSeconds > longestWithoutBreakSeconds)
         check.warnings.push_back("breaks: expected one at least every " +
                                  minutes(longestWithoutBreakSeconds) + ", found " +
@@ -268,43 +274,90 @@ void judgeBreaks(const Protocol& protocol, StudyCheck& check) {
     }
 }
 
-/// Largest share of an actuator's full scale for a pulse or phantom, by the layout's gains only; 0 if it
-/// cannot be created.
-double askedShare(StimulusJob job, const std::string& folder) {
-    job.layout = besideProtocol(folder, job.layout);
-    const auto layout = layoutNamed(job.layout);
-    const auto stimulus = layout ? makeStimulus(job, layout.value) : Result<Stimulus>{Failure{layout.error}};
-    if (!stimulus) return 0.0;
-    double share = 0.0;
-    PhantomPanner::Gains gains{};
-    for (const CollisionEvent& event : stimulus.value.events) {
-        stimulus.value.panner.gainsAt(event.x, event.y, gains);
-        for (std::size_t j = 0; j < layout.value.enchanters.size(); ++j)
-            share =
-                std::max(share, std::abs(event.amplitude * gains[j]) / layout.value.enchanters[j].fullScaleG);
-    }
-    return share;
-}
+/// Checks the stimuli of a plan, each call once.
+class Stimuli {
+public:
+    /// `isWhole`: see studyFault().
+    Stimuli(const Protocol& protocol, bool isWhole)
+        : protocol_{protocol}
+        , isWhole_{isWhole} {}
 
-/// Checks a stimulus that is not made by a call. It is rendered only if its gains exceed full scale, because
-/// a study has hundreds of stimuli. One error line, or empty.
-std::string levelFault(const Protocol& protocol, const PlannedStimulus& planned) {
-    const TrialJob job = planned.job(protocol);
-    const auto* const stimulus = std::get_if<StimulusJob>(&job);
-    if (stimulus == nullptr || askedShare(*stimulus, protocol.folder) <= 1.0) return {};
-    const CheckedStimulus checked = checkStimulus(protocol, planned);
-    return checked.error.empty() ? std::string{} : nameOf(protocol, checked) + ": " + checked.error;
-}
+    CheckedStimulus check(const PlannedStimulus& planned) {
+        const TrialJob job = planned.job(protocol_);
+        const auto* const world = std::get_if<WorldSet>(&protocol_.conditions[planned.condition].stimuli);
+        const bool isOpenEnded = world != nullptr && world->hasHands;
+        const auto [at, isNew] = made_.try_emplace(textOf(job));
+        if (isNew) {
+            at->second.print = printOfCall(job);
+            if (isWhole_ || (planned.isHighest && !isOpenEnded)) render(job, at->second);
+        }
+        CheckedStimulus checked = at->second;
+        checked.condition = planned.condition;
+        checked.label = planned.label;
+        checked.part = planned.part;
+        checked.levelDb = planned.levelDb;
+        checked.isHighest = planned.isHighest;
+        checked.isOpenEnded = isOpenEnded;
+        return checked;
+    }
+
+private:
+    static std::string textOf(const TrialJob& job) {
+        return std::visit([](const auto& one) { return physvib::textOf(one); }, job);
+    }
+    void render(const TrialJob& job, CheckedStimulus& checked) const {
+        if (const auto* const stimulus = std::get_if<StimulusJob>(&job);
+            !isWhole_ && stimulus != nullptr && isWithin(*stimulus, checked))
+            return;
+        const auto felt = feltStimulus(job, checkRateHz, protocol_.folder);
+        if (!felt)
+            checked.error = felt.error;
+        else
+            measure(felt.value, checked);
+    }
+    /// Whether a pulse or phantom is within full scale by the layout's gains alone; then its print and length
+    /// follow from them, because a study has hundreds of stimuli.
+    bool isWithin(StimulusJob job, CheckedStimulus& checked) const {
+        job.layout = besideProtocol(protocol_.folder, job.layout);
+        const auto layout = layoutNamed(job.layout);
+        const auto made = layout ? makeStimulus(job, layout.value) : Result<Stimulus>{Failure{layout.error}};
+        if (!made) return false;
+        PhantomPanner::Gains gains{};
+        checked.print = fnv1a({});
+        for (const CollisionEvent& event : made.value.events) {
+            made.value.panner.gainsAt(event.x, event.y, gains);
+            const double words[]{static_cast<double>(event.timeNs), event.frequencyHz, event.decayPerSecond,
+                                 static_cast<double>(event.durationNs)};
+            addTo(checked.print, words, std::size(words));
+            for (std::size_t j = 0; j < layout.value.enchanters.size(); ++j) {
+                const double share = event.amplitude * gains[j] / layout.value.enchanters[j].fullScaleG;
+                if (std::abs(share) > 1.0) return false;
+                addTo(checked.print, &share, 1);
+            }
+        }
+        checked.seconds = made.value.seconds;
+        return true;
+    }
+
+    const Protocol& protocol_;
+    bool isWhole_;
+    std::map<std::string, CheckedStimulus> made_; // by call
+};
 
 } // namespace
 
+std::uint64_t printOfCall(const TrialJob& job) {
+    return std::visit([](const auto& one) { return fnv1a(textOf(one)); }, job);
+}
+
 StudyCheck checkStudy(const Protocol& protocol, int participants, const std::function<bool()>& goesOn) {
     StudyCheck check;
+    Stimuli stimuli{protocol, true};
     std::set<std::string> spreadParts;
     for (const PlannedStimulus& planned : plannedStimuli(protocol)) {
         if (goesOn && !goesOn()) return check;
         if (planned.isSpread) spreadParts.insert(cleanLine(planned.part));
-        check.stimuli.push_back(checkStimulus(protocol, planned));
+        check.stimuli.push_back(stimuli.check(planned));
     }
     check.facts.push_back(levelChain(protocol, "as rendered, without the limiter"));
     if (!spreadParts.empty())
@@ -314,6 +367,7 @@ StudyCheck checkStudy(const Protocol& protocol, int participants, const std::fun
                               ", so " + std::to_string(mostPlannedLevels + 1) +
                               " were rendered, evenly spread from the lowest to the highest");
     for (const CheckedStimulus& s : check.stimuli) judge(protocol, s, check);
+    judgeRules(protocol, check);
     judgePlan(protocol, participants, check);
     judgeBreaks(protocol, check);
     for (const ThesisDeviation& one : deviationsOf(protocol))
@@ -360,21 +414,16 @@ std::string htmlOf(const StudyCheck& check, const Protocol& protocol) {
     return page.html();
 }
 
-std::string limiterFault(const Protocol& protocol) {
+std::string studyFault(const Protocol& protocol) {
+    StudyCheck check;
+    Stimuli stimuli{protocol, false};
     for (const PlannedStimulus& planned : plannedStimuli(protocol)) {
-        if (!planned.isHighest) continue;
-        const StimulusSet& set = protocol.conditions[planned.condition].stimuli;
-        const auto* const world = std::get_if<WorldSet>(&set);
-        if (world != nullptr && world->hasHands) continue;
-        if (callSetOf(set) == nullptr) {
-            if (auto fault = levelFault(protocol, planned); !fault.empty()) return fault;
-            continue;
-        }
-        const CheckedStimulus checked = checkStimulus(protocol, planned);
-        if (!checked.error.empty()) return nameOf(protocol, checked) + ": " + checked.error;
-        if (needsLimiter(checked)) return limiterWords(protocol, checked);
+        check.stimuli.push_back(stimuli.check(planned));
+        judge(protocol, check.stimuli.back(), check);
+        if (!check.errors.empty()) return check.errors.front();
     }
-    return {};
+    judgeRules(protocol, check);
+    return check.errors.empty() ? std::string{} : check.errors.front();
 }
 
 } // namespace physvib

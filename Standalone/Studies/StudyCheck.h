@@ -2,7 +2,8 @@
 // Check of a study before it is run: level of each stimulus, effect of limiter and guard, duration, and
 // balance of orders.
 #pragma once
-#include "Lab/Study/Protocol.h"
+#include "Lab/Study/Trial.h"
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -24,8 +25,12 @@ struct CheckedStimulus {
     double squareGSeconds = 0.0;    ///< hand-weighted sum over all actuators: see HandWeighting.h
     double guardGain = 1.0;         ///< minimum gain of OutputGuard; 1: unchanged
     bool isOpenEnded = false;       ///< an interactive world, measured with its own script
+    std::uint64_t print = 0;        ///< hash of what every actuator gets: equal samples, equal prints
     std::string error;              ///< why it cannot be played, in one line
 };
+
+/// The print of a stimulus that is not rendered: of its call. Any thread.
+std::uint64_t printOfCall(const TrialJob& job);
 
 /// Results of a check. Message thread only.
 struct StudyCheck {
@@ -47,9 +52,9 @@ std::string htmlOf(const StudyCheck& check, const Protocol& protocol);
 /// participants; 0: not at all. Ends early once `goesOn` returns false. One thread at a time.
 StudyCheck checkStudy(const Protocol& protocol, int participants, const std::function<bool()>& goesOn = {});
 
-/// The first stimulus that cannot be played, needs the limiter or exceeds its layout at its maximum level,
-/// and the full scale it would need; empty if there is none. Interactive worlds are skipped, because their
-/// levels depend on the participant. Message thread only.
-std::string limiterFault(const Protocol& protocol);
+/// The first error that checkStudy() would find; empty if there is none. Faster: lower levels of the same
+/// samples, and interactive worlds, whose levels depend on the participant, are not rendered, and pulses and
+/// phantoms only where their gains exceed the layout. Message thread only.
+std::string studyFault(const Protocol& protocol);
 
 } // namespace physvib

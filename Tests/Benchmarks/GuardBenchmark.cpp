@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What OutputGuard costs, beside the renderer that it ends, in the same run by turns: as a share of a block's
-// time, and as the renderer with it by the renderer without it. Idle, loud, and while it acts.
+// What the last point costs, beside the renderer that it ends, in the same run by turns: OutputGuard as a
+// share of a block's time, and as the renderer with it by the renderer without it, idle, loud, and while it
+// acts; receipts as shares of a block's time and of its rendering.
+#include "Live/Devices/Receipts.h"
 #include "Rain.h"
 #include "Timing.h"
 #include <benchmark/benchmark.h>
@@ -51,6 +53,42 @@ void outputGuard(benchmark::State& state) {
 BENCHMARK(outputGuard)
     ->ArgNames({"channels", "case"})
     ->ArgsProduct({{4, 16, 64}, {idle, loud, acting}})
+    ->UseManualTime()
+    ->Unit(benchmark::kNanosecond)
+    ->Iterations(200);
+
+/// Argument: channels.
+void receipts(benchmark::State& state) {
+    const int channels = static_cast<int>(state.range(0));
+    bench::RainedOn chain{channels, 1000, 64};
+    chain.seconds(1);
+    Receipts kept{channels};
+    kept.begin();
+    const std::vector<float> samples(static_cast<std::size_t>(bench::blockFrames), 0.3f);
+    const std::vector<const float*> outputs(static_cast<std::size_t>(channels), samples.data());
+    constexpr int blocks = 200;
+    std::int64_t frame = 0;
+    std::vector<double> ofBlock, ofRendering;
+    for (auto _ : state) {
+        const double rendered = bench::secondsOf([&] {
+            for (int b = 0; b < blocks; ++b) chain.block();
+        });
+        const double written = bench::secondsOf([&] {
+            for (int b = 0; b < blocks; ++b, frame += bench::blockFrames)
+                kept.take(0, frame, bench::rate, outputs.data(), bench::blockFrames);
+        });
+        ofBlock.push_back(100.0 * written * bench::rate / (blocks * bench::blockFrames));
+        ofRendering.push_back(100.0 * written / rendered);
+        state.SetIterationTime(written / blocks);
+    }
+    state.counters["percent_of_block"] = bench::median(ofBlock);
+    state.counters["percent_of_rendering"] = bench::median(ofRendering);
+}
+BENCHMARK(receipts)
+    ->ArgName("channels")
+    ->Arg(4)
+    ->Arg(16)
+    ->Arg(64)
     ->UseManualTime()
     ->Unit(benchmark::kNanosecond)
     ->Iterations(200);

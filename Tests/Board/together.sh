@@ -19,13 +19,13 @@ playing=
 kill "$watching"
 wait "$watching" || :
 cat "$folder/board" "$folder/away"
-grep -q " collisions played, 0 late, 0 dropped, 0 refused" "$folder/report"
+grep -q " events left, 0 late, 0 dropped, 0 refused" "$folder/report"
 grep -q " late, 0 dropped, 0 lost" "$folder/report"
 if ! grep -q " 0 late, 0 dropped, 0 lost" "$folder/report"; then # then the machine has to have been away for as long as strikes are early
     ! grep -q "^away 0 times" "$folder/away" || { echo "expected no strike late on a machine that was never away"; exit 1; }
 fi
 grep -q " 0 against their times, 0 samples missed, 0 restarts, 0 faults" "$folder/board"
-played=$(sed -n 's/.*contact; \([0-9]*\) collisions played.*/\1/p' "$folder/report")
+played=$(sed -n 's/.* ms; \([0-9]*\) events left.*/\1/p' "$folder/report")
 told=$(sed -n 's/.* \([0-9]*\) strikes sent, \([0-9]*\) thinned, \([0-9]*\) refused.*/\1 + \2 + \3/p' "$folder/report")
 echo "$played collisions on the device, $told on the board"
 [ "$played" -gt 10 ]

@@ -317,7 +317,7 @@ std::string methodsOf(const Protocol& p) {
     std::string text;
     for (const std::string& sentence : protocolSentences(p)) text += sentence + "\n";
     for (const ConditionPlan& c : p.conditions) text += conditionWords(c) + "\n";
-    for (const SessionPlan& s : p.sessions) text += sessionWords(s) + "\n";
+    for (const SessionPlan& s : p.sessions) text += sessionWords(s, p) + "\n";
     for (const std::string& line : soundLines(p)) text += line + "\n";
     return text;
 }

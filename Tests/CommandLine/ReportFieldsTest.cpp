@@ -26,8 +26,8 @@ protected:
             std::istringstream lines{read(name)};
             std::string text;
             for (std::string line; std::getline(lines, line);) {
-                // limiter_db, master_db, noise_db, device, version
-                if (line.ends_with(",,,,")) line.replace(line.size() - 4, 4, apparatus + ",1.0");
+                // limiter_db, master_db, noise_db, device, version, left, again
+                if (line.ends_with(",,,,,,")) line.replace(line.size() - 6, 6, apparatus + ",1.0,1,0");
                 for (std::size_t at = line.find("simulated"); at != std::string::npos;
                      at = line.find("simulated"))
                     line.replace(at, 9, "person");
@@ -153,7 +153,7 @@ const char* const rowSentences[] = {
     R"(Trainings are left out of all analyses\.)",
     R"(A condition was at one place of the order \d+ to \d+ times; \d+ of 30 successions of two conditions occurred\.)",
     R"(Device, master level in dB, root mean square of the pink noise in dB of full scale \(off: there was none\), version of the program, and by how much the limiter lowered what was felt\.)",
-    R"(\d+ trials were felt through the device JACK:system at a master level of -3 dB, with pink noise of -30 dB of full scale \(root mean square\); the limiter lowered none of them\.)",
+    R"(\d+ trials left through the device JACK:system, every part within 1 dB of its plan, at a master level of -3 dB, with pink noise of -30 dB of full scale \(root mean square\); the limiter lowered none of them\.)",
     R"(Each of these calls of physvib renders a stimulus again; one of each condition and session, all \d+ in stimuli\.csv:)",
     R"(\d+ participants? without a file of times: nothing is known of dates, breaks and outputs)",
     R"(Every trial had the level of its call; nobody measured what was felt\.)",
@@ -172,7 +172,8 @@ TEST_F(ReportFields, NoSentenceOfTheMethodsStandsThereWithoutAField) {
     ASSERT_TRUE(protocol) << protocol.error;
     std::vector<std::string> own = protocolSentences(protocol.value);
     for (const ConditionPlan& condition : protocol.value.conditions) own.push_back(conditionWords(condition));
-    for (const SessionPlan& session : protocol.value.sessions) own.push_back(sessionWords(session));
+    for (const SessionPlan& session : protocol.value.sessions)
+        own.push_back(sessionWords(session, protocol.value));
     const std::string facts = " --protocol grids.json --ethics 'Approved by the board, no. 7.' --consent "
                               "'All signed.' --noise '62 dB(A) at the ear.'";
     for (const std::string& call : {"report grids-P*.csv --out out --people people.csv" + facts,
@@ -213,8 +214,9 @@ TEST_F(ReportFields, TheNoiseOfTheRoomIsToldWhereThereWasAny) {
 TEST_F(ReportFields, TheApparatusIsWhatTheRowsSay) {
     plant("level-steps", 1, "0.5,-3,-30,JACK:system");
     const std::string noisy = page("report level-steps-P01.csv --out out");
-    EXPECT_TRUE(has(noisy, "trials were felt through the device JACK:system at a master level of -3 dB, with "
-                           "pink noise of -30 dB of full scale (root mean square); the limiter lowered "));
+    EXPECT_TRUE(has(noisy, "trials left through the device JACK:system, every part within 1 dB of its plan, "
+                           "at a master level of -3 dB, with pink noise of -30 dB of full scale (root mean "
+                           "square); the limiter lowered "));
     EXPECT_TRUE(has(noisy, "of them, by at most 0.5 dB."));
     std::string rows = read("level-steps-P01.csv");
     for (std::size_t at = rows.find(",-30,JACK"); at != std::string::npos; at = rows.find(",-30,JACK"))

@@ -59,9 +59,9 @@ std::vector<Sentence> sentences() {
     mixed.sessions.push_back(quest.sessions.front());
     mixed.sessions.back().name = "by quest", mixed.name = "mixed";
     unknown.seed = 77; // no built-in one has its hash
-    const Edit device =
-        both(both(set("device", "JACK:x"), set("version", "0.2.0")),
-             both(both(set("master_db", "0"), set("noise_db", "off")), set("limiter_db", "0")));
+    const Edit device = both(both(set("device", "JACK:x"), set("version", "0.2.0")),
+                             both(both(set("master_db", "0"), set("noise_db", "off")),
+                                  both(set("limiter_db", "0"), set("left", "1"))));
     const Edit noTraining = [](Row& row) {
         if (row["phase"] == "training") row["participant"].clear();
     };
@@ -86,9 +86,16 @@ std::vector<Sentence> sentences() {
         {"whether everyone finished is not known: levels followed the answers", of(unknown, 3), of(grid, 3)},
         {"Trainings are left out of all analyses.", of(grid, 3), of(grid, 3, noTraining)},
         {"trials do not say on which device", of(grid, 3), of(grid, 3, device)},
-        {"trials were felt through the device JACK:x at a master level of 0 dB, without pink noise; the "
-         "limiter lowered none of them.",
+        {"trials left through the device JACK:x, every part within 1 dB of its plan, at a master level of 0 "
+         "dB, "
+         "without pink noise; the limiter lowered none of them.",
          of(grid, 3, device), of(grid, 3, both(device, set("noise_db", "-30")))},
+        {"trials named the device JACK:x, but whether all parts left is known of 0 alone;",
+         of(grid, 3, both(device, set("left", ""))), of(grid, 3, device)},
+        {"trials had no device: nobody felt anything.",
+         of(grid, 3, both(device, set("device", "None:no device"))), of(grid, 3, device)},
+        {"20 trials did not leave as planned (column left, or a peak of 0 g) and are left out",
+         of(grid, 3, both(device, set("left", "0", "P2"))), of(grid, 3, device)},
         {"the limiter lowered none of them.", of(grid, 3, device),
          of(grid, 3, both(device, set("limiter_db", "0.4")))},
         {"different settings of the apparatus", of(grid, 3, both(device, set("device", "ALSA:y", "P2"))),
@@ -232,7 +239,7 @@ std::set<std::string> wordsOf(const Protocol& protocol) {
     std::set<std::string> words;
     for (const std::string& one : protocolSentences(protocol)) words.insert(withoutNumbers(one));
     for (const auto& one : protocol.conditions) words.insert(withoutNumbers(conditionWords(one)));
-    for (const auto& one : protocol.sessions) words.insert(withoutNumbers(sessionWords(one)));
+    for (const auto& one : protocol.sessions) words.insert(withoutNumbers(sessionWords(one, protocol)));
     for (const std::string& one : soundLines(protocol)) words.insert(withoutNumbers(one));
     for (const ThesisDeviation& one : deviationsOf(protocol))
         words.insert(withoutNumbers(std::string{one.here}));

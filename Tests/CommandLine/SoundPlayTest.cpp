@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <sstream>
 
 namespace physvib {
 namespace {
@@ -38,6 +39,15 @@ TEST_F(SoundPlay, WhatLeavesIsTheFileToTheBit) {
     const auto file = felt("box.wav", 4), own = felt("own.wav", 4);
     ASSERT_GT(file.size(), 40'000u);
     EXPECT_TRUE(own == file) << own.size() << " samples of " << file.size();
+    EXPECT_NE(played.out.find("; 4 events left, 0 late, 0 dropped"), std::string::npos) << played.out;
+    std::istringstream told{played.out.substr(played.out.find("peaks ") + 6)};
+    for (std::size_t j = 0; j < 4; ++j) {
+        double peak = 0.0, most = 0.0;
+        told >> peak;
+        for (std::size_t n = j; n < file.size(); n += 4)
+            most = std::max(most, std::abs(static_cast<double>(file[n])));
+        EXPECT_NEAR(peak, most, 0.001) << "what left at actuator " << j << ": " << played.out;
+    }
     ASSERT_EQ(call("render own.json --out again.wav").exitCode, 0);
     EXPECT_TRUE(felt("again.wav", 4) == file) << "saved, it is rendered again";
 }

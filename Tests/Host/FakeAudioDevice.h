@@ -18,6 +18,7 @@ struct FakeInterface {
     bool isPlugged = true, opens = true;
     int rate = 48000, block = 64, outputs = 8;
     std::vector<int> unconnected; ///< outputs that the callback does not get
+    bool isReal = false;          ///< its pauses count, in real time
     int withheld = 0;             ///< outputs that the callback does not get although they are active
     int timesOpened = 0, timesStarted = 0;
     ChannelSet opened;
@@ -84,6 +85,7 @@ public:
     }
     int outputLatencyFrames() override { return thing_.block; }
     int xruns() const override { return -1; }
+    bool isReal() const override { return thing_.isReal; }
     DeviceUser* user() const { return user_; }
 
 private:

@@ -55,7 +55,7 @@ if [ "$kind" = none ]; then # nobody feels anything: the world is seen, and the 
     sleep 3
     kill "$mixer"
     wait "$mixer" || true
-    played=$(sed -n 's/.*: \([0-9]*\) collisions played.*/\1/p' "$folder/mixer.log")
+    played=$(sed -n 's/.*: \([0-9]*\) collisions rendered.*/\1/p' "$folder/mixer.log")
     [ "${played:-0}" -gt 0 ] || fail "no collision was played"
     echo "pressed once, $took s after the start; $played collisions were played on no device"
     exit 0

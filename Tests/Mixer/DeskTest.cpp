@@ -209,7 +209,7 @@ TEST(Desk, ADeviceThatVanishesIsToldAndTakenUpAgain) {
     Desk desk{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
     EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
     hands.unplug(true);
-    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("no such device"); }))
+    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("has stopped"); }))
         << desk.trouble();
     EXPECT_FALSE(desk.look().device.isRunning);
     hands.isPlugged = true;
@@ -265,7 +265,7 @@ TEST(Desk, TheMonitorIsChosenHeardSavedWithTheDeviceAndUndoneForHands) {
     EXPECT_EQ(desk.device().listening().settings().contacts, (std::vector{4, 5}));
     hands.outputs = 4; // another interface of the same name
     hands.unplug(true);
-    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("no such device"); }));
+    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("has stopped"); }));
     hands.isPlugged = true;
     EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().isEmpty(); })) << desk.trouble();
     EXPECT_TRUE(desk.device().listening().settings().contacts.empty());

@@ -72,7 +72,7 @@ for step in $steps; do
         is lost 0 random
         is packets "$packets" random
         grep -q '"strikes"' "$folder/random.json" && { echo "random: something was struck"; exit 1; }
-        grep -q "; 0 collisions played" "$folder/report"
+        grep -q "; 0 events left" "$folder/report"
         ;;
     eight) # each has a port of its own, and hears what is for it
         ports= all=

@@ -673,7 +673,7 @@ TEST(Messages, QueriesAnswer) {
     EXPECT_EQ(router.take(messageOf(R"({"message": "phantom", "in": 2})")).error, "");
     EXPECT_EQ(
         answerLine(router.take({"status", {}}).value),
-        R"({ "answer": "status", "session_s": 0.5, "waiting": 1, "bodies": 0, "lost": 0, "stalls_s": 0 })");
+        R"({ "answer": "status", "session_s": 0.5, "waiting": 1, "bodies": 0, "lost": 0, "stalls_s": 0, "dropped": 0 })");
     const auto latency = router.take({"latency", {}}).value;
     EXPECT_EQ(std::get<double>(latency.values.at(0).value),
               static_cast<double>(session.timeline().playOutFrames()) / hostRate);

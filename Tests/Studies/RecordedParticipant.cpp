@@ -43,6 +43,7 @@ private:
         const int taken = p.experiment().trialsTaken();
         const auto parts = static_cast<int>(p.experiment().trial().parts.size());
         const auto scales = p.experiment().session().scales;
+        if (p.experiment().session().answer() == AnswerKind::number) return estimate();
         for (int part = 1; part <= parts; ++part)
             if (!(scales.empty() ? fall() : shake(part)))
                 return "trial " + std::to_string(taken + 1) + ": part " + std::to_string(part) +
@@ -63,6 +64,26 @@ private:
         return test::runUntil([&] { return p.experiment().trialsTaken() > taken; })
                    ? ""
                    : "trial " + std::to_string(taken + 1) + " was not taken";
+    }
+
+    /// Feels it until it left, however often the device fails meanwhile.
+    std::string estimate() {
+        auto& p = participant_;
+        const int taken = p.experiment().trialsTaken();
+        const auto isTaken = [&] {
+            p.pump();
+            auto* const number = dynamic_cast<juce::TextEditor*>(p.find("Number"));
+            if (p.experiment().isDone() || p.experiment().trialsTaken() > taken) return true;
+            if (number == nullptr || p.screen()->isFeeling()) return false;
+            if (!p.screen()->answers()->isEnabled())
+                p.screen()->keyPressed(juce::KeyPress{juce::KeyPress::spaceKey});
+            else if (number->isEmpty())
+                number->setText("7");
+            else
+                p.screen()->keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
+            return false;
+        };
+        return test::runUntil(isTaken, 60.0) ? "" : "trial " + std::to_string(taken + 1) + " never left";
     }
 
     bool fall() {

@@ -304,6 +304,24 @@ TEST(Experiment, PlaysCanBeLimited) {
     EXPECT_FALSE(progress.canPlay(1));
 }
 
+TEST(Experiment, APlayThatWasLostIsOwedAndCountsForNothing) {
+    const SessionPlan session{.mostPlays = 2, .leastSeconds = 1.0};
+    TrialProgress progress{session, {}};
+    progress.played(0);
+    progress.spent(0, 1.0);
+    EXPECT_TRUE(progress.canAnswer());
+    progress.played(0);
+    progress.lost(0);
+    EXPECT_FALSE(progress.canAnswer()) << "though it was felt before";
+    EXPECT_TRUE(progress.canPlay(0));
+    EXPECT_EQ(progress.plays(), 1);
+    EXPECT_EQ(progress.again(), 1);
+    progress.played(0);
+    progress.spent(0, 1.0);
+    EXPECT_TRUE(progress.canAnswer());
+    EXPECT_FALSE(progress.canPlay(0));
+}
+
 TEST(Staircase, TwoDownOneUpFindsTheLevelOf71PercentCorrect) {
     StaircasePlan plan;
     plan.alternative = "stronger";

@@ -106,5 +106,26 @@ TEST(StudyCsv, LabelsAndConditionsAreBounded) {
               "f.csv: expected at most 4096 conditions, found more");
 }
 
+TEST(StudyCsv, TrialsThatDidNotLeaveAreLeftOutAndTold) {
+    const auto choices = [](const char* rows) {
+        return readOne(readChoices,
+                       std::string{"participant,condition,choice,render,peak_g,device,left\n"} + rows);
+    };
+    const auto told = choices("P1,c,a,x,0.1|0.1,JACK:s,1\nP1,c,b,x,0|0,JACK:s,0\nP1,c,b,x,0|0,JACK:s,1\n");
+    ASSERT_TRUE(told) << told.error;
+    EXPECT_EQ(told.value.conditions.front().trials.size(), 2u) << "left says more than a peak";
+    EXPECT_EQ(told.value.warnings,
+              std::vector<std::string>{
+                  "f.csv: 1 trial did not leave as planned (column left, or a peak of 0 g) and is left out"});
+    const auto older = choices("P1,c,a,x ; y,0.1|0.1,JACK:s,\nP1,c,b,x ; y,0.1|0,JACK:s,\n"
+                               "P1,c,a,x --level-db -80 ; y,0|0.1,JACK:s,\nP1,c,a,x,0,None:no device,\n"
+                               "P1,c,a,x,,,\n");
+    ASSERT_TRUE(older) << older.error;
+    EXPECT_EQ(older.value.conditions.front().trials.size(), 4u)
+        << "silence that was asked for, rehearsals and other programs' trials stay";
+    EXPECT_NE(choices("P1,c,b,x,0|0,JACK:s,0\n").error.find("expected trials of this kind, found none"),
+              std::string::npos);
+}
+
 } // namespace
 } // namespace physvib

@@ -124,7 +124,7 @@ TEST(TrialLog, WhatWasFeltIsKeptAndTheExposureComesBack) {
     answer.exposure = 0.0123456789;
     const std::string text =
         trialHeader(p, participant, "0") + trialRow(p, participant, experiment.take(answer));
-    EXPECT_TRUE(text.ends_with(",0.25|0.333333,0.125|0.2,0.0123457,,,,,\n")) << text;
+    EXPECT_TRUE(text.ends_with(",0.25|0.333333,0.125|0.2,0.0123457,,,,,,,\n")) << text;
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
     EXPECT_EQ(log.value.records.front().answer.exposure, 0.0123457);
@@ -191,8 +191,9 @@ TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
 
 TEST_F(TrialLogFiles, OfOlderVersionsGoOnInTheirOwnColumns) {
     const Protocol p = findProtocol("magnitudes").value;
-    for (const auto& [newest, columns] : {std::pair{",peak_g,rms_g,a8_m_per_s2", std::size_t{8}},
-                                          {",limiter_db,master_db", std::size_t{5}}}) {
+    for (const auto& [newest, columns] : {std::pair{",peak_g,rms_g,a8_m_per_s2", std::size_t{10}},
+                                          {",limiter_db,master_db", std::size_t{7}},
+                                          {",left,again", std::size_t{2}}}) {
         std::string old;
         std::istringstream lines{wholeFile(p)};
         for (std::string line; std::getline(lines, line);) {
@@ -205,7 +206,11 @@ TEST_F(TrialLogFiles, OfOlderVersionsGoOnInTheirOwnColumns) {
         }
         ASSERT_EQ(old.find(newest), std::string::npos);
         std::ofstream{path, std::ios::binary} << old.substr(0, old.size() / 2);
-        goOn(p, [](Answer& answer) { answer.apparatus = Apparatus{"1.0", "JACK:system", -6.0}; });
+        goOn(p, [&](Answer& answer) {
+            if (std::string{newest} != ",left,again")
+                answer.apparatus = Apparatus{"1.0", "JACK:system", -6.0};
+            answer.left = true;
+        });
         EXPECT_EQ(readFile(path, 1'000'000).value, old) << newest;
     }
 }
@@ -215,13 +220,35 @@ TEST_F(TrialLogFiles, SayWithWhatTrialsWereFelt) {
     const Apparatus with{"1.0", "JACK:system", -6.0, -40.5};
     goOn(p, [&](Answer& answer) { answer.apparatus = with, answer.limiterDb = 1.25; });
     const std::string text = readFile(path, 1'000'000).value;
-    EXPECT_NE(text.find(",1.25,-6,-40.5,JACK:system,1.0\n"), std::string::npos) << text;
+    EXPECT_NE(text.find(",1.25,-6,-40.5,JACK:system,1.0,,\n"), std::string::npos) << text;
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
     for (const TrialRecord& record : log.value.records) {
         EXPECT_EQ(record.answer.apparatus, with);
         EXPECT_EQ(record.answer.limiterDb, 1.25);
     }
+}
+
+TEST_F(TrialLogFiles, SayWhetherEveryPartLeftAndGoOnAlike) {
+    const Protocol p = findProtocol("level-steps").value;
+    int n = 0;
+    goOn(p, [&](Answer& answer) {
+        answer.left = ++n % 3 != 0;
+        answer.again = n % 3;
+    });
+    const std::string text = readFile(path, 1'000'000).value;
+    EXPECT_NE(text.find(",0,0\n"), std::string::npos) << text;
+    EXPECT_NE(text.find(",1,2\n"), std::string::npos) << text;
+    const auto log = readTrialLog(text, "t.csv", p, participant);
+    ASSERT_TRUE(log) << log.error;
+    Experiment again{p, participant};
+    double levelDb = -1.0;
+    for (const TrialRecord& record : log.value.records) {
+        if (levelDb >= 0.0) EXPECT_EQ(again.trial().levelDb, levelDb) << "what did not leave moves no level";
+        ASSERT_EQ(again.redo(record), "");
+        levelDb = *record.answer.left ? -1.0 : record.trial.levelDb;
+    }
+    EXPECT_TRUE(again.isDone());
 }
 
 TEST_F(TrialLogFiles, KeepAnswersInWords) {
@@ -291,7 +318,7 @@ TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
     EXPECT_EQ(read.value[0].trials, 30u);
     EXPECT_NEAR(read.value[0].estimate, 0.674 * std::sqrt(2.0) * 2.0, read.value[0].halfInterval)
         << "75 % of comparisons with 2 dB of noise";
-    const std::string words = ",weibull guess 0.5 lapse 0.02 levels_db 0 0.5 12 widths_db 2 20,,,,,,,,\n";
+    const std::string words = ",weibull guess 0.5 lapse 0.02 levels_db 0 0.5 12 widths_db 2 20,,,,,,,,,,\n";
     ASSERT_NE(text.rfind(words), std::string::npos);
     text.replace(text.rfind(words), words.size(), ",weibull,,,,,,,,\n");
     EXPECT_EQ(summaries().error,

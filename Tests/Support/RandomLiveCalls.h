@@ -98,7 +98,7 @@ private:
     }
 
     physvib_int64 call(std::uint8_t which) {
-        switch (which % 28) {
+        switch (which % 29) {
         case 24: return physvib_live_impact(live(), number(), number(), number());
         case 25:
             return physvib_live_impact_of(live(),
@@ -107,6 +107,8 @@ private:
                                                      : "steel plate",
                                           number(), number(), number());
         case 26: return sendEach();
+        case 28:
+            return physvib_live_left(live(), ns(), ns(), small(), of(receipt_, physvib_live_receipt_init));
         case 27: return physvib_live_explain(live(), world(), isRare() ? nullptr : text_.data(), byte());
         case 0: return open();
         case 1: return isVeryRare() ? close() : 0;
@@ -188,6 +190,7 @@ private:
     physvib_live_settings settings_{};
     std::array<char, 256> text_{};
     physvib_live_status status_{};
+    physvib_live_receipt receipt_{};
 };
 
 } // namespace physvib::test

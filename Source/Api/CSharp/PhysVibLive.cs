@@ -41,12 +41,26 @@ public struct LiveStatus {
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] byte[] trouble;
     public int Board;
     int unused;
-    public long BoardSent, BoardLost;
+    public long BoardSent, BoardLost, Dropped;
     /// <summary>What is missing, one line; "": nothing.</summary>
     public string Trouble { get { return System.Text.Encoding.UTF8.GetString(trouble, 0, Math.Max(0, Array.IndexOf(trouble, (byte)0))); } }
     internal static LiveStatus Create() {
         var made = new LiveStatus();
         LiveNative.Check(LiveNative.physvib_live_status_init(ref made, Native.SizeOf(made)));
+        return made;
+    }
+}
+
+/// <summary>What left for an actuator in a span of session time; see physvib_live_receipt.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct LiveReceipt {
+    UIntPtr size;
+    public long Frames;
+    public double Peak, MeanSquare;
+    public int Running, Opening, Over, Kept;
+    internal static LiveReceipt Create() {
+        var made = new LiveReceipt();
+        LiveNative.Check(LiveNative.physvib_live_receipt_init(ref made, Native.SizeOf(made)));
         return made;
     }
 }
@@ -125,6 +139,12 @@ public sealed class Live : IDisposable {
     public void SetLayout(RendererSettings renderer) { LiveNative.Check(LiveNative.physvib_live_set_layout(name, ref renderer)); }
     public void SetLevel(double levelDb) { LiveNative.Check(LiveNative.physvib_live_set_level(name, levelDb)); }
     public void Silence(bool isSilent = true) { LiveNative.Check(LiveNative.physvib_live_silence(name, isSilent ? 1 : 0)); }
+    /// <summary>What left for an actuator, from 0, between two session times; see physvib_live_left.</summary>
+    public LiveReceipt Left(long fromNs, long toNs, int actuator) {
+        var receipt = LiveReceipt.Create();
+        LiveNative.Check(LiveNative.physvib_live_left(name, fromNs, toNs, actuator, ref receipt));
+        return receipt;
+    }
     /// <summary>As World.Explain, also of this device.</summary>
     public string Explain(World world) { return Explanation.Of((text, size) => LiveNative.Check(LiveNative.physvib_live_explain(name, world.name, text, size))); }
     public LiveStatus Status {
@@ -169,6 +189,8 @@ static class LiveNative {
     [DllImport(Library)] internal static extern int physvib_live_set_level(IntPtr live, double levelDb);
     [DllImport(Library)] internal static extern int physvib_live_silence(IntPtr live, int isSilent);
     [DllImport(Library)] internal static extern int physvib_live_get_status(IntPtr live, ref LiveStatus status);
+    [DllImport(Library)] internal static extern int physvib_live_receipt_init(ref LiveReceipt receipt, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_live_left(IntPtr live, long fromNs, long toNs, int actuator, ref LiveReceipt receipt);
     [DllImport(Library)] internal static extern int physvib_live_explain(IntPtr live, IntPtr world, [Out] byte[] text, UIntPtr size);
 }
 

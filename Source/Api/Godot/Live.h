@@ -6,6 +6,7 @@
 #include <physvib/physvib-live.h>
 
 #include <string>
+#include <vector>
 
 namespace physvib::godot {
 
@@ -22,6 +23,9 @@ public:
                      double fieldWidthMetres, double fieldHeightMetres, const std::string& sessionFile);
     void setLevel(double levelDb);
     void play(physvib_world world, const physvib_event& event);
+    /// The peak that left for each of `actuators` in the last second, 1: full scale; empty: not all of it
+    /// left.
+    std::vector<double> left(int actuators) const;
 
 private:
     physvib_live live = nullptr;

@@ -13,6 +13,10 @@ struct Library {
     decltype(&physvib_live_align) align = nullptr;
     decltype(&physvib_live_strike) strike = nullptr;
     decltype(&physvib_live_set_level) setLevel = nullptr;
+    decltype(&physvib_live_now_ns) now = nullptr;
+    decltype(&physvib_live_latency_ns) latency = nullptr;
+    decltype(&physvib_live_receipt_init) beginReceipt = nullptr;
+    decltype(&physvib_live_left) left = nullptr;
     decltype(&physvib_live_settings_init) initialise = nullptr;
     decltype(&physvib_live_error) error = nullptr;
     std::string missing; ///< why it could not be loaded
@@ -27,6 +31,8 @@ struct Library {
         find(handle, "physvib_live_open", open), find(handle, "physvib_live_close", close);
         find(handle, "physvib_live_align", align), find(handle, "physvib_live_strike", strike);
         find(handle, "physvib_live_set_level", setLevel);
+        find(handle, "physvib_live_now_ns", now), find(handle, "physvib_live_latency_ns", latency);
+        find(handle, "physvib_live_receipt_init", beginReceipt), find(handle, "physvib_live_left", left);
         find(handle, "physvib_live_settings_init", initialise), find(handle, "physvib_live_error", error);
     }
     template <class Function>
@@ -69,6 +75,21 @@ void Live::play(physvib_world world, const physvib_event& event) {
     physvib_event later = event;
     later.time_ns += startNs;
     library().strike(live, &later, 1);
+}
+
+std::vector<double> Live::left(int actuators) const {
+    if (live == nullptr) return {};
+    constexpr physvib_int64 second = 1'000'000'000, unknown = 10'000'000; // the newest bins are not complete
+    const physvib_int64 until = library().now(live) - library().latency(live) - unknown;
+    std::vector<double> peaks;
+    physvib_live_receipt receipt;
+    library().beginReceipt(&receipt, sizeof receipt);
+    for (int j = 0; j < actuators; ++j) {
+        if (library().left(live, until - second, until, j, &receipt) != PHYSVIB_OK || receipt.running == 0)
+            return {};
+        peaks.push_back(receipt.peak);
+    }
+    return peaks;
 }
 
 } // namespace physvib::godot

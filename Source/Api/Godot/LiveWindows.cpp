@@ -16,4 +16,6 @@ void Live::setLevel(double) {}
 
 void Live::play(physvib_world, const physvib_event&) {}
 
+std::vector<double> Live::left(int) const { return {}; }
+
 } // namespace physvib::godot

@@ -110,6 +110,10 @@ void Outputs::update(double gameSeconds) {
     }
 }
 
+std::vector<double> Outputs::left() const {
+    return devices.empty() ? std::vector<double>{} : devices.front()->left(settings.layout.count);
+}
+
 void Outputs::rest() {
     for (int pad = 0; pad < maxPads; ++pad)
         if ((rumbling >> static_cast<unsigned>(pad) & 1U) != 0)

@@ -35,6 +35,8 @@ public:
     void play(physvib_world world, const physvib_event& event);
     /// Once a frame: commands of the motors. `gameSeconds`: of the frame, as the game has them.
     void update(double gameSeconds);
+    /// What left the first device in the last second, see Live.
+    std::vector<double> left() const;
     void rest();  ///< the motors stop until the next update
     void close(); ///< all motors stop, the devices are closed
 

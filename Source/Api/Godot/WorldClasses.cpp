@@ -67,6 +67,7 @@ HapticWorld& worldOf(Instance& instance) { return static_cast<HapticWorld&>(inst
 
 const std::vector<Method> methods{
     {"explain", text, [](Instance& instance, const Value&) { return worldOf(instance).explain(); }},
+    {"left", dictionary, [](Instance& instance, const Value&) { return worldOf(instance).left(); }},
     {"actuator_places", places,
      [](Instance& instance, const Value&) { return worldOf(instance).actuatorPlaces(); }},
     {"time_s", real, [](Instance& instance, const Value&) { return worldOf(instance).timeSeconds(); }},

@@ -128,6 +128,13 @@ Value HapticWorld::explain() const {
     return Value(inGodotsWords(sentence.data()).c_str());
 }
 
+Value HapticWorld::left() const {
+    Value peaks = Value::empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY);
+    int actuator = 0;
+    for (const double peak : outputs.left()) peaks.set(actuator++, peak);
+    return peaks;
+}
+
 Value HapticWorld::timeSeconds() const {
     return Value(world == nullptr ? 0.0 : static_cast<double>(physvib_world_time_ns(world)) * 1e-9);
 }

@@ -53,6 +53,7 @@ public:
     void finishStep();             ///< at the start of the next tick, before any script: the solver is done
     void added(const Value& node); ///< to the tree
     Value explain() const;         ///< why nothing is felt, in one sentence
+    Value left() const;            ///< the peak of each actuator that left in the last second
     Value timeSeconds() const;
     Value actuatorPlaces(); ///< in units of the scene, also in the editor
 

@@ -38,6 +38,7 @@ int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs
     if (!std::ranges::all_of(events, [](const CollisionEvent& e) { return isPlayable(e); }))
         return nothingThere("event: expected 0 to 20000 Hz, a decay or a duration, below 5 Hz a decay of at "
                             "least 1 per second, numbers, a time from 0 on");
+    if (live.session().pulse().dropsNow(events.size())) return PHYSVIB_OK; // told by the status
     return live.session().take({Strikes{events, true}, 0})
                ? PHYSVIB_OK
                : fail(PHYSVIB_ERROR_FULL, "events: expected fewer that wait for their time");
@@ -63,6 +64,32 @@ const char* physvib_live_error() { return lastError().data(); }
 
 int physvib_live_status_init(physvib_live_status* status, size_t size) {
     return begin(status, size, zeroed<physvib_live_status>());
+}
+
+int physvib_live_receipt_init(physvib_live_receipt* receipt, size_t size) {
+    return begin(receipt, size, zeroed<physvib_live_receipt>());
+}
+
+int physvib_live_left(physvib_live name, physvib_int64 fromNs, physvib_int64 toNs, int actuator,
+                      physvib_live_receipt* receipt) {
+    return in(name, [&](Live& live) {
+        physvib_live_receipt told;
+        if (!take<physvib_live_receipt>(receipt, told, physvib_live_receipt_init))
+            return PHYSVIB_ERROR_ARGUMENT;
+        if (actuator < 0 || actuator >= live.session().channels())
+            return nothingThere("actuator: expected one of the device's, from 0");
+        const Receipt left = live.output().left(fromNs, toNs, actuator);
+        told.size = receipt->size;
+        told.frames = left.frames;
+        told.peak = left.peak;
+        told.mean_square = left.meanSquare;
+        told.running = left.isRunning ? 1 : 0;
+        told.opening = static_cast<int>(left.opening);
+        told.over = left.isOver ? 1 : 0;
+        told.kept = left.isKept ? 1 : 0;
+        std::memcpy(receipt, &told, told.size);
+        return PHYSVIB_OK;
+    });
 }
 
 physvib_int64 physvib_live_now_ns(physvib_live name) {
@@ -172,7 +199,7 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
         if (!take<physvib_live_status>(status, told, physvib_live_status_init)) return PHYSVIB_ERROR_ARGUMENT;
         const LiveStatus now = live.status();
         told.size = status->size;
-        told.is_running = now.output.isRunning ? 1 : 0;
+        told.is_running = live.output().isPlaying() ? 1 : 0;
         told.is_silent = live.output().isSilent() ? 1 : 0;
         told.rate_hz = now.rateHz;
         told.block_frames = now.blockFrames;
@@ -184,6 +211,7 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
         told.played = static_cast<physvib_int64>(now.render.played);
         told.late = static_cast<physvib_int64>(now.render.late);
         told.rejected = static_cast<physvib_int64>(now.render.rejected);
+        told.dropped = static_cast<physvib_int64>(live.session().pulse().dropped());
         for (const SinkState& sink : now.sinks) { // several sinks are reported as one
             if (told.board != PHYSVIB_BOARD_SOUGHT)
                 told.board = sink.isReady ? PHYSVIB_BOARD_PLAYS : PHYSVIB_BOARD_SOUGHT;

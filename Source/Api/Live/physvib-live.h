@@ -65,7 +65,21 @@ typedef struct physvib_live_status {
     physvib_int64 board_sent; /**< events sent to the board so far */
     physvib_int64 board_lost; /**< of these: dropped, because the line was full, they were late or the board
                                  cannot play them */
+    physvib_int64 dropped; /**< events that came while the device did not ask for blocks, or waited for it */
 } physvib_live_status;
+
+/** What left for an actuator in a span of session time, measured at the device's buffer. */
+typedef struct physvib_live_receipt {
+    size_t size;          /**< set by init */
+    physvib_int64 frames; /**< that went to the actuator's output; 0: it has none, or nothing was asked for */
+    double peak;          /**< of these frames, 0 to 1 of the output's full scale */
+    double mean_square;   /**< the same */
+    int running; /**< 1: every frame of the span left, in one piece, while one device asked for blocks */
+    int opening; /**< number of the last start of a device in the span, from 1; a return after a pause counts
+                    too; 0: nothing left */
+    int over;    /**< 0: the device has not asked for the end of the span yet */
+    int kept;    /**< 0: parts of the span are too old to be known */
+} physvib_live_receipt;
 
 #define PHYSVIB_DEVICE_SOUND 0 /**< an output of sound */
 #define PHYSVIB_DEVICE_PAD 1   /**< a game controller */
@@ -87,6 +101,9 @@ PHYSVIB_API const char* physvib_live_error(void);
 PHYSVIB_API int physvib_live_settings_init(physvib_live_settings* settings, size_t size);
 /** Empty; `size`: sizeof *status. Any thread. */
 PHYSVIB_API int physvib_live_status_init(physvib_live_status* status, size_t size);
+
+/** Empty; `size`: sizeof *receipt. Any thread. */
+PHYSVIB_API int physvib_live_receipt_init(physvib_live_receipt* receipt, size_t size);
 
 /** Lists what can be opened now: the first `capacity` of it in `devices`, which may be NULL if that is 0.
  * `size`: sizeof *devices. Returns how many there are. It asks the system each time, which takes up to
@@ -116,7 +133,9 @@ PHYSVIB_API physvib_int64 physvib_live_now_ns(physvib_live live);
 PHYSVIB_API physvib_int64 physvib_live_latency_ns(physvib_live live);
 
 /** Plays events at session times, in any order. Events in the past play at once; they count as late if the
- * output latency has passed too. If one event cannot be played, none is. PHYSVIB_ERROR_FULL: 65,536 events
+ * output latency has passed too. If one event cannot be played, none is. While the device asks for no blocks
+ * (for longer than three of them, and 100 ms), session time stands still and events are dropped, which is no
+ * error: status and explanation tell. PHYSVIB_ERROR_FULL: 65,536 events
  * are waiting for their time. Any thread. */
 PHYSVIB_API int physvib_live_strike(physvib_live live, const physvib_event* events, physvib_int64 count);
 /** Plays one impact now: at that place of the field, as strong as `strength`, 0 to 1 of full scale, with the
@@ -158,6 +177,11 @@ PHYSVIB_API int physvib_live_silence(physvib_live live, int is_silent);
 
 /** The status, at most 20 ms old. Any thread. */
 PHYSVIB_API int physvib_live_get_status(physvib_live live, physvib_live_status* status);
+/** What left for an actuator, from 0, from `from_ns` on and before `to_ns`, session times of events: ask for
+ * it a latency after that. Rounded outwards to 5 ms; the last minute is known. PHYSVIB_ERROR_ARGUMENT: no
+ * such actuator. Any thread; wait-free, but not for an audio callback. */
+PHYSVIB_API int physvib_live_left(physvib_live live, physvib_int64 from_ns, physvib_int64 to_ns, int actuator,
+                                  physvib_live_receipt* receipt);
 /** As physvib_world_explain(), also of this device: missing, silenced (by whom), level, muted channels,
  * layout, field, late events. Any thread; one at a time per world. */
 PHYSVIB_API int physvib_live_explain(physvib_live live, physvib_world world, char* text, size_t size);

@@ -11,12 +11,6 @@ constexpr std::size_t mostAtOnce = 1000;       // packets per round; pending lat
 constexpr std::int64_t clockSlackNs = 100'000; // tolerance, because two clocks cannot be read at the same
                                                // moment
 
-std::int64_t steadyNs() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-
 } // namespace
 
 OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device,

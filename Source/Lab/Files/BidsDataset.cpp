@@ -57,6 +57,13 @@ constexpr ColumnMeaning meanings[] = {
     {"peak_g", "peak_g", "Peak acceleration that was felt in the trial", "g"},
     {"rms_g", "rms_g", "Root mean square of the acceleration that was felt in the trial", "g"},
     {"a8_m_per_s2", "a8_m_per_s2", "The participant's exposure up to here, A(8) by ISO 5349-1", "m/s^2"},
+    {"limiter_db", "limiter_db", "By how much the limiter lowered the trial at most", "dB"},
+    {"master_db", "master_db", "Master level of the mixer", "dB"},
+    {"noise_db", "noise_db", "Root mean square of the pink noise over full scale; off: there was none", "dB"},
+    {"device", "device", "Audio device", ""},
+    {"version", "version", "Version of physvib", ""},
+    {"left", "left", "1: every part left as planned; n/a: not known. Trials with 0 are left out", ""},
+    {"again", "again", "Plays that did not leave as planned and were felt again", ""},
     {"render", "render", "Call of physvib that renders the stimulus again", ""},
 };
 

@@ -5,6 +5,7 @@
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/FactorSource.h"
+#include "Lab/Files/LeftRows.h"
 #include "Lab/Files/SharedParticipants.h"
 #include "Lab/Files/TrialColumns.h"
 #include <cmath>
@@ -27,11 +28,12 @@ public:
         , wanted_{wanted} {}
 
     std::string read(const NamedText& file) {
-        taken_ = 0;
+        taken_ = notLeft_ = 0;
         people_.clear();
         std::string fault = eachCsvRow(
             file.text, file.name, [this](const CsvTable& head) { return begin(head); },
             [this](const CsvRow& row) { return take(row); });
+        if (notLeft_ > 0) data_.warnings.push_back(std::string(file.name) + ": " + notLeftWords(notLeft_));
         if (fault.empty() && taken_ == 0)
             fault = std::string(file.name) + ": column " + printable(wanted_.measure) +
                     ": expected numbers, found none";
@@ -42,6 +44,7 @@ public:
 private:
     std::string begin(const CsvTable& head) {
         head_ = &head;
+        left_.emplace(head);
         known_ = {head.name, head.comments, {}, {}};
         for (const std::string& line : head.comments)
             data_.isSimulated |= line.find(" observer=simulated") != std::string::npos;
@@ -73,6 +76,7 @@ private:
             if (source.level(row) != word) return {};
         if (cell.empty() || cell == "NA" || (phase_ && row.cells[*phase_] == trialColumns::training))
             return {};
+        if (left_->didNotLeave(row)) return ++notLeft_, std::string{};
         const auto value =
             chosen_.empty() ? parseNumber<double>(cell) : std::optional<double>{cell == chosen_ ? 1.0 : 0.0};
         if (!value || std::abs(*value) > largestMeasure)
@@ -129,7 +133,8 @@ private:
     CsvTable known_; // the head, kept after reading
     std::set<std::string> people_;
     SharedParticipants shared_;
-    std::size_t measure_ = 0, taken_ = 0;
+    std::size_t measure_ = 0, taken_ = 0, notLeft_ = 0;
+    std::optional<LeftRows> left_;
     std::string chosen_;
     std::optional<std::size_t> observer_, phase_, participant_;
     std::vector<FactorSource> within_;

@@ -57,6 +57,8 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
                 studyOf(data).warnings.push_back(
                     rows.table().name + ": rows left out, with nothing in one of the named columns: " +
                     std::to_string(rows.leftOut()));
+            if (rows.notLeft() > 0)
+                studyOf(data).warnings.push_back(rows.table().name + ": " + notLeftWords(rows.notLeft()));
             if (taken == 0)
                 throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
         }

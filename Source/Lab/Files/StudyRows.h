@@ -4,6 +4,7 @@
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ColumnNames.h"
+#include "Lab/Files/LeftRows.h"
 #include "Lab/Files/TrialColumns.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
@@ -22,15 +23,24 @@ struct StudyFault {
 /// One table with access by column name. Every member throws StudyFault.
 class StudyRows {
 public:
-    StudyRows(std::string_view text, std::string_view name, std::span<const ColumnName> columns = {}) {
+    enum class Kept { left, all }; ///< left: without the trials that did not leave as planned
+    StudyRows(std::string_view text, std::string_view name, std::span<const ColumnName> columns = {},
+              Kept kept = Kept::left) {
         auto read = readCsvTable(text, name, columns.empty() ? CsvHeader::named : CsvHeader::loose);
         if (!read) throw StudyFault{read.error};
         table_ = std::move(read.value);
         if (std::string fault = takeColumns(table_, columns, leftOut_); !fault.empty())
             throw StudyFault{std::move(fault)};
+        if (kept == Kept::all) return;
+        const LeftRows rows{table_};
+        notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return rows.didNotLeave(row); });
     }
 
     std::size_t leftOut() const noexcept { return leftOut_; } ///< rows dropped for an empty mapped cell
+
+    std::size_t notLeft() const noexcept {
+        return notLeft_;
+    } ///< rows dropped as they did not leave as planned
 
     const CsvTable& table() const { return table_; }
 
@@ -97,7 +107,7 @@ public:
 
 private:
     CsvTable table_;
-    std::size_t leftOut_ = 0;
+    std::size_t leftOut_ = 0, notLeft_ = 0;
 };
 
 } // namespace physvib::detail

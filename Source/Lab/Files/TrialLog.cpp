@@ -81,6 +81,8 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     }
     if (answer.exposure) cells[columns::exposure] = levelText(*answer.exposure);
     if (answer.apparatus) addApparatus(cells, answer);
+    if (answer.left) cells[columns::left] = *answer.left ? "1" : "0";
+    if (answer.left) cells[columns::again] = std::to_string(answer.again);
     for (std::size_t s = 0; s < answer.scores.size(); ++s)
         cells[session.scales[s]] = numberText(answer.scores[s]);
     return cells;
@@ -98,7 +100,7 @@ std::string headerOf(const std::vector<std::string>& names) {
 /// Columns of the header `line` (with its line end): all of `names`, or those of older versions; empty for
 /// any other header.
 std::vector<std::string> columnsIn(std::string_view line, std::vector<std::string> names) {
-    for (const auto isNewer : {columns::isApparatus, columns::isMeasured}) {
+    for (const auto isNewer : {columns::isReceipt, columns::isApparatus, columns::isMeasured}) {
         if (line == headerOf(names)) return names;
         std::erase_if(names, isNewer);
     }
@@ -135,6 +137,10 @@ public:
             exposure && !row.cells[*exposure].empty())
             record.answer.exposure = rows_.number(row, *exposure, 0.0, 1e6);
         readApparatus(row, record.answer);
+        if (const auto left = rows_.optional(columns::left); left && !row.cells[*left].empty()) {
+            record.answer.left = rows_.wholeNumber(row, *left, 0, 1) == 1;
+            record.answer.again = rows_.wholeNumber(row, rows_.required(columns::again), 0, 1'000'000);
+        }
         for (const auto& scale : session.scales)
             record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
         return record;
@@ -222,6 +228,7 @@ std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
         all.emplace_back(columns::staircase);
     all.insert(all.end(), columns::measured.begin(), columns::measured.end());
     all.insert(all.end(), columns::apparatus.begin(), columns::apparatus.end());
+    all.insert(all.end(), columns::receipts.begin(), columns::receipts.end());
     return all;
 }
 
@@ -256,7 +263,7 @@ Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, cons
     log.wholeBytes = whole.size();
     if (rows == whole.size()) return log;
     try {
-        const detail::StudyRows table{whole, name};
+        const detail::StudyRows table{whole, name, {}, detail::StudyRows::Kept::all};
         const RecordReader reader{table, protocol};
         for (const CsvRow& row : table.table().rows) log.records.push_back(reader.read(row));
     } catch (const detail::StudyFault& fault) {

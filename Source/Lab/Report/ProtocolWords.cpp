@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Writes one sentence or clause per protocol field, in the order of Lab/Files/ProtocolFields.h.
 #include "Lab/Report/ProtocolWords.h"
+#include "Core/Decibels.h"
 #include "Core/RenderingMethod.h"
+#include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFields.h"
 #include "Lab/Report/LevelChain.h"
+#include <algorithm>
 
 namespace physvib {
 namespace {
@@ -117,6 +120,14 @@ std::string questClause(const QuestMethod& plan) {
                 : std::string{});
 }
 
+std::string roveWords(double db, const std::vector<std::string>& moved) {
+    return moved.empty()
+               ? "; each trial is stronger or weaker as a whole by up to " + dbWords(db) + ", at random"
+               : "; in each trial " + listed(moved) + " is multiplied as a whole by a ratio of up to " +
+                     dbWords(db) + " (a factor of " + fixedNumber(fromDecibels(db), 3) +
+                     ") up or down, at random";
+}
+
 std::string scaleWords(const SessionPlan& session) {
     std::string words = "; scales from 0 to 100: ";
     for (std::size_t i = 0; i < session.scales.size(); ++i)
@@ -168,7 +179,15 @@ std::string conditionWords(const ConditionPlan& condition) {
     return words;
 }
 
-std::string sessionWords(const SessionPlan& session) {
+std::vector<std::string> movedBesideStrength(const Protocol& protocol) {
+    std::vector<std::string> all;
+    for (const ConditionPlan& condition : protocol.conditions)
+        for (std::string& name : movedBesideStrength(condition))
+            if (std::ranges::find(all, name) == all.end()) all.push_back(std::move(name));
+    return all;
+}
+
+std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     const StudyTaskDescription& task = describe(session.task);
     std::string words = session.name;
     if (session.isTraining)
@@ -201,9 +220,7 @@ std::string sessionWords(const SessionPlan& session) {
     if (!session.correct.empty()) words += "; " + session.correct + " is right";
     if (session.untilCorrect > 0)
         words += "; until " + std::to_string(session.untilCorrect) + " right answers in a row, or all trials";
-    if (session.roveDb > 0.0)
-        words +=
-            "; each trial is louder or softer as a whole by up to " + dbWords(session.roveDb) + ", at random";
+    if (session.roveDb > 0.0) words += roveWords(session.roveDb, movedBesideStrength(protocol));
     if (!session.modulus.empty())
         words += "; each trial begins with " + session.modulus + ", which counts as " +
                  numberText(session.modulusNumber);

@@ -15,8 +15,12 @@ std::vector<std::string> protocolSentences(const Protocol& protocol);
 /// One line on the stimuli of a condition. Any thread (allocates).
 std::string conditionWords(const ConditionPlan& condition);
 
-/// One line on the question, repetitions and breaks of a session. Any thread (allocates).
-std::string sessionWords(const SessionPlan& session);
+/// One line on the question, repetitions and breaks of a session of that protocol. Any thread (allocates).
+std::string sessionWords(const SessionPlan& session, const Protocol& protocol);
+
+/// What a level in dB moves in the protocol's calls besides how strong they are; empty: nothing. Any thread
+/// (allocates).
+std::vector<std::string> movedBesideStrength(const Protocol& protocol);
 
 /// One line per recording that calls with --method SV play. Any thread (allocates).
 std::vector<std::string> soundLines(const Protocol& protocol);

@@ -15,7 +15,7 @@ namespace columns = trialColumns;
 
 /// Trials that had the same apparatus.
 struct Felt {
-    std::size_t trials = 0, limited = 0;
+    std::size_t trials = 0, known = 0, limited = 0; ///< known: every part left, by the column left
     double mostLimitedDb = 0.0;
 };
 
@@ -28,8 +28,16 @@ std::vector<std::string> sentencesOf(const Kinds& kinds) {
     std::vector<std::string> sentences;
     for (const auto& [kind, felt] : kinds) {
         const bool hasNoise = isNoise(kind[2]);
+        const std::string trials = counted(felt.trials, "trial");
+        if (kind[0].starts_with("None:")) {
+            sentences.push_back(trials + " had no device: nobody felt anything.");
+            continue;
+        }
         sentences.push_back(
-            std::to_string(felt.trials) + " trials were felt through the device " + kind[0] +
+            (felt.known == felt.trials
+                 ? trials + " left through the device " + kind[0] + ", every part within 1 dB of its plan,"
+                 : trials + " named the device " + kind[0] + ", but whether all parts left is known of " +
+                       std::to_string(felt.known) + " alone;") +
             " at a master level of " + kind[1] + " dB, " +
             (hasNoise ? "with pink noise of " + kind[2] + " dB of full scale (root mean square)"
                       : std::string{"without pink noise"}) +
@@ -68,6 +76,7 @@ void tellApparatus(ReportBuilder& report) {
                             cell(row, columns::noiseDb), cell(row, columns::version)}];
         const double db = parseNumber<double>(cell(row, columns::limiterDb)).value_or(0.0);
         ++felt.trials;
+        felt.known += cell(row, columns::left) == "1";
         felt.limited += db > 0.05 ? 1 : 0;
         felt.mostLimitedDb = std::max(felt.mostLimitedDb, db);
     }
@@ -90,7 +99,7 @@ void tellApparatus(ReportBuilder& report) {
     for (const std::string& sentence : sentencesOf(kinds)) report.page.paragraph(sentence);
     tellNoise(report, kinds);
     if (kinds.size() > 1)
-        report.page.note("trials were felt with " + std::to_string(kinds.size()) +
+        report.page.note("trials had " + std::to_string(kinds.size()) +
                          " different settings of the apparatus");
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Report section on levels and exposure, from the columns level_db, peak_g, rms_g and a8_m_per_s2.
 #include "Io/Text/CsvText.h"
+#include "Io/Text/NameList.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Files/TrialColumns.h"
 #include "Lab/Report/LevelChain.h"
+#include "Lab/Report/ProtocolWords.h"
 #include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Statistics/Moments.h"
@@ -23,11 +25,12 @@ std::vector<double> numbersOf(std::string_view cell) {
 }
 
 /// A sentence on a column of the table of tellDoses(), followed by a space.
-std::string meaningOf(std::string_view column) {
+std::string meaningOf(std::string_view column, const std::vector<std::string>& moved) {
     if (column == "level_db")
-        return "level_db: in dB of the condition's own level, or of a call's full scale; where participants "
-               "set a "
-               "level, that at the start. ";
+        return "level_db: in dB of " +
+               (moved.empty() ? "the condition's own level, or of a call's full scale"
+                              : listed(moved) + " at 0 dB (a ratio: 20 dB is 10 times as much)") +
+               "; where participants set a level, that at the start. ";
     if (column == trialColumns::peakG)
         return "peak_g: the peak of the signal that left for the strongest actuator, of each part of a "
                "trial, "
@@ -80,6 +83,8 @@ void tellDoses(ReportBuilder& report) {
     ExportTable table{"levels-and-exposure", report.isSimulated(),
                       "condition,session,measure,values,least,mean,most"};
     std::string meanings;
+    const auto moved =
+        report.trials.protocol ? movedBesideStrength(*report.trials.protocol) : std::vector<std::string>{};
     for (const std::string& column : all.columns) {
         if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
         std::map<std::pair<std::string, std::string>, std::vector<double>> values;
@@ -90,7 +95,7 @@ void tellDoses(ReportBuilder& report) {
                 return std::ranges::all_of(v.second, [](double db) { return db == 0.0; });
             }))
             continue;
-        if (!values.empty()) meanings += meaningOf(column);
+        if (!values.empty()) meanings += meaningOf(column, moved);
         for (const auto& [key, own] : values) {
             double sum = 0.0;
             for (const double value : own) sum += value;

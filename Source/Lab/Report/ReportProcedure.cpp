@@ -2,6 +2,7 @@
 // Report sections on participants and procedure, for the methods section of a paper, from the study's files.
 #include "Io/Text/NameList.h"
 #include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Files/LeftRows.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialColumns.h"
 #include "Lab/Report/ProtocolWords.h"
@@ -76,7 +77,7 @@ void tellProtocol(ReportPage& page, const Protocol& protocol) {
     std::vector<std::string> conditions, sessions;
     for (const ConditionPlan& condition : protocol.conditions)
         conditions.push_back(conditionWords(condition));
-    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session));
+    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session, protocol));
     page.list(conditions);
     page.subheading("Sessions");
     page.list(sessions);
@@ -260,6 +261,7 @@ void tellParticipants(ReportBuilder& report) {
     if (report.trials.rowsLeftOut > 0)
         exclusions.push_back(counted(report.trials.rowsLeftOut, "row") +
                              " with nothing in one of the named columns left out");
+    if (!report.trials.notLeft.empty()) exclusions.push_back(notLeftWords(report.trials.notLeft.size()));
     tellSameNumbers(report.page, people);
     report.page.subheading("Exclusions");
     if (!report.trials.protocol && hasAdaptiveRows(report.trials))

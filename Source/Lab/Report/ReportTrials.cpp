@@ -2,6 +2,7 @@
 // Combines trial files into one table and checks their first lines.
 #include "Lab/Report/ReportTrials.h"
 #include "Io/Text/NumberText.h"
+#include "Lab/Files/LeftRows.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/SharedParticipants.h"
 #include "Lab/Files/TrialColumns.h"
@@ -9,6 +10,7 @@
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 namespace physvib {
 namespace {
@@ -33,7 +35,9 @@ std::string valueOf(const TrialFile& file, const std::string& key) {
 /// Columns without those that only newer files have.
 std::vector<std::string> asked(const CsvTable& table) {
     std::vector<std::string> columns = table.columns;
-    std::erase_if(columns, [](const std::string& column) { return trialColumns::isMeasured(column); });
+    std::erase_if(columns, [](const std::string& column) {
+        return trialColumns::isMeasured(column) || trialColumns::isReceipt(column);
+    });
     return columns;
 }
 
@@ -137,6 +141,14 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
         trials.files.push_back(std::move(file));
     }
     trials.all = joined(trials.files);
+    const LeftRows left{trials.all};
+    const auto notLeft = std::stable_partition(trials.all.rows.begin(), trials.all.rows.end(),
+                                               [&](const CsvRow& row) { return !left.didNotLeave(row); });
+    trials.notLeft.assign(std::make_move_iterator(notLeft), std::make_move_iterator(trials.all.rows.end()));
+    trials.all.rows.erase(notLeft, trials.all.rows.end());
+    if (trials.all.rows.empty())
+        return Failure{texts.front().first + ": expected a trial that left as planned, found none: " +
+                       notLeftWords(trials.notLeft.size())};
     trials.sharedNote = shared.note();
     findProtocolOf(trials, protocol);
     return trials;
@@ -150,8 +162,9 @@ std::string takeFacts(ReportTrials& trials, StudyFacts facts) {
     if (trials.facts.people.empty()) return {};
     if (!participant)
         return trials.files.front().name + ": --people: expected a column participant, found none";
-    std::erase_if(trials.all.rows,
-                  [&](const CsvRow& row) { return trials.facts.isExcluded(row.cells[*participant]); });
+    for (auto* const rows : {&trials.all.rows, &trials.notLeft})
+        std::erase_if(*rows,
+                      [&](const CsvRow& row) { return trials.facts.isExcluded(row.cells[*participant]); });
     return trials.all.rows.empty() ? trials.files.front().name +
                                          ": --people: expected a participant who is not excluded, found none"
                                    : std::string{};

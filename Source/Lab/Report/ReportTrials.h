@@ -27,7 +27,8 @@ struct TrialFile {
 
 struct ReportTrials {
     std::vector<TrialFile> files;
-    CsvTable all; ///< rows of all files, file by file
+    CsvTable all;                ///< rows of all files, file by file, without `notLeft`
+    std::vector<CsvRow> notLeft; ///< rows of trials that did not leave as planned, with the columns of `all`
     bool isSimulated = false;
     std::size_t rowsLeftOut = 0; ///< rows dropped for an empty cell in a mapped column
     std::string sharedNote{};    ///< participants in several files (see SharedParticipants.h); empty: none

@@ -54,7 +54,7 @@ Result<std::string> plannedStudy(const Protocol& protocol, int participants) {
     std::vector<std::string> conditions, sessions;
     for (const ConditionPlan& condition : protocol.conditions)
         conditions.push_back(conditionWords(condition));
-    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session));
+    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session, protocol));
     std::string text = provenanceComment({PHYSVIB_VERSION,
                                           {{"plan", "study"},
                                            {"protocol", protocol.name},

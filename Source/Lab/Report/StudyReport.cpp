@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Composes a report from the sections that fit its trials.
 #include "Lab/Report/StudyReport.h"
+#include "Lab/Files/LeftRows.h"
 #include "Lab/Report/ReportScript.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Report/StudyPlanned.h"
@@ -47,6 +48,7 @@ std::string titleOf(const ReportTrials& trials) {
 StudyReport studyReport(const ReportTrials& trials) {
     StudyReport made;
     if (!trials.sharedNote.empty()) made.notes.push_back(trials.sharedNote);
+    if (!trials.notLeft.empty()) made.notes.push_back(notLeftWords(trials.notLeft.size()));
     ReportBuilder report{trials, titleOf(trials)};
     report.addTable(trialsTable, trialsCsv(trials, firstLine(trials)));
     tellParticipants(report);

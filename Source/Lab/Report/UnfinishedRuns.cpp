@@ -55,6 +55,9 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
         runs[{who, cell(row, "condition"), cell(row, "session")}].push_back(
             {cell(row, "correct") == "1", staircase.value_or(1) - 1});
     }
+    std::map<RunKey, std::size_t> notLeft; // answered, though no evidence
+    for (const CsvRow& row : trials.notLeft)
+        ++notLeft[{cell(row, "participant"), cell(row, "condition"), cell(row, "session")}];
     std::vector<UnfinishedRun> unfinished;
     for (const std::string& who : people)
         for (const ConditionPlan& planned : trials.protocol->conditions)
@@ -63,7 +66,8 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
                 const Answers& answers = runs[{who, planned.name, plan.name}];
                 const std::size_t most =
                     static_cast<std::size_t>(mostTrialsOf(plan, stimuliOf(planned).size()));
-                if (isUnfinished(plan, answers, most))
+                if (isUnfinished(plan, answers,
+                                 most - std::min(most, notLeft[{who, planned.name, plan.name}])))
                     unfinished.push_back({who, planned.name, plan.name, answers.size(), most,
                                           plan.adaptedAlternative() != nullptr});
             }

@@ -24,13 +24,25 @@ bool TrialProgress::canPlay(std::size_t part) const noexcept {
     return part < parts_.size() && (session_.mostPlays == 0 || parts_[part].plays < session_.mostPlays);
 }
 
-void TrialProgress::played(std::size_t part) noexcept { ++parts_[part].plays; }
+void TrialProgress::played(std::size_t part) noexcept {
+    ++parts_[part].plays;
+    parts_[part].isOwed = false;
+}
+
+void TrialProgress::lost(std::size_t part) noexcept {
+    Part& own = parts_[part];
+    --own.plays;
+    own.seconds = 0.0;
+    own.isOwed = true;
+    ++again_;
+}
 
 void TrialProgress::spent(std::size_t part, double seconds) noexcept { parts_[part].seconds += seconds; }
 
 bool TrialProgress::canAnswer() const noexcept {
-    return std::ranges::all_of(
-        parts_, [this](const Part& p) { return p.plays > 0 && p.seconds >= session_.leastSeconds; });
+    return std::ranges::all_of(parts_, [this](const Part& p) {
+        return p.plays > 0 && !p.isOwed && p.seconds >= session_.leastSeconds;
+    });
 }
 
 int TrialProgress::plays() const noexcept {
@@ -218,11 +230,12 @@ std::string Experiment::refusal(const Answer& answer) const {
 TrialRecord Experiment::take(Answer answer) {
     TrialRecord record{std::move(*trial_), std::move(answer)};
     if (plan().answer() == AnswerKind::wish) explored_.insert(record.answer.response);
-    if (plan().adjustment)
+    const bool counts = record.answer.left.value_or(true);
+    if (plan().adjustment && counts)
         adjusted_[{record.trial.condition, plan().name}][record.trial.stimulus].push_back(
             record.answer.value);
-    if (adaptive_) adaptive_->answer(record.answer.response == *plan().adaptedAlternative());
-    inARow_ = isCorrect(protocol_, record).value_or(false) ? inARow_ + 1 : 0;
+    if (adaptive_ && counts) adaptive_->answer(record.answer.response == *plan().adaptedAlternative());
+    if (counts) inARow_ = isCorrect(protocol_, record).value_or(false) ? inARow_ + 1 : 0;
     ++inSession_;
     ++taken_;
     advance();

@@ -25,11 +25,16 @@ public:
     /// True if `part` may be played (again).
     bool canPlay(std::size_t part) const noexcept;
     void played(std::size_t part) noexcept;
+    /// The play of `part` that was counted last did not leave: it does not count, and the part is to be felt
+    /// again before an answer.
+    void lost(std::size_t part) noexcept;
     /// Adds time spent with `part`.
     void spent(std::size_t part, double seconds) noexcept;
-    /// True if every part was played and had its minimum time from the protocol.
+    /// True if every part was played, none is to be felt again, and each had its minimum time from the
+    /// protocol.
     bool canAnswer() const noexcept;
     int plays() const noexcept;
+    int again() const noexcept { return again_; } ///< plays that were lost
     int plays(std::size_t part) const noexcept { return parts_[part].plays; }
     double seconds(std::size_t part) const noexcept { return parts_[part].seconds; } ///< time with it
 
@@ -37,9 +42,11 @@ private:
     struct Part {
         int plays = 0;
         double seconds = 0.0;
+        bool isOwed = false;
     };
     const SessionPlan& session_;
     std::vector<Part> parts_;
+    int again_ = 0;
 };
 
 /// Message thread only. `protocol` is valid and outlives the experiment.
@@ -59,7 +66,8 @@ public:
     /// Why the answer does not fit this trial, e.g. `expected a place, found none`; empty if it fits.
     std::string refusal(const Answer& answer) const;
 
-    /// Stores an answer that refusal() accepts, and advances to the next trial.
+    /// Stores an answer that refusal() accepts, and advances to the next trial. Of a trial that did not leave
+    /// as planned, the answer moves no level and counts for nothing but the order.
     TrialRecord take(Answer answer);
 
     /// Replays a recorded trial with take() if it is the one that this experiment expects. Otherwise returns

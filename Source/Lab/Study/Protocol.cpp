@@ -121,13 +121,21 @@ std::string valuesFault(const CallSet& calls) {
     return {};
 }
 
+bool namesPartsIn(const CallSet& calls) {
+    return calls.call.find("{alternative}") != std::string::npos ||
+           calls.call.find("{object}") != std::string::npos ||
+           std::ranges::any_of(calls.factors, [](const auto& f) { return !f.alternative.empty(); });
+}
+
 /// Possible values of {alternative} and {object} in a call.
 std::set<std::string> namedPartsOf(const Protocol& p, const CallSet& calls) {
-    const bool namesParts =
-        calls.call.find("{alternative}") != std::string::npos ||
-        calls.call.find("{object}") != std::string::npos ||
-        std::ranges::any_of(calls.factors, [](const auto& f) { return !f.alternative.empty(); });
-    return namesParts ? callPartsOf(p) : std::set<std::string>{""};
+    return namesPartsIn(calls) ? callPartsOf(p) : std::set<std::string>{""};
+}
+
+std::size_t countOf(std::string_view words, std::string_view in) {
+    std::size_t count = 0;
+    for (std::size_t at = in.find(words); at != std::string_view::npos; at = in.find(words, at + 1)) ++count;
+    return count;
 }
 
 /// Empty, or the error of the first invalid call that a condition can make.
@@ -261,6 +269,24 @@ std::string firstCallFault(const Protocol& p, const ConditionPlan& c,
         for (const std::string& part : parts)
             if (std::string fault = faultOf(callOf(*calls, item, part, 0.0)); !fault.empty()) return fault;
     return {};
+}
+
+bool namesParts(const ConditionPlan& condition) {
+    const CallSet* const calls = callSetOf(condition.stimuli);
+    return calls != nullptr && namesPartsIn(*calls);
+}
+
+std::vector<std::string> movedBesideStrength(const ConditionPlan& condition) {
+    std::vector<std::string> moved;
+    const CallSet* const calls = callSetOf(condition.stimuli);
+    if (calls == nullptr) return moved;
+    const auto look = [&](const std::string& name, const std::string& option) {
+        const std::string word = "{" + name + "}";
+        if (countOf(option + word, calls->call) < countOf(word, calls->call)) moved.push_back(name);
+    };
+    look("level_db", "--level-db ");
+    for (const StudyVariable& variable : calls->variables) look(variable.name, "--level-g ");
+    return moved;
 }
 
 std::string levelsFault(const Protocol& p) {

@@ -243,6 +243,14 @@ std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition);
 /// (allocates).
 std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb);
 
+/// True if the condition's calls name the alternative or object. Any thread (allocates).
+bool namesParts(const ConditionPlan& condition);
+
+/// What a trial's level moves in the condition's calls besides how strong it is: names of variables that do
+/// not stand behind --level-g, and level_db where it does not stand behind --level-db. Any thread
+/// (allocates).
+std::vector<std::string> movedBesideStrength(const ConditionPlan& condition);
+
 /// All alternatives and objects that can be put into calls; if there are none, one empty name. Any thread
 /// (allocates).
 std::set<std::string> callPartsOf(const Protocol& protocol);

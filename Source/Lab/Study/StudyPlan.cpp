@@ -101,16 +101,7 @@ std::map<std::string, Levels> partsOf(const Protocol& protocol, const SessionPla
 /// True if a level only scales the samples of this condition's stimuli.
 bool isGain(const ConditionPlan& condition) {
     const CallSet* const calls = callSetOf(condition.stimuli);
-    if (calls == nullptr) return true; // of patterns and grids
-    constexpr std::string_view gain = "--level-db {level_db}", level = "{level_db}";
-    const auto countOf = [&](std::string_view words) {
-        std::size_t count = 0;
-        for (std::size_t at = calls->call.find(words); at != std::string::npos;
-             at = calls->call.find(words, at + 1))
-            ++count;
-        return count;
-    };
-    return calls->variables.empty() && countOf(level) == countOf(gain);
+    return calls == nullptr || (calls->variables.empty() && movedBesideStrength(condition).empty());
 }
 
 /// One session in one condition.

@@ -57,6 +57,9 @@ struct Answer {
     std::vector<FeltLevel> felt{}; ///< felt level of each part in its last play; empty if no device was used
     std::optional<Apparatus> apparatus{}; ///< none if no device was used
     double limiterDb = 0.0;               ///< maximum gain reduction of the limiter
+    std::optional<bool> left{}; ///< whether every part left as planned in its last play; none: not known, as
+                                ///< there was no device
+    int again = 0;              ///< plays that did not leave as planned, each felt again; not among `plays`
     std::optional<double> exposure{}; ///< accumulated exposure of the participant, A(8) in m/s^2; none: not
                                       ///< measured
     std::vector<std::string> sessions{}; ///< interactive worlds: saved sessions of each scene run in order,

@@ -56,6 +56,8 @@ public:
     virtual ChannelSet activeOutputs() const = 0; ///< those that block() gets; empty: none is connected
     virtual int outputLatencyFrames() = 0;
     virtual int xruns() const = 0; ///< -1: the device does not count. Any thread
+    /// False: it discards what it gets, so nothing is lost while it pauses.
+    virtual bool isReal() const { return true; }
 };
 
 /// Finds devices. One thread at a time.

@@ -32,6 +32,7 @@ int latencyFrames(AudioDevice& device) {
 AudioOutput::AudioOutput(Session& session, AudioDrivers drivers, const std::atomic<bool>* isEnded)
     : FeltOutput{isEnded}
     , played_{session}
+    , receipts_{session.channels()}
     , keeper_{std::move(drivers), isEnded} {}
 
 AudioOutput::~AudioOutput() { close(); }
@@ -144,18 +145,27 @@ bool AudioOutput::lend(Session* other) {
 void AudioOutput::close() {
     stop();
     keeper_.close(ending);
+    played_.end();
     settings_.device.clear();
 }
 
 std::string AudioOutput::maintain(Clock::time_point now) {
     if (settings_.device.empty()) return {};
+    const int before = watch_.losses();
     if (hasGone(now)) {
         if (keeper_.device()) keeper_.close();
         running_ = false;
-        if (auto error = openDevice(reopening); !error.empty()) return error;
+        if (auto error = openDevice(reopening); !error.empty())
+            return keeper_.isMissing()
+                       ? settings_.device +
+                             " has stopped; it is looked for every second, and time stands still"
+                       : error;
         watch_.lose(now);
     }
+    const bool isStill = watch_.losses() == before && !isPlaying();
     std::string changed = follow();
+    if (changed.empty() && isStill && map_.unfelt() < map_.enchanters())
+        changed = settings_.device + " does not ask for samples: nothing is felt, and time stands still";
     if (changed.empty() && guard_.hasNews(status().guarded))
         changed = settings_.device +
                   ": an actuator was turned down: what it got held its coil at nearly direct current";
@@ -191,9 +201,10 @@ void AudioOutput::aboutToStart(AudioDevice& device) {
     const int rate = device.sampleRateHz();
     const int block = std::min(std::max(device.blockFrames(), largestBlock_.load()), limits::maxBlockFrames);
     if (!isSampleRate(rate) || block < 1) return; // the device plays silence
-    played_.begin(rate, block, latencyFrames(device));
+    played_.begin(rate, block, latencyFrames(device), device.isReal());
     inputTap_ = settings_.tap;
     exposure_.prepare(rate);
+    receipts_.begin();
     guard_.begin(keeper_.fullName(), device.activeOutputs(), rate);
     motors_.prepare(settings_.onOff, rate, settings_.onOffThreshold);
     heard_.prepare(rate, block);
@@ -216,8 +227,14 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     if (frames < 1 || !running_.load(std::memory_order_relaxed)) return;
     const auto start = Clock::now();
     Session& session = played_.now();
-    const FeltMoment felt = played_.nextFelt(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(start.time_since_epoch()).count());
+    const std::int64_t startNs =
+        std::chrono::duration_cast<std::chrono::nanoseconds>(start.time_since_epoch()).count();
+    const FeltMoment felt = played_.nextFelt(startNs);
+    if (session.pulse().isStill(startNs)) { // the first block after a pause
+        receipts_.begin();
+        session.comeBack(startNs);
+        master_.prepare(sampleRateHz(), fadeInSeconds, 0.0f);
+    }
     if (frames > largestBlock_.load(std::memory_order_relaxed))
         largestBlock_.store(frames, std::memory_order_relaxed);
     const bool rests = isSilent() || ending_.load(std::memory_order_relaxed);
@@ -230,34 +247,40 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
         renderPart(session, out, outputs, done, std::min(blockFrames(), frames - done));
     if (session.timeline().nextFeltNs() != felt.sessionNs)
         tell(felt); // otherwise nothing steps the world, and session time stands still
+    session.pulse().beat(startNs);
     load_.take(start, frames, sampleRateHz());
 }
 
 void AudioOutput::renderPart(Session& session, float* const* out, int outputs, int first,
                              int frames) noexcept {
     float* const* const samples = played_.samples();
+    const Timeline& time = session.timeline();
+    const std::int64_t before = time.framesRendered();
     session.render(samples, frames, RenderMode::realtime);
     heard_.render(session, samples, out, outputs, first, frames);
     for (int j = session.channels(); j < played_.own().channels(); ++j) std::fill_n(samples[j], frames, 0.0f);
-    played_.own().sinks().rendered(
-        {samples, frames, session.timeline().framesRendered() - frames, sampleRateHz()});
+    played_.own().sinks().rendered({samples, frames, time.framesRendered() - frames, sampleRateHz()});
     motors_.apply(samples, frames);
     for (int j = 0; j < session.channels(); ++j) { // with the limiter on, nothing is clipped here
         clip(samples[j], session.rendered().ceiling(j), frames);
     }
     master_.apply(samples, session.channels(), frames);
-    std::array<float*, limits::maxEnchanters> felt{}; // the signal of each actuator that has a coil
+    std::array<float*, limits::maxEnchanters> left{}, felt{}; // at each actuator's output; of those with a
+                                                              // coil
     for (int j = 0; j < session.channels(); ++j) {
         float* at = samples[j];
         const int k = map_.play(j, at, frames);
         if (k < 0 || k >= outputs) continue;
         std::copy_n(at, frames, out[k] + first);
+        left[static_cast<std::size_t>(j)] = out[k] + first;
         if (motors_.has(j)) continue;
         felt[static_cast<std::size_t>(j)] = out[k] + first;
         guard_.follow(j, k);
     }
     guard_.process(felt.data(), frames);
-    const std::int64_t next = session.timeline().framesRendered() - session.timeline().playOutFrames();
+    const std::int64_t next = time.framesRendered() - time.playOutFrames();
+    if (time.framesRendered() > before) // else session time stands still, as nothing steps the world yet
+        receipts_.take(played_.number(), next - frames, sampleRateHz(), left.data(), frames);
     for (int j = 0; j < session.channels(); ++j)
         if (const float* const at = felt[static_cast<std::size_t>(j)])
             exposure_.take(j, at, frames, next - frames);

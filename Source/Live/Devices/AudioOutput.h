@@ -17,6 +17,7 @@
 #include "Live/Devices/LoadMeter.h"
 #include "Live/Devices/OnOffMotors.h"
 #include "Live/Devices/PlayedSession.h"
+#include "Live/Devices/Receipts.h"
 #include "Live/Session/FeltOutput.h"
 #include <atomic>
 #include <string>
@@ -75,6 +76,24 @@ public:
     /// Whether a session borrowed through lend() is playing. Any thread.
     bool isLent() const noexcept { return played_.isLent(); }
 
+    /// What left for an actuator, from 0, from `fromNs` on and before `untilNs` of the session that plays now
+    /// (or of the `session` that was playedSession()): the times that Session::take() gives to events. Any
+    /// thread, wait-free.
+    Receipt left(std::int64_t fromNs, std::int64_t untilNs, int actuator) const noexcept {
+        return left(fromNs, untilNs, actuator, playedSession());
+    }
+    Receipt left(std::int64_t fromNs, std::int64_t untilNs, int actuator,
+                 std::uint32_t session) const noexcept {
+        return receipts_.left(fromNs, untilNs, actuator, session);
+    }
+    std::uint32_t playedSession() const noexcept { return played_.number(); } ///< 0: its own
+    /// Makes left() exact for this span in the future; otherwise it is extended to whole bins of 5 ms. M.
+    void expect(std::int64_t fromNs, std::int64_t untilNs) noexcept { receipts_.expect(fromNs, untilNs); }
+    Receipts::Total leftInAll(int actuator) const noexcept { return receipts_.all(actuator); } ///< any thread
+    /// Whether a device is open and asks for blocks, with no pause longer than three of them and 100 ms. Of a
+    /// device that discards what it gets, pauses do not count. Any thread.
+    bool isPlaying() const noexcept { return running_ && !played_.now().pulse().isStill(steadyNs()); }
+
     /// Exposure of the session's channels as played: after ceilings, master level, silence and guard. M.
     const ExposureSums& exposure() noexcept { return exposure_.read(); }
     /// See ExposureMeter; places are the session's frames when they are felt. M
@@ -119,6 +138,7 @@ private:
     GainRamp master_;
     HeardSignals heard_{map_};
     ExposureMeter exposure_;
+    Receipts receipts_;
     OnOffMotors motors_;
     DeviceGuard guard_;
     DeviceKeeper keeper_; // last: its thread calls the members above

@@ -11,6 +11,7 @@ struct DeviceKeeper::Opening {
     AudioDrivers drivers;
     FoundDevice found{};
     std::string error{};
+    bool isMissing = false;
 
     void open();
     std::string openFound();
@@ -34,6 +35,7 @@ void DeviceKeeper::Opening::open() {
     error = found.device ? openFound()
                          : wish.name + ": no such device (see physvib devices); nothing else is played on";
     if (error.empty()) return;
+    isMissing = isMissing || !found.device;
     found.device.reset(); // before its driver
     found.driver.reset();
 }
@@ -45,7 +47,8 @@ std::string DeviceKeeper::Opening::openFound() {
     ChannelSet outputs = wish.outputs;
     outputs.erase(outputs.lower_bound(offered), outputs.end());
     for (int k = 0; wish.opensAll && k < offered; ++k) outputs.insert(k);
-    if (outputs.empty()) return wish.name + ": has none of the outputs that are wanted";
+    isMissing = outputs.empty();
+    if (isMissing) return wish.name + ": has none of the outputs that are wanted";
     const auto fault = device.open(wish.inputs, outputs, wish.sampleRateHz, wish.blockFrames);
     return fault.empty() ? "" : wish.name + ": " + fault;
 }
@@ -62,6 +65,7 @@ std::string DeviceKeeper::open(const DeviceWish& wish, Limit limit) {
     const auto end = isLate_ ? Clock::time_point{} : Clock::now() + limit; // after one time-out, later calls
                                                                            // only check and do not wait
     isLate_ = true;
+    isMissing_ = false;
     const std::string noAnswer = wish.name + ": its driver does not answer; nothing else is played on";
     if (!isIdle(end, hurry_)) {
         if (at_ == wish.name) return noAnswer;
@@ -79,6 +83,7 @@ std::string DeviceKeeper::open(const DeviceWish& wish, Limit limit) {
     isLate_ = false;
     const auto opened = std::exchange(opening_, nullptr);
     found_ = std::move(opened->found);
+    isMissing_ = opened->isMissing;
     return opened->error;
 }
 

@@ -39,6 +39,9 @@ public:
     /// has not answered in time, a later call with the same wish gets the device.
     std::string open(const DeviceWish& wish, Limit limit);
 
+    /// Whether the last open() failed because the device is not there, or has no outputs.
+    bool isMissing() const noexcept { return isMissing_; }
+
     /// From now on the device calls `owner`; its first call (about to start) comes before this returns.
     void start(DeviceUser& owner);
     void restart(); ///< with the device's current settings
@@ -67,7 +70,8 @@ private:
     std::shared_ptr<Opening> opening_;    // until its result is used
     std::shared_ptr<FoundDevice> closed_; // until the device is destroyed
     std::string at_;                      // device that the thread works on
-    bool isLate_ = false;                 // a call has exceeded its time limit
+    bool isMissing_ = false;
+    bool isLate_ = false; // a call has exceeded its time limit
     DeviceThread thread_;
 };
 

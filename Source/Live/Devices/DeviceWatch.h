@@ -2,6 +2,7 @@
 // Detects that a device has stopped asking for blocks, because some drivers do not report that a device has
 // gone.
 #pragma once
+#include "Live/Session/DevicePulse.h"
 #include <chrono>
 #include <cstdint>
 
@@ -14,7 +15,7 @@ public:
 
     /// A device that asks for no block during this time counts as gone; the longest block lasts 1.6 s (8192
     /// frames at 5 kHz).
-    static constexpr std::chrono::seconds patience{2};
+    static constexpr std::chrono::nanoseconds patience{DevicePulse::goneNs};
 
     /// Whether the device has gone; call about once a second. `blocks`: number the device has asked for so
     /// far. `isIdle`: the device has no reason to ask. If more than `patience` passed since the last call,

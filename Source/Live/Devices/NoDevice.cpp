@@ -51,6 +51,7 @@ public:
     ChannelSet activeOutputs() const override { return active_; }
     int outputLatencyFrames() override { return 0; }
     int xruns() const override { return -1; }
+    bool isReal() const override { return false; }
 
 private:
     void run() {

@@ -26,7 +26,7 @@ std::vector<SinkPlace> gamePads() {
     return places;
 }
 
-const std::array kinds{
+const std::array allKinds{
     SinkKind{
         "BOARD", "Four-channel board", "It plays the first four actuators beside the device (Docs/board.md)",
         "board", anyBoard, "the first that answers", "Serial port", limits::board::channels,
@@ -54,7 +54,7 @@ const std::array kinds{
 // Position where the last sink of `text` starts; npos: there is none.
 std::size_t lastSink(std::string_view text, const SinkKind*& kind) {
     std::size_t last = text.npos;
-    for (const SinkKind& one : kinds) {
+    for (const SinkKind& one : allKinds) {
         const std::string mark = std::string(one.name) + ":";
         const std::size_t behind = text.rfind("+" + mark),
                           at = behind == text.npos && text.starts_with(mark) ? 0 : behind;
@@ -65,10 +65,10 @@ std::size_t lastSink(std::string_view text, const SinkKind*& kind) {
 
 } // namespace
 
-std::span<const SinkKind> sinkKinds() noexcept { return kinds; }
+std::span<const SinkKind> sinkKinds() noexcept { return allKinds; }
 
 const SinkKind& kindOf(const SinkName& sink) noexcept {
-    return *std::ranges::find(kinds, std::string_view{sink.kind}, &SinkKind::name);
+    return *std::ranges::find(allKinds, std::string_view{sink.kind}, &SinkKind::name);
 }
 
 OutputNames::OutputNames(std::string_view text) {

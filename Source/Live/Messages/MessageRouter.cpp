@@ -71,7 +71,8 @@ PlainMessage statusAnswer(const Session& session) {
              {"waiting", static_cast<double>(size.strikes)},
              {"bodies", static_cast<double>(size.bodies)},
              {"lost", static_cast<double>(world.drops())},
-             {"stalls_s", seconds(world.slippedNs())}}};
+             {"stalls_s", seconds(world.slippedNs())},
+             {"dropped", static_cast<double>(session.pulse().dropped())}}};
 }
 
 Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag* tag,

@@ -148,7 +148,8 @@ inline constexpr auto messageTable = std::to_array<MessageDescription>({
      {},
      MessageDescription::Stop{}},
     {"status",
-     "answers session time, strikes that wait, bodies, collisions lost, and time given up in stalls",
+     "answers session time, strikes that wait, bodies, collisions lost, time given up in stalls, and events "
+     "dropped",
      {},
      statusAnswer},
     {"layout",

@@ -71,6 +71,14 @@ void Rig::step() {
     if (!settings_.ownThread && goesOn()) session_.advance([this](auto) { return goesOn(); });
 }
 
+void Rig::maintain() {
+    deviceTrouble_ = output_.maintain();
+    const std::uint64_t dropped = session_.pulse().dropped();
+    eventTrouble_ = std::exchange(toldDropped_, dropped) == dropped
+                        ? ""
+                        : "dropped: " + std::to_string(dropped) + " events, as no device ran";
+}
+
 std::vector<SinkState> Rig::sinkStates() const {
     std::vector<SinkState> states;
     for (const auto& sink : sinks_) states.push_back(sink->state());
@@ -83,6 +91,7 @@ std::vector<RigTrouble> Rig::troubles() const {
         if (!words.empty()) all.push_back({source, words});
     };
     add("device", deviceTrouble_);
+    add("events", eventTrouble_);
     const bool isPatient =
         !settings_.awaitsSinks && std::chrono::steady_clock::now() - connectedAt_ < patience;
     if (!isPatient)

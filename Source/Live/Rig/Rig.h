@@ -28,7 +28,7 @@ struct RigSettings {
 
 /// What does not work, and its one-line error.
 struct RigTrouble {
-    std::string source; ///< "device", the name of a sink, "journal" or "recording"
+    std::string source; ///< "device", "events", the name of a sink, "journal" or "recording"
     std::string words;
     bool operator==(const RigTrouble&) const = default;
 };
@@ -71,8 +71,9 @@ public:
     }
 
     /// Supervises the device; call about once a second.
-    void maintain() { deviceTrouble_ = output_.maintain(); }
-    /// Errors of the device (from the last maintain()), the sinks, the journal and the recording.
+    void maintain();
+    /// Errors of the device and events that it did not run for (from the last maintain()), the sinks, the
+    /// journal and the recording.
     std::vector<RigTrouble> troubles() const;
     /// The same in one line; empty: none.
     std::string trouble() const;
@@ -114,7 +115,9 @@ private:
     AudioOutput output_;
     std::optional<ThreadDriver> driver_;
     std::chrono::steady_clock::time_point connectedAt_;
-    std::string deviceTrouble_, recorded_; // the latter: why the recording is incomplete
+    std::string deviceTrouble_, eventTrouble_;
+    std::string recorded_; // why the recording is incomplete
+    std::uint64_t toldDropped_ = 0;
 };
 
 } // namespace physvib

@@ -72,6 +72,12 @@ void HeardContacts::setContacts(int sampleRateHz) {
     renderer_->setContacts({contacts_.contacts(), true});
 }
 
+void HeardContacts::discard(std::int64_t untilNs, bool all, bool fades) noexcept PHYSVIB_NONBLOCKING {
+    Source source{*this};
+    renderer_->discard(source, untilNs, all);
+    if (fades) renderer_->fadeAll();
+}
+
 void HeardContacts::render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
     Source source{*this};
     renderer_->render(source, out, frames);

@@ -81,6 +81,10 @@ private:
         if (marks_) marks_->strike(event, frame);
     }
 
+    void discard(std::int64_t untilNs, bool all, bool fades) noexcept {
+        if (heard_) heard_->discard(untilNs, all, fades);
+    }
+
     /// The channels after the actuators', rendered after them. R, wait-free.
     void render(float* const* out, int frames) noexcept {
         if (heard_) heard_->render(out + actuators_, frames);

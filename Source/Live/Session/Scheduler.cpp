@@ -12,11 +12,23 @@
 
 namespace physvib {
 
-Scheduler::Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunner& world,
+namespace {
+
+/// Events of an input that would be felt once each: all but changes of state, of which the last counts.
+std::size_t eventsOf(const Input& input) noexcept {
+    if (const auto* strikes = std::get_if<Strikes>(&input.what)) return strikes->events.size();
+    const auto* action = std::get_if<Action>(&input.what);
+    return action != nullptr && std::holds_alternative<ImpulseAction>(*action) ? 1 : 0;
+}
+
+} // namespace
+
+Scheduler::Scheduler(const SessionSetup& setup, const Timeline& time, DevicePulse& pulse, WorldRunner& world,
                      RenderedChannels& channels, SinkSet& sinks)
     : setup_{setup}
     , isLogged_{setup.log != LogUse::none}
     , time_{time}
+    , pulse_{pulse}
     , world_{world}
     , channels_{channels}
     , sinks_{sinks}
@@ -44,6 +56,8 @@ Result<std::int64_t> Scheduler::take(Input input) {
         std::holds_alternative<Strikes>(input.what) || std::holds_alternative<Stop>(input.what);
     if (!mayWait && input.timeNs != Input::now)
         return Failure{"expected strikes or a stop at a time of their own; anything else acts now"};
+    if (const std::size_t events = eventsOf(input); events > 0 && pulse_.dropsNow(events))
+        return Failure{DevicePulse::refusal};
     return std::visit([&](auto& what) { return take(what, input.timeNs); }, input.what);
 }
 

@@ -22,8 +22,8 @@ namespace physvib {
 class Scheduler {
 public:
     /// All must outlive it.
-    Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunner& world, RenderedChannels& channels,
-              SinkSet& sinks);
+    Scheduler(const SessionSetup& setup, const Timeline& time, DevicePulse& pulse, WorldRunner& world,
+              RenderedChannels& channels, SinkSet& sinks);
 
     Result<std::int64_t> take(Input input);
     std::optional<int> keepClip(std::span<const ContactRecording> channels);
@@ -63,6 +63,7 @@ private:
     const SessionSetup& setup_;
     const bool isLogged_;
     const Timeline& time_;
+    DevicePulse& pulse_;
     WorldRunner& world_;
     RenderedChannels& channels_;
     SinkSet& sinks_;

@@ -43,8 +43,8 @@ Session::Session(const SessionSetup& setup)
     , renderer_{std::make_unique<HapticRenderer>()}
     , channels_{setup_}
     , callback_{time_, setup_}
-    , world_{setup_, time_, callback_, sinks_}
-    , scheduler_{setup_, time_, world_, channels_, sinks_} {}
+    , world_{setup_, time_, pulse_, callback_, sinks_}
+    , scheduler_{setup_, time_, pulse_, world_, channels_, sinks_} {}
 
 void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     const std::scoped_lock lock{scheduler_.mutex_, world_.mutex_};
@@ -92,6 +92,17 @@ int Session::advance(const StepWatch& goesOn) {
     const int steps = setup_.hasWorld ? world_.advance(goesOn) : 0;
     scheduler_.followLanes();
     return steps;
+}
+
+void Session::comeBack(std::int64_t nowNs) noexcept {
+    const std::int64_t present = time_.nowNs();
+    const bool wasGone = pulse_.comeBack(nowNs, present);
+    const bool all = setup_.scene.bodies.empty(); // then events with fixtures are of the caller's world
+    const std::int64_t until = wasGone ? INT64_MAX : present;
+    Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, 0, present};
+    pulse_.drop(static_cast<std::uint64_t>(renderer_->discard(source, until, all)));
+    channels_.discard(until, all, wasGone);
+    if (wasGone) renderer_->fadeAll();
 }
 
 void Session::wait(int frames) noexcept {

@@ -17,6 +17,7 @@
 #include "Core/HapticRenderer.h"
 #include "Core/LatestValue.h"
 #include "Live/Session/CallbackInputs.h"
+#include "Live/Session/DevicePulse.h"
 #include "Live/Session/RenderedChannels.h"
 #include "Live/Session/Scheduler.h"
 #include "Live/Session/SinkSet.h"
@@ -69,6 +70,11 @@ public:
         return time_.framesMissing(frames, world_.steppedNs_);
     }
 
+    /// The device comes back after a pause, at `nowNs` of the steady clock; before the next render. Strikes
+    /// that were to act at once are dropped; if the device was gone, all strikes that wait, and what sounds
+    /// fades out. The world and its collisions go on. R, wait-free.
+    void comeBack(std::int64_t nowNs) noexcept;
+
     /// Replaces render: session time advances by `frames` and the output latency grows by as much, so
     /// nothing is lost. The caller supplies the samples meanwhile. R, wait-free.
     void wait(int frames) noexcept;
@@ -79,8 +85,9 @@ public:
     void wait(float* const* unfelt, int frames) noexcept;
 
     /// Executes an input. Its effect is felt the output latency after its time, is logged, and is the same
-    /// to the bit when the log is rendered. Returns the time that it was given; or an error (invalid, or too
-    /// many pending), and nothing is done. Any thread but R; recordings: M.
+    /// to the bit when the log is rendered. Returns the time that it was given; or an error (invalid, too
+    /// many pending, or, of events and pushes, DevicePulse::refusal: no device runs), and nothing is done.
+    /// Any thread but R; recordings: M.
     Result<std::int64_t> take(Input input) { return scheduler_.take(std::move(input)); }
 
     /// Keeps the channels of a clip, identified by path and hash of its file (their frequencies are ignored),
@@ -104,6 +111,9 @@ public:
 
     /// Outputs beside the device. The output latency covers the latency of those attached when it is set.
     SinkSet& sinks() noexcept { return sinks_; }
+    /// Whether its device asks for blocks; the output that plays it tells. Any thread.
+    DevicePulse& pulse() noexcept { return pulse_; }
+    const DevicePulse& pulse() const noexcept { return pulse_; }
     const SinkSet& sinks() const noexcept { return sinks_; }
 
     /// The newest state. One reader (M).
@@ -120,6 +130,7 @@ private:
     const std::unique_ptr<HapticRenderer> renderer_;
     SinkSet sinks_;
     Timeline time_;
+    DevicePulse pulse_;
     RenderedChannels channels_;
     CallbackInputs callback_;
     WorldRunner world_;

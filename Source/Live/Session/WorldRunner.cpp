@@ -15,10 +15,11 @@ constexpr int posesTries = 8; // a millisecond apart: most steps are shorter, an
 
 } // namespace
 
-WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, CallbackInputs& callback,
-                         SinkSet& sinks)
+WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, DevicePulse& pulse,
+                         CallbackInputs& callback, SinkSet& sinks)
     : setup_{setup}
     , time_{time}
+    , pulse_{pulse}
     , callback_{callback}
     , sinks_{sinks}
     , world_{setup.run(), setup.shaping, setup.log != LogUse::none}
@@ -120,6 +121,7 @@ void WorldRunner::takeUp() {
 
 // Queues the created events; true if none is left.
 bool WorldRunner::handOver() {
+    dropWaiting();
     for (; handed_ < made_.size() && queue_.push(made_[handed_]); ++handed_) sinks_.made(made_[handed_]);
     if (handed_ < made_.size()) return false;
     made_.clear();
@@ -134,7 +136,25 @@ void WorldRunner::tellScene() noexcept {
     take_.store(world_.takeCount(), std::memory_order_relaxed);
 }
 
+// After a pause of the device no strike is left that waited for it. A thread that reads a session time after
+// the pause, and then calls this, sees the pause too.
+void WorldRunner::dropWaiting() {
+    const DevicePulse::Return now = pulse_.returns(), before = std::exchange(returns_, now);
+    if (now.pauses == before.pauses) return;
+    const std::int64_t until = now.losses != before.losses ? INT64_MAX : now.untilNs;
+    const bool all = setup_.scene.bodies.empty(); // as in Session::comeBack
+    const auto made = made_.begin() + static_cast<std::ptrdiff_t>(handed_);
+    const auto dropped = std::remove_if(made, made_.end(), [=](const CollisionEvent& event) {
+        return event.timeNs <= until && (all || event.source.fixture < 0);
+    });
+    std::vector<CollisionEvent> due;
+    waiting_.take(until, due);
+    pulse_.drop(due.size() + static_cast<std::size_t>(made_.end() - dropped));
+    made_.erase(dropped, made_.end());
+}
+
 void WorldRunner::takeDue(std::int64_t untilNs) {
+    dropWaiting();
     std::vector<CollisionEvent> due;
     waiting_.take(untilNs, due);
     std::ranges::transform(due, std::back_inserter(made_), setup_.shaping);
@@ -185,12 +205,14 @@ bool WorldRunner::addInput(std::size_t take, Action& action) {
 
 void WorldRunner::strike(std::span<const CollisionEvent> events) {
     const std::lock_guard lock{mutex_};
+    dropWaiting();
     std::ranges::transform(events, std::back_inserter(made_), setup_.shaping);
     handOver();
 }
 
 bool WorldRunner::schedule(std::span<const CollisionEvent> events) {
     const std::lock_guard lock{mutex_};
+    dropWaiting();
     if (!waiting_.add(events)) return false;
     takeDue(time_.nowNs());
     handOver();

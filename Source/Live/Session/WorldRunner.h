@@ -4,6 +4,7 @@
 #include "Core/EventQueue.h"
 #include "Live/Documents/SessionLog.h"
 #include "Live/Session/CallbackInputs.h"
+#include "Live/Session/DevicePulse.h"
 #include "Live/Session/SessionSetup.h"
 #include "Live/Session/SessionWorld.h"
 #include "Live/Session/SinkSet.h"
@@ -68,7 +69,8 @@ private:
     friend class Scheduler;
 
     /// All must outlive it. Throws std::invalid_argument if the scene is not valid.
-    WorldRunner(const SessionSetup& setup, const Timeline& time, CallbackInputs& callback, SinkSet& sinks);
+    WorldRunner(const SessionSetup& setup, const Timeline& time, DevicePulse& pulse, CallbackInputs& callback,
+                SinkSet& sinks);
 
     // For Session:
     void prepare();                            // resets the scene; the world mutex is held, also for resume
@@ -101,12 +103,14 @@ private:
     void moveWorld(std::int64_t untilNs);
     void takeUp();
     void tellScene() noexcept;
+    void dropWaiting();
     void takeDue(std::int64_t untilNs);
     bool handOver();
     void showPoses() const; // to readers that do not wait for a step
 
     const SessionSetup& setup_;
     const Timeline& time_;
+    DevicePulse& pulse_;
     CallbackInputs& callback_;
     SinkSet& sinks_;
     EventQueue<CollisionEvent, 4096> queue_; // from the thread that holds the world mutex; made_ keeps what
@@ -124,6 +128,7 @@ private:
     std::vector<CollisionEvent> made_; // events that did not fit the queue yet, from handed_ on
     std::size_t handed_ = 0;
     WaitingStrikes waiting_;
+    DevicePulse::Return returns_;       // after which nothing that waited is left
     std::vector<CollisionEvent> begun_; // scheduled events that have begun, for the log
 
     mutable std::mutex stateMutex_; // locked after all others; guards the following members

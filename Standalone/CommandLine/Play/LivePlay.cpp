@@ -15,6 +15,7 @@
 #include "System/Interrupt.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -25,6 +26,10 @@
 namespace physvib {
 
 namespace {
+
+std::uint64_t dropsOf(const Session& session, const RenderStatus& status) {
+    return session.world().drops() + status.untold + session.pulse().dropped();
+}
 
 // Work of the message thread during the session: steps the world, empties queues, maintains device and
 // journal, and ends the call.
@@ -40,11 +45,15 @@ public:
         repeatEvery(std::chrono::milliseconds{milliseconds}, [this] { return tick(); });
     }
 
-    /// Stops playback; returns the number of collisions played.
+    /// Stops playback; returns the number of events that left.
     std::uint64_t stop() {
+        if (!interrupted && !rig_.output().status().isRunning) lost_ = rig_.trouble();
         rig_.stop([this](const PlayedEvent&) { ++played_; });
         return played_;
     }
+
+    /// Empty, or why the rest was not played: the device had gone for good. After stop().
+    const std::string& lost() const noexcept { return lost_; }
 
 private:
     static constexpr int milliseconds = 10; // well below messageTimerGapSeconds
@@ -88,7 +97,7 @@ private:
                       static_cast<double>(rig_.session().timeline().playOutFrames()) / rate,
                       static_cast<double>(margin) / rate, status.render.liveModes,
                       static_cast<unsigned long long>(status.render.late),
-                      static_cast<unsigned long long>(rig_.session().world().drops() + status.render.untold),
+                      static_cast<unsigned long long>(dropsOf(rig_.session(), status.render)),
                       o.guardGain < 1.0f ? "  guard acts" : "");
         std::cerr << words << std::flush;
     }
@@ -112,7 +121,7 @@ private:
     std::uint64_t played_ = 0, unread_ = 0;
     int ticks_ = 0, stillSeconds_ = 0;
     std::int64_t lastNs_ = -1;
-    std::string lastTrouble_;
+    std::string lastTrouble_, lost_;
 };
 
 void summarise(Rig& rig, std::uint64_t played) {
@@ -122,17 +131,24 @@ void summarise(Rig& rig, std::uint64_t played) {
     const RenderStatus& r = status.render;
     const AudioOutputStatus o = output.status();
     const double framesPerMs = output.sampleRateHz() / 1e3;
-    std::cout << std::fixed << std::setprecision(1) << "felt "
-              << static_cast<double>(session.timeline().playOutFrames()) / framesPerMs
-              << " ms after the contact; " << played << " collisions played, " << r.late << " late, "
-              << session.world().drops() + r.untold << " dropped, " << r.rejected << " refused; "
-              << static_cast<double>(session.world().slippedNs()) * 1e-6 << " ms of stalls; ";
+    std::cout << std::fixed << std::setprecision(1) << "output latency "
+              << static_cast<double>(session.timeline().playOutFrames()) / framesPerMs << " ms; " << played
+              << " events left, " << r.late << " late, " << dropsOf(session, r) << " dropped, " << r.rejected
+              << " refused; " << static_cast<double>(session.world().slippedNs()) * 1e-6 << " ms of stalls; ";
     if (status.leastMarginFrames != noMargin)
         std::cout << "least margin " << static_cast<double>(status.leastMarginFrames) / framesPerMs
                   << " ms; ";
     std::cout << "worst load " << 100 * o.worstLoad << " %, "
               << (o.deviceXruns < 0 ? "xruns not counted by" : std::to_string(o.deviceXruns) + " xruns of")
               << " the device\n";
+    std::cout << "at the outputs: peaks" << std::setprecision(3);
+    double seconds = 0.0;
+    for (int j = 0; j < session.channels(); ++j) {
+        const Receipts::Total left = output.leftInAll(j);
+        seconds = std::max(seconds, left.seconds);
+        left.seconds > 0.0 ? std::cout << ' ' << left.peak : std::cout << " -";
+    }
+    std::cout << std::setprecision(1) << " of full scale, " << seconds << " s\n";
     if (r.withoutPart > 0)
         std::cout << r.withoutPart
                   << " of a part of the body that no actuator is on, felt by their place on all\n";
@@ -144,6 +160,9 @@ void summarise(Rig& rig, std::uint64_t played) {
         std::cerr
             << "physvib: warning: actuators were turned down, as they would have got nearly direct current: "
             << o.guarded << " times\n";
+    if (const std::uint64_t dropped = session.pulse().dropped(); dropped > 0)
+        std::cerr << "physvib: warning: no device ran when they came, so they were dropped: " << dropped
+                  << " events\n";
     if (o.losses > 0)
         std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
 }
@@ -189,6 +208,7 @@ std::string playLive(LivePlay wanted) {
         if (auto error = beginSound(wanted, rig.session(), messages); !error.empty()) return error;
     std::uint64_t played = 0, beats = 0;
     std::optional<OscStatus> told;
+    std::string lost;
     {
         rig.start();
         std::optional<LiveBeats> heard;
@@ -203,6 +223,7 @@ std::string playLive(LivePlay wanted) {
             Watch watch{rig, osc.get(), listener ? &*listener : nullptr, wanted.seconds};
             watch.run();
             played = watch.stop();
+            lost = watch.lost();
         }
         if (osc) told = osc->status();
         if (heard) beats = heard->beats();
@@ -215,6 +236,7 @@ std::string playLive(LivePlay wanted) {
     std::cout << rig.summary(trouble);
     if (rig.recording()) summariseRecording(*rig.recording(), wanted.rig.recordPath);
     rig.close();
+    if (!lost.empty()) return lost;
     return !unsaved.empty() ? unsaved : trouble;
 }
 

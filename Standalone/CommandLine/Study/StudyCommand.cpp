@@ -130,7 +130,7 @@ int run(const StudyOptions& o) {
     if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
     if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty())
         return leave(exitFailed, fault);
-    if (auto fault = limiterFault(protocol.value); !fault.empty())
+    if (auto fault = studyFault(protocol.value); !fault.empty())
         return leave(exitFailed, o.protocol + ": " + fault);
     std::error_code fault;
     std::filesystem::create_directories(o.folder, fault);

@@ -28,20 +28,14 @@ public:
     double daily() const noexcept { return dailyExposure(squareGSeconds_); }
 
     /// Starts a new measurement of felt(), of these frames of the session that is played.
-    void restartLevels(const SampleSpan& span) {
-        span_ = span;
-        mark_ = output_.restartLevels(span);
-    }
+    void restartLevels(const SampleSpan& span) { mark_ = output_.restartLevels(span); }
     /// Level of the strongest actuator in the span, over `seconds`; zeros if nothing was played.
     FeltLevel felt(double seconds) const;
-    /// Whether the last update() knew all samples of the span.
-    bool isComplete() const noexcept { return sums_.mark == mark_ && sums_.until >= span_.to; }
 
 private:
     AudioOutput& output_;
     std::array<double, limits::maxEnchanters> fullScaleG_{};
     ExposureSums sums_;
-    SampleSpan span_;
     std::uint32_t mark_ = 0;
     double squareGSeconds_ = 0.0;
 };

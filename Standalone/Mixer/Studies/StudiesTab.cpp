@@ -5,7 +5,6 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Live/Devices/NoDevice.h"
 #include "Mixer/Desk/UserFolder.h"
 #include "Mixer/Studies/StudyLooks.h"
 #include "Mixer/Window/CardHost.h"
@@ -272,6 +271,8 @@ StudyRun StudiesTab::run() const {
 /// Shows whether the trial file exists and can be continued.
 void StudiesTab::look() {
     if (!protocol_) return;
+    refused_.clear();
+    outputs_ = utf8(outputsFault(*protocol_, desk_));
     const StudyRun chosen = run();
     const auto path = chosen.trialFile();
     std::error_code none;
@@ -339,14 +340,19 @@ void StudiesTab::say(const juce::String& words, Shade shade) {
 }
 
 std::string StudiesTab::begin() {
-    const auto refuse = [this](const std::string& why) { return say(utf8(why), Shade::limit), why; };
+    const auto refuse = [this](const std::string& why) {
+        say(utf8(why), Shade::limit);
+        refused_ = words_;
+        return why;
+    };
     auto* view = findParentComponentOfClass<MixerView>();
     if (screen_ || analysis_ || !protocol_ || view == nullptr) return "expected a mixer without a study";
     if (code_.isEmpty()) return refuse("expected a participant's code");
     stopCheck(); // one that is not made yet: a program called this, as the button waits for the check
     if (auto fault = faultOf(run()); !fault.empty()) return refuse(fault);
+    if (auto fault = outputsFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
     if (auto fault = feltFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
-    if (auto fault = !check_                  ? limiterFault(*protocol_)
+    if (auto fault = !check_                  ? studyFault(*protocol_)
                      : check_->errors.empty() ? ""
                                               : check_->errors.front();
         !fault.empty())
@@ -417,18 +423,21 @@ void StudiesTab::takeMix() {
         label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     if (noiseOutputs_ != noiseChoices() || noise_.getNumItems() == 0) listNoise();
     const auto& mix = desk_.mix();
-    const bool isFelt = !utf8(desk_.output().device()).startsWith(noDeviceType);
+    const bool isFelt = !hasNoDevice(desk_);
     level_ = mix.levelDb < 0.0
                  ? "Felt " + number(-mix.levelDb, 1) +
                        " dB below the protocol's g: set the master level to 0 dB if those are meant."
                  : juce::String{};
     if (!isFelt) level_ = "There is no device: the study can be seen, and is felt by nobody.";
+    outputs_ = protocol_ ? utf8(outputsFault(*protocol_, desk_)) : juce::String{};
+    if (refused_.isNotEmpty() && refused_ != outputs_) look(); // the cause of a refusal may be gone
     repaint();
 }
 
 // By importance: a small window has space for the first line only.
 juce::StringArray StudiesTab::advice() const {
     juce::StringArray lines;
+    if (outputs_.isNotEmpty() && outputs_ != refused_) lines.add(outputs_);
     if (protocol_ && protocol_->hasPinkNoise && listening().noise.empty())
         lines.add("It asks for pink noise: choose headphones.");
     if (level_.isNotEmpty()) lines.add(level_);

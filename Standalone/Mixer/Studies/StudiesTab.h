@@ -87,6 +87,7 @@ private:
     Desk& desk_;
     std::optional<Protocol> protocol_;
     juce::String about_, words_, level_;
+    juce::String outputs_, refused_; // what outputs lack, and the last refusal, until something changes
     Shade wordsShade_ = Shade::muted;
     std::string wordsPath_; // selected here; empty: the protocol's
     juce::ComboBox choice_, noise_, noiseLevel_, wordsChoice_, answersChoice_;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pages of the study screen, and its keys.
 #include "Mixer/Studies/StudyScreen.h"
+#include "Io/Text/NameList.h"
 #include "Lab/Files/ProtocolFile.h"
+#include "Live/Devices/NoDevice.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/LayoutNamed.h"
 #include "Scene/SceneEdits.h"
@@ -46,6 +48,8 @@ Apparatus apparatusOf(Desk& desk) {
     return with;
 }
 
+bool hasNoDevice(const Desk& desk) { return desk.output().device().starts_with(noDeviceType); }
+
 std::string feltFault(const Protocol& protocol, Desk& desk) {
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
@@ -53,6 +57,32 @@ std::string feltFault(const Protocol& protocol, Desk& desk) {
                 if (auto fault = jobFault(desk, protocol, protocol.conditions[c], job); !fault.empty())
                     return fault;
     return {};
+}
+
+std::string outputsFault(const Protocol& protocol, const Desk& desk) {
+    const auto& strips = desk.mix().strips;
+    const auto& map = desk.output().channelMap();
+    for (const ConditionPlan& condition : protocol.conditions) {
+        const auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
+        const std::size_t wanted = layout.value.enchanters.size();
+        if (!layout) return layout.error;
+        if (wanted > strips.size())
+            return condition.layout + ": expected " + std::to_string(wanted) +
+                   " actuators in the mixer, found " + std::to_string(strips.size());
+        std::vector<std::string> without;
+        for (std::size_t j = 0; j < wanted; ++j)
+            if (const int output = j < map.size() ? map[j] : -1;
+                !hasNoDevice(desk) && (output < 0 || output >= desk.device().outputs()))
+                without.push_back(desk.mix().layout.enchanters[j].label);
+        if (!without.empty())
+            return std::to_string(without.size()) + " of " + std::to_string(wanted) +
+                   (without.size() == 1 ? " actuators has no output: " : " actuators have no output: ") +
+                   listed(without);
+    }
+    return desk.output().isPlaying()
+               ? std::string{}
+               : "expected a device that runs, found none: " +
+                     (desk.output().device().empty() ? "no device is open" : desk.output().device());
 }
 
 StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Words words,
@@ -146,6 +176,8 @@ void StudyScreen::showTrial() {
     wanted_.reset();
     sessions_.clear();
     felt_.assign(std::max<std::size_t>(1, experiment().trial().parts.size()), {});
+    unlike_.assign(felt_.size(), 0);
+    isLost_ = false;
     part_ = 0;
     counted_ = firstFeltMs_ = 0.0;
     auto answer = makeStudyAnswer(experiment(), layout_, say_);

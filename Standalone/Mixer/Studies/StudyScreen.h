@@ -62,6 +62,7 @@ private:
     void take(Answer answer);
     void takeComment();
     void noteFelt();
+    void settle(Course course);
     void markFelt();
     std::string markerWords(const char* what) const;
     double exposure() const;
@@ -73,6 +74,9 @@ private:
     }
     bool hasHands() const { return worldSet() != nullptr && worldSet()->hasHands; }
     bool isAnswerSeen() const;
+    Course course() const { return worldSet() != nullptr ? pane_.world().course() : sound_.course(); }
+    /// Nothing is posted while no samples run: it would wait, and be felt at once later.
+    bool isWaiting() const { return !desk_.output().isPlaying(); }
     /// Duration felt of the current or last part.
     double feltSeconds() const {
         return worldSet() != nullptr ? pane_.world().feltSeconds() : sound_.feltSeconds();
@@ -115,6 +119,8 @@ private:
     std::size_t part_ = 0;
     double endedMs_ = 0.0;         // when that part ended
     std::optional<bool> wasRight_; // the answer before, if the session gives feedback
+    std::vector<int> unlike_;      // by part: plays at another level than planned
+    bool isLost_ = false;          // the last play did not leave, and is to be felt again
     double limiterDb_ = 0.0;       // maximum gain reduction observed in this trial
     double counted_ = 0.0, firstFeltMs_ = 0.0, restEndsMs_ = 0.0;
 
@@ -129,8 +135,14 @@ private:
 /// Settings of the apparatus now. Message thread.
 Apparatus apparatusOf(Desk& desk);
 
+/// True if samples are discarded, as there is no device: the study can be seen. Message thread.
+bool hasNoDevice(const Desk& desk);
+
 /// Empty, or why the study cannot be played in this mixer, checked with the first stimulus of each condition.
 /// Message thread.
 std::string feltFault(const Protocol& protocol, Desk& desk);
+
+/// Empty, or why the study's layouts cannot be felt on the outputs that there are now. Fast. Message thread.
+std::string outputsFault(const Protocol& protocol, const Desk& desk);
 
 } // namespace physvib

@@ -7,6 +7,11 @@
 #include <utility>
 
 namespace physvib {
+namespace {
+
+constexpr int mostUnlike = 3; // plays of a part at another level than planned; then its row is marked
+
+} // namespace
 
 bool StudyScreen::isExploring() const { return experiment().session().answer() == AnswerKind::wish; }
 
@@ -24,14 +29,15 @@ std::size_t StudyScreen::nextPart() const {
 }
 
 void StudyScreen::play(std::size_t part) {
-    if (page_ != Page::trial || desk_.isSilent() || !progress_->canPlay(part)) return;
+    if (page_ != Page::trial || desk_.isSilent() || isWaiting() || !progress_->canPlay(part)) return;
     if (isFeeling()) {
         if (!hasHands() || (part == part_ && pane_.world().isMoving())) return;
         wanted_ = part;
         return pane_.world().end();
     }
     noteFelt();
-    if (const auto fault = begin(part); !fault.empty()) return fail(fault);
+    if (const auto fault = begin(part); !fault.empty()) return isWaiting() ? refresh() : fail(fault);
+    isLost_ = false;
     if (progress_->plays() == 0) firstFeltMs_ = nowMs();
     progress_->played(part);
     part_ = part;
@@ -55,8 +61,23 @@ std::string StudyScreen::begin(std::size_t part) {
     const auto name = "trial-" + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number + "-" +
                       std::to_string(sessions_.size() + 1) + ".json";
     const auto folder = study_->feltFolder();
-    sessions_.push_back((folder.filename() / name).string());
-    return pane_.begin(std::move(world.value), worldSet()->hasHands, folder / name);
+    auto fault = pane_.begin(std::move(world.value), worldSet()->hasHands, folder / name);
+    if (fault.empty()) sessions_.push_back((folder.filename() / name).string());
+    return fault;
+}
+
+/// Decides by the receipts whether the play that is over counts.
+void StudyScreen::settle(Course course) {
+    int& unlike = unlike_[part_];
+    unlike = course == Course::left ? 0 : course == Course::unlike ? unlike + 1 : unlike;
+    if (course == Course::left || (course == Course::unlike && unlike >= mostUnlike)) return;
+    markers_.push(markerWords("lost"));
+    isLost_ = true;
+    exploring_.reset();
+    if (worldSet() != nullptr) sessions_.pop_back(); // the next one takes its name
+    const bool isSequence = experiment().session().intervalSeconds > 0.0 && !hasHands();
+    for (std::size_t part = isSequence ? 0 : part_; part <= part_; ++part) progress_->lost(part);
+    counted_ = feltSeconds();
 }
 
 void StudyScreen::playWanted() {
@@ -70,7 +91,7 @@ void StudyScreen::playWanted() {
 void StudyScreen::playSequence() {
     const double interval = experiment().session().intervalSeconds;
     const std::size_t next = part_ + 1;
-    if (interval > 0.0 && !isFeeling() && !hasHands() && next < parts_.size() &&
+    if (interval > 0.0 && !isLost_ && !isFeeling() && !hasHands() && next < parts_.size() &&
         progress_->plays(next) < progress_->plays(part_) && nowMs() >= endedMs_ + 1e3 * interval)
         play(next);
 }
@@ -139,6 +160,9 @@ void StudyScreen::take(Answer answer) {
     answer.limiterDb = std::exchange(limiterDb_, 0.0);
     answer.exposure = exposure();
     answer.plays = std::max(1, progress_->plays());
+    if (!hasNoDevice(desk_))
+        answer.left = std::ranges::all_of(unlike_, [](int plays) { return plays < mostUnlike; });
+    answer.again = progress_->again();
     answer.seconds = std::round(nowMs() - firstFeltMs_) * 1e-3;
     answer.sessions = sessions_;
     const auto session = experiment().sessionNumber();
@@ -152,6 +176,7 @@ void StudyScreen::take(Answer answer) {
     if (!staysOpen) return showNext();
     exploring_.reset(); // stays on this screen and marks what was felt
     progress_.emplace(experiment().session(), experiment().trial());
+    unlike_.assign(1, 0);
     answers_->mark(experiment().explored());
     refresh();
     answers_->repaint();
@@ -169,8 +194,9 @@ void StudyScreen::updateTrial() {
             limiterDb_,
             -toDecibels(std::max(1e-6, static_cast<double>(desk_.session().status().render.limiterGain))));
     pane_.refresh();
+    sound_.update();
     markFelt();
-    if (wasFeeling && !isFeeling()) endedMs_ = nowMs(), resized();
+    if (wasFeeling && !isFeeling()) settle(course()), endedMs_ = nowMs(), resized();
     if (!pane_.world().fault().empty()) return fail(pane_.world().fault());
     playWanted();
     playSequence();

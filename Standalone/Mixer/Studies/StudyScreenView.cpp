@@ -67,8 +67,8 @@ void StudyScreen::updateParts() {
         button.setToggleState(isPlaying, juce::dontSendNotification);
         const bool isInSequence = session.intervalSeconds > 0.0 && !hasHands() &&
                                   (i > 0 || progress_->plays(0) > progress_->plays(parts_.size() - 1));
-        button.setEnabled((!isFeeling() || hasHands()) && !desk_.isSilent() && progress_->canPlay(i) &&
-                          !isInSequence);
+        button.setEnabled((!isFeeling() || hasHands()) && !desk_.isSilent() && !isWaiting() &&
+                          progress_->canPlay(i) && !isInSequence);
         if (session.leastSeconds > 0.0) button.setShare(progress_->seconds(i) / session.leastSeconds);
     }
 }
@@ -106,6 +106,8 @@ juce::String StudyScreen::body() const {
     switch (page_) {
     case Page::trial:
         if (desk_.isSilent()) return say_("Everything is silent. Press the button to feel again.");
+        if (isWaiting()) return say_("Nothing can be felt now: the study waits for the device.");
+        if (isLost_) return say_("That did not come through whole. Please feel it again.");
         if (wasRight_ && plays() == 0 && wrong().isEmpty()) return feedback().trimEnd();
         return wrong().isNotEmpty()
                    ? wrong()
@@ -165,7 +167,8 @@ void StudyScreen::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::text));
     g.setFont(juce::Font{page_ == Page::trial ? text::large : 30.0f, juce::Font::bold});
     g.drawFittedText(headline(), questionArea_, juce::Justification::centred, 2, 1.0f);
-    const bool isTrouble = page_ == Page::trial && (desk_.isSilent() || wrong().isNotEmpty());
+    const bool isTrouble =
+        page_ == Page::trial && (desk_.isSilent() || isWaiting() || isLost_ || wrong().isNotEmpty());
     g.setColour(shade(*this, isTrouble ? Shade::limit : Shade::muted));
     g.setFont(juce::Font{page_ == Page::trial ? text::medium : text::large});
     g.drawFittedText(body(), bodyArea_, juce::Justification::centred, page_ == Page::trial ? 2 : 5, 1.0f);

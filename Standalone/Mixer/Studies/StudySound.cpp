@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays a stimulus in the mixer's session: controls first, then its events slightly later.
 #include "Mixer/Studies/StudySound.h"
+#include "Core/Decibels.h"
 #include "Live/Documents/StripGroups.h"
+#include "Live/Session/ContactSounds.h"
+#include "Live/Session/OfflineRender.h"
 #include "Mixer/Window/Parts.h"
 #include <algorithm>
 #include <cmath>
@@ -13,7 +16,11 @@ using Kind = RenderControl::Kind;
 constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time may be applied after an
                                             // event, and gains are ramped
 
-constexpr double mostLateMs = 1000.0;
+// What is compared with the plan: actuators at most so far below the loudest one, above what a float keeps.
+constexpr double comparedShare = 0.01, leastCompared = 1e-4, toleranceDb = 1.0;
+constexpr double longestPauseMs = 2500.0;   // after 2000, a device that returns plays nothing of before
+constexpr double mostPlannedSeconds = 60.0; // receipts are kept that long, and a plan is rendered while one
+                                            // waits
 
 constexpr const char* noControls = "The session took no more controls: expected a device that plays";
 
@@ -90,22 +97,82 @@ std::string StudySound::play(const FeltStimulus& stimulus) {
     const int rate = desk_.output().sampleRateHz();
     const auto first = std::llround(1e-9 * static_cast<double>(taken.value + leadNs) * rate);
     desk_.exposure().restartLevels({first, first + std::llround(stimulus.stimulus.seconds * rate)});
+    fromNs_ = taken.value + leadNs;
+    untilNs_ = fromNs_ + std::llround(1e9 * stimulus.stimulus.seconds);
+    session_ = desk_.output().playedSession();
+    desk_.output().expect(fromNs_, untilNs_);
+    planned_ = plannedPeaks(stimulus);
+    actuators_ = stimulus.gains.size();
+    course_ = Course::plays;
+    wasSilent_ = false;
+    ranAtMs_ = nowMs();
     beganAtMs_ = nowMs() + 1e-6 * static_cast<double>(leadNs) + 1e3 * desk_.device().playOutSeconds();
     seconds_ = stimulus.stimulus.seconds;
     return {};
 }
 
-// A late device is waited for, one that has stopped is not.
-bool StudySound::isPlaying() const {
-    const double restMs = beganAtMs_ + 1e3 * seconds_ - nowMs();
-    return seconds_ > 0.0 && restMs > (desk_.exposure().isComplete() ? 0.0 : -mostLateMs);
+/// The peak of each actuator behind gains, ceilings, limiter, guard and master level.
+std::vector<double> StudySound::plannedPeaks(const FeltStimulus& stimulus) const {
+    if (stimulus.stimulus.seconds > mostPlannedSeconds) return {};
+    const int rate = desk_.output().sampleRateHz();
+    const ContactSounds sounds{stimulus.recordings, rate};
+    OfflineSettings settings{.renderer = {.sampleRateHz = rate, .panner = stimulus.stimulus.panner},
+                             .frames = std::llround(stimulus.stimulus.seconds * rate),
+                             .contacts = {sounds.contacts()}};
+    std::vector<RenderControl> controls;
+    for (std::size_t j = 0; j < stimulus.gains.size(); ++j) {
+        settings.renderer.ceilings[j] = ceilingOf(desk_.mix().strips[j]);
+        controls.push_back({0, Kind::gain, static_cast<int>(j), stimulus.gains[j], {}});
+    }
+    settings.controls = controls;
+    std::vector<double> peaks(stimulus.gains.size());
+    renderOffline(stimulus.stimulus.events, settings, [&](const float* const* blocks, int frames) {
+        for (std::size_t j = 0; j < peaks.size(); ++j)
+            for (int n = 0; n < frames; ++n)
+                peaks[j] = std::max(peaks[j], std::abs(static_cast<double>(blocks[j][n])));
+        return true;
+    });
+    for (double& peak : peaks) peak *= static_cast<double>(desk_.output().level());
+    return peaks;
 }
 
-double StudySound::feltSeconds() const { return std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_); }
+// After a short pause of the device, what was posted goes on: so the end is awaited, though it is lost
+// already.
+void StudySound::update() {
+    if (course_ != Course::plays) return;
+    wasSilent_ = wasSilent_ || desk_.isSilent();
+    if (desk_.output().isPlaying()) ranAtMs_ = nowMs();
+    const bool isOver = desk_.output().left(fromNs_, untilNs_, 0, session_).isOver;
+    if (isOver)
+        course_ = wasSilent_ ? Course::lost : judged();
+    else if (nowMs() - ranAtMs_ > longestPauseMs)
+        course_ = Course::lost;
+    if (course_ != Course::plays)
+        heldSeconds_ = isOver ? seconds_ : std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_);
+}
+
+Course StudySound::judged() const {
+    const double loudest = planned_.empty() ? 0.0 : std::ranges::max(planned_);
+    Course course = Course::left;
+    for (std::size_t j = 0; j < actuators_; ++j) {
+        const Receipt receipt = desk_.output().left(fromNs_, untilNs_, static_cast<int>(j), session_);
+        if (!receipt.isKept || !receipt.isRunning) return Course::lost;
+        const double planned = j < planned_.size() ? planned_[j] : 0.0;
+        if (planned < std::max(leastCompared, comparedShare * loudest)) continue;
+        if (std::abs(toDecibels(std::max(receipt.peak, 1e-9) / planned)) > toleranceDb)
+            course = Course::unlike;
+    }
+    return course;
+}
+
+double StudySound::feltSeconds() const {
+    return course_ == Course::plays ? std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_) : heldSeconds_;
+}
 
 double StudySound::startsInSeconds() const { return 1e-3 * (beganAtMs_ - nowMs()); }
 
 void StudySound::stop() {
+    course_ = Course::none;
     post(Kind::stopAll, 0, 0.0f);
     for (int j = 0; j < desk_.mix().count(); ++j) post(Kind::mute, j, 1.0f);
 }

@@ -7,6 +7,15 @@
 
 namespace physvib {
 
+/// How what was played last fared, by the receipts of the output.
+enum class Course {
+    none,   ///< nothing was played yet, or it was stopped
+    plays,  ///< it is not over
+    left,   ///< every actuator got all of it, in one piece and within 1 dB of the plan
+    lost,   ///< it was cut off, silenced, or missed an actuator
+    unlike, ///< it left as a whole, at another level than planned
+};
+
 /// Message thread only. The mixer state must not be edited during its lifetime.
 class StudySound {
 public:
@@ -23,7 +32,10 @@ public:
     /// Plays it; empty, or an error. Not while another plays: stimuli play to their end, as in the rendered
     /// file.
     std::string play(const FeltStimulus& stimulus);
-    bool isPlaying() const;
+    /// Looks at the receipts. To be called often; isPlaying() changes here alone.
+    void update();
+    Course course() const noexcept { return course_; }
+    bool isPlaying() const noexcept { return course_ == Course::plays; }
     double feltSeconds() const;     ///< of the last stimulus, so far
     double startsInSeconds() const; ///< time until the last stimulus is felt; negative afterwards
     /// Fades out sounding modes and mutes pending events until the mixer is returned.
@@ -33,10 +45,20 @@ private:
     void useRecordings(const std::vector<ContactRecording>& recordings);
     void post(RenderControl::Kind kind, int channel, float value, const PhantomPanner& panner = {});
 
+    std::vector<double> plannedPeaks(const FeltStimulus& stimulus) const;
+    Course judged() const;
+
     Desk& desk_;
     int slowness_;
-    double beganAtMs_ = 0.0, seconds_ = 0.0;
-    std::vector<float> gains_; // last posted values
+    double beganAtMs_ = 0.0, ranAtMs_ = 0.0, seconds_ = 0.0, heldSeconds_ = 0.0; // held: felt when it was
+                                                                                 // over
+    std::vector<float> gains_;                                                   // last posted values
+    Course course_ = Course::none;
+    bool wasSilent_ = false;                // at any time of it
+    std::int64_t fromNs_ = 0, untilNs_ = 0; // of the last stimulus, in session time
+    std::uint32_t session_ = 0;
+    std::size_t actuators_ = 0;   // of its layout
+    std::vector<double> planned_; // peak of each actuator at its output; empty: not known
 };
 
 } // namespace physvib

@@ -10,8 +10,9 @@
 namespace physvib {
 namespace {
 
-constexpr std::int64_t fadeNs = 100'000'000; // longer than the fade-out of any mode, by
-                                             // limits::stealFadePerSecond
+constexpr std::int64_t fadeNs = 100'000'000;  // longer than the fade-out of any mode, by
+                                              // limits::stealFadePerSecond
+constexpr std::int64_t askedNs = 500'000'000; // of receipts at a time, which are kept for a minute
 
 } // namespace
 
@@ -34,7 +35,9 @@ std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesys
     setup_.log = LogUse::stream;
     setup_.marks = MarkedOnsets::all;
     seconds_ = hasHands ? 0.0 : world.seconds;
-    feltNs_ = seenNs_ = 0;
+    feltNs_ = seenNs_ = checkedNs_ = 0;
+    actuators_ = world.layout.geometry.count;
+    course_ = Course::none;
     stoppedNs_ = -1;
     fault_.clear();
     std::error_code none;
@@ -46,13 +49,27 @@ std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesys
     desk_.exposure().restartLevels(
         {0, hasHands ? SampleSpan{}.to : std::llround(seconds_ * desk_.output().sampleRateHz())});
     if (!desk_.output().lend(session_.get())) return session_.reset(), "expected a device that plays";
+    number_ = desk_.output().playedSession();
     tellStrips();
     journal_ = std::make_unique<SessionJournal>(
         file, *session_, setup_,
         Provenance{PHYSVIB_VERSION, {{"scene", setup_.scene.name}, {"seed", std::to_string(setup_.seed)}}});
     if (auto fault = journal_->error(); !fault.empty()) return finish(), fault;
     driver_ = std::make_unique<ThreadDriver>(*session_, setup_.stepsPerSecond); // starts its time
+    course_ = Course::plays;
     return {};
+}
+
+/// The world is lost as soon as one actuator of its layout missed a frame.
+void StudyWorld::askReceipts(std::int64_t untilNs) {
+    if (!desk_.output().isPlaying()) course_ = Course::lost;
+    if (course_ != Course::plays || untilNs <= checkedNs_) return;
+    for (int j = 0; j < actuators_; ++j) {
+        const Receipt receipt = desk_.output().left(checkedNs_, untilNs, j, number_);
+        if (!receipt.isOver) return; // a block is between the session and its receipt
+        if (!receipt.isRunning) course_ = Course::lost;
+    }
+    checkedNs_ = untilNs;
 }
 
 void StudyWorld::tellStrips() {
@@ -86,14 +103,18 @@ WorldMoment StudyWorld::look() {
     moment.sessionNs = session_->world().readPoses(moment.poses);
     moment.aheadNs =
         session_->timeline().playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
-    const std::int64_t now = session_->status().sessionNs;
+    const std::int64_t now = session_->status().sessionNs, felt = session_->timeline().nextFeltNs();
+    if (felt >= checkedNs_ + askedNs || !desk_.output().isPlaying()) askReceipts(felt);
+    if (course_ == Course::lost) return finish(), moment; // a device that is gone plays no end
     if (isMoving()) {
         session_->world().setSlowness(desk_.isSilent() ? 0 : 1); // pause the display too while output is
                                                                  // silent
         if (!desk_.isSilent())
             feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
         if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
-    } else if (session_->timeline().nextFeltNs() >= stoppedNs_ + fadeNs) { // the latency may have grown
+    } else if (felt >= stoppedNs_ + fadeNs) { // the latency may have grown
+        askReceipts(stoppedNs_);
+        if (course_ == Course::plays) course_ = Course::left;
         finish();
     }
     seenNs_ = now;
@@ -102,6 +123,7 @@ WorldMoment StudyWorld::look() {
 
 void StudyWorld::finish() {
     if (!session_) return;
+    if (course_ == Course::plays) course_ = Course::none;
     desk_.output().lend(nullptr);
     driver_.reset();
     session_->advance(); // simulates up to the end of time, from which a later render would continue

@@ -5,7 +5,7 @@
 #include "Host/Views/WorldView.h"
 #include "Live/Devices/SimulationDriver.h"
 #include "Live/Session/SessionJournal.h"
-#include "Mixer/Desk/Desk.h"
+#include "Mixer/Studies/StudySound.h"
 #include "Studies/StudyCalls.h"
 #include <filesystem>
 #include <memory>
@@ -32,6 +32,8 @@ public:
     /// error.
     std::string begin(FeltWorld world, bool hasHands, const std::filesystem::path& file);
 
+    /// Of the current or last world; a world has no planned level, so it is never `unlike`.
+    Course course() const noexcept { return course_; }
     bool isPlaying() const noexcept { return session_ != nullptr; } ///< it runs or fades out
     bool isMoving() const noexcept { return isPlaying() && stoppedNs_ < 0; }
     /// Duration of the current or last world, without silences.
@@ -52,6 +54,7 @@ public:
 
 private:
     void tellStrips();
+    void askReceipts(std::int64_t untilNs);
     void finish();
 
     Desk& desk_;
@@ -60,7 +63,11 @@ private:
     std::unique_ptr<SessionJournal> journal_;
     std::unique_ptr<ThreadDriver> driver_;
     std::string fault_;
-    double seconds_ = 0.0;                                  // of a world without user input
+    double seconds_ = 0.0; // of a world without user input
+    Course course_ = Course::none;
+    std::uint32_t number_ = 0;                              // of the session, for receipts
+    int actuators_ = 0;                                     // of its layout
+    std::int64_t checkedNs_ = 0;                            // receipts were asked for up to there
     std::int64_t feltNs_ = 0, seenNs_ = 0, stoppedNs_ = -1; // stoppedNs_: session time of the stop
 };
 

@@ -9,7 +9,7 @@
 from ._library import AUTOMATIC, EVENT, HIT, ROLL, SLIDE, PhysVibError, version
 from .files import EventList, events, events_of, frame, load_events, parse_events, render, save_events, save_wav
 from .layout import Layout
-from .live import Device, Live, LiveStatus, devices, follow_each
+from .live import Device, Live, LiveStatus, Receipt, devices, follow_each
 from .material_table import Material, impact, material, materials, part, sound
 from .pads import Pads
 from .renderer import Renderer, Status, play_out_s
@@ -18,4 +18,4 @@ from .space import SpaceHaptics, attach
 from .world import POINT_BY_PLACE, SOFT_WHOLE, Counts, World
 
 __version__ = version()
-__all__ = ["AUTOMATIC", "Counts", "Device", "EVENT", "EventList", "HIT", "Layout", "Live", "LiveStatus", "Material", "Pads", "POINT_BY_PLACE", "PhysVibError", "ROLL", "Renderer", "SLIDE", "SOFT_WHOLE", "Session", "SpaceHaptics", "Status", "World", "attach", "devices", "events", "events_of", "follow_each", "frame", "impact", "load_events", "material", "materials", "parse_events", "part", "play_out_s", "render", "save_events", "save_wav", "sound"]
+__all__ = ["AUTOMATIC", "Counts", "Device", "EVENT", "EventList", "HIT", "Layout", "Live", "LiveStatus", "Material", "Pads", "POINT_BY_PLACE", "PhysVibError", "ROLL", "Receipt", "Renderer", "SLIDE", "SOFT_WHOLE", "Session", "SpaceHaptics", "Status", "World", "attach", "devices", "events", "events_of", "follow_each", "frame", "impact", "load_events", "material", "materials", "parse_events", "part", "play_out_s", "render", "save_events", "save_wav", "sound"]

@@ -23,12 +23,18 @@ class CDevice(Structure):
 class CLiveStatus(Structure):
     _fields_ = [("size", c_size_t), *[(name, c_int) for name in ("is_running", "is_silent", "rate_hz", "block_frames", "live_modes", "losses", "xruns")],
                 ("load", c_double), ("worst_load", c_double), ("played", c_int64), ("late", c_int64), ("rejected", c_int64), ("trouble", c_char * 256),
-                ("board", c_int), ("unused", c_int), ("board_sent", c_int64), ("board_lost", c_int64)]
+                ("board", c_int), ("unused", c_int), ("board_sent", c_int64), ("board_lost", c_int64), ("dropped", c_int64)]
+
+
+class CLiveReceipt(Structure):
+    _fields_ = [("size", c_size_t), ("frames", c_int64), ("peak", c_double), ("mean_square", c_double),
+                *[(name, c_int) for name in ("running", "opening", "over", "kept")]]
 
 
 _handle = c_void_p
 _signatures = {
     "live_error": (c_char_p,), "live_settings_init": (c_int, POINTER(CLiveSettings), c_size_t), "live_status_init": (c_int, POINTER(CLiveStatus), c_size_t),
+    "live_receipt_init": (c_int, POINTER(CLiveReceipt), c_size_t), "live_left": (c_int, _handle, c_int64, c_int64, c_int, POINTER(CLiveReceipt)),
     "live_devices": (c_int, POINTER(CDevice), c_int, c_size_t), "live_send_each": (c_int64, POINTER(_handle), c_int, _handle, POINTER(c_int64)),
     "live_open": (c_int, c_char_p, POINTER(CRendererSettings), POINTER(CLiveSettings), POINTER(_handle)), "live_close": (c_int, _handle),
     "live_now_ns": (c_int64, _handle), "live_latency_ns": (c_int64, _handle), "live_strike": (c_int, _handle, c_void_p, c_int64),

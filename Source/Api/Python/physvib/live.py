@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._library import PhysVibError, encoded, explained
-from ._live_library import CDevice, CLiveSettings, CLiveStatus, live_call
+from ._live_library import CDevice, CLiveReceipt, CLiveSettings, CLiveStatus, live_call
 from .files import checked
 from .layout import Layout, settings
 from .world import World
@@ -63,6 +63,18 @@ class LiveStatus(NamedTuple):
     board: str     #: "none", "sought" (it has gone) or "plays"
     board_sent: int  #: strikes on their way to the board so far
     board_lost: int  #: of what was struck: more than the line carries, too old, or not playable there
+    dropped: int     #: came while the device did not run, or waited for it
+
+
+class Receipt(NamedTuple):
+    """What left for an actuator in a span of session time, measured at the device's buffer."""
+    frames: int         #: that went to its output; 0: it has none
+    peak: float         #: 0 to 1 of the output's full scale
+    mean_square: float
+    running: bool       #: all of the span left, in one piece
+    opening: int        #: number of the last start of a device in the span; 0: nothing left
+    over: bool          #: False: the end of the span is still to come
+    kept: bool          #: False: older than a minute
 
 
 class Live:
@@ -150,6 +162,13 @@ class Live:
         values = {name: getattr(told, name) for name in LiveStatus._fields}
         values.update(is_running=bool(told.is_running), is_silent=bool(told.is_silent), trouble=told.trouble.decode(errors="replace"), board=BOARDS[told.board])
         return LiveStatus(**values)
+
+    def left(self, from_ns: int, to_ns: int, actuator: int) -> Receipt:
+        """What left for an actuator, from 0, in a span of session times of events: known a latency after them, for a minute."""
+        told = CLiveReceipt()
+        live_call("live_receipt_init", ctypes.byref(told), ctypes.sizeof(told))
+        live_call("live_left", self._handle, from_ns, to_ns, actuator, ctypes.byref(told))
+        return Receipt(told.frames, told.peak, told.mean_square, bool(told.running), told.opening, bool(told.over), bool(told.kept))
 
     def explain(self, world: World) -> str:
         """As World.explain, also of this device."""

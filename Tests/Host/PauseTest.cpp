@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A device that pauses: what comes meanwhile is dropped and counted, nothing is felt added up when it is
+// back.
+#include "FakeAudioDevice.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Live/Rig/Rig.h"
+#include "Scene/World/SceneRun.h"
+#include "Session/FakeHost.h"
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using namespace std::chrono_literals;
+
+/// A session on a device whose pauses count. A busy machine makes pauses of its own, so a test that needs
+/// none is tried again.
+struct Paused {
+    explicit Paused(SessionSetup wanted = quiet())
+        : setup{std::move(wanted)} {
+        interface.isReal = true;
+        EXPECT_EQ(output.open({"hands", {}, 0, 0, 1.0f}), "");
+    }
+    static SessionSetup quiet() {
+        auto s = shakeTheBoxSetup(0.02);
+        s.scene.bodies.clear();
+        s.scene.joints.clear();
+        s.scene.script.clear();
+        return s;
+    }
+    /// The loudest sample of that time.
+    float play(double seconds) {
+        float most = 0.0f;
+        for (int k = 0; k < seconds * interface.rate / 64; ++k) {
+            session.advance();
+            for (const auto& channel : interface.play(64))
+                for (const float x : channel) most = std::max(most, std::abs(x));
+            for (const auto& event : drain(session)) log.push_back(event);
+        }
+        return most;
+    }
+    static CollisionEvent tone(double seconds, double atSeconds = 0.0) {
+        CollisionEvent event;
+        event.timeNs = std::llround(1e9 * atSeconds);
+        event.frequencyHz = 200.0;
+        event.decayPerSecond = 0.0;
+        event.durationNs = std::llround(1e9 * seconds);
+        event.amplitude = 0.2;
+        return event;
+    }
+    Result<std::int64_t> strike(const CollisionEvent& event, bool canBeStopped = false) {
+        return session.take(
+            {Strikes{{&event, 1}, canBeStopped}, canBeStopped ? session.timeline().presentNs() : Input::now});
+    }
+    void strikeAccepted(const CollisionEvent& event, bool canBeStopped = false) {
+        while (!strike(event, canBeStopped)) play(0.002);
+    }
+    /// Until `act` has run without a pause of the machine's.
+    void withoutPause(const std::function<void()>& act) {
+        for (int tries = 0; tries < 200; ++tries) {
+            play(0.3);
+            const auto before = session.pulse().returns().pauses;
+            act();
+            if (session.pulse().returns().pauses == before && output.isPlaying()) return;
+        }
+        FAIL() << "this machine never runs for a second";
+    }
+    static void pause() { std::this_thread::sleep_for(130ms); }
+
+    FakeInterface interface;
+    SessionSetup setup;
+    Session session{setup};
+    AudioOutput output{session, fakeDrivers({&interface})};
+    std::vector<CollisionEvent> log;
+};
+
+TEST(Pause, WhatComesMeanwhileIsRefusedCountedAndNeverFelt) {
+    Paused rig;
+    float most = 0.0f;
+    rig.withoutPause([&] { rig.strikeAccepted(Paused::tone(0.05)), most = rig.play(0.3); });
+    EXPECT_GT(most, 0.05f) << "one alone is felt";
+    const auto before = rig.session.pulse().dropped();
+    Paused::pause();
+    for (int k = 0; k < 20; ++k)
+        EXPECT_EQ(rig.strike(Paused::tone(0.05), k % 2 == 0).error, DevicePulse::refusal);
+    EXPECT_EQ(rig.session.pulse().dropped(), before + 20);
+    EXPECT_FALSE(rig.output.isPlaying());
+    EXPECT_TRUE(rig.session.take({RenderControl{.kind = RenderControl::Kind::gain, .value = 2.0f}}))
+        << "state is taken all the time";
+    EXPECT_TRUE(rig.session.take({Stop{}, Input::now}));
+    EXPECT_EQ(rig.play(0.5), 0.0f);
+}
+
+TEST(Pause, WhatWasToActAtOnceIsDroppedAndWhatWasPlannedPlaysOn) {
+    Paused rig;
+    auto before = rig.session.pulse().dropped();
+    bool areTaken = false;
+    for (; !areTaken; before = rig.session.pulse().dropped()) {
+        rig.play(0.3);
+        areTaken = true;
+        for (int k = 0; k < 20; ++k) areTaken = rig.strike(Paused::tone(0.05), k % 2 == 0) && areTaken;
+    }
+    Paused::pause();
+    EXPECT_EQ(rig.play(0.2), 0.0f);
+    EXPECT_GE(rig.session.pulse().dropped(), before + 20);
+    for (const bool canBeStopped : {false, true}) {
+        float most = 0.0f; // another pause at the event's own moment drops it: once more
+        for (int tries = 0; most == 0.0f && tries < 20; ++tries) {
+            rig.strikeAccepted(Paused::tone(0.05, 1.0), canBeStopped);
+            Paused::pause();
+            EXPECT_EQ(rig.play(0.5), 0.0f);
+            most = rig.play(1.0);
+        }
+        EXPECT_GT(most, 0.05f) << "a list plays on after a hiccup";
+    }
+}
+
+TEST(Pause, OfADeviceThatWasGoneNothingPlaysOn) {
+    Paused rig;
+    rig.play(0.3);
+    do rig.strikeAccepted(Paused::tone(60.0));
+    while (rig.play(0.3) < 0.05f); // it sounds
+    for (int k = 0; k < 10; ++k) {
+        rig.strikeAccepted(Paused::tone(0.05, 1.0 + 0.1 * k));       // the rest of a stimulus
+        rig.strikeAccepted(Paused::tone(0.05, 1.0 + 0.1 * k), true); // a pattern, which could be stopped
+    }
+    const auto before = rig.session.pulse().dropped();
+    std::this_thread::sleep_for(2100ms);
+    EXPECT_LT(rig.play(0.02), 0.15f) << "it fades behind a ramp";
+    EXPECT_EQ(rig.play(3.0), 0.0f);
+    EXPECT_EQ(rig.session.pulse().dropped(), before + 20);
+    float most = 0.0f;
+    rig.withoutPause([&] { rig.strikeAccepted(Paused::tone(0.05)), most = rig.play(0.3); });
+    EXPECT_GT(most, 0.05f) << "what comes afterwards is felt";
+    EXPECT_LT(most, 0.3f);
+}
+
+TEST(Pause, AFloodThatOverfillsTheQueueIsDroppedToo) {
+    Paused rig;
+    rig.play(0.3);
+    std::vector<CollisionEvent> flood(30'000, Paused::tone(0.01));
+    while (!rig.session.take({Strikes{flood}})) rig.play(0.002);
+    rig.session.advance();
+    Paused::pause();
+    rig.session.advance();
+    rig.play(0.05);
+    EXPECT_EQ(rig.play(1.0), 0.0f);
+}
+
+TEST(Pause, AWorldStandsStillAndNoCollisionIsMissing) {
+    auto setup = shakeTheBoxSetup(0.02);
+    Paused rig{setup};
+    for (int k = 0; k < 5; ++k) {
+        rig.play(0.7);
+        Paused::pause();
+    }
+    rig.play(0.5);
+    ASSERT_GT(rig.log.size(), 10u);
+    SessionLog made;
+    rig.session.readLog(made);
+    EXPECT_TRUE(rig.log == runTakes(made.takes, setup.run(), rig.log.back().timeNs + 1).events);
+    EXPECT_EQ(rig.session.pulse().dropped(), 0u);
+}
+
+TEST(Pause, APauseOfADeviceThatDiscardsItAllDropsNothing) {
+    Paused rig;
+    rig.output.close();
+    rig.interface.isReal = false;
+    ASSERT_EQ(rig.output.open({"hands", {}, 0, 0, 1.0f}), "");
+    rig.play(0.1);
+    const auto before = rig.session.pulse().dropped();
+    Paused::pause();
+    EXPECT_TRUE(rig.strike(Paused::tone(0.05)));
+    EXPECT_GT(rig.play(0.3), 0.05f);
+    EXPECT_EQ(rig.session.pulse().dropped(), before);
+}
+
+TEST(Pause, ADeviceThatIsGoneIsToldAndSoIsWhatWasDropped) {
+    FakeInterface interface;
+    interface.isReal = true;
+    Rig rig{{.setup = Paused::quiet(), .output = {"hands"}, .ownThread = false}, fakeDrivers({&interface})};
+    ASSERT_EQ(rig.open(), "");
+    rig.start();
+    for (int k = 0; k < 10; ++k) rig.step(), interface.play(64);
+    interface.unplug(true);
+    Paused::pause();
+    const CollisionEvent tone = Paused::tone(0.05);
+    for (int k = 0; k < 3; ++k) EXPECT_FALSE(rig.session().take({Strikes{{&tone, 1}}}));
+    rig.maintain();
+    EXPECT_EQ(rig.trouble(), "Fake:hands has stopped; it is looked for every second, and time stands still; "
+                             "dropped: 3 events, as no device ran");
+    rig.maintain();
+    EXPECT_EQ(rig.trouble(), "Fake:hands has stopped; it is looked for every second, and time stands still")
+        << "told once";
+    rig.close();
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A device fails at 20 moments of a trial, in five ways, in four kinds of tasks: rows, samples that the
+// device got and report agree, and nothing that waited is felt later. What the test asserts holds however
+// slow the machine is: a pause of the test is one more pause of the device.
+#include "Host/FakeAudioDevice.h"
+#include "Live/Devices/NoDevice.h"
+#include "Participant.h"
+#include "TestPlaces.h"
+#include <cmath>
+#include <cstdlib>
+
+namespace physvib {
+namespace {
+
+constexpr double levelG = 0.2, seconds = 0.05;
+
+enum class Fault { kill, stop, unplug, period, rate };
+constexpr Fault faults[] = {Fault::kill, Fault::stop, Fault::unplug, Fault::period, Fault::rate};
+
+/// What left in one piece.
+struct Burst {
+    double peak = 0.0, seconds = 0.0;
+};
+
+struct Task {
+    const char* name;
+    const char* session;
+    const char* stimuli;
+    std::vector<double> peaks; ///< of the parts; empty: not planned
+    std::function<void(test::Participant&)> answer;
+};
+
+void press(test::Participant& p, int code, juce::juce_wchar character) {
+    p.screen()->keyPressed(juce::KeyPress{code, {}, character});
+}
+
+const std::vector<Task>& tasks() {
+    static const char* tone =
+        R"("layout": "phone1", "level_g": 0.2, "stimuli": "grid", "columns": 1, "rows": 1, "seconds": 0.05)";
+    const auto choose = [](test::Participant& p) { press(p, '1', '1'); };
+    static const std::vector<Task> all{
+        {"a number",
+         R"({"name": "main", "task": "estimate", "repetitions": 20})",
+         tone,
+         {levelG},
+         [](test::Participant& p) { dynamic_cast<juce::TextEditor&>(*p.find("Number")).setText("7"); }},
+        {"a pair by one press",
+         R"({"name": "main", "task": "choose", "repetitions": 20, "interval_s": 0.01, "order": "given", "alternatives": [{"name": "a"}, {"name": "b", "level_db": -6}]})",
+         tone,
+         {levelG, 0.5 * levelG},
+         choose},
+        {"a staircase, one by one",
+         R"({"name": "main", "task": "choose", "alternatives": [{"name": "a"}, {"name": "b"}], "staircase": {"alternative": "b", "start_db": 6, "most_db": 8, "reversals": 40, "most_trials": 20, "down": 1}})",
+         tone,
+         {},
+         choose},
+        {"a fall that is seen",
+         R"({"name": "main", "task": "choose", "repetitions": 20, "alternatives": [{"name": "AV-FV-DRV"}, {"name": "AF-FV-DRV"}]})",
+         R"("layout": "phone1", "stimuli": "world", "call": "render drop --set falls=once --seconds 0.5 --layout phone1 --level-db -12 --method {alternative}")",
+         {},
+         choose},
+    };
+    return all;
+}
+
+class DeviceFaults : public testing::TestWithParam<int> {
+protected:
+    void SetUp() override {
+        hands.isReal = true;
+        hands.outputs = 2;
+        folder.createDirectory();
+        p = std::make_unique<test::Participant>(withNoDevice(test::fakeDrivers({&hands})), "Fake:hands");
+        p->tab().setFolder(folder);
+        p->desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+        p->desk.change("One", [](Mix& mix) {
+            mix.layout = presetLayout("phone1");
+            mix.resizeStrips();
+            mix.strips[0].output = 1;
+        });
+        run(64);
+    }
+    void TearDown() override {
+        p.reset();
+        folder.deleteRecursively();
+    }
+
+    /// The device asks for so many blocks, and the window looks between them.
+    void run(int blocks) {
+        for (int b = 0; b < blocks; ++b) {
+            const auto out = hands.play(hands.block);
+            if (!out.empty()) take(out[0]);
+            if (b % 4 == 0) p->view.refresh();
+        }
+        p->view.refresh();
+        while (juce::dispatchNextMessageOnSystemQueue(true)) {
+        }
+    }
+    void take(const std::vector<float>& samples) {
+        for (const float sample : samples) {
+            const double size = std::abs(static_cast<double>(sample));
+            silent_ = size > 1e-6 ? 0 : silent_ + 1;
+            if (silent_ > hands.rate / 200) isOn_ = false;
+            if (silent_ == 0 && !std::exchange(isOn_, true)) bursts.push_back({});
+            if (!isOn_) continue;
+            bursts.back().peak = std::max(bursts.back().peak, size);
+            if (silent_ == 0) bursts.back().seconds += 1.0 / hands.rate;
+        }
+    }
+    void cut() { isOn_ = false, silent_ = 0; }
+
+    void fail(Fault fault) {
+        using namespace std::chrono_literals;
+        auto& output = p->desk.output();
+        const auto now = AudioOutput::Clock::now();
+        switch (fault) {
+        case Fault::kill:
+            hands.unplug(true);
+            p->view.refresh();
+            hands.isPlugged = true;
+            output.maintain(now);
+            break;
+        case Fault::stop:
+            juce::Thread::sleep(130);
+            p->view.refresh();
+            break;
+        case Fault::unplug:
+            hands.unplug(false);
+            for (const auto later : {0s, 1s, 2s, 4s}) output.maintain(now + later);
+            p->view.refresh();
+            hands.isPlugged = true;
+            output.maintain(now + 5s);
+            break;
+        case Fault::period:
+            hands.block = hands.block == 64 ? 256 : 64;
+            output.maintain(now);
+            break;
+        case Fault::rate:
+            hands.rate = hands.rate == 48000 ? 44100 : 48000;
+            output.maintain(now);
+            break;
+        }
+        cut();
+    }
+
+    test::FakeInterface hands;
+    juce::File folder = juce::File::createTempFile("physvib-faults");
+    std::unique_ptr<test::Participant> p;
+    std::vector<Burst> bursts;
+
+private:
+    bool isOn_ = false;
+    int silent_ = 0;
+};
+
+TEST_P(DeviceFaults, AtAnyMomentRowsSamplesAndReportAgree) {
+    const Task& task = tasks()[static_cast<std::size_t>(GetParam())];
+    SCOPED_TRACE(task.name);
+    const auto file = folder.getChildFile("short.json");
+    file.replaceWithText(
+        std::string{R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", )"} +
+        task.stimuli + "}], \"sessions\": [" + task.session + "]}");
+    ASSERT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
+    ASSERT_EQ(p->tab().begin(), "");
+    run(4);
+    press(*p, juce::KeyPress::returnKey, '\r');
+    const int trials = 20;
+    int again = 0;
+    for (int n = 0; n < trials; ++n) {
+        SCOPED_TRACE(n);
+        ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial);
+        ASSERT_EQ(p->experiment().trialsTaken(), n);
+        const Trial trial = p->experiment().trial();
+        const std::size_t parts = std::max<std::size_t>(1, trial.parts.size());
+        bursts.clear();
+        const int moment = 2 + n * (task.peaks.size() > 1 ? 12 : 6); // blocks after the press: within and
+                                                                     // after
+        bool hasFailed = false;
+        int rounds = 0;
+        for (bool isOpen = false; !isOpen && rounds < 2000; ++rounds) {
+            if (!p->screen()->isFeeling()) press(*p, juce::KeyPress::spaceKey, ' ');
+            for (int blocks = 0; blocks < 40; ++blocks) {
+                run(1);
+                if (!hasFailed && rounds * 40 + blocks >= moment) hasFailed = true, fail(faults[n % 5]);
+            }
+            p->screen()->refresh();
+            isOpen = hasFailed && p->screen()->answers()->isEnabled() && !p->screen()->isFeeling();
+        }
+        ASSERT_LT(rounds, 2000);
+        for (const Burst& burst : bursts) EXPECT_LT(burst.peak, 0.6) << "nothing is heaped up";
+        if (task.peaks.size() == 1) EXPECT_NEAR(bursts.back().peak, task.peaks[0], 0.02);
+        if (!task.peaks.empty()) EXPECT_NEAR(bursts.back().seconds, seconds, 0.1 * seconds);
+        task.answer(*p);
+        run(2);
+        press(*p, juce::KeyPress::returnKey, '\r');
+        run(2);
+        if (n + 1 < trials) ASSERT_EQ(p->experiment().trialsTaken(), n + 1);
+        const auto table = test::shortTrials(folder);
+        const auto cell = [&](const char* name) { return table.rows.back().cells[*table.column(name)]; };
+        ASSERT_EQ(table.rows.size(), static_cast<std::size_t>(n + 1));
+        EXPECT_EQ(cell("left"), "1");
+        again += std::stoi(cell("again"));
+        std::istringstream peaks{cell("peak_g")};
+        std::size_t part = 0;
+        for (std::string peak; std::getline(peaks, peak, '|'); ++part) {
+            EXPECT_GT(std::stod(peak), 0.0);
+            const bool isSoft =
+                part < trial.parts.size() && trial.parts[part] == "b" && task.peaks.size() == 2;
+            if (!task.peaks.empty()) EXPECT_NEAR(std::stod(peak), task.peaks[isSoft ? 1 : 0], 0.02);
+        }
+        EXPECT_EQ(part, parts);
+    }
+    EXPECT_GT(again, 3) << "some of the faults were within a part";
+    EXPECT_EQ(p->screen()->page(), StudyScreen::Page::done);
+    const std::string call =
+        "cd '" + folder.getFullPathName().toStdString() +
+        "' && '" PHYSVIB_PROGRAM "' report short-P01.csv --out r --protocol short.json >/dev/null 2>&1 "
+        "&& grep -q '20 trials left through the device Fake:hands, every part' r/index.html";
+    EXPECT_EQ(std::system(call.c_str()), 0) << call;
+}
+
+INSTANTIATE_TEST_SUITE_P(Tasks, DeviceFaults, testing::Range(0, 4));
+
+TEST_F(DeviceFaults, NothingBeginsWithoutAnOutputForEachActuator) {
+    const auto file = folder.getChildFile("short.json");
+    file.replaceWithText(
+        R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", "layout": "phone4", "stimuli": "patterns", "enchanters": 4}], "sessions": [{"name": "main", "task": "identify"}]})");
+    ASSERT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
+    EXPECT_EQ(p->tab().begin(), "phone4: expected 4 actuators in the mixer, found 1");
+    p->desk.change("Four", [](Mix& mix) {
+        mix.layout = presetLayout("phone4");
+        mix.resizeStrips();
+        for (std::size_t j = 0; j < 4; ++j) mix.strips[j].output = j < 2 ? static_cast<int>(j) : -1;
+    });
+    run(8);
+    EXPECT_EQ(p->tab().begin(), "2 of 4 actuators have no output: C, D");
+    EXPECT_EQ(p->screen(), nullptr);
+    EXPECT_FALSE(folder.getChildFile("short-P01.csv").exists());
+}
+
+} // namespace
+} // namespace physvib
