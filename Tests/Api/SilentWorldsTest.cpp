@@ -267,6 +267,13 @@ const std::vector<Reason>& reasons() {
              s.play();
          },
          {"level of the output is 0"}},
+        {"LevelOfMinus60dB",
+         [](Silent& s) {
+             s.open();
+             physvib_renderer_set_level(s.renderer, 0, 0.001);
+             s.play();
+         },
+         {"level of the output is -60 dB, which nobody feels"}},
         {"LevelLow",
          [](Silent& s) {
              s.open();
