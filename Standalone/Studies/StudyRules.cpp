@@ -235,8 +235,8 @@ private:
         const int moves = plan.reversals + 1, // up by one answer, down by `down` of them
             fewest = (moves + 1) / 2 + moves / 2 * plan.down;
         if (plan.mostTrials < fewest)
-            refuse(at + "reversals: " + std::to_string(plan.reversals) + " need " + std::to_string(fewest) +
-                   " trials at least, and most_trials is " + std::to_string(plan.mostTrials));
+            warn(at + "reversals: " + std::to_string(plan.reversals) + " need " + std::to_string(fewest) +
+                 " trials at least, and most_trials is " + std::to_string(plan.mostTrials));
     }
 
     /// Of a stimulus that differs from the others in its level alone: below theirs, another one is the right

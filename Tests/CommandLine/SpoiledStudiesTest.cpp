@@ -54,8 +54,8 @@ constexpr Spoiled spoiled[] = {
     {"a condition's level that its call does not take", false, CALL("c", R"("level_g": 0.1, )", "--level-g 0.2") "," CALL("d", R"("level_g": 0.4, )", "--level-g 0.2"), RATE(""), "conditions c and d are the same samples"},
     {"a condition's frequency that its call does not take", false, CALL("c", R"("frequency_hz": 80, )", "--level-g 0.2") "," CALL("d", R"("frequency_hz": 160, )", "--level-g 0.2"), RATE(""), "conditions c and d are the same samples"},
     // numbers that cannot be reached
-    {"reversals beyond the trials", true, TONE(""), STEPS(R"(, "most_db": 10, "reversals": 20, "most_trials": 14)"), "reversals: 20 need 31 trials at least, and most_trials is 14"},
-    {"reversals beyond the trials, 3 down", true, TONE(""), STEPS(R"(, "most_db": 10, "down": 3, "reversals": 10, "most_trials": 20)"), "reversals: 10 need 21 trials at least"},
+    {"reversals beyond the trials", false, TONE(""), STEPS(R"(, "most_db": 10, "reversals": 20, "most_trials": 14)"), "reversals: 20 need 31 trials at least, and most_trials is 14"},
+    {"reversals beyond the trials, 3 down", false, TONE(""), STEPS(R"(, "most_db": 10, "down": 3, "reversals": 10, "most_trials": 20)"), "reversals: 10 need 21 trials at least"},
     {"a step beyond the range", true, TONE(""), STEPS(R"(, "most_db": 8, "step_db": 12)"), "step_db 12 is larger than the range from 0 to 8 dB"},
     {"an adjustment's step beyond the range", true, TONE(""), R"({"name": "main", "task": "adjust", )" TWO R"(, "adjustment": {"alternative": "b", "least_db": -2, "most_db": 2, "step_db": 5}})", "step_db 5 is larger than the range from -2 to 2 dB"},
     {"a staircase from below its reference", true, TONE(""), STEPS(R"(, "start_db": -6, "least_db": -10, "most_db": 8)"), "b is at -6 dB, the others at up to 0 dB"},

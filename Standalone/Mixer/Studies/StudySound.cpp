@@ -90,6 +90,8 @@ std::string StudySound::play(const FeltStimulus& stimulus) {
         const float gain = strips[j].isInverted ? -stimulus.gains[j] : stimulus.gains[j];
         if (gain != std::exchange(gains_[j], gain)) post(Kind::gain, static_cast<int>(j), gain);
     }
+    if (std::exchange(isMuted_, false))
+        for (std::size_t j = 0; j < strips.size(); ++j) post(Kind::mute, static_cast<int>(j), 0.0f);
     auto strikes = stimulus.stimulus.events;
     for (auto& strike : strikes) strike.timeNs += leadNs;
     const auto taken = desk_.session().take({Strikes{strikes}});
@@ -173,6 +175,7 @@ double StudySound::startsInSeconds() const { return 1e-3 * (beganAtMs_ - nowMs()
 
 void StudySound::stop() {
     course_ = Course::none;
+    isMuted_ = true;
     post(Kind::stopAll, 0, 0.0f);
     for (int j = 0; j < desk_.mix().count(); ++j) post(Kind::mute, j, 1.0f);
 }

@@ -38,7 +38,7 @@ public:
     bool isPlaying() const noexcept { return course_ == Course::plays; }
     double feltSeconds() const;     ///< of the last stimulus, so far
     double startsInSeconds() const; ///< time until the last stimulus is felt; negative afterwards
-    /// Fades out sounding modes and mutes pending events until the mixer is returned.
+    /// Fades out sounding modes and mutes pending events until the next stimulus or the mixer's return.
     void stop();
 
 private:
