@@ -18,7 +18,8 @@ bool isJackThere() {
 std::vector<std::unique_ptr<AudioDriver>> systemAudioDrivers() {
     std::vector<std::unique_ptr<AudioDriver>> drivers;
     if (const JackLibrary* jack = jackLibrary()) drivers.push_back(std::make_unique<JackDriver>(*jack));
-    if (const AlsaLibrary* alsa = alsaLibrary()) drivers.push_back(std::make_unique<AlsaDriver>(*alsa, isJackThere));
+    if (const AlsaLibrary* alsa = alsaLibrary())
+        drivers.push_back(std::make_unique<AlsaDriver>(*alsa, isJackThere));
     return drivers;
 }
 
