@@ -99,7 +99,7 @@ TEST_F(CalibrateCommand, BadRecordingsAreOneLineAndLeaveNoProfile) {
     refusesIt({}, "felt.wav: expected samples, found none");
     refusesIt(std::vector<float>(601u * 8000), "felt.wav: expected at most 600 s");
     samples[800] = std::numeric_limits<float>::quiet_NaN();
-    refusesIt(samples, "felt.wav: what was recorded: expected finite samples, found NaN at 0.1000 s");
+    refusesIt(samples, "felt.wav: expected finite samples, found NaN at 0.1000 s in channel 1");
     samples = felt();
     for (float& x : samples) x = std::clamp(x, -0.05f, 0.05f);
     refusesIt(samples, "felt.wav: what was recorded: expected a recording that is not clipped");

@@ -46,9 +46,12 @@ std::vector<Sentence> sentences() {
                    quest = builtIn("level-quest"), methods = builtIn("eight-methods"),
                    fits = builtIn("model-or-sound"), grids = builtIn("phantom-grids"), field = places(),
                    constant = example("frequency-constant"), names = example("rhythm-names"),
-                   matched = example("equal-sensation"), interleaved = example("level-mixed");
+                   interleaved = example("level-mixed");
+    Protocol matched = example("equal-sensation");
     Protocol told = grid;
     told.name = "told", told.sessions.back().task = StudyTask::describe;
+    matched.conditions.push_back(matched.conditions.front()); // the chart compares means
+    matched.conditions.back().name = "two";
     Protocol unknown = steps, alone = grid, mixed = steps;
     Protocol wide = field; // five columns: too many for Mauchly's test of three people
     wide.name = "wide", wide.conditions.front().stimuli = GridSet{5, 2};

@@ -78,7 +78,7 @@ TEST_F(StimulusCommand, ARecordingIsPlacedLikeAPhantom) {
     refuses("stimulus wav direct.wav --at 0,0 --out x.wav", 1, "direct.wav: expected one channel, found 4",
             3);
     write("no.wav", "RIFF, but not really");
-    refuses("stimulus wav no.wav --at 0,0 --out x.wav", 1, "no.wav: expected a WAV file", 4);
+    refuses("stimulus wav no.wav --at 0,0 --out x.wav", 1, "no.wav: expected a WAV, AIFF, FLAC", 4);
 }
 
 TEST_F(StimulusCommand, WhatLiesBelow5HzInARecordingIsTakenAwayAndTold) {

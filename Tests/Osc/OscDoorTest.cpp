@@ -145,7 +145,7 @@ TEST(OscDoors, QueriesAreAnswered) {
     EXPECT_EQ(plain.value.values.front().name, "session_s");
     EXPECT_NEAR(std::get<double>(plain.value.values.front().value),
                 1e-9 * static_cast<double>(open.session.timeline().presentNs()), 1e-6);
-    EXPECT_EQ(plain.value.values.at(5), (NamedValue{"osc_packets", 2.0}));
+    EXPECT_EQ(plain.value.values.at(6), (NamedValue{"osc_packets", 2.0}));
     open.take(open.answers[0]); // to itself
     EXPECT_EQ(open.answers.size(), 2U) << "an answer is never answered";
 }

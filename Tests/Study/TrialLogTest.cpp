@@ -206,7 +206,7 @@ TEST_F(TrialLogFiles, OfOlderVersionsGoOnInTheirOwnColumns) {
         }
         ASSERT_EQ(old.find(newest), std::string::npos);
         std::ofstream{path, std::ios::binary} << old.substr(0, old.size() / 2);
-        goOn(p, [&](Answer& answer) {
+        goOn(p, [newest = newest](Answer& answer) {
             if (std::string{newest} != ",left,again")
                 answer.apparatus = Apparatus{"1.0", "JACK:system", -6.0};
             answer.left = true;
@@ -320,7 +320,7 @@ TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
         << "75 % of comparisons with 2 dB of noise";
     const std::string words = ",weibull guess 0.5 lapse 0.02 levels_db 0 0.5 12 widths_db 2 20,,,,,,,,,,\n";
     ASSERT_NE(text.rfind(words), std::string::npos);
-    text.replace(text.rfind(words), words.size(), ",weibull,,,,,,,,\n");
+    text.replace(text.rfind(words), words.size(), ",weibull,,,,,,,,,,\n");
     EXPECT_EQ(summaries().error,
               "t.csv:32: column quest: expected the words of a QUEST+ session, found \"weibull\"");
 }

@@ -23,7 +23,7 @@ struct LiveStatus {
     std::string trouble;
 };
 
-/// Created and ended on any thread, one call at a time. A child of fork() has its memory and none of its
+/// Created and ended on any thread, one call at a time. A forked child has its memory and none of its
 /// threads: there it is neither used nor destroyed.
 class Live {
 public:

@@ -28,7 +28,7 @@ auto in(physvib_live name, Call call) noexcept -> decltype(call(std::declval<Liv
         if (!live) return unknownHandle();
         if (!live->isOfThisProcess())
             return fail(PHYSVIB_ERROR_DEVICE, "live: the process that opened it plays on; expected a device "
-                                              "that is opened after fork()");
+                                              "that the child opens itself");
         return call(*live);
     });
 }

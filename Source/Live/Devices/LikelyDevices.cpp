@@ -12,7 +12,8 @@ bool says(const AudioDeviceName& device, std::initializer_list<const char*> word
     const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; };
     const auto isSame = [lower](char a, char b) { return lower(a) == lower(b); };
     return std::ranges::any_of(words, [&](std::string_view word) {
-        return !std::ranges::search(device.name, word, isSame).empty();
+        return std::search(device.name.begin(), device.name.end(), word.begin(), word.end(), isSame) !=
+               device.name.end();
     });
 }
 

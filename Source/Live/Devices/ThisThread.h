@@ -10,7 +10,7 @@ void raiseThreadPriority() noexcept;
 /// Whether the thread that creates a driver must make all its calls.
 bool areDriversBoundToTheirThread() noexcept;
 
-/// Number of the calling thread's process: another one after fork(), where no other thread is left.
+/// Number of the calling thread's process: another one in a forked child, where no other thread is left.
 int thisProcess() noexcept;
 
 } // namespace physvib
