@@ -110,8 +110,8 @@ TEST_F(ReportFields, LevelsStandByStimulusAndPartAndAreToldAsAssumed) {
     std::string text;
     for (std::string line; std::getline(lines, line);) {
         // peak_g, rms_g, a8_m_per_s2
-        if (line.ends_with(",,,,,,,,"))
-            line.replace(line.size() - 8, 3,
+        if (line.ends_with(",,,,,,,,,,"))
+            line.replace(line.size() - 10, 3,
                          line.find("height=3") < line.size() ? ",0.5|0.3,0.2|0.1," : ",0.4|0.3,0.2|0.1,");
         text += line + "\n";
     }

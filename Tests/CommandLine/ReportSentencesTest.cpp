@@ -46,7 +46,9 @@ std::vector<Sentence> sentences() {
                    quest = builtIn("level-quest"), methods = builtIn("eight-methods"),
                    fits = builtIn("model-or-sound"), grids = builtIn("phantom-grids"), field = places(),
                    constant = example("frequency-constant"), names = example("rhythm-names"),
-                   matched = example("equal-sensation"), interleaved = example("level-mixed");
+                   interleaved = example("level-mixed");
+    Protocol matched = example("equal-sensation");
+    std::get<CallSet>(matched.conditions.front().stimuli).factors = {{"round", {"first", "second"}}};
     Protocol told = grid;
     told.name = "told", told.sessions.back().task = StudyTask::describe;
     Protocol unknown = steps, alone = grid, mixed = steps;

@@ -54,6 +54,7 @@ private:
                                                                                  // over
     std::vector<float> gains_;                                                   // last posted values
     Course course_ = Course::none;
+    bool isMuted_ = false;                  // by stop()
     bool wasSilent_ = false;                // at any time of it
     std::int64_t fromNs_ = 0, untilNs_ = 0; // of the last stimulus, in session time
     std::uint32_t session_ = 0;
