@@ -102,6 +102,7 @@ std::string StudySound::play(const FeltStimulus& stimulus) {
     fromNs_ = taken.value + leadNs;
     untilNs_ = fromNs_ + std::llround(1e9 * stimulus.stimulus.seconds);
     session_ = desk_.output().playedSession();
+    opening_ = desk_.output().openings();
     desk_.output().expect(fromNs_, untilNs_);
     planned_ = plannedPeaks(stimulus);
     actuators_ = stimulus.gains.size();
@@ -154,6 +155,8 @@ void StudySound::update() {
 }
 
 Course StudySound::judged() const {
+    // a device that began anew, at another rate perhaps, has lost the levels that the row is to have
+    if (desk_.output().openings() != opening_) return Course::lost;
     const double loudest = planned_.empty() ? 0.0 : std::ranges::max(planned_);
     Course course = Course::left;
     for (std::size_t j = 0; j < actuators_; ++j) {

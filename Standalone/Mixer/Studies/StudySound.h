@@ -54,12 +54,12 @@ private:
                                                                                  // over
     std::vector<float> gains_;                                                   // last posted values
     Course course_ = Course::none;
-    bool isMuted_ = false;                  // by stop()
-    bool wasSilent_ = false;                // at any time of it
-    std::int64_t fromNs_ = 0, untilNs_ = 0; // of the last stimulus, in session time
-    std::uint32_t session_ = 0;
-    std::size_t actuators_ = 0;   // of its layout
-    std::vector<double> planned_; // peak of each actuator at its output; empty: not known
+    bool isMuted_ = false;                    // by stop()
+    bool wasSilent_ = false;                  // at any time of it
+    std::int64_t fromNs_ = 0, untilNs_ = 0;   // of the last stimulus, in session time
+    std::uint32_t session_ = 0, opening_ = 0; // that it was played in
+    std::size_t actuators_ = 0;               // of its layout
+    std::vector<double> planned_;             // peak of each actuator at its output; empty: not known
 };
 
 } // namespace physvib
