@@ -106,6 +106,12 @@ public:
         EXPECT_TRUE(runUntil([&] { return plays() > before && !isFeeling(); })) << "nothing was felt";
         pump(); // the answer unlocks with the next picture
     }
+    /// Writes into the editor of what has that title, if it is there.
+    void write(const juce::String& title, const juce::String& words) {
+        if (auto* const answer = find(title))
+            for (auto* child : answer->getChildren())
+                if (auto* const editor = dynamic_cast<juce::TextEditor*>(child)) editor->setText(words);
+    }
     bool isAnswerOpen(const juce::String& title) {
         return find(title) != nullptr && find(title)->isEnabled();
     }

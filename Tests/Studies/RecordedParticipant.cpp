@@ -72,13 +72,12 @@ private:
         const int taken = p.experiment().trialsTaken();
         const auto isTaken = [&] {
             p.pump();
-            auto* const number = dynamic_cast<juce::TextEditor*>(p.find("Number"));
             if (p.experiment().isDone() || p.experiment().trialsTaken() > taken) return true;
-            if (number == nullptr || p.screen()->isFeeling()) return false;
+            if (p.screen()->page() != StudyScreen::Page::trial || p.screen()->isFeeling()) return false;
             if (!p.screen()->answers()->isEnabled())
                 p.screen()->keyPressed(juce::KeyPress{juce::KeyPress::spaceKey});
-            else if (number->isEmpty())
-                number->setText("7");
+            else if (!p.screen()->answers()->isComplete())
+                p.write("Number", "7");
             else
                 p.screen()->keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
             return false;

@@ -35,7 +35,6 @@ void StudyScreen::play(std::size_t part) {
         wanted_ = part;
         return pane_.world().end();
     }
-    noteFelt();
     if (const auto fault = begin(part); !fault.empty()) return isWaiting() ? refresh() : fail(fault);
     isLost_ = false;
     if (progress_->plays() == 0) firstFeltMs_ = nowMs();
@@ -68,6 +67,7 @@ std::string StudyScreen::begin(std::size_t part) {
 
 /// Decides by the receipts whether the play that is over counts.
 void StudyScreen::settle(Course course) {
+    noteFelt();
     int& unlike = unlike_[part_];
     unlike = course == Course::left ? 0 : course == Course::unlike ? unlike + 1 : unlike;
     if (course == Course::left || (course == Course::unlike && unlike >= mostUnlike)) return;
@@ -140,12 +140,11 @@ void StudyScreen::markFelt() {
         fromNow);
 }
 
-/// Stores the felt level of the last part before another is played.
+/// Stores the felt level of the part that is over: a device that restarts later knows it no more.
 void StudyScreen::noteFelt() {
     desk_.exposure().update();
-    if (progress_->plays() > 0)
-        felt_[part_] = desk_.exposure().felt(worldSet() != nullptr ? pane_.world().measuredSeconds()
-                                                                   : sound_.feltSeconds());
+    felt_[part_] =
+        worldSet() != nullptr ? desk_.exposure().felt(pane_.world().measuredSeconds()) : sound_.felt();
 }
 
 /// The participant's A(8) from this study's trials of today.
@@ -154,7 +153,7 @@ double StudyScreen::exposure() const {
 }
 
 void StudyScreen::take(Answer answer) {
-    noteFelt();
+    desk_.exposure().update();
     answer.felt = felt_;
     answer.apparatus = apparatusOf(desk_);
     answer.limiterDb = std::exchange(limiterDb_, 0.0);
