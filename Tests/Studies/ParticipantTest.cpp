@@ -330,7 +330,8 @@ TEST_F(ByAParticipant, MatchesLevelsAndChoosesAtTheMatchedOnes) {
         R"({"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "150"}, {"name": "250"}],
               "adjustment": {"alternative": "250", "start_db": 3, "step_db": 1.5, "least_db": -20, "most_db": 10}},
              {"name": "main", "task": "choose", "both_orders": true, "repetitions": 2, "alternatives": [{"name": "150"}, {"name": "250"}], "levels_from": "matching"})",
-        R"("layout": "phone1", "stimuli": "calls", "variables": [{"name": "g", "at_0_db": 0.1}],
+        R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "n", "values": ["one"]}],
+             "variables": [{"name": "g", "at_0_db": 0.1}],
              "call": "stimulus phantom --at 0.5,0.5 --layout phone1 --seconds 0.05 --level-g {g} --frequency {alternative}")");
     passPage();
     p->feel();

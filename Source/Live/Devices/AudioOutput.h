@@ -86,7 +86,6 @@ public:
                  std::uint32_t session) const noexcept {
         return receipts_.left(fromNs, untilNs, actuator, session);
     }
-    std::uint32_t openings() const noexcept { return receipts_.openings(); }  ///< of devices, so far
     std::uint32_t playedSession() const noexcept { return played_.number(); } ///< 0: its own
     /// Makes left() exact for this span in the future; otherwise it is extended to whole bins of 5 ms. M.
     void expect(std::int64_t fromNs, std::int64_t untilNs) noexcept { receipts_.expect(fromNs, untilNs); }

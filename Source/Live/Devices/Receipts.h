@@ -33,11 +33,7 @@ public:
 
     /// The device starts, or comes back after a pause: the next frames belong to a new opening. Render thread
     /// (R), or message thread (M) while R does not run.
-    void begin() noexcept PHYSVIB_NONBLOCKING {
-        opening_.store(opening_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-    }
-    /// How many openings there were: the number of the newest. Any thread, wait-free.
-    std::uint32_t openings() const noexcept { return opening_.load(std::memory_order_relaxed); }
+    void begin() noexcept PHYSVIB_NONBLOCKING { ++opening_; }
 
     /// Adds frames that leave: `outputs[j]` are the samples of actuator j, null: it has no output. `place` is
     /// the first frame's in the session that plays, as it is felt; `session`: see left(). R, wait-free.
@@ -103,7 +99,7 @@ private:
     std::atomic<std::int64_t> fromNs_{0}, untilNs_{0};
 
     // R
-    std::atomic<std::uint32_t> opening_{0};
+    std::uint32_t opening_ = 0;
     Place open_; // the bin that grows
     std::array<Sum, static_cast<std::size_t>(limits::maxEnchanters)> sums_{};
 };

@@ -144,7 +144,7 @@ void StudyScreen::markFelt() {
 void StudyScreen::noteFelt() {
     desk_.exposure().update();
     felt_[part_] =
-        desk_.exposure().felt(worldSet() != nullptr ? pane_.world().measuredSeconds() : sound_.feltSeconds());
+        worldSet() != nullptr ? desk_.exposure().felt(pane_.world().measuredSeconds()) : sound_.felt();
 }
 
 /// The participant's A(8) from this study's trials of today.

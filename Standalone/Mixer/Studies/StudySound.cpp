@@ -96,16 +96,12 @@ std::string StudySound::play(const FeltStimulus& stimulus) {
     for (auto& strike : strikes) strike.timeNs += leadNs;
     const auto taken = desk_.session().take({Strikes{strikes}});
     if (!taken) return taken.error;
-    const int rate = desk_.output().sampleRateHz();
-    const auto first = std::llround(1e-9 * static_cast<double>(taken.value + leadNs) * rate);
-    desk_.exposure().restartLevels({first, first + std::llround(stimulus.stimulus.seconds * rate)});
     fromNs_ = taken.value + leadNs;
     untilNs_ = fromNs_ + std::llround(1e9 * stimulus.stimulus.seconds);
     session_ = desk_.output().playedSession();
-    opening_ = desk_.output().openings();
     desk_.output().expect(fromNs_, untilNs_);
     planned_ = plannedPeaks(stimulus);
-    actuators_ = stimulus.gains.size();
+    actuators_ = stimulus.layout.enchanters;
     course_ = Course::plays;
     wasSilent_ = false;
     ranAtMs_ = nowMs();
@@ -154,13 +150,15 @@ void StudySound::update() {
         heldSeconds_ = isOver ? seconds_ : std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_);
 }
 
-Course StudySound::judged() const {
-    // a device that began anew, at another rate perhaps, has lost the levels that the row is to have
-    if (desk_.output().openings() != opening_) return Course::lost;
+/// The level is of the receipts, too: they know the session's times whatever rate the device had before.
+Course StudySound::judged() {
+    felt_ = {};
     const double loudest = planned_.empty() ? 0.0 : std::ranges::max(planned_);
     Course course = Course::left;
-    for (std::size_t j = 0; j < actuators_; ++j) {
+    for (std::size_t j = 0; j < actuators_.size(); ++j) {
         const Receipt receipt = desk_.output().left(fromNs_, untilNs_, static_cast<int>(j), session_);
+        felt_.peakG = std::max(felt_.peakG, receipt.peak * actuators_[j].fullScaleG);
+        felt_.rmsG = std::max(felt_.rmsG, std::sqrt(receipt.meanSquare) * actuators_[j].fullScaleG);
         if (!receipt.isKept || !receipt.isRunning) return Course::lost;
         const double planned = j < planned_.size() ? planned_[j] : 0.0;
         if (planned < std::max(leastCompared, comparedShare * loudest)) continue;

@@ -36,6 +36,8 @@ public:
     void update();
     Course course() const noexcept { return course_; }
     bool isPlaying() const noexcept { return course_ == Course::plays; }
+    /// Of the strongest actuator, of the last stimulus that is over.
+    const FeltLevel& felt() const noexcept { return felt_; }
     double feltSeconds() const;     ///< of the last stimulus, so far
     double startsInSeconds() const; ///< time until the last stimulus is felt; negative afterwards
     /// Fades out sounding modes and mutes pending events until the next stimulus or the mixer's return.
@@ -46,7 +48,7 @@ private:
     void post(RenderControl::Kind kind, int channel, float value, const PhantomPanner& panner = {});
 
     std::vector<double> plannedPeaks(const FeltStimulus& stimulus) const;
-    Course judged() const;
+    Course judged();
 
     Desk& desk_;
     int slowness_;
@@ -54,12 +56,13 @@ private:
                                                                                  // over
     std::vector<float> gains_;                                                   // last posted values
     Course course_ = Course::none;
-    bool isMuted_ = false;                    // by stop()
-    bool wasSilent_ = false;                  // at any time of it
-    std::int64_t fromNs_ = 0, untilNs_ = 0;   // of the last stimulus, in session time
-    std::uint32_t session_ = 0, opening_ = 0; // that it was played in
-    std::size_t actuators_ = 0;               // of its layout
-    std::vector<double> planned_;             // peak of each actuator at its output; empty: not known
+    bool isMuted_ = false;                  // by stop()
+    bool wasSilent_ = false;                // at any time of it
+    std::int64_t fromNs_ = 0, untilNs_ = 0; // of the last stimulus, in session time
+    std::uint32_t session_ = 0;
+    std::vector<EnchanterDescription> actuators_; // of its layout
+    FeltLevel felt_;
+    std::vector<double> planned_; // peak of each actuator at its output; empty: not known
 };
 
 } // namespace physvib
