@@ -23,8 +23,8 @@ cat "$folder/out"
 python3 - "$folder/beats" "$folder/out" <<'PYTHON'
 import re, sys
 told = open(sys.argv[2]).read()
-play_out = float(re.search(r"felt ([0-9.]+) ms after", told).group(1)) * 1e-3
-late = int(re.search(r"played, ([0-9]+) late", told).group(1))
+play_out = float(re.search(r"output latency ([0-9.]+) ms", told).group(1)) * 1e-3
+late = int(re.search(r"left, ([0-9]+) late", told).group(1))
 cycle = 256 / 48000
 rows = [tuple(map(float, line.split())) for line in open(sys.argv[1]) if line[0].isdigit()]
 errors = [felt - hit - play_out - cycle for hit, felt in rows]
