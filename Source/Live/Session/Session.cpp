@@ -101,8 +101,7 @@ void Session::comeBack(std::int64_t nowNs) noexcept {
     const std::int64_t until = wasGone ? INT64_MAX : present;
     Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, 0, present};
     pulse_.drop(static_cast<std::uint64_t>(renderer_->discard(source, until, all)));
-    channels_.discard(until, all, wasGone);
-    if (wasGone) renderer_->fadeAll();
+    channels_.discard(until, all, false); // what sounds goes on: a note that is held is state
 }
 
 void Session::wait(int frames) noexcept {

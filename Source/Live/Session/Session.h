@@ -71,8 +71,8 @@ public:
     }
 
     /// The device comes back after a pause, at `nowNs` of the steady clock; before the next render. Strikes
-    /// that were to act at once are dropped; if the device was gone, all strikes that wait, and what sounds
-    /// fades out. The world and its collisions go on. R, wait-free.
+    /// that were to act at once are dropped; if the device was gone, all strikes that wait. What sounds, the
+    /// world and its collisions go on. R, wait-free.
     void comeBack(std::int64_t nowNs) noexcept;
 
     /// Replaces render: session time advances by `frames` and the output latency grows by as much, so
