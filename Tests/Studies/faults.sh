@@ -3,7 +3,7 @@
 # faults.sh BIN_FOLDER [TRIALS]: a scripted participant of the mixer feels a study through JACK, whose server is stopped for a second, killed and
 # started again, at moments that are not chosen. Passes if every row left as planned, at the planned g, and the report counts them all. Needs jackd and Xvfb.
 set -eu
-bin=$1
+bin=$(cd "$1" && pwd)
 trials=${2:-40}
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../Live/jack.sh"
