@@ -100,27 +100,18 @@ void HapticRenderer::apply(const RenderControl& control) noexcept {
             std::max(strikesSilentUntilNs_, control.value != 0.0f ? control.timeNs : control.untilNs);
     }
     if (isSilence || control.kind == Kind::stopAll) {
-        fadeModes(isSilence ? limits::silenceFadePerSecond : limits::stealFadePerSecond);
+        bank_.fadeAll(position_, isSilence ? limits::silenceFadePerSecond : limits::stealFadePerSecond);
+        moving_.fadeAll(position_);
     }
     if (isSilence || control.kind == Kind::stopAll || control.kind == Kind::recordings)
         player_.fadeAll(position_);
 }
 
-void HapticRenderer::fadeModes(double perSecond) noexcept {
-    bank_.fadeAll(position_, perSecond);
-    moving_.fadeAll(position_);
-}
-
-void HapticRenderer::fadeAll() noexcept PHYSVIB_NONBLOCKING {
-    fadeModes(limits::silenceFadePerSecond);
-    player_.fadeAll(position_);
-}
-
-int HapticRenderer::discardWaiting(std::int64_t untilNs, bool all) noexcept {
+int HapticRenderer::discardWaiting(const WaitingEvents& which) noexcept {
     constexpr std::int64_t first = INT64_MIN;
     const int before = pending_.size();
     pending_.retime([=](std::int64_t time, const CollisionEvent& event) {
-        return time <= untilNs && (all || event.source.fixture < 0) ? first : time;
+        return which.contain(event, time) ? first : time;
     });
     while (!pending_.empty() && pending_.nextTime() == first) pending_.pop();
     return before - pending_.size();

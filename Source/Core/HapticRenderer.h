@@ -26,6 +26,15 @@
 
 namespace physvib {
 
+/// Events that wait to be played: up to a time, and of no world, or of any.
+struct WaitingEvents {
+    std::int64_t untilNs = 0;
+    bool withWorlds = false;
+    bool contain(const CollisionEvent& event, std::int64_t timeNs) const noexcept {
+        return timeNs <= untilNs && (withWorlds || event.source.fixture < 0);
+    }
+};
+
 /// Memory depends on channels and modes and is allocated in prepare. The object itself is large: keep it on
 /// the heap.
 class HapticRenderer {
@@ -57,12 +66,9 @@ public:
     template <class Source>
     void render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
-    /// Discards waiting events, here and in `source`, up to that time and that no world produced (or `all`);
-    /// returns how many they were. R, wait-free.
+    /// Discards these events, here and in `source`; returns how many they were. R, wait-free.
     template <class Source>
-    int discard(Source& source, std::int64_t untilNs, bool all) noexcept PHYSVIB_NONBLOCKING;
-    /// What sounds fades out, as at a silence. R, wait-free.
-    void fadeAll() noexcept PHYSVIB_NONBLOCKING;
+    int discard(Source& source, const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING;
 
     /// Events that have been played, for one reader on another thread.
     PlayedQueue& played() noexcept { return playedQueue_; }
@@ -97,8 +103,7 @@ private:
     bool takeMemory() noexcept;
     bool strike(const CollisionEvent& event, FramePosition onset) noexcept;
     bool isSilenced(const CollisionEvent& event) const noexcept;
-    int discardWaiting(std::int64_t untilNs, bool all) noexcept;
-    void fadeModes(double perSecond) noexcept;
+    int discardWaiting(const WaitingEvents& which) noexcept;
     bool strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
     bool strikeCoupled(Strike strike) noexcept;
     MovingTones::Drive driveAt(const CollisionEvent& event) noexcept;

@@ -49,11 +49,11 @@ int HapticRenderer::strikeAndReach(Source& source, int most) noexcept {
 }
 
 template <class Source>
-int HapticRenderer::discard(Source& source, std::int64_t untilNs, bool all) noexcept PHYSVIB_NONBLOCKING {
+int HapticRenderer::discard(Source& source, const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING {
     int count = 0;
     for (int last = -1; last != 0;) { // more than the pending store takes may wait in the source
         refill(source);
-        count += last = discardWaiting(untilNs, all);
+        count += last = discardWaiting(which);
     }
     return count;
 }

@@ -227,8 +227,7 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     if (frames < 1 || !running_.load(std::memory_order_relaxed)) return;
     const auto start = Clock::now();
     Session& session = played_.now();
-    const std::int64_t startNs =
-        std::chrono::duration_cast<std::chrono::nanoseconds>(start.time_since_epoch()).count();
+    const std::int64_t startNs = steadyNs(start);
     const FeltMoment felt = played_.nextFelt(startNs);
     if (session.pulse().isStill(startNs)) { // the first block after a pause
         receipts_.begin();

@@ -81,7 +81,6 @@ private:
         float peak = 0.0f;
         double squares = 0.0;
     };
-    class Reading;
 
     bool read(std::int64_t bin, Place& place) const noexcept;
     bool read(std::int64_t bin, int actuator, Sum& sum) const noexcept;

@@ -2,6 +2,7 @@
 // Thread that finds a controller, follows the device's clock and sends the motor commands that are due.
 #include "Live/Pads/PadOutput.h"
 #include "Io/Text/NumberText.h"
+#include "Live/Session/DevicePulse.h"
 #include <algorithm>
 #include <chrono>
 
@@ -14,12 +15,6 @@ constexpr std::int64_t repeatNs = 100 * msNs;    // half the duration of a comma
 constexpr std::int64_t lookNs = 250 * msNs;      // search interval for a newly connected controller
 constexpr std::int64_t patienceNs = 2000 * msNs; // a Bluetooth controller needs a second to connect
 constexpr std::int64_t jumpNs = 1000 * msNs;     // a backward jump of session time that means a restart
-
-std::int64_t steadyNowNs() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 std::string milliseconds(double seconds) { return fixedNumber(1e3 * seconds, 0) + " ms"; }
 
@@ -49,13 +44,13 @@ PadOutput::~PadOutput() {
 }
 
 std::string PadOutput::awaitReady(const std::function<bool()>& goesOn) {
-    const std::int64_t endNs = steadyNowNs() + patienceNs;
+    const std::int64_t endNs = steadyNs() + patienceNs;
     for (;;) {
         {
             const std::lock_guard lock{mutex_};
             if (!fault_.empty()) return fault_;
             if (pad_) return {};
-            if (!goesOn() || steadyNowNs() > endNs) return troubleNow();
+            if (!goesOn() || steadyNs() > endNs) return troubleNow();
         }
         std::this_thread::sleep_for(std::chrono::milliseconds{5});
     }
@@ -101,7 +96,7 @@ void PadOutput::run() {
             }
             pads.update();
             connect(pads);
-            feed(steadyNowNs());
+            feed(steadyNs());
         }
         std::this_thread::sleep_for(pause);
     }
@@ -113,7 +108,7 @@ void PadOutput::run() {
 void PadOutput::connect(GamePads& pads) {
     if (pad_ && pad_->isAttached()) return;
     pad_.reset();
-    const std::int64_t nowNs = steadyNowNs();
+    const std::int64_t nowNs = steadyNs();
     if (nowNs < looksNs_) return;
     looksNs_ = nowNs + lookNs;
     if (auto pad = pads.open(lastName_.empty() ? name_ : lastName_))

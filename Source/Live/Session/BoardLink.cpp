@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The link thread: finds the board, performs the handshake, synchronises clocks, sends events.
 #include "Live/Session/BoardLink.h"
+#include "Live/Session/DevicePulse.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -57,11 +58,7 @@ constexpr std::int64_t lineNs(std::size_t bytes) {
 
 } // namespace
 
-std::int64_t BoardLink::nowNs() noexcept {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
+std::int64_t BoardLink::nowNs() noexcept { return steadyNs(); }
 
 BoardLink::BoardLink(std::string port)
     : wanted_{port == anyBoard ? std::string{} : std::move(port)}

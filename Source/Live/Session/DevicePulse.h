@@ -9,11 +9,10 @@
 
 namespace physvib {
 
-/// The steady clock, in nanoseconds.
-inline std::int64_t steadyNs() noexcept {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
+/// A time of the steady clock, in nanoseconds.
+inline std::int64_t
+steadyNs(std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now()) noexcept {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(at.time_since_epoch()).count();
 }
 
 /// Times are steadyNs().

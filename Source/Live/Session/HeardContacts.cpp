@@ -72,10 +72,9 @@ void HeardContacts::setContacts(int sampleRateHz) {
     renderer_->setContacts({contacts_.contacts(), true});
 }
 
-void HeardContacts::discard(std::int64_t untilNs, bool all, bool fades) noexcept PHYSVIB_NONBLOCKING {
+void HeardContacts::discard(const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING {
     Source source{*this};
-    renderer_->discard(source, untilNs, all);
-    if (fades) renderer_->fadeAll();
+    renderer_->discard(source, which);
 }
 
 void HeardContacts::render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {

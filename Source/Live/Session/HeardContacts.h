@@ -40,9 +40,10 @@ public:
                 {control.timeNs, control.panner.fieldWidthMetres(), control.panner.fieldHeightMetres()});
     }
 
+    /// As HapticRenderer. R, wait-free.
+    void discard(const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING;
+
     /// The same frames as the actuators' renderer, after it. R, wait-free.
-    /// As HapticRenderer; `fades`: fadeAll(), too.
-    void discard(std::int64_t untilNs, bool all, bool fades) noexcept PHYSVIB_NONBLOCKING;
     void render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
     /// Impacts, stops and field changes that did not fit the queues. Any thread.

@@ -81,8 +81,8 @@ private:
         if (marks_) marks_->strike(event, frame);
     }
 
-    void discard(std::int64_t untilNs, bool all, bool fades) noexcept {
-        if (heard_) heard_->discard(untilNs, all, fades);
+    void discard(const WaitingEvents& which) noexcept {
+        if (heard_) heard_->discard(which);
     }
 
     /// The channels after the actuators', rendered after them. R, wait-free.

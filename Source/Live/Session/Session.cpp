@@ -97,11 +97,11 @@ int Session::advance(const StepWatch& goesOn) {
 void Session::comeBack(std::int64_t nowNs) noexcept {
     const std::int64_t present = time_.nowNs();
     const bool wasGone = pulse_.comeBack(nowNs, present);
-    const bool all = setup_.scene.bodies.empty(); // then events with fixtures are of the caller's world
-    const std::int64_t until = wasGone ? INT64_MAX : present;
+    // What sounds goes on: a note that is held is state.
+    const WaitingEvents late{wasGone ? INT64_MAX : present, setup_.areEventsOfCaller()};
     Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, 0, present};
-    pulse_.drop(static_cast<std::uint64_t>(renderer_->discard(source, until, all)));
-    channels_.discard(until, all, false); // what sounds goes on: a note that is held is state
+    pulse_.drop(static_cast<std::uint64_t>(renderer_->discard(source, late)));
+    channels_.discard(late);
 }
 
 void Session::wait(int frames) noexcept {

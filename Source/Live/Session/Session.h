@@ -111,10 +111,11 @@ public:
 
     /// Outputs beside the device. The output latency covers the latency of those attached when it is set.
     SinkSet& sinks() noexcept { return sinks_; }
+    const SinkSet& sinks() const noexcept { return sinks_; }
+
     /// Whether its device asks for blocks; the output that plays it tells. Any thread.
     DevicePulse& pulse() noexcept { return pulse_; }
     const DevicePulse& pulse() const noexcept { return pulse_; }
-    const SinkSet& sinks() const noexcept { return sinks_; }
 
     /// The newest state. One reader (M).
     SessionStatus status() noexcept { return status_.read(); }

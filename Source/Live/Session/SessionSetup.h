@@ -74,6 +74,8 @@ struct SessionSetup {
     LogUse log = LogUse::document;
     LayoutDescription layout{}; ///< of `panner`, for the log: name, labels, full scales; empty: not known
 
+    /// Whether events with fixtures are of a world of the caller's, as the scene has none.
+    bool areEventsOfCaller() const noexcept { return scene.bodies.empty(); }
     SceneRun run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
 };
 

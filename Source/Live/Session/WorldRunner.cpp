@@ -141,14 +141,13 @@ void WorldRunner::tellScene() noexcept {
 void WorldRunner::dropWaiting() {
     const DevicePulse::Return now = pulse_.returns(), before = std::exchange(returns_, now);
     if (now.pauses == before.pauses) return;
-    const std::int64_t until = now.losses != before.losses ? INT64_MAX : now.untilNs;
-    const bool all = setup_.scene.bodies.empty(); // as in Session::comeBack
+    const WaitingEvents late{now.losses != before.losses ? INT64_MAX : now.untilNs,
+                             setup_.areEventsOfCaller()};
     const auto made = made_.begin() + static_cast<std::ptrdiff_t>(handed_);
-    const auto dropped = std::remove_if(made, made_.end(), [=](const CollisionEvent& event) {
-        return event.timeNs <= until && (all || event.source.fixture < 0);
-    });
+    const auto dropped = std::remove_if(
+        made, made_.end(), [=](const CollisionEvent& event) { return late.contain(event, event.timeNs); });
     std::vector<CollisionEvent> due;
-    waiting_.take(until, due);
+    waiting_.take(late.untilNs, due);
     pulse_.drop(due.size() + static_cast<std::size_t>(made_.end() - dropped));
     made_.erase(dropped, made_.end());
 }

@@ -18,7 +18,8 @@ constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time
 
 // What is compared with the plan: actuators at most so far below the loudest one, above what a float keeps.
 constexpr double comparedShare = 0.01, leastCompared = 1e-4, toleranceDb = 1.0;
-constexpr double longestPauseMs = 2500.0;   // after 2000, a device that returns plays nothing of before
+constexpr double longestPauseMs = 1e-6 * DevicePulse::goneNs + 500.0; // a device that returns later plays
+                                                                      // nothing of before
 constexpr double mostPlannedSeconds = 60.0; // receipts are kept that long, and a plan is rendered while one
                                             // waits
 
