@@ -94,11 +94,16 @@ struct GuardRig {
     AudioDrivers drivers = fakeDrivers({&interface});
 };
 
-TEST(DeviceGuard, PeriodsAndRatesThatChangeAreNoWayAround) {
-    GuardRig rig;
+/// With the device open.
+struct OpenRig : GuardRig {
     Session session{twoActuators()};
-    AudioOutput output{session, rig.drivers};
-    rig.waves.open(output);
+    AudioOutput output{session, drivers};
+    OpenRig() { waves.open(output); }
+    void play(double seconds, double x = 0.0) { waves.play(session, seconds, x); }
+};
+
+TEST(DeviceGuard, PeriodsAndRatesThatChangeAreNoWayAround) {
+    OpenRig rig;
     int changes = 0;
     for (const auto& [rate, block] : std::vector<std::pair<int, int>>{{48000, 64},
                                                                       {48000, 128},
@@ -109,8 +114,8 @@ TEST(DeviceGuard, PeriodsAndRatesThatChangeAreNoWayAround) {
                                                                       {48000, 1024}}) {
         rig.interface.rate = rate;
         rig.interface.block = block;
-        output.maintain();
-        rig.waves.play(session, 0.12);
+        rig.output.maintain();
+        rig.play(0.12);
         ++changes;
     }
     EXPECT_GE(rig.interface.timesStarted, changes - 1);
@@ -130,28 +135,22 @@ TEST(DeviceGuard, OpeningAnewIsNoWayAround) {
 }
 
 TEST(DeviceGuard, ADeviceThatGoesAndComesIsNoWayAround) {
-    GuardRig rig;
-    Session session{twoActuators()};
-    AudioOutput output{session, rig.drivers};
-    rig.waves.open(output);
+    OpenRig rig;
     for (int k = 0; k < 20; ++k) {
-        rig.waves.play(session, 0.08);
+        rig.play(0.08);
         rig.interface.unplug(true);
         rig.interface.isPlugged = true;
-        output.maintain();
+        rig.output.maintain();
     }
     rig.waves.expectWithin();
 }
 
 // Two actuators exchange their outputs, and each is loud where the other has been.
 TEST(DeviceGuard, AnotherActuatorOnTheOutputIsNoWayAround) {
-    GuardRig rig;
-    Session session{twoActuators()};
-    AudioOutput output{session, rig.drivers};
-    rig.waves.open(output);
+    OpenRig rig;
     for (int k = 0; k < 20; ++k) {
-        ASSERT_EQ(output.assign(k % 2 == 0 ? std::vector<int>{0, 1} : std::vector<int>{1, 0}, 2), "");
-        rig.waves.play(session, 0.1, k % 2);
+        ASSERT_EQ(rig.output.assign(k % 2 == 0 ? std::vector<int>{0, 1} : std::vector<int>{1, 0}, 2), "");
+        rig.play(0.1, k % 2);
     }
     rig.waves.expectWithin();
 }

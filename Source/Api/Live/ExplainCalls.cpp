@@ -24,11 +24,6 @@ physvib_renderer_settings settingsOf(const PhantomPanner& panner) {
     return settings;
 }
 
-std::string droppedWords(const DevicePulse& pulse) {
-    return pulse.dropped() == 0 ? ""
-                                : "dropped: " + std::to_string(pulse.dropped()) + " events, as no device ran";
-}
-
 } // namespace
 
 int physvib_live_explain(physvib_live name, physvib_world world, char* text, size_t size) {
@@ -40,7 +35,7 @@ int physvib_live_explain(physvib_live name, physvib_world world, char* text, siz
         facts.is_missing = live.output().isPlaying() ? 0 : 1;
         facts.is_silent = live.output().isSilent() ? 1 : 0;
         facts.silent_by = holderOf(live.output().silence());
-        const std::string dropped = droppedWords(live.session().pulse());
+        const std::string dropped = droppedWords(live.session().pulse().dropped());
         facts.trouble = now.trouble.empty() ? dropped.c_str() : now.trouble.c_str();
         facts.level = static_cast<double>(live.output().level());
         facts.muted_channels = static_cast<physvib_int64>(live.session().rendered().mutedChannels());

@@ -71,12 +71,14 @@ void Rig::step() {
     if (!settings_.ownThread && goesOn()) session_.advance([this](auto) { return goesOn(); });
 }
 
+std::string droppedWords(std::uint64_t events) {
+    return events == 0 ? "" : "dropped: " + std::to_string(events) + " events, as no device ran";
+}
+
 void Rig::maintain() {
     deviceTrouble_ = output_.maintain();
     const std::uint64_t dropped = session_.pulse().dropped();
-    eventTrouble_ = std::exchange(toldDropped_, dropped) == dropped
-                        ? ""
-                        : "dropped: " + std::to_string(dropped) + " events, as no device ran";
+    eventTrouble_ = std::exchange(toldDropped_, dropped) == dropped ? "" : droppedWords(dropped);
 }
 
 std::vector<SinkState> Rig::sinkStates() const {

@@ -33,6 +33,9 @@ struct RigTrouble {
     bool operator==(const RigTrouble&) const = default;
 };
 
+/// One line on events that were dropped as no device ran (DevicePulse); empty: none were.
+std::string droppedWords(std::uint64_t events);
+
 /// All methods M only, except session() and those methods of it that any thread may call.
 class Rig {
 public:
