@@ -28,8 +28,9 @@ namespace physvib {
 
 /// Events that wait to be played: up to a time, and of no world, or of any.
 struct WaitingEvents {
-    std::int64_t untilNs = 0;
-    bool withWorlds = false;
+    std::int64_t untilNs = 0; ///< the latest time that belongs, of the events' clock
+    bool withWorlds = false;  ///< also events of a physics world's fixtures
+    /// Whether an event that is due at timeNs belongs.
     bool contain(const CollisionEvent& event, std::int64_t timeNs) const noexcept {
         return timeNs <= untilNs && (withWorlds || event.source.fixture < 0);
     }
