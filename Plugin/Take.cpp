@@ -82,6 +82,7 @@ void Take::releaseUntil(int frames) noexcept {
     const std::int64_t until = time.framesRendered() + frames - time.bornLatencyFrames() +
                                HapticRenderer::latencyFramesAt(sampleRateHz_);
     RenderControl control;
+    PhantomPanner panner;
     release(levels_, until, [&](const HeldControl& held) {
         control.kind = RenderControl::Kind::level;
         control.value = static_cast<float>(held.value);
@@ -90,8 +91,9 @@ void Take::releaseUntil(int frames) noexcept {
     release(panners_, until, [&](const HeldControl& held) {
         const auto& settings = order_->settings;
         control.kind = RenderControl::Kind::panner;
-        control.panner = {settings.layout, held.law, held.value, settings.midi.fieldWidthMetres(),
-                          settings.midi.fieldHeightMetres()};
+        panner = {settings.layout, held.law, held.value, settings.midi.fieldWidthMetres(),
+                  settings.midi.fieldHeightMetres()};
+        control.panner = &panner;
         return control;
     });
 }

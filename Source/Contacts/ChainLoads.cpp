@@ -5,7 +5,7 @@
 namespace physvib {
 
 namespace {
-constexpr std::size_t expectedContacts = 1024;
+constexpr std::size_t expectedContacts = 128;
 }
 
 ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)

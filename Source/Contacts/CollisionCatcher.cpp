@@ -8,12 +8,7 @@ namespace physvib {
 
 CollisionCatcher::CollisionCatcher(const FixtureTable& table, ContactGraph& graph)
     : table_(table)
-    , graph_(graph) {
-    collisions_.reserve(maxDirectCollisions + maxDistantCollisions);
-    ends_.reserve(maxDirectCollisions + maxDistantCollisions);
-    last_.reserve(maxDirectCollisions + maxDistantCollisions);
-    struck_.reserve(2 * (maxDirectCollisions + maxDistantCollisions));
-}
+    , graph_(graph) {}
 
 void CollisionCatcher::beginStep(const StepSpan& span) noexcept {
     span_ = span;
@@ -72,7 +67,7 @@ void CollisionCatcher::begin(std::int32_t a, std::int32_t b) {
 ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
     graph_.erase(a, b);
     pairs_.loosen(a, b);
-    if (ends_.size() == ends_.capacity()) return nullptr;
+    if (ends_.size() == maxDirectCollisions + maxDistantCollisions) return nullptr;
     ContactEnd& end = ends_.emplace_back();
     end.a = a;
     end.b = b;

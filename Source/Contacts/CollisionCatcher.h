@@ -22,8 +22,8 @@ namespace physvib {
 /// it has. Fixtures are given by their slots in the table. World thread (M) only.
 class CollisionCatcher {
 public:
-    /// Capacity for collisions of one step: those of haptic sources, and others, which may be transmitted to
-    /// them. A world with more is noise to the touch.
+    /// Most collisions of one step: those of haptic sources, and others, which may be transmitted to them. A
+    /// world with more is noise to the touch. Memory grows with what collides.
     static constexpr std::size_t maxDirectCollisions = 1024;
     static constexpr std::size_t maxDistantCollisions = 4096;
 

@@ -50,9 +50,7 @@ ContactEvents::ContactEvents(const BodyReader& bodies, const ImpactSettings& set
     , onset_(catcher_, table_, graph_)
     , release_(catcher_, table_, graph_, bodies)
     , lasting_(table_)
-    , held_(heldImpacts) {
-    impacts_.reserve(heldImpacts);
-}
+    , held_(heldImpacts) {}
 
 void ContactEvents::configure(const ImpactSettings& settings) {
     settings_ = checked(settings);

@@ -3,17 +3,26 @@
 #include "Contacts/EventSorter.h"
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace physvib {
 
-EventSorter::EventSorter(std::size_t capacity)
-    : held_(capacity) {
-    free_.reserve(capacity);
-    waiting_.reserve(capacity);
-    order_.reserve(capacity);
-    other_.reserve(capacity);
-    ends_.reserve(capacity + 2);
-    for (std::size_t slot = capacity; slot-- > 0;) free_.push_back(static_cast<std::uint32_t>(slot));
+// Doubles. What follows in the same step then needs no memory.
+bool EventSorter::grow() noexcept {
+    constexpr std::size_t least = 64;
+    const std::size_t before = held_.size(), count = std::min(capacity_, std::max(least, 2 * before));
+    if (before == count) return false;
+    try {
+        for (auto* const list : {&order_, &other_}) list->reserve(count);
+        free_.reserve(count);
+        waiting_.reserve(count);
+        ends_.reserve(count + 2);
+        held_.resize(count);
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+    for (std::size_t slot = count; slot-- > before;) free_.push_back(static_cast<std::uint32_t>(slot));
+    return true;
 }
 
 void EventSorter::forget(std::size_t place) noexcept {

@@ -9,15 +9,16 @@
 
 namespace physvib {
 
-/// Sorted by time, then by fixture id, then by arrival. Allocates in its constructor only. World thread (M)
-/// only.
+/// Sorted by time, then by fixture id, then by arrival. Memory grows with what waits, up to the capacity.
+/// World thread (M) only.
 class EventSorter {
 public:
-    explicit EventSorter(std::size_t capacity);
+    explicit EventSorter(std::size_t capacity)
+        : capacity_{capacity} {}
 
-    /// Adds an event; when full, the weakest of all is dropped and counted.
+    /// Adds an event; when full, or without memory, the weakest of all is dropped and counted.
     void push(const CollisionEvent& event) noexcept {
-        if (free_.empty() && !dropWeakest(event.amplitude)) return;
+        if (free_.empty() && !grow() && !dropWeakest(event.amplitude)) return;
         const std::uint32_t slot = free_.back();
         free_.pop_back();
         held_[slot] = event;
@@ -52,10 +53,12 @@ private:
             return a.fixture != b.fixture ? a.fixture < b.fixture : a.arrival < b.arrival;
         }
     };
+    bool grow() noexcept;                        // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
     void sort();
     void forget(std::size_t place) noexcept;
 
+    std::size_t capacity_;
     std::uint64_t drops_ = 0;
     std::vector<CollisionEvent> held_; // an event stays in its slot until it is released
     std::vector<std::uint32_t> free_;  // free slots

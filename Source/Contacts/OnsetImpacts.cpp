@@ -9,9 +9,7 @@ namespace physvib {
 OnsetImpacts::OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph)
     : catcher_(catcher)
     , table_(table)
-    , graph_(graph) {
-    waiting_.reserve(CollisionCatcher::maxDirectCollisions);
-}
+    , graph_(graph) {}
 
 void OnsetImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     strike(span, impacts);

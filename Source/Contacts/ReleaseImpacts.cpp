@@ -12,11 +12,7 @@ ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTab
     : catcher_(catcher)
     , table_(table)
     , graph_(graph)
-    , bodies_(bodies) {
-    strikes_.reserve(CollisionCatcher::maxDistantCollisions);
-    reached_.reserve(CollisionCatcher::maxDirectCollisions);
-    impulses_.reserve(CollisionCatcher::maxDirectCollisions + CollisionCatcher::maxDistantCollisions);
-}
+    , bodies_(bodies) {}
 
 void ReleaseImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     release(false, span, impacts);
@@ -118,7 +114,7 @@ void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {
 }
 
 void ReleaseImpacts::push(const Strike& strike) {
-    if (strikes_.size() == strikes_.capacity()) {
+    if (strikes_.size() == CollisionCatcher::maxDistantCollisions) {
         ++drops_;
         return;
     }

@@ -13,7 +13,7 @@ class SlotMap {
 public:
     static constexpr std::int32_t none = -1;
 
-    explicit SlotMap(std::size_t slots = 1024) { entries_.reserve(slots); }
+    explicit SlotMap(std::size_t slots = 128) { entries_.reserve(slots); }
 
     /// The value of `slot`, or `none`.
     std::int32_t find(std::int32_t slot) const noexcept {

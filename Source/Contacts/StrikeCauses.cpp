@@ -6,14 +6,6 @@
 
 namespace physvib {
 
-StrikeCauses::StrikeCauses() {
-    constexpr std::size_t most =
-        CollisionCatcher::maxDirectCollisions + CollisionCatcher::maxDistantCollisions;
-    strikes_.reserve(most);
-    sums_.reserve(most);
-    reached_.reserve(most);
-}
-
 void StrikeCauses::clear() noexcept { strikes_.clear(); }
 
 void StrikeCauses::add(const HardCollision& strike) {

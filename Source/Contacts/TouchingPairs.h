@@ -27,7 +27,7 @@ public:
         std::int32_t load = none;        ///< index of its resting load
     };
 
-    explicit TouchingPairs(std::size_t pairs = 1024)
+    explicit TouchingPairs(std::size_t pairs = 128)
         : numbers_(pairs) {
         pairs_.reserve(pairs);
         free_.reserve(pairs);

@@ -1,22 +1,36 @@
 // SPDX-License-Identifier: MIT
-// Wait-free ring buffer that carries events from one producer thread to one consumer thread and counts the
-// items that a full ring refused.
+// Wait-free queues that carry events from one producer thread to one consumer thread and count the items that
+// a full queue refused.
 #pragma once
 #include "Core/Nonblocking.h"
+#include "Core/Storage.h"
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <new>
 #include <type_traits>
+#include <utility>
 
 namespace physvib {
 
-/// Single producer, single consumer, first in first out, `Capacity` items (a power of two). Never allocates.
-template <class T, std::size_t Capacity>
+/// Single producer, single consumer, first in first out, `Capacity` items (a power of two). Never allocates,
+/// unless it is on the heap: then resize does, and before its first call the queue is full.
+template <class T, std::size_t Capacity, bool isOnHeap = false>
 class EventQueue {
     static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0, "capacity must be a power of two");
     static_assert(std::is_trivially_copyable_v<T>, "items are copied across threads");
 
 public:
+    /// Provides `capacity` items, a power of two, at most `Capacity`; what waits is lost if that is another
+    /// number. False: no memory. While neither side uses it.
+    bool resize(std::size_t capacity) noexcept {
+        if (capacity == capacity_) return true;
+        const bool has = items_.resize(capacity);
+        capacity_ = has ? capacity : 0;
+        write_ = read_ = readSeen_ = writeSeen_ = 0;
+        return has;
+    }
+
     /// False if the queue is full: the item is dropped and counted. Producer only, wait-free.
     bool push(const T& item) noexcept PHYSVIB_NONBLOCKING {
         return pushBy([&](T& place) noexcept { place = item; });
@@ -26,14 +40,14 @@ public:
     template <class Write>
     bool pushBy(Write write) noexcept PHYSVIB_NONBLOCKING {
         const std::size_t written = write_.load(std::memory_order_relaxed);
-        if (written - readSeen_ == Capacity) {
+        if (written - readSeen_ == capacity_) {
             readSeen_ = read_.load(std::memory_order_acquire);
-            if (written - readSeen_ == Capacity) {
+            if (written - readSeen_ == capacity_) {
                 overflows_.store(overflows_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
                 return false;
             }
         }
-        write(items_[written & (Capacity - 1)]);
+        write(items_[written & (capacity_ - 1)]);
         write_.store(written + 1, std::memory_order_release);
         return true;
     }
@@ -45,7 +59,7 @@ public:
             writeSeen_ = write_.load(std::memory_order_acquire);
             if (read == writeSeen_) return false;
         }
-        item = items_[read & (Capacity - 1)];
+        item = items_[read & (capacity_ - 1)];
         read_.store(read + 1, std::memory_order_release);
         return true;
     }
@@ -60,7 +74,85 @@ private:
     std::atomic<std::size_t> overflows_{0};
     alignas(64) std::atomic<std::size_t> read_{0};
     std::size_t writeSeen_ = 0;
-    alignas(64) std::array<T, Capacity> items_{};
+    alignas(64) std::size_t capacity_ = isOnHeap ? 0 : Capacity;
+    Storage<T, Capacity, isOnHeap> items_;
+};
+
+/// The same for a producer that may allocate: its memory grows by chunks when the consumer falls behind, up
+/// to `MostChunks`.
+template <class T, std::size_t ChunkItems, std::size_t MostChunks>
+class GrowingQueue {
+    static_assert(std::is_trivially_copyable_v<T>, "items are copied across threads");
+
+public:
+    GrowingQueue()
+        : head_{new Chunk}
+        , oldest_{head_.load()}
+        , tail_{oldest_} {}
+    GrowingQueue(const GrowingQueue&) = delete;
+    GrowingQueue& operator=(const GrowingQueue&) = delete;
+    ~GrowingQueue() {
+        while (oldest_ != nullptr) delete std::exchange(oldest_, oldest_->next);
+    }
+
+    /// False if the queue is full, or memory is lacking: the item is dropped and counted. Producer only.
+    bool push(const T& item) noexcept {
+        if (used_ == ChunkItems) {
+            Chunk* const chunk = spare();
+            if (chunk == nullptr) {
+                overflows_.store(overflows_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+                return false;
+            }
+            chunk->next = nullptr;
+            tail_ = tail_->next = chunk;
+            used_ = 0;
+        }
+        tail_->items[used_++] = item;
+        written_.store(written_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+        return true;
+    }
+
+    /// False if the queue is empty. Consumer only, wait-free.
+    bool pop(T& item) noexcept PHYSVIB_NONBLOCKING {
+        if (read_ == writtenSeen_) {
+            writtenSeen_ = written_.load(std::memory_order_acquire);
+            if (read_ == writtenSeen_) return false;
+        }
+        Chunk* head = head_.load(std::memory_order_relaxed);
+        if (at_ == ChunkItems) {
+            head = head->next; // written before the item that is to be read
+            head_.store(head, std::memory_order_release);
+            at_ = 0;
+        }
+        item = head->items[at_++];
+        ++read_;
+        return true;
+    }
+
+    /// How many items were refused. Any thread, wait-free.
+    std::size_t overflows() const noexcept { return overflows_.load(std::memory_order_relaxed); }
+
+private:
+    struct Chunk {
+        std::array<T, ChunkItems> items;
+        Chunk* next = nullptr;
+    };
+    // The consumer has left all chunks before its own, so they can be used again.
+    Chunk* spare() noexcept {
+        if (oldest_ != head_.load(std::memory_order_acquire)) return std::exchange(oldest_, oldest_->next);
+        if (chunks_ == MostChunks) return nullptr;
+        Chunk* const made = new (std::nothrow) Chunk;
+        chunks_ += made != nullptr ? 1 : 0;
+        return made;
+    }
+
+    alignas(64) std::atomic<std::size_t> written_{0};
+    std::atomic<std::size_t> overflows_{0};
+    alignas(64) std::atomic<Chunk*> head_; // the consumer's, which the producer reads; also the next ones
+    std::size_t read_ = 0, writtenSeen_ = 0, at_ = 0;
+    alignas(64) Chunk* oldest_; // the producer's, as the next ones
+    Chunk* tail_;
+    std::size_t used_ = 0, chunks_ = 1;
 };
 
 } // namespace physvib

@@ -4,6 +4,7 @@
 #include "Core/HapticRenderer.h"
 #include "Core/Modes/ModeIncrements.h"
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace physvib {
@@ -43,7 +44,8 @@ bool HapticRenderer::takeMemory() noexcept {
                          share(limits::maxModes, 1), share(limits::maxGates, 256)) &&
            actuators_.prepare(settings_.sampleRateHz, channels_, settings_.equalised) && prepareLimiter() &&
            pending_.resize(share(limits::maxPending, 512)) &&
-           controls_.resize(share(limits::maxControls, 64));
+           playedQueue_.resize(std::bit_ceil(static_cast<unsigned>(share(limits::playedQueueSize, 1024)))) &&
+           panners_.prepare(channels_) && controls_.resize(share(limits::maxControls, 64));
 }
 
 bool HapticRenderer::prepareLimiter() noexcept {
@@ -71,19 +73,11 @@ bool HapticRenderer::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     return isPrepared_ = actuators_.changeRate(sampleRateHz) && prepareLimiter();
 }
 
-// Order within a frame: gates that end close first, then controls act, then strikes begin.
-void HapticRenderer::actOnDue() noexcept {
-    while (bank_.nextGateFrame() <= position_) bank_.closeNextGate();
-    while (!controls_.empty() && clock_.at(controls_.nextTime()).frame <= position_) {
-        apply(controls_.next());
-        controls_.pop();
-    }
-}
-
 void HapticRenderer::apply(const RenderControl& control) noexcept {
     using Kind = RenderControl::Kind;
     const bool isChannel = control.channel >= 0 && control.channel < channels_;
-    if (control.kind == Kind::panner && control.panner.channels() <= channels_) panners_ = control.panner;
+    if (control.kind == Kind::panner && control.panner != nullptr && control.panner->channels() <= channels_)
+        panners_ = *control.panner;
     if (control.kind == Kind::gain && isChannel) actuators_.setGain(control.channel, control.value);
     if (control.kind == Kind::level) actuators_.setLevel(control.value);
     if (control.kind == Kind::mute && isChannel) actuators_.setMuted(control.channel, control.value != 0.0f);

@@ -41,7 +41,7 @@ struct WaitingEvents {
 class HapticRenderer {
 public:
     /// Queue of events that were played, with their frames.
-    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(limits::playedQueueSize)>;
+    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(limits::playedQueueSize), true>;
 
     /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most
     /// limits::maxEnchanters outputs, or if memory is lacking. Then, as before the first call, render writes
@@ -61,9 +61,10 @@ public:
     /// Writes out[channel][0..frames), 1 to limits::maxBlockFrames. `source.pop(CollisionEvent&)` delivers
     /// events until it returns false. Events that the pending store cannot hold stay in the source; they are
     /// in time if the source is in time order. Optional members of the source: `pop(RenderControl&)` delivers
-    /// controls the same way; `struck(const CollisionEvent&, std::int64_t frame)` is called for each event
-    /// that is played, with the renderer's first frame of it; `added(std::int64_t frame, int frames)` returns
-    /// samples, one pointer per channel, that are mixed in (null: none). Render thread (R), wait-free.
+    /// controls the same way, whose panners must stay until `done(const RenderControl&)` is called;
+    /// `struck(const CollisionEvent&, std::int64_t frame)` is called for each event that is played, with the
+    /// renderer's first frame of it; `added(std::int64_t frame, int frames)` returns samples, one pointer per
+    /// channel, that are mixed in (null: none). Render thread (R), wait-free.
     template <class Source>
     void render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
@@ -98,7 +99,8 @@ private:
     bool passModes(const Channels& out, int frames) noexcept;
     void playAll(const Channels& out, int frames, const float* const* added) noexcept;
     void guard(const Channels& out, int frames, bool isSilent) noexcept;
-    void actOnDue() noexcept;
+    template <class Source>
+    void actOnDue(Source& source) noexcept;
     void apply(const RenderControl& control) noexcept;
     bool prepareLimiter() noexcept;
     bool takeMemory() noexcept;

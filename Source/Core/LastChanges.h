@@ -18,7 +18,7 @@ struct LastChanges {
     void take(const RenderControl& control) noexcept {
         using Kind = RenderControl::Kind;
         const std::uint64_t bit = std::uint64_t{1} << (static_cast<unsigned>(control.channel) % 64U);
-        if (control.kind == Kind::panner) panner = control.panner;
+        if (control.kind == Kind::panner && control.panner != nullptr) panner = *control.panner;
         if (control.kind == Kind::level) level = static_cast<double>(control.value);
         if (control.kind == Kind::silence) silentUntilNs = control.untilNs;
         if (control.kind == Kind::mute) muted = control.value != 0.0F ? muted | bit : muted & ~bit;

@@ -2,20 +2,28 @@
 // Panners of a layout's parts of the body, kept between events.
 #pragma once
 #include "Core/PhantomPanner.h"
+#include "Core/Storage.h"
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
 namespace physvib {
 
 /// A panner and those of its parts. A part's is found when it is first struck, which may take 10 us, and kept
-/// until the panner changes. Of more parts than `mostKept` the oldest is found anew. No heap. One thread.
+/// until the panner changes. Of more parts than `mostKept`, or than were prepared, the oldest is found anew.
 class PartPanners {
 public:
     static constexpr std::size_t mostKept = 16; ///< Core/BodyLayouts.h names 15
 
-    PartPanners() = default;
-    explicit PartPanners(const PhantomPanner& whole) noexcept
-        : whole_{whole} {}
+    /// Makes room for the parts of a panner of at most so many actuators: each part has one of its own.
+    /// False: no memory. Message thread (M), not while rendering.
+    bool prepare(int actuators) noexcept {
+        const std::size_t count = std::min(mostKept, static_cast<std::size_t>(actuators));
+        parts_.fill(0);
+        next_ = 0;
+        kept_ = panners_.resize(count) ? count : 0;
+        return kept_ == count;
+    }
 
     /// Forgets the parts of the panner of before.
     PartPanners& operator=(const PhantomPanner& whole) noexcept {
@@ -29,16 +37,16 @@ public:
 
     /// As PhantomPanner::gainsAt.
     void gainsAt(const CollisionEvent& event, PhantomPanner::Gains& gains) noexcept {
-        if (!whole_.divides(event.source.part)) return whole_.gainsAt(event, gains);
+        if (kept_ == 0 || !whole_.divides(event.source.part)) return whole_.gainsAt(event, gains);
         whole_.gainsAt(event, panners_[indexOf(event.source.part)], gains);
     }
 
 private:
     std::size_t indexOf(PartNumber part) noexcept {
-        for (std::size_t i = 0; i < mostKept; ++i)
+        for (std::size_t i = 0; i < kept_; ++i)
             if (parts_[i] == part) return i;
         const std::size_t i = next_;
-        next_ = (next_ + 1) % mostKept;
+        next_ = (next_ + 1) % kept_;
         parts_[i] = part;
         panners_[i] = whole_.onPart(part);
         return i;
@@ -46,8 +54,8 @@ private:
 
     PhantomPanner whole_;
     std::array<PartNumber, mostKept> parts_{}; // 0: none
-    std::array<PhantomPanner, mostKept> panners_{};
-    std::size_t next_ = 0; // the one to be replaced
+    Storage<PhantomPanner, mostKept, true> panners_;
+    std::size_t kept_ = 0, next_ = 0; // next_: the one to be replaced
 };
 
 } // namespace physvib

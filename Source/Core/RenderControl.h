@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Timed control changes of the renderer (layout and panning law, gains, mutes, delays, ceilings, recordings,
-// stop), and the record of a played event.
+// stop), and the record of a played event. A control fits a cache line, since it is copied from queue to
+// queue; what is larger it names.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
 #include "Core/RecordedContact.h"
 #include <cstdint>
+#include <type_traits>
 
 namespace physvib {
 
@@ -24,14 +26,16 @@ struct RenderControl {
                 ///< no world produced are blocked only before `timeNs`. level and silence are created by the
                 ///< render call; files do not name them
     };
-    std::int64_t timeNs = 0;       ///< session time at which it takes effect
-    Kind kind = Kind::stopAll;     ///< selects which of the values below counts
-    int channel = 0;               ///< for gain, mute, delay and ceiling
-    float value = 0.0f;            ///< see Kind
-    PhantomPanner panner;          ///< for panner
+    std::int64_t timeNs = 0;   ///< session time at which it takes effect
+    Kind kind = Kind::stopAll; ///< selects which of the values below counts
+    int channel = 0;           ///< for gain, mute, delay and ceiling
+    float value = 0.0f;        ///< see Kind
+    /// for panner: not null. Its sender keeps it until the reader is done with it; see ControlQueue
+    const PhantomPanner* panner = nullptr;
     std::int64_t untilNs = 0;      ///< for silence
     RecordedContacts recordings{}; ///< for recordings
 };
+static_assert(sizeof(RenderControl) <= 64 && std::is_trivially_copyable_v<RenderControl>);
 
 /// An event that was played, and when: sent from the renderer to log, view and board.
 struct PlayedEvent {

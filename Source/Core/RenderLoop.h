@@ -20,6 +20,16 @@ void HapticRenderer::refill(Source& source) noexcept {
     }
 }
 
+// Order within a frame: gates that end close first, then controls act, then strikes begin.
+template <class Source>
+void HapticRenderer::actOnDue(Source& source) noexcept {
+    while (bank_.nextGateFrame() <= position_) bank_.closeNextGate();
+    for (; !controls_.empty() && clock_.at(controls_.nextTime()).frame <= position_; controls_.pop()) {
+        apply(controls_.next());
+        if constexpr (requires(const RenderControl& c) { source.done(c); }) source.done(controls_.next());
+    }
+}
+
 // Strikes the events that are due before the next change that divides the block, and returns how many frames
 // can be rendered until then. If the mode bank cannot take strikes ahead of their frame, the next onset
 // divides the block as well. After each event the loop refills the store, because popping freed a place; an
@@ -28,7 +38,7 @@ template <class Source>
 int HapticRenderer::strikeAndReach(Source& source, int most) noexcept {
     for (;;) {
         refill(source);
-        actOnDue();
+        actOnDue(source);
         const std::int64_t end = nextChange(most);
         const bool wasFull = pending_.full();
         for (bool isSame = true; isSame;) {

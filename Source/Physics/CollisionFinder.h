@@ -38,7 +38,7 @@ public:
     void endStep() noexcept { fresh_.endStep(); }
 
 private:
-    static constexpr std::size_t expectedContacts = 1024;
+    static constexpr std::size_t expectedContacts = 128;
 
     using Pair = TouchingPairs::Name;
     struct Known { // cache, which saves a search for both fixtures in every step

@@ -79,7 +79,7 @@ private:
         return true;
     }
 
-    static constexpr std::size_t expectedContacts = 1024; // contacts that begin in a step, or are disabled
+    static constexpr std::size_t expectedContacts = 128; // contacts that begin in a step, or are disabled
 
     struct Entry {
         std::uint64_t contact;

@@ -18,7 +18,7 @@ public:
         motors_.strike(event, grips_);
     }
     void take(const RenderControl& control) {
-        if (control.kind == RenderControl::Kind::panner) grips_ = PadMotors::gripsOf(control.panner);
+        if (control.panner != nullptr) grips_ = PadMotors::gripsOf(*control.panner);
         if (control.kind != RenderControl::Kind::stopAll) return;
         runUntil(control.timeNs);
         motors_.stop(control.timeNs);

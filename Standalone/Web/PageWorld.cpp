@@ -32,7 +32,7 @@ PageWorld::PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int ou
         throw std::invalid_argument("sound: expected 5000 to 192000 Hz and 4 to 64 outputs");
     law_.limiterFrames = renderer_->latencyFrames();
     if (file_.samples.empty()) return;
-    controls_.push_back({.kind = RenderControl::Kind::recordings, .recordings = {{&clip_, 1}, false}});
+    controls_.push({.kind = RenderControl::Kind::recordings, .recordings = {{&clip_, 1}, false}});
 }
 
 PhantomPanner PageWorld::panner() const noexcept {
@@ -77,7 +77,8 @@ void PageWorld::placed(int law) {
     const auto index = static_cast<std::size_t>(law); // -1 becomes larger than any index
     panningLaw_ = index < panningLaws.size() ? panningLaws[index].law : PanningLaw::automatic;
     const std::int64_t timeNs = nsOf(std::max<std::int64_t>(0, done_ - firstFrame()));
-    controls_.push_back({.timeNs = timeNs, .kind = RenderControl::Kind::panner, .panner = panner()});
+    const PhantomPanner now = panner();
+    controls_.push({.timeNs = timeNs, .kind = RenderControl::Kind::panner, .panner = &now});
 }
 
 void PageWorld::stepTo(std::int64_t frame) {

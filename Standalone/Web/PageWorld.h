@@ -2,6 +2,7 @@
 // A running scene and its haptic output, on the thread that renders the audio.
 #pragma once
 #include "Core/ClockLaw.h"
+#include "Core/ControlQueue.h"
 #include "Core/HapticRenderer.h"
 #include "Core/PanningLaws.h"
 #include "PageFile.h"
@@ -55,7 +56,8 @@ public:
     void placed(int law);
 
     bool pop(CollisionEvent& event) noexcept { return take(events_, event); } // for the renderer, as the next
-    bool pop(RenderControl& change) noexcept { return take(controls_, change); }
+    bool pop(RenderControl& change) noexcept { return controls_.pop(change); }
+    void done(const RenderControl& change) noexcept { controls_.done(change); }
 
 private:
     struct Hand {
@@ -89,7 +91,7 @@ private:
     std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
     std::vector<CollisionEvent> made_;
     std::deque<CollisionEvent> events_;
-    std::deque<RenderControl> controls_;
+    ControlQueue<256> controls_;
     std::vector<float> samples_, poses_;
     std::array<std::optional<Hand>, fingers> hands_;
     PanningLaw panningLaw_ = PanningLaw::automatic;

@@ -246,7 +246,8 @@ TEST(HapticRenderer, ControlsActAtTheirTimeWhateverTheBlockSize) {
     session.controls = {controlAt(100'000'001, Kind::gain, 1, -0.5f),
                         controlAt(200'000'003, Kind::mute, 2, 1), controlAt(300'000'007, Kind::panner),
                         controlAt(500'000'000, Kind::stopAll), controlAt(600'000'000, Kind::mute, 2, 0)};
-    session.controls[2].panner = PhantomPanner{gridLayout(2, 1), PanningLaw::energy, 1, 1, 1};
+    const PhantomPanner two{gridLayout(2, 1), PanningLaw::energy, 1, 1, 1};
+    session.controls[2].panner = &two;
     const auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000, true);
     RenderStatus status;
     const auto reference = renderSession(session, settings, 48000, 8192, status);
@@ -309,7 +310,8 @@ TEST(HapticRenderer, ALayoutChangeMovesLaterStrikesOnly) {
     e.decayPerSecond = 2;
     e.amplitude = 0.3;
     Session session{{e}, {controlAt(100'000'000, RenderControl::Kind::panner)}};
-    session.controls[0].panner = PhantomPanner{gridLayout(1, 1), PanningLaw::linear, 1, 1, 1};
+    const PhantomPanner one{gridLayout(1, 1), PanningLaw::linear, 1, 1, 1};
+    session.controls[0].panner = &one;
     auto unchanged = session;
     unchanged.controls.clear();
     const auto settings = settingsFor(gridLayout(2, 1), PanningLaw::linear, 48000);

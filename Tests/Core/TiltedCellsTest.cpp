@@ -177,12 +177,13 @@ TEST(TiltedCells, KeptPannersOfPartsGiveTheSameGainsAndFollowTheLayout) {
         many.push_back(
             {0.01 * j, 0.3 * std::sin(j), 0.2 * std::cos(3 * j), partNamed(std::to_string(j / 3))});
     test::Random random{8};
-    PartPanners kept;
+    PartPanners kept, few; // few: prepared for less than there is
+    ASSERT_TRUE(kept.prepare(limits::maxEnchanters) && few.prepare(3));
     const std::vector<PhantomPanner> panners{pannerOn(hand()), pannerOn(many),
                                              pannerOn(hand(), PanningLaw::linear)};
     for (int turn = 0; turn < 200; ++turn) {
         const PhantomPanner& panner = panners[static_cast<std::size_t>(turn / 20) % panners.size()];
-        if (turn % 20 == 0) kept = panner;
+        if (turn % 20 == 0) kept = panner, few = panner;
         const auto& any =
             panner.layout().places[static_cast<std::size_t>(random.uniform(0, panner.channels()))];
         CollisionEvent event;
@@ -192,6 +193,8 @@ TEST(TiltedCells, KeptPannersOfPartsGiveTheSameGainsAndFollowTheLayout) {
         PhantomPanner::Gains gains{}, expected{};
         kept.gainsAt(event, gains);
         panner.gainsAt(event, expected);
+        ASSERT_EQ(gains, expected) << turn;
+        few.gainsAt(event, gains);
         ASSERT_EQ(gains, expected) << turn;
     }
 }

@@ -297,8 +297,9 @@ TEST(AudioOutput, RateBlockAndLayoutChangeWhilePlayingAndNoCeilingIsPassed) {
             rig.interface.block = block;
             ASSERT_EQ(rig.output.status().blocks == 0 ? rig.open() : rig.output.maintain(), "");
             EXPECT_EQ(rig.output.sampleRateHz(), static_cast<int>(rate));
-            EXPECT_TRUE(rig.session.take({RenderControl{.kind = RenderControl::Kind::panner,
-                                                        .panner = pannerOn(layout, setup.scene)}}));
+            const PhantomPanner panner = pannerOn(layout, setup.scene);
+            EXPECT_TRUE(
+                rig.session.take({RenderControl{.kind = RenderControl::Kind::panner, .panner = &panner}}));
             const auto out = rig.play(4.0, block);
             for (std::size_t k = 0; k < hands; ++k) most[k] = std::max(most[k], loudest(out[k]));
         }

@@ -243,7 +243,7 @@ TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
     EXPECT_NEAR(left, right, 1e-6f);
     PhantomPanner wider{setup.panner.layout(), PanningLaw::linear, 1, 2.0 * width,
                         setup.scene.fieldHeightMetres};
-    ASSERT_TRUE(rig.session.take({RenderControl{0, RenderControl::Kind::panner, 0, 0.0f, wider}}));
+    ASSERT_TRUE(rig.session.take({RenderControl{0, RenderControl::Kind::panner, 0, 0.0f, &wider}}));
     rig.play(0.2);
     const auto [leftOfWider, rightOfWider] = heardAt(width);
     EXPECT_NEAR(leftOfWider, rightOfWider, 1e-4f) << "in the middle of the new field";

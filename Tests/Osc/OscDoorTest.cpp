@@ -162,10 +162,10 @@ TEST(OscDoors, InputsAndControlsAreThoseOfLines) {
     ASSERT_EQ(open.acted.size(), 5U);
     EXPECT_EQ(std::get<Action>(open.acted[0]), Action{TiltAction{0.5}});
     EXPECT_EQ(std::get<Action>(open.acted[1]), (Action{GravityAction{{1.0, -9.0}}}));
-    EXPECT_EQ(std::get<RenderControl>(open.acted[2]).kind, RenderControl::Kind::gain);
-    EXPECT_EQ(std::get<RenderControl>(open.acted[2]).channel, 1);
-    EXPECT_EQ(std::get<RenderControl>(open.acted[2]).value, 0.5f);
-    EXPECT_EQ(std::get<RenderControl>(open.acted[3]).value, 1.0f);
+    EXPECT_EQ(std::get<OwnedControl>(open.acted[2]).kind, RenderControl::Kind::gain);
+    EXPECT_EQ(std::get<OwnedControl>(open.acted[2]).channel, 1);
+    EXPECT_EQ(std::get<OwnedControl>(open.acted[2]).value, 0.5f);
+    EXPECT_EQ(std::get<OwnedControl>(open.acted[3]).value, 1.0f);
     EXPECT_FALSE(std::get<SilenceControl>(open.acted[4]).isOn);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A million guarded blocks of a live session while another thread edits it ten thousand times.
 #include "Core/SoundNumber.h"
+#include "Live/Documents/InputLine.h"
 #include "Live/Session/Session.h"
 #include "Realtime/RealtimeGuard.h"
 #include "Scene/SceneCatalogue.h"
@@ -21,12 +22,13 @@ PhantomPanner randomPanner(test::Random& random) {
     return {layout, static_cast<PanningLaw>(random.below(4)), 1.0, 6.4, 3.6};
 }
 
-RenderControl randomEdit(test::Random& random) {
-    RenderControl edit;
+OwnedControl randomEdit(test::Random& random) {
+    OwnedControl edit;
     edit.kind = static_cast<RenderControl::Kind>(random.below(4));
     edit.channel = random.below(outputs);
     edit.value = static_cast<float>(random.below(3)) - 1.0f;
-    if (edit.kind == RenderControl::Kind::panner) edit.panner = randomPanner(random);
+    if (edit.kind == RenderControl::Kind::panner)
+        edit.panner = (edit.kept = std::make_shared<const PhantomPanner>(randomPanner(random))).get();
     return edit;
 }
 

@@ -24,7 +24,8 @@ TEST(HeardContacts, ARenderIsWhatIsPlayedAtItsLevelWithFieldsAndStops) {
     const PhantomPanner field{EnchanterLayout{1.0, 1.0, 1, {}}, PanningLaw::linear, 1.0, 2.0, 1.0};
     const std::vector events{hitAt(0, 0.2), hitAt(100'000'000, 1.8), hitAt(300'000'000, 1.0)};
     RenderControl wider{200'000'000, RenderControl::Kind::panner, 0, 0.0f, {}}, gain = wider, stop = wider;
-    wider.panner = {EnchanterLayout{1.0, 1.0, 1, {}}, PanningLaw::linear, 1.0, 8.0, 1.0};
+    const PhantomPanner wide{EnchanterLayout{1.0, 1.0, 1, {}}, PanningLaw::linear, 1.0, 8.0, 1.0};
+    wider.panner = &wide;
     gain.kind = RenderControl::Kind::gain; // of an actuator
     stop.kind = RenderControl::Kind::stopAll;
     stop.timeNs = 400'000'000;

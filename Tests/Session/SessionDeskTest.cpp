@@ -119,7 +119,7 @@ TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
                         {2.5, [](Session& s) { s.world().setSlowness(1); }},
                         {2.7,
                          [&](Session& s) {
-                             s.take({RenderControl{0, Kind::panner, 0, 0.0f, wider}});
+                             s.take({RenderControl{0, Kind::panner, 0, 0.0f, &wider}});
                          }},
                         {3.0,
                          [](Session& s) {

@@ -2,6 +2,7 @@
 // What is done to a session while it plays is logged; the log, saved and read again, renders to what was
 // felt, to the bit.
 #include "FakeHost.h"
+#include "Live/Documents/InputLine.h"
 #include "Live/Documents/SessionFile.h"
 #include "Live/Documents/SessionJournalText.h"
 #include "Live/Session/OfflineRender.h"
@@ -37,8 +38,8 @@ Action anyInput(Random& random, int& stones) {
     }
 }
 
-RenderControl anyControl(Random& random) {
-    RenderControl control;
+OwnedControl anyControl(Random& random) {
+    OwnedControl control;
     control.kind = static_cast<RenderControl::Kind>(random.below(20) == 0 ? 3 : random.below(3));
     control.channel = random.below(channels);
     control.value = static_cast<float>(control.kind == RenderControl::Kind::mute ? random.below(2)
@@ -47,7 +48,9 @@ RenderControl anyControl(Random& random) {
         EnchanterLayout layout{1, 1, 1 + random.below(channels), {}};
         for (int j = 0; j < layout.count; ++j)
             layout.places[static_cast<std::size_t>(j)] = {random.uniform(0, 1), random.uniform(0, 1)};
-        control.panner = {layout, static_cast<PanningLaw>(random.below(4)), 1.5, 6.4, 3.6};
+        control.kept = std::make_shared<const PhantomPanner>(layout, static_cast<PanningLaw>(random.below(4)),
+                                                             1.5, 6.4, 3.6);
+        control.panner = control.kept.get();
     }
     return control;
 }

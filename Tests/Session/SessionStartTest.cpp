@@ -53,7 +53,7 @@ void leaveInTheMiddle(Session& session) {
     EXPECT_TRUE(session.take({Strikes{strikes, true}, now + 400'000'000}));
     PhantomPanner other = session.panner();
     other = {other.layout(), PanningLaw::energy, 1.3, other.fieldWidthMetres(), other.fieldHeightMetres()};
-    EXPECT_TRUE(session.take({RenderControl{0, Kind::panner, 0, 0.0f, other}}));
+    EXPECT_TRUE(session.take({RenderControl{0, Kind::panner, 0, 0.0f, &other}}));
     EXPECT_TRUE(session.take({RenderControl{0, Kind::gain, 2, 0.0f, {}}}));
     EXPECT_TRUE(session.callback().strike(knock(), 0));
     EXPECT_TRUE(session.callback().control({0, Kind::mute, 1, 1.0f, {}}, 0));

@@ -6,7 +6,7 @@
 #include "Api/C/Pad.h"
 #include "Api/C/physvib.h"
 #include "Contacts/ContactFeed.h"
-#include "Core/EventQueue.h"
+#include "Core/ControlQueue.h"
 #include "Core/HapticRenderer.h"
 #include "Core/LastChanges.h"
 #include "Core/LatestValue.h"
@@ -21,9 +21,10 @@ namespace physvib::api {
 struct Renderer {
     struct Source {
         EventQueue<CollisionEvent, 8192> events;
-        EventQueue<RenderControl, 256> controls;
+        ControlQueue<256> controls;
         bool pop(CollisionEvent& event) noexcept { return events.pop(event); }
         bool pop(RenderControl& control) noexcept { return controls.pop(control); }
+        void done(const RenderControl& control) noexcept { controls.done(control); }
     };
     HapticRenderer renderer;
     Source source;

@@ -21,7 +21,7 @@ int change(physvib_renderer name, const RenderControl& control) noexcept {
         return fail(PHYSVIB_ERROR_ARGUMENT, "channel: expected one of the renderer");
     if (!(control.value >= 0.0F && control.value <= 10000.0F))
         return fail(PHYSVIB_ERROR_ARGUMENT, "gain: expected 0 to 10000");
-    if (control.panner.channels() > renderer->channels)
+    if (control.panner != nullptr && control.panner->channels() > renderer->channels)
         return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected at most as many enchanters as channels");
     const std::lock_guard lock{renderer->producers};
     if (!renderer->source.controls.push(control))
@@ -164,7 +164,7 @@ int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 timeNs,
     if (!take(settings, taken, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
     if (const auto fault = convert(taken, wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
     RenderControl control = controlOf(RenderControl::Kind::panner, timeNs, 0, 0.0);
-    control.panner = wanted.panner;
+    control.panner = &wanted.panner;
     return change(renderer, control);
 }
 

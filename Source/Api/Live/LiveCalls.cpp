@@ -170,7 +170,7 @@ int physvib_live_set_layout(physvib_live name, const physvib_renderer_settings* 
         if (!takeRenderer(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
         if (wanted.panner.channels() > live.session().channels())
             return nothingThere("layout: expected at most as many enchanters as channels");
-        return post(live, {0, RenderControl::Kind::panner, 0, 0.0f, wanted.panner});
+        return post(live, {0, RenderControl::Kind::panner, 0, 0.0f, &wanted.panner});
     });
 }
 

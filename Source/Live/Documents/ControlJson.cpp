@@ -48,18 +48,20 @@ PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescri
     return panner;
 }
 
-RenderControl readControl(const JsonField& json, int channels, std::string_view otherField) {
+OwnedControl readControl(const JsonField& json, int channels, std::string_view otherField) {
     using Holds = ControlDescription::Holds;
     json.expectObject();
     const ControlDescription& one = controlTable[json["control"].oneOf(controlNames)];
-    RenderControl control;
+    OwnedControl control;
     control.kind = one.kind;
     if (one.holds == Holds::nothing)
         expectFields(json, {}, otherField);
     else if (one.holds == Holds::panner) {
         expectFields(json, {one.field}, otherField);
         LayoutDescription unused;
-        control.panner = readKind(json[one.field], DescribedPanner{channels, unused});
+        control.kept = std::make_shared<const PhantomPanner>(
+            readKind(json[one.field], DescribedPanner{channels, unused}));
+        control.panner = control.kept.get();
     } else {
         expectFields(json, {"channel", one.field}, otherField);
         control.channel = readChannel(json["channel"], channels);
@@ -91,7 +93,7 @@ OrderedJson controlJson(const RenderControl& control) {
     OrderedJson json{{"control", one->name}};
     if (one->holds == Holds::panner)
         json[one->field] =
-            writeKind(DescribedPanner<const LayoutDescription>{control.channel, {}}, control.panner);
+            writeKind(DescribedPanner<const LayoutDescription>{control.channel, {}}, *control.panner);
     if (one->holds == Holds::number || one->holds == Holds::truth) json["channel"] = control.channel + 1;
     if (one->holds == Holds::number) json[one->field] = static_cast<double>(control.value);
     if (one->holds == Holds::truth) json[one->field] = control.value != 0.0f;

@@ -2,11 +2,11 @@
 // JSON form of render controls and panners, for session files and input lines. Included by .cpp files of
 // documents only.
 #pragma once
-#include "Core/RenderControl.h"
 #include "Io/Json/FieldTable.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonLines.h"
 #include "Io/Text/NameList.h"
+#include "Live/Documents/InputLine.h"
 #include "Live/Documents/Mix.h"
 #include <array>
 #include <string_view>
@@ -39,7 +39,7 @@ PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescri
 OrderedJson writeKind(const DescribedPanner<const LayoutDescription>& kind, const PhantomPanner& panner);
 
 /// Reads a control without its time; `otherField` may be present too. Throws JsonError.
-RenderControl readControl(const JsonField& json, int channels, std::string_view otherField = {});
+OwnedControl readControl(const JsonField& json, int channels, std::string_view otherField = {});
 
 OrderedJson controlJson(const RenderControl& control); ///< without its time
 

@@ -6,6 +6,7 @@
 #include "Live/Documents/PlainMessage.h"
 #include "Scene/Scene.h"
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -21,7 +22,12 @@ struct SilenceControl {
                                        ///< ends. Set by the reader of the input
 };
 
-using LineInput = std::variant<Action, RenderControl, SilenceControl, PlainMessage>;
+/// A control with the panner that it sets, if it sets one.
+struct OwnedControl : RenderControl {
+    std::shared_ptr<const PhantomPanner> kept{};
+};
+
+using LineInput = std::variant<Action, OwnedControl, SilenceControl, PlainMessage>;
 
 /// A line, and its number "id" if it has one, which the answer repeats.
 struct InputLine : Result<LineInput> {

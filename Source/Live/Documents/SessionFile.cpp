@@ -79,11 +79,11 @@ WorldStall readStall(const JsonField& json, const SceneTake& take) {
 
 void readTimedControl(const JsonField& json, SavedSession& session) {
     SessionLog& log = session.log;
-    const RenderControl control = readControl(json, session.channels, "time_s");
+    const OwnedControl control = readControl(json, session.channels, "time_s");
     const std::int64_t time = kinds::Time{}(json["time_s"]);
     expectNotBefore(log.lastControlNs(), time, json);
-    if (control.kind == RenderControl::Kind::panner)
-        log.panners.push_back({time, control.panner});
+    if (control.panner != nullptr)
+        log.panners.push_back({time, *control.panner});
     else
         log.channels.push_back({time, control.kind, control.channel, control.value});
 }
@@ -289,7 +289,7 @@ std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, i
     std::vector<RenderControl> all;
     if (keepLayouts)
         for (const PannerChange& change : log.panners)
-            all.push_back({change.timeNs, RenderControl::Kind::panner, 0, 0.0f, change.panner});
+            all.push_back({change.timeNs, RenderControl::Kind::panner, 0, 0.0f, &change.panner});
     for (const ChannelChange& change : log.channels)
         if (change.channel < channels)
             all.push_back({change.timeNs, change.kind, change.channel, change.value, {}});

@@ -79,7 +79,7 @@ struct SessionLog {
 };
 
 /// The controls in time order, as a renderer takes them, without recordings; `keepLayouts` false leaves
-/// layouts out, and channels from `channels` on. Any thread.
+/// layouts out, and channels from `channels` on. Their panners are the log's. Any thread.
 std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, int channels);
 
 } // namespace physvib

@@ -63,8 +63,7 @@ void PadOutput::follow(FeltOutput* device) {
     device_ = device;
     for (CollisionEvent event; device && events_.pop(event);) {
     } // events of an earlier session
-    for (RenderControl control; device && controls_.pop(control);) {
-    }
+    for (RenderControl control; device && controls_.pop(control);) controls_.done(control);
     grips_ = PadMotors::gripsOf(first_);
     clock_ = {};
     begin();
@@ -76,7 +75,7 @@ void PadOutput::begin() {
         law.commandsPerSecond = std::min(law.commandsPerSecond, mostCommandsPerSecond(pad_->info().bus));
     motors_ = PadMotors{law};
     layouts_.clear();
-    stops_.clear();
+    stopsNs_.clear();
     playedNs_ = 0;
 }
 
@@ -142,18 +141,19 @@ void PadOutput::feed(std::int64_t nowNs) {
 
 // A layout applies from the first event at its time, a stop from the time at which it is felt.
 void PadOutput::takeControls(std::int64_t sessionNs) {
-    for (RenderControl control; controls_.pop(control);) {
-        if (control.kind == RenderControl::Kind::panner) layouts_.push_back(control);
-        if (control.kind == RenderControl::Kind::stopAll) stops_.push_back(control);
+    for (RenderControl control; controls_.pop(control); controls_.done(control)) {
+        if (control.panner != nullptr)
+            layouts_.push_back({control.timeNs, PadMotors::gripsOf(*control.panner)});
+        if (control.kind == RenderControl::Kind::stopAll) stopsNs_.push_back(control.timeNs);
     }
-    for (; !stops_.empty() && stops_.front().timeNs <= sessionNs; stops_.erase(stops_.begin()))
-        motors_.stop(stops_.front().timeNs);
+    for (; !stopsNs_.empty() && stopsNs_.front() <= sessionNs; stopsNs_.erase(stopsNs_.begin()))
+        motors_.stop(stopsNs_.front());
 }
 
 void PadOutput::takeEvents() {
     for (CollisionEvent event; events_.pop(event);) {
         for (; !layouts_.empty() && layouts_.front().timeNs <= event.timeNs; layouts_.erase(layouts_.begin()))
-            grips_ = PadMotors::gripsOf(layouts_.front().panner);
+            grips_ = layouts_.front().panner;
         motors_.strike(event, grips_);
         ++counts_.events;
     }

@@ -6,8 +6,9 @@
 // time, so the commands equal those of an offline render as long as events arrive in time. A command lasts at
 // most 200 ms and is repeated before it ends, so motors stop soon if the program dies.
 #pragma once
-#include "Core/EventQueue.h"
+#include "Core/ControlQueue.h"
 #include "Core/Pads/PadMotors.h"
+#include "Live/Documents/SessionLog.h"
 #include "Live/Pads/GamePads.h"
 #include "Live/Session/FeltClock.h"
 #include "Live/Session/FeltOutput.h"
@@ -61,7 +62,7 @@ private:
     std::string name_;
     bool isProfileGiven_ = false;
     EventQueue<CollisionEvent, 1024> events_; // in session time
-    EventQueue<RenderControl, 256> controls_;
+    ControlQueue<256> controls_;
     std::atomic<double> leadSeconds_{0.0};
 
     mutable std::mutex mutex_; // guards the members below, used by the thread and M
@@ -74,7 +75,8 @@ private:
     FeltClock clock_;
     const PhantomPanner first_; // the session's first panner
     PhantomPanner grips_;
-    std::vector<RenderControl> layouts_, stops_; // waiting for their time
+    std::vector<PannerChange> layouts_; // grips, waiting for their time, as the next
+    std::vector<std::int64_t> stopsNs_;
     PadCommand sent_;
     std::int64_t sentNs_ = 0, looksNs_ = 0, playedNs_ = 0; // steady clock; steady clock; session time
     PadCounts counts_;

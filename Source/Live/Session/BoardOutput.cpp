@@ -77,8 +77,12 @@ void BoardOutput::feed() {
 
 // A layout is applied with the first event of its time, other controls when their time is felt.
 void BoardOutput::takeControls() {
-    for (RenderControl control; controls_.pop(control);)
-        (control.kind == RenderControl::Kind::panner ? layouts_ : others_).push_back(control);
+    for (RenderControl control; controls_.pop(control); controls_.done(control)) {
+        if (control.panner != nullptr)
+            layouts_.push_back({control.timeNs, *control.panner});
+        else
+            others_.push_back(control);
+    }
     const std::int64_t now = BoardLink::nowNs();
     const auto waits = std::find_if(others_.begin(), others_.end(),
                                     [&](const auto& c) { return clock_.steadyAt(c.timeNs) > now; });

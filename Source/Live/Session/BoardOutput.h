@@ -7,8 +7,9 @@
 // too. Controls act when they are felt on the device, except that a stop discards events in transit to the
 // board.
 #pragma once
-#include "Core/EventQueue.h"
+#include "Core/ControlQueue.h"
 #include "Core/PhantomPanner.h"
+#include "Live/Documents/SessionLog.h"
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/FeltClock.h"
 #include "Live/Session/FeltOutput.h"
@@ -68,14 +69,15 @@ private:
     wire::Telemetry before_; // telemetry when it became ready: a board's counters are never reset
     EventQueue<CollisionEvent, 1024> events_; // in session time, as the renderer gets them; read by the link
                                               // thread
-    EventQueue<RenderControl, 256> controls_;
+    ControlQueue<256> controls_;
     FeltOutput* device_ = nullptr; // set by M, while the link thread is not in feed()
 
     // Link thread:
     int rateHz_ = 0; // of the session
     FeltClock clock_;
     PhantomPanner panner_;
-    std::vector<RenderControl> layouts_, others_; // pending until their time
+    std::vector<PannerChange> layouts_; // pending until their time, as the next
+    std::vector<RenderControl> others_;
     std::vector<BoardPath> paths_;  // moving tones, kept until their end is felt: another path may continue
                                     // there
     std::vector<BoardSteps> steps_; // moving tones as series of events: for further ones, or for a board

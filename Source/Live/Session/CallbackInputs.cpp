@@ -36,8 +36,7 @@ bool CallbackInputs::perform(RenderInput input, int frame) noexcept {
 void CallbackInputs::forget() noexcept {
     for (CollisionEvent unplayed; strikes_.pop(unplayed);) {
     }
-    for (RenderControl undone; controls_.pop(undone);) {
-    }
+    controls_.clear();
     for (RenderInput undone; inputs_.pop(undone);) {
     }
     spawns_ = 0;

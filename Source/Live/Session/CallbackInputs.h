@@ -2,8 +2,7 @@
 // Inputs that arrive in the render call itself (MIDI, automation), on their way to the renderer and the
 // world.
 #pragma once
-#include "Core/EventQueue.h"
-#include "Core/RenderControl.h"
+#include "Core/ControlQueue.h"
 #include "Live/Session/AddedSamples.h"
 #include "Live/Session/SessionWorld.h"
 #include "Live/Session/Timeline.h"
@@ -23,6 +22,7 @@ public:
     bool strike(CollisionEvent event, int frame) noexcept { return strike(event, frame, 0); }
     /// `afterNs` after that frame, which may be past
     bool strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept;
+    /// its panner is copied; at most 16 of them wait
     bool control(RenderControl control, int frame) noexcept;
     bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step, if there is one
 
@@ -68,7 +68,7 @@ private:
     const std::vector<std::vector<Action>> groups_;
     EventQueue<CollisionEvent, 1024> strikes_; // written and read by R: room for a dense chord in a block of
                                                // 8192 frames
-    EventQueue<RenderControl, 128> controls_;  // senders limit their rate
+    ControlQueue<128, 16> controls_;           // senders limit their rate
     EventQueue<RenderInput, 1024> inputs_;     // from R to the thread that steps the world
     AddedSamples* added_ = nullptr;
     std::uint64_t spawns_ = 0;          // this and the next are guarded by the world mutex

@@ -3,6 +3,7 @@
 #include "Live/Session/HeardContacts.h"
 #include "Core/Decibels.h"
 #include "Core/SoundNumber.h"
+#include <deque>
 #include <utility>
 
 namespace physvib {
@@ -24,15 +25,16 @@ RendererSettings settingsAt(int sampleRateHz, int ears, const PhantomPanner& fie
 }
 
 // What of the actuators' controls changes the audio: stops, and with two channels fields.
-std::vector<RenderControl> controlsOf(std::vector<RenderControl> actuators, int ears) {
+std::vector<RenderControl> controlsOf(std::vector<RenderControl> actuators, int ears,
+                                      std::deque<PhantomPanner>& panners) {
     using enum RenderControl::Kind;
     std::erase_if(actuators, [ears](const RenderControl& control) {
         return control.kind != stopAll && !(control.kind == panner && ears > 1);
     });
     for (RenderControl& control : actuators)
         if (control.kind == panner)
-            control.panner =
-                betweenEars(control.panner.fieldWidthMetres(), control.panner.fieldHeightMetres());
+            control.panner = &panners.emplace_back(
+                betweenEars(control.panner->fieldWidthMetres(), control.panner->fieldHeightMetres()));
     return actuators;
 }
 
@@ -43,14 +45,16 @@ struct HeardContacts::Source {
     bool pop(CollisionEvent& event) noexcept { return heard.events_.pop(event); }
     bool pop(RenderControl& control) noexcept {
         Change change;
-        if (!heard.changes_.pop(change)) return false;
-        control.timeNs = change.timeNs;
-        control.kind =
-            change.fieldWidthMetres > 0.0 ? RenderControl::Kind::panner : RenderControl::Kind::stopAll;
-        if (control.kind == RenderControl::Kind::panner)
-            control.panner = betweenEars(change.fieldWidthMetres, change.fieldHeightMetres);
+        if (!heard.fields_.hasRoom() || !heard.changes_.pop(change)) return false;
+        control = {.timeNs = change.timeNs};
+        if (change.fieldWidthMetres > 0.0) {
+            control.kind = RenderControl::Kind::panner;
+            control.panner =
+                heard.fields_.put(betweenEars(change.fieldWidthMetres, change.fieldHeightMetres));
+        }
         return true;
     }
+    void done(const RenderControl& control) noexcept { PannerPool<32>::handBack(control.panner); }
 };
 
 void HeardContacts::prepare(int sampleRateHz) {
@@ -60,6 +64,8 @@ void HeardContacts::prepare(int sampleRateHz) {
     }
     for (Change undone; changes_.pop(undone);) {
     }
+    fields_.clear();
+    fields_.reserve(32);
 }
 
 void HeardContacts::moveTo(int sampleRateHz, std::int64_t frame) {
@@ -87,7 +93,8 @@ void HeardContacts::render(float* const* out, int frames) noexcept PHYSVIB_NONBL
 RenderStatus renderHeard(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
                          const HeardRender& heard, const BlockConsumer& consume) {
     std::erase_if(events, [](const CollisionEvent& event) { return isClip(event.sound); });
-    const auto changes = controlsOf(std::move(controls), heard.ears);
+    std::deque<PhantomPanner> panners;
+    const auto changes = controlsOf(std::move(controls), heard.ears, panners);
     const auto gain = static_cast<float>(fromDecibels(heard.levelDb));
     std::vector<std::vector<float>> scaled(static_cast<std::size_t>(heard.ears));
     std::vector<const float*> at(scaled.size());

@@ -2,7 +2,7 @@
 // Audio of the contacts, for loudspeakers or headphones: one channel or left and right beside the actuators'
 // channels, sample-synchronous with them.
 #pragma once
-#include "Core/EventQueue.h"
+#include "Core/ControlQueue.h"
 #include "Core/HapticRenderer.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
@@ -37,7 +37,7 @@ public:
         if (control.kind == RenderControl::Kind::stopAll) changes_.push({control.timeNs});
         if (control.kind == RenderControl::Kind::panner && ears_ > 1)
             changes_.push(
-                {control.timeNs, control.panner.fieldWidthMetres(), control.panner.fieldHeightMetres()});
+                {control.timeNs, control.panner->fieldWidthMetres(), control.panner->fieldHeightMetres()});
     }
 
     /// As HapticRenderer. R, wait-free.
@@ -61,6 +61,7 @@ private:
     // plays in a block at a time, and all pending controls of a session at once.
     EventQueue<CollisionEvent, 16384> events_;
     EventQueue<Change, 512> changes_;
+    PannerPool<32> fields_; // that the renderer has not come to; more wait in changes_
     std::vector<ContactRecording> recordings_;
     PhantomPanner field_;
     int ears_;

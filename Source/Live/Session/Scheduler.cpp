@@ -35,8 +35,7 @@ Scheduler::Scheduler(const SessionSetup& setup, const Timeline& time, DevicePuls
     , played_{setup.recordings} {}
 
 void Scheduler::prepare() {
-    for (RenderControl undone; controls_.pop(undone);) {
-    }
+    controls_.clear();
     check_.reset();
     log_ = {};
     panner_ = setup_.panner;
@@ -75,6 +74,8 @@ Result<std::int64_t> Scheduler::take(Action& action, std::int64_t) {
 }
 
 Result<std::int64_t> Scheduler::take(RenderControl& control, std::int64_t) {
+    if ((control.kind == RenderControl::Kind::panner) != (control.panner != nullptr))
+        return Failure{"expected a panner with the control that sets it, and with no other"};
     postDueStops(time_.nowNs());
     control.timeNs = toldNs();
     if (!post(control)) return Failure{"too many controls at once"};
@@ -90,13 +91,13 @@ bool Scheduler::post(RenderControl& control) {
     sinks_.posted(control);
     channels_.note(control);
     if (control.kind == RenderControl::Kind::ceiling) channels_.raiseCeiling(control.channel, control.value);
-    if (control.kind == RenderControl::Kind::panner) panner_ = control.panner;
+    if (control.panner != nullptr) panner_ = *control.panner;
     if (control.kind == RenderControl::Kind::gain && control.channel >= 0 &&
         control.channel < limits::maxEnchanters)
         followedGains_[static_cast<std::size_t>(control.channel)] = std::numeric_limits<float>::quiet_NaN();
     if (!isLogged_) return true;
-    if (control.kind == RenderControl::Kind::panner)
-        log_.panners.push_back({control.timeNs, control.panner});
+    if (control.panner != nullptr)
+        log_.panners.push_back({control.timeNs, *control.panner});
     else
         log_.channels.push_back({control.timeNs, control.kind, control.channel, control.value});
     return true;

@@ -2,7 +2,7 @@
 // Processes all inputs to a session from outside: checks them, gives them a time, logs them, and passes them
 // to the world or the renderer.
 #pragma once
-#include "Core/EventQueue.h"
+#include "Core/ControlQueue.h"
 #include "Io/Result.h"
 #include "Live/Documents/SessionLog.h"
 #include "Live/Session/Input.h"
@@ -67,7 +67,7 @@ private:
     WorldRunner& world_;
     RenderedChannels& channels_;
     SinkSet& sinks_;
-    EventQueue<RenderControl, 256> controls_;
+    ControlQueue<256> controls_;
     std::atomic<std::int64_t> nextStopNs_{never}; // the first of stops_; readable without the mutex
     std::atomic<bool> follows_{false};            // there are lanes; readable without the mutex
 

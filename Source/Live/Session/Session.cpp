@@ -30,6 +30,7 @@ struct Session::Source {
         session.channels_.tell(control);
         return true;
     }
+    void done(const RenderControl& control) noexcept { ControlQueue<1>::done(control); }
     void struck(const CollisionEvent& event, std::int64_t frame) noexcept {
         session.channels_.struck(event, frame);
     }

@@ -56,7 +56,8 @@ public:
     /// Collisions of the world, at once and in time order; not events of the render call. On the thread that
     /// holds the world mutex, wait-free.
     virtual void made(const CollisionEvent&) noexcept {}
-    /// Posted controls, in order. On the thread that holds the input mutex, wait-free.
+    /// Posted controls, in order; their panners stay only during the call. On the thread that holds the input
+    /// mutex; it may allocate.
     virtual void posted(const RenderControl&) noexcept {}
     /// An event that was played, of a session at this sample rate. M.
     virtual void played(const PlayedEvent&, int) {}

@@ -24,7 +24,6 @@ WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, Device
     , sinks_{sinks}
     , world_{setup.run(), setup.shaping, setup.log != LogUse::none}
     , state_{std::make_shared<const Scene>(setup.scene), setup.seed} {
-    made_.reserve(1024); // events of a step; more are rare
     world_.start(0, state_.scene, state_.seed);
     showPoses();
 }

@@ -139,7 +139,7 @@ void InputListener::tellLeftOut() {
 
 std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from) {
     if (const auto* action = std::get_if<Action>(&input)) return session.take({*action}).error;
-    if (const auto* control = std::get_if<RenderControl>(&input)) return takeControl(*control, session);
+    if (const auto* control = std::get_if<OwnedControl>(&input)) return takeControl(*control, session);
     if (const auto* silence = std::get_if<SilenceControl>(&input))
         return takeSilence(output.silence(), *silence, from);
     return {};

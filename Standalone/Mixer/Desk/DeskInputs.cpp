@@ -48,7 +48,7 @@ bool DeskInputs::haveCome() {
 
 std::string DeskInputs::take(const LineInput& input) {
     if (const auto* action = std::get_if<Action>(&input)) return desk_.world().act(*action);
-    if (const auto* control = std::get_if<RenderControl>(&input)) return take(*control);
+    if (const auto* control = std::get_if<OwnedControl>(&input)) return take(*control);
     if (const auto* silence = std::get_if<SilenceControl>(&input)) {
         std::string fault = takeSilence(desk_.output().silence(), *silence, SilenceHolder::osc);
         desk_.showSilence();

@@ -20,13 +20,13 @@ bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
 
 void ToldMix::tell(Session& session, const Mix& mix) {
     using Kind = RenderControl::Kind;
-    const auto post = [&session](Kind kind, const PhantomPanner& panner) {
+    const auto post = [&session](Kind kind, const PhantomPanner* panner = nullptr) {
         return session.take({RenderControl{0, kind, 0, 0.0f, panner}}).error.empty();
     };
     if (const auto panner = mix.panner(); !isSame(panner_, panner)) {
         // a channel may belong to another actuator now
-        if (panner.channels() < panner_.channels() && !post(Kind::stopAll, {})) return;
-        if (!post(Kind::panner, panner)) return;
+        if (panner.channels() < panner_.channels() && !post(Kind::stopAll)) return;
+        if (!post(Kind::panner, &panner)) return;
         panner_ = panner;
     }
     const auto felt = feltStrips(mix);

@@ -38,7 +38,8 @@ StudySound::StudySound(Desk& desk)
 StudySound::~StudySound() {
     const Mix& mix = desk_.mix();
     if (isPlaying()) post(Kind::stopAll, 0, 0.0f);
-    post(Kind::panner, 0, 0.0f, mix.panner());
+    const PhantomPanner panner = mix.panner();
+    post(Kind::panner, 0, 0.0f, &panner);
     desk_.exposure().use(mix.layout);
     useRecordings({});
     const auto felt = feltStrips(mix);
@@ -49,7 +50,7 @@ StudySound::~StudySound() {
     desk_.setSlowness(slowness_);
 }
 
-void StudySound::post(Kind kind, int channel, float value, const PhantomPanner& panner) {
+void StudySound::post(Kind kind, int channel, float value, const PhantomPanner* panner) {
     RenderControl control;
     control.kind = kind;
     control.channel = channel;
@@ -85,7 +86,7 @@ std::string StudySound::play(const FeltStimulus& stimulus) {
     const auto& strips = desk_.mix().strips;
     gains_.resize(strips.size());
     desk_.exposure().use(stimulus.layout);
-    post(Kind::panner, 0, 0.0f, stimulus.stimulus.panner);
+    post(Kind::panner, 0, 0.0f, &stimulus.stimulus.panner);
     useRecordings(stimulus.recordings);
     for (std::size_t j = 0; j < stimulus.gains.size(); ++j) {
         const float gain = strips[j].isInverted ? -stimulus.gains[j] : stimulus.gains[j];

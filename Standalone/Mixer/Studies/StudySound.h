@@ -45,7 +45,7 @@ public:
 
 private:
     void useRecordings(const std::vector<ContactRecording>& recordings);
-    void post(RenderControl::Kind kind, int channel, float value, const PhantomPanner& panner = {});
+    void post(RenderControl::Kind kind, int channel, float value, const PhantomPanner* panner = nullptr);
 
     std::vector<double> plannedPeaks(const FeltStimulus& stimulus) const;
     Course judged();
