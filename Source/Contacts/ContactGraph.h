@@ -20,7 +20,7 @@ public:
     static constexpr std::int32_t noComponent = -1;
 
     /// Capacity in pairs without an allocation.
-    explicit ContactGraph(std::size_t edges = 1024);
+    explicit ContactGraph(std::size_t edges = 128);
 
     /// Nodes are passing by default. A change costs a rebuild.
     void setPassing(std::int32_t node, bool isPassing);

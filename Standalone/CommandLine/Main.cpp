@@ -7,6 +7,7 @@
 #include "Options/Reference.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <map>
@@ -35,12 +36,15 @@ int run(int argc, char** argv) {
     OptionTable app{"physvib", "PhysVib: physics collisions as vibration, on 1 to 64 actuators."};
     app.addVersion("physvib " PHYSVIB_VERSION);
     std::map<const OptionTable*, std::function<int()>> runs;
+    const bool isReference = argc == 3 && std::string_view{argv[1]} == referenceWord;
     for (const auto make : commands) {
         const Command command = make();
         OptionTable& table = app.addCommand(command.name, command.meaning);
-        runs[&table] = command.declare(table);
+        // the options of the others would cost more than many a call
+        if (isReference || std::find(argv, argv + argc, std::string_view{command.name}) != argv + argc)
+            runs[&table] = command.declare(table);
     }
-    if (argc == 3 && std::string_view{argv[1]} == referenceWord) return writeOwnReference(app, argv[2]);
+    if (isReference) return writeOwnReference(app, argv[2]);
     const ParsedWords parsed = parseArguments(app, argc, argv);
     if (!parsed.help.empty()) {
         std::cout << parsed.help;
