@@ -5,7 +5,7 @@
 #include "Calls/RenderJob.h"
 #include "Io/Disk/FileClash.h"
 #include "Live/Recordings/LoadRecordings.h"
-#include "Live/Session/HeardContacts.h"
+#include "Live/Session/ContactAudio.h"
 #include "Live/Session/SessionRender.h"
 #include <algorithm>
 #include <cmath>
@@ -51,11 +51,11 @@ std::vector<RenderControl> controlsIn(const SavedSession& session, const MoviePa
 bool addSound(MovieOutput& movie, const SavedSession& session, const MoviePart& part,
               const std::vector<CollisionEvent>& hits, const std::function<bool()>& goesOn) {
     bool isWhole = true;
-    HeardRender heard{soundRateHz, std::llround(part.seconds() * soundRateHz)};
+    ContactAudioRender heard{soundRateHz, std::llround(part.seconds() * soundRateHz)};
     heard.ears = ears;
     heard.field = session.panner;
     heard.levelDb = usualContactDb;
-    renderHeard(hits, controlsIn(session, part), heard, [&](const float* const* channels, int frames) {
+    renderContactAudio(hits, controlsIn(session, part), heard, [&](const float* const* channels, int frames) {
         return isWhole = movie.takeSound(channels, frames) && goesOn();
     });
     return isWhole;

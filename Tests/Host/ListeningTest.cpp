@@ -175,7 +175,7 @@ TEST(Listening, StopsWithWhatIsFelt) {
 }
 
 TEST(Listening, NoneOfManyStopsIsLost) {
-    HeardContacts heard{{}};
+    ContactAudio heard{{}};
     heard.prepare(48000);
     CollisionEvent tone;
     tone.timeNs = 1'000'000;

@@ -12,7 +12,7 @@ constexpr std::int64_t unixAhead = 1'700'000'000'000'000'000, blockNs = 10'666'6
                        deviceNs = 21'333'333;
 
 /// The block that begins at session time `sessionNs`, asked for `delayNs` after `steadyNs`.
-FeltMoment blockAt(std::int64_t sessionNs, std::int64_t steadyNs, std::int64_t delayNs) {
+OutputMoment blockAt(std::int64_t sessionNs, std::int64_t steadyNs, std::int64_t delayNs) {
     return {sessionNs - playOutNs, steadyNs + delayNs + deviceNs, playOutNs + deviceNs};
 }
 

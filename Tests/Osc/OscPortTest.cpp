@@ -15,7 +15,7 @@ namespace {
 using namespace test;
 
 /// A device whose blocks are asked for by the test.
-struct FakeOutput final : FeltOutput {
+struct FakeOutput final : OutputClock {
     FakeOutput() { tell({1'000'000'000, 1'000'000'000, 50'000'000}); }
 };
 

@@ -29,7 +29,7 @@ CollisionEvent hit(std::int64_t timeNs, double frequencyHz, double amplitude, do
 }
 
 /// A device that asks for a block every 5 ms, of a session that began with it.
-class PacedDevice final : public FeltOutput {
+class PacedDevice final : public OutputClock {
 public:
     PacedDevice() { setLevel(1.0f); }
     std::int64_t sessionNs() const { return now() - beganNs; }

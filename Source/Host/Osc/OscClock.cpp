@@ -46,7 +46,7 @@ std::int64_t unixAheadNs() noexcept {
     return ahead;
 }
 
-void OscClock::follow(const FeltMoment& moment, std::int64_t unixAheadNs) noexcept {
+void OscClock::follow(const OutputMoment& moment, std::int64_t unixAheadNs) noexcept {
     if (moment.steadyNs == 0) return;
     clock_.add({moment.sessionNs + moment.behindNs, moment.steadyNs});
     behindNs_ = moment.behindNs;

@@ -2,7 +2,7 @@
 // Converts between OSC time tags (the sender's clock) and session time.
 #pragma once
 #include "Host/Osc/OscPacket.h"
-#include "Live/Session/FeltClock.h"
+#include "Live/Session/SessionClock.h"
 #include <cstdint>
 
 namespace physvib {
@@ -23,7 +23,7 @@ public:
     static constexpr std::int64_t mostSlewPpm = 200;
 
     /// `unixAheadNs`: system clock minus steady clock.
-    void follow(const FeltMoment& moment, std::int64_t unixAheadNs) noexcept;
+    void follow(const OutputMoment& moment, std::int64_t unixAheadNs) noexcept;
 
     bool isReady() const noexcept { return clock_.isReady(); }
 
@@ -38,7 +38,7 @@ public:
     std::int64_t presentUnixNs(std::int64_t sessionNs) const noexcept { return sessionNs + beganNs_; }
 
 private:
-    FeltClock clock_;
+    SessionClock clock_;
     std::int64_t beganNs_ = 0, behindNs_ = 0; // start of the session, ns since 1970; latency until it is felt
     std::int64_t settledNs_ = 0, followedNs_ = 0; // of the steady clock
 };

@@ -13,7 +13,7 @@ constexpr std::int64_t clockSlackNs = 100'000; // tolerance, because two clocks 
 
 } // namespace
 
-OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device,
+OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, OutputClock& device,
                  OscHooks hooks)
     : session_{session}
     , device_{device}

@@ -5,8 +5,8 @@
 #include "Host/Osc/OscDoor.h"
 #include "Host/Osc/OscReplies.h"
 #include "Host/Osc/OscSocket.h"
-#include "Live/Session/FeltOutput.h"
 #include "Live/Session/InputQueue.h"
+#include "Live/Session/OutputClock.h"
 #include "Live/Session/Sink.h"
 #include <atomic>
 #include <mutex>
@@ -39,7 +39,7 @@ public:
     static constexpr std::int64_t statusEveryNs = 1'000'000'000;
 
     /// All arguments outlive the port. Check error() afterwards. M.
-    OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device,
+    OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, OutputClock& device,
             OscHooks hooks);
     ~OscPort() override;
 
@@ -78,7 +78,7 @@ private:
     void count(bool left) noexcept;
 
     Session& session_;
-    FeltOutput& device_;
+    OutputClock& device_;
     OscDoor door_;
     OscSocket in_, out_;
     std::string error_;

@@ -30,7 +30,7 @@ int latencyFrames(AudioDevice& device) {
 } // namespace
 
 AudioOutput::AudioOutput(Session& session, AudioDrivers drivers, const std::atomic<bool>* isEnded)
-    : FeltOutput{isEnded}
+    : OutputClock{isEnded}
     , played_{session}
     , receipts_{session.channels()}
     , keeper_{std::move(drivers), isEnded} {}
@@ -228,7 +228,7 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     const auto start = Clock::now();
     Session& session = played_.now();
     const std::int64_t startNs = steadyNs(start);
-    const FeltMoment felt = played_.nextFelt(startNs);
+    const OutputMoment felt = played_.nextFelt(startNs);
     if (session.pulse().isStill(startNs)) { // the first block after a pause
         receipts_.begin();
         session.comeBack(startNs);

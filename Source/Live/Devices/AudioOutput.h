@@ -13,23 +13,23 @@
 #include "Live/Devices/DeviceGuard.h"
 #include "Live/Devices/DeviceKeeper.h"
 #include "Live/Devices/DeviceWatch.h"
-#include "Live/Devices/HeardSignals.h"
 #include "Live/Devices/LoadMeter.h"
+#include "Live/Devices/MonitorMix.h"
 #include "Live/Devices/OnOffMotors.h"
 #include "Live/Devices/PlayedSession.h"
 #include "Live/Devices/Receipts.h"
-#include "Live/Session/FeltOutput.h"
+#include "Live/Session/OutputClock.h"
 #include <atomic>
 #include <string>
 #include <vector>
 
 namespace physvib {
 
-class AudioOutput final : public FeltOutput, private DeviceUser {
+class AudioOutput final : public OutputClock, private DeviceUser {
 public:
     using Clock = DeviceWatch::Clock;
 
-    /// `session` outlives the output; `drivers` are searched; `isEnded` as for FeltOutput. M.
+    /// `session` outlives the output; `drivers` are searched; `isEnded` as for OutputClock. M.
     AudioOutput(Session& session, AudioDrivers drivers, const std::atomic<bool>* isEnded = nullptr);
     ~AudioOutput() override;
 
@@ -136,7 +136,7 @@ private:
     InputTap* inputTap_ = nullptr;
     OutputMap map_;
     GainRamp master_;
-    HeardSignals heard_{map_};
+    MonitorMix heard_{map_};
     ExposureMeter exposure_;
     Receipts receipts_;
     OnOffMotors motors_;

@@ -2,7 +2,7 @@
 // Selects the session that a device plays, its own or a borrowed one, and holds its sample rate, block size
 // and output buffers.
 #pragma once
-#include "Live/Session/FeltOutput.h"
+#include "Live/Session/OutputClock.h"
 #include "Live/Session/Session.h"
 #include <atomic>
 #include <vector>
@@ -54,7 +54,7 @@ public:
     }
 
     /// Time at which the next block is felt, for a block requested at `steadyNs`. R.
-    FeltMoment nextFelt(std::int64_t steadyNs) const noexcept {
+    OutputMoment nextFelt(std::int64_t steadyNs) const noexcept {
         const std::int64_t felt = now().timeline().nextFeltNs();
         return {felt, steadyNs + latencyNs_, now().timeline().nextNs(0) - felt + latencyNs_, rate_};
     }

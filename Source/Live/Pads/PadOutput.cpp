@@ -56,7 +56,7 @@ std::string PadOutput::awaitReady(const std::function<bool()>& goesOn) {
     }
 }
 
-void PadOutput::follow(FeltOutput* device) {
+void PadOutput::follow(OutputClock* device) {
     const std::lock_guard lock{mutex_};
     if (device == device_) return;
     rest();
@@ -129,7 +129,7 @@ void PadOutput::adopt(std::unique_ptr<GamePad> pad) {
 
 void PadOutput::feed(std::int64_t nowNs) {
     if (device_ == nullptr) return;
-    if (const FeltMoment felt = device_->felt(); felt.steadyNs != 0) clock_.add(felt);
+    if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) clock_.add(felt);
     if (!clock_.isReady()) return;
     const std::int64_t sessionNs = nowNs - clock_.steadyAt(0);
     if (sessionNs + jumpNs < playedNs_) begin();

@@ -2,16 +2,16 @@
 // Plays a session on a game controller beside the audio device; hits are felt at the same time, as far as
 // motors can follow.
 //
-// FeltClock estimates from the device's blocks when a session time is felt. Each motor command has a session
-// time, so the commands equal those of an offline render as long as events arrive in time. A command lasts at
-// most 200 ms and is repeated before it ends, so motors stop soon if the program dies.
+// SessionClock estimates from the device's blocks when a session time is felt. Each motor command has a
+// session time, so the commands equal those of an offline render as long as events arrive in time. A command
+// lasts at most 200 ms and is repeated before it ends, so motors stop soon if the program dies.
 #pragma once
 #include "Core/ControlQueue.h"
 #include "Core/Pads/PadMotors.h"
 #include "Live/Documents/SessionLog.h"
 #include "Live/Pads/GamePads.h"
-#include "Live/Session/FeltClock.h"
-#include "Live/Session/FeltOutput.h"
+#include "Live/Session/OutputClock.h"
+#include "Live/Session/SessionClock.h"
 #include "Live/Session/Sink.h"
 #include "Scene/PadFile.h"
 #include <atomic>
@@ -38,7 +38,7 @@ public:
 
     std::string awaitReady(const std::function<bool()>& goesOn) override;
     double latencySeconds() const noexcept override { return leadSeconds_; }
-    void follow(FeltOutput* device) override;
+    void follow(OutputClock* device) override;
     void made(const CollisionEvent& event) noexcept override { events_.push(event); }
     void posted(const RenderControl& control) noexcept override { controls_.push(control); }
     SinkState state() const override;
@@ -68,11 +68,11 @@ private:
     mutable std::mutex mutex_; // guards the members below, used by the thread and M
     PadProfile profile_;
     std::string fault_; // a permanent error: nothing can be played
-    FeltOutput* device_ = nullptr;
+    OutputClock* device_ = nullptr;
     std::unique_ptr<GamePad> pad_;
     std::string lastName_; // of the last controller
     PadMotors motors_{PadLaw{}};
-    FeltClock clock_;
+    SessionClock clock_;
     const PhantomPanner first_; // the session's first panner
     PhantomPanner grips_;
     std::vector<PannerChange> layouts_; // grips, waiting for their time, as the next

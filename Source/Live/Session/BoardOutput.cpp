@@ -32,7 +32,7 @@ std::string BoardOutput::awaitReady(const std::function<bool()>& goesOn) {
     return fault;
 }
 
-void BoardOutput::follow(FeltOutput* device) {
+void BoardOutput::follow(OutputClock* device) {
     if (device == device_) return;
     link_.follow(nullptr);
     device_ = device;
@@ -57,7 +57,7 @@ std::string BoardOutput::summary(const std::function<bool()>& goesOn) const {
 }
 
 void BoardOutput::feed() {
-    if (const FeltMoment felt = device_->felt(); felt.steadyNs != 0) {
+    if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) {
         clock_.add(felt);
         rateHz_ = felt.sampleRateHz;
     }

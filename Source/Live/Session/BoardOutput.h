@@ -2,17 +2,17 @@
 // Sink that plays a session on a vibration board together with the audio device: each collision is felt on
 // both at the same time.
 //
-// FeltClock converts session time to the time at which the device plays it; the link converts that to a frame
-// of the board. Both use the same events and panner; the device's master level and mute apply to the board
-// too. Controls act when they are felt on the device, except that a stop discards events in transit to the
-// board.
+// SessionClock converts session time to the time at which the device plays it; the link converts that to a
+// frame of the board. Both use the same events and panner; the device's master level and mute apply to the
+// board too. Controls act when they are felt on the device, except that a stop discards events in transit to
+// the board.
 #pragma once
 #include "Core/ControlQueue.h"
 #include "Core/PhantomPanner.h"
 #include "Live/Documents/SessionLog.h"
 #include "Live/Session/BoardLink.h"
-#include "Live/Session/FeltClock.h"
-#include "Live/Session/FeltOutput.h"
+#include "Live/Session/OutputClock.h"
+#include "Live/Session/SessionClock.h"
 #include "Live/Session/Sink.h"
 #include "Wire/BoardPath.h"
 #include "Wire/BoardSteps.h"
@@ -35,7 +35,7 @@ public:
 
     std::string awaitReady(const std::function<bool()>& goesOn) override;
     double latencySeconds() const noexcept override { return latencySeconds_; }
-    void follow(FeltOutput* device) override;
+    void follow(OutputClock* device) override;
     void made(const CollisionEvent& event) noexcept override;
     void posted(const RenderControl& control) noexcept override { controls_.push(control); }
     SinkState state() const override;
@@ -70,11 +70,11 @@ private:
     EventQueue<CollisionEvent, 1024> events_; // in session time, as the renderer gets them; read by the link
                                               // thread
     ControlQueue<256> controls_;
-    FeltOutput* device_ = nullptr; // set by M, while the link thread is not in feed()
+    OutputClock* device_ = nullptr; // set by M, while the link thread is not in feed()
 
     // Link thread:
     int rateHz_ = 0; // of the session
-    FeltClock clock_;
+    SessionClock clock_;
     PhantomPanner panner_;
     std::vector<PannerChange> layouts_; // pending until their time, as the next
     std::vector<RenderControl> others_;

@@ -4,7 +4,7 @@
 #pragma once
 #include "Core/LastChanges.h"
 #include "Core/SoundNumber.h"
-#include "Live/Session/HeardContacts.h"
+#include "Live/Session/ContactAudio.h"
 #include "Live/Session/OnsetMarks.h"
 #include "Live/Session/SessionSetup.h"
 #include <algorithm>
@@ -41,7 +41,7 @@ private:
     explicit RenderedChannels(const SessionSetup& setup)
         : actuators_{setup.channels}
         , heard_{setup.contactSound
-                     ? std::make_unique<HeardContacts>(*setup.contactSound, setup.ears, setup.panner)
+                     ? std::make_unique<ContactAudio>(*setup.contactSound, setup.ears, setup.panner)
                      : nullptr}
         , marks_{setup.marks ? std::make_unique<OnsetMarks>(*setup.marks) : nullptr} {
         std::ranges::copy(setup.ceilings, ceilings_.begin());
@@ -94,7 +94,7 @@ private:
     std::uint64_t lost() const noexcept { return heard_ ? heard_->lost() : 0; }
 
     const int actuators_;
-    const std::unique_ptr<HeardContacts> heard_;
+    const std::unique_ptr<ContactAudio> heard_;
     const std::unique_ptr<OnsetMarks> marks_;
     std::array<std::atomic<float>, limits::maxEnchanters> ceilings_;
     LastChanges last_; // the scheduler's thread

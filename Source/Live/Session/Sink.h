@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-class FeltOutput;
+class OutputClock;
 
 /// A block as the session renders it, before the master level.
 struct RenderedBlock {
@@ -51,7 +51,7 @@ public:
     /// From now on it plays in sync with that device: the device's blocks give the time, and its level and
     /// mute apply here too. Null: none; it stops playing, and on return its threads no longer use the device.
     /// M.
-    virtual void follow(FeltOutput*) {}
+    virtual void follow(OutputClock*) {}
 
     /// Collisions of the world, at once and in time order; not events of the render call. On the thread that
     /// holds the world mutex, wait-free.

@@ -32,7 +32,7 @@ public:
         each([&](const Sink& sink) { largest = std::max(largest, sink.latencySeconds()); });
         return largest;
     }
-    void follow(FeltOutput* device) {
+    void follow(OutputClock* device) {
         each([=](Sink& sink) { sink.follow(device); });
     }
     void played(const PlayedEvent& event, int sampleRateHz) {
@@ -80,7 +80,7 @@ private:
 /// While it exists, the sinks follow the device, which must outlive it. M.
 class Following {
 public:
-    Following(SinkSet& sinks, FeltOutput& device)
+    Following(SinkSet& sinks, OutputClock& device)
         : sinks_{sinks} {
         sinks_.follow(&device);
     }

@@ -9,7 +9,7 @@
 #include "Contacts/ContactCounts.h"
 #include "Core/Decibels.h"
 #include "Io/Disk/FileClash.h"
-#include "Live/Session/HeardContacts.h"
+#include "Live/Session/ContactAudio.h"
 #include "Live/Session/OfflineRender.h"
 #include <algorithm>
 #include <iostream>
@@ -75,12 +75,12 @@ void renderContactSound(const LoadedRender& job, std::vector<RenderControl> cont
                         RenderOutputs& outputs) {
     const RenderJob& o = job.options;
     const ContactSounds sounds{job.recordings, o.sampleRateHz};
-    HeardRender heard{o.sampleRateHz, job.frames(), o.blockFrames};
+    ContactAudioRender heard{o.sampleRateHz, job.frames(), o.blockFrames};
     heard.levelDb = o.contactSoundDb;
     heard.recordings = {sounds.contacts(), true};
-    renderHeard(job.made.events, std::move(controls), heard, [&](const float* const* channels, int frames) {
-        return outputs.takeContactSound(channels, frames);
-    });
+    renderContactAudio(
+        job.made.events, std::move(controls), heard,
+        [&](const float* const* channels, int frames) { return outputs.takeContactSound(channels, frames); });
 }
 
 /// The clip's own samples; no collisions, no controls.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a device tells whoever follows it.
-#include "Live/Session/FeltOutput.h"
+#include "Live/Session/OutputClock.h"
 #include <gtest/gtest.h>
 #include <thread>
 #include <vector>
@@ -8,19 +8,19 @@
 namespace physvib {
 namespace {
 
-struct Device final : FeltOutput {
-    using FeltOutput::FeltOutput;
-    using FeltOutput::tell;
+struct Device final : OutputClock {
+    using OutputClock::OutputClock;
+    using OutputClock::tell;
 };
 
-TEST(FeltOutput, EachOfSeveralReadersSeesMomentsWholeAndInTheirOrder) {
+TEST(OutputClock, EachOfSeveralReadersSeesMomentsWholeAndInTheirOrder) {
     constexpr int moments = 20'000;
     Device device;
     std::vector<std::thread> readers;
     for (int i = 0; i < 3; ++i)
         readers.emplace_back([&device] {
             for (std::int64_t last = 0; last < moments;) {
-                const FeltMoment now = device.felt();
+                const OutputMoment now = device.felt();
                 ASSERT_GE(now.sessionNs, last);
                 ASSERT_EQ(now.steadyNs, now.sessionNs);
                 ASSERT_EQ(now.behindNs, now.sessionNs);
@@ -32,7 +32,7 @@ TEST(FeltOutput, EachOfSeveralReadersSeesMomentsWholeAndInTheirOrder) {
     for (std::thread& reader : readers) reader.join();
 }
 
-TEST(FeltOutput, IsSilentWhileSomebodyAsksForItOrTheProgramEnds) {
+TEST(OutputClock, IsSilentWhileSomebodyAsksForItOrTheProgramEnds) {
     std::atomic<bool> isEnded{false};
     Device device{&isEnded};
     EXPECT_FALSE(device.isSilent());

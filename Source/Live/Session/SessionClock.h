@@ -7,19 +7,19 @@
 // lag by the computer's load. The window is a quarter to half a second: 300 ppm of drift are then at most
 // 0.15 ms.
 #pragma once
-#include "Live/Session/FeltOutput.h"
+#include "Live/Session/OutputClock.h"
 #include <algorithm>
 #include <cstdint>
 
 namespace physvib {
 
 /// One thread.
-class FeltClock {
+class SessionClock {
 public:
     static constexpr std::int64_t halfWindowNs = 250'000'000;
 
     /// In time order; repeating a moment changes nothing.
-    void add(const FeltMoment& moment) noexcept {
+    void add(const OutputMoment& moment) noexcept {
         const std::int64_t lag = moment.steadyNs - moment.sessionNs, age = moment.steadyNs - halfBeganNs_;
         // the first, or the first after a pause
         if (!isReady_ || age > 2 * halfWindowNs) before_ = now_ = lag;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// FeltClock: calls that come late, a crystal that drifts, a device that pauses.
-#include "Live/Session/FeltClock.h"
+// SessionClock: calls that come late, a crystal that drifts, a device that pauses.
+#include "Live/Session/SessionClock.h"
 #include <gtest/gtest.h>
 #include <random>
 
@@ -13,7 +13,7 @@ constexpr double ms = 1e6;
 /// ahead.
 double worstErrorMs(double drift, double latestMs, double seconds) {
     std::mt19937 random{3};
-    FeltClock clock;
+    SessionClock clock;
     double worst = 0;
     for (double t = 0; t < seconds; t += 512 / 48000.0) { // session time
         const double late = latestMs * ms * (random() / 4294967296.0);
@@ -29,28 +29,28 @@ double worstErrorMs(double drift, double latestMs, double seconds) {
     return worst;
 }
 
-TEST(FeltClock, OfCallsThatComeLateTheEarliestCounts) {
+TEST(SessionClock, OfCallsThatComeLateTheEarliestCounts) {
     EXPECT_LT(worstErrorMs(0, 8, 60), 2.5) << "their mean would be 4 ms off";
 }
-TEST(FeltClock, FollowsACrystal) {
+TEST(SessionClock, FollowsACrystal) {
     EXPECT_LT(worstErrorMs(300e-6, 0, 60), 0.2);
     EXPECT_LT(worstErrorMs(-300e-6, 0, 60), 0.2);
     EXPECT_LT(worstErrorMs(300e-6, 2, 60), 0.7);
 }
 
-TEST(FeltClock, BeginsAnewAfterAPause) {
-    FeltClock clock;
+TEST(SessionClock, BeginsAnewAfterAPause) {
+    SessionClock clock;
     EXPECT_FALSE(clock.isReady());
     clock.add({1000, 2000});
     EXPECT_TRUE(clock.isReady());
     EXPECT_EQ(clock.steadyAt(1500), 2500);
-    const std::int64_t pause = 3 * FeltClock::halfWindowNs;
+    const std::int64_t pause = 3 * SessionClock::halfWindowNs;
     clock.add({1010, 2010 + pause}); // session time stood still
     EXPECT_EQ(clock.steadyAt(1500), 2500 + pause);
 }
 
-TEST(FeltClock, TheSameMomentAgainChangesNothing) {
-    FeltClock clock;
+TEST(SessionClock, TheSameMomentAgainChangesNothing) {
+    SessionClock clock;
     for (int i = 0; i < 5; ++i) clock.add({1000, 2000});
     EXPECT_EQ(clock.steadyAt(0), 1000);
 }

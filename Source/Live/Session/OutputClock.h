@@ -10,24 +10,24 @@
 namespace physvib {
 
 /// What happened at `sessionNs` is felt at `steadyNs` of the steady clock.
-struct FeltMoment {
+struct OutputMoment {
     std::int64_t sessionNs = 0, steadyNs = 0;
     std::int64_t behindNs = 0; ///< lag of the felt time behind the present: output latency plus the
                                ///< device's own
     int sampleRateHz = 0;      ///< of the block
 };
 
-class FeltOutput {
+class OutputClock {
 public:
     /// `isEnded`, if given, outlives it: while it is true, the output is silent. Message thread (M).
-    explicit FeltOutput(const std::atomic<bool>* isEnded = nullptr)
+    explicit OutputClock(const std::atomic<bool>* isEnded = nullptr)
         : isEnded_{isEnded} {}
 
     /// Of the newest block; {}: none yet. Any thread but the render thread (R).
-    FeltMoment felt() const noexcept {
+    OutputMoment felt() const noexcept {
         for (;;) {
             const auto before = writes_.load(std::memory_order_acquire);
-            const FeltMoment moment{
+            const OutputMoment moment{
                 sessionNs_.load(std::memory_order_acquire), steadyNs_.load(std::memory_order_acquire),
                 behindNs_.load(std::memory_order_acquire), sampleRateHz_.load(std::memory_order_acquire)};
             if (before % 2 == 0 && writes_.load(std::memory_order_relaxed) == before) return moment;
@@ -53,10 +53,10 @@ public:
     }
 
 protected:
-    ~FeltOutput() = default;
+    ~OutputClock() = default;
 
     /// R, wait-free.
-    void tell(const FeltMoment& moment) noexcept {
+    void tell(const OutputMoment& moment) noexcept {
         const auto before = writes_.load(std::memory_order_relaxed);
         writes_.store(before + 1, std::memory_order_relaxed);
         sessionNs_.store(moment.sessionNs, std::memory_order_release);

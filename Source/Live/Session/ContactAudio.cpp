@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Renders the audio of contacts on one channel, or panned to two.
-#include "Live/Session/HeardContacts.h"
+#include "Live/Session/ContactAudio.h"
 #include "Core/Decibels.h"
 #include "Core/SoundNumber.h"
 #include <deque>
@@ -40,8 +40,8 @@ std::vector<RenderControl> controlsOf(std::vector<RenderControl> actuators, int 
 
 } // namespace
 
-struct HeardContacts::Source {
-    HeardContacts& heard;
+struct ContactAudio::Source {
+    ContactAudio& heard;
     bool pop(CollisionEvent& event) noexcept { return heard.events_.pop(event); }
     bool pop(RenderControl& control) noexcept {
         Change change;
@@ -57,7 +57,7 @@ struct HeardContacts::Source {
     void done(const RenderControl& control) noexcept { PannerPool<32>::handBack(control.panner); }
 };
 
-void HeardContacts::prepare(int sampleRateHz) {
+void ContactAudio::prepare(int sampleRateHz) {
     renderer_->prepare(settingsAt(sampleRateHz, ears_, field_));
     setContacts(sampleRateHz);
     for (CollisionEvent unplayed; events_.pop(unplayed);) {
@@ -68,30 +68,30 @@ void HeardContacts::prepare(int sampleRateHz) {
     fields_.reserve(32);
 }
 
-void HeardContacts::moveTo(int sampleRateHz, std::int64_t frame) {
+void ContactAudio::moveTo(int sampleRateHz, std::int64_t frame) {
     renderer_->moveTo(sampleRateHz, frame);
     setContacts(sampleRateHz);
 }
 
-void HeardContacts::setContacts(int sampleRateHz) {
+void ContactAudio::setContacts(int sampleRateHz) {
     contacts_ = {recordings_, sampleRateHz};
     renderer_->setContacts({contacts_.contacts(), true});
 }
 
-void HeardContacts::discard(const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING {
+void ContactAudio::discard(const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING {
     Source source{*this};
     renderer_->discard(source, which);
 }
 
-void HeardContacts::render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
+void ContactAudio::render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
     Source source{*this};
     renderer_->render(source, out, frames);
     for (PlayedEvent told; renderer_->played().pop(told);) {
     } // discarded: the actuators' renderer has reported them
 }
 
-RenderStatus renderHeard(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
-                         const HeardRender& heard, const BlockConsumer& consume) {
+RenderStatus renderContactAudio(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
+                                const ContactAudioRender& heard, const BlockConsumer& consume) {
     std::erase_if(events, [](const CollisionEvent& event) { return isClip(event.sound); });
     std::deque<PhantomPanner> panners;
     const auto changes = controlsOf(std::move(controls), heard.ears, panners);

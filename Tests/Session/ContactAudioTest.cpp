@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The audio of contacts: a render of it is what is played live, to the bit.
-#include "Live/Session/HeardContacts.h"
+#include "Live/Session/ContactAudio.h"
 #include "Core/Decibels.h"
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ CollisionEvent hitAt(std::int64_t timeNs, double x) {
     return hit;
 }
 
-TEST(HeardContacts, ARenderIsWhatIsPlayedAtItsLevelWithFieldsAndStops) {
+TEST(ContactAudio, ARenderIsWhatIsPlayedAtItsLevelWithFieldsAndStops) {
     constexpr int frames = 24'000;
     const PhantomPanner field{EnchanterLayout{1.0, 1.0, 1, {}}, PanningLaw::linear, 1.0, 2.0, 1.0};
     const std::vector events{hitAt(0, 0.2), hitAt(100'000'000, 1.8), hitAt(300'000'000, 1.0)};
@@ -31,7 +31,7 @@ TEST(HeardContacts, ARenderIsWhatIsPlayedAtItsLevelWithFieldsAndStops) {
     stop.timeNs = 400'000'000;
     const std::vector<RenderControl> controls{gain, wider, stop};
 
-    HeardContacts live{{}, 2, field};
+    ContactAudio live{{}, 2, field};
     live.prepare(48'000);
     for (const auto& event : events) live.tell(event);
     for (const auto& control : controls) live.tell(control);
@@ -44,14 +44,14 @@ TEST(HeardContacts, ARenderIsWhatIsPlayedAtItsLevelWithFieldsAndStops) {
         for (int c = 0; c < 2; ++c) played[c].insert(played[c].end(), block[c], block[c] + 480);
     }
 
-    HeardRender heard{48'000, frames};
+    ContactAudioRender heard{48'000, frames};
     heard.ears = 2;
     heard.field = field;
     heard.levelDb = -20.0;
     const auto scale = static_cast<float>(fromDecibels(-20.0));
     int done = 0, wrong = 0;
     float most = 0.0f, apart = 0.0f, last = 0.0f;
-    renderHeard(events, controls, heard, [&](const float* const* channels, int n) {
+    renderContactAudio(events, controls, heard, [&](const float* const* channels, int n) {
         for (int k = 0; k < n; ++k, ++done) {
             for (int c = 0; c < 2; ++c)
                 wrong += channels[c][k] != played[c][static_cast<std::size_t>(done + latency)] * scale;

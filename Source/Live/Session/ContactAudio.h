@@ -14,12 +14,12 @@ namespace physvib {
 /// Has its own renderer: panning, actuator settings and mutes do not affect the audio, and its limiter has
 /// the same latency as the actuators'. An impact plays its material's recording if there is one, else its
 /// mode.
-class HeardContacts {
+class ContactAudio {
 public:
     /// With one channel the place does not matter; with two, impacts on the left of `field` are louder on the
     /// left channel.
-    explicit HeardContacts(std::vector<ContactRecording> recordings, int ears = 1,
-                           const PhantomPanner& field = {})
+    explicit ContactAudio(std::vector<ContactRecording> recordings, int ears = 1,
+                          const PhantomPanner& field = {})
         : recordings_{std::move(recordings)}
         , field_{field}
         , ears_{ears} {}
@@ -69,8 +69,8 @@ private:
     std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
 };
 
-/// The audio of a render; see HeardContacts.
-struct HeardRender {
+/// The audio of a render; see ContactAudio.
+struct ContactAudioRender {
     int sampleRateHz = 48000;
     std::int64_t frames = 0;
     int blockFrames = 1024;
@@ -80,9 +80,9 @@ struct HeardRender {
     RecordedContacts recordings{};
 };
 
-/// Renders offline what HeardContacts plays of `events`, of which clips are not heard, and of the actuators'
+/// Renders offline what ContactAudio plays of `events`, of which clips are not heard, and of the actuators'
 /// `controls`. Message thread (M) only.
-RenderStatus renderHeard(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
-                         const HeardRender& heard, const BlockConsumer& consume);
+RenderStatus renderContactAudio(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
+                                const ContactAudioRender& heard, const BlockConsumer& consume);
 
 } // namespace physvib

@@ -18,10 +18,10 @@
 namespace physvib {
 
 /// Levels come from ListeningSettings; the master level does not apply.
-class HeardSignals {
+class MonitorMix {
 public:
     /// `map` assigns the outputs; it outlives this object.
-    explicit HeardSignals(const OutputMap& map)
+    explicit MonitorMix(const OutputMap& map)
         : map_{map} {}
 
     /// M.
