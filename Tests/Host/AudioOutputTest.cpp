@@ -454,24 +454,24 @@ TEST(AudioOutput, SilenceIsLiftedByWhoAskedOrAtTheMachine) {
     Rig rig, steady;
     ASSERT_EQ(rig.open(), "");
     ASSERT_EQ(steady.open(), "");
-    SilenceHolders& silence = rig.output.silence();
-    const auto lift = [&silence](SilenceHolder holder) { silence.lift(holder, silence.asked(holder)); };
+    MuteRequests& silence = rig.output.silence();
+    const auto lift = [&silence](MuteRequester holder) { silence.lift(holder, silence.asked(holder)); };
     const auto expect = [&](bool isFelt, const char* why) {
         playUntilLoud(rig, steady);
         EXPECT_EQ(loudest(rig.play(0.1, 64)[0]) > 0.0f, isFelt) << why;
         steady.play(0.1, 64);
     };
-    silence.ask(SilenceHolder::standardInput);
-    silence.ask(SilenceHolder::osc);
-    lift(SilenceHolder::osc);
+    silence.request(MuteRequester::standardInput);
+    silence.request(MuteRequester::osc);
+    lift(MuteRequester::osc);
     expect(false, "OSC lifts nothing of standard input's");
-    lift(SilenceHolder::standardInput);
+    lift(MuteRequester::standardInput);
     expect(true, "who asked has lifted it");
     rig.output.setSilent(true);
-    lift(SilenceHolder::osc);
-    lift(SilenceHolder::standardInput);
+    lift(MuteRequester::osc);
+    lift(MuteRequester::standardInput);
     expect(false, "what a person has asked for is lifted at the machine alone");
-    silence.ask(SilenceHolder::osc);
+    silence.request(MuteRequester::osc);
     rig.output.setSilent(false);
     expect(true, "the machine lifts all");
 }

@@ -4,7 +4,7 @@
 #pragma once
 #include "../Fuzz/SessionFuzzing.h"
 #include "Host/Osc/OscDoor.h"
-#include "Live/Session/SilenceHolders.h"
+#include "Live/Session/MuteRequests.h"
 #include <algorithm>
 #include <stdexcept>
 
@@ -17,15 +17,15 @@ public:
 
     /// As OscPort does: the reader silences, the worker does the rest.
     void packet(std::span<const char> bytes) {
-        const std::uint64_t before = silence_.asked(SilenceHolder::osc), asked = silencesIn(bytes);
-        if (asked > 0) silence_.ask(SilenceHolder::osc, before + asked);
+        const std::uint64_t before = silence_.asked(MuteRequester::osc), asked = silencesIn(bytes);
+        if (asked > 0) silence_.request(MuteRequester::osc, before + asked);
         const OscCounts counted = door_.counts();
         answers_.clear();
         hasLifted_ = false;
         door_.take(bytes, clock_, answers_, before);
         const auto read = readOscPacket(bytes);
         demand(door_.counts().messages - counted.messages == read.value.size(), "messages counted otherwise");
-        demand(silence_.asked(SilenceHolder::osc) == before + asked, "silences counted otherwise than done");
+        demand(silence_.asked(MuteRequester::osc) == before + asked, "silences counted otherwise than done");
         demand(asked == 0 || hasLifted_ || silence_.isSilent(), "asked for, and not silent");
         demandLine(door_.counts().fault);
         for (const auto& answer : answers_)
@@ -36,7 +36,7 @@ public:
     /// As InputListener does.
     void line(const std::string& text) {
         const bool silences = asksForSilence(text);
-        if (silences) silence_.ask(SilenceHolder::standardInput);
+        if (silences) silence_.request(MuteRequester::standardInput);
         const auto read =
             readInputLine(text, session_->world().state().scene->materials, session_->channels());
         hasLifted_ = false;
@@ -45,9 +45,9 @@ public:
             if (const auto* message = std::get_if<PlainMessage>(&read.value))
                 fault = messages_.take(*message, nullptr, fuzz::anyClip).error;
             else
-                fault = act(read.value, SilenceHolder::standardInput);
+                fault = act(read.value, MuteRequester::standardInput);
         }
-        demand(!silences || silence_.isHeldBy(SilenceHolder::standardInput), "asked for, and not silent");
+        demand(!silences || silence_.isHeldBy(MuteRequester::standardInput), "asked for, and not silent");
         demandLine(fault);
         goOn();
     }
@@ -57,10 +57,10 @@ public:
         silence_.liftAll();
         demand(!silence_.isSilent(), "silent after all was lifted");
         packet(oscPacket(std::string{oscSilenceAddress}, {"", {{"on", 1.0}}}));
-        demand(silence_.isHeldBy(SilenceHolder::osc), "/physvib/silence did not silence");
+        demand(silence_.isHeldBy(MuteRequester::osc), "/physvib/silence did not silence");
         demand(answers_.size() == 1 && door_.refusals().empty(), "/physvib/silence was not answered");
         line(R"({"control": "silence", "on": true})");
-        demand(silence_.isHeldBy(SilenceHolder::standardInput), "a line did not silence");
+        demand(silence_.isHeldBy(MuteRequester::standardInput), "a line did not silence");
         packet(oscPacket(std::string{oscSilenceAddress}, {"", {{"on", 0.0}}}));
         line(R"({"control": "silence", "on": false})");
         demand(!silence_.isSilent(), "its own off did not lift it");
@@ -78,7 +78,7 @@ private:
                "more than one line: " + fault);
     }
 
-    std::string act(const LineInput& input, SilenceHolder from) {
+    std::string act(const LineInput& input, MuteRequester from) {
         if (const auto* action = std::get_if<Action>(&input)) return session_->take({*action}).error;
         if (const auto* control = std::get_if<OwnedControl>(&input)) return session_->take({*control}).error;
         const auto* asked = std::get_if<SilenceControl>(&input);
@@ -104,11 +104,11 @@ private:
 
     const std::unique_ptr<Session> session_ = fuzz::makeSession();
     MessageRouter messages_{*session_};
-    SilenceHolders silence_;
+    MuteRequests silence_;
     OscDoor door_{
         *session_,
         messages_,
-        {[this](const LineInput& input, const OscOrigin&) { return act(input, SilenceHolder::osc); },
+        {[this](const LineInput& input, const OscOrigin&) { return act(input, MuteRequester::osc); },
          {},
          fuzz::anyClip}};
     OscClock clock_;

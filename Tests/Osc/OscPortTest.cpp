@@ -114,7 +114,7 @@ struct HeldUp : Played {
             isHeldUp = true;
             while (!goesOn) std::this_thread::sleep_for(std::chrono::milliseconds{1});
             const auto* silence = std::get_if<SilenceControl>(&input);
-            return silence != nullptr ? takeSilence(output.silence(), *silence, SilenceHolder::osc)
+            return silence != nullptr ? takeSilence(output.silence(), *silence, MuteRequester::osc)
                                       : std::string{};
         };
         auto port = std::make_unique<OscPort>(anyPort(), session, messages, output, std::move(hooks));

@@ -36,7 +36,7 @@ TEST(OutputClock, IsSilentWhileSomebodyAsksForItOrTheProgramEnds) {
     std::atomic<bool> isEnded{false};
     Device device{&isEnded};
     EXPECT_FALSE(device.isSilent());
-    device.silence().ask(SilenceHolder::osc);
+    device.silence().request(MuteRequester::osc);
     EXPECT_TRUE(device.isSilent());
     device.setSilent(false);
     EXPECT_FALSE(device.isSilent());

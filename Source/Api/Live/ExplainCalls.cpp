@@ -7,9 +7,9 @@ using namespace physvib::api;
 
 namespace {
 
-const char* holderOf(const SilenceHolders& silence) noexcept {
-    if (silence.isHeldBy(SilenceHolder::osc)) return "OSC (/physvib/silence)";
-    if (silence.isHeldBy(SilenceHolder::standardInput)) return "a line of standard input";
+const char* holderOf(const MuteRequests& silence) noexcept {
+    if (silence.isHeldBy(MuteRequester::osc)) return "OSC (/physvib/silence)";
+    if (silence.isHeldBy(MuteRequester::standardInput)) return "a line of standard input";
     return "physvib_live_silence";
 }
 

@@ -45,12 +45,12 @@ void OscPort::read() {
 
 // A packet that finds the queue full still silences. Its sender gets no reply and may repeat it.
 void OscPort::readAll() {
-    SilenceHolders& silence = device_.silence();
+    MuteRequests& silence = device_.silence();
     while (!stop_) {
         const auto bytes = in_.receive();
         if (!bytes) break;
-        const std::uint64_t before = silence.asked(SilenceHolder::osc), asked = silencesIn(*bytes);
-        if (asked > 0) silence.ask(SilenceHolder::osc, before + asked);
+        const std::uint64_t before = silence.asked(MuteRequester::osc), asked = silencesIn(*bytes);
+        if (asked > 0) silence.request(MuteRequester::osc, before + asked);
         if (!packets_.push({{bytes->begin(), bytes->end()}, in_.sender(), before}, bytes->size())) ++lost_;
     }
     lost_ += in_.takeLost();

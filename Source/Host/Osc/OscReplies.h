@@ -2,7 +2,7 @@
 // Limits the replies to each sender. A sender's address can be forged, so PhysVib must not amplify traffic
 // towards it.
 #pragma once
-#include "Live/Messages/ComplaintLimit.h"
+#include "Live/Messages/ErrorRateLimit.h"
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -65,7 +65,7 @@ private:
         std::string name;
         std::int64_t lastNs;
         std::vector<Spent> spent;
-        ComplaintLimit refusals{refusalEveryNs};
+        ErrorRateLimit refusals{refusalEveryNs};
     };
     // A sender that was quiet for a second has spent nothing, so its place is reused.
     Sender* find(std::string_view name) {

@@ -15,9 +15,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double fadeInSeconds = 0.005;
-constexpr DeviceKeeper::Limit opening = 10s;     // time limit for a device that a user opens
-constexpr DeviceKeeper::Limit reopening = 500ms; // a driver that takes longer is tried again a second later
-constexpr DeviceKeeper::Limit ending = 400ms;    // a JACK client aborted here keeps its server busy
+constexpr DeviceSession::Limit opening = 10s;     // time limit for a device that a user opens
+constexpr DeviceSession::Limit reopening = 500ms; // a driver that takes longer is tried again a second later
+constexpr DeviceSession::Limit ending = 400ms;    // a JACK client aborted here keeps its server busy
 constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // limits of three blocks' time
 constexpr int mostOutputs = 65'536;                                      // of a device
 
@@ -90,16 +90,16 @@ std::string AudioOutput::listeningFault() const {
     return keeper_.device() ? wish().fault(*keeper_.device()) : std::string{};
 }
 
-DeviceWish AudioOutput::wish() const {
-    DeviceWish w{settings_.device,          {},
-                 map_.outputs(mostOutputs), map_.highestHeard(),
-                 settings_.sampleRateHz,    settings_.blockFrames,
-                 settings_.opensAll};
+DeviceRequest AudioOutput::wish() const {
+    DeviceRequest w{settings_.device,          {},
+                    map_.outputs(mostOutputs), map_.highestHeard(),
+                    settings_.sampleRateHz,    settings_.blockFrames,
+                    settings_.opensAll};
     w.inputs.insert(settings_.inputs.begin(), settings_.inputs.end());
     return w;
 }
 
-std::string AudioOutput::openDevice(DeviceKeeper::Limit limit) {
+std::string AudioOutput::openDevice(DeviceSession::Limit limit) {
     if (auto error = listeningFault(); !error.empty()) return error;
     if (auto error = keeper_.open(wish(), limit); !error.empty()) return error;
     largestBlock_ = 0;

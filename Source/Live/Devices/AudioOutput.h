@@ -11,7 +11,7 @@
 #include "Core/Nonblocking.h"
 #include "Live/Devices/AudioOutputSettings.h"
 #include "Live/Devices/DeviceGuard.h"
-#include "Live/Devices/DeviceKeeper.h"
+#include "Live/Devices/DeviceSession.h"
 #include "Live/Devices/DeviceWatch.h"
 #include "Live/Devices/LoadMeter.h"
 #include "Live/Devices/MonitorMix.h"
@@ -114,8 +114,8 @@ private:
 
     std::string remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening);
     std::string listeningFault() const;
-    DeviceWish wish() const;
-    std::string openDevice(DeviceKeeper::Limit limit);
+    DeviceRequest wish() const;
+    std::string openDevice(DeviceSession::Limit limit);
     void fadeOut();
     bool hasGone(Clock::time_point now);
     std::string follow();
@@ -141,7 +141,7 @@ private:
     Receipts receipts_;
     OnOffMotors motors_;
     DeviceGuard guard_;
-    DeviceKeeper keeper_; // last: its thread calls the members above
+    DeviceSession keeper_; // last: its thread calls the members above
 };
 
 } // namespace physvib

@@ -75,7 +75,7 @@ private:
     void beginPulse() noexcept { now().pulse().begin(pauseNs_, steadyNs()); }
 
     Session& own_;
-    std::atomic<Session*> now_; // sequentially consistent, as the calls of DeviceKeeper: after a change, M
+    std::atomic<Session*> now_; // sequentially consistent, as the calls of DeviceSession: after a change, M
                                 // can see whether R may still use the old session
     std::atomic<std::uint32_t> lends_{0};
     int lentRate_ = 0, lentBlock_ = 0; // of the own session when another was borrowed

@@ -2,7 +2,7 @@
 // State of an output device for the sinks that follow it: when a session time is felt, the master level, and
 // mute.
 #pragma once
-#include "Live/Session/SilenceHolders.h"
+#include "Live/Session/MuteRequests.h"
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -45,11 +45,11 @@ public:
         return silence_.isSilent() || (isEnded_ && isEnded_->load(std::memory_order_relaxed));
     }
     /// The requests for silence by input.
-    SilenceHolders& silence() noexcept { return silence_; }
+    MuteRequests& silence() noexcept { return silence_; }
     /// The user's choice at this computer: silent within a block, or, regardless of all requests for silence,
     /// sounding again in a ramp.
     void setSilent(bool silent) noexcept {
-        silent ? void(silence_.ask(SilenceHolder::machine)) : silence_.liftAll();
+        silent ? void(silence_.request(MuteRequester::machine)) : silence_.liftAll();
     }
 
 protected:
@@ -68,7 +68,7 @@ protected:
 
 private:
     const std::atomic<bool>* const isEnded_;
-    SilenceHolders silence_;
+    MuteRequests silence_;
     std::atomic<float> level_{0.0f};
     // A seqlock for any number of readers: the count is odd during a write, and a reader repeats if it has
     // changed.

@@ -67,8 +67,8 @@ void InputListener::read() {
 // Lines are never dropped: when the queue is full, the writer is blocked.
 void InputListener::keep(std::string_view text, bool isWhole) {
     const bool silences = asksForSilence(text);
-    if (silences) output_.silence().ask(SilenceHolder::standardInput);
-    const std::uint64_t asked = output_.silence().asked(SilenceHolder::standardInput);
+    if (silences) output_.silence().request(MuteRequester::standardInput);
+    const std::uint64_t asked = output_.silence().asked(MuteRequester::standardInput);
     while (!waiting_.push({std::string(text), isWhole, silences, asked}, text.size()) && !stop_)
         std::this_thread::sleep_for(std::chrono::milliseconds{1});
 }
@@ -92,7 +92,7 @@ void InputListener::end() {
     const std::chrono::duration<double> felt{session_.timeline().playOutSeconds() + ringSeconds};
     for (const auto begin = Clock::now(); !stop_ && Clock::now() - begin < felt;)
         std::this_thread::sleep_for(std::chrono::milliseconds{5});
-    output_.silence().ask(SilenceHolder::standardInput);
+    output_.silence().request(MuteRequester::standardInput);
     if (!stop_) tell("standard input has ended: silence, and the end; --keep-playing plays on");
     hasEnded_ = true;
 }
@@ -122,7 +122,7 @@ Result<PlainMessage> InputListener::act(LineInput& input, const Line& line) {
         return answer;
     }
     if (auto* silence = std::get_if<SilenceControl>(&input)) silence->number = line.asked;
-    const std::string fault = actOn(input, session_, output_, SilenceHolder::standardInput);
+    const std::string fault = actOn(input, session_, output_, MuteRequester::standardInput);
     return fault.empty() ? Result<PlainMessage>{PlainMessage{}} : Failure{fault};
 }
 
@@ -137,7 +137,7 @@ void InputListener::tellLeftOut() {
         tell("standard input: " + std::to_string(count) + " lines were refused as well");
 }
 
-std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from) {
+std::string actOn(const LineInput& input, Session& session, AudioOutput& output, MuteRequester from) {
     if (const auto* action = std::get_if<Action>(&input)) return session.take({*action}).error;
     if (const auto* control = std::get_if<OwnedControl>(&input)) return takeControl(*control, session);
     if (const auto* silence = std::get_if<SilenceControl>(&input))

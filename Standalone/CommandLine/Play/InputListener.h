@@ -4,7 +4,7 @@
 #include "CommandLine/Play/LineCutter.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Documents/InputLine.h"
-#include "Live/Messages/ComplaintLimit.h"
+#include "Live/Messages/ErrorRateLimit.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Live/Session/InputQueue.h"
 #include "Live/Session/Session.h"
@@ -50,13 +50,13 @@ private:
     const ClipSource clips_;
     std::uint64_t lines_ = 0;
     InputQueue<Line> waiting_;
-    ComplaintLimit complaints_{1'000'000'000};
+    ErrorRateLimit complaints_{1'000'000'000};
     const bool keepsPlaying_; // true: no silence at the end of input
     std::atomic<bool> stop_{false}, isAllRead_{false}, hasEnded_{false};
     std::thread thread_, reader_;
 };
 
 /// Applies an input or control from that source. Empty, or an error. Any thread but the render thread.
-std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from);
+std::string actOn(const LineInput& input, Session& session, AudioOutput& output, MuteRequester from);
 
 } // namespace physvib

@@ -188,7 +188,7 @@ std::unique_ptr<OscPort> makeOsc(const LivePlay& wanted, Rig& rig, MessageRouter
                                  const ClipFolder& clips) {
     if (!wanted.osc.port && wanted.osc.receiver.empty()) return nullptr;
     const auto act = [&rig](const LineInput& input, const OscOrigin&) {
-        return actOn(input, rig.session(), rig.output(), SilenceHolder::osc);
+        return actOn(input, rig.session(), rig.output(), MuteRequester::osc);
     };
     auto osc = std::make_unique<OscPort>(wanted.osc, rig.session(), messages, rig.output(),
                                          OscHooks{act, {}, clips});

@@ -50,7 +50,7 @@ std::string DeskInputs::take(const LineInput& input) {
     if (const auto* action = std::get_if<Action>(&input)) return desk_.world().act(*action);
     if (const auto* control = std::get_if<OwnedControl>(&input)) return take(*control);
     if (const auto* silence = std::get_if<SilenceControl>(&input)) {
-        std::string fault = takeSilence(desk_.output().silence(), *silence, SilenceHolder::osc);
+        std::string fault = takeSilence(desk_.output().silence(), *silence, MuteRequester::osc);
         desk_.showSilence();
         return fault;
     }

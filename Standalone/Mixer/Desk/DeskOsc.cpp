@@ -43,7 +43,7 @@ DeskOsc::~DeskOsc() {
 std::string DeskOsc::take(const LineInput& input, const OscOrigin& origin) {
     const auto* silence = std::get_if<SilenceControl>(&input);
     const bool isDone = silence != nullptr && silence->isOn;
-    if (isDone) takeSilence(output_.silence(), *silence, SilenceHolder::osc);
+    if (isDone) takeSilence(output_.silence(), *silence, MuteRequester::osc);
     const std::lock_guard lock{mutex_};
     if (waiting_.size() == mostWaiting) return isDone ? "" : "too many inputs at once";
     waiting_.push_back({input, origin});

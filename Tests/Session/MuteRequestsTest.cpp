@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Who asks for silence, and who lifts it.
-#include "Live/Session/SilenceHolders.h"
+#include "Live/Session/MuteRequests.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Session/InputQueue.h"
 #include <gtest/gtest.h>
@@ -9,50 +9,50 @@
 namespace physvib {
 namespace {
 
-using enum SilenceHolder;
+using enum MuteRequester;
 
-TEST(SilenceHolders, EachLiftsItsOwnAndTheMachineAll) {
+TEST(MuteRequests, EachLiftsItsOwnAndTheMachineAll) {
     for (const auto holder : {machine, standardInput, osc})
         for (const auto other : {standardInput, osc}) {
-            SilenceHolders silence;
-            silence.ask(holder);
+            MuteRequests silence;
+            silence.request(holder);
             EXPECT_TRUE(silence.isSilent());
             silence.lift(other, silence.asked(other));
             EXPECT_EQ(silence.isSilent(), holder != other);
             silence.liftAll();
             EXPECT_FALSE(silence.isSilent());
         }
-    SilenceHolders all;
-    for (const auto holder : {machine, standardInput, osc}) all.ask(holder);
+    MuteRequests all;
+    for (const auto holder : {machine, standardInput, osc}) all.request(holder);
     for (const auto holder : {standardInput, osc}) all.lift(holder, all.asked(holder));
     EXPECT_TRUE(all.isSilent()) << "a person at the machine has not lifted it";
     all.liftAll();
     EXPECT_FALSE(all.isSilent());
 }
 
-TEST(SilenceHolders, AnOffThatHasWaitedLiftsNothingThatCameAfterIt) {
-    SilenceHolders silence;
-    silence.ask(osc);
+TEST(MuteRequests, AnOffThatHasWaitedLiftsNothingThatCameAfterIt) {
+    MuteRequests silence;
+    silence.request(osc);
     const std::uint64_t before = silence.asked(osc);
-    silence.ask(osc);
+    silence.request(osc);
     silence.lift(osc, before);
     EXPECT_TRUE(silence.isSilent());
-    silence.ask(osc, 2); // again
+    silence.request(osc, 2); // again
     silence.lift(osc, 2);
     EXPECT_FALSE(silence.isSilent());
-    silence.ask(osc, 1);
+    silence.request(osc, 1);
     EXPECT_FALSE(silence.isSilent()) << "long since lifted";
     silence.lift(osc, 10);
-    silence.ask(osc);
+    silence.request(osc);
     EXPECT_TRUE(silence.isSilent()) << "nothing is lifted ahead";
 }
 
-TEST(SilenceHolders, AnOffThatDoesNotSoundSaysWhoStillAsks) {
-    SilenceHolders silence;
+TEST(MuteRequests, AnOffThatDoesNotSoundSaysWhoStillAsks) {
+    MuteRequests silence;
     EXPECT_EQ(takeSilence(silence, {true}, osc), "");
     EXPECT_TRUE(silence.isHeldBy(osc));
     EXPECT_EQ(takeSilence(silence, {false}, standardInput), "silence: still asked for by OSC");
-    silence.ask(machine);
+    silence.request(machine);
     EXPECT_EQ(takeSilence(silence, {true}, standardInput), "");
     EXPECT_EQ(takeSilence(silence, {false}, osc),
               "silence: still asked for at the machine and by standard input");
@@ -61,11 +61,11 @@ TEST(SilenceHolders, AnOffThatDoesNotSoundSaysWhoStillAsks) {
     EXPECT_EQ(takeSilence(silence, {false}, osc), "");
 }
 
-TEST(SilenceHolders, ARequestIsNeverLostToAnOffOfAnotherThread) {
-    SilenceHolders silence;
+TEST(MuteRequests, ARequestIsNeverLostToAnOffOfAnotherThread) {
+    MuteRequests silence;
     for (int k = 0; k < 2000; ++k) {
         std::thread lifts{[&silence, before = silence.asked(osc)] { silence.lift(osc, before); }};
-        silence.ask(osc);
+        silence.request(osc);
         lifts.join();
         ASSERT_TRUE(silence.isSilent()) << k;
     }

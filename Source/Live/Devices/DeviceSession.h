@@ -13,31 +13,31 @@
 namespace physvib {
 
 /// Which device to open, and how.
-struct DeviceWish {
+struct DeviceRequest {
     std::string name;           ///< name or driver:name
     ChannelSet inputs, outputs; ///< outputs that the device lacks are left out, as long as one remains
     int highestHeard = -1;      ///< index of an output that the device must have
     int sampleRateHz = 0, blockFrames = 0; ///< 0: device default
     bool opensAll = false;                 ///< opens all outputs
 
-    bool operator==(const DeviceWish&) const = default;
+    bool operator==(const DeviceRequest&) const = default;
 
     /// Empty, or what the device lacks. M, or the thread that opens the device.
     std::string fault(AudioDevice& device) const;
 };
 
 /// All methods: M.
-class DeviceKeeper {
+class DeviceSession {
 public:
     using Limit = std::chrono::milliseconds;
 
     /// `hurry` (may be null; outlives the keeper) ends every wait but that of close() when it becomes true.
-    DeviceKeeper(AudioDrivers drivers, const std::atomic<bool>* hurry);
-    ~DeviceKeeper();
+    DeviceSession(AudioDrivers drivers, const std::atomic<bool>* hurry);
+    ~DeviceSession();
 
     /// Finds and opens a device; none may be open. Returns empty, or one line with the reason. If the driver
     /// has not answered in time, a later call with the same wish gets the device.
-    std::string open(const DeviceWish& wish, Limit limit);
+    std::string open(const DeviceRequest& wish, Limit limit);
 
     /// Whether the last open() failed because the device is not there, or has no outputs.
     bool isMissing() const noexcept { return isMissing_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Much nonsense, few words.
-#include "Live/Messages/ComplaintLimit.h"
+#include "Live/Messages/ErrorRateLimit.h"
 #include <gtest/gtest.h>
 #include <string>
 
@@ -10,7 +10,7 @@ namespace {
 constexpr std::int64_t second = 1'000'000'000;
 
 TEST(ComplaintLimits, EachCauseIsSaidOnceInAWhileAndTheOthersAreCounted) {
-    ComplaintLimit limit{second};
+    ErrorRateLimit limit{second};
     constexpr int lines = 161'806;
     int said = 0;
     for (int k = 0; k < lines; ++k)
@@ -24,18 +24,18 @@ TEST(ComplaintLimits, EachCauseIsSaidOnceInAWhileAndTheOthersAreCounted) {
 }
 
 TEST(ComplaintLimits, CausesThatAreMadeUpDoNotHelp) {
-    ComplaintLimit limit{second};
+    ErrorRateLimit limit{second};
     std::size_t said = 0;
     for (int k = 0; k < 100'000; ++k) {
         std::string letters;
         for (int rest = k; rest > 0; rest /= 26) letters += static_cast<char>('a' + rest % 26);
         said += limit.take(letters + ": expected something else", 0) ? 1 : 0;
     }
-    EXPECT_EQ(said, ComplaintLimit::mostCauses);
+    EXPECT_EQ(said, ErrorRateLimit::mostCauses);
 }
 
 TEST(ComplaintLimits, ACauseIsWhatIsExpected) {
-    const auto cause = [](const char* reason) { return ComplaintLimit::causeOf(reason); };
+    const auto cause = [](const char* reason) { return ErrorRateLimit::causeOf(reason); };
     EXPECT_EQ(cause("gain: channel: expected a channel from 1 to 4, found 9"),
               cause("gain: channel: expected a channel from 1 to 4, found 12"));
     EXPECT_EQ(cause("\"jump\": expected the name of a message"),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drivers that hang, however long: nobody waits longer than he said, and what comes late is taken up or
 // closed.
-#include "Live/Devices/DeviceKeeper.h"
+#include "Live/Devices/DeviceSession.h"
 #include "FakeAudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Session/FakeHost.h"
@@ -16,8 +16,8 @@ using namespace std::chrono_literals;
 
 constexpr auto noTime = 5ms, muchTime = std::chrono::milliseconds{60s};
 
-DeviceWish wishOf(const std::string& name) {
-    DeviceWish wish{.name = name};
+DeviceRequest wishOf(const std::string& name) {
+    DeviceRequest wish{.name = name};
     wish.outputs = {0, 1, 2, 3};
     return wish;
 }
@@ -42,7 +42,7 @@ bool isSilent(const std::vector<std::vector<float>>& block) {
 constexpr const char* noAnswer = "hands: its driver does not answer; nothing else is played on";
 
 /// As whoever keeps a device asks, again and again.
-std::string openAtLast(DeviceKeeper& keeper, const DeviceWish& wish) {
+std::string openAtLast(DeviceSession& keeper, const DeviceRequest& wish) {
     std::string error = noAnswer;
     for (int i = 0; i < 60'000 && error == noAnswer; ++i) {
         error = keeper.open(wish, muchTime);
@@ -51,9 +51,9 @@ std::string openAtLast(DeviceKeeper& keeper, const DeviceWish& wish) {
     return error;
 }
 
-TEST(DeviceKeeper, NobodyWaitsForADriverThatHangsAndWhatItOpensLateIsTakenUp) {
+TEST(DeviceSession, NobodyWaitsForADriverThatHangsAndWhatItOpensLateIsTakenUp) {
     FakeInterface thing;
-    DeviceKeeper keeper{fakeDrivers({&thing}), nullptr};
+    DeviceSession keeper{fakeDrivers({&thing}), nullptr};
     thing.hangsIn = FakeInterface::Call::open;
     EXPECT_EQ(keeper.open(wishOf("hands"), noTime), noAnswer);
     EXPECT_EQ(keeper.open(wishOf("hands"), muchTime), noAnswer)
@@ -65,9 +65,9 @@ TEST(DeviceKeeper, NobodyWaitsForADriverThatHangsAndWhatItOpensLateIsTakenUp) {
     EXPECT_NE(keeper.device(), nullptr);
 }
 
-TEST(DeviceKeeper, WhatIsOpenedLateAndNoLongerWantedIsClosed) {
+TEST(DeviceSession, WhatIsOpenedLateAndNoLongerWantedIsClosed) {
     FakeInterface thing;
-    DeviceKeeper keeper{fakeDrivers({&thing}), nullptr};
+    DeviceSession keeper{fakeDrivers({&thing}), nullptr};
     thing.hangsIn = FakeInterface::Call::open;
     EXPECT_EQ(keeper.open(wishOf("hands"), noTime), noAnswer);
     auto other = wishOf("hands");
@@ -80,18 +80,18 @@ TEST(DeviceKeeper, WhatIsOpenedLateAndNoLongerWantedIsClosed) {
     EXPECT_EQ(thing.device, nullptr);
 }
 
-TEST(DeviceKeeper, HurryEndsTheWaiting) {
+TEST(DeviceSession, HurryEndsTheWaiting) {
     FakeInterface thing;
     std::atomic<bool> hurry{true};
-    DeviceKeeper keeper{fakeDrivers({&thing}), &hurry};
+    DeviceSession keeper{fakeDrivers({&thing}), &hurry};
     thing.hangsIn = FakeInterface::Call::open;
     EXPECT_EQ(keeper.open(wishOf("hands"), muchTime), noAnswer) << "else this test takes a minute";
     thing.goOn();
 }
 
-TEST(DeviceKeeper, WhoIsLetGoIsCalledNoMoreAndTheDeviceHearsSilence) {
+TEST(DeviceSession, WhoIsLetGoIsCalledNoMoreAndTheDeviceHearsSilence) {
     FakeInterface thing;
-    DeviceKeeper keeper{fakeDrivers({&thing}), nullptr};
+    DeviceSession keeper{fakeDrivers({&thing}), nullptr};
     Counted owner;
     ASSERT_EQ(keeper.open(wishOf("hands"), muchTime), "");
     keeper.start(owner);
@@ -104,12 +104,12 @@ TEST(DeviceKeeper, WhoIsLetGoIsCalledNoMoreAndTheDeviceHearsSilence) {
     EXPECT_EQ(owner.stops, 0);
 }
 
-TEST(DeviceKeeper, ADeviceThatDoesNotCloseIsLeftAndAnotherCanBeOpened) {
+TEST(DeviceSession, ADeviceThatDoesNotCloseIsLeftAndAnotherCanBeOpened) {
     FakeInterface hung, other;
     other.name = "feet";
     const int before = DeviceThread::threadsLeft();
     {
-        DeviceKeeper keeper{fakeDrivers({&hung, &other}), nullptr};
+        DeviceSession keeper{fakeDrivers({&hung, &other}), nullptr};
         Counted owner;
         ASSERT_EQ(keeper.open(wishOf("hands"), muchTime), "");
         keeper.start(owner);

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Executes a request for silence or its withdrawal, and reports which other inputs still request it.
-#include "Live/Session/SilenceHolders.h"
+#include "Live/Session/MuteRequests.h"
 #include "Live/Documents/InputLine.h"
 #include <utility>
 
 namespace physvib {
 
-std::string takeSilence(SilenceHolders& silence, const SilenceControl& control, SilenceHolder holder) {
+std::string takeSilence(MuteRequests& silence, const SilenceControl& control, MuteRequester holder) {
     if (control.isOn) {
         if (control.number == SilenceControl::unnumbered)
-            silence.ask(holder);
+            silence.request(holder);
         else
-            silence.ask(holder, control.number);
+            silence.request(holder, control.number);
         return {};
     }
     silence.lift(holder, control.number);
     std::string others;
-    for (const auto& [other, words] : {std::pair{SilenceHolder::machine, "at the machine"},
-                                       {SilenceHolder::standardInput, "by standard input"},
-                                       {SilenceHolder::osc, "by OSC"}})
+    for (const auto& [other, words] : {std::pair{MuteRequester::machine, "at the machine"},
+                                       {MuteRequester::standardInput, "by standard input"},
+                                       {MuteRequester::osc, "by OSC"}})
         if (other != holder && silence.isHeldBy(other))
             others += std::string(others.empty() ? "" : " and ") + words;
     return others.empty() ? "" : "silence: still asked for " + others;

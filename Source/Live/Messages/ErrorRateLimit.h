@@ -13,11 +13,11 @@ namespace physvib {
 
 /// At most one report per cause in `everyNs`, and at most `mostCauses` causes in that time; the others are
 /// counted. The caller supplies the clock. One thread at a time.
-class ComplaintLimit {
+class ErrorRateLimit {
 public:
     static constexpr std::size_t mostCauses = 16;
 
-    explicit ComplaintLimit(std::int64_t everyNs) noexcept
+    explicit ErrorRateLimit(std::int64_t everyNs) noexcept
         : everyNs_{everyNs} {}
 
     /// True if this error is to be reported.

@@ -14,23 +14,23 @@ struct SilenceControl;
 
 /// The inputs that can request silence. machine: the user at this computer, by Esc, a button or the program's
 /// own call.
-enum class SilenceHolder : std::size_t { machine, standardInput, osc };
+enum class MuteRequester : std::size_t { machine, standardInput, osc };
 
 /// Counts requests and withdrawals per input, so that a delayed "off" does not withdraw a newer request. Any
 /// thread, lock-free.
-class SilenceHolders {
+class MuteRequests {
 public:
     /// Requests silence; returns the number of the request: 1 for the first of `holder`.
-    std::uint64_t ask(SilenceHolder holder) noexcept { return of(holder).asked.fetch_add(1) + 1; }
+    std::uint64_t request(MuteRequester holder) noexcept { return of(holder).asked.fetch_add(1) + 1; }
 
     /// The same for a request that has a number already; repeating it changes nothing.
-    void ask(SilenceHolder holder, std::uint64_t number) noexcept { raise(of(holder).asked, number); }
+    void request(MuteRequester holder, std::uint64_t number) noexcept { raise(of(holder).asked, number); }
 
     /// How many times `holder` has requested silence.
-    std::uint64_t asked(SilenceHolder holder) const noexcept { return of(holder).asked.load(); }
+    std::uint64_t asked(MuteRequester holder) const noexcept { return of(holder).asked.load(); }
 
     /// Withdraws the requests of `holder` up to that number.
-    void lift(SilenceHolder holder, std::uint64_t number) noexcept {
+    void lift(MuteRequester holder, std::uint64_t number) noexcept {
         raise(of(holder).lifted, std::min(number, asked(holder)));
     }
 
@@ -39,7 +39,7 @@ public:
         for (Requests& all : requests_) raise(all.lifted, all.asked.load());
     }
 
-    bool isHeldBy(SilenceHolder holder) const noexcept { return of(holder).isHeld(); }
+    bool isHeldBy(MuteRequester holder) const noexcept { return of(holder).isHeld(); }
 
     /// Wait-free.
     bool isSilent() const noexcept { return std::ranges::any_of(requests_, &Requests::isHeld); }
@@ -55,8 +55,8 @@ private:
             return asked.load() > until;
         }
     };
-    Requests& of(SilenceHolder holder) noexcept { return requests_[static_cast<std::size_t>(holder)]; }
-    const Requests& of(SilenceHolder holder) const noexcept {
+    Requests& of(MuteRequester holder) noexcept { return requests_[static_cast<std::size_t>(holder)]; }
+    const Requests& of(MuteRequester holder) const noexcept {
         return requests_[static_cast<std::size_t>(holder)];
     }
     static void raise(Number& number, std::uint64_t least) noexcept {
@@ -69,6 +69,6 @@ private:
 
 /// Executes an input's control. Empty, or one line: withdrawn, but other inputs still request silence. Any
 /// thread.
-std::string takeSilence(SilenceHolders& silence, const SilenceControl& control, SilenceHolder holder);
+std::string takeSilence(MuteRequests& silence, const SilenceControl& control, MuteRequester holder);
 
 } // namespace physvib

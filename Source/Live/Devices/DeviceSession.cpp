@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Opens and closes a device on the device thread, and handles calls of the driver that finish after their
 // time limit.
-#include "Live/Devices/DeviceKeeper.h"
+#include "Live/Devices/DeviceSession.h"
 #include <utility>
 
 namespace physvib {
 
-struct DeviceKeeper::Opening {
-    DeviceWish wish;
+struct DeviceSession::Opening {
+    DeviceRequest wish;
     AudioDrivers drivers;
     FoundDevice found{};
     std::string error{};
@@ -17,7 +17,7 @@ struct DeviceKeeper::Opening {
     std::string openFound();
 };
 
-std::string DeviceWish::fault(AudioDevice& device) const {
+std::string DeviceRequest::fault(AudioDevice& device) const {
     const int offered = device.outputs();
     if (highestHeard >= offered)
         return name + ": has " + std::to_string(offered) +
@@ -30,7 +30,7 @@ std::string DeviceWish::fault(AudioDevice& device) const {
                               " inputs; expected one of them, found input " + std::to_string(wanted + 1);
 }
 
-void DeviceKeeper::Opening::open() {
+void DeviceSession::Opening::open() {
     found = findAudioDevice(drivers, wish.name, !wish.inputs.empty());
     error = found.device ? openFound()
                          : wish.name + ": no such device (see physvib devices); nothing else is played on";
@@ -40,7 +40,7 @@ void DeviceKeeper::Opening::open() {
     found.driver.reset();
 }
 
-std::string DeviceKeeper::Opening::openFound() {
+std::string DeviceSession::Opening::openFound() {
     auto& device = *found.device;
     if (auto fault = wish.fault(device); !fault.empty()) return fault;
     const int offered = device.outputs();
@@ -53,15 +53,15 @@ std::string DeviceKeeper::Opening::openFound() {
     return fault.empty() ? "" : wish.name + ": " + fault;
 }
 
-DeviceKeeper::DeviceKeeper(AudioDrivers drivers, const std::atomic<bool>* hurry)
+DeviceSession::DeviceSession(AudioDrivers drivers, const std::atomic<bool>* hurry)
     : drivers_{std::move(drivers)}
     , hurry_{hurry} {}
 
-DeviceKeeper::~DeviceKeeper() {
+DeviceSession::~DeviceSession() {
     if (found_.device || opening_) close();
 }
 
-std::string DeviceKeeper::open(const DeviceWish& wish, Limit limit) {
+std::string DeviceSession::open(const DeviceRequest& wish, Limit limit) {
     const auto end = isLate_ ? Clock::time_point{} : Clock::now() + limit; // after one time-out, later calls
                                                                            // only check and do not wait
     isLate_ = true;
@@ -87,25 +87,25 @@ std::string DeviceKeeper::open(const DeviceWish& wish, Limit limit) {
     return opened->error;
 }
 
-void DeviceKeeper::start(DeviceUser& owner) {
+void DeviceSession::start(DeviceUser& owner) {
     callback_ = std::make_shared<DeviceCallback>(owner);
     found_.device->start(*callback_);
 }
 
-void DeviceKeeper::restart() {
+void DeviceSession::restart() {
     found_.device->stop();
     found_.device->start(*callback_);
 }
 
-void DeviceKeeper::letGo() noexcept {
+void DeviceSession::letGo() noexcept {
     if (callback_) callback_->letGo();
 }
 
-void DeviceKeeper::awaitBlock() const noexcept {
+void DeviceSession::awaitBlock() const noexcept {
     if (callback_) callback_->awaitBlock();
 }
 
-void DeviceKeeper::close(Limit limit) {
+void DeviceSession::close(Limit limit) {
     letGo();
     if (opening_ && isIdle({}, nullptr))
         found_ = std::move(std::exchange(opening_, nullptr)->found); // opened after the time limit
@@ -113,7 +113,7 @@ void DeviceKeeper::close(Limit limit) {
     isIdle(Clock::now() + limit, nullptr);
 }
 
-void DeviceKeeper::drop(FoundDevice& found) {
+void DeviceSession::drop(FoundDevice& found) {
     if (!found.device) return;
     at_ = found.fullName();
     closed_ = std::make_shared<FoundDevice>(std::move(found));
@@ -124,7 +124,7 @@ void DeviceKeeper::drop(FoundDevice& found) {
 }
 
 // Devices are destroyed while M waits, because a driver may receive notifications on the message loop.
-bool DeviceKeeper::isIdle(Clock::time_point end, const std::atomic<bool>* hurry) {
+bool DeviceSession::isIdle(Clock::time_point end, const std::atomic<bool>* hurry) {
     if (!thread_.isOver(end, hurry)) return false;
     if (!closed_) return true;
     thread_.begin([closed = std::exchange(closed_, nullptr)] {
