@@ -345,8 +345,8 @@ void PluginEditor::refresh() {
     const auto at = plugin_.takes().poses(poses);
     std::vector<CollisionEvent> felt;
     for (const auto& hit : hits) felt.push_back(hit.played.event);
-    world_.update(
-        {std::move(poses), at, plugin_.takes().playOutFrames() * 1'000'000'000 / rate, felt, meters.peaks});
+    world_.update({std::move(poses), at, plugin_.takes().outputLatencyFrames() * 1'000'000'000 / rate, felt,
+                   meters.peaks});
     mix_.update(meters);
     const int outputs = plugin_.outputs();
     fold_.setVisible(outputs > 0 && meters.connected < enchantersOf(state_));
@@ -380,7 +380,7 @@ juce::String PluginEditor::latencyText() const {
         return juce::String{1e3 * static_cast<double>(frames) / rate, 1} + " ms";
     };
     const auto& takes = plugin_.takes();
-    const std::int64_t all = takes.playOutFrames(), limiter = HapticRenderer::latencyFramesAt(rate),
+    const std::int64_t all = takes.outputLatencyFrames(), limiter = HapticRenderer::latencyFramesAt(rate),
                        steps = hasWorld(state_)
                                    ? std::min<std::int64_t>(all - limiter, 2 * rate / state_.stepsPerSecond)
                                    : 0,
@@ -414,7 +414,7 @@ juce::String PluginEditor::steppingText(const TakesStatus& status) const {
 }
 
 juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMeters& meters) const {
-    if (plugin_.preparedRateHz() == 0 || plugin_.takes().playOutFrames() == 0)
+    if (plugin_.preparedRateHz() == 0 || plugin_.takes().outputLatencyFrames() == 0)
         return "The host has not started the plug-in yet.";
     const auto& r = status.session.render;
     juce::String line = latencyText() + outputText(meters);

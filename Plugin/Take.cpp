@@ -26,13 +26,13 @@ void Take::rewind(TakeTiming timing) {
     session.prepare(sampleRateHz_, block);
     session.advance(); // its time begins with the first block
     const auto& setup = order_->setup;
-    safeFrames_ = tightFrames_ = session.timeline().playOutFrames();
+    safeFrames_ = tightFrames_ = session.timeline().outputLatencyFrames();
     if (setup.hasWorld)
         tightFrames_ = std::min(
             safeFrames_, ClockLaw{sampleRateHz_, 0, setup.stepsPerSecond,
                                   std::max(0.0, order_->knownAfterSeconds - 2.0 / setup.stepsPerSecond),
                                   HapticRenderer::latencyFramesAt(sampleRateHz_)}
-                             .playOutFrames());
+                             .outputLatencyFrames());
     for (std::int64_t surplus = safeFrames_ - latencyFrames(timing); surplus > 0; surplus -= block)
         session.wait(from(0).data(), static_cast<int>(std::min<std::int64_t>(surplus, block)));
     fade_.prepare(sampleRateHz_, limits::channelRampSeconds, 1.0f);
@@ -114,7 +114,7 @@ void Take::end() noexcept {
 }
 
 void Take::render(int frames, TakeTiming timing, RenderMode mode) noexcept {
-    const std::int64_t surplus = session.timeline().playOutFrames() - latencyFrames(timing);
+    const std::int64_t surplus = session.timeline().outputLatencyFrames() - latencyFrames(timing);
     if (surplus > 0) {
         if (gap_.now() > 0.0f) return play(0, frames, mode, 0.0f);
         skip(static_cast<int>(std::min<std::int64_t>(surplus, frames)));

@@ -97,14 +97,14 @@ public:
     TakeTiming timing() const noexcept { return timing_; }
 
     /// L of the present setup, host and timing; 0 before prepare. Any thread.
-    std::int64_t playOutFrames() const noexcept {
+    std::int64_t outputLatencyFrames() const noexcept {
         return timing() == TakeTiming::tight ? tightFrames_ : safeFrames_;
     }
 
     /// What the host is told: L, or, where strikes are direct, how long after its frame one is felt. 0 before
     /// prepare. Any thread.
     std::int64_t latencyFrames() const noexcept {
-        return isDirect() ? directFrames_.load() : playOutFrames();
+        return isDirect() ? directFrames_.load() : outputLatencyFrames();
     }
     bool isDirect() const noexcept { return directFrames_ > 0; } ///< as latencyFrames
 

@@ -21,7 +21,7 @@ struct ClockLaw {
     /// L in frames: one block (which is rendered at its beginning) + the longest gap + two steps (one that
     /// may not have begun, one in which events wait to be sorted) + the latency of the limiter or of the
     /// sinks, whichever is longer.
-    std::int64_t playOutFrames() const noexcept {
+    std::int64_t outputLatencyFrames() const noexcept {
         const double seconds = longestGapSeconds + 2.0 * stepSeconds();
         return blockFrames + framesUp(seconds) + std::max<std::int64_t>(limiterFrames, framesUp(sinkSeconds));
     }
@@ -39,7 +39,9 @@ struct ClockLaw {
     }
     double stepSeconds() const noexcept { return stepsPerSecond > 0 ? 1.0 / stepsPerSecond : 0.0; } ///< or 0
     /// L in seconds.
-    double playOutSeconds() const noexcept { return static_cast<double>(playOutFrames()) / sampleRateHz; }
+    double outputLatencySeconds() const noexcept {
+        return static_cast<double>(outputLatencyFrames()) / sampleRateHz;
+    }
     /// Seconds to frames, rounded up. Any thread.
     std::int64_t framesUp(double seconds) const noexcept {
         return static_cast<std::int64_t>(seconds * sampleRateHz + 0.999999);

@@ -88,7 +88,7 @@ const char* PHYSVIB_PAGE(variables)() {
 
 const char* PHYSVIB_PAGE(fault)() { return world->fault().c_str(); }
 const float* PHYSVIB_PAGE(render)(int frames) { return world->render(frames); }
-int PHYSVIB_PAGE(playOutFrames)() { return static_cast<int>(world->playOutFrames()); }
+int PHYSVIB_PAGE(outputLatencyFrames)() { return static_cast<int>(world->outputLatencyFrames()); }
 const float* PHYSVIB_PAGE(poses)() { return world->poses().data(); }
 int PHYSVIB_PAGE(bodyCount)() { return static_cast<int>(world->cast().size()); }
 

@@ -120,7 +120,7 @@ bool PageWorld::takeHit(CollisionEvent& hit, double& atSeconds) {
     PlayedEvent played;
     if (!renderer_->played().pop(played) || !file_.samples.empty()) return false;
     hit = played.event;
-    atSeconds = static_cast<double>(played.frame + law_.playOutFrames()) / law_.sampleRateHz;
+    atSeconds = static_cast<double>(played.frame + law_.outputLatencyFrames()) / law_.sampleRateHz;
     return true;
 }
 

@@ -18,7 +18,7 @@
 
 namespace physvib {
 
-/// The output equals the rendered file, delayed by playOutFrames(). One thread has all roles of
+/// The output equals the rendered file, delayed by outputLatencyFrames(). One thread has all roles of
 /// Live/Session/Session.h, and steps the world in the block that needs it.
 class PageWorld {
 public:
@@ -31,7 +31,7 @@ public:
 
     /// The next frames, channel by channel.
     const float* render(int frames);
-    std::int64_t playOutFrames() const noexcept { return law_.playOutFrames(); }
+    std::int64_t outputLatencyFrames() const noexcept { return law_.outputLatencyFrames(); }
 
     /// x, y, angle and presence (1 or 0) of each body of cast(), consecutively.
     const std::vector<float>& poses();
@@ -73,7 +73,7 @@ private:
     }
     PhantomPanner panner() const noexcept;
     // Frame 0 of the renderer.
-    std::int64_t firstFrame() const noexcept { return law_.playOutFrames() - law_.limiterFrames; }
+    std::int64_t firstFrame() const noexcept { return law_.outputLatencyFrames() - law_.limiterFrames; }
     std::int64_t nsOf(std::int64_t frame) const noexcept;
     void pull(const Hand& hand);
     void stepTo(std::int64_t frame);

@@ -75,7 +75,7 @@ class BoardOutputTest : public testing::Test {
 protected:
     void SetUp() override {
         ASSERT_EQ(output.awaitReady([] { return true; }), "");
-        ASSERT_LT(output.status().playOutMs, 1e3 * latency - 50);
+        ASSERT_LT(output.status().outputLatencyMs, 1e3 * latency - 50);
         session.sinks().attach(output);
         interface.block = 512; // which it is felt late by: 10.7 ms
         ASSERT_EQ(device.open({"hands", {}, 0, 0, 0.5f}), "");
@@ -125,7 +125,7 @@ TEST_F(BoardOutputTest, ADeviceAndABoardAreFeltAtTheSameMoment) {
     }
     const auto t = output.status().telemetry;
     std::cout << felt.size() << " hits, L "
-              << 1e3 * static_cast<double>(session.timeline().playOutFrames()) / interface.rate
+              << 1e3 * static_cast<double>(session.timeline().outputLatencyFrames()) / interface.rate
               << " ms: the board " << sum / 30 << " ms after the device on average, at most " << worst
               << " ms apart\n";
     EXPECT_LT(worst, 2.0);

@@ -150,7 +150,7 @@ TEST(BoardLinkWithAFakeBoard, NeitherAWrongAnswerNorACounterThatIsOverMovesItsCl
         << "20 ms; a wrong answer is 50 or 100 off";
     EXPECT_EQ(link.status().connections, 1u);
     EXPECT_EQ(link.status().refused, 0u);
-    EXPECT_LT(link.status().playOutMs, 200.0);
+    EXPECT_LT(link.status().outputLatencyMs, 200.0);
 }
 
 TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {

@@ -45,7 +45,7 @@ void stepTheWorld() {
     // refused: it says why
     if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return;
 
-    const auto laterNs = static_cast<std::int64_t>(law.playOutSeconds() * 1.0e9);
+    const auto laterNs = static_cast<std::int64_t>(law.outputLatencySeconds() * 1.0e9);
     std::vector<physvib::CollisionEvent> events;
     while (!isOver) {
         if (haptics.timeNs() + stepNs > sessionNs) {
@@ -91,6 +91,6 @@ int main() {
     isOver = true;
     physics.join();
     const auto status = renderer->status();
-    std::cout << "felt " << 1000.0 * law.playOutSeconds() << " ms later: " << status.played << " events, "
-              << status.late << " late, peak " << peak << '\n';
+    std::cout << "felt " << 1000.0 * law.outputLatencySeconds() << " ms later: " << status.played
+              << " events, " << status.late << " late, peak " << peak << '\n';
 }

@@ -343,10 +343,10 @@ TEST(AudioOutput, WithTheLimiterNothingIsLeftToClip) {
 TEST(AudioOutput, BlocksNeverAnnouncedAreCutInPartsAndThenCoveredByL) {
     Rig rig;
     ASSERT_EQ(rig.open(), "");
-    const auto L = rig.session.timeline().playOutFrames();
+    const auto L = rig.session.timeline().outputLatencyFrames();
     EXPECT_NE(rig.play(0.1, 20'000), std::vector<std::vector<float>>{});
     EXPECT_EQ(rig.output.maintain(), "");
-    EXPECT_EQ(rig.session.timeline().playOutFrames(), L + limits::maxBlockFrames - 64);
+    EXPECT_EQ(rig.session.timeline().outputLatencyFrames(), L + limits::maxBlockFrames - 64);
     rig.play(10.0, 8192);
     EXPECT_EQ(rig.output.maintain(), "");
     EXPECT_EQ(rig.session.status().render.late, 0u);

@@ -83,7 +83,7 @@ public:
         for (const int k : thing_.unconnected) active.erase(k);
         return active;
     }
-    int outputLatencyFrames() override { return thing_.block; }
+    int deviceLatencyFrames() override { return thing_.block; }
     int xruns() const override { return -1; }
     bool isReal() const override { return thing_.isReal; }
     DeviceUser* user() const { return user_; }

@@ -293,7 +293,7 @@ TEST(Listening, WhatIsSilencedIsNotMarkedAndNoPulseBeginsInItsMiddle) {
     const auto marksAfter = [&](bool isSilentAtFirst) {
         EXPECT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
         // the pulse of 96 frames begins in the last of these
-        const auto blocks = static_cast<int>(rig.session.timeline().playOutFrames() / blockFrames);
+        const auto blocks = static_cast<int>(rig.session.timeline().outputLatencyFrames() / blockFrames);
         float most = 0.0f;
         for (int b = 0; b < blocks + 20; ++b) {
             rig.output.setSilent(isSilentAtFirst && b <= blocks);

@@ -170,9 +170,9 @@ struct Desk {
     void play(int frames, int piece) {
         session.advance();
         const Timeline& time = session.timeline();
-        const std::int64_t place = time.framesRendered() - time.playOutFrames();
+        const std::int64_t place = time.framesRendered() - time.outputLatencyFrames();
         const auto out = interface.play(frames);
-        if (out.empty() || time.framesRendered() == place + time.playOutFrames()) return;
+        if (out.empty() || time.framesRendered() == place + time.outputLatencyFrames()) return;
         for (int n = 0; n < frames; ++n) {
             constexpr std::array<std::size_t, 3> at{2, 1, 0}; // of outputs 1, 2, 4, which are open
             for (std::size_t j = 0; j < at.size(); ++j)
@@ -236,7 +236,8 @@ TEST(Receipts, ASpanOverAChangeOfPeriodOrRateIsNotInOnePiece) {
         desk.open();
         for (int k = 0; k < 500; ++k) desk.play(64, 0);
         const auto feltNs = [&] {
-            return nsOf(desk.session.timeline().framesRendered() - desk.session.timeline().playOutFrames(),
+            return nsOf(desk.session.timeline().framesRendered() -
+                            desk.session.timeline().outputLatencyFrames(),
                         desk.output.sampleRateHz());
         };
         const std::int64_t changedNs = feltNs();
@@ -274,7 +275,7 @@ TEST(Receipts, AStallOfTheDeviceIsABreak) {
     std::this_thread::sleep_for(120ms);
     EXPECT_FALSE(desk.output.isPlaying());
     const std::int64_t stalled =
-        desk.session.timeline().framesRendered() - desk.session.timeline().playOutFrames();
+        desk.session.timeline().framesRendered() - desk.session.timeline().outputLatencyFrames();
     for (int k = 0; k < 200; ++k) desk.play(64, 0);
     const Receipt across = desk.output.left(nsOf(stalled - 480), nsOf(stalled + 480), 0);
     EXPECT_TRUE(across.isOver);

@@ -180,7 +180,7 @@ TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
     ASSERT_TRUE(saved) << saved.error;
     ASSERT_EQ(saved.value.log.recordings.size(), 3u);
     const std::string wav = (folder / "again.wav").string();
-    const std::int64_t rendered = frames - session.timeline().playOutFrames();
+    const std::int64_t rendered = frames - session.timeline().outputLatencyFrames();
     ASSERT_EQ(renderSessionWav(
                   saved.value,
                   {hostRate, static_cast<double>(rendered) / hostRate, [](double) { return true; }}, wav, ""),
@@ -191,7 +191,8 @@ TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
     for (std::int64_t n = 0; n < rendered; ++n)
         for (std::size_t j = 0; j < hostChannels; ++j) {
             const float now =
-                felt[static_cast<std::size_t>((n + session.timeline().playOutFrames()) * hostChannels) + j];
+                felt[static_cast<std::size_t>((n + session.timeline().outputLatencyFrames()) * hostChannels) +
+                     j];
             loudest = std::max(loudest, std::abs(now));
             ASSERT_EQ(again.value.channels[j][static_cast<std::size_t>(n)], now)
                 << "frame " << n << " of channel " << j;

@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
     const auto ms = [&](std::int64_t frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
     std::printf("%d messages, blocks of %d: L %.2f ms, direct %.2f ms; heard that long after they came: %d; "
                 "%llu late\n",
-                messages, client.block, ms(session.timeline().playOutFrames()), ms(direct), exact,
+                messages, client.block, ms(session.timeline().outputLatencyFrames()), ms(direct), exact,
                 static_cast<unsigned long long>(session.status().render.late));
     return exact == messages ? 0 : 1;
 }

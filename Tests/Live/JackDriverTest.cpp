@@ -60,7 +60,7 @@ TEST_F(JackDriverTest, OutputsAreConnectedToThoseOfTheSameNumber) {
     EXPECT_TRUE(connectionsOf("physvib:out_1").empty());
     ASSERT_TRUE(comes([&] { return user.blocks > 2; }));
     EXPECT_EQ(user.outputs, 2);
-    EXPECT_GT(device->outputLatencyFrames(), 0);
+    EXPECT_GT(device->deviceLatencyFrames(), 0);
 }
 
 TEST_F(JackDriverTest, ConnectionsOfOthersAreFollowed) {

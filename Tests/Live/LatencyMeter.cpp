@@ -58,7 +58,8 @@ int main(int argc, char** argv) {
     const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
     if (!result.isAligned) return std::puts("the recording is not the render"), 1;
     const auto ms = [&](std::int64_t frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
-    const std::int64_t measured = client.firstFrame + result.offset, law = session.timeline().playOutFrames();
+    const std::int64_t measured = client.firstFrame + result.offset,
+                       law = session.timeline().outputLatencyFrames();
     std::printf("| `%s` | %d | %lld (%.1f ms) | %lld (%.1f ms) | %d (%.1f ms) | %.1f ms | %llu of %llu | "
                 "%lld of %lld |\n",
                 driverName.c_str(), client.block, static_cast<long long>(law), ms(law),

@@ -56,7 +56,8 @@ int main(int argc, char** argv) {
         return std::printf("%zu hits after %d pushes, or they are not what was recorded\n",
                            made.events.size(), pushes),
                1;
-    const std::int64_t law = session.timeline().playOutFrames(), measured = client.firstFrame + result.offset;
+    const std::int64_t law = session.timeline().outputLatencyFrames(),
+                       measured = client.firstFrame + result.offset;
     std::int64_t sum = 0, most = 0;
     for (int i = 0; i < pushes; ++i) {
         const auto heard =

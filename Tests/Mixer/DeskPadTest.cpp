@@ -15,7 +15,7 @@ TEST(DeskPad, IsChosenInTheOutputTabPlaysAndIsFollowedWhenItGoes) {
     VirtualPad pad{"mixed"};
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    const double before = window.desk().device().playOutSeconds();
+    const double before = window.desk().device().outputLatencySeconds();
     window.view().tabs().choose("Output");
     auto* list = dynamic_cast<juce::ComboBox*>(find(window.view(), "Game controller"));
     ASSERT_NE(list, nullptr);
@@ -25,7 +25,7 @@ TEST(DeskPad, IsChosenInTheOutputTabPlaysAndIsFollowedWhenItGoes) {
     ASSERT_TRUE(runUntil([&] {
         return window.desk().device().choice().sinks == std::vector<SinkName>{{"PAD", "mixed"}};
     }));
-    EXPECT_NEAR(window.desk().device().playOutSeconds(), before + 0.03, 0.006)
+    EXPECT_NEAR(window.desk().device().outputLatencySeconds(), before + 0.03, 0.006)
         << "its lead, in the limiter's place";
     ASSERT_TRUE(runUntil([&] { return !pad.told().empty(); })) << "shake the box shakes it";
     window.desk().setSilent(true);

@@ -8,12 +8,12 @@
 namespace physvib {
 namespace {
 
-constexpr std::int64_t unixAhead = 1'700'000'000'000'000'000, blockNs = 10'666'667, playOutNs = 50'000'000,
-                       deviceNs = 21'333'333;
+constexpr std::int64_t unixAhead = 1'700'000'000'000'000'000, blockNs = 10'666'667,
+                       outputLatencyNs = 50'000'000, deviceNs = 21'333'333;
 
 /// The block that begins at session time `sessionNs`, asked for `delayNs` after `steadyNs`.
 OutputMoment blockAt(std::int64_t sessionNs, std::int64_t steadyNs, std::int64_t delayNs) {
-    return {sessionNs - playOutNs, steadyNs + delayNs + deviceNs, playOutNs + deviceNs};
+    return {sessionNs - outputLatencyNs, steadyNs + delayNs + deviceNs, outputLatencyNs + deviceNs};
 }
 
 /// Blocks for `seconds` of a device that runs `ppm` too slow, each asked for up to `mostDelayNs` late.
@@ -48,7 +48,7 @@ TEST(OscClocks, WhatIsTaggedIsMeantForThePresentAndFeltLater) {
     const std::int64_t present = 5'000'000'000, unix = unixAhead + 7'000'000'000 + present;
     EXPECT_EQ(device.clock.sessionNs(unix), present);
     EXPECT_EQ(device.clock.presentUnixNs(present), unix);
-    EXPECT_EQ(device.clock.feltUnixNs(present), unix + playOutNs + deviceNs);
+    EXPECT_EQ(device.clock.feltUnixNs(present), unix + outputLatencyNs + deviceNs);
 }
 
 TEST(OscClocks, TheMomentIsHeldWhileBlocksComeLate) {

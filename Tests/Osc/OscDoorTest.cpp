@@ -86,7 +86,7 @@ TEST(OscDoors, ATagIsFeltToTheFrameInADirectSessionAsWell) {
         // 5,000 frames and a half from now
         open.strike(0.5, tagOf(1'000'000'000 + (now * 2 + 10'001) * 500'000'000 / hostRate));
         open.play();
-        const auto delay = direct == Direct::no ? open.session.timeline().playOutFrames()
+        const auto delay = direct == Direct::no ? open.session.timeline().outputLatencyFrames()
                                                 : 512 + HapticRenderer::latencyFramesAt(hostRate);
         const auto first = std::find_if(open.signal.begin(), open.signal.end(),
                                         [](float sample) { return std::abs(sample) > 1e-5f; });

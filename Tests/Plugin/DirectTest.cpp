@@ -109,7 +109,7 @@ TEST(DirectStrikes, CollisionsKeepThePlayOutDelay) {
     direct.play(400, b, none);
     ASSERT_GT(directOnset(a[0]), playOut);
     EXPECT_NEAR(static_cast<double>(directOnset(a[0])), static_cast<double>(directOnset(b[0])), 1.0);
-    EXPECT_EQ(direct.plugin->takes().playOutFrames(), playOut);
+    EXPECT_EQ(direct.plugin->takes().outputLatencyFrames(), playOut);
 }
 
 TEST(DirectStrikes, TheSwitchIsSavedAndTheLatencyFollowsIt) {

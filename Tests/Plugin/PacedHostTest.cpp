@@ -277,7 +277,7 @@ TEST(PacedHost, NoCallStepsMoreThanItsOwnFramesAndTheLatencyOfAWorldThatIsFarToo
         const std::unique_ptr<PluginEditor> editor{
             dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
         editor->refresh();
-        const std::int64_t latency = host.plugin->takes().playOutFrames(),
+        const std::int64_t latency = host.plugin->takes().outputLatencyFrames(),
                            stepNs = 1'000'000'000 / host.plugin->state().stepsPerSecond;
         Samples signal, bounce;
         std::int64_t before = 0, all = 0, most = 0;
@@ -295,7 +295,7 @@ TEST(PacedHost, NoCallStepsMoreThanItsOwnFramesAndTheLatencyOfAWorldThatIsFarToo
         EXPECT_NEAR(static_cast<double>(all), static_cast<double>(length) / 480.0,
                     2.0 + static_cast<double>(latency) / 480.0);
         EXPECT_GT(most, 1);
-        EXPECT_EQ(host.plugin->takes().playOutFrames(), latency);
+        EXPECT_EQ(host.plugin->takes().outputLatencyFrames(), latency);
         if (!isTight) {
             EXPECT_GE(host.status().aheadBlocks, static_cast<std::uint64_t>(calls / 7)); // the long ones
             EXPECT_TRUE(editor->statusText().contains("the host waits for the world"))
@@ -324,7 +324,7 @@ TEST(PacedHost, LIsThatOfTheUsualBlockHoweverLargeOneComes) {
             host.play(frames, signal);
             host.waitFrames(frames);
         }
-        EXPECT_EQ(host.plugin->takes().playOutFrames(), usual) << frames;
+        EXPECT_EQ(host.plugin->takes().outputLatencyFrames(), usual) << frames;
         EXPECT_EQ(host.status().slippedNs, 0) << frames;
     }
 }
@@ -347,7 +347,7 @@ TEST(PacedHost, RestartsInBurstsAreTheBounceToo) {
     EXPECT_EQ(host.status().take, 4);
     EXPECT_EQ(host.status().delayedBlocks, 0u);
     EXPECT_EQ(host.status().slippedNs, 0);
-    const auto latency = host.plugin->takes().playOutFrames();
+    const auto latency = host.plugin->takes().outputLatencyFrames();
     TestHost offline;
     ASSERT_TRUE(offline.plugin->apply(busy()));
     offline.prepare(48000, 512);

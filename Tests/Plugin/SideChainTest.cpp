@@ -110,7 +110,7 @@ TEST(SideChain, AutomationOfBeatsMovesNoHop) {
 TEST(SideChain, LHasRoomForTheDetectorOnlyWhereItListensAndStrikesAreNotDirect) {
     const auto latencyOf = [](SongHost& host) {
         host.prepare(songRateHz, 64);
-        return static_cast<int>(host.plugin->takes().playOutFrames());
+        return static_cast<int>(host.plugin->takes().outputLatencyFrames());
     };
     auto still = quietState(), moving = shakenBox();
     moving.stepsPerSecond = still.stepsPerSecond;

@@ -69,7 +69,7 @@ TEST(Direct, AMessageIsFeltABlockAndTheLimiterLaterWhateverTheBlock) {
         const auto answer = host.router.take(lineMessage(R"({"message": "latency"})")).value;
         const double direct = static_cast<double>(block + limiterFrames()) / hostRate;
         EXPECT_NEAR(std::get<double>(answer.values.at(0).value),
-                    static_cast<double>(host.session.timeline().playOutFrames()) / hostRate, 1e-12);
+                    static_cast<double>(host.session.timeline().outputLatencyFrames()) / hostRate, 1e-12);
         EXPECT_NEAR(std::get<double>(answer.values.at(1).value), direct, 1e-12);
         EXPECT_NEAR(std::get<double>(answer.values.at(2).value), direct, 1e-8);
     }
@@ -80,7 +80,7 @@ TEST(Direct, OneThatIsNotDirectIsFeltThePlayOutDelayLaterAndSaysSo) {
     host.play(750);
     ASSERT_EQ(host.router.take(lineMessage(knock)).error, "");
     host.play(100);
-    EXPECT_EQ(host.onsetFrom(0), 750 * 64 + host.session.timeline().playOutFrames() + 1);
+    EXPECT_EQ(host.onsetFrom(0), 750 * 64 + host.session.timeline().outputLatencyFrames() + 1);
     const auto answer = host.router.take(lineMessage(R"({"message": "latency"})")).value;
     EXPECT_EQ(std::get<double>(answer.values.at(2).value), std::get<double>(answer.values.at(0).value));
 }
@@ -159,7 +159,7 @@ TEST(Direct, CollisionsKeepThePlayOutDelayAndWhatIsSavedIsWhatWasFelt) {
                            {},
                            {}};
         saved.lengthNs = host.session.readLog(saved.log);
-        const auto L = static_cast<std::size_t>(host.session.timeline().playOutFrames());
+        const auto L = static_cast<std::size_t>(host.session.timeline().outputLatencyFrames());
         Interleaved again;
         EXPECT_TRUE(renderSession(saved, {}, {hostRate, 2.5, [](double) { return true; }},
                                   [&](const float* const* at, int n) {

@@ -417,7 +417,7 @@ TEST(Messages, WhatWasFeltIsRenderedAgainToTheBit) {
     const auto read = readSession(text, "session.json");
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(sessionJson(read.value), text);
-    const auto again = renderedAgain(read.value, session.timeline().playOutFrames(), 3.0);
+    const auto again = renderedAgain(read.value, session.timeline().outputLatencyFrames(), 3.0);
     ASSERT_EQ(again.size(), felt.signal.size());
     const auto differs = std::mismatch(again.begin(), again.end(), felt.signal.begin());
     EXPECT_TRUE(differs.first == again.end())
@@ -622,7 +622,7 @@ TEST(Messages, TheJournalHoldsThem) {
     text += lines.take(felt.log, 3'000'000'000);
     const auto read = readSession(text, "journal");
     ASSERT_EQ(read.error, "");
-    const auto again = renderedAgain(read.value, session.timeline().playOutFrames(), 3.0);
+    const auto again = renderedAgain(read.value, session.timeline().outputLatencyFrames(), 3.0);
     EXPECT_TRUE(again == felt.signal);
 }
 
@@ -676,7 +676,7 @@ TEST(Messages, QueriesAnswer) {
         R"({ "answer": "status", "session_s": 0.5, "waiting": 1, "bodies": 0, "lost": 0, "stalls_s": 0, "dropped": 0 })");
     const auto latency = router.take({"latency", {}}).value;
     EXPECT_EQ(std::get<double>(latency.values.at(0).value),
-              static_cast<double>(session.timeline().playOutFrames()) / hostRate);
+              static_cast<double>(session.timeline().outputLatencyFrames()) / hostRate);
     const auto layout = router.take({"layout", {}}).value;
     EXPECT_EQ(std::get<std::string>(layout.values.at(0).value), "linear");
     EXPECT_EQ(std::get<std::vector<double>>(layout.values.at(3).value),

@@ -103,7 +103,7 @@ std::array<std::vector<float>, 2> playedLive(const std::vector<CollisionEvent>& 
         float* const at[] = {all[0].data() + done, all[1].data() + done};
         session.render(at, block, RenderMode::realtime);
     }
-    for (auto& x : all) x.erase(x.begin(), x.begin() + session.timeline().playOutFrames());
+    for (auto& x : all) x.erase(x.begin(), x.begin() + session.timeline().outputLatencyFrames());
     return all;
 }
 

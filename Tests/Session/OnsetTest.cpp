@@ -52,7 +52,7 @@ double worstLateness(double longestGapSeconds, std::size_t& onsets) {
     const auto signal = playLive(session, seconds * hostRate, 2048, 0.05, 7, played);
     const auto made =
         runScene(setup.scene, {setup.seed, setup.stepsPerSecond}, (seconds - 1) * 1'000'000'000LL).events;
-    const auto recorded = summed(signal, session.timeline().playOutFrames());
+    const auto recorded = summed(signal, session.timeline().outputLatencyFrames());
     const auto expected =
         closedForm(made, hostRate, 1, static_cast<int>(recorded.size()), [&](double x, double y, double* g) {
             const auto outside = [](double v, double extent) {

@@ -59,12 +59,12 @@ SavedSession savedOf(Session& session, const SessionSetup& setup, int channels) 
 }
 
 /// How many samples of the saved session, rendered again, are not those that were played L earlier.
-int differences(const Signal& live, const SavedSession& saved, std::int64_t playOutFrames) {
-    const auto frames = static_cast<std::int64_t>(live[0].size()) - playOutFrames;
+int differences(const Signal& live, const SavedSession& saved, std::int64_t outputLatencyFrames) {
+    const auto frames = static_cast<std::int64_t>(live[0].size()) - outputLatencyFrames;
     const auto events = sessionEvents(saved, frames * 1'000'000'000 / rate).events;
     const auto controls = controlsOf(saved.log, true, saved.channels);
     int wrong = 0;
-    std::int64_t done = playOutFrames;
+    std::int64_t done = outputLatencyFrames;
     renderOffline(
         events,
         {{rate, saved.channels, saved.panner, saved.limiterEnabled, saved.ceilings}, frames, 256, controls},
@@ -141,7 +141,7 @@ TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
     EXPECT_EQ(saved.log.strikes.size(), 2u);
     EXPECT_LT(saved.log.takes[0].stalls.size(), 12u) << "slow motion is one entry, however long it lasts";
     EXPECT_GT(energyOf(live[4], 2.8, 5.9), 0.0);
-    EXPECT_EQ(differences(live, saved, session.timeline().playOutFrames()), 0);
+    EXPECT_EQ(differences(live, saved, session.timeline().outputLatencyFrames()), 0);
 }
 
 TEST(SessionDesk, AWorldThatStandsStillMakesNoHitsAndTellsThemAllLater) {
@@ -177,7 +177,7 @@ TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
     const auto& c = live[2]; // (0, 0) is its corner
     const auto first = std::ranges::find_if(c, [](float x) { return std::abs(x) > 0.001f; }) - c.begin();
     // a block
-    EXPECT_NEAR(static_cast<double>(first - session.timeline().playOutFrames()) / rate, 0.3, 0.011);
+    EXPECT_NEAR(static_cast<double>(first - session.timeline().outputLatencyFrames()) / rate, 0.3, 0.011);
     EXPECT_EQ(energyOf(live[1], 0.0, 1.0), 0.0);
     const std::array bad{pulse(0.0), CollisionEvent{}};
     EXPECT_FALSE(session.take({Strikes{bad}})) << "one that cannot be played, and none is";
@@ -199,7 +199,7 @@ TEST(SessionDesk, AStrikeOfATimeOfItsOwnIsFeltLAfterItWheneverItWasTold) {
                          480);
         EXPECT_EQ(session.status().render.late, 0u);
         EXPECT_EQ(session.timeline().presentNs(), 1'000'000'000);
-        return std::pair{std::move(live), session.timeline().playOutFrames()};
+        return std::pair{std::move(live), session.timeline().outputLatencyFrames()};
     };
     const auto [early, delay] = told(0.05);
     EXPECT_EQ(early, told(0.295).first);
@@ -291,7 +291,7 @@ TEST(SessionDesk, ALaneIsFeltAtTheTimesOfItsSceneAndRenderedAgainToTheBit) {
                             {4.4, [](Session& s) { s.take({Lanes{}}); }}});
     EXPECT_EQ(session.status().render.late, 0u);
     const auto saved = savedOf(session, setup, 5);
-    EXPECT_EQ(differences(live, saved, session.timeline().playOutFrames()), 0);
+    EXPECT_EQ(differences(live, saved, session.timeline().outputLatencyFrames()), 0);
     for (const int channel : {0, 2}) {
         const auto first = gainsIn(saved, 0, channel, 1'700'000'000),
                    again = gainsIn(saved, 1, channel, 1'700'000'000);

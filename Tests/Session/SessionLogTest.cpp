@@ -161,7 +161,7 @@ TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(sessionJson(read.value), text);
     EXPECT_EQ(session.status().render.late, 0u);
-    const auto again = renderedAgain(read.value, session.timeline().playOutFrames(), frames);
+    const auto again = renderedAgain(read.value, session.timeline().outputLatencyFrames(), frames);
     ASSERT_EQ(again.size(), felt.signal.size());
     const auto differs = std::mismatch(again.begin(), again.end(), felt.signal.begin());
     EXPECT_TRUE(differs.first == again.end())
@@ -347,7 +347,7 @@ TEST(Session, TellsByHowMuchTheTightestEventCameInTime) {
     playLive(session, 20 * rate, 64, 0.05, 3, played);
     const auto margin = session.status().leastMarginFrames;
     EXPECT_GE(margin, 0);
-    EXPECT_LT(margin, session.timeline().playOutFrames());
+    EXPECT_LT(margin, session.timeline().outputLatencyFrames());
 }
 
 } // namespace

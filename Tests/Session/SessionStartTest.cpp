@@ -154,7 +154,7 @@ TEST(SessionStart, AGrownLatencyIsGivenBackAndNoSampleIsLost) {
     const auto play = [&](bool grows) {
         Session session{setup};
         session.prepare(rate, block);
-        const std::int64_t latency = session.timeline().playOutFrames();
+        const std::int64_t latency = session.timeline().outputLatencyFrames();
         std::vector<float> samples(static_cast<std::size_t>(session.rendered().count() * block));
         std::vector<float*> out;
         for (int j = 0; j < session.rendered().count(); ++j) out.push_back(samples.data() + j * block);
@@ -163,7 +163,7 @@ TEST(SessionStart, AGrownLatencyIsGivenBackAndNoSampleIsLost) {
             session.advance();
             if (grows && i == 200) {
                 session.wait(block);
-                EXPECT_EQ(session.timeline().playOutFrames(), latency + block);
+                EXPECT_EQ(session.timeline().outputLatencyFrames(), latency + block);
                 session.advance();
             }
             if (grows && i == 300)
@@ -173,7 +173,7 @@ TEST(SessionStart, AGrownLatencyIsGivenBackAndNoSampleIsLost) {
             signal.insert(signal.end(), samples.begin(), samples.end());
             drain(session);
         }
-        EXPECT_EQ(session.timeline().playOutFrames(), latency);
+        EXPECT_EQ(session.timeline().outputLatencyFrames(), latency);
         EXPECT_EQ(session.timeline().framesGrown(), 0);
         return signal;
     };

@@ -40,7 +40,7 @@ TEST(Session, LiveIsTheRenderedFileLLaterToTheBit) {
     EXPECT_EQ(session.status().render.late, 0u);
     EXPECT_EQ(session.status().render.untold, 0u);
     EXPECT_GT(played.size(), 300u);
-    EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 20 * rate));
+    EXPECT_TRUE(signal == rendered(s, session.timeline().outputLatencyFrames(), 20 * rate));
 }
 
 /// Ten balls slide at 1 m/s each over a floor with a grain every millimetre.
@@ -82,7 +82,7 @@ TEST(Session, TenThousandGrainsASecondAreTheRenderedFileToo) {
     EXPECT_EQ(session.status().render.late, 0u);
     EXPECT_EQ(session.world().drops(), 0u);
     EXPECT_GT(played.size(), 36'000u);
-    EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 4 * rate));
+    EXPECT_TRUE(signal == rendered(s, session.timeline().outputLatencyFrames(), 4 * rate));
     const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, 4'000'000'000).events;
     const auto list = readEventsCsv(eventsCsv(made, {}, {}, SoundNames{s.scene.materials}), "list");
     ASSERT_EQ(list.error, "");
@@ -124,9 +124,9 @@ TEST(Session, ASinkBesideItGetsTheSameEventsAndLCoversIt) {
     session.sinks().attach(sooner);
     std::vector<CollisionEvent> played;
     const auto signal = playLive(session, 5 * rate, 512, 0.02, 9, played);
-    EXPECT_EQ(session.timeline().playOutFrames() - alone.timeline().playOutFrames(),
+    EXPECT_EQ(session.timeline().outputLatencyFrames() - alone.timeline().outputLatencyFrames(),
               0.030 * rate - HapticRenderer::latencyFramesAt(rate));
-    EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 5 * rate));
+    EXPECT_TRUE(signal == rendered(s, session.timeline().outputLatencyFrames(), 5 * rate));
     auto& told = sink.events;
     EXPECT_TRUE(sooner.events == told);
     ASSERT_GT(played.size(), 50u);
@@ -148,11 +148,11 @@ TEST(Session, AThousandStepsPerSecondAndSmallBlocksStayBelowSixMilliseconds) {
     const auto s = shakeTheBoxSetup(driverThreadGapSeconds, 1000);
     Session session{s};
     session.prepare(rate, 64);
-    EXPECT_LE(static_cast<double>(session.timeline().playOutFrames()) / rate, 0.006);
+    EXPECT_LE(static_cast<double>(session.timeline().outputLatencyFrames()) / rate, 0.006);
     std::vector<CollisionEvent> played;
     const auto signal = playLive(session, 5 * rate, 40, driverThreadGapSeconds, 2, played);
     EXPECT_EQ(session.status().render.late, 0u);
-    EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 5 * rate));
+    EXPECT_TRUE(signal == rendered(s, session.timeline().outputLatencyFrames(), 5 * rate));
 }
 
 TEST(Session, ADriverThatIsSlowerThanPromisedMakesTheWorldWaitAndNoEventLate) {
@@ -176,7 +176,7 @@ TEST(Session, OfflineBlocksPlayTheSameEventsAsLiveOnes) {
         append(signal, block.at.data(), size);
         done += size;
     }
-    EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 20 * rate));
+    EXPECT_TRUE(signal == rendered(s, session.timeline().outputLatencyFrames(), 20 * rate));
 }
 
 TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
@@ -365,7 +365,7 @@ TEST(Session, StrikesOfTheRenderCallAreFeltLLaterAtTheirFrame) {
             session.render(block.at.data(), 512, mode);
             append(signal, block.at.data(), 512);
         }
-        const auto onset = static_cast<std::size_t>(5120 + 77 + session.timeline().playOutFrames());
+        const auto onset = static_cast<std::size_t>(5120 + 77 + session.timeline().outputLatencyFrames());
         // sin 0 at the onset
         for (std::size_t n = 0; n <= onset; ++n) ASSERT_NEAR(signal[n * channels], 0.0f, 1e-3f) << n;
         EXPECT_NEAR(signal[(onset + 1) * channels], 0.5f, 1e-3f); // a quarter period later
@@ -386,7 +386,7 @@ TEST(Session, AControlOfTheRenderCallMutesTheWorldAtItsFrame) {
                 session.callback().control({.kind = RenderControl::Kind::mute, .channel = j, .value = 1.0f},
                                            0);
         session.render(block.at.data(), 480, RenderMode::offline);
-        const std::int64_t silentFrom = 5 * rate + session.timeline().playOutFrames() + rate / 100;
+        const std::int64_t silentFrom = 5 * rate + session.timeline().outputLatencyFrames() + rate / 100;
         const bool silent = std::all_of(block.at[0], block.at[0] + 480, [](float x) { return x == 0.0f; });
         if (done >= silentFrom) EXPECT_TRUE(silent) << done;
     }

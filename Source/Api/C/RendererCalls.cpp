@@ -215,5 +215,5 @@ physvib_int64 physvib_play_out_ns(int rateHz, int blockFrames, int stepsPerSecon
     law.longestGapSeconds = longestGapSeconds;
     law.limiterFrames = HapticRenderer::latencyFramesAt(rateHz);
     constexpr std::int64_t nsPerSecond = 1'000'000'000;
-    return (law.playOutFrames() * nsPerSecond + rateHz - 1) / rateHz;
+    return (law.outputLatencyFrames() * nsPerSecond + rateHz - 1) / rateHz;
 }

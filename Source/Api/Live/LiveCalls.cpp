@@ -98,7 +98,8 @@ physvib_int64 physvib_live_now_ns(physvib_live name) {
 
 physvib_int64 physvib_live_latency_ns(physvib_live name) {
     return in(name, [](Live& live) -> physvib_int64 {
-        return live.session().timeline().playOutFrames() * 1'000'000'000 / std::max(1, live.status().rateHz);
+        return live.session().timeline().outputLatencyFrames() * 1'000'000'000 /
+               std::max(1, live.status().rateHz);
     });
 }
 

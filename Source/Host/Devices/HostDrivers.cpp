@@ -54,7 +54,7 @@ public:
         for (int k = bits.findNextSetBit(0); k >= 0; k = bits.findNextSetBit(k + 1)) active.insert(k);
         return active;
     }
-    int outputLatencyFrames() override { return device_->getOutputLatencyInSamples(); }
+    int deviceLatencyFrames() override { return device_->getOutputLatencyInSamples(); }
     int xruns() const override { return device_->getXRunCount(); }
 
 private:

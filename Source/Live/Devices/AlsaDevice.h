@@ -34,7 +34,7 @@ public:
     int sampleRateHz() override { return rateHz_; }
     int blockFrames() override { return blockFrames_; }
     ChannelSet activeOutputs() const override { return out_.active; }
-    int outputLatencyFrames() override { return out_.pcm.latencyFrames(); }
+    int deviceLatencyFrames() override { return out_.pcm.latencyFrames(); }
     int xruns() const override { return out_.pcm.xruns() + in_.pcm.xruns(); }
 
 private:

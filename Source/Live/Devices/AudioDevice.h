@@ -54,7 +54,7 @@ public:
     virtual int sampleRateHz() = 0;
     virtual int blockFrames() = 0;                ///< usual length of a block
     virtual ChannelSet activeOutputs() const = 0; ///< those that block() gets; empty: none is connected
-    virtual int outputLatencyFrames() = 0;
+    virtual int deviceLatencyFrames() = 0;
     virtual int xruns() const = 0; ///< -1: the device does not count. Any thread
     /// False: it discards what it gets, so nothing is lost while it pauses.
     virtual bool isReal() const { return true; }

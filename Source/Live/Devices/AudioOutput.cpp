@@ -24,7 +24,7 @@ constexpr int mostOutputs = 65'536;                                      // of a
 /// What the driver reports, and what it cannot know.
 int latencyFrames(AudioDevice& device) {
     const double own = isPico(device.name()) ? picoLatencySeconds : 0.0;
-    return device.outputLatencyFrames() + static_cast<int>(std::lround(own * device.sampleRateHz()));
+    return device.deviceLatencyFrames() + static_cast<int>(std::lround(own * device.sampleRateHz()));
 }
 
 } // namespace
@@ -277,7 +277,7 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
         guard_.follow(j, k);
     }
     guard_.process(felt.data(), frames);
-    const std::int64_t next = time.framesRendered() - time.playOutFrames();
+    const std::int64_t next = time.framesRendered() - time.outputLatencyFrames();
     if (time.framesRendered() > before) // else session time stands still, as nothing steps the world yet
         receipts_.take(played_.number(), next - frames, sampleRateHz(), left.data(), frames);
     for (int j = 0; j < session.channels(); ++j)

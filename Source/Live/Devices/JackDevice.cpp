@@ -109,7 +109,7 @@ ChannelSet JackDevice::activeOutputs() const {
 }
 
 // Read at the ports that ours are connected to: JACK tells ours only after its next change of the graph.
-int JackDevice::outputLatencyFrames() {
+int JackDevice::deviceLatencyFrames() {
     jack_nframes_t longest = 0;
     const auto held = stream_->client.holdSoon();
     if (!held) return 0;

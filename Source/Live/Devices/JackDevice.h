@@ -31,7 +31,7 @@ public:
     int sampleRateHz() override;
     int blockFrames() override;
     ChannelSet activeOutputs() const override;
-    int outputLatencyFrames() override;
+    int deviceLatencyFrames() override;
     int xruns() const override { return stream_->xruns; }
 
 private:

@@ -49,7 +49,7 @@ public:
     int sampleRateHz() override { return rate_; }
     int blockFrames() override { return block_; }
     ChannelSet activeOutputs() const override { return active_; }
-    int outputLatencyFrames() override { return 0; }
+    int deviceLatencyFrames() override { return 0; }
     int xruns() const override { return -1; }
     bool isReal() const override { return false; }
 

@@ -58,9 +58,9 @@ PlainMessage layoutAnswer(const Session& session) {
 PlainMessage latencyAnswer(const Session& session) {
     const Timeline& time = session.timeline();
     return {"latency",
-            {{"play_out_s", time.playOutSeconds()},
+            {{"play_out_s", time.outputLatencySeconds()},
              {"direct_s", time.directSeconds()},
-             {"messages_s", time.playOutSeconds() - seconds(time.toldAheadNs())}}};
+             {"messages_s", time.outputLatencySeconds() - seconds(time.toldAheadNs())}}};
 }
 
 PlainMessage statusAnswer(const Session& session) {

@@ -52,7 +52,7 @@ public:
     bool isWhole() const noexcept { return isWhole_.load(std::memory_order_relaxed); }
 
     /// Sets the output latency that the file's start time is computed with; before the first frame. M.
-    void tellBeginning(std::int64_t playOutFrames) noexcept { playOutFrames_ = playOutFrames; }
+    void tellBeginning(std::int64_t outputLatencyFrames) noexcept { playOutFrames_ = outputLatencyFrames; }
 
     /// Writes the last samples and the header. Returns empty, or one line with the reason. M, after R
     /// stopped.

@@ -10,10 +10,10 @@ Recording::Recording(const std::filesystem::path& path, int channels, int sample
     : path_{path}
     , recorder_{path, channels, sampleRateHz} {}
 
-std::string Recording::finish(std::int64_t playOutFrames, FieldSize field, const Provenance& provenance,
+std::string Recording::finish(std::int64_t outputLatencyFrames, FieldSize field, const Provenance& provenance,
                               const SoundNames& names) {
     if (auto error = recorder_.finish(); !error.empty()) return error;
-    const std::int64_t rate = recorder_.sampleRateHz(), late = playOutFrames - recorder_.firstFrame();
+    const std::int64_t rate = recorder_.sampleRateHz(), late = outputLatencyFrames - recorder_.firstFrame();
     const std::int64_t shiftNs = late / rate * 1'000'000'000 + late % rate * 1'000'000'000 / rate;
     const std::int64_t lengthNs =
         static_cast<std::int64_t>(1e9 * static_cast<double>(recorder_.frames()) / static_cast<double>(rate));

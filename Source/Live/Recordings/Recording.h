@@ -23,10 +23,10 @@ public:
 
     void take(const PlayedEvent& played) { played_.push_back(played.event); }
 
-    /// Completes both files, after R has stopped. `playOutFrames` is the output latency; `field` is the field
-    /// that places refer to; `names` are those of the scene's materials. Returns empty, or one line with the
-    /// reason.
-    std::string finish(std::int64_t playOutFrames, FieldSize field, const Provenance& provenance,
+    /// Completes both files, after R has stopped. `outputLatencyFrames` is the output latency; `field` is the
+    /// field that places refer to; `names` are those of the scene's materials. Returns empty, or one line
+    /// with the reason.
+    std::string finish(std::int64_t outputLatencyFrames, FieldSize field, const Provenance& provenance,
                        const SoundNames& names);
 
 private:

@@ -51,7 +51,7 @@ std::string Rig::beginRecording() {
     if (settings_.recordPath.empty()) return {};
     recording_.emplace(settings_.recordPath, settings_.setup.channels, output_.sampleRateHz());
     if (auto fault = recording_->error(); !fault.empty()) return fault;
-    recording_->tellBeginning(session_.timeline().playOutFrames());
+    recording_->tellBeginning(session_.timeline().outputLatencyFrames());
     session_.sinks().attach(*recording_);
     return {};
 }

@@ -153,7 +153,7 @@ void BoardLink::disconnect(const std::string& why) {
     line_.reset();
     clock_.clear();
     now_.trouble = why;
-    now_.playOutMs = 0.0;
+    now_.outputLatencyMs = 0.0;
     now_.state = State::searching;
 }
 
@@ -309,10 +309,10 @@ double BoardLink::transitMs() const {
     return 1e3 * clock_.worstDelaySeconds() + now_.board.aheadFrames * 1e3 / limits::board::sampleRateHz;
 }
 
-double BoardLink::playOutMs() const { return transitMs() + marginMs; }
+double BoardLink::outputLatencyMs() const { return transitMs() + marginMs; }
 
 void BoardLink::publish() {
-    if (clock_.isReady()) now_.playOutMs = playOutMs();
+    if (clock_.isReady()) now_.outputLatencyMs = outputLatencyMs();
     now_.driftPpm = clock_.drift() * 1e6;
     now_.thinned = backlog_.thinned() + strikes_.overflows();
     now_.badFrames = decoder_.bad();

@@ -33,8 +33,9 @@ struct BoardLinkStatus {
     wire::HelloReply board;                      ///< its latest reply
     wire::Telemetry telemetry;                   ///< the newest
     std::optional<wire::SelfTestReply> selfTest; ///< after requestSelfTest
-    double playOutMs = 0.0; ///< time by which an event must be known before it is felt; 0: not known yet
-    double driftPpm = 0.0;  ///< the board's clock relative to this computer's
+    double outputLatencyMs = 0.0; ///< time by which an event must be known before it is felt; 0: not known
+                                  ///< yet
+    double driftPpm = 0.0;        ///< the board's clock relative to this computer's
     std::uint64_t sent = 0, thinned = 0, refused = 0; ///< events: sent; dropped for lack of bandwidth;
                                                       ///< refused as unplayable or too old, segments included
     std::uint64_t segments = 0, coarseSegments = 0; ///< segments of moving tones: sent; sent in longer pieces
@@ -125,7 +126,7 @@ private:
     void sendStrikes();
     void publish();
     double transitMs() const;
-    double playOutMs() const;
+    double outputLatencyMs() const;
     bool isLineFree(std::int64_t now) const;
     template <class Message>
     void send(const Message& message);

@@ -26,7 +26,7 @@ BoardOutput::BoardOutput(std::string port, const PhantomPanner& panner, double l
 std::string BoardOutput::awaitReady(const std::function<bool()>& goesOn) {
     std::string fault = link_.awaitReady(goesOn);
     const auto now = link_.status();
-    latencySeconds_ = std::max(latencySeconds_, now.playOutMs * 1e-3);
+    latencySeconds_ = std::max(latencySeconds_, now.outputLatencyMs * 1e-3);
     isAwaited_ = true;
     before_ = now.telemetry;
     return fault;

@@ -14,7 +14,7 @@ std::string count(std::uint64_t n) { return std::to_string(n); }
 
 std::string whereItPlays(const BoardLinkStatus& s) {
     if (s.state == State::ready)
-        return s.port + ": ready, needs " + fixedNumber(s.playOutMs, 0) + " ms, " + count(s.sent) +
+        return s.port + ": ready, needs " + fixedNumber(s.outputLatencyMs, 0) + " ms, " + count(s.sent) +
                " sent, " + count(s.thinned) + " thinned";
     if (!s.trouble.empty()) return s.trouble;
     return s.state == State::searching ? "looking for a board" : s.port + ": connecting";
@@ -42,7 +42,7 @@ std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
 // Without a port of its own the link tries one after the other: what it says of each would only flicker.
 std::string troubleOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
     if (s.state == State::ready) {
-        if (s.playOutMs <= 1e3 * latencySeconds) return {};
+        if (s.outputLatencyMs <= 1e3 * latencySeconds) return {};
         return "The board needs its strikes more than " + fixedNumber(1e3 * latencySeconds, 0) +
                " ms before they are felt: some come late there";
     }
@@ -84,7 +84,7 @@ std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
     std::string guarded;
     if (const auto times = static_cast<std::uint16_t>(t.guarded - before.guarded); times > 0)
         guarded = ", turned down " + count(times) + " times, as it would have been nearly direct current";
-    return lines + "felt " + fixedNumber(s.playOutMs, 1) + " ms after the call; " + count(s.sent) +
+    return lines + "felt " + fixedNumber(s.outputLatencyMs, 1) + " ms after the call; " + count(s.sent) +
            " strikes sent, " + count(s.thinned) + " thinned, " + count(s.refused) +
            " refused; the board played " + count(t.played - before.played) + ", " +
            count(t.late - before.late) + " late, " + count(t.dropped - before.dropped) + " dropped, " +

@@ -60,7 +60,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     channels_.prepare(sampleRateHz, -renderer_->latencyFrames());
     const ClockLaw law = lawAt(sampleRateHz, maxBlockFrames);
     // the renderer starts with the first block in which something can be felt
-    setTime(law, setup_.direct == Direct::born ? law.playOutFrames() - law.limiterFrames : 0);
+    setTime(law, setup_.direct == Direct::born ? law.outputLatencyFrames() - law.limiterFrames : 0);
     world_.prepare();
     callback_.forget();
     scheduler_.prepare();
@@ -81,8 +81,8 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     const FrameClock clock{sampleRateHz};
     world_.resume(clock);
     setTime(lawAt(sampleRateHz, maxBlockFrames), clock.at(time_.nowNs()).frame);
-    const auto rendered =
-        std::max<std::int64_t>(0, time_.framesRendered() - time_.playOutFrames() + time_.law().limiterFrames);
+    const auto rendered = std::max<std::int64_t>(0, time_.framesRendered() - time_.outputLatencyFrames() +
+                                                        time_.law().limiterFrames);
     renderer_->moveTo(sampleRateHz, rendered);
     channels_.moveTo(sampleRateHz, rendered, rendered - renderer_->latencyFrames());
     renderer_->setContacts(scheduler_.contactsAt(sampleRateHz)); // sounding recordings stop
@@ -111,7 +111,7 @@ void Session::wait(int frames) noexcept {
 }
 
 void Session::wait(float* const* unfelt, int frames) noexcept {
-    const std::int64_t start = time_.playOutFrames() - renderer_->latencyFrames(),
+    const std::int64_t start = time_.outputLatencyFrames() - renderer_->latencyFrames(),
                        next = time_.framesRendered() - start;
     // the renderer may not have started, or start within these frames
     if (const int rendered = static_cast<int>(std::clamp<std::int64_t>(next + frames, 0, frames));
@@ -130,7 +130,7 @@ void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     if (!setup_.hasWorld) mode = RenderMode::realtime;
     const bool begins = world_.beginBlock(mode);
     const std::int64_t done = begins ? time_.tellFrames(frames) : 0,
-                       start = time_.playOutFrames() - renderer_->latencyFrames();
+                       start = time_.outputLatencyFrames() - renderer_->latencyFrames();
     const int silent = begins ? static_cast<int>(std::clamp<std::int64_t>(start - done, 0, frames)) : frames;
     std::array<float*, limits::maxEnchanters + 3> rest{};
     for (int j = 0; j < channels_.count(); ++j) {

@@ -22,9 +22,9 @@ public:
     }
 
     /// Output latency. Any thread but R.
-    double playOutSeconds() const {
+    double outputLatencySeconds() const {
         const std::lock_guard lock{mutex_};
-        return static_cast<double>(playOutFrames()) / law_.sampleRateHz;
+        return static_cast<double>(outputLatencyFrames()) / law_.sampleRateHz;
     }
 
     /// Of the renderer. Any thread but R.
@@ -45,13 +45,15 @@ public:
     }
 
     /// Output latency. Any thread after prepare.
-    std::int64_t playOutFrames() const noexcept { return playOutFrames_.load(std::memory_order_relaxed); }
+    std::int64_t outputLatencyFrames() const noexcept {
+        return playOutFrames_.load(std::memory_order_relaxed);
+    }
 
     /// Latency of events of the render call: the output latency, or less in low-latency mode. R, or the
     /// message thread (M) while no thread renders.
     bool isBornDirect() const noexcept { return isBornDirect_; } ///< as bornLatencyFrames
     std::int64_t bornLatencyFrames() const noexcept {
-        return isBornDirect_ ? law_.limiterFrames : playOutFrames();
+        return isBornDirect_ ? law_.limiterFrames : outputLatencyFrames();
     }
 
     /// Change of the output latency since prepare. Any thread.
@@ -73,17 +75,17 @@ public:
         return isBornDirect_ ? nextRenderedFrame(frame) : nextFrame(frame);
     }
     std::int64_t nextRenderedFrame(std::int64_t frame) const noexcept {
-        return nextFrame(frame - playOutFrames() + law_.limiterFrames);
+        return nextFrame(frame - outputLatencyFrames() + law_.limiterFrames);
     }
 
     /// Session time of what leaves the renderer at `frame` of the next block; the renderer's latency is part
     /// of the output latency. R.
     std::int64_t nextRenderedNs(std::int64_t frame) const noexcept {
-        return nextNs(frame - playOutFrames() + law_.limiterFrames);
+        return nextNs(frame - outputLatencyFrames() + law_.limiterFrames);
     }
 
     /// Session time that is felt when the first frame of the next block leaves the device. R.
-    std::int64_t nextFeltNs() const noexcept { return sessionNs(framesRendered() - playOutFrames()); }
+    std::int64_t nextFeltNs() const noexcept { return sessionNs(framesRendered() - outputLatencyFrames()); }
 
 private:
     friend class Session;
@@ -97,7 +99,7 @@ private:
         law_ = law;
         isToldDirect_ = isToldDirect;
         isBornDirect_ = isBornDirect;
-        playOutFrames_ = law_.playOutFrames();
+        playOutFrames_ = law_.outputLatencyFrames();
         grownFrames_ = 0;
         sessionFrames_ = frames;
     }
@@ -146,7 +148,7 @@ private:
     /// Lead time, in ns, applied to external inputs in low-latency mode. On a thread that holds one of the
     /// mutexes.
     std::int64_t leadNs() const noexcept {
-        return isToldDirect_ ? sessionNs(playOutFrames() - law_.directFrames()) : 0;
+        return isToldDirect_ ? sessionNs(outputLatencyFrames() - law_.directFrames()) : 0;
     }
     std::int64_t nowNs() const noexcept { return sessionNs(sessionFrames_.load(std::memory_order_acquire)); }
 

@@ -31,7 +31,7 @@ void setLevel(BoardLink& link, double levelDb) {
 /// Plays each channel in turn: 205 Hz for a quarter of a second at a quarter of full scale.
 void playScale(BoardLink& link) {
     const std::int64_t start =
-        BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 50 * ms;
+        BoardLink::nowNs() + static_cast<std::int64_t>(link.status().outputLatencyMs * 1e6) + 50 * ms;
     for (std::size_t j = 0; j < limits::board::channels; ++j) {
         std::array<double, limits::board::channels> gains{};
         gains[j] = 1.0;
@@ -66,7 +66,7 @@ std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events,
                      const PhantomPanner& panner) {
     PhantomPanner::Gains gains{};
     const std::int64_t start =
-        BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 20 * ms;
+        BoardLink::nowNs() + static_cast<std::int64_t>(link.status().outputLatencyMs * 1e6) + 20 * ms;
     std::int64_t end = start;
     for (const CollisionEvent& event : events) {
         const std::int64_t onset = start + event.timeNs;
@@ -186,7 +186,7 @@ int runSceneOnBoard(const std::string& port, const LoadedRender& job, double lev
     const auto before = link.status().telemetry;
     // a contact is reported up to two steps later
     const std::int64_t steps = 2'000'000'000 / run.stepsPerSecond, spare = 5 * ms;
-    const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + spare;
+    const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().outputLatencyMs * 1e6) + spare;
     const std::int64_t slipped = followClock(world, job.endNs(), delay, job.panner(), link);
     if (interrupted)
         link.stopAll();

@@ -37,7 +37,7 @@ inline void printBoardInfo(const BoardLinkStatus& s) {
                       ? "what moves is a row of still bursts on this image, an older one"
                       : "what moves is within one step of a device")
               << '\n'
-              << std::fixed << std::setprecision(1) << "felt " << s.playOutMs
+              << std::fixed << std::setprecision(1) << "felt " << s.outputLatencyMs
               << " ms after the call at the earliest; drift " << s.driftPpm << " ppm\n"
               << t.played << " strikes played, " << t.late << " late, " << t.dropped << " dropped, "
               << t.stolen << " modes stolen; link: " << t.good << " good, " << t.bad << " bad, " << t.lost

@@ -89,7 +89,7 @@ void InputListener::run() {
 void InputListener::end() {
     if (keepsPlaying_) return;
     using Clock = std::chrono::steady_clock;
-    const std::chrono::duration<double> felt{session_.timeline().playOutSeconds() + ringSeconds};
+    const std::chrono::duration<double> felt{session_.timeline().outputLatencySeconds() + ringSeconds};
     for (const auto begin = Clock::now(); !stop_ && Clock::now() - begin < felt;)
         std::this_thread::sleep_for(std::chrono::milliseconds{5});
     output_.silence().request(MuteRequester::standardInput);

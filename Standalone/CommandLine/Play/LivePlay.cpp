@@ -94,7 +94,7 @@ private:
                       "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  "
                       "%llu dropped%s   ",
                       static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
-                      static_cast<double>(rig_.session().timeline().playOutFrames()) / rate,
+                      static_cast<double>(rig_.session().timeline().outputLatencyFrames()) / rate,
                       static_cast<double>(margin) / rate, status.render.liveModes,
                       static_cast<unsigned long long>(status.render.late),
                       static_cast<unsigned long long>(dropsOf(rig_.session(), status.render)),
@@ -132,9 +132,10 @@ void summarise(Rig& rig, std::uint64_t played) {
     const AudioOutputStatus o = output.status();
     const double framesPerMs = output.sampleRateHz() / 1e3;
     std::cout << std::fixed << std::setprecision(1) << "output latency "
-              << static_cast<double>(session.timeline().playOutFrames()) / framesPerMs << " ms; " << played
-              << " events left, " << r.late << " late, " << dropsOf(session, r) << " dropped, " << r.rejected
-              << " refused; " << static_cast<double>(session.world().slippedNs()) * 1e-6 << " ms of stalls; ";
+              << static_cast<double>(session.timeline().outputLatencyFrames()) / framesPerMs << " ms; "
+              << played << " events left, " << r.late << " late, " << dropsOf(session, r) << " dropped, "
+              << r.rejected << " refused; " << static_cast<double>(session.world().slippedNs()) * 1e-6
+              << " ms of stalls; ";
     if (status.leastMarginFrames != noMargin)
         std::cout << "least margin " << static_cast<double>(status.leastMarginFrames) / framesPerMs
                   << " ms; ";

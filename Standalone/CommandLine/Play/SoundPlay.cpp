@@ -68,7 +68,7 @@ std::string beginSound(LivePlay& wanted, const Session& session, MessageRouter& 
     if (hasOneEach(*wanted.sound)) message.values.push_back({"law", "alone"});
     const auto read = [&](const std::string&) { return Result<LoadedClip>{std::move(*wanted.sound)}; };
     const auto begun = messages.take(message, nullptr, read);
-    wanted.seconds += session.timeline().playOutSeconds();
+    wanted.seconds += session.timeline().outputLatencySeconds();
     return begun.error;
 }
 

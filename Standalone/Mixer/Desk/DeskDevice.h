@@ -28,9 +28,10 @@ public:
     DeskListening& listening() noexcept { return listening_; }
     const DeskListening& listening() const noexcept { return listening_; }
 
-    double playOutSeconds() const noexcept {
+    double outputLatencySeconds() const noexcept {
         const int rateHz = rig_.output().sampleRateHz();
-        return rateHz > 0 ? static_cast<double>(rig_.session().timeline().playOutFrames()) / rateHz : 0.0;
+        return rateHz > 0 ? static_cast<double>(rig_.session().timeline().outputLatencyFrames()) / rateHz
+                          : 0.0;
     }
 
     /// Applies changed actuators or output assignments of the mixer state. Empty, or why that failed.

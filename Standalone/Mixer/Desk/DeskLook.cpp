@@ -6,7 +6,8 @@ namespace physvib {
 
 DeskMoment Desk::look() {
     const WorldRunner& world = session().world();
-    signals_.follow(world.take(), 1e-9 * static_cast<double>(world.sceneNs()) - device_.playOutSeconds(),
+    signals_.follow(world.take(),
+                    1e-9 * static_cast<double>(world.sceneNs()) - device_.outputLatencySeconds(),
                     world.slowness());
     const float loudest = signals_.read(now_, mix_.count(), isSilent_);
     now_.session = session().status();
@@ -25,7 +26,7 @@ DeskMoment Desk::look() {
         now_.meters.isConnected[j] = mix_.strips[j].output >= 0;
     now_.masterPeak = loudest * masterGain(mix_);
     now_.sessionNs = session().world().readPoses(now_.poses);
-    now_.aheadNs = static_cast<std::int64_t>(1e9 * device_.playOutSeconds());
+    now_.aheadNs = static_cast<std::int64_t>(1e9 * device_.outputLatencySeconds());
     watchOutput();
     if (const auto words = world_.tooMuch(now_.session.sessionNs, now_.sessionNs, now_.poses);
         words.isNotEmpty())

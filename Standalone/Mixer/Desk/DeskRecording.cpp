@@ -82,7 +82,7 @@ juce::String DeskRecording::close() {
     SoundNames names;
     names.addScene(*mix_.scene);
     const auto error =
-        utf8(recording_->finish(session_.timeline().playOutFrames(), field, provenance, names));
+        utf8(recording_->finish(session_.timeline().outputLatencyFrames(), field, provenance, names));
     recording_.reset();
     return error;
 }

@@ -312,7 +312,7 @@ void OutputTab::refresh(const DeskMoment& moment) {
                                   : Shade::text},
         {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" +
                         number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
-        {"Felt", number(1e3 * desk_.device().playOutSeconds(), 1) +
+        {"Felt", number(1e3 * desk_.device().outputLatencySeconds(), 1) +
                      " ms after the contact, and the device's own " +
                      number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
         {"Heard", heardWords(),

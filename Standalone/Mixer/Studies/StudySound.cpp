@@ -107,7 +107,7 @@ std::string StudySound::play(const FeltStimulus& stimulus) {
     course_ = Course::plays;
     wasSilent_ = false;
     ranAtMs_ = nowMs();
-    beganAtMs_ = nowMs() + 1e-6 * static_cast<double>(leadNs) + 1e3 * desk_.device().playOutSeconds();
+    beganAtMs_ = nowMs() + 1e-6 * static_cast<double>(leadNs) + 1e3 * desk_.device().outputLatencySeconds();
     seconds_ = stimulus.stimulus.seconds;
     return {};
 }

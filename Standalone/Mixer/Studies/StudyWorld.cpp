@@ -101,8 +101,8 @@ WorldMoment StudyWorld::look() {
     for (PlayedEvent played; session_->played().pop(played);)
         journal_->played(played, session_->timeline().sampleRateHz());
     moment.sessionNs = session_->world().readPoses(moment.poses);
-    moment.aheadNs =
-        session_->timeline().playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
+    moment.aheadNs = session_->timeline().outputLatencyFrames() * 1'000'000'000 /
+                     std::max(1, desk_.output().sampleRateHz());
     const std::int64_t now = session_->status().sessionNs, felt = session_->timeline().nextFeltNs();
     if (felt >= checkedNs_ + askedNs || !desk_.output().isPlaying()) askReceipts(felt);
     if (course_ == Course::lost) return finish(), moment; // a device that is gone plays no end

@@ -162,7 +162,7 @@ void TopBar::refresh(const DeskMoment& moment) {
     else
         device_.set(
             dotted({isNone ? juce::String{"No device"} : name, numbers, juce::String{output.blockFrames()}}),
-            "felt " + number(1e3 * desk_.device().playOutSeconds(), 0) + " ms after the contact",
+            "felt " + number(1e3 * desk_.device().outputLatencySeconds(), 0) + " ms after the contact",
             isNone ? Shade::now : Shade::text);
     device_.setTooltip(name);
     const auto& r = moment.session.render;

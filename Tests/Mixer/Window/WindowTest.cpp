@@ -246,7 +246,7 @@ TEST(Window, APersonsWayThroughTheMixer) {
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
         wav = window.lastRecording();
         from = window.desk().recording().from();
-        playOut = window.desk().session().timeline().playOutFrames();
+        playOut = window.desk().session().timeline().outputLatencyFrames();
         EXPECT_EQ(window.desk().look().session.render.late, 0u);
         hand.key('s', juce::ModifierKeys::commandModifier);
         EXPECT_FALSE(window.isChanged());
