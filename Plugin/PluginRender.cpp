@@ -353,14 +353,14 @@ void PluginProcessor::hear(const juce::AudioBuffer<float>& buffer, int first, in
     });
     if (auto* const delay = takes_.take()->music())
         music_.hear(buffer, first + from, to - from, gainOfLevel(value(Parameter::music)),
-                    value(Parameter::musicSides) > 0.5, *delay, session->timeline().nextBornFrame(from));
+                    value(Parameter::musicSides) > 0.5, *delay, session->timeline().nextInputFrame(from));
 }
 
 // At the onset's own time, which is past: L is longer than the beat took to be known. Where strikes are
 // direct, as soon as it is sure to be known.
 void PluginProcessor::strikeBeat(Session& session, const BandOnset& onset, int frame) noexcept {
     const auto& settings = takes_.settings();
-    const int felt = session.timeline().isBornDirect() ? frame + beats_.delayFrames() : frame;
+    const int felt = session.timeline().isDirectFromStart() ? frame + beats_.delayFrames() : frame;
     BeatVoices voices;
     voices.enchanters = usualBeatEnchanters(settings.layout.count);
     voices.level = gainOfLevel(value(Parameter::strikeLevel));

@@ -62,7 +62,7 @@ SessionSetup sessionSetupOf(const PluginState& state) {
     setup.limiterEnabled = state.limiterEnabled;
     setup.equalised = state.equalised;
     setup.groups = actionGroups(state);
-    if (state.isDirect) setup.direct = Direct::born;
+    if (state.isDirect) setup.direct = Direct::fromStart;
     setup.log = LogUse::none; // a host plays for months, and has a project of its own
     return setup;
 }

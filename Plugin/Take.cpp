@@ -79,7 +79,7 @@ void Take::release(Held& held, std::int64_t until, Make make) noexcept {
 // late, but for its own latency.
 void Take::releaseUntil(int frames) noexcept {
     const auto& time = session.timeline();
-    const std::int64_t until = time.framesRendered() + frames - time.bornLatencyFrames() +
+    const std::int64_t until = time.framesRendered() + frames - time.inputLatencyFrames() +
                                HapticRenderer::latencyFramesAt(sampleRateHz_);
     RenderControl control;
     PhantomPanner panner;
@@ -105,12 +105,12 @@ bool Take::tell(std::span<const Strip> strips) {
 
 bool Take::silence(int frame) noexcept {
     const auto& time = session.timeline();
-    if (music_) music_->silence(time.nextRenderedFrame(frame), time.nextBornFrame(frame));
+    if (music_) music_->silence(time.nextRenderedFrame(frame), time.nextInputFrame(frame));
     return session.callback().silence(frame);
 }
 
 void Take::end() noexcept {
-    if (owed_ < 0) owed_ = session.timeline().bornLatencyFrames();
+    if (owed_ < 0) owed_ = session.timeline().inputLatencyFrames();
 }
 
 void Take::render(int frames, TakeTiming timing, RenderMode mode) noexcept {

@@ -110,7 +110,7 @@ void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Tak
     idleSeconds_ = setup.hasWorld ? TakePace::idleSeconds(setup.stepsPerSecond) : TakePace::stillIdleSeconds;
     safeFrames_ = take->latencyFrames(TakeTiming::safe);
     tightFrames_ = take->latencyFrames(TakeTiming::tight);
-    directFrames_ = setup.direct == Direct::born ? take->session.timeline().bornLatencyFrames() : 0;
+    directFrames_ = setup.direct == Direct::fromStart ? take->session.timeline().inputLatencyFrames() : 0;
     takes_.push_back(std::move(take));
     Take* const unused = spare_.exchange(takes_.back().get(), std::memory_order_acq_rel);
     if (unused) unused->isEnded = true;

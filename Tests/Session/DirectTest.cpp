@@ -181,7 +181,7 @@ TEST(Direct, CollisionsKeepThePlayOutDelayAndWhatIsSavedIsWhatWasFelt) {
 TEST(Direct, WhatIsBornInTheRenderCallIsFeltTheLimiterLaterFromTheFirstFrameOn) {
     for (const auto mode : {RenderMode::realtime, RenderMode::offline})
         for (const int frame : {0, 17}) {
-            auto setup = stillSetup(Direct::born);
+            auto setup = stillSetup(Direct::fromStart);
             setup.log = LogUse::none;
             Host host{setup, 64};
             CollisionEvent strike;
@@ -191,7 +191,7 @@ TEST(Direct, WhatIsBornInTheRenderCallIsFeltTheLimiterLaterFromTheFirstFrameOn) 
             ASSERT_TRUE(host.session.callback().strike(strike, frame));
             host.play(20, mode);
             EXPECT_EQ(host.onsetFrom(0), frame + limiterFrames() + 1);
-            EXPECT_EQ(host.session.timeline().bornLatencyFrames(), limiterFrames());
+            EXPECT_EQ(host.session.timeline().inputLatencyFrames(), limiterFrames());
             EXPECT_EQ(host.session.status().render.late, 0u);
         }
 }
@@ -201,7 +201,7 @@ TEST(Direct, ABornSessionsWorldKeepsThePlayOutDelay) {
     setup.log = LogUse::none;
     Host host{setup, 256};
     host.play(400, RenderMode::offline);
-    setup.direct = Direct::born;
+    setup.direct = Direct::fromStart;
     Host direct{setup, 256};
     direct.play(400, RenderMode::offline);
     ASSERT_GT(host.onsetFrom(0), 0);
@@ -209,7 +209,7 @@ TEST(Direct, ABornSessionsWorldKeepsThePlayOutDelay) {
 }
 
 TEST(Direct, ASilenceOfABornSessionLetsWhatIsStruckBehindItBeFelt) {
-    auto setup = stillSetup(Direct::born);
+    auto setup = stillSetup(Direct::fromStart);
     setup.log = LogUse::none;
     Host host{setup, 64};
     CollisionEvent strike;

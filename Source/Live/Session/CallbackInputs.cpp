@@ -8,12 +8,12 @@ namespace physvib {
 
 bool CallbackInputs::strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept {
     event = shaping_(event);
-    event.timeNs = time_.nextBornNs(frame) + afterNs;
+    event.timeNs = time_.nextInputNs(frame) + afterNs;
     return strikes_.push(event);
 }
 
 bool CallbackInputs::control(RenderControl control, int frame) noexcept {
-    control.timeNs = time_.nextBornNs(frame);
+    control.timeNs = time_.nextInputNs(frame);
     return controls_.push(control);
 }
 
@@ -23,7 +23,7 @@ bool CallbackInputs::silence(int frame) noexcept {
     control.timeNs = time_.nextRenderedNs(frame); // the samples that leave now
     control.untilNs = time_.nextNs(frame);
     // then events of the render call are earlier in session time than the world's events of the same frame
-    control.value = time_.isBornDirect() ? 1.0f : 0.0f;
+    control.value = time_.isDirectFromStart() ? 1.0f : 0.0f;
     return controls_.push(control);
 }
 

@@ -60,7 +60,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     channels_.prepare(sampleRateHz, -renderer_->latencyFrames());
     const ClockLaw law = lawAt(sampleRateHz, maxBlockFrames);
     // the renderer starts with the first block in which something can be felt
-    setTime(law, setup_.direct == Direct::born ? law.outputLatencyFrames() - law.limiterFrames : 0);
+    setTime(law, setup_.direct == Direct::fromStart ? law.outputLatencyFrames() - law.limiterFrames : 0);
     world_.prepare();
     callback_.forget();
     scheduler_.prepare();

@@ -51,8 +51,8 @@ public:
 
     /// Latency of events of the render call: the output latency, or less in low-latency mode. R, or the
     /// message thread (M) while no thread renders.
-    bool isBornDirect() const noexcept { return isBornDirect_; } ///< as bornLatencyFrames
-    std::int64_t bornLatencyFrames() const noexcept {
+    bool isDirectFromStart() const noexcept { return isBornDirect_; } ///< as inputLatencyFrames
+    std::int64_t inputLatencyFrames() const noexcept {
         return isBornDirect_ ? law_.limiterFrames : outputLatencyFrames();
     }
 
@@ -66,12 +66,12 @@ public:
     std::int64_t nextNs(std::int64_t frame) const noexcept { return sessionNs(nextFrame(frame)); }
 
     /// Session time of an event that the render call creates at a frame of the next block. R.
-    std::int64_t nextBornNs(std::int64_t frame) const noexcept {
+    std::int64_t nextInputNs(std::int64_t frame) const noexcept {
         return isBornDirect_ ? nextRenderedNs(frame) : nextNs(frame);
     }
 
     /// The same in the renderer's frames, and the frame that leaves the renderer then. R.
-    std::int64_t nextBornFrame(std::int64_t frame) const noexcept {
+    std::int64_t nextInputFrame(std::int64_t frame) const noexcept {
         return isBornDirect_ ? nextRenderedFrame(frame) : nextFrame(frame);
     }
     std::int64_t nextRenderedFrame(std::int64_t frame) const noexcept {
@@ -94,11 +94,11 @@ private:
 
     /// Sets session time to `frames` at the law's rate, and the output latency to the law's. M, while no
     /// thread renders.
-    void set(const ClockLaw& law, bool isToldDirect, bool isBornDirect, std::int64_t frames) {
+    void set(const ClockLaw& law, bool isToldDirect, bool isDirectFromStart, std::int64_t frames) {
         const std::lock_guard lock{mutex_};
         law_ = law;
         isToldDirect_ = isToldDirect;
-        isBornDirect_ = isBornDirect;
+        isBornDirect_ = isDirectFromStart;
         playOutFrames_ = law_.outputLatencyFrames();
         grownFrames_ = 0;
         sessionFrames_ = frames;
