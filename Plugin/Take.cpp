@@ -75,7 +75,7 @@ void Take::release(Held& held, std::int64_t until, Make make) noexcept {
     }
 }
 
-// What the renderer comes to within the next frames: it is as far behind them as what is born there is felt
+// What the renderer comes to within the next frames: it is as far behind them as an input there is felt
 // late, but for its own latency.
 void Take::releaseUntil(int frames) noexcept {
     const auto& time = session.timeline();

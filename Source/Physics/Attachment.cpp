@@ -56,13 +56,13 @@ Attachment::Attachment(b2World& world, const ImpactSettings& settings)
 
 Attachment::~Attachment() {
     if (world_ == nullptr) return;
-    parts_->listener->deafen();
+    parts_->listener->deactivate();
     keepForEver(std::move(parts_->listener));
 }
 
 void Attachment::detach() {
     if (world_ == nullptr) return;
-    parts_->listener->deafen();
+    parts_->listener->deactivate();
     if (!parts_->listener->remove(*world_)) keepForEver(std::move(parts_->listener));
     world_ = nullptr;
 }
@@ -75,7 +75,7 @@ SetResult Attachment::set(const b2Fixture& fixture, const HapticFixture& values,
         return {-1, "fixture: expected one of the world attached to"};
     // a fixture that reuses the address of a destroyed one gets new state
     parts_->listener->finder().find(fixture);
-    return parts_->events.set(nameOf(fixture), factsOf(*fixture.GetBody()), centreOf(fixture), values, id);
+    return parts_->events.set(idOf(fixture), factsOf(*fixture.GetBody()), centreOf(fixture), values, id);
 }
 
 std::string_view Attachment::setPair(int surface, int other, const PairSound& sound) {
@@ -84,14 +84,14 @@ std::string_view Attachment::setPair(int surface, int other, const PairSound& so
 
 const HapticFixture* Attachment::find(const b2Fixture& fixture) const noexcept {
     const FixtureTable& fixtures = parts_->events.fixtures();
-    const std::int32_t slot = fixtures.find(nameOf(fixture));
+    const std::int32_t slot = fixtures.find(idOf(fixture));
     const bool isIt = slot != FixtureTable::none && fixtures[slot].isNamed() &&
-                      fixtures[slot].body.body == nameOf(*fixture.GetBody());
+                      fixtures[slot].body.body == idOf(*fixture.GetBody());
     return isIt ? &fixtures[slot].values : nullptr;
 }
 
 void Attachment::remove(const b2Fixture& fixture) {
-    if (const std::int32_t slot = parts_->events.fixtures().find(nameOf(fixture)); slot != FixtureTable::none)
+    if (const std::int32_t slot = parts_->events.fixtures().find(idOf(fixture)); slot != FixtureTable::none)
         parts_->events.remove(slot);
 }
 
@@ -114,12 +114,12 @@ void Attachment::beginStepUntil(std::int64_t endNs) {
     parts_->listener->install(*world_);
     const double stepSeconds = static_cast<double>(std::max<std::int64_t>(0, endNs - timeNs())) * 1.0e-9;
     parts_->sweeps.beginStep(*world_, stepSeconds);
-    parts_->bodies.doubt();
+    parts_->bodies.invalidate();
     parts_->events.beginStep(endNs, toVector(world_->GetGravity()), parts_->sweeps.largestMassKg());
 }
 
 void Attachment::endStep() {
-    parts_->bodies.doubt();
+    parts_->bodies.invalidate();
     finishStep();
 }
 
@@ -133,7 +133,7 @@ void Attachment::finishStep() {
 // Releases fixtures that were destroyed while a listener of the game had replaced ours.
 void Attachment::releaseUnseen() {
     parts_->listener->finder().forgetContacts();
-    parts_->bodies.doubt();
+    parts_->bodies.invalidate();
     for (std::int32_t slot = 0; slot < parts_->events.fixtures().size(); ++slot)
         if (const KnownFixture& known = parts_->events.fixtures()[slot];
             known.isUsed() && !parts_->bodies.has(known.body.body))

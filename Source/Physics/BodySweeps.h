@@ -62,7 +62,7 @@ public:
     static std::uint64_t censusOf(const b2World& world) noexcept {
         std::uint64_t sum = static_cast<std::uint64_t>(world.GetBodyCount()) + 1; // never 0
         for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
-            sum = (sum ^ nameOf(*body)) * 0x9E3779B97F4A7C15U;
+            sum = (sum ^ idOf(*body)) * 0x9E3779B97F4A7C15U;
         return sum;
     }
 
@@ -79,13 +79,13 @@ private:
         BodyMotion start;
     };
     const Sweep* find(const b2Body& body) const noexcept {
-        const std::int32_t i = indices_.find(nameOf(body));
+        const std::int32_t i = indices_.find(idOf(body));
         return i == IntegerMap::none ? nullptr : &sweeps_[static_cast<std::size_t>(i)];
     }
     void index() {
         indices_.clear();
         for (std::size_t i = 0; i < sweeps_.size(); ++i)
-            indices_.set(nameOf(*sweeps_[i].body), static_cast<std::int32_t>(i));
+            indices_.set(idOf(*sweeps_[i].body), static_cast<std::int32_t>(i));
     }
 
     double stepSeconds_ = 0.0, lastStepSeconds_ = 0.0;

@@ -37,8 +37,8 @@ double approach(const b2Contact& contact, b2Vec2 point, b2Vec2 normal) {
 } // namespace
 
 std::int32_t CollisionFinder::find(const b2Fixture& fixture) {
-    const std::int32_t slot = events_.fixtures().find(nameOf(fixture));
-    if (slot == FixtureTable::none || events_.fixtures()[slot].body.body == nameOf(*fixture.GetBody()))
+    const std::int32_t slot = events_.fixtures().find(idOf(fixture));
+    if (slot == FixtureTable::none || events_.fixtures()[slot].body.body == idOf(*fixture.GetBody()))
         return slot;
     forgetContacts();
     events_.release(slot);
@@ -47,7 +47,7 @@ std::int32_t CollisionFinder::find(const b2Fixture& fixture) {
 
 // nullptr: one of the fixtures is not registered.
 CollisionFinder::Known* CollisionFinder::find(const b2Contact& contact) {
-    if (const std::int32_t at = knownAt_.find(nameOf(contact)); at != IntegerMap::none) {
+    if (const std::int32_t at = knownAt_.find(idOf(contact)); at != IntegerMap::none) {
         Known& known = known_[static_cast<std::size_t>(at)];
         if (known.fixtureA == contact.GetFixtureA() && known.fixtureB == contact.GetFixtureB()) return &known;
     }
@@ -57,11 +57,11 @@ CollisionFinder::Known* CollisionFinder::find(const b2Contact& contact) {
 }
 
 CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair pair) {
-    std::int32_t at = knownAt_.find(nameOf(contact));
+    std::int32_t at = knownAt_.find(idOf(contact));
     if (at == IntegerMap::none) {
         at = static_cast<std::int32_t>(known_.size());
         known_.emplace_back();
-        knownAt_.set(nameOf(contact), at);
+        knownAt_.set(idOf(contact), at);
     }
     Known& known = known_[static_cast<std::size_t>(at)];
     known = {&contact, contact.GetFixtureA(), contact.GetFixtureB(), pair};
@@ -69,13 +69,13 @@ CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair
 }
 
 void CollisionFinder::forget(const b2Contact& contact) noexcept {
-    const std::int32_t at = knownAt_.find(nameOf(contact));
+    const std::int32_t at = knownAt_.find(idOf(contact));
     if (at == IntegerMap::none) return;
-    knownAt_.erase(nameOf(contact));
+    knownAt_.erase(idOf(contact));
     Known& hole = known_[static_cast<std::size_t>(at)];
     if (&hole != &known_.back()) {
         hole = known_.back();
-        knownAt_.set(nameOf(*hole.contact), at);
+        knownAt_.set(idOf(*hole.contact), at);
     }
     known_.pop_back();
 }
@@ -89,7 +89,7 @@ std::int32_t CollisionFinder::know(const b2Fixture& fixture) {
     const std::int32_t slot = find(fixture); // a fixture that reuses the address of a destroyed one gets new
                                              // state
     const BodyFacts body = factsOf(*fixture.GetBody());
-    return slot == FixtureTable::none ? events_.know(nameOf(fixture), body) : events_.know(slot, body);
+    return slot == FixtureTable::none ? events_.know(idOf(fixture), body) : events_.know(slot, body);
 }
 
 CollisionFinder::Known& CollisionFinder::know(const b2Contact& contact) {
@@ -119,7 +119,7 @@ void CollisionFinder::end(const b2Contact& contact) {
     }
 }
 
-void CollisionFinder::look(const b2Contact& contact, const b2Manifold& before) {
+void CollisionFinder::onPreSolve(const b2Contact& contact, const b2Manifold& before) {
     const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping());
     if (fresh == 0 || !contact.IsEnabled() || !events_.catcher().isHearing()) return;
     b2WorldManifold manifold;
@@ -136,7 +136,7 @@ void CollisionFinder::look(const b2Contact& contact, const b2Manifold& before) {
 }
 
 void CollisionFinder::passOver(const b2Contact& contact, double approachMetresPerSecond) {
-    if (!events_.catcher().mayBeHeard(nameOf(*contact.GetFixtureA()), nameOf(*contact.GetFixtureB()))) return;
+    if (!events_.catcher().mayBeHeard(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
     if (const Known* const known = find(contact)) // two thirds of the threshold let it pass
         events_.catcher().passOver(known->pair.a, known->pair.b, 1.5 * approachMetresPerSecond);
 }
@@ -180,11 +180,11 @@ double CollisionFinder::fractionOf(const b2Contact& contact) const noexcept {
 }
 
 // Impulses at new points belong to the collision, if there is one; all others are load.
-void CollisionFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
+void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
     const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
     if (!events_.catcher().isHearing()) return;
     if (fresh == 0 &&
-        !events_.catcher().mayBeHeard(nameOf(*contact.GetFixtureA()), nameOf(*contact.GetFixtureB())))
+        !events_.catcher().mayBeHeard(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
         return;
     Known* const known = find(contact);
     if (known == nullptr) return;

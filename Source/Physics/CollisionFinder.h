@@ -30,9 +30,9 @@ public:
 
     void begin(const b2Contact& contact); ///< in BeginContact
     void end(const b2Contact& contact);   ///< in EndContact
-    /// in PreSolve, after the game's own listener
-    void look(const b2Contact& contact, const b2Manifold& before);
-    void push(const b2Contact& contact, const b2ContactImpulse& impulse); ///< in PostSolve
+    /// After the game's own listener
+    void onPreSolve(const b2Contact& contact, const b2Manifold& before);
+    void onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse);
 
     /// Right after b2World::Step.
     void endStep() noexcept { fresh_.endStep(); }

@@ -37,8 +37,8 @@ public:
             if (!isWaiting && hasPoint(before, id)) continue;
             if (known < 0) {
                 known = static_cast<int>(entries_.size());
-                entries_.push_back({nameOf(contact), {}, 0, false});
-                indices_.set(nameOf(contact), known);
+                entries_.push_back({idOf(contact), {}, 0, false});
+                indices_.set(idOf(contact), known);
             }
             Entry& entry = entries_[static_cast<std::size_t>(known)];
             if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
@@ -88,7 +88,7 @@ private:
         bool isSolved;
     };
     int find(const b2Contact& contact) const noexcept {
-        return entries_.empty() ? IntegerMap::none : indices_.find(nameOf(contact));
+        return entries_.empty() ? IntegerMap::none : indices_.find(idOf(contact));
     }
     static bool has(const Entry& entry, std::uint32_t id) noexcept {
         const auto* end = entry.ids.data() + entry.count;

@@ -42,7 +42,7 @@ std::optional<EngineNote> noteOf(const b2World& world, const b2Fixture& source) 
 void noteSources(const b2World& world, const FixtureTable& fixtures, ContactCounts& counts) {
     for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
         for (const b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext())
-            if (const std::int32_t slot = fixtures.find(nameOf(*f));
+            if (const std::int32_t slot = fixtures.find(idOf(*f));
                 slot != FixtureTable::none && fixtures.isCamera(slot))
                 if (const auto note = noteOf(world, *f)) counts.note(*note, fixtures[slot].id);
 }

@@ -21,14 +21,14 @@ public:
 
     /// The world's owner may have destroyed bodies since, except the two given. The next access to another
     /// one costs one pass over the world's list.
-    void doubt(const b2Body* one = nullptr, const b2Body* other = nullptr) noexcept {
+    void invalidate(const b2Body* one = nullptr, const b2Body* other = nullptr) noexcept {
         isCertain_ = false;
         present_ = {one, other};
     }
     bool has(std::uint64_t body) const {
         if (!isCertain_) {
             for (const b2Body* const present : present_)
-                if (present != nullptr && nameOf(*present) == body) return true;
+                if (present != nullptr && idOf(*present) == body) return true;
             look();
         }
         return bodies_.find(body) != IntegerMap::none;
@@ -65,7 +65,7 @@ private:
         census_ = census;
         bodies_.clear();
         for (const b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext())
-            bodies_.set(nameOf(*body), 0);
+            bodies_.set(idOf(*body), 0);
     }
 
     const b2World& world_;

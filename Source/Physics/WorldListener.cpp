@@ -39,25 +39,25 @@ void WorldListener::EndContact(b2Contact* contact) {
     if (finder_) {
         const b2Body &a = *contact->GetFixtureA()->GetBody(), &b = *contact->GetFixtureB()->GetBody();
         // Ended by the game outside a step; it may have destroyed other bodies without a callback.
-        if (!a.GetWorld()->IsLocked()) bodies_.doubt(&a, &b);
+        if (!a.GetWorld()->IsLocked()) bodies_.invalidate(&a, &b);
         finder_->end(*contact);
     }
     if (chained_ != nullptr) chained_->EndContact(contact);
 }
 
 void WorldListener::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) {
-    if (isAlone_ && finder_) return finder_->look(*contact, *oldManifold);
+    if (isAlone_ && finder_) return finder_->onPreSolve(*contact, *oldManifold);
     const Call call{*this, contact};
     if (!call) return;
     if (chained_ != nullptr) chained_->PreSolve(contact, oldManifold); // it may disable the contact
-    if (finder_) finder_->look(*contact, *oldManifold);
+    if (finder_) finder_->onPreSolve(*contact, *oldManifold);
 }
 
 void WorldListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
-    if (isAlone_ && finder_) return finder_->push(*contact, *impulse);
+    if (isAlone_ && finder_) return finder_->onPostSolve(*contact, *impulse);
     const Call call{*this, contact};
     if (!call) return;
-    if (finder_) finder_->push(*contact, *impulse);
+    if (finder_) finder_->onPostSolve(*contact, *impulse);
     if (chained_ != nullptr) chained_->PostSolve(contact, impulse);
 }
 
@@ -72,7 +72,7 @@ void WorldListener::SayGoodbye(b2Fixture* fixture) {
     if (const std::int32_t slot = finder_ ? finder_->find(*fixture) : FixtureTable::none;
         slot != FixtureTable::none) {
         finder_->forgetContacts();
-        bodies_.doubt(fixture->GetBody());
+        bodies_.invalidate(fixture->GetBody());
         events_.vanish(slot);
     }
     if (chainedEnds_ != nullptr) chainedEnds_->SayGoodbye(fixture);
@@ -80,7 +80,7 @@ void WorldListener::SayGoodbye(b2Fixture* fixture) {
 
 // The first listener that is active: skips those of ended attachments.
 template <class Listener>
-Listener* WorldListener::behindDeaf(Listener* found, Listener* WorldListener::*next) {
+Listener* WorldListener::skipInactive(Listener* found, Listener* WorldListener::*next) {
     for (auto* deaf = dynamic_cast<WorldListener*>(found); deaf != nullptr && !deaf->finder_;
          deaf = dynamic_cast<WorldListener*>(found))
         found = deaf->*next;
@@ -100,14 +100,14 @@ bool WorldListener::isReachedBy(Listener* found, Listener* WorldListener::*next)
 void WorldListener::install(b2World& world) {
     if (b2ContactListener* found = world.GetContactManager().m_contactListener;
         !isReachedBy(found, &WorldListener::chained_)) {
-        chained_ = behindDeaf(found, &WorldListener::chained_);
+        chained_ = skipInactive(found, &WorldListener::chained_);
         isAlone_ = chained_ == nullptr || typeid(*chained_) == typeid(b2ContactListener);
         world.SetContactListener(this);
         if (finder_) finder_->forgetContacts();
     }
     if (b2DestructionListener* found = destructionListenerOf(world);
         !isReachedBy(found, &WorldListener::chainedEnds_)) {
-        chainedEnds_ = behindDeaf(found, &WorldListener::chainedEnds_);
+        chainedEnds_ = skipInactive(found, &WorldListener::chainedEnds_);
         world.SetDestructionListener(this);
     }
 }

@@ -34,7 +34,7 @@ public:
     bool remove(b2World& world);
 
     /// From now on it only forwards calls.
-    void deafen() noexcept { finder_.reset(); }
+    void deactivate() noexcept { finder_.reset(); }
 
     CollisionFinder& finder() noexcept { return *finder_; }
 
@@ -48,7 +48,7 @@ public:
 private:
     class Call;
     template <class Listener>
-    static Listener* behindDeaf(Listener* found, Listener* WorldListener::*next);
+    static Listener* skipInactive(Listener* found, Listener* WorldListener::*next);
     template <class Listener>
     bool isReachedBy(Listener* found, Listener* WorldListener::*next) const;
 

@@ -9,7 +9,7 @@
 namespace physvib {
 
 template <class T>
-std::uint64_t nameOf(const T& thing) noexcept {
+std::uint64_t idOf(const T& thing) noexcept {
     return reinterpret_cast<std::uintptr_t>(&thing);
 }
 inline const b2Body& bodyOf(std::uint64_t name) noexcept {
@@ -23,7 +23,7 @@ inline BodyMotion motionOf(const b2Body& body) noexcept {
 }
 
 inline BodyFacts factsOf(const b2Body& body) noexcept {
-    return {nameOf(body), body.GetMass(), body.GetGravityScale(), body.GetType() == b2_dynamicBody,
+    return {idOf(body), body.GetMass(), body.GetGravityScale(), body.GetType() == b2_dynamicBody,
             body.IsEnabled()};
 }
 

@@ -30,10 +30,10 @@ struct RenderInput {
 /// Low-latency mode for what needs no world: events from outside and controls. The world's own collisions
 /// always have the output latency.
 enum class Direct {
-    no,   ///< the output latency for all
-    told, ///< inputs are felt ClockLaw::directFrames() after they arrive
-    born  ///< in addition, events of the render call are felt the renderer's latency after their frame, from
-          ///< the first frame on; only for a session without a log
+    no,       ///< the output latency for all
+    told,     ///< inputs are felt ClockLaw::directFrames() after they arrive
+    fromStart ///< in addition, events of the render call are felt the renderer's latency after their frame,
+              ///< from the first frame on; only for a session without a log
 };
 
 /// How the log of a session is used; it keeps entries until they are read.
