@@ -51,7 +51,7 @@ void CollisionCatcher::forget(std::int32_t slot) noexcept {
     directCollisions_ = 0;
     for (std::size_t i = 0; i < collisions_.size(); ++i) {
         pairs_[collisions_[i].pair].collision = static_cast<std::int32_t>(i);
-        directCollisions_ += isFelt(collisions_[i].a, collisions_[i].b) ? 1 : 0;
+        directCollisions_ += touchesSource(collisions_[i].a, collisions_[i].b) ? 1 : 0;
     }
     std::erase_if(ends_, isOf);
     loads_.forget(slot);
@@ -61,7 +61,7 @@ void CollisionCatcher::forget(std::int32_t slot) noexcept {
 void CollisionCatcher::begin(std::int32_t a, std::int32_t b) {
     graph_.insert(a, b);
     meet(a, b);
-    if (isStepping_ && isFelt(a, b)) loads_.begin({a, b, know(a, b)});
+    if (isStepping_ && touchesSource(a, b)) loads_.begin({a, b, know(a, b)});
 }
 
 ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
@@ -76,7 +76,7 @@ ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
 }
 
 void CollisionCatcher::passOver(std::int32_t a, std::int32_t b, double metresPerSecond) noexcept {
-    if (!isFelt(a, b)) return;
+    if (!touchesSource(a, b)) return;
     ++tally_.belowThreshold;
     if (std::isfinite(std::min(table_.mobility(a).movableMassKg, table_.mobility(b).movableMassKg)))
         tally_.strongestBelow = std::max(tally_.strongestBelow, metresPerSecond);
@@ -95,7 +95,7 @@ Collision* CollisionCatcher::strike(const TouchingPairs::Name& pair, double appr
     hasHeard_ = true;
     const auto [a, b, number] = pair;
     tally_.fastestApproach = std::max(tally_.fastestApproach, approachMetresPerSecond);
-    const bool isDirect = isFelt(a, b);
+    const bool isDirect = touchesSource(a, b);
     const std::size_t count = isDirect ? directCollisions_ : collisions_.size() - directCollisions_;
     const FixtureTable::Mobility &ofA = table_.mobility(a), &ofB = table_.mobility(b);
     const double lighterMassKg = std::min(ofA.movableMassKg, ofB.movableMassKg);
@@ -126,7 +126,7 @@ Collision* CollisionCatcher::strike(const TouchingPairs::Name& pair, double appr
 Collision* CollisionCatcher::weakest(bool isDirect) noexcept {
     Collision* found = nullptr;
     for (Collision& collision : collisions_)
-        if (isFelt(collision.a, collision.b) == isDirect &&
+        if (touchesSource(collision.a, collision.b) == isDirect &&
             (found == nullptr || collision.expectedNewtonSeconds < found->expectedNewtonSeconds))
             found = &collision;
     return found;

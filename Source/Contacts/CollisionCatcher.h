@@ -56,7 +56,7 @@ public:
     /// Counts a new contact point of two fixtures that the engine distinguishes from the pair's other points.
     void meet(std::int32_t a, std::int32_t b) noexcept {
         ++tally_.contacts;
-        tally_.withoutSource += isFelt(a, b) ? 0 : 1;
+        tally_.withoutSource += touchesSource(a, b) ? 0 : 1;
     }
     /// Counts a contact of a haptic source that was too slow for a collision. It would have been one with a
     /// threshold of `metresPerSecond`.
@@ -88,22 +88,22 @@ public:
 
     /// False: the world has no haptic source, so nothing has to be reported. A source that is added later
     /// takes part from the next step on.
-    bool isHearing() const noexcept { return table_.hasCameras(); }
+    bool hasSources() const noexcept { return table_.hasCameras(); }
 
     /// True if at least one of the two is a haptic source.
-    bool isFelt(std::int32_t a, std::int32_t b) const noexcept {
+    bool touchesSource(std::int32_t a, std::int32_t b) const noexcept {
         return table_.isCamera(a) || table_.isCamera(b);
     }
 
     /// True if pushes of the pair matter: one of them is a haptic source, or the pair collided in the last
     /// step.
-    bool isHeard(const TouchingPairs::Name& pair) const noexcept {
-        return isFelt(pair.a, pair.b) || pairs_[pair.number].last != TouchingPairs::none;
+    bool isRelevant(const TouchingPairs::Name& pair) const noexcept {
+        return touchesSource(pair.a, pair.b) || pairs_[pair.number].last != TouchingPairs::none;
     }
 
     /// The same from the engine's numbers of two fixtures. False is certain, and avoids the search for the
     /// pair of most contacts in a world with few haptic sources.
-    bool mayBeHeard(std::uint64_t a, std::uint64_t b) const noexcept {
+    bool mayBeRelevant(std::uint64_t a, std::uint64_t b) const noexcept {
         return table_.mayBeCamera(a) || table_.mayBeCamera(b) ||
                (struckNames_.mayHave(a) && struckNames_.mayHave(b));
     }
@@ -114,7 +114,7 @@ public:
         hasHeard_ = true;
         if (const std::int32_t last = pairs_[pair.number].last; last != TouchingPairs::none)
             last_[static_cast<std::size_t>(last)].newtonSeconds += newtonSeconds;
-        if (isFelt(pair.a, pair.b)) loads_.add(pair, newtonSeconds, point);
+        if (touchesSource(pair.a, pair.b)) loads_.add(pair, newtonSeconds, point);
     }
 
     const std::vector<Collision>& collisions() const noexcept { return collisions_; }

@@ -98,9 +98,9 @@ std::string_view ContactFeed::set(std::int32_t id, const FedBody& body, const Ha
     if (id < 0) return "body: expected a number from 0 on";
     if (const std::string_view fault = physvib::faultOf(body); !fault.empty()) return fault;
     if (const std::string_view fault = physvib::faultOf(values); !fault.empty()) return fault;
-    FedBodies& bodies = contacts_->bodies();
+    ReportedBodies& bodies = contacts_->bodies();
     bodies.set(id, body);
-    const std::uint64_t name = FedBodies::nameOf(id);
+    const std::uint64_t name = ReportedBodies::idOf(id);
     return contacts_->events().set(name, bodies.facts(name), {}, values, id).refusal;
 }
 
@@ -193,7 +193,7 @@ ContactCounts ContactFeed::takeRecent() noexcept { return contacts_->events().ta
 std::string_view ContactFeed::note(std::int32_t id, EngineNote what) {
     if (!contacts_->bodies().has(id)) return unknownBody;
     ContactEvents& events = contacts_->events();
-    if (events.fixtures().isCamera(events.fixtures().find(FedBodies::nameOf(id))))
+    if (events.fixtures().isCamera(events.fixtures().find(ReportedBodies::idOf(id))))
         events.catcher().tally().note(what, id);
     return {};
 }

@@ -30,7 +30,7 @@ void FedContacts::passOver(const TouchingPairs::Name& pair, const FedContact& co
     const double lighter = std::min(a.movableMassKg(), b.movableMassKg());
     const double change = std::isfinite(impulse) ? impulse / lighter : 0.0;
     catcher.passOver(pair.a, pair.b, std::max(0.0, std::min(1.5 * speed, change)));
-    if (!std::isfinite(lighter) || !catcher.isFelt(pair.a, pair.b)) return;
+    if (!std::isfinite(lighter) || !catcher.touchesSource(pair.a, pair.b)) return;
     ContactCounts& tally = catcher.tally();
     if (catcher.isCollision(std::max(a.gravityScale(), b.gravityScale()), -speed)) {
         ++tally.parting;
@@ -89,10 +89,10 @@ void FedContacts::addFriction(Collision& collision, const FedContact& contact, s
 }
 
 void FedContacts::load(const FedContact& contact) {
-    if (!contact.impulseNewtonSeconds || !events_.catcher().isHearing()) return;
+    if (!contact.impulseNewtonSeconds || !events_.catcher().hasSources()) return;
     const TouchingPairs::Name pair = nameOf(contact);
     rub(contact, pair);
-    if (!events_.catcher().isHeard(pair)) return;
+    if (!events_.catcher().isRelevant(pair)) return;
     const auto along = static_cast<float>(*contact.impulseNewtonSeconds),
                across = static_cast<float>(contact.tangentialNewtonSeconds);
     const Vector3 inPlane = along * contact.normal + across * physvib::inPlane(contact.normal).turnedLeft();
@@ -101,7 +101,7 @@ void FedContacts::load(const FedContact& contact) {
 
 void FedContacts::rub(const FedContact& contact, const TouchingPairs::Name& pair) {
     if (!contact.alongAMetresPerSecond || !contact.alongBMetresPerSecond ||
-        !events_.lasting().isHeard(pair.a, pair.b))
+        !events_.lasting().isRelevant(pair.a, pair.b))
         return;
     rubs_.tell({pair.a, pair.b, *contact.impulseNewtonSeconds, contact.point, *contact.alongAMetresPerSecond,
                 *contact.alongBMetresPerSecond});

@@ -115,7 +115,7 @@ bool FedContacts::isNewPoint(Pair& pair, const FedContact& contact) {
 }
 
 void FedContacts::tell(Pair& pair, const FedContact& contact, bool isNew) {
-    if (!events_.catcher().isHearing()) return;
+    if (!events_.catcher().hasSources()) return;
     if (waits(contact)) {
         const bool isByMomentum = this->isByMomentum(contact);
         const auto momentum = isByMomentum

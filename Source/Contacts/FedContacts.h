@@ -4,12 +4,12 @@
 #pragma once
 #include "Contacts/ContactEvents.h"
 #include "Contacts/ContactFeed.h"
-#include "Contacts/FedBodies.h"
 #include "Contacts/FedPoints.h"
-#include "Contacts/FedRubs.h"
 #include "Contacts/IntegerMap.h"
 #include "Contacts/MeetingPoints.h"
 #include "Contacts/MomentumImpulses.h"
+#include "Contacts/ReportedBodies.h"
+#include "Contacts/ReportedSlides.h"
 #include <cstdint>
 #include <vector>
 
@@ -23,7 +23,7 @@ public:
     FedContacts(const FedContacts&) = delete;
     FedContacts& operator=(const FedContacts&) = delete;
 
-    FedBodies& bodies() noexcept { return bodies_; }
+    ReportedBodies& bodies() noexcept { return bodies_; }
     ContactEvents& events() noexcept { return events_; }
     bool isStepping() noexcept { return events_.catcher().isStepping(); }
 
@@ -66,7 +66,7 @@ private:
     void settleTogether();
     double speedOf(const FedContact& contact) const;
     std::int32_t slotOf(std::int32_t id) const noexcept {
-        return events_.fixtures().find(FedBodies::nameOf(id));
+        return events_.fixtures().find(ReportedBodies::idOf(id));
     }
     TouchingPairs::Name nameOf(const FedContact& contact);
     Pair& know(const FedContact& contact, bool isAsked);
@@ -82,9 +82,9 @@ private:
     void rub(const FedContact& contact, const TouchingPairs::Name& pair);
     double fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept;
 
-    FedBodies bodies_;
+    ReportedBodies bodies_;
     ContactEvents events_;
-    FedRubs rubs_;
+    ReportedSlides rubs_;
     FedPoints points_;
     std::vector<Waiting> waiting_;
     MomentumImpulses momentum_;

@@ -62,7 +62,7 @@ double wantedOf(const MeetingPoint& point) noexcept {
 
 } // namespace
 
-void solve(const FedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points) {
+void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points) {
     for (MeetingPoint& point : points) point.newtonSeconds = 0.0;
     Problem problem{};
     problem.count = std::min(points.size(), maxPoints);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Impulses at the points where two bodies collide, solved together.
 #pragma once
-#include "Contacts/FedBodies.h"
+#include "Contacts/ReportedBodies.h"
 #include "Contacts/Vector3.h"
 #include <span>
 
@@ -21,6 +21,6 @@ struct MeetingPoint {
 /// than necessary (the linear complementarity problem of a rigid impact, by projected Gauss-Seidel). Where
 /// the masses leave the distribution open, all points get equal impulses. The bodies must be registered.
 /// World thread (M) only; no allocation.
-void solve(const FedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points);
+void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points);
 
 } // namespace physvib

@@ -20,16 +20,16 @@ void MomentumImpulses::clear() {
     isInPlane_ = true;
 }
 
-std::int32_t MomentumImpulses::know(const FedBodies& bodies, std::int32_t id) {
+std::int32_t MomentumImpulses::know(const ReportedBodies& bodies, std::int32_t id) {
     const FedBody& told = bodies.told(id);
     if (!(told.massKg > 0.0)) return none;
-    if (const std::int32_t known = bodyOf_.find(FedBodies::nameOf(id)); known != none) return known;
+    if (const std::int32_t known = bodyOf_.find(ReportedBodies::idOf(id)); known != none) return known;
     bodies_.push_back({1.0 / told.massKg, bodies.inverseInertia(id)});
-    bodyOf_.set(FedBodies::nameOf(id), static_cast<std::int32_t>(bodies_.size()) - 1);
+    bodyOf_.set(ReportedBodies::idOf(id), static_cast<std::int32_t>(bodies_.size()) - 1);
     return static_cast<std::int32_t>(bodies_.size()) - 1;
 }
 
-std::size_t MomentumImpulses::add(const FedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
+std::size_t MomentumImpulses::add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
                                   Vector3 normal) {
     Point made{know(bodies, a),
                know(bodies, b),

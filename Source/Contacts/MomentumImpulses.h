@@ -2,9 +2,9 @@
 // Estimates contact impulses from the bodies' velocities before and after the solver, for engines that do not
 // report impulses.
 #pragma once
-#include "Contacts/FedBodies.h"
 #include "Contacts/IntegerMap.h"
 #include "Contacts/InverseInertia.h"
+#include "Contacts/ReportedBodies.h"
 #include "Contacts/Vector3.h"
 #include <array>
 #include <cstdint>
@@ -20,9 +20,10 @@ namespace physvib {
 class MomentumImpulses {
 public:
     void clear();
-    /// Adds a point of two bodies whose velocities are known (FedBodies::hasAfter). Returns its number, from
-    /// 0 on.
-    std::size_t add(const FedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal);
+    /// Adds a point of two bodies whose velocities are known (ReportedBodies::hasAfter). Returns its number,
+    /// from 0 on.
+    std::size_t add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
+                    Vector3 normal);
     void solve();
     double newtonSeconds(std::size_t point) const { return points_[point].newtonSeconds; }
 
@@ -40,7 +41,7 @@ private:
         double change;                  // m/s by which the contact has reduced the approach speed
         double perNewtonSecond, newtonSeconds;
     };
-    std::int32_t know(const FedBodies& bodies, std::int32_t id);
+    std::int32_t know(const ReportedBodies& bodies, std::int32_t id);
     bool isInPlane(const Point& point) const;
     // `inPlane` leaves out what is 0 there.
     template <bool inPlane>
@@ -54,7 +55,7 @@ private:
 
     bool isInPlane_ = true; // all points: normals along x and y, spin about z alone
     std::vector<Body> bodies_;
-    IntegerMap bodyOf_; // by FedBodies::nameOf()
+    IntegerMap bodyOf_; // by ReportedBodies::idOf()
     std::vector<Point> points_;
 };
 

@@ -121,7 +121,7 @@ void CollisionFinder::end(const b2Contact& contact) {
 
 void CollisionFinder::onPreSolve(const b2Contact& contact, const b2Manifold& before) {
     const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping());
-    if (fresh == 0 || !contact.IsEnabled() || !events_.catcher().isHearing()) return;
+    if (fresh == 0 || !contact.IsEnabled() || !events_.catcher().hasSources()) return;
     b2WorldManifold manifold;
     contact.GetWorldManifold(&manifold);
     double fastest = 0.0;
@@ -136,7 +136,7 @@ void CollisionFinder::onPreSolve(const b2Contact& contact, const b2Manifold& bef
 }
 
 void CollisionFinder::passOver(const b2Contact& contact, double approachMetresPerSecond) {
-    if (!events_.catcher().mayBeHeard(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
+    if (!events_.catcher().mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
     if (const Known* const known = find(contact)) // two thirds of the threshold let it pass
         events_.catcher().passOver(known->pair.a, known->pair.b, 1.5 * approachMetresPerSecond);
 }
@@ -182,20 +182,20 @@ double CollisionFinder::fractionOf(const b2Contact& contact) const noexcept {
 // Impulses at new points belong to the collision, if there is one; all others are load.
 void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
     const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
-    if (!events_.catcher().isHearing()) return;
+    if (!events_.catcher().hasSources()) return;
     if (fresh == 0 &&
-        !events_.catcher().mayBeHeard(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
+        !events_.catcher().mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
         return;
     Known* const known = find(contact);
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
     Collision* const collision = fresh != 0 ? events_.catcher().collision(pair) : nullptr;
-    const bool isHeard = events_.catcher().isHeard(pair);
+    const bool isHeard = events_.catcher().isRelevant(pair);
     if (!isHeard && collision == nullptr) return;
     b2WorldManifold manifold;
     if (isHeard) contact.GetWorldManifold(&manifold);
     share(impulse, manifold, pair, fresh, collision, isHeard);
-    if (events_.lasting().isHeard(pair.a, pair.b)) // only pairs whose load matters
+    if (events_.lasting().isRelevant(pair.a, pair.b)) // only pairs whose load matters
         tellLasting(contact, manifold, impulse, collision != nullptr ? fresh : 0U, pair.a, pair.b,
                     events_.lasting());
 }

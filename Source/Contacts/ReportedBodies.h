@@ -12,10 +12,10 @@
 namespace physvib {
 
 /// Bodies by numbers (>= 0) of the engine's side. M only.
-class FedBodies final : public BodyReader {
+class ReportedBodies final : public BodyReader {
 public:
     /// The number by which contacts and later stages identify that body.
-    static std::uint64_t nameOf(std::int32_t id) noexcept { return static_cast<std::uint64_t>(id) + 1; }
+    static std::uint64_t idOf(std::int32_t id) noexcept { return static_cast<std::uint64_t>(id) + 1; }
 
     void set(std::int32_t id, const FedBody& body);
     /// `inverse`: in the world's axes; without it, FedBody's moment of inertia counts about every axis.
@@ -28,8 +28,8 @@ public:
     bool hasAfter(std::int32_t id) const;
     bool isAnyAfter() const noexcept { return isAnyAfter_; }
     void endStep() noexcept { isAnyAfter_ = false, ++age_; }
-    const FedBody& told(std::int32_t id) const { return at(nameOf(id)).told; }
-    bool has(std::int32_t id) const noexcept { return slots_.find(nameOf(id)) != IntegerMap::none; }
+    const FedBody& told(std::int32_t id) const { return at(idOf(id)).told; }
+    bool has(std::int32_t id) const noexcept { return slots_.find(idOf(id)) != IntegerMap::none; }
 
     /// The largest mass of a movable body, kg (m_max of Eq. 5.7).
     double largestMassKg();
@@ -54,7 +54,7 @@ public:
     InverseInertia inverseInertia(std::int32_t id) const;
     /// Lever of a force along `normal` at `point`, about the body's centre of mass, m.
     Vector3 lever(std::int32_t id, Vector3 point, Vector3 normal) const {
-        return cross(point - at(nameOf(id)).centre, normal);
+        return cross(point - at(idOf(id)).centre, normal);
     }
 
     /// Effective mass at a contact point, kg: impulse per change of the approach speed. Infinite if neither
@@ -86,7 +86,7 @@ private:
     void forgetLargest(const Body& body) noexcept;
 
     std::vector<Body> bodies_;
-    IntegerMap slots_; // by nameOf()
+    IntegerMap slots_; // by idOf()
     double largestMassKg_ = 0.0;
     bool isLargestKnown_ = true;
     std::uint64_t age_ = 1;

@@ -24,7 +24,7 @@ struct Rub {
 /// One point per pair: impulses of several points are summed, the last one's place is used. Positions along
 /// the surfaces are integrated from the speeds, starting at 0 with the contact. All methods: the world's
 /// thread (M).
-class FedRubs {
+class ReportedSlides {
 public:
     void tell(const Rub& rub);
     /// Passes the step's points to `lasting`; contacts that were not reported have ended.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stores the bodies that a caller reports, and computes approach speed and effective mass of two bodies at a
 // point.
-#include "Contacts/FedBodies.h"
+#include "Contacts/ReportedBodies.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,11 +26,11 @@ double slideOf(Vector3 spin, Vector3 arm, Vector3 normal) noexcept {
 
 } // namespace
 
-void FedBodies::set(std::int32_t id, const FedBody& body) {
-    std::int32_t slot = slots_.find(nameOf(id));
+void ReportedBodies::set(std::int32_t id, const FedBody& body) {
+    std::int32_t slot = slots_.find(idOf(id));
     if (slot == IntegerMap::none) {
         slot = static_cast<std::int32_t>(bodies_.size());
-        slots_.set(nameOf(id), slot);
+        slots_.set(idOf(id), slot);
         bodies_.push_back({id, {}, {}, {}, {}});
     }
     Body& known = bodies_[static_cast<std::size_t>(slot)];
@@ -39,43 +39,43 @@ void FedBodies::set(std::int32_t id, const FedBody& body) {
     largestMassKg_ = std::max(largestMassKg_, body.massKg);
 }
 
-void FedBodies::move(std::int32_t id, Vector3 centre, const SpaceMotion& motion,
-                     const std::optional<InverseInertia>& inverse) {
-    Body& body = bodies_[static_cast<std::size_t>(slots_.find(nameOf(id)))];
+void ReportedBodies::move(std::int32_t id, Vector3 centre, const SpaceMotion& motion,
+                          const std::optional<InverseInertia>& inverse) {
+    Body& body = bodies_[static_cast<std::size_t>(slots_.find(idOf(id)))];
     body.centre = centre;
     body.motion = motion;
     body.inverse = inverse;
 }
 
-void FedBodies::moveAfter(std::int32_t id, const SpaceMotion& motion) {
-    Body& body = bodies_[static_cast<std::size_t>(slots_.find(nameOf(id)))];
+void ReportedBodies::moveAfter(std::int32_t id, const SpaceMotion& motion) {
+    Body& body = bodies_[static_cast<std::size_t>(slots_.find(idOf(id)))];
     body.after = motion;
     body.afterAge = age_;
     isAnyAfter_ = true;
 }
 
-bool FedBodies::hasAfter(std::int32_t id) const {
-    const Body& body = at(nameOf(id));
+bool ReportedBodies::hasAfter(std::int32_t id) const {
+    const Body& body = at(idOf(id));
     return !(body.told.massKg > 0.0) || body.afterAge == age_;
 }
 
-void FedBodies::remove(std::int32_t id) {
-    const std::int32_t slot = slots_.find(nameOf(id));
+void ReportedBodies::remove(std::int32_t id) {
+    const std::int32_t slot = slots_.find(idOf(id));
     Body& hole = bodies_[static_cast<std::size_t>(slot)];
     forgetLargest(hole);
-    slots_.erase(nameOf(id));
+    slots_.erase(idOf(id));
     if (&hole != &bodies_.back()) {
         hole = bodies_.back();
-        slots_.set(nameOf(hole.id), slot);
+        slots_.set(idOf(hole.id), slot);
     }
     bodies_.pop_back();
 }
 
-void FedBodies::forgetLargest(const Body& body) noexcept {
+void ReportedBodies::forgetLargest(const Body& body) noexcept {
     if (body.told.massKg > 0.0 && body.told.massKg >= largestMassKg_) isLargestKnown_ = false;
 }
 
-double FedBodies::largestMassKg() {
+double ReportedBodies::largestMassKg() {
     if (!isLargestKnown_) {
         largestMassKg_ = 0.0;
         for (const Body& body : bodies_) largestMassKg_ = std::max(largestMassKg_, body.told.massKg);
@@ -84,24 +84,24 @@ double FedBodies::largestMassKg() {
     return largestMassKg_;
 }
 
-double FedBodies::approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
-    const Body &bodyA = at(nameOf(a)), &bodyB = at(nameOf(b));
+double ReportedBodies::approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
+    const Body &bodyA = at(idOf(a)), &bodyB = at(idOf(b));
     const Vector3 nearing =
         velocityAt(bodyA.motion, point - bodyA.centre) - velocityAt(bodyB.motion, point - bodyB.centre);
     return dot(nearing, normal);
 }
 
-double FedBodies::approachAfter(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
+double ReportedBodies::approachAfter(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
     const auto after = [&](const Body& body) { return body.told.massKg > 0.0 ? body.after : body.motion; };
-    const Body &bodyA = at(nameOf(a)), &bodyB = at(nameOf(b));
+    const Body &bodyA = at(idOf(a)), &bodyB = at(idOf(b));
     const Vector3 nearing =
         velocityAt(after(bodyA), point - bodyA.centre) - velocityAt(after(bodyB), point - bodyB.centre);
     return dot(nearing, normal);
 }
 
-double FedBodies::slide(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
+double ReportedBodies::slide(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
     double sum = 0.0;
-    for (const Body* body : {&at(nameOf(a)), &at(nameOf(b))})
+    for (const Body* body : {&at(idOf(a)), &at(idOf(b))})
         sum += lengthOf(cross(body->motion.metresPerSecond, normal)) +
                slideOf(body->motion.radiansPerSecond, point - body->centre, normal);
     return sum;
@@ -109,24 +109,24 @@ double FedBodies::slide(std::int32_t a, std::int32_t b, Vector3 point, Vector3 n
 
 // Divides by the moment of inertia where that is known, instead of multiplying by its inverse: the last bit
 // may differ.
-double FedBodies::turning(const Body& body, Vector3 lever, Vector3 other) noexcept {
+double ReportedBodies::turning(const Body& body, Vector3 lever, Vector3 other) noexcept {
     if (body.inverse) return body.inverse->between(lever, other);
     if (!(body.told.inertiaKgSquareMetres > 0.0)) return 0.0;
     return InverseInertia::ofBall(1.0).between(lever, other) / body.told.inertiaKgSquareMetres;
 }
 
-InverseInertia FedBodies::inverseInertia(std::int32_t id) const {
-    const Body& body = at(nameOf(id));
+InverseInertia ReportedBodies::inverseInertia(std::int32_t id) const {
+    const Body& body = at(idOf(id));
     if (!(body.told.massKg > 0.0)) return {};
     if (body.inverse) return *body.inverse;
     const double told = body.told.inertiaKgSquareMetres;
     return InverseInertia::ofBall(told > 0.0 ? 1.0 / told : 0.0);
 }
 
-double FedBodies::coupling(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal, Vector3 otherPoint,
-                           Vector3 otherNormal) const {
+double ReportedBodies::coupling(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
+                                Vector3 otherPoint, Vector3 otherNormal) const {
     double sum = 0.0;
-    for (const Body* body : {&at(nameOf(a)), &at(nameOf(b))}) {
+    for (const Body* body : {&at(idOf(a)), &at(idOf(b))}) {
         if (!(body->told.massKg > 0.0)) continue;
         sum += dot(normal, otherNormal) / body->told.massKg;
         sum += turning(*body, cross(point - body->centre, normal),
@@ -135,9 +135,9 @@ double FedBodies::coupling(std::int32_t a, std::int32_t b, Vector3 point, Vector
     return sum;
 }
 
-double FedBodies::effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
+double ReportedBodies::effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
     double perKg = 0.0;
-    for (const Body* body : {&at(nameOf(a)), &at(nameOf(b))}) {
+    for (const Body* body : {&at(idOf(a)), &at(idOf(b))}) {
         if (!(body->told.massKg > 0.0)) continue;
         perKg += 1.0 / body->told.massKg;
         const Vector3 lever = cross(point - body->centre, normal);
@@ -146,7 +146,7 @@ double FedBodies::effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point,
     return perKg > 0.0 ? 1.0 / perKg : std::numeric_limits<double>::infinity();
 }
 
-BodyFacts FedBodies::facts(std::uint64_t body) const {
+BodyFacts ReportedBodies::facts(std::uint64_t body) const {
     const FedBody& told = at(body).told;
     return {body, told.massKg, static_cast<float>(told.gravityScale), told.massKg > 0.0, true};
 }

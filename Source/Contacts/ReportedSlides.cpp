@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Integrates reported surface speeds to positions along the surfaces.
-#include "Contacts/FedRubs.h"
+#include "Contacts/ReportedSlides.h"
 #include <algorithm>
 #include <utility>
 
 namespace physvib {
 
-void FedRubs::tell(const Rub& told) {
+void ReportedSlides::tell(const Rub& told) {
     const std::uint64_t key = pairKey(told.a, told.b);
     std::int32_t at = trackOf_.find(key);
     if (at == IntegerMap::none) {
@@ -29,7 +29,7 @@ void FedRubs::tell(const Rub& told) {
     point.onB.metresPerSecond = isTurned ? told.alongA : told.alongB;
 }
 
-void FedRubs::endStep(double seconds, LastingContacts& lasting) {
+void ReportedSlides::endStep(double seconds, LastingContacts& lasting) {
     for (std::size_t i = 0; i < tracks_.size();) {
         Track& track = tracks_[i];
         if (!std::exchange(track.isTold, false)) {
@@ -48,12 +48,12 @@ void FedRubs::endStep(double seconds, LastingContacts& lasting) {
     }
 }
 
-void FedRubs::forget(std::int32_t slot) {
+void ReportedSlides::forget(std::int32_t slot) {
     for (std::size_t i = tracks_.size(); i-- > 0;)
         if (tracks_[i].point.a == slot || tracks_[i].point.b == slot) drop(i);
 }
 
-void FedRubs::drop(std::size_t track) {
+void ReportedSlides::drop(std::size_t track) {
     trackOf_.erase(tracks_[track].key);
     if (track + 1 < tracks_.size()) {
         tracks_[track] = tracks_.back();
