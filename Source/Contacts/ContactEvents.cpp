@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs the stages from contact reports to events, in their order.
 #include "Contacts/ContactEvents.h"
-#include "Contacts/ImpactEvents.h"
+#include "Contacts/EventMaker.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Computes an impact's events: sound and place once per pair, time and amplitude for each impact.
-#include "Contacts/ImpactEvents.h"
+#include "Contacts/EventMaker.h"
 #include <cmath>
 
 namespace physvib {
@@ -41,12 +41,12 @@ EventMaker::EventMaker(const FixtureTable& table, const PairSounds& pairs, const
     , sin_(std::sin(settings.fieldRadians)) {}
 
 void EventMaker::add(const Impact& impact) {
-    if (impact.camera != camera_) hold(impact.camera);
+    if (impact.camera != camera_) setSource(impact.camera);
     if (isMuted_) {
         ++counts_.muted;
         return;
     }
-    if (!hasMet_ || impact.other != other_) meet(impact.other);
+    if (!hasMet_ || impact.other != other_) setPartner(impact.other);
     if (settings_.location == ImpactLocation::contact) place(impact.point);
     const double amplitude = pairGain_ * (gain_ * own_.amplitude(impact.newtonSeconds, event_.source.massKg));
     event_.timeNs = impact.timeNs;
@@ -67,7 +67,7 @@ void EventMaker::add(const Impact& impact) {
     }
 }
 
-void EventMaker::hold(std::int32_t camera) {
+void EventMaker::setSource(std::int32_t camera) {
     camera_ = camera;
     hasMet_ = false;
     const KnownFixture& of = table_[camera];
@@ -81,7 +81,7 @@ void EventMaker::hold(std::int32_t camera) {
     if (settings_.location == ImpactLocation::fixture) place(bodies_.toWorld(of.body.body, of.centre));
 }
 
-void EventMaker::meet(std::int32_t other) {
+void EventMaker::setPartner(std::int32_t other) {
     hasMet_ = true;
     other_ = other;
     modeCount_ = 0;

@@ -35,8 +35,8 @@ private:
         double frequencyHz, decayPerSecond, relativeAmplitude;
         SoundNumber sound;
     };
-    void hold(std::int32_t camera);
-    void meet(std::int32_t other);
+    void setSource(std::int32_t camera);
+    void setPartner(std::int32_t other);
     template <class Sound>
     void addModes(const Sound& sound) noexcept;
     void place(Vector3 world) noexcept;
