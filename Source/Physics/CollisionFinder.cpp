@@ -190,25 +190,25 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
     Collision* const collision = fresh != 0 ? events_.catcher().collision(pair) : nullptr;
-    const bool isHeard = events_.catcher().isRelevant(pair);
-    if (!isHeard && collision == nullptr) return;
+    const bool isRelevant = events_.catcher().isRelevant(pair);
+    if (!isRelevant && collision == nullptr) return;
     b2WorldManifold manifold;
-    if (isHeard) contact.GetWorldManifold(&manifold);
-    share(impulse, manifold, pair, fresh, collision, isHeard);
+    if (isRelevant) contact.GetWorldManifold(&manifold);
+    share(impulse, manifold, pair, fresh, collision, isRelevant);
     if (events_.lasting().isRelevant(pair.a, pair.b)) // only pairs whose load matters
         tellLasting(contact, manifold, impulse, collision != nullptr ? fresh : 0U, pair.a, pair.b,
                     events_.lasting());
 }
 
 void CollisionFinder::share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold,
-                            const Pair& pair, unsigned fresh, Collision* collision, bool isHeard) {
+                            const Pair& pair, unsigned fresh, Collision* collision, bool isRelevant) {
     b2Vec2 onB{0.0F, 0.0F};
     bool isLoaded = false;
     for (int i = 0; i < impulse.count; ++i) {
         if (collision != nullptr && isIn(fresh, i)) {
             collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
             collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
-        } else if (isHeard) {
+        } else if (isRelevant) {
             isLoaded = true;
             onB += impulse.normalImpulses[i] * manifold.normal +
                    impulse.tangentImpulses[i] * b2Cross(manifold.normal, 1.0F);

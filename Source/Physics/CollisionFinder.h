@@ -60,7 +60,7 @@ private:
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
                   Collision& collision) const;
     void share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold, const Pair& pair,
-               unsigned fresh, Collision* collision, bool isHeard);
+               unsigned fresh, Collision* collision, bool isRelevant);
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 

@@ -61,7 +61,8 @@ std::ptrdiff_t strongestEvent(std::span<const CollisionEvent> events) noexcept {
     return found == events.end() ? -1 : found - events.begin();
 }
 
-WorldPoses posesAtStrongest(const Scene& scene, const SceneRun& run, std::span<const CollisionEvent> events) {
+WorldPoses posesAtStrongest(const Scene& scene, const RunSettings& run,
+                            std::span<const CollisionEvent> events) {
     const auto strongest = strongestEvent(events);
     if (strongest < 0) return {};
     return posesAt(scene, run, events[static_cast<std::size_t>(strongest)].timeNs);

@@ -8,7 +8,7 @@
 #include "Pictures/Letters.h"
 #include "Pictures/WaveformEnvelope.h"
 #include "Scene/Scene.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include <span>
 #include <string>
 #include <vector>
@@ -38,7 +38,8 @@ struct PictureInput {
 std::ptrdiff_t strongestEvent(std::span<const CollisionEvent> events) noexcept;
 
 /// Where the bodies of a scene stand at its strongest event; none if nothing was struck. Any thread.
-WorldPoses posesAtStrongest(const Scene& scene, const SceneRun& run, std::span<const CollisionEvent> events);
+WorldPoses posesAtStrongest(const Scene& scene, const RunSettings& run,
+                            std::span<const CollisionEvent> events);
 
 /// Frames of a render, which may reach beyond its ends.
 struct FrameWindow {

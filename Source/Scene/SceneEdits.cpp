@@ -77,7 +77,7 @@ bool editScene(Scene& scene, const Action& action) {
     return true;
 }
 
-Scene sceneAsLeft(const SceneTake& take) {
+Scene sceneAsLeft(const SceneRun& take) {
     Scene scene = *take.scene;
     for (const LiveInput& input : take.inputs) editScene(scene, input.action);
     return scene;

@@ -2,7 +2,7 @@
 // Live inputs that edit a scene permanently: adding, removing and changing bodies, joints and materials.
 #pragma once
 #include "Scene/Scene.h"
-#include "Scene/SceneTake.h"
+#include "Scene/SceneRun.h"
 
 namespace physvib {
 
@@ -20,7 +20,7 @@ bool editScene(Scene& scene, const Action& action);
 
 /// The scene of a scene run as its inputs left it, without inputs: added bodies start where they were put,
 /// removed ones are absent (unless a joint holds them or the script needs them). Any thread.
-Scene sceneAsLeft(const SceneTake& take);
+Scene sceneAsLeft(const SceneRun& take);
 
 /// The scene without scripted user input: pushes, tilts and device orientation; with a player (ScenePlayer),
 /// the player's actions. Any thread.

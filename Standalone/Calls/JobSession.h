@@ -24,7 +24,7 @@ inline std::vector<CollisionEvent> soundsOf(const Scene& scene) {
 inline SessionSetup sessionSetup(const LoadedRender& job) {
     SessionSetup setup;
     setup.scene = *job.scene;
-    const SceneRun run = job.run();
+    const RunSettings run = job.run();
     setup.seed = run.seed;
     setup.stepsPerSecond = run.stepsPerSecond;
     setup.timing = run.timing;

@@ -16,7 +16,7 @@
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/SoundNames.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include "System/ExitCode.h"
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ struct LoadedRender {
         for (const EnchanterDescription& one : layout.enchanters) all.parts.add(one.part);
         if (scene) all.addScene(*scene);
         if (session)
-            for (const SceneTake& take : session->log.takes) all.addScene(*take.scene);
+            for (const SceneRun& take : session->log.takes) all.addScene(*take.scene);
         return all;
     }
 
@@ -61,7 +61,7 @@ struct LoadedRender {
         return options.playsRecordings ? recordings : std::vector<ContactRecording>{};
     }
 
-    SceneRun run() const {
+    RunSettings run() const {
         if (session) return session->run;
         return {options.seed, options.stepsPerSecond, options.timing, options.location};
     }

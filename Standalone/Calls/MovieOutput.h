@@ -4,7 +4,7 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Pictures/RenderMovie.h"
 #include "Pictures/WebpMovie.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include "System/Process.h"
 #include <functional>
 #include <optional>

@@ -9,7 +9,7 @@
 #include "Live/Session/Patience.h"
 #include "Scene/FieldSize.h"
 #include "Scene/SceneFile.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include <cstdint>
 #include <optional>
 #include <set>

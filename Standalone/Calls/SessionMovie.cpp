@@ -92,7 +92,7 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
         !addSound(movie, session, part, events, [&] { return goesOn = progress(samplesShare); }) && !goesOn)
         return "cancelled";
 
-    const SceneTake& last = session.log.takes.back();
+    const SceneRun& last = session.log.takes.back();
     PictureInput picture;
     picture.title = last.scene->name;
     picture.fieldWidthMetres = last.scene->fieldWidthMetres;

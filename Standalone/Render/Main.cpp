@@ -12,7 +12,7 @@
 #include "Scene/LayoutFile.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SilentWords.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <csignal>
@@ -35,7 +35,7 @@ struct Options {
     std::string input, layout = "phone4", instructions = "best", wavPath, eventsPath, picturePath, field;
     double seconds = 10.0;
     int sampleRateHz = 48000;
-    SceneRun run;
+    RunSettings run;
 
     bool isList() const { return input.ends_with(".csv"); }
     FieldSize told() const { return parseField(field).value_or(FieldSize{}); }

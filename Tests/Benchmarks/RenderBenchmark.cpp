@@ -4,7 +4,7 @@
 #include "Io/Wav/WavSink.h"
 #include "Live/Session/OfflineRender.h"
 #include "Scene/SceneCatalogue.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include <benchmark/benchmark.h>
 #include <filesystem>
 

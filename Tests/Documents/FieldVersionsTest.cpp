@@ -33,7 +33,7 @@ int newestOf() {
 }
 
 TEST(FieldVersions, TheNewestFieldOfASessionIsOfTheVersionThatIsWritten) {
-    EXPECT_EQ((newestOf<SavedSession, SceneTake, WorldStall, CollisionEvent, RecordingsChange, RecordingFile,
+    EXPECT_EQ((newestOf<SavedSession, SceneRun, WorldStall, CollisionEvent, RecordingsChange, RecordingFile,
                         ClipFile, EventShaping, Mix, StripGroup, Strip>()),
               sessionFormatVersion);
 }

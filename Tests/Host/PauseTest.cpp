@@ -4,7 +4,7 @@
 #include "FakeAudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Rig/Rig.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include "Session/FakeHost.h"
 #include <cmath>
 #include <functional>

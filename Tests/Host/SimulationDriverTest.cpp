@@ -2,7 +2,7 @@
 // Drivers take over from each other at any moment, and from blocks that step the world themselves: nothing is
 // missing.
 #include "Live/Devices/SimulationDriver.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include "Session/FakeHost.h"
 #include <atomic>
 #include <chrono>

@@ -8,7 +8,7 @@
 #include "Live/Devices/SystemDrivers.h"
 #include "MeterClient.h"
 #include "Scene/SceneCatalogue.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -244,7 +244,7 @@ TEST(Script, WhatHandsDidIsTheScenesScriptAndTheSceneGivesTheSameHits) {
     const std::size_t take = board.desk.saved().log.takes.size() - 1;
     script.stop();
     ASSERT_NE(script.hands(), nullptr);
-    const SceneTake& live = board.desk.saved().log.takes[take];
+    const SceneRun& live = board.desk.saved().log.takes[take];
     ASSERT_EQ(live.inputs.size(), 3U);
     const auto endNs = static_cast<std::int64_t>(1e9 * script.hands()->lengthSeconds);
     const auto events = eventsOf(board.drawn(), live.seed, endNs);

@@ -5,7 +5,7 @@
 #include "Live/Session/OfflineRender.h"
 #include "PluginTesting.h"
 #include "Scene/ActuatorFile.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include "TestPlaces.h"
 
 namespace physvib {

@@ -47,7 +47,7 @@ SavedSession sampleSession() {
     mix.strips[1].ceilingDb = -9.0;
     session.panner = mix.panner();
     session.equalised[1] = {{205.0, 12.0}, {160.0, 260.0}};
-    SceneTake take;
+    SceneRun take;
     take.scene = mix.scene;
     take.seed = mix.seed;
     session.log.takes.push_back(take);

@@ -2,7 +2,7 @@
 // The processor in its hosts' hands: bounces, rates, blocks, suspension, bypass, many instances.
 #include "Live/Session/OfflineRender.h"
 #include "PluginTesting.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 
 namespace physvib {
 namespace {

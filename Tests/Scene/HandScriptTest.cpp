@@ -34,7 +34,7 @@ struct Take {
         ASSERT_EQ(check.take(action), "");
         world.addInput(1e-9 * static_cast<double>(world.timeNs()), action);
     }
-    SceneTake log() const { return {0, world.timeNs(), 1, scene, world.scene().inputs, {}}; }
+    SceneRun log() const { return {0, world.timeNs(), 1, scene, world.scene().inputs, {}}; }
 };
 
 std::vector<CollisionEvent> eventsOf(const Scene& scene, std::int64_t untilNs) {
@@ -151,7 +151,7 @@ TEST(HandScript, ATrimKeepsHowTheDeviceWasHeldAndLetsGoOfWhatIsHeld) {
 TEST(HandScript, AScriptIsFullBeforeASceneIs) {
     Take take{sceneToRecord(*findBuiltInScene("shake-the-box"))};
     take.steps(1);
-    SceneTake log = take.log();
+    SceneRun log = take.log();
     for (std::size_t k = 0; k < 2 * sceneLimits::maxInputs; ++k)
         log.inputs.push_back(
             {0.01 * static_cast<double>(k + 1), TiltAction{0.001 * static_cast<double>(k % 100)}});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a scene's contacts is counted while it runs.
 #include "Scene/SceneCatalogue.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where the bodies of a scene are, moment by moment: the same as if each moment were asked for alone.
 #include "Scene/SceneCatalogue.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <memory>
@@ -14,7 +14,7 @@ constexpr std::int64_t everyNs = 50'000'000;
 TEST(ScenePoses, InOneGoAreThoseOfEachMoment) {
     const auto scene = findScene("shake-the-box");
     ASSERT_TRUE(scene);
-    const SceneRun run{.seed = 3};
+    const RunSettings run{.seed = 3};
     std::int64_t seen = 0;
     bool hasMoved = false;
     followPoses(scene.value, run, everyNs, 400'000'001, [&](std::int64_t timeNs, const WorldPoses& now) {
@@ -48,11 +48,11 @@ TEST(ScenePoses, EndWhenThatIsEnough) {
 TEST(ScenePoses, OfASessionWaitInItsPausesAndAreThoseOfTheTakeThatRuns) {
     const auto drop = std::make_shared<const Scene>(findScene("drop").value),
                box = std::make_shared<const Scene>(findScene("shake-the-box").value);
-    const SceneRun run;
-    const std::vector<SceneTake> takes{{0, 300'000'000, 4, drop, {}, {{100'000'000, 200'000'000}}},
-                                       {500'000'000, 400'000'000, 5, box, {}, {{0, 10'000'000, 1000}}}};
+    const RunSettings run;
+    const std::vector<SceneRun> takes{{0, 300'000'000, 4, drop, {}, {{100'000'000, 200'000'000}}},
+                                      {500'000'000, 400'000'000, 5, box, {}, {{0, 10'000'000, 1000}}}};
     const auto alone = [&run](const Scene& scene, std::uint32_t seed, std::int64_t timeNs) {
-        SceneRun one = run;
+        RunSettings one = run;
         one.seed = seed;
         return posesAt(scene, one, timeNs).bodies;
     };

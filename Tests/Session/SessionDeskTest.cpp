@@ -337,7 +337,7 @@ TEST(SessionDesk, GroupsAndLanesAreSavedAndABrokenOneSaysWhere) {
 }
 
 TEST(SessionDesk, BodiesThatCameAndWentAreInTheSceneAsItWasLeft) {
-    SceneTake take;
+    SceneRun take;
     take.scene = std::make_shared<const Scene>(*findBuiltInScene("shake-the-box"));
     BodyDescription ball;
     ball.name = "added 1";

@@ -39,11 +39,11 @@ int keep(SavedSession made, physvib_session* session) {
 bool isWithinADay(physvib_int64 ns) noexcept { return ns >= 0 && ns <= 86'400'000'000'000; }
 
 /// A scene run of an empty world, because a session needs one.
-SceneTake emptyTake() {
+SceneRun emptyTake() {
     Scene scene;
     scene.name = "strikes";
     scene.fieldWidthMetres = scene.fieldHeightMetres = 1.0;
-    SceneTake take;
+    SceneRun take;
     take.scene = std::make_shared<const Scene>(std::move(scene));
     return take;
 }

@@ -38,8 +38,8 @@ void readEach(const JsonField& json, std::string_view name, auto read) {
     for (std::size_t i = 0, count = list.arraySize(); i < count; ++i) read(list.item(i));
 }
 
-SceneTake readTake(const JsonField& json, const SceneTake* before) {
-    SceneTake take = readTakeStart(json, before, false);
+SceneRun readTake(const JsonField& json, const SceneRun* before) {
+    SceneRun take = readTakeStart(json, before, false);
     if (json.has("inputs"))
         detail::readValue(json["inputs"], take.inputs, items(0, sceneLimits::maxLiveInputs),
                           take.scene->materials);
@@ -52,9 +52,9 @@ SceneTake readTake(const JsonField& json, const SceneTake* before) {
 
 } // namespace
 
-SceneTake readTakeStart(const JsonField& json, const SceneTake* before, bool isJournal) {
-    SceneTake take;
-    isJournal ? readTable<SceneTake, JournalTake>(json, take) : readTable(json, take);
+SceneRun readTakeStart(const JsonField& json, const SceneRun* before, bool isJournal) {
+    SceneRun take;
+    isJournal ? readTable<SceneRun, JournalTake>(json, take) : readTable(json, take);
     if (before != nullptr && take.startNs < before->startNs)
         json["start_s"].fail("expected a time that is not before that of the take above");
     if (before != nullptr && !json.has("scene"))
@@ -64,14 +64,14 @@ SceneTake readTakeStart(const JsonField& json, const SceneTake* before, bool isJ
     return take;
 }
 
-OrderedJson takeStartJson(const SceneTake& take, const SceneTake* before, bool isJournal) {
-    OrderedJson json = isJournal ? writeTable<SceneTake, JournalTake>(take) : writeTable(take);
+OrderedJson takeStartJson(const SceneRun& take, const SceneRun* before, bool isJournal) {
+    OrderedJson json = isJournal ? writeTable<SceneRun, JournalTake>(take) : writeTable(take);
     const bool isSame = before != nullptr && (before->scene == take.scene || *before->scene == *take.scene);
     if (!isSame) json["scene"] = fieldsJson(*take.scene, take.scene->materials);
     return json;
 }
 
-WorldStall readStall(const JsonField& json, const SceneTake& take) {
+WorldStall readStall(const JsonField& json, const SceneRun& take) {
     const auto stall = kinds::Object<WorldStall>{}(json);
     expectNotBefore(take.stalls.empty() ? 0 : take.stalls.back().worldNs, stall.worldNs, json);
     return stall;
@@ -151,7 +151,7 @@ OrderedJson timedControlJson(const RenderControl& control) {
 
 namespace {
 
-OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
+OrderedJson takeJson(const SceneRun& take, const SceneRun* before) {
     OrderedJson json = takeStartJson(take, before, false);
     for (const LiveInput& input : take.inputs) json["inputs"].push_back(inputJson(input, *take.scene));
     for (const WorldStall& stall : take.stalls) json["stalls"].push_back(writeTable(stall));
@@ -229,8 +229,8 @@ Result<SavedSession> loadSession(const std::filesystem::path& path) {
 
 std::string sessionJson(const SavedSession& session, const std::filesystem::path& folder) {
     OrderedJson root = writeTable(session);
-    const SceneTake* before = nullptr;
-    for (const SceneTake& take : session.log.takes) {
+    const SceneRun* before = nullptr;
+    for (const SceneRun& take : session.log.takes) {
         root["takes"].push_back(detail::takeJson(take, before));
         before = &take;
     }
@@ -247,7 +247,7 @@ std::string sessionJson(const SavedSession& session, const std::filesystem::path
 // Slow motion delays each step too, but by less. A world that waits for its computer goes on at once.
 bool endsPaused(const SavedSession& session) {
     constexpr std::int64_t leastNs = 100'000'000;
-    const SceneTake& last = session.log.takes.back();
+    const SceneRun& last = session.log.takes.back();
     if (last.stalls.empty()) return false;
     const WorldStall& stall = last.stalls.back();
     return stall.worldNs >= last.worldEndNs && stall.steps == 1 && stall.lengthNs >= leastNs;

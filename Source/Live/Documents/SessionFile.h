@@ -7,7 +7,7 @@
 #include "Io/Result.h"
 #include "Live/Documents/Mix.h"
 #include "Live/Documents/SessionLog.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include "Scene/World/Simulation.h"
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ using Ceilings = std::array<float, limits::maxEnchanters>;
 
 /// A saved session.
 struct SavedSession {
-    SceneRun run;         ///< its seed is not used: each scene run has its own
+    RunSettings run;      ///< its seed is not used: each scene run has its own
     PhantomPanner panner; ///< at the start
     int channels = 0; ///< number of outputs, at least the number of actuators of any layout in the session
     bool limiterEnabled = true;
@@ -49,10 +49,10 @@ struct SavedSession {
 void visitSetup(auto& v) {
     using S = SavedSession;
     constexpr auto run = &S::run;
-    v.field("steps_per_second", in(run, &SceneRun::stepsPerSecond),
+    v.field("steps_per_second", in(run, &RunSettings::stepsPerSecond),
             kinds::whole(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond));
-    v.field("timing", in(run, &SceneRun::timing), kinds::OneOf{timingNames});
-    v.field("location", in(run, &SceneRun::location), kinds::OneOf{locationNames});
+    v.field("timing", in(run, &RunSettings::timing), kinds::OneOf{timingNames});
+    v.field("location", in(run, &RunSettings::location), kinds::OneOf{locationNames});
     v.field("limiter", &S::limiterEnabled, kinds::truth);
     v.field("channels", &S::channels, kinds::whole(1, limits::maxEnchanters));
     v.field("panning", &S::panner, DescribedPanner{v.object.channels, v.object.layout});

@@ -39,7 +39,7 @@ public:
     }
 
     SavedSession finish() {
-        for (const SceneTake& take : session_.log.takes)
+        for (const SceneRun& take : session_.log.takes)
             if (const std::string fault = validate(take.whole()); !fault.empty()) throw JsonError({}, fault);
         if (session_.log.takes.empty()) throw JsonError({}, "expected at least 1 take, found none");
         return std::move(session_);
@@ -47,7 +47,7 @@ public:
 
 private:
     void begin(const JsonField& json) { readTable<SavedSession, JournalHead>(json, session_); }
-    SceneTake& take(const JsonField& json) {
+    SceneRun& take(const JsonField& json) {
         if (session_.log.takes.empty()) json.fail("expected a take first");
         return session_.log.takes.back();
     }
@@ -56,13 +56,13 @@ private:
         takes.push_back(detail::readTakeStart(json, takes.empty() ? nullptr : &takes.back(), true));
     }
     void addInput(const JsonField& json) {
-        SceneTake& last = take(json);
+        SceneRun& last = take(json);
         if (last.inputs.size() == sceneLimits::maxLiveInputs)
             json.fail("expected at most " + std::to_string(sceneLimits::maxLiveInputs) + " inputs of a take");
         detail::readValue(json, last.inputs.emplace_back(), {}, last.scene->materials);
     }
     void addStall(const JsonField& json) {
-        SceneTake& last = take(json);
+        SceneRun& last = take(json);
         const WorldStall stall = detail::readStall(json, last);
         if (!last.stalls.empty() && last.stalls.back().worldNs == stall.worldNs)
             last.stalls.back() = stall;
@@ -122,7 +122,7 @@ JournalLines::JournalLines(const SavedSession& session, std::filesystem::path fo
 
 std::string JournalLines::take(SessionLog& log, std::int64_t sessionNs) {
     if (!full_.empty()) {
-        log = {std::vector<SceneTake>(1), {}, {}, {}, {}, {}};
+        log = {std::vector<SceneRun>(1), {}, {}, {}, {}, {}};
         return {};
     }
     std::string text = linesOf(log, sessionNs);
@@ -140,7 +140,7 @@ std::string JournalLines::take(SessionLog& log, std::int64_t sessionNs) {
 
 std::string JournalLines::linesOf(SessionLog& log, std::int64_t sessionNs) {
     std::string text;
-    for (SceneTake& take : log.takes) {
+    for (SceneRun& take : log.takes) {
         if (!std::exchange(isBegun_, true)) {
             text += lineOf("take", detail::takeStartJson(take, before_.scene ? &before_ : nullptr, true));
             inputs_ = 0;

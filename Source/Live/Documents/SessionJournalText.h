@@ -48,7 +48,7 @@ private:
     std::int64_t toldNs_ = 0;
     bool isBegun_ = false; // the first scene run of the log has been written
     WorldStall lastStall_{-1};
-    SceneTake before_; // the scene run before the last, to compare scenes
+    SceneRun before_; // the scene run before the last, to compare scenes
 };
 
 } // namespace physvib

@@ -17,14 +17,14 @@ void visitFields(auto& v, FieldsOf<WorldStall>) {
 /// The scene is left out if it is that of the scene run before. In a journal, end, inputs and stalls follow
 /// as lines of their own.
 void visitTake(auto& v, bool isJournal) {
-    v.field("start_s", &SceneTake::startNs, kinds::Time{});
-    if (!isJournal) v.field("world_end_s", &SceneTake::worldEndNs, kinds::Time{});
-    v.field("seed", &SceneTake::seed, kinds::upTo(4294967295.0));
+    v.field("start_s", &SceneRun::startNs, kinds::Time{});
+    if (!isJournal) v.field("world_end_s", &SceneRun::worldEndNs, kinds::Time{});
+    v.field("seed", &SceneRun::seed, kinds::upTo(4294967295.0));
     v.part("scene", Need::optional);
     if (!isJournal) v.part("inputs", Need::optional), v.part("stalls", Need::optional);
 }
 struct JournalTake;
-void visitFields(auto& v, FieldsOf<SceneTake>) { visitTake(v, false); }
+void visitFields(auto& v, FieldsOf<SceneRun>) { visitTake(v, false); }
 void visitFields(auto& v, FieldsOf<JournalTake>) { visitTake(v, true); }
 
 /// An event that was played without a collision in the world.
@@ -63,15 +63,15 @@ OrderedJson writeKind(const Own<RenderingMethod>& kind, const RenderingMethod& m
 namespace detail {
 
 // Readers; all throw JsonError.
-SceneTake readTakeStart(const JsonField& json, const SceneTake* before, bool isJournal);
-WorldStall readStall(const JsonField& json, const SceneTake& take); ///< not before the run's last
+SceneRun readTakeStart(const JsonField& json, const SceneRun* before, bool isJournal);
+WorldStall readStall(const JsonField& json, const SceneRun& take); ///< not before the run's last
 void readTimedControl(const JsonField& json, SavedSession& session);
 void readRecordingsChange(const JsonField& json, SessionLog& log);
 CollisionEvent readStrike(const JsonField& json);
 void readClipFile(const JsonField& json, SessionLog& log);
 
 // Writers.
-OrderedJson takeStartJson(const SceneTake& take, const SceneTake* before, bool isJournal);
+OrderedJson takeStartJson(const SceneRun& take, const SceneRun* before, bool isJournal);
 OrderedJson inputJson(const LiveInput& input, const Scene& scene);
 OrderedJson timedControlJson(const RenderControl& control);
 OrderedJson recordingsJson(RecordingsChange change, const std::filesystem::path& folder);

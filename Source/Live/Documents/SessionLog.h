@@ -4,7 +4,7 @@
 #include "Core/RenderControl.h"
 #include "Live/Documents/RecordingFile.h"
 #include "Scene/SceneFileLimits.h"
-#include "Scene/SceneTake.h"
+#include "Scene/SceneRun.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -65,7 +65,7 @@ void visitFields(auto& v, FieldsOf<ClipFile>) {
 }
 
 struct SessionLog {
-    std::vector<SceneTake> takes;             ///< one after the other; the last goes on
+    std::vector<SceneRun> takes;              ///< one after the other; the last goes on
     std::vector<PannerChange> panners;        ///< in time order
     std::vector<ChannelChange> channels;      ///< in time order
     std::vector<RecordingsChange> recordings; ///< in time order; without one there are none

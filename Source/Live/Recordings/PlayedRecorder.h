@@ -52,7 +52,9 @@ public:
     bool isWhole() const noexcept { return isWhole_.load(std::memory_order_relaxed); }
 
     /// Sets the output latency that the file's start time is computed with; before the first frame. M.
-    void tellBeginning(std::int64_t outputLatencyFrames) noexcept { playOutFrames_ = outputLatencyFrames; }
+    void tellBeginning(std::int64_t outputLatencyFrames) noexcept {
+        outputLatencyFrames_ = outputLatencyFrames;
+    }
 
     /// Writes the last samples and the header. Returns empty, or one line with the reason. M, after R
     /// stopped.
@@ -67,8 +69,8 @@ public:
     /// Session time at which the file begins, in seconds: an event at session time t is at t minus this in
     /// the file. Empty before tellBeginning() and the first frame.
     std::optional<double> beginsSeconds() const noexcept {
-        if (playOutFrames_ < 0 || firstFrame() < 0) return {};
-        return static_cast<double>(firstFrame() - playOutFrames_) / sampleRateHz_;
+        if (outputLatencyFrames_ < 0 || firstFrame() < 0) return {};
+        return static_cast<double>(firstFrame() - outputLatencyFrames_) / sampleRateHz_;
     }
     std::int64_t frames() const noexcept { return written_; } ///< written to the file. M
     std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
@@ -107,7 +109,7 @@ private:
 
     int sampleRateHz_;
     SignalTap tap_;
-    std::atomic<std::int64_t> firstFrame_{-1}, playOutFrames_{-1}, written_{0};
+    std::atomic<std::int64_t> firstFrame_{-1}, outputLatencyFrames_{-1}, written_{0};
     std::atomic<bool> isWhole_{true};
 
     WavSink wav_; // used by the thread; by M once the thread has ended

@@ -88,7 +88,7 @@ void SessionJournal::write(std::optional<std::int64_t> endNs) {
         played.swap(played_);
     }
     const std::int64_t toldNs = session_.readLog(log_);
-    for (const SceneTake& take : log_.takes)
+    for (const SceneRun& take : log_.takes)
         if (take.scene) names_.addScene(*take.scene);
     file_.append(lines_.take(log_, endNs.value_or(toldNs)));
     std::string rows;

@@ -7,7 +7,7 @@
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OnsetMarks.h"
 #include "Scene/LayoutFile.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -76,7 +76,7 @@ struct SessionSetup {
 
     /// Whether events with fixtures are of a world of the caller's, as the scene has none.
     bool areEventsOfCaller() const noexcept { return scene.bodies.empty(); }
-    SceneRun run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
+    RunSettings run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
 };
 
 /// Size of a session's contents, beside its scene.

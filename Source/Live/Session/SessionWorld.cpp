@@ -11,7 +11,7 @@ namespace {
 
 // The first stall of `from` may be the last of `to`, grown since it was read: then both begin at the same
 // world time.
-void moveTo(SceneTake& to, SceneTake& from) {
+void moveTo(SceneRun& to, SceneRun& from) {
     std::ranges::move(from.inputs, std::back_inserter(to.inputs));
     from.inputs.clear();
     for (const WorldStall& stall : from.stalls) {
@@ -41,7 +41,7 @@ void SessionWorld::start(std::int64_t sessionNs, std::shared_ptr<const Scene> sc
 }
 
 void SessionWorld::forget(std::int64_t sessionNs) {
-    const SceneTake last = std::move(take_);
+    const SceneRun last = std::move(take_);
     ended_.clear();
     isBegun_ = false;
     takeCount_ = 0;
@@ -96,17 +96,17 @@ void SessionWorld::readPoses(std::vector<BodyPose>& poses) const {
 
 SessionSize SessionWorld::size() const noexcept {
     SessionSize size{world_->bodiesInBox2d(), world_->scene().inputs.size() + take_.inputs.size()};
-    for (const SceneTake& ended : ended_) size.inputs += ended.inputs.size();
+    for (const SceneRun& ended : ended_) size.inputs += ended.inputs.size();
     return size;
 }
 
-void SessionWorld::moveLog(std::vector<SceneTake>& log) {
+void SessionWorld::moveLog(std::vector<SceneRun>& log) {
     take_.worldEndNs = world_->timeNs();
-    const auto append = [&](SceneTake& from) {
+    const auto append = [&](SceneRun& from) {
         if (!std::exchange(isBegun_, true)) log.push_back({from.startNs, 0, from.seed, from.scene, {}, {}});
         moveTo(log.back(), from);
     };
-    for (SceneTake& ended : ended_) {
+    for (SceneRun& ended : ended_) {
         append(ended);
         isBegun_ = false;
     }

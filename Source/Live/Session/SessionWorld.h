@@ -4,8 +4,8 @@
 #pragma once
 #include "Core/EventShaping.h"
 #include "Live/Session/SessionSetup.h"
-#include "Scene/SceneTake.h"
-#include "Scene/World/SceneRun.h"
+#include "Scene/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include "Scene/World/Simulation.h"
 #include <cstdint>
 #include <memory>
@@ -18,7 +18,7 @@ namespace physvib {
 class SessionWorld {
 public:
     /// `run` sets step rate, timing and location; each scene run has its own seed.
-    explicit SessionWorld(const SceneRun& run, const EventShaping& shaping = {}, bool isLogged = true)
+    explicit SessionWorld(const RunSettings& run, const EventShaping& shaping = {}, bool isLogged = true)
         : run_{run}
         , shaper_{shaping}
         , isLogged_{isLogged} {}
@@ -45,7 +45,7 @@ public:
     void addInput(std::int64_t sessionNs, Action action);
 
     /// the current run, with inputs and stalls that have not been read
-    const SceneTake& take() const noexcept { return take_; }
+    const SceneRun& take() const noexcept { return take_; }
     std::size_t takeCount() const noexcept { return takeCount_; }
     /// Bodies in Box2D's world; inputs that are pending or have not been read.
     SessionSize size() const noexcept;
@@ -54,15 +54,15 @@ public:
 
     /// Moves new log entries to `log`, which is empty at the first call. Cost in proportion to the new
     /// entries.
-    void moveLog(std::vector<SceneTake>& log);
+    void moveLog(std::vector<SceneRun>& log);
 
 private:
-    SceneRun run_;
+    RunSettings run_;
     EventShaper shaper_;
     bool isLogged_;
-    std::vector<SceneTake> ended_; // not completely read
-    SceneTake take_;               // its last stall stays after reading, because it may grow
-    bool isBegun_ = false;         // the reader has the beginning of the oldest run
+    std::vector<SceneRun> ended_; // not completely read
+    SceneRun take_;               // its last stall stays after reading, because it may grow
+    bool isBegun_ = false;        // the reader has the beginning of the oldest run
     std::size_t takeCount_ = 0;
     std::unique_ptr<Simulation> world_;
     std::int64_t originNs_ = 0;                 // session time - world time

@@ -46,7 +46,7 @@ public:
 
     /// Output latency. Any thread after prepare.
     std::int64_t outputLatencyFrames() const noexcept {
-        return playOutFrames_.load(std::memory_order_relaxed);
+        return outputLatencyFrames_.load(std::memory_order_relaxed);
     }
 
     /// Latency of events of the render call: the output latency, or less in low-latency mode. R, or the
@@ -99,7 +99,7 @@ private:
         law_ = law;
         isToldDirect_ = isToldDirect;
         isBornDirect_ = isDirectFromStart;
-        playOutFrames_ = law_.outputLatencyFrames();
+        outputLatencyFrames_ = law_.outputLatencyFrames();
         grownFrames_ = 0;
         sessionFrames_ = frames;
     }
@@ -107,7 +107,7 @@ private:
 
     /// Changes the output latency. R, if the renderer's time changes by as much.
     void lengthen(std::int64_t frames) noexcept {
-        playOutFrames_.fetch_add(frames, std::memory_order_relaxed);
+        outputLatencyFrames_.fetch_add(frames, std::memory_order_relaxed);
         grownFrames_.fetch_add(frames, std::memory_order_release);
     }
 
@@ -160,7 +160,7 @@ private:
     ClockLaw law_;
     bool isToldDirect_ = false, isBornDirect_ = false;
     // output latency, and R's additions to the law's
-    std::atomic<std::int64_t> playOutFrames_{0}, grownFrames_{0};
+    std::atomic<std::int64_t> outputLatencyFrames_{0}, grownFrames_{0};
     std::atomic<std::int64_t> sessionFrames_{0};
 };
 

@@ -60,7 +60,7 @@ std::size_t maxRecordedInputs(const Scene& recordedIn) {
     return sceneLimits::maxInputs - std::min(sceneLimits::maxInputs, recordedIn.script.size() + room);
 }
 
-HandScript recordedHands(const SceneTake& take) {
+HandScript recordedHands(const SceneRun& take) {
     HandScript hands{{}, 1e-9 * static_cast<double>(take.worldEndNs)};
     const std::size_t most = maxRecordedInputs(*take.scene);
     for (const LiveInput& input : take.inputs) {

@@ -2,7 +2,7 @@
 // Records a user's inputs in a scene run, trims them, and stores them as the scene's script.
 #pragma once
 #include "Scene/Scene.h"
-#include "Scene/SceneTake.h"
+#include "Scene/SceneRun.h"
 #include <cstddef>
 #include <vector>
 
@@ -35,7 +35,7 @@ std::size_t maxRecordedInputs(const Scene& recordedIn);
 
 /// The user's inputs from the start of the scene run to its end, the first edit of the scene, or
 /// maxRecordedInputs(). Any thread.
-HandScript recordedHands(const SceneTake& take);
+HandScript recordedHands(const SceneRun& take);
 
 /// The part between two times. It starts with the device orientation and drives that were set before; a grip
 /// still open at its end is released there. The world starts at the scene's start. Any thread.

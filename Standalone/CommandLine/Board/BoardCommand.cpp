@@ -176,7 +176,7 @@ int runBoard(const BoardOptions& o) {
 }
 
 int runSceneOnBoard(const std::string& port, const LoadedRender& job, double levelDb) {
-    const SceneRun run = job.run();
+    const RunSettings run = job.run();
     Simulation world(*job.scene, run.seed, run.stepsPerSecond, run.timing, run.location);
     heedInterrupts();
     sayWithoutWaiting();

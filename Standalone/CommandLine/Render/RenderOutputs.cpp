@@ -167,8 +167,8 @@ std::string RenderOutputs::provenanceText() const {
     return text;
 }
 
-SceneRun RenderOutputs::sceneRun() const {
-    SceneRun run = job_.run();
+RunSettings RenderOutputs::sceneRun() const {
+    RunSettings run = job_.run();
     if (job_.session) run.seed = job_.session->log.takes.front().seed;
     return run;
 }

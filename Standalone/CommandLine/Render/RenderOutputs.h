@@ -59,7 +59,7 @@ private:
     Provenance provenance() const;
     Provenance inputProvenance() const;
     std::string provenanceText() const;
-    SceneRun sceneRun() const; ///< of the first scene that is drawn
+    RunSettings sceneRun() const; ///< of the first scene that is drawn
     PoseSource poses() const;
     PictureInput pictureInput() const;
     std::string writePictureFile();

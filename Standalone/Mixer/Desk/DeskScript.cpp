@@ -35,7 +35,7 @@ void DeskScript::look() {
     }
     const auto& takes = desk_.saved().log.takes;
     if (takes.size() <= takesBefore_) return; // the world has not restarted yet
-    const SceneTake& take = takes[takesBefore_];
+    const SceneRun& take = takes[takesBefore_];
     seconds_ = 1e-9 * static_cast<double>(take.worldEndNs);
     inputs_ = take.inputs.size();
     const bool isFull =

@@ -41,7 +41,7 @@ private:
     int done_ = 0; // repetitions of *next_
 };
 
-struct SceneTake {
+struct SceneRun {
     std::int64_t startNs = 0;    ///< session time of world time 0
     std::int64_t worldEndNs = 0; ///< world time up to which it was stepped
     std::uint32_t seed = 1;

@@ -3,7 +3,7 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Scene/Scene.h"
-#include "Scene/SceneTake.h"
+#include "Scene/SceneRun.h"
 #include "Scene/World/Simulation.h"
 #include <cstdint>
 #include <functional>
@@ -13,7 +13,7 @@
 namespace physvib {
 
 /// Parameters that determine a scene's events, beside the scene.
-struct SceneRun {
+struct RunSettings {
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
     ImpactTiming timing = ImpactTiming::onset;
@@ -33,16 +33,16 @@ struct SceneEvents {
 using StepWatch = std::function<bool(std::int64_t timeNs)>;
 
 /// M only. Throws what Simulation throws.
-SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs,
+SceneEvents runScene(const Scene& scene, const RunSettings& run, std::int64_t endNs,
                      const StepWatch& goesOn = {});
 
 /// Recomputes a session's events in session time: of each scene run to its end, of the last one all before
 /// `endNs`. `run` gives the step rate; seeds are the scene runs' own. M only. Throws what Simulation throws.
-SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs,
+SceneEvents runTakes(std::span<const SceneRun> takes, const RunSettings& run, std::int64_t endNs,
                      const StepWatch& goesOn = {});
 
 /// Poses at the last step not after `timeNs`. M only; simulates from the start.
-WorldPoses posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);
+WorldPoses posesAt(const Scene& scene, const RunSettings& run, std::int64_t timeNs);
 
 /// Receives a session time, the scene of its run with all inputs, and the poses at the last step not after
 /// it; false stops.
@@ -50,7 +50,7 @@ using TakeWatch = std::function<bool(std::int64_t timeNs, const Scene& scene, co
 
 /// Follows a session at fromNs, fromNs + everyNs... before `endNs`, with its pauses and slow motion. `run`,
 /// thread and errors as of runTakes.
-void followTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t fromNs,
+void followTakes(std::span<const SceneRun> takes, const RunSettings& run, std::int64_t fromNs,
                  std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see);
 
 /// Receives a time and the poses at the last step not after it; false stops.
@@ -58,7 +58,7 @@ using PoseWatch = std::function<bool(std::int64_t timeNs, const WorldPoses& pose
 
 /// The same at 0, everyNs, 2 everyNs... before `endNs`, in one go. M only; simulates from the start. Throws
 /// what Simulation throws.
-void followPoses(const Scene& scene, const SceneRun& run, std::int64_t everyNs, std::int64_t endNs,
+void followPoses(const Scene& scene, const RunSettings& run, std::int64_t everyNs, std::int64_t endNs,
                  const PoseWatch& see);
 
 } // namespace physvib

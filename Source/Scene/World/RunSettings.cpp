@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Steps simulations of scene runs until the requested time is final.
-#include "Scene/World/SceneRun.h"
+#include "Scene/World/RunSettings.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <memory>
 
 namespace physvib {
 
-SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn) {
+SceneEvents runScene(const Scene& scene, const RunSettings& run, std::int64_t endNs,
+                     const StepWatch& goesOn) {
     const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
-    const SceneTake take{0, 0, run.seed, shared, {}, {}};
+    const SceneRun take{0, 0, run.seed, shared, {}, {}};
     return runTakes({&take, 1}, run, endNs, goesOn);
 }
 
-SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs,
+SceneEvents runTakes(std::span<const SceneRun> takes, const RunSettings& run, std::int64_t endNs,
                      const StepWatch& goesOn) {
     SceneEvents all;
-    for (const SceneTake& take : takes) {
+    for (const SceneRun& take : takes) {
         const auto owned = std::make_unique<Simulation>(take.whole(), take.seed, run.stepsPerSecond,
                                                         run.timing, run.location);
         Simulation& world = *owned; // Box2D's has 100 kB, and the stack may be small
@@ -38,7 +39,7 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
     return all;
 }
 
-WorldPoses posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs) {
+WorldPoses posesAt(const Scene& scene, const RunSettings& run, std::int64_t timeNs) {
     WorldPoses last;
     timeNs = std::max<std::int64_t>(timeNs, 0);
     followPoses(scene, run, std::max<std::int64_t>(timeNs, 1), timeNs + 1,
@@ -54,7 +55,7 @@ namespace {
 /// The world of a scene run, stepped along session time.
 class FollowedTake {
 public:
-    FollowedTake(const SceneTake& take, const SceneRun& run, bool isLast)
+    FollowedTake(const SceneRun& take, const RunSettings& run, bool isLast)
         : scene_{take.whole()}
         , world_{scene_, take.seed, run.stepsPerSecond, run.timing, run.location}
         , stalls_{take.stalls}
@@ -86,7 +87,7 @@ private:
 
 } // namespace
 
-void followTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t fromNs,
+void followTakes(std::span<const SceneRun> takes, const RunSettings& run, std::int64_t fromNs,
                  std::int64_t everyNs, std::int64_t endNs, const TakeWatch& see) {
     std::int64_t timeNs = fromNs;
     for (std::size_t i = 0; i < takes.size(); ++i) {
@@ -100,10 +101,10 @@ void followTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int
     }
 }
 
-void followPoses(const Scene& scene, const SceneRun& run, std::int64_t everyNs, std::int64_t endNs,
+void followPoses(const Scene& scene, const RunSettings& run, std::int64_t everyNs, std::int64_t endNs,
                  const PoseWatch& see) {
     const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
-    const SceneTake take{0, 0, run.seed, shared, {}, {}};
+    const SceneRun take{0, 0, run.seed, shared, {}, {}};
     followTakes(
         {&take, 1}, run, 0, everyNs, endNs,
         [&](std::int64_t timeNs, const Scene&, const WorldPoses& poses) { return see(timeNs, poses); });
