@@ -10,15 +10,15 @@
 namespace physvib {
 
 /// A panner and those of its parts. A part's is found when it is first struck, which may take 10 us, and kept
-/// until the panner changes. Of more parts than `mostKept`, or than were prepared, the oldest is found anew.
+/// until the panner changes. Of more parts than `maxKept`, or than were prepared, the oldest is found anew.
 class PartPanners {
 public:
-    static constexpr std::size_t mostKept = 16; ///< Core/BodyLayouts.h names 15
+    static constexpr std::size_t maxKept = 16; ///< Core/BodyLayouts.h names 15
 
     /// Makes room for the parts of a panner of at most so many actuators: each part has one of its own.
     /// False: no memory. Message thread (M), not while rendering.
     bool prepare(int actuators) noexcept {
-        const std::size_t count = std::min(mostKept, static_cast<std::size_t>(actuators));
+        const std::size_t count = std::min(maxKept, static_cast<std::size_t>(actuators));
         parts_.fill(0);
         next_ = 0;
         kept_ = panners_.resize(count) ? count : 0;
@@ -53,8 +53,8 @@ private:
     }
 
     PhantomPanner whole_;
-    std::array<PartNumber, mostKept> parts_{}; // 0: none
-    Storage<PhantomPanner, mostKept, true> panners_;
+    std::array<PartNumber, maxKept> parts_{}; // 0: none
+    Storage<PhantomPanner, maxKept, true> panners_;
     std::size_t kept_ = 0, next_ = 0; // next_: the one to be replaced
 };
 

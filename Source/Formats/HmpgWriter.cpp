@@ -76,7 +76,7 @@ struct WrittenEffect {
 /// A stretch of sound without a pause, in ticks.
 struct Stretch {
     std::int64_t from = 0, to = 0;
-    bool goesOn = false; ///< a wave of the stretch before still sounds, which was too long for one unit
+    bool keepGoing = false; ///< a wave of the stretch before still sounds, which was too long for one unit
     std::string packets{};
 };
 
@@ -146,7 +146,7 @@ public:
         std::int64_t now = 0;
         for (const Stretch& stretch : all) {
             addSilence(stretch.from - now);
-            addUnit(Unit::temporal, stretch.to - stretch.from, stretch.packets, stretch.goesOn);
+            addUnit(Unit::temporal, stretch.to - stretch.from, stretch.packets, stretch.keepGoing);
             now = stretch.to;
         }
         return file_.bytes();
@@ -318,7 +318,7 @@ private:
                 continue;
             }
             if (touches) all.back().to = part.from;
-            part.goesOn = touches;
+            part.keepGoing = touches;
             all.push_back(std::move(part));
         }
         for (std::size_t b = 0; b < bands_.size(); ++b) addData(b, all);

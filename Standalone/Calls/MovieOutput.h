@@ -41,16 +41,16 @@ public:
         return true;
     }
 
-    /// Draws all pictures, with the bodies' poses. `goesOn` gets progress from 0 to 1; if it returns false,
-    /// drawing stops with the error "cancelled". Returns an error or "".
+    /// Draws all pictures, with the bodies' poses. `keepGoing` gets progress from 0 to 1; if it returns
+    /// false, drawing stops with the error "cancelled". Returns an error or "".
     std::string draw(const PictureInput& picture, const PoseSource& bodies,
-                     const std::function<bool(double)>& goesOn = {}) {
+                     const std::function<bool(double)>& keepGoing = {}) {
         const RenderMovie movie{picture};
         const std::int64_t everyNs = RenderMovie::timeNs(1), endNs = RenderMovie::timeNs(movie.count());
         bool isWhole = true;
         const Pictures all = [&](const auto& take) {
             const auto one = [&](std::int64_t timeNs, const picture::Image& image) {
-                isWhole = !goesOn || goesOn(static_cast<double>(timeNs) / static_cast<double>(endNs));
+                isWhole = !keepGoing || keepGoing(static_cast<double>(timeNs) / static_cast<double>(endNs));
                 return isWhole && take(timeNs, image);
             };
             if (bodies)
@@ -61,7 +61,7 @@ public:
             for (std::int64_t timeNs = 0; timeNs < endNs; timeNs += everyNs)
                 if (!one(timeNs, movie.at(timeNs, {}))) return;
         };
-        const auto watch = [&] { return isWhole = isWhole && (!goesOn || goesOn(1.0)); };
+        const auto watch = [&] { return isWhole = isWhole && (!keepGoing || keepGoing(1.0)); };
         const std::string error = pictures_ ? drawByFfmpeg(all, watch) : drawWebp(movie, all);
         return isWhole ? error : "cancelled";
     }
@@ -80,7 +80,7 @@ private:
     }
     // ffmpeg reads finished files (concatenated PNGs, 32-bit samples) and writes a temporary file, which
     // commit() renames.
-    std::string drawByFfmpeg(const Pictures& all, const std::function<bool()>& goesOn) {
+    std::string drawByFfmpeg(const Pictures& all, const std::function<bool()>& keepGoing) {
         all([&](std::int64_t, const picture::Image& image) {
             const std::string png = image.png();
             const bool isWritten = pictures_->writeAt(pictureBytes_, png);
@@ -90,7 +90,7 @@ private:
         for (const auto* beside : {&pictures_, &sound_})
             if (*beside && !(*beside)->error().empty())
                 return path_ + (*beside)->error().substr((*beside)->error().find(": cannot be written"));
-        if (!goesOn()) return {};
+        if (!keepGoing()) return {};
         std::vector<std::string> words;
         const auto add = [&words](std::initializer_list<const char*> more) {
             words.insert(words.end(), more.begin(), more.end());
@@ -109,7 +109,7 @@ private:
             add({"-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none", "-f",
                  "gif"});
         words.push_back(movie_.temporaryPath().string());
-        const auto ran = runWatched("ffmpeg", words, goesOn);
+        const auto ran = runWatched("ffmpeg", words, keepGoing);
         if (!ran)
             return path_ + ": .gif and .mp4 need the program ffmpeg, which did not start (" + ran.error +
                    "); expected it on the path, or a name that ends in .webp";

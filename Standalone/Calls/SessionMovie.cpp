@@ -28,8 +28,8 @@ struct MoviePart {
 };
 
 std::vector<CollisionEvent> eventsOf(const SavedSession& session, const MoviePart& part,
-                                     const StepWatch& goesOn) {
-    auto events = sessionEvents(session, part.endNs, goesOn).events;
+                                     const StepWatch& keepGoing) {
+    auto events = sessionEvents(session, part.endNs, keepGoing).events;
     std::erase_if(events, [&](const CollisionEvent& e) { return e.timeNs < part.fromNs; });
     std::ranges::transform(events, events.begin(), EventShaper{session.shaping});
     for (CollisionEvent& event : events) event.timeNs -= part.fromNs;
@@ -49,14 +49,14 @@ std::vector<RenderControl> controlsIn(const SavedSession& session, const MoviePa
 
 /// What the monitor plays; false if cancelled.
 bool addSound(MovieOutput& movie, const SavedSession& session, const MoviePart& part,
-              const std::vector<CollisionEvent>& hits, const std::function<bool()>& goesOn) {
+              const std::vector<CollisionEvent>& hits, const std::function<bool()>& keepGoing) {
     bool isWhole = true;
     ContactAudioRender heard{soundRateHz, std::llround(part.seconds() * soundRateHz)};
     heard.ears = ears;
     heard.field = session.panner;
     heard.levelDb = usualContactDb;
     renderContactAudio(hits, controlsIn(session, part), heard, [&](const float* const* channels, int frames) {
-        return isWhole = movie.takeSound(channels, frames) && goesOn();
+        return isWhole = movie.takeSound(channels, frames) && keepGoing();
     });
     return isWhole;
 }
@@ -73,13 +73,13 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
     MovieOutput movie{path, soundRateHz, ears};
     if (!movie.error().empty()) return movie.error();
 
-    bool goesOn = true;
+    bool keepGoing = true;
     const auto events = eventsOf(session, part, [&](std::int64_t timeNs) {
         const std::int64_t done = std::min(timeNs, part.endNs); // the last step may exceed the end
-        return goesOn = progress(eventsShare * static_cast<double>(done) /
-                                 static_cast<double>(std::max<std::int64_t>(1, part.endNs)));
+        return keepGoing = progress(eventsShare * static_cast<double>(done) /
+                                    static_cast<double>(std::max<std::int64_t>(1, part.endNs)));
     });
-    if (!goesOn) return "cancelled";
+    if (!keepGoing) return "cancelled";
     WaveformEnvelope waveform{layout.geometry.count, part.frames(part.fromNs),
                               part.frames(part.endNs - part.fromNs)};
     const SessionExtent extent{movieRateHz, 1e-9 * static_cast<double>(part.endNs), [&](double share) {
@@ -89,7 +89,8 @@ std::string writeSessionMovie(const SavedSession& session, const LayoutDescripti
                        [&](const float* const* block, int n) { return waveform.add(block, n), true; }))
         return "cancelled";
     if (movie.hasSound() &&
-        !addSound(movie, session, part, events, [&] { return goesOn = progress(samplesShare); }) && !goesOn)
+        !addSound(movie, session, part, events, [&] { return keepGoing = progress(samplesShare); }) &&
+        !keepGoing)
         return "cancelled";
 
     const SceneRun& last = session.log.takes.back();

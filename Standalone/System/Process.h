@@ -61,11 +61,11 @@ int processNumber() noexcept;
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments);
 
 /// Runs a program that says on standard error only what is wrong: empty if it exited with 0, or one line why
-/// not, its own last one if there is one; or why it could not start. It is ended when `goesOn`, asked ten
+/// not, its own last one if there is one; or why it could not start. It is ended when `keepGoing`, asked ten
 /// times a second, returns false. On Windows its words go to our standard error, and it is waited for. Any
 /// thread but the render thread.
 Result<std::string> runWatched(std::string name, std::vector<std::string> arguments,
-                               const std::function<bool()>& goesOn);
+                               const std::function<bool()>& keepGoing);
 
 /// True if the system's search path has that program. Any thread but the render thread.
 bool hasProgram(const std::string& name);

@@ -102,7 +102,7 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
 }
 
 Result<std::string> runWatched(std::string name, std::vector<std::string> arguments,
-                               const std::function<bool()>& goesOn) {
+                               const std::function<bool()>& keepGoing) {
     constexpr int lookMs = 100;
     constexpr std::size_t mostKept = 4096;
     std::array<int, 2> ends{};
@@ -131,7 +131,7 @@ Result<std::string> runWatched(std::string name, std::vector<std::string> argume
             if (said.size() > mostKept) said.erase(0, said.size() - mostKept);
         }
         if ((words.revents & POLLHUP) != 0 && !hasEnded) poll(nullptr, 0, lookMs / 10); // it said all
-        if (isWanted && !goesOn()) {
+        if (isWanted && !keepGoing()) {
             isWanted = false;
             kill(child.value, SIGKILL);
         }

@@ -110,11 +110,11 @@ TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt)
     Rig rig;
     const auto setup = shakeTheBoxSetup(0.02); // of fewer channels
     Session lent{setup}, alone{setup};
-    EXPECT_FALSE(rig.output.lend(&lent)) << "no device has run yet";
+    EXPECT_FALSE(rig.output.playInstead(&lent)) << "no device has run yet";
     ASSERT_EQ(rig.open(), "");
     rig.play(1.5, 64);
     const auto before = rig.session.timeline().framesRendered();
-    ASSERT_TRUE(rig.output.lend(&lent));
+    ASSERT_TRUE(rig.output.playInstead(&lent));
     alone.prepare(48000, 64);
     std::vector<std::vector<float>> wanted(static_cast<std::size_t>(setup.channels), std::vector<float>(64));
     std::vector<float*> at;
@@ -133,7 +133,7 @@ TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt)
     }
     EXPECT_GT(most, 0.01f);
     EXPECT_EQ(rig.session.timeline().framesRendered(), before) << "it stands still";
-    ASSERT_TRUE(rig.output.lend(nullptr));
+    ASSERT_TRUE(rig.output.playInstead(nullptr));
     rig.play(1.5, 64);
     EXPECT_GT(rig.session.timeline().framesRendered(), before);
     rig.expectTheLogIsWhole();

@@ -288,7 +288,7 @@ TEST(Receipts, ABorrowedSessionHasItsOwn) {
     desk.open();
     for (int k = 0; k < 100; ++k) desk.play(64, 0);
     Session lent{desk.setup};
-    ASSERT_TRUE(desk.output.lend(&lent));
+    ASSERT_TRUE(desk.output.playInstead(&lent));
     const std::uint32_t number = desk.output.playedSession();
     EXPECT_NE(number, 0u);
     for (int k = 0; k < 200; ++k) {
@@ -296,7 +296,7 @@ TEST(Receipts, ABorrowedSessionHasItsOwn) {
         desk.interface.play(64);
     }
     EXPECT_TRUE(desk.output.left(0, nsOf(4800), 0).isRunning);
-    ASSERT_TRUE(desk.output.lend(nullptr));
+    ASSERT_TRUE(desk.output.playInstead(nullptr));
     EXPECT_EQ(desk.output.playedSession(), 0u);
     EXPECT_TRUE(desk.output.left(0, nsOf(4800), 0, number).isRunning) << "also afterwards, by its number";
     EXPECT_FALSE(desk.output.left(0, nsOf(4800), 0).isOver) << "of the output's own";

@@ -96,10 +96,10 @@ public:
             for (std::size_t i = 0; i < now.size(); ++i) same += now[i] == letter.after[i] ? 1 : 0;
             if (10 * same < 6 * static_cast<int>(now.size())) continue; // the next letter may overlap
             // thin letters do not reach the colour of their text
-            const bool goesOn = last != nullptr && last->baseline == letter.baseline &&
-                                last->ground == letter.ground && letter.cell.getX() >= last->cell.getX() &&
-                                letter.cell.getX() - last->cell.getX() < 2 * letter.cell.getWidth();
-            if (!goesOn) all.push_back({letter.cell, letter.ground, letter.ink, letter.contrast});
+            const bool keepGoing = last != nullptr && last->baseline == letter.baseline &&
+                                   last->ground == letter.ground && letter.cell.getX() >= last->cell.getX() &&
+                                   letter.cell.getX() - last->cell.getX() < 2 * letter.cell.getWidth();
+            if (!keepGoing) all.push_back({letter.cell, letter.ground, letter.ink, letter.contrast});
             auto& text = all.back();
             text.area = text.area.getUnion(letter.cell);
             if (letter.contrast > text.contrast) text.contrast = letter.contrast, text.ink = letter.ink;

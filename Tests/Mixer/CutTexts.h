@@ -29,10 +29,10 @@ public:
                             {at.getTranslationX() / scale_, at.getTranslationY() / scale_},
                             font.getHeight(),
                             font.getHorizontalScale()};
-        const bool goesOn = !run_.empty() && std::abs(run_.back().at.y - letter.at.y) < 0.5f &&
-                            letter.at.x > run_.back().at.x &&
-                            letter.at.x - run_.back().at.x < 1.6f * letter.height;
-        if (!goesOn) endRun();
+        const bool keepGoing = !run_.empty() && std::abs(run_.back().at.y - letter.at.y) < 0.5f &&
+                               letter.at.x > run_.back().at.x &&
+                               letter.at.x - run_.back().at.x < 1.6f * letter.height;
+        if (!keepGoing) endRun();
         run_.push_back(letter);
         lookAtEdge(glyph, at);
     }

@@ -103,10 +103,10 @@ TEST_F(DeskClipsTest, RefusalsAreOneLine) {
     setup.scene = desk.world().scene();
     setup.panner = desk.mix().panner();
     Session study{setup};
-    ASSERT_TRUE(desk.output().lend(&study));
+    ASSERT_TRUE(desk.output().playInstead(&study));
     drop(strip("Strip A"), knocks);
     EXPECT_EQ(refused(), "clip: file: a study is running");
-    desk.output().lend(nullptr);
+    desk.output().playInstead(nullptr);
 }
 
 TEST_F(DeskClipsTest, ASavedSessionHasThem) {

@@ -33,8 +33,8 @@ protected:
     }
     std::string path(const char* name) const { return folder(name).getFullPathName().toStdString(); }
     template <class GoesOn>
-    std::string write(const SavedSession& session, double seconds, const std::string& to, GoesOn goesOn) {
-        return writeSessionMovie(session, desk.mix().layout, seconds, to, goesOn);
+    std::string write(const SavedSession& session, double seconds, const std::string& to, GoesOn keepGoing) {
+        return writeSessionMovie(session, desk.mix().layout, seconds, to, keepGoing);
     }
     int files() const { return folder.folder.getNumberOfChildFiles(juce::File::findFiles); }
 

@@ -106,13 +106,13 @@ TEST(OscPorts, WhatIsSentIsCounted) {
     EXPECT_EQ(played.session.world().size().strikes, 0U) << "they were for now";
 }
 
-/// Whoever does what messages say is held up at the first of them until `goesOn`.
+/// Whoever does what messages say is held up at the first of them until `keepGoing`.
 struct HeldUp : Played {
     std::unique_ptr<OscPort> openHeldUp() {
         OscHooks hooks;
         hooks.act = [this](const LineInput& input, const OscOrigin&) {
             isHeldUp = true;
-            while (!goesOn) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+            while (!keepGoing) std::this_thread::sleep_for(std::chrono::milliseconds{1});
             const auto* silence = std::get_if<SilenceControl>(&input);
             return silence != nullptr ? takeSilence(output.silence(), *silence, MuteRequester::osc)
                                       : std::string{};
@@ -128,7 +128,7 @@ struct HeldUp : Played {
     }
 
     std::optional<OscSocket> sender;
-    std::atomic<bool> isHeldUp{false}, goesOn{false};
+    std::atomic<bool> isHeldUp{false}, keepGoing{false};
 };
 
 TEST(OscPorts, SilenceOvertakesTenThousandMessagesThatWait) {
@@ -143,7 +143,7 @@ TEST(OscPorts, SilenceOvertakesTenThousandMessagesThatWait) {
     played.silence(true);
     EXPECT_TRUE(comes([&] { return played.output.isSilent(); }));
     EXPECT_EQ(port->status().counts.messages, 0U) << "nothing of what came before it is done";
-    played.goesOn = true;
+    played.keepGoing = true;
     EXPECT_TRUE(comes([&] { return port->status().counts.packets + port->status().counts.lost == 10'002; }));
     ASSERT_TRUE(played.sender->wait(60'000));
     const auto answer = played.sender->receive();
@@ -159,7 +159,7 @@ TEST(OscPorts, AnOffComesInItsTurnAndLiftsNoLaterOn) {
         const auto port = played.openHeldUp();
         for (const bool isOn : asked) played.silence(isOn);
         EXPECT_TRUE(comes([&] { return played.output.isSilent(); }));
-        played.goesOn = true;
+        played.keepGoing = true;
         const std::uint64_t messages = asked.size() + 1;
         EXPECT_TRUE(comes([&] { return port->status().counts.messages == messages; }));
         EXPECT_EQ(played.output.isSilent(), isSilent);

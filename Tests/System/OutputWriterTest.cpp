@@ -119,19 +119,20 @@ TEST(OutputWriters, OneThatCannotBeWrittenSaysWhy) {
 // As a terminal or a socket may.
 TEST(OutputWriters, OneThatHoldsTheThreadDoesNotHoldTheEnd) {
     const auto isHeld = std::make_shared<std::promise<void>>();
-    const auto goesOn = std::make_shared<std::promise<void>>();
+    const auto keepGoing = std::make_shared<std::promise<void>>();
     {
-        OutputWriter writer{[isHeld, goesOn](Standard, std::string_view text) -> std::optional<std::size_t> {
-            isHeld->set_value();
-            goesOn->get_future().wait();
-            return text.size();
-        }};
+        OutputWriter writer{
+            [isHeld, keepGoing](Standard, std::string_view text) -> std::optional<std::size_t> {
+                isHeld->set_value();
+                keepGoing->get_future().wait();
+                return text.size();
+            }};
         writer.say(Standard::output, line);
         isHeld->get_future().wait();
         writer.say(Standard::error, line);
         EXPECT_EQ(writer.finish(Standard::output), "1 line was not read");
     }
-    goesOn->set_value();
+    keepGoing->set_value();
 }
 
 } // namespace

@@ -135,9 +135,9 @@ void AudioOutput::stop() {
     running_ = false;
 }
 
-bool AudioOutput::lend(Session* other) {
+bool AudioOutput::playInstead(Session* other) {
     if (sampleRateHz() == 0) return false;
-    played_.lend(other);
+    played_.playInstead(other);
     keeper_.awaitBlock();
     return true;
 }

@@ -56,7 +56,7 @@ public:
     /// contact sound; this call prepares it. When the call returns, the render thread no longer uses the
     /// session that was playing, and its modes are cut off. Returns false and changes nothing while no device
     /// has run. M.
-    bool lend(Session* other);
+    bool playInstead(Session* other);
 
     /// Silent within two blocks. Afterwards the render thread no longer uses session, recorder and taps,
     /// though the device may go on. M.
@@ -73,7 +73,7 @@ public:
     /// The wanted device, as type:name once it was found; empty: none. M.
     const std::string& device() const noexcept { return settings_.device; }
 
-    /// Whether a session borrowed through lend() is playing. Any thread.
+    /// Whether a session borrowed through playInstead() is playing. Any thread.
     bool isLent() const noexcept { return played_.isLent(); }
 
     /// What left for an actuator, from 0, from `fromNs` on and before `untilNs` of the session that plays now

@@ -60,7 +60,7 @@ public:
     }
 
     /// Plays another session from the next block on; null returns to the own one. A device has run. M.
-    void lend(Session* other) {
+    void playInstead(Session* other) {
         if (other != nullptr)
             other->prepare(rate_, block_);
         else if (isLent() && (lentRate_ != rate_ || lentBlock_ != block_))

@@ -55,9 +55,9 @@ int Receipts::untilEdge(std::int64_t place, int frames) const noexcept {
 
 void Receipts::take(std::uint32_t session, std::int64_t place, int sampleRateHz, const float* const* outputs,
                     int frames) noexcept PHYSVIB_NONBLOCKING {
-    const bool goesOn = open_.session == session && open_.rate == sampleRateHz && open_.opening == opening_ &&
-                        open_.end() == place;
-    if (!goesOn) {
+    const bool keepGoing = open_.session == session && open_.rate == sampleRateHz &&
+                           open_.opening == opening_ && open_.end() == place;
+    if (!keepGoing) {
         publish();
         open_ = {place, 0, sampleRateHz, session, opening_};
     }

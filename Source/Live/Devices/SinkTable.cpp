@@ -91,14 +91,14 @@ std::string channelFault(const std::vector<SinkName>& sinks, int channels) {
 }
 
 std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
-                      const std::function<bool()>& goesOn, Sinks& opened) {
+                      const std::function<bool()>& keepGoing, Sinks& opened) {
     if (wanted.size() > mostNamedSinks)
         return "expected at most " + std::to_string(mostNamedSinks) + " outputs beside the device, found " +
                std::to_string(wanted.size());
     for (const SinkName& sink : wanted) {
-        opened.push_back(kindOf(sink).make(sink.where, panner, goesOn != nullptr));
-        if (!goesOn) continue;
-        if (auto fault = opened.back()->awaitReady(goesOn); !fault.empty()) return fault;
+        opened.push_back(kindOf(sink).make(sink.where, panner, keepGoing != nullptr));
+        if (!keepGoing) continue;
+        if (auto fault = opened.back()->awaitReady(keepGoing); !fault.empty()) return fault;
     }
     return {};
 }

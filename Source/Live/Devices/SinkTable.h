@@ -65,11 +65,11 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
 
 /// At the same time. A SinkSet has as many places again for sinks that programs attach themselves (recorder,
 /// meters, OSC).
-constexpr std::size_t mostNamedSinks = SinkSet::most / 2;
+constexpr std::size_t mostNamedSinks = SinkSet::maxSinks / 2;
 
 /// Opens all of them for a session with that panner; or one line. Waits for each to become ready as long as
-/// `goesOn` returns true; without `goesOn` it does not wait. M.
+/// `keepGoing` returns true; without `keepGoing` it does not wait. M.
 std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
-                      const std::function<bool()>& goesOn, Sinks& opened);
+                      const std::function<bool()>& keepGoing, Sinks& opened);
 
 } // namespace physvib

@@ -43,14 +43,14 @@ PadOutput::~PadOutput() {
     if (thread_.joinable()) thread_.join();
 }
 
-std::string PadOutput::awaitReady(const std::function<bool()>& goesOn) {
+std::string PadOutput::awaitReady(const std::function<bool()>& keepGoing) {
     const std::int64_t endNs = steadyNs() + patienceNs;
     for (;;) {
         {
             const std::lock_guard lock{mutex_};
             if (!fault_.empty()) return fault_;
             if (pad_) return {};
-            if (!goesOn() || steadyNs() > endNs) return troubleNow();
+            if (!keepGoing() || steadyNs() > endNs) return troubleNow();
         }
         std::this_thread::sleep_for(std::chrono::milliseconds{5});
     }

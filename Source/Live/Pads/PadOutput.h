@@ -36,13 +36,13 @@ public:
     PadOutput(const std::string& where, const PhantomPanner& panner);
     ~PadOutput() override;
 
-    std::string awaitReady(const std::function<bool()>& goesOn) override;
+    std::string awaitReady(const std::function<bool()>& keepGoing) override;
     double latencySeconds() const noexcept override { return leadSeconds_; }
     void follow(OutputClock* device) override;
     void made(const CollisionEvent& event) noexcept override { events_.push(event); }
     void posted(const RenderControl& control) noexcept override { controls_.push(control); }
     SinkState state() const override;
-    std::string summary(const std::function<bool()>& goesOn) const override;
+    std::string summary(const std::function<bool()>& keepGoing) const override;
 
     PadCounts counts() const; ///< any thread
 

@@ -58,7 +58,7 @@ double rounded(double value) { return std::round(1000.0 * value) / 1000.0; }
 
 bool holdMotors(GamePad& pad, double low, double high, double seconds, const PadTrialTime& time) {
     const double end = time.seconds() + seconds;
-    for (double next = 0.0; time.goesOn() && pad.isAttached(); time.tick()) {
+    for (double next = 0.0; time.keepGoing() && pad.isAttached(); time.tick()) {
         if (time.seconds() >= end) return true;
         if (time.seconds() < next) continue;
         pad.rumble(low, high);

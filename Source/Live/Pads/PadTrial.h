@@ -14,7 +14,7 @@ namespace physvib {
 struct PadTrialTime {
     std::function<double()> seconds; ///< any starting point
     std::function<void()> tick;      ///< waits about 1 ms and polls controllers
-    std::function<bool()> goesOn;    ///< false: the trial ends and the motors stop
+    std::function<bool()> keepGoing; ///< false: the trial ends and the motors stop
 };
 
 /// Acceleration recorded while one motor had one command, and after it.

@@ -33,10 +33,10 @@ std::string Rig::open() {
 }
 
 std::string Rig::connectSinks() {
-    const auto goesOn = [this] { return this->goesOn(); };
+    const auto keepGoing = [this] { return this->keepGoing(); };
     connectedAt_ = std::chrono::steady_clock::now();
     if (auto fault = openSinks(settings_.sinks, settings_.setup.panner,
-                               settings_.awaitsSinks ? std::function<bool()>{goesOn} : nullptr, sinks_);
+                               settings_.awaitsSinks ? std::function<bool()>{keepGoing} : nullptr, sinks_);
         !fault.empty())
         return fault;
     for (const auto& sink : sinks_) session_.sinks().attach(*sink);
@@ -68,7 +68,7 @@ void Rig::start() {
 }
 
 void Rig::step() {
-    if (!settings_.ownThread && goesOn()) session_.advance([this](auto) { return goesOn(); });
+    if (!settings_.ownThread && keepGoing()) session_.advance([this](auto) { return keepGoing(); });
 }
 
 std::string droppedWords(std::uint64_t events) {
@@ -112,7 +112,7 @@ std::string Rig::trouble() const {
 std::string Rig::summary(std::string& trouble) const {
     std::string lines;
     for (const auto& sink : sinks_) {
-        lines += sink->summary([this] { return goesOn(); });
+        lines += sink->summary([this] { return keepGoing(); });
         const SinkState state = sink->state();
         if (trouble.empty() && !state.isReady)
             trouble = state.trouble.empty() ? "the " + state.name + " is gone" : state.trouble;

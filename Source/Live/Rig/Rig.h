@@ -103,7 +103,7 @@ public:
 private:
     static constexpr std::chrono::seconds patience{3}; // handshake, clock and Bluetooth take a second
 
-    bool goesOn() const noexcept { return isEnded_ == nullptr || !*isEnded_; }
+    bool keepGoing() const noexcept { return isEnded_ == nullptr || !*isEnded_; }
     std::string beginRecording();
     std::string beginJournal();
     void endFiles();

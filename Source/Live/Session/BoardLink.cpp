@@ -82,13 +82,13 @@ void BoardLink::follow(BoardSource* source) {
     source_ = source;
 }
 
-std::string BoardLink::awaitReady(const std::function<bool()>& goesOn) const {
+std::string BoardLink::awaitReady(const std::function<bool()>& keepGoing) const {
     for (const std::int64_t start = nowNs();; std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
         const BoardLinkStatus now = status();
         const std::int64_t waited = nowNs() - start;
         if (now.state == State::ready && now.telemetry.good > 0) return {};
         const bool isNobodyThere = now.port.empty() && !now.trouble.empty() && waited > 2 * second;
-        if (isNobodyThere || waited > 20 * second || !goesOn())
+        if (isNobodyThere || waited > 20 * second || !keepGoing())
             return now.trouble.empty() ? "no board answers" : now.trouble;
     }
 }

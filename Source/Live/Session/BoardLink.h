@@ -64,7 +64,7 @@ public:
 
     /// Waits until the board is ready and has sent telemetry. Empty, or the error. Gives up early on a port
     /// that could never be opened, but waits for a board that is starting. Any thread but the link thread.
-    std::string awaitReady(const std::function<bool()>& goesOn) const;
+    std::string awaitReady(const std::function<bool()>& keepGoing) const;
 
     /// The clock of BoardStrike::onsetNs. Any thread.
     static std::int64_t nowNs() noexcept;

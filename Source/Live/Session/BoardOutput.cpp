@@ -23,8 +23,8 @@ BoardOutput::BoardOutput(std::string port, const PhantomPanner& panner, double l
     , latencySeconds_{latencySeconds}
     , panner_{panner} {}
 
-std::string BoardOutput::awaitReady(const std::function<bool()>& goesOn) {
-    std::string fault = link_.awaitReady(goesOn);
+std::string BoardOutput::awaitReady(const std::function<bool()>& keepGoing) {
+    std::string fault = link_.awaitReady(keepGoing);
     const auto now = link_.status();
     latencySeconds_ = std::max(latencySeconds_, now.outputLatencyMs * 1e-3);
     isAwaited_ = true;
@@ -52,8 +52,8 @@ SinkState BoardOutput::state() const {
     return state;
 }
 
-std::string BoardOutput::summary(const std::function<bool()>& goesOn) const {
-    return boardSummary(link_, before_, goesOn);
+std::string BoardOutput::summary(const std::function<bool()>& keepGoing) const {
+    return boardSummary(link_, before_, keepGoing);
 }
 
 void BoardOutput::feed() {

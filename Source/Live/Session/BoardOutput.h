@@ -33,13 +33,13 @@ public:
     BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds = 0.0);
     ~BoardOutput() override { follow(nullptr); }
 
-    std::string awaitReady(const std::function<bool()>& goesOn) override;
+    std::string awaitReady(const std::function<bool()>& keepGoing) override;
     double latencySeconds() const noexcept override { return latencySeconds_; }
     void follow(OutputClock* device) override;
     void made(const CollisionEvent& event) noexcept override;
     void posted(const RenderControl& control) noexcept override { controls_.push(control); }
     SinkState state() const override;
-    std::string summary(const std::function<bool()>& goesOn) const override;
+    std::string summary(const std::function<bool()>& keepGoing) const override;
 
     /// Events and controls dropped because a queue to the link was full. Any thread.
     std::uint64_t untold() const noexcept { return events_.overflows() + controls_.overflows(); }

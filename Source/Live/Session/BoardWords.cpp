@@ -70,10 +70,10 @@ SinkState sinkStateOf(const BoardLinkStatus& s, const std::string& port, double 
 }
 
 std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
-                         const std::function<bool()>& goesOn) {
+                         const std::function<bool()>& keepGoing) {
     const std::int64_t end = BoardLink::nowNs() + newsWithinNs;
     const auto seen = link.status().telemetry.frame;
-    while (link.status().telemetry.frame == seen && goesOn() && BoardLink::nowNs() <= end)
+    while (link.status().telemetry.frame == seen && keepGoing() && BoardLink::nowNs() <= end)
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     const auto s = link.status();
     const auto& t = s.telemetry;

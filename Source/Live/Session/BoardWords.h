@@ -14,6 +14,6 @@ SinkState sinkStateOf(const BoardLinkStatus& board, const std::string& port, dou
 
 /// Lines on what was sent and played since `before`. Waits briefly for newer telemetry.
 std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
-                         const std::function<bool()>& goesOn);
+                         const std::function<bool()>& keepGoing);
 
 } // namespace physvib

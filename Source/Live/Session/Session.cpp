@@ -88,9 +88,9 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     renderer_->setContacts(scheduler_.contactsAt(sampleRateHz)); // sounding recordings stop
 }
 
-int Session::advance(const StepWatch& goesOn) {
+int Session::advance(const StepWatch& keepGoing) {
     scheduler_.takeDueStops();
-    const int steps = setup_.hasWorld ? world_.advance(goesOn) : 0;
+    const int steps = setup_.hasWorld ? world_.advance(keepGoing) : 0;
     scheduler_.followLanes();
     return steps;
 }

@@ -56,9 +56,9 @@ public:
     /// Shaping of all collisions and events before rendering. Any thread.
     const EventShaping& shaping() const noexcept { return setup_.shaping; }
 
-    /// Steps the world up to session time, or until `goesOn` (called after each step) returns false. Returns
-    /// the number of steps. D.
-    int advance(const StepWatch& goesOn = {});
+    /// Steps the world up to session time, or until `keepGoing` (called after each step) returns false.
+    /// Returns the number of steps. D.
+    int advance(const StepWatch& keepGoing = {});
 
     /// Writes out[0..rendered().count())[0..frames). R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;

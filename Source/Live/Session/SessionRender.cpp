@@ -6,8 +6,8 @@
 
 namespace physvib {
 
-SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const StepWatch& goesOn) {
-    SceneEvents all = runTakes(session.log.takes, session.run, endNs, goesOn);
+SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const StepWatch& keepGoing) {
+    SceneEvents all = runTakes(session.log.takes, session.run, endNs, keepGoing);
     for (const CollisionEvent& strike : session.log.strikes)
         if (strike.timeNs < endNs) all.events.push_back(strike);
     std::ranges::stable_sort(all.events, {}, &CollisionEvent::timeNs);
@@ -18,13 +18,13 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
                    const BlockConsumer& consume) {
     SessionRecordings recordings{session.log, loaded, extent.sampleRateHz};
     const std::int64_t endNs = std::llround(extent.seconds * 1e9);
-    bool goesOn = extent.progress(0.0);
-    if (!goesOn) return false;
-    auto events =
-        sessionEvents(session, endNs, [&](std::int64_t timeNs) {
-            return goesOn = extent.progress(0.5 * static_cast<double>(timeNs) / static_cast<double>(endNs));
-        }).events;
-    if (!goesOn) return false;
+    bool keepGoing = extent.progress(0.0);
+    if (!keepGoing) return false;
+    auto events = sessionEvents(session, endNs, [&](std::int64_t timeNs) {
+                      return keepGoing = extent.progress(0.5 * static_cast<double>(timeNs) /
+                                                         static_cast<double>(endNs));
+                  }).events;
+    if (!keepGoing) return false;
     std::ranges::transform(events, events.begin(), EventShaper{session.shaping});
     const auto controls = recordings.with(controlsOf(session.log, true, session.channels));
     const std::int64_t frames = std::llround(extent.seconds * extent.sampleRateHz);
@@ -38,11 +38,11 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
     renderOffline(events, {renderer, frames, 1024, controls, recordings.beside({})},
                   [&](const float* const* block, int n) {
                       done += n;
-                      return goesOn =
+                      return keepGoing =
                                  consume(block, n) && extent.progress(0.5 + 0.5 * static_cast<double>(done) /
                                                                                 static_cast<double>(frames));
                   });
-    return goesOn;
+    return keepGoing;
 }
 
 } // namespace physvib

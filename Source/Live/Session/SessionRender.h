@@ -11,7 +11,7 @@ namespace physvib {
 
 /// All events of the session before `endNs`, of its worlds and its inputs, in time order and without shaping.
 /// Message thread (M) only. Throws what Simulation throws.
-SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const StepWatch& goesOn = {});
+SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const StepWatch& keepGoing = {});
 
 /// How much of a session is rendered, and a callback for the progress from 0 to 1, the first half of which is
 /// the simulation; false cancels.

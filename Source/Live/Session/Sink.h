@@ -66,8 +66,8 @@ public:
 
     /// M.
     virtual SinkState state() const { return {}; }
-    /// Lines on what it has done, after the end of playing. May wait a second for data while `goesOn` returns
-    /// true. M.
+    /// Lines on what it has done, after the end of playing. May wait a second for data while `keepGoing`
+    /// returns true. M.
     virtual std::string summary(const std::function<bool()>&) const { return {}; }
 };
 

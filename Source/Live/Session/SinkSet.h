@@ -11,7 +11,7 @@ namespace physvib {
 
 class SinkSet {
 public:
-    static constexpr std::size_t most = 16; ///< at once; a further one is not attached
+    static constexpr std::size_t maxSinks = 16; ///< at once; a further one is not attached
 
     /// Attaches a sink, which must outlive the set or be detached before. Attach one with a latency before
     /// the session is prepared. Message thread (M), as the next ones.
@@ -74,7 +74,7 @@ private:
     }
 
     std::mutex mutex_; // held by all callers of sinks except M and R
-    std::array<std::atomic<Sink*>, most> sinks_{};
+    std::array<std::atomic<Sink*>, maxSinks> sinks_{};
 };
 
 /// While it exists, the sinks follow the device, which must outlive it. M.

@@ -68,17 +68,17 @@ void WorldRunner::resume(const FrameClock& clock) {
     if (restartFrame_ >= 0) restartFrame_ = clock.at(time_.sessionNs(restartFrame_)).frame;
 }
 
-int WorldRunner::advance(const StepWatch& goesOn) {
+int WorldRunner::advance(const StepWatch& keepGoing) {
     const std::lock_guard lock{mutex_};
     if (offline_.load(std::memory_order_acquire)) return 0;
     isDriven_.store(true, std::memory_order_release);
     takeUp();
-    const int steps = catchUp(goesOn);
+    const int steps = catchUp(keepGoing);
     if (isShown_.load(std::memory_order_relaxed)) showPoses();
     return steps;
 }
 
-int WorldRunner::catchUp(const StepWatch& goesOn) {
+int WorldRunner::catchUp(const StepWatch& keepGoing) {
     const std::int64_t now = time_.nowNs();
     if (const std::int64_t lag = now - world_.timeNs(); lag > time_.longestLagNs()) {
         slippedNs_ += lag - time_.law().safeLagNs();
@@ -87,7 +87,7 @@ int WorldRunner::catchUp(const StepWatch& goesOn) {
     takeDue(now);
     callback_.handTo(world_); // inputs that R made before `now` are in the queue already
     int steps = 0;
-    for (; world_.timeNs() < now && (steps == 0 || !goesOn || goesOn(world_.timeNs())); ++steps) {
+    for (; world_.timeNs() < now && (steps == 0 || !keepGoing || keepGoing(world_.timeNs())); ++steps) {
         moveWorld(now);
         handOver(); // the next block may begin before the last step
     }

@@ -75,7 +75,7 @@ private:
     // For Session:
     void prepare();                            // resets the scene; the world mutex is held, also for resume
     void resume(const FrameClock& clock);      // session time continues by that clock
-    int advance(const StepWatch& goesOn);      // world driver (D)
+    int advance(const StepWatch& keepGoing);   // world driver (D)
     bool beginBlock(RenderMode mode) noexcept; // R; false: the world has not been stepped yet
     bool pop(CollisionEvent& event) noexcept { return queue_.pop(event); } // R
     bool popOrStep(CollisionEvent& event, std::int64_t endNs);             // R, in runOffline
@@ -98,7 +98,7 @@ private:
     std::int64_t moveLog(SessionLog& log); // returns the session time up to which the world has been stepped
 
     // With the world mutex held:
-    int catchUp(const StepWatch& goesOn = {});
+    int catchUp(const StepWatch& keepGoing = {});
     void beginOffline(std::int64_t endNs);
     void moveWorld(std::int64_t untilNs);
     void takeUp();

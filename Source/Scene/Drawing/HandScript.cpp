@@ -97,11 +97,11 @@ Scene withHands(Scene recordedIn, const HandScript& hands, const ScriptTrim& tri
     const HandScript part = trimmed(recordedIn, hands, trim);
     std::vector<ScriptInput> script;
     for (const LiveInput& input : part.inputs) script.push_back({input.timeSeconds, 1, 0.0, input.action});
-    const bool goesOn = !recordedIn.script.empty(); // the scene's script keeps its own period
+    const bool keepGoing = !recordedIn.script.empty(); // the scene's script keeps its own period
     script.insert(script.end(), recordedIn.script.begin(),
                   recordedIn.script.end()); // last, because live inputs of a step act before the script's
     recordedIn.script = std::move(script);
-    if (!goesOn)
+    if (!keepGoing)
         recordedIn.scriptPeriodSeconds =
             trim.repeats && part.lengthSeconds >= sceneLimits::minScriptPeriodSeconds ? part.lengthSeconds
                                                                                       : 0.0;

@@ -8,14 +8,14 @@
 namespace physvib {
 
 SceneEvents runScene(const Scene& scene, const RunSettings& run, std::int64_t endNs,
-                     const StepWatch& goesOn) {
+                     const StepWatch& keepGoing) {
     const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
     const SceneRun take{0, 0, run.seed, shared, {}, {}};
-    return runTakes({&take, 1}, run, endNs, goesOn);
+    return runTakes({&take, 1}, run, endNs, keepGoing);
 }
 
 SceneEvents runTakes(std::span<const SceneRun> takes, const RunSettings& run, std::int64_t endNs,
-                     const StepWatch& goesOn) {
+                     const StepWatch& keepGoing) {
     SceneEvents all;
     for (const SceneRun& take : takes) {
         const auto owned = std::make_unique<Simulation>(take.whole(), take.seed, run.stepsPerSecond,
@@ -24,13 +24,13 @@ SceneEvents runTakes(std::span<const SceneRun> takes, const RunSettings& run, st
         const bool isLast = &take == &takes.back();
         std::int64_t originNs = take.startNs;
         StallReader stalls{take.stalls};
-        if (goesOn && !goesOn(originNs)) return all; // building a world takes time, too
+        if (keepGoing && !keepGoing(originNs)) return all; // building a world takes time, too
         while (isLast ? originNs + world.settledNs() < endNs : world.timeNs() < take.worldEndNs) {
             originNs += stalls.lengthBefore(world.timeNs());
             const std::size_t before = all.events.size();
             world.step(all.events);
             for (std::size_t i = before; i < all.events.size(); ++i) all.events[i].timeNs += originNs;
-            if (goesOn && !goesOn(originNs + world.timeNs())) return all;
+            if (keepGoing && !keepGoing(originNs + world.timeNs())) return all;
         }
         all.drops += world.drops();
         all.counts += world.counts();

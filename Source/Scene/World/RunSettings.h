@@ -34,12 +34,12 @@ using StepWatch = std::function<bool(std::int64_t timeNs)>;
 
 /// M only. Throws what Simulation throws.
 SceneEvents runScene(const Scene& scene, const RunSettings& run, std::int64_t endNs,
-                     const StepWatch& goesOn = {});
+                     const StepWatch& keepGoing = {});
 
 /// Recomputes a session's events in session time: of each scene run to its end, of the last one all before
 /// `endNs`. `run` gives the step rate; seeds are the scene runs' own. M only. Throws what Simulation throws.
 SceneEvents runTakes(std::span<const SceneRun> takes, const RunSettings& run, std::int64_t endNs,
-                     const StepWatch& goesOn = {});
+                     const StepWatch& keepGoing = {});
 
 /// Poses at the last step not after `timeNs`. M only; simulates from the start.
 WorldPoses posesAt(const Scene& scene, const RunSettings& run, std::int64_t timeNs);

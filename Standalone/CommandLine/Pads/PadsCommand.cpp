@@ -88,7 +88,7 @@ void playHits(GamePad& pad, const PadLaw& law, const PadTrialTime& time) {
         motors.strike(hit, grips);
     }
     const double begin = time.seconds();
-    for (PadCommand last; time.goesOn() && pad.isAttached() && motors.dueNs() != PadMotors::never;
+    for (PadCommand last; time.keepGoing() && pad.isAttached() && motors.dueNs() != PadMotors::never;
          time.tick()) {
         if (static_cast<double>(motors.dueNs()) * 1e-9 > time.seconds() - begin) continue;
         const PadCommand command = motors.next(1.0);

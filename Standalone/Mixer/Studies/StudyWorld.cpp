@@ -48,7 +48,7 @@ std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesys
     desk_.exposure().use(world.layout);
     desk_.exposure().restartLevels(
         {0, hasHands ? SampleSpan{}.to : std::llround(seconds_ * desk_.output().sampleRateHz())});
-    if (!desk_.output().lend(session_.get())) return session_.reset(), "expected a device that plays";
+    if (!desk_.output().playInstead(session_.get())) return session_.reset(), "expected a device that plays";
     number_ = desk_.output().playedSession();
     tellStrips();
     journal_ = std::make_unique<SessionJournal>(
@@ -124,7 +124,7 @@ WorldMoment StudyWorld::look() {
 void StudyWorld::finish() {
     if (!session_) return;
     if (course_ == Course::plays) course_ = Course::none;
-    desk_.output().lend(nullptr);
+    desk_.output().playInstead(nullptr);
     driver_.reset();
     session_->advance(); // simulates up to the end of time, from which a later render would continue
     // Impacts of the last step are known one step later, which does not exist here. A render that ended at

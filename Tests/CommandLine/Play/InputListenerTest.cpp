@@ -29,13 +29,13 @@ struct Listening {
         dup2(ends[0], STDIN_FILENO);
         const auto clips = [this](const std::string&) {
             isHeldUp = true;
-            while (!goesOn) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+            while (!keepGoing) std::this_thread::sleep_for(std::chrono::milliseconds{1});
             return Result<LoadedClip>{Failure{"no clip"}};
         };
         listener.emplace(session, output, messages, clips, true);
     }
     ~Listening() {
-        goesOn = true;
+        keepGoing = true;
         if (writer.joinable()) writer.join();
         listener.reset();
         dup2(before, STDIN_FILENO);
@@ -58,7 +58,7 @@ struct Listening {
     /// All that was written before is done: one more clip is asked for.
     void goOnToTheEnd() {
         isHeldUp = false;
-        goesOn = true;
+        keepGoing = true;
         write(heldUp);
         ASSERT_TRUE(comesTrue([this] { return isHeldUp.load(); }));
     }
@@ -73,7 +73,7 @@ struct Listening {
     Session session{setup()};
     AudioOutput output{session, [] { return std::vector<std::unique_ptr<AudioDriver>>{}; }};
     MessageRouter messages{session};
-    std::atomic<bool> isHeldUp{false}, goesOn{false};
+    std::atomic<bool> isHeldUp{false}, keepGoing{false};
     int ends[2]{}, before = 0;
     std::thread writer;
     std::optional<InputListener> listener;
@@ -89,7 +89,7 @@ TEST(InputListeners, SilenceOvertakesTenThousandLinesThatWait) {
     for (int k = 0; k < 10'000; ++k) flood += "{\"control\": \"gain\", \"channel\": 1, \"value\": 0.5}\n";
     one.write(flood + on);
     EXPECT_TRUE(comesTrue([&] { return one.output.isSilent(); }));
-    EXPECT_FALSE(one.goesOn) << "nothing of what came before it is done";
+    EXPECT_FALSE(one.keepGoing) << "nothing of what came before it is done";
 }
 
 TEST(InputListeners, SpelledWithEscapesItIsSilenceAsWell) {
