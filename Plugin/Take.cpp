@@ -99,8 +99,9 @@ void Take::releaseUntil(int frames) noexcept {
 }
 
 bool Take::tell(std::span<const Strip> strips) {
-    return tellStrips(told_, strips,
-                      [this](const RenderControl& control) { return session.take({control}).error.empty(); });
+    return tellStrips(told_, strips, [this](const RenderControl& control) {
+        return session.submit({control}).error.empty();
+    });
 }
 
 bool Take::silence(int frame) noexcept {

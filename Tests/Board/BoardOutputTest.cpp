@@ -87,7 +87,7 @@ protected:
     void rest() const { std::this_thread::sleep_for(std::chrono::milliseconds(300)); }
     void push(int times) {
         for (int i = 0; i < times; ++i, ++pushes) {
-            EXPECT_EQ(session.take({test::pushOfBall(pushes)}).error, "");
+            EXPECT_EQ(session.submit({test::pushOfBall(pushes)}).error, "");
             std::this_thread::sleep_for(std::chrono::milliseconds(170 + 13 * (i % 5)));
         }
         rest();
@@ -137,7 +137,7 @@ TEST_F(BoardOutputTest, ADeviceAndABoardAreFeltAtTheSameMoment) {
 TEST_F(BoardOutputTest, SilenceAndMutesHoldForBoth) {
     const auto muteAll = [this](float value) {
         for (int j = 0; j < 4; ++j)
-            EXPECT_TRUE(session.take({RenderControl{
+            EXPECT_TRUE(session.submit({RenderControl{
                 .kind = RenderControl::Kind::mute, .channel = j, .value = value, .panner = {}}}));
         rest();
     };

@@ -207,7 +207,7 @@ BoardLinkStatus playPath(FakeBoard& board) {
     second.durationNs = 600 * ms;
     second.course = {4.0, 0.0, second.durationNs, first.durationNs};
     second.spread = Spread::equal;
-    EXPECT_TRUE(session.take({Strikes{std::array{first, second}}}));
+    EXPECT_TRUE(session.submit({Strikes{std::array{first, second}}}));
     EXPECT_TRUE(test::comesTrue([&] {
         goOn();
         return session.timeline().presentNs() > 2'000 * ms;

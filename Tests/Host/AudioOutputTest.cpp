@@ -206,7 +206,7 @@ TEST(AudioOutput, WhatRingsFadesBeforeADeviceIsClosedAndOneThatIsGoneIsNotWaited
     tone.frequencyHz = 50;
     tone.durationNs = 60'000'000'000;
     tone.amplitude = 0.5;
-    ASSERT_TRUE(rig.session.take({Strikes{{&tone, 1}}}));
+    ASSERT_TRUE(rig.session.submit({Strikes{{&tone, 1}}}));
     EXPECT_GT(loudest(rig.play(1.0, 64)[corner]), 0.01f);
     std::vector<float> heard;
     std::atomic<bool> stop{false};
@@ -299,7 +299,7 @@ TEST(AudioOutput, RateBlockAndLayoutChangeWhilePlayingAndNoCeilingIsPassed) {
             EXPECT_EQ(rig.output.sampleRateHz(), static_cast<int>(rate));
             const PhantomPanner panner = pannerOn(layout, setup.scene);
             EXPECT_TRUE(
-                rig.session.take({RenderControl{.kind = RenderControl::Kind::panner, .panner = &panner}}));
+                rig.session.submit({RenderControl{.kind = RenderControl::Kind::panner, .panner = &panner}}));
             const auto out = rig.play(4.0, block);
             for (std::size_t k = 0; k < hands; ++k) most[k] = std::max(most[k], loudest(out[k]));
         }

@@ -47,7 +47,7 @@ public:
             half.amplitude = 4.0;
             half.x = x;
             half.y = 0.5;
-            session.take({Strikes{{&half, 1}}});
+            session.submit({Strikes{{&half, 1}}});
             session.advance();
             const auto blocks = interface_.play(interface_.block);
             const auto count = static_cast<std::size_t>(interface_.rate / 8000); // means: what is slow is

@@ -144,7 +144,7 @@ TEST(Listening, ARecordingIsHeardWhereThereIsOneFromTheFrameOfTheEnchantersOnset
     hit.decayPerSecond = 50.0;
     hit.amplitude = 0.5;
     hit.timeNs = 123'456'789;
-    ASSERT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
+    ASSERT_TRUE(rig.session.submit({Strikes{std::array{hit}}}));
     auto out = rig.play(1.0);
     ASSERT_LT(onsetOf(out[2]), out[2].size()) << "lower left: enchanter C";
     EXPECT_EQ(onsetOf(out[felt]), onsetOf(out[2]));
@@ -152,7 +152,7 @@ TEST(Listening, ARecordingIsHeardWhereThereIsOneFromTheFrameOfTheEnchantersOnset
     EXPECT_EQ(out[felt][onsetOf(out[felt]) + 479], out[felt][onsetOf(out[felt])])
         << "the recording, not a sine";
     hit.frequencyHz = 80.0;
-    ASSERT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
+    ASSERT_TRUE(rig.session.submit({Strikes{std::array{hit}}}));
     out = rig.play(1.0);
     EXPECT_EQ(onsetOf(out[felt]), onsetOf(out[2])) << "without a recording: the mode";
     for (std::size_t n = 0; n < out[2].size(); ++n) ASSERT_NEAR(out[felt][n], 0.1f * out[2][n], 1e-6f) << n;
@@ -167,9 +167,9 @@ TEST(Listening, StopsWithWhatIsFelt) {
     tone.frequencyHz = 200.0;
     tone.amplitude = 0.5;
     tone.durationNs = 5'000'000'000;
-    ASSERT_TRUE(rig.session.take({Strikes{std::array{tone}}}));
+    ASSERT_TRUE(rig.session.submit({Strikes{std::array{tone}}}));
     rig.play(1.0);
-    ASSERT_TRUE(rig.session.take({RenderControl{0, RenderControl::Kind::stopAll, 0, 0.0f, {}}}));
+    ASSERT_TRUE(rig.session.submit({RenderControl{0, RenderControl::Kind::stopAll, 0, 0.0f, {}}}));
     rig.play(0.5);
     EXPECT_LT(peakOf(rig.play(0.5)[1]), 1e-6f);
 }
@@ -230,7 +230,7 @@ TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
         hit.decayPerSecond = 50.0;
         hit.amplitude = 0.5;
         hit.x = x;
-        EXPECT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
+        EXPECT_TRUE(rig.session.submit({Strikes{std::array{hit}}}));
         const auto out = rig.play(1.0);
         return std::pair{peakOf(out[felt]), peakOf(out[felt + 1])};
     };
@@ -243,7 +243,7 @@ TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
     EXPECT_NEAR(left, right, 1e-6f);
     PhantomPanner wider{setup.panner.layout(), PanningLaw::linear, 1, 2.0 * width,
                         setup.scene.fieldHeightMetres};
-    ASSERT_TRUE(rig.session.take({RenderControl{0, RenderControl::Kind::panner, 0, 0.0f, &wider}}));
+    ASSERT_TRUE(rig.session.submit({RenderControl{0, RenderControl::Kind::panner, 0, 0.0f, &wider}}));
     rig.play(0.2);
     const auto [leftOfWider, rightOfWider] = heardAt(width);
     EXPECT_NEAR(leftOfWider, rightOfWider, 1e-4f) << "in the middle of the new field";
@@ -269,7 +269,7 @@ TEST(Listening, MarksStandAtTheOnsetsOnTheirOutputAndNeitherLevelNorCeilingMoves
     ASSERT_EQ(rig.open(all), "");
     ASSERT_EQ(quiet.open(marksOn({5})), "");
     quiet.output.setLevel(0.0f);
-    quiet.session.take({RenderControl{0, RenderControl::Kind::mute, 0, 1.0f, {}}});
+    quiet.session.submit({RenderControl{0, RenderControl::Kind::mute, 0, 1.0f, {}}});
     const auto out = rig.play(6.0), muted = quiet.play(6.0);
     ASSERT_EQ(out.size(), 3u);
     EXPECT_EQ(out[2], muted[1]);
@@ -291,7 +291,7 @@ TEST(Listening, WhatIsSilencedIsNotMarkedAndNoPulseBeginsInItsMiddle) {
     hit.decayPerSecond = 50.0;
     hit.amplitude = 0.5;
     const auto marksAfter = [&](bool isSilentAtFirst) {
-        EXPECT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
+        EXPECT_TRUE(rig.session.submit({Strikes{std::array{hit}}}));
         // the pulse of 96 frames begins in the last of these
         const auto blocks = static_cast<int>(rig.session.timeline().outputLatencyFrames() / blockFrames);
         float most = 0.0f;

@@ -53,7 +53,7 @@ struct Paused {
         return event;
     }
     Result<std::int64_t> strike(const CollisionEvent& event, bool canBeStopped = false) {
-        return session.take(
+        return session.submit(
             {Strikes{{&event, 1}, canBeStopped}, canBeStopped ? session.timeline().presentNs() : Input::now});
     }
     void strikeAccepted(const CollisionEvent& event, bool canBeStopped = false) {
@@ -89,9 +89,9 @@ TEST(Pause, WhatComesMeanwhileIsRefusedCountedAndNeverFelt) {
         EXPECT_EQ(rig.strike(Paused::tone(0.05), k % 2 == 0).error, DevicePulse::refusal);
     EXPECT_EQ(rig.session.pulse().dropped(), before + 20);
     EXPECT_FALSE(rig.output.isPlaying());
-    EXPECT_TRUE(rig.session.take({RenderControl{.kind = RenderControl::Kind::gain, .value = 2.0f}}))
+    EXPECT_TRUE(rig.session.submit({RenderControl{.kind = RenderControl::Kind::gain, .value = 2.0f}}))
         << "state is taken all the time";
-    EXPECT_TRUE(rig.session.take({Stop{}, Input::now}));
+    EXPECT_TRUE(rig.session.submit({Stop{}, Input::now}));
     EXPECT_EQ(rig.play(0.5), 0.0f);
 }
 
@@ -141,7 +141,7 @@ TEST(Pause, AFloodThatOverfillsTheQueueIsDroppedToo) {
     Paused rig;
     rig.play(0.3);
     std::vector<CollisionEvent> flood(30'000, Paused::tone(0.01));
-    while (!rig.session.take({Strikes{flood}})) rig.play(0.002);
+    while (!rig.session.submit({Strikes{flood}})) rig.play(0.002);
     rig.session.advance();
     Paused::pause();
     rig.session.advance();
@@ -187,7 +187,7 @@ TEST(Pause, ADeviceThatIsGoneIsToldAndSoIsWhatWasDropped) {
     interface.unplug(true);
     Paused::pause();
     const CollisionEvent tone = Paused::tone(0.05);
-    for (int k = 0; k < 3; ++k) EXPECT_FALSE(rig.session().take({Strikes{{&tone, 1}}}));
+    for (int k = 0; k < 3; ++k) EXPECT_FALSE(rig.session().submit({Strikes{{&tone, 1}}}));
     rig.maintain();
     EXPECT_EQ(rig.trouble(), "Fake:hands has stopped; it is looked for every second, and time stands still; "
                              "dropped: 3 events, as no device ran");

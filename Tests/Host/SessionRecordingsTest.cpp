@@ -109,7 +109,7 @@ TEST_F(Recordings, WhatHasNoneIsRejectedAndWhereThereAreNoneItPlaysItsMode) {
         Session session{setup};
         const auto isRejected = [&] {
             const auto before = session.status().render.rejected;
-            EXPECT_TRUE(session.take({Strikes{{&strike, 1}}}));
+            EXPECT_TRUE(session.submit({Strikes{{&strike, 1}}}));
             Block block;
             for (int i = 0; i < 40; ++i)
                 session.advance(), session.render(block.at.data(), 256, RenderMode::realtime);
@@ -120,7 +120,7 @@ TEST_F(Recordings, WhatHasNoneIsRejectedAndWhereThereAreNoneItPlaysItsMode) {
         EXPECT_EQ(isRejected(), hasOther);
         session.resume(hostRate, 256);
         EXPECT_EQ(isRejected(), hasOther);
-        EXPECT_TRUE(session.take({PlayedRecordings{hasOther ? none : other}}));
+        EXPECT_TRUE(session.submit({PlayedRecordings{hasOther ? none : other}}));
         EXPECT_EQ(isRejected(), !hasOther);
     }
 }
@@ -133,10 +133,10 @@ Interleaved playExchanging(Session& session, const std::vector<ContactRecording>
     session.prepare(hostRate, 256);
     for (std::int64_t done = 0; done < frames; done += 250) {
         if (done == frames / 4) {
-            EXPECT_TRUE(session.take({PlayedRecordings{others}}));
+            EXPECT_TRUE(session.submit({PlayedRecordings{others}}));
         }
         if (done == frames * 3 / 4) {
-            EXPECT_TRUE(session.take({PlayedRecordings{{}}}));
+            EXPECT_TRUE(session.submit({PlayedRecordings{{}}}));
         }
         session.advance();
         session.render(block.at.data(), 250, RenderMode::realtime);

@@ -21,7 +21,7 @@ std::vector<std::int64_t> push(Session& session, const test::MeterClient& client
     for (int i = 0; i < times; ++i) {
         std::this_thread::sleep_for(std::chrono::microseconds{80'000 + random() % 40'000});
         frames.push_back(client.sessionFrame);
-        if (const auto fault = session.take({test::pushOfBall(i)}).error; !fault.empty())
+        if (const auto fault = session.submit({test::pushOfBall(i)}).error; !fault.empty())
             std::puts(fault.c_str());
     }
     return frames;

@@ -79,8 +79,9 @@ private:
     }
 
     std::string act(const LineInput& input, MuteRequester from) {
-        if (const auto* action = std::get_if<Action>(&input)) return session_->take({*action}).error;
-        if (const auto* control = std::get_if<OwnedControl>(&input)) return session_->take({*control}).error;
+        if (const auto* action = std::get_if<Action>(&input)) return session_->submit({*action}).error;
+        if (const auto* control = std::get_if<OwnedControl>(&input))
+            return session_->submit({*control}).error;
         const auto* asked = std::get_if<SilenceControl>(&input);
         demand(asked != nullptr, "a message where none may be");
         SilenceControl control = *asked;

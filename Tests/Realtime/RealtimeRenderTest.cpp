@@ -56,17 +56,17 @@ bool strikeClip(Session& session, test::Random& random) {
     strike.amplitude = 1.0;
     strike.durationNs = 100'000'000;
     strike.timeNs = session.timeline().presentNs();
-    return bool{session.take({Strikes{{&strike, 1}, true}, 0})};
+    return bool{session.submit({Strikes{{&strike, 1}, true}, 0})};
 }
 
 // Layouts, gains, mutes and stops; now and then an input, a strike that moves, a clip, another scene, or the
 // same one from its start.
 bool edit(Session& session, test::Random& random) {
     const int kind = random.below(200);
-    if (kind < 4) return session.take({TiltAction{random.uniform(-3, 3)}}).error.empty();
+    if (kind < 4) return session.submit({TiltAction{random.uniform(-3, 3)}}).error.empty();
     if (kind == 4) session.world().restart(random.below(64));
     if (kind >= 6 && kind < 16)
-        return bool{session.take(
+        return bool{session.submit(
             {Strikes{std::array{randomPath(random, session.timeline().presentNs() + random.below(1'000'000))},
                      true},
              0})};
@@ -76,7 +76,7 @@ bool edit(Session& session, test::Random& random) {
             {std::make_shared<const Scene>(*findBuiltInScene(scenes[random.below(3)])), 1});
     }
     if (kind == 16) return strikeClip(session, random);
-    return kind < 6 || session.take({randomEdit(random)}).error.empty();
+    return kind < 6 || session.submit({randomEdit(random)}).error.empty();
 }
 
 TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {

@@ -142,7 +142,7 @@ TEST(Direct, CollisionsKeepThePlayOutDelayAndWhatIsSavedIsWhatWasFelt) {
                     .error,
                 "");
             if (k == 4)
-                EXPECT_TRUE(host.session.take({RenderControl{0, RenderControl::Kind::gain, 1, 0.5f, {}}}));
+                EXPECT_TRUE(host.session.submit({RenderControl{0, RenderControl::Kind::gain, 1, 0.5f, {}}}));
             if (k == 5)
                 EXPECT_EQ(host.router.take(lineMessage(R"({"message": "stop", "in": 0.2})")).error, "");
         }

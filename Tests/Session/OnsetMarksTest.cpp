@@ -95,7 +95,7 @@ std::array<std::vector<float>, 2> playedLive(const std::vector<CollisionEvent>& 
                                              int rate) {
     Session session{quietSetup()};
     session.prepare(rate, block);
-    EXPECT_TRUE(session.take({Strikes{strikes}, 0}));
+    EXPECT_TRUE(session.submit({Strikes{strikes}, 0}));
     std::array<std::vector<float>, 2> all;
     for (auto& x : all) x.resize(static_cast<std::size_t>(rate / block * block));
     for (int done = 0; done + block <= rate; done += block) {

@@ -105,9 +105,9 @@ TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
                                                            0.5 * five.extentHeightMetres};
     const PhantomPanner wider{five, PanningLaw::energy, 1.3, setup.scene.fieldWidthMetres,
                               setup.scene.fieldHeightMetres};
-    const Script script{{0.5, [](Session& s) { s.take({controlOf(Kind::gain, 0, -0.5f)}); }},
-                        {0.7, [](Session& s) { s.take({controlOf(Kind::delay, 1, 0.013f)}); }},
-                        {0.9, [](Session& s) { s.take({controlOf(Kind::ceiling, 2, 0.05f)}); }},
+    const Script script{{0.5, [](Session& s) { s.submit({controlOf(Kind::gain, 0, -0.5f)}); }},
+                        {0.7, [](Session& s) { s.submit({controlOf(Kind::delay, 1, 0.013f)}); }},
+                        {0.9, [](Session& s) { s.submit({controlOf(Kind::ceiling, 2, 0.05f)}); }},
                         {1.0, [](Session& s) { s.world().setSlowness(0); }},
                         {1.2, [](Session& s) { s.world().stepOnce(); }},
                         {1.4,
@@ -119,17 +119,17 @@ TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
                         {2.5, [](Session& s) { s.world().setSlowness(1); }},
                         {2.7,
                          [&](Session& s) {
-                             s.take({RenderControl{0, Kind::panner, 0, 0.0f, &wider}});
+                             s.submit({RenderControl{0, Kind::panner, 0, 0.0f, &wider}});
                          }},
                         {3.0,
                          [](Session& s) {
                              const std::array strikes{pulse(0.2), pulse(0.0)};
-                             EXPECT_TRUE(s.take({Strikes{strikes}}));
+                             EXPECT_TRUE(s.submit({Strikes{strikes}}));
                          }},
-                        {3.2, [](Session& s) { s.take({controlOf(Kind::delay, 1, 0.0f)}); }},
+                        {3.2, [](Session& s) { s.submit({controlOf(Kind::delay, 1, 0.0f)}); }},
                         {3.4,
                          [](Session& s) {
-                             s.take({controlOf(Kind::mute, 3, 1.0f)});
+                             s.submit({controlOf(Kind::mute, 3, 1.0f)});
                              s.world().setSlowness(2);
                          }},
                         {4.0, [](Session& s) { s.world().restart(); }},
@@ -171,7 +171,7 @@ TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
                            {{0.3,
                              [](Session& s) {
                                  const std::array strikes{pulse(0.0)};
-                                 s.take({Strikes{strikes}});
+                                 s.submit({Strikes{strikes}});
                              }}},
                            480);
     const auto& c = live[2]; // (0, 0) is its corner
@@ -180,7 +180,7 @@ TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
     EXPECT_NEAR(static_cast<double>(first - session.timeline().outputLatencyFrames()) / rate, 0.3, 0.011);
     EXPECT_EQ(energyOf(live[1], 0.0, 1.0), 0.0);
     const std::array bad{pulse(0.0), CollisionEvent{}};
-    EXPECT_FALSE(session.take({Strikes{bad}})) << "one that cannot be played, and none is";
+    EXPECT_FALSE(session.submit({Strikes{bad}})) << "one that cannot be played, and none is";
 }
 
 TEST(SessionDesk, AStrikeOfATimeOfItsOwnIsFeltLAfterItWheneverItWasTold) {
@@ -194,7 +194,7 @@ TEST(SessionDesk, AStrikeOfATimeOfItsOwnIsFeltLAfterItWheneverItWasTold) {
                          {{seconds,
                            [](Session& s) {
                                const std::array strikes{pulse(0.3)};
-                               EXPECT_TRUE(s.take({Strikes{strikes}, 0}));
+                               EXPECT_TRUE(s.submit({Strikes{strikes}, 0}));
                            }}},
                          480);
         EXPECT_EQ(session.status().render.late, 0u);
@@ -284,11 +284,11 @@ TEST(SessionDesk, ALaneIsFeltAtTheTimesOfItsSceneAndRenderedAgainToTheBit) {
     const auto mix = std::make_shared<const Mix>(mixWithLanes(setup));
     Session session{setup};
     const auto live = play(session, 5.0,
-                           {{0.0, [&](Session& s) { s.take({Lanes{mix}}); }},
+                           {{0.0, [&](Session& s) { s.submit({Lanes{mix}}); }},
                             {2.0, [](Session& s) { s.world().restart(); }},
                             {3.8, [](Session& s) { s.world().setSlowness(0); }},
                             {4.2, [](Session& s) { s.world().setSlowness(1); }},
-                            {4.4, [](Session& s) { s.take({Lanes{}}); }}});
+                            {4.4, [](Session& s) { s.submit({Lanes{}}); }}});
     EXPECT_EQ(session.status().render.late, 0u);
     const auto saved = savedOf(session, setup, 5);
     EXPECT_EQ(differences(live, saved, session.timeline().outputLatencyFrames()), 0);

@@ -74,17 +74,17 @@ TEST(SessionInputs, AFaderThatIsSetBesideItsLaneHoldsWhileTheSceneStandsStill) {
     Session session{setup};
     session.prepare(rate, block);
     SessionLog log;
-    ASSERT_TRUE(session.take({Lanes{std::make_shared<const Mix>(mix)}}));
+    ASSERT_TRUE(session.submit({Lanes{std::make_shared<const Mix>(mix)}}));
     session.world().setSlowness(0);
     play(session, 2);
     EXPECT_FLOAT_EQ(lastGain(session, log, 1), 0.1f);
-    ASSERT_TRUE(session.take({RenderControl{0, Kind::gain, 1, 0.5f, {}}}));
+    ASSERT_TRUE(session.submit({RenderControl{0, Kind::gain, 1, 0.5f, {}}}));
     play(session, 2);
     EXPECT_FLOAT_EQ(lastGain(session, log, 1), 0.5f);
     session.world().restart();
     play(session, 2);
     EXPECT_FLOAT_EQ(lastGain(session, log, 1), 0.1f) << "another run, though its time is the same";
-    ASSERT_TRUE(session.take({RenderControl{0, Kind::gain, 1, 0.5f, {}}}));
+    ASSERT_TRUE(session.submit({RenderControl{0, Kind::gain, 1, 0.5f, {}}}));
     session.world().setSlowness(1);
     play(session, 2);
     EXPECT_FLOAT_EQ(lastGain(session, log, 1), 0.1f) << "the scene goes on, and the lane with it";
@@ -93,16 +93,16 @@ TEST(SessionInputs, AFaderThatIsSetBesideItsLaneHoldsWhileTheSceneStandsStill) {
 TEST(SessionInputs, AsManyStopsWaitAsThereIsRoomFor) {
     Session session{shakeTheBoxSetup(0.02)};
     session.prepare(rate, block);
-    for (int i = 0; i < 256; ++i) ASSERT_TRUE(session.take({Stop{}, 1'000'000'000 + i})) << i;
-    EXPECT_EQ(session.take({Stop{}, 2'000'000'000}).error, "too many stops wait");
+    for (int i = 0; i < 256; ++i) ASSERT_TRUE(session.submit({Stop{}, 1'000'000'000 + i})) << i;
+    EXPECT_EQ(session.submit({Stop{}, 2'000'000'000}).error, "too many stops wait");
 }
 
 TEST(SessionInputs, TheSameRecordingsAgainChangeNothing) {
     Session session{shakeTheBoxSetup(0.02)};
     session.prepare(rate, block);
     const PlayedRecordings wood{{{205.0, rate, {0.1f, 0.2f}, {.frequencyHz = 205.0, .path = "wood.wav"}}}};
-    ASSERT_TRUE(session.take({wood}));
-    ASSERT_TRUE(session.take({wood}));
+    ASSERT_TRUE(session.submit({wood}));
+    ASSERT_TRUE(session.submit({wood}));
     SessionLog log;
     session.readLog(log);
     EXPECT_EQ(log.recordings.size(), 1u) << "what sounds was not faded out again";
@@ -139,8 +139,8 @@ TEST(SessionInputs, AStrikeThatCannotBeStoppedMustNotBeFarAhead) {
     session.prepare(rate, block);
     const std::array strikes{
         CollisionEvent{.timeNs = limits::maxTimeNs / 2, .frequencyHz = 205, .decayPerSecond = 30}};
-    EXPECT_FALSE(session.take({Strikes{strikes}}));
-    EXPECT_TRUE(session.take({Strikes{strikes, true}})) << "one that waits in the session can be";
+    EXPECT_FALSE(session.submit({Strikes{strikes}}));
+    EXPECT_TRUE(session.submit({Strikes{strikes, true}})) << "one that waits in the session can be";
 }
 
 TEST(SessionInputs, AStopLeavesWhatIsDueHoweverLateTheDriver) {
@@ -154,11 +154,11 @@ TEST(SessionInputs, AStopLeavesWhatIsDueHoweverLateTheDriver) {
         session.prepare(rate, block);
         play(session, 100);
         const std::array strikes{CollisionEvent{.frequencyHz = 205, .decayPerSecond = 30, .amplitude = 0.5}};
-        EXPECT_TRUE(session.take({Strikes{strikes, true}, 1'005'000'000}));
+        EXPECT_TRUE(session.submit({Strikes{strikes, true}, 1'005'000'000}));
         Block out;
         session.render(out.at.data(), block, RenderMode::realtime);
         if (!isDriverLate) session.advance();
-        EXPECT_TRUE(session.take({Stop{}}));
+        EXPECT_TRUE(session.submit({Stop{}}));
         for (int i = 0; i < 20; ++i) {
             session.advance();
             session.render(out.at.data(), block, RenderMode::realtime);
@@ -175,7 +175,7 @@ TEST(SessionInputs, ACeilingThatIsLoweredIsStillTheHighestThatWas) {
     Session session{setup};
     session.prepare(rate, block);
     for (const float ceiling : {0.5f, 0.1f})
-        ASSERT_TRUE(session.take({RenderControl{0, Kind::ceiling, 1, ceiling, {}}}));
+        ASSERT_TRUE(session.submit({RenderControl{0, Kind::ceiling, 1, ceiling, {}}}));
     EXPECT_EQ(session.rendered().ceiling(1), 0.5f);
     EXPECT_EQ(session.rendered().ceiling(0), 0.2f);
 }

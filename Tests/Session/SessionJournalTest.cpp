@@ -32,7 +32,7 @@ protected:
     void play(Session& session, SessionJournal& journal, int blocks) {
         session.advance();
         for (int i = 0; i < blocks; ++i, ++inputs) {
-            EXPECT_EQ(session.take({TiltAction{0.001 * (inputs % 1000)}}).error, "");
+            EXPECT_EQ(session.submit({TiltAction{0.001 * (inputs % 1000)}}).error, "");
             session.render(block.at.data(), 480, RenderMode::realtime);
             session.advance();
             for (PlayedEvent e; session.played().pop(e); ++events)

@@ -84,8 +84,8 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
             sinceTick = 0;
         }
         if (random.below(60) == 0)
-            felt.refused += session.take({anyInput(random, stones)}).error.empty() ? 0 : 1;
-        if (random.below(90) == 0) session.take({anyControl(random)});
+            felt.refused += session.submit({anyInput(random, stones)}).error.empty() ? 0 : 1;
+        if (random.below(90) == 0) session.submit({anyControl(random)});
         if (random.below(2000) == 0) session.world().restart(random.below(size));
         if (random.below(2000) == 0)
             session.world().setState({std::make_shared<const Scene>(*findBuiltInScene("fruit-basket")), 4});
@@ -223,7 +223,7 @@ TEST(SessionLog, AJournalEndsWhereAFileIsFullAndTheSessionPlaysOn) {
     for (int i = 0; i < 102; ++i) {
         session.render(block.at.data(), 480, RenderMode::realtime);
         session.advance();
-        for (int k = 0; k < 1000; ++k) ASSERT_EQ(session.take({TiltAction{0.0001 * k}}).error, "");
+        for (int k = 0; k < 1000; ++k) ASSERT_EQ(session.submit({TiltAction{0.0001 * k}}).error, "");
         text += lines.take(log, session.readLog(log));
     }
     EXPECT_EQ(lines.full(), "100000 inputs");
@@ -332,9 +332,9 @@ TEST(SessionLog, TakesOfOneSceneAreAlikeAndShareIt) {
 TEST(Session, ARefusedInputSaysWhyAndIsNotLogged) {
     Session session{shakeTheBoxSetup(0.02)};
     session.prepare(rate, 64);
-    EXPECT_EQ(session.take({RemoveAction{"nobody"}}).error,
+    EXPECT_EQ(session.submit({RemoveAction{"nobody"}}).error,
               "body: expected the name of a body, found \"nobody\"");
-    EXPECT_FALSE(session.take({TiltAction{0.1}, 1'000'000}))
+    EXPECT_FALSE(session.submit({TiltAction{0.1}, 1'000'000}))
         << "what waits for its time are strikes and stops";
     SessionLog log;
     session.readLog(log);

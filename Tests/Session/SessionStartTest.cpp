@@ -48,13 +48,13 @@ void leaveInTheMiddle(Session& session) {
     EXPECT_GT(session.world().slippedNs(), 0);
     const std::int64_t now = session.timeline().presentNs();
     const std::array strikes{knock()};
-    EXPECT_TRUE(session.take({Strikes{strikes, true}, now}));
-    EXPECT_TRUE(session.take({Stop{}, now + 300'000'000}));
-    EXPECT_TRUE(session.take({Strikes{strikes, true}, now + 400'000'000}));
+    EXPECT_TRUE(session.submit({Strikes{strikes, true}, now}));
+    EXPECT_TRUE(session.submit({Stop{}, now + 300'000'000}));
+    EXPECT_TRUE(session.submit({Strikes{strikes, true}, now + 400'000'000}));
     PhantomPanner other = session.panner();
     other = {other.layout(), PanningLaw::energy, 1.3, other.fieldWidthMetres(), other.fieldHeightMetres()};
-    EXPECT_TRUE(session.take({RenderControl{0, Kind::panner, 0, 0.0f, &other}}));
-    EXPECT_TRUE(session.take({RenderControl{0, Kind::gain, 2, 0.0f, {}}}));
+    EXPECT_TRUE(session.submit({RenderControl{0, Kind::panner, 0, 0.0f, &other}}));
+    EXPECT_TRUE(session.submit({RenderControl{0, Kind::gain, 2, 0.0f, {}}}));
     EXPECT_TRUE(session.callback().strike(knock(), 0));
     EXPECT_TRUE(session.callback().control({0, Kind::mute, 1, 1.0f, {}}, 0));
     EXPECT_TRUE(session.callback().perform({.group = 0}, 0));
@@ -74,7 +74,7 @@ Played playTwoSeconds(Session& session, const SessionSetup& setup) {
     for (int i = 0; i < 200; ++i) {
         session.advance();
         if (i == 50) EXPECT_TRUE(session.callback().perform({.group = 0}, 0));
-        if (i == 100) EXPECT_TRUE(session.take({RenderControl{0, Kind::mute, 3, 1.0f, {}}}));
+        if (i == 100) EXPECT_TRUE(session.submit({RenderControl{0, Kind::mute, 3, 1.0f, {}}}));
         if (i == 150) session.world().setSlowness(0);
         renderBlock(session, played.signal);
     }
@@ -126,7 +126,7 @@ TEST(SessionStart, AnotherRatePlaysTheSameRecordings) {
     session.advance();
     session.resume(2 * rate, block);
     const std::array strikes{knock()};
-    ASSERT_TRUE(session.take({Strikes{strikes}}));
+    ASSERT_TRUE(session.submit({Strikes{strikes}}));
     Interleaved signal;
     for (int i = 0; i < 120; ++i) { // 0.6 s
         session.advance();

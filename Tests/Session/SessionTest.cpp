@@ -134,12 +134,12 @@ TEST(Session, ASinkBesideItGetsTheSameEventsAndLCoversIt) {
     told.resize(played.size());
     EXPECT_TRUE(told == played);
     const auto at =
-        session.take({RenderControl{.kind = RenderControl::Kind::mute, .channel = 2, .value = 1.0f}}).value;
+        session.submit({RenderControl{.kind = RenderControl::Kind::mute, .channel = 2, .value = 1.0f}}).value;
     ASSERT_EQ(sink.controls.size(), 1u);
     EXPECT_EQ(sink.controls[0].timeNs, at);
     EXPECT_EQ(sink.controls[0].channel, 2);
     session.sinks().detach(sink);
-    session.take({RenderControl{.kind = RenderControl::Kind::mute, .channel = 2, .value = 0.0f}});
+    session.submit({RenderControl{.kind = RenderControl::Kind::mute, .channel = 2, .value = 0.0f}});
     EXPECT_EQ(sink.controls.size(), 1u);
     EXPECT_EQ(sooner.controls.size(), 2u);
 }
@@ -255,7 +255,7 @@ TEST(Session, ControlsThatComeWithAChangeOfRateNeverGoBackInTime) {
     std::thread hand{[&] {
         while (!stop)
             if (const auto time =
-                    session.take({RenderControl{.kind = RenderControl::Kind::gain, .value = 0.5f}});
+                    session.submit({RenderControl{.kind = RenderControl::Kind::gain, .value = 0.5f}});
                 time)
                 times.push_back(time.value);
             else

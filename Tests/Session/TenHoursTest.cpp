@@ -25,9 +25,9 @@ struct Monday {
     }
     void input(std::int64_t i) {
         if (i % 50 == 0)
-            ASSERT_EQ(session.take({TiltAction{0.001 * static_cast<double>(i % 1000)}}).error, "");
+            ASSERT_EQ(session.submit({TiltAction{0.001 * static_cast<double>(i % 1000)}}).error, "");
         if (i % 500 == 0)
-            ASSERT_TRUE(session.take(
+            ASSERT_TRUE(session.submit(
                 {RenderControl{.kind = RenderControl::Kind::gain, .channel = 1, .value = 0.5f}}));
     }
     void step() {

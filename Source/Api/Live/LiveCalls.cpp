@@ -13,7 +13,7 @@ using namespace physvib::api;
 namespace {
 
 int post(Live& live, RenderControl control) {
-    return live.session().take({control})
+    return live.session().submit({control})
                ? PHYSVIB_OK
                : fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
 }
@@ -39,7 +39,7 @@ int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs
         return nothingThere("event: expected 0 to 20000 Hz, a decay or a duration, below 5 Hz a decay of at "
                             "least 1 per second, numbers, a time from 0 on");
     if (live.session().pulse().dropsNow(events.size())) return PHYSVIB_OK; // told by the status
-    return live.session().take({Strikes{events, true}, 0})
+    return live.session().submit({Strikes{events, true}, 0})
                ? PHYSVIB_OK
                : fail(PHYSVIB_ERROR_FULL, "events: expected fewer that wait for their time");
 }

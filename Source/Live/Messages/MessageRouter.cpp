@@ -164,7 +164,7 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t sta
         // levels are shares of full scale in every scene, so the scene's gain is divided out
         if (sceneGain > 0.0 && !isClip(strike.sound)) strike.amplitude /= sceneGain;
     }
-    if (auto taken = session_.take({Strikes{strikes, true}, 0}); !taken) throw MessageError{taken.error};
+    if (auto taken = session_.submit({Strikes{strikes, true}, 0}); !taken) throw MessageError{taken.error};
 }
 
 // Keeps the clip in the session before its events, so that they find its samples. Reading takes long; it does
@@ -190,7 +190,7 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
 // If two messages have the same time, the second acts after the first.
 void MessageRouter::stop(std::int64_t at) {
     if (at == latestNs_) at = latestNs_ = at + frameNs;
-    if (auto taken = session_.take({Stop{}, at}); !taken) throw MessageError{taken.error};
+    if (auto taken = session_.submit({Stop{}, at}); !taken) throw MessageError{taken.error};
 }
 
 } // namespace physvib

@@ -49,7 +49,7 @@ void Scheduler::prepare() {
     log_.clips = clips_;
 }
 
-Result<std::int64_t> Scheduler::take(Input input) {
+Result<std::int64_t> Scheduler::submit(Input input) {
     const std::lock_guard lock{mutex_};
     const bool mayWait =
         std::holds_alternative<Strikes>(input.what) || std::holds_alternative<Stop>(input.what);
@@ -57,10 +57,10 @@ Result<std::int64_t> Scheduler::take(Input input) {
         return Failure{"expected strikes or a stop at a time of their own; anything else acts now"};
     if (const std::size_t events = eventsOf(input); events > 0 && pulse_.dropsNow(events))
         return Failure{DevicePulse::refusal};
-    return std::visit([&](auto& what) { return take(what, input.timeNs); }, input.what);
+    return std::visit([&](auto& what) { return submit(what, input.timeNs); }, input.what);
 }
 
-Result<std::int64_t> Scheduler::take(Action& action, std::int64_t) {
+Result<std::int64_t> Scheduler::submit(Action& action, std::int64_t) {
     for (;;) { // repeated if a new scene run began since the check
         std::size_t number = 0;
         const auto scene = world_.scene(number);
@@ -73,7 +73,7 @@ Result<std::int64_t> Scheduler::take(Action& action, std::int64_t) {
     }
 }
 
-Result<std::int64_t> Scheduler::take(RenderControl& control, std::int64_t) {
+Result<std::int64_t> Scheduler::submit(RenderControl& control, std::int64_t) {
     if ((control.kind == RenderControl::Kind::panner) != (control.panner != nullptr))
         return Failure{"expected a panner with the control that sets it, and with no other"};
     postDueStops(time_.nowNs());
@@ -103,7 +103,7 @@ bool Scheduler::post(RenderControl& control) {
     return true;
 }
 
-Result<std::int64_t> Scheduler::take(PlayedRecordings& wanted, std::int64_t) {
+Result<std::int64_t> Scheduler::submit(PlayedRecordings& wanted, std::int64_t) {
     RenderControl control;
     control.timeNs = toldNs();
     if (wanted.recordings == played_) return control.timeNs;
@@ -115,7 +115,7 @@ Result<std::int64_t> Scheduler::take(PlayedRecordings& wanted, std::int64_t) {
     return control.timeNs;
 }
 
-Result<std::int64_t> Scheduler::take(const Strikes& strikes, std::int64_t timeNs) {
+Result<std::int64_t> Scheduler::submit(const Strikes& strikes, std::int64_t timeNs) {
     const auto isFit = [&](const CollisionEvent& e) {
         return isPlayable(e) && (strikes.canBeStopped || e.timeNs < limits::maxTimeNs / 2);
     };
@@ -133,7 +133,7 @@ Result<std::int64_t> Scheduler::take(const Strikes& strikes, std::int64_t timeNs
     return start;
 }
 
-Result<std::int64_t> Scheduler::take(const Stop&, std::int64_t timeNs) {
+Result<std::int64_t> Scheduler::submit(const Stop&, std::int64_t timeNs) {
     if (stops_.size() == mostStops) return Failure{"too many stops wait"};
     const std::int64_t now = time_.nowNs();
     timeNs = std::max(timeNs, toldNs());
@@ -162,7 +162,7 @@ void Scheduler::takeDueStops() {
     postDueStops(now);
 }
 
-Result<std::int64_t> Scheduler::take(Lanes& lanes, std::int64_t) {
+Result<std::int64_t> Scheduler::submit(Lanes& lanes, std::int64_t) {
     followed_ = std::move(lanes.mix);
     follows_ = followed_ != nullptr;
     followedSceneNs_ = -1;

@@ -25,7 +25,7 @@ public:
     Scheduler(const SessionSetup& setup, const Timeline& time, DevicePulse& pulse, WorldRunner& world,
               RenderedChannels& channels, SinkSet& sinks);
 
-    Result<std::int64_t> take(Input input);
+    Result<std::int64_t> submit(Input input);
     std::optional<int> keepClip(std::span<const ContactRecording> channels);
     PhantomPanner panner() const;
     std::int64_t readLog(SessionLog& log);
@@ -48,12 +48,12 @@ private:
     // The mutex must be held.
     void prepare();
     RecordedContacts contactsAt(int sampleRateHz) { return recordings_.at(sampleRateHz, played_); }
-    Result<std::int64_t> take(Action& action, std::int64_t timeNs);
-    Result<std::int64_t> take(RenderControl& control, std::int64_t timeNs);
-    Result<std::int64_t> take(PlayedRecordings& recordings, std::int64_t timeNs);
-    Result<std::int64_t> take(const Strikes& strikes, std::int64_t timeNs);
-    Result<std::int64_t> take(const Stop&, std::int64_t timeNs);
-    Result<std::int64_t> take(Lanes& lanes, std::int64_t timeNs);
+    Result<std::int64_t> submit(Action& action, std::int64_t timeNs);
+    Result<std::int64_t> submit(RenderControl& control, std::int64_t timeNs);
+    Result<std::int64_t> submit(PlayedRecordings& recordings, std::int64_t timeNs);
+    Result<std::int64_t> submit(const Strikes& strikes, std::int64_t timeNs);
+    Result<std::int64_t> submit(const Stop&, std::int64_t timeNs);
+    Result<std::int64_t> submit(Lanes& lanes, std::int64_t timeNs);
     std::int64_t toldNs() const noexcept { return std::max<std::int64_t>(0, time_.nowNs() - time_.leadNs()); }
     bool post(RenderControl& control);
     void postDueStops(std::int64_t untilNs);

@@ -88,7 +88,7 @@ public:
     /// to the bit when the log is rendered. Returns the time that it was given; or an error (invalid, too
     /// many pending, or, of events and pushes, DevicePulse::refusal: no device runs), and nothing is done.
     /// Any thread but R; recordings: M.
-    Result<std::int64_t> take(Input input) { return scheduler_.take(std::move(input)); }
+    Result<std::int64_t> submit(Input input) { return scheduler_.submit(std::move(input)); }
 
     /// Keeps the channels of a clip, identified by path and hash of its file (their frequencies are ignored),
     /// and returns the number of the first. Events whose sound is soundOfClip() of it and of the following

@@ -28,7 +28,7 @@ std::string takeControl(const RenderControl& control, Session& session) {
             appendNumber(fault, most); // shortest: read back, it is the same number
             return fault + ", as --ceiling was set, found " + numberText(control.value);
         }
-    return session.take({control}).error;
+    return session.submit({control}).error;
 }
 
 } // namespace
@@ -138,7 +138,7 @@ void InputListener::tellLeftOut() {
 }
 
 std::string actOn(const LineInput& input, Session& session, AudioOutput& output, MuteRequester from) {
-    if (const auto* action = std::get_if<Action>(&input)) return session.take({*action}).error;
+    if (const auto* action = std::get_if<Action>(&input)) return session.submit({*action}).error;
     if (const auto* control = std::get_if<OwnedControl>(&input)) return takeControl(*control, session);
     if (const auto* silence = std::get_if<SilenceControl>(&input))
         return takeSilence(output.silence(), *silence, from);

@@ -75,7 +75,7 @@ private:
         strikeBeat(onset, beginNs_ + nsOf(onset.frame, rateHz_), voices_, panner.layout(),
                    panner.fieldWidthMetres(), panner.fieldHeightMetres(),
                    [&](const CollisionEvent& e) { strikes.push_back(e); });
-        if (session_.take({Strikes{strikes}, 0})) ++beats_;
+        if (session_.submit({Strikes{strikes}, 0})) ++beats_;
     }
 
     Session& session_;

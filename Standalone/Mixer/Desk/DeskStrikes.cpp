@@ -43,7 +43,7 @@ bool DeskStrikes::strike(std::vector<CollisionEvent> strikes, const EnchanterPla
         s.y = at.yMetres;
         s.z = at.zMetres;
     }
-    const bool isStruck{session_.take({Strikes{strikes}})};
+    const bool isStruck{session_.submit({Strikes{strikes}})};
     onStrike_();
     return isStruck;
 }

@@ -64,7 +64,7 @@ DeskWorld::DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo,
     , drawing_{*mix.scene} {}
 
 std::string DeskWorld::act(const Action& action) {
-    auto fault = session_.take({action}).error;
+    auto fault = session_.submit({action}).error;
     if (!fault.empty()) return fault;
     const bool isShown = drawing_.take(action);
     if (isShown) ++edits_;

@@ -21,7 +21,7 @@ bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
 void ToldMix::tell(Session& session, const Mix& mix) {
     using Kind = RenderControl::Kind;
     const auto post = [&session](Kind kind, const PhantomPanner* panner = nullptr) {
-        return session.take({RenderControl{0, kind, 0, 0.0f, panner}}).error.empty();
+        return session.submit({RenderControl{0, kind, 0, 0.0f, panner}}).error.empty();
     };
     if (const auto panner = mix.panner(); !isSame(panner_, panner)) {
         // a channel may belong to another actuator now
@@ -33,7 +33,7 @@ void ToldMix::tell(Session& session, const Mix& mix) {
     for (std::size_t j = 0; j < follows_.size(); ++j)
         if (follows_[j]) strips_[j].gain = channelGain(felt[j]); // set by its lane
     tellStrips(strips_, felt,
-               [&session](const RenderControl& control) { return session.take({control}).error.empty(); });
+               [&session](const RenderControl& control) { return session.submit({control}).error.empty(); });
 }
 
 void ToldMix::follow(Session& session, const Mix& mix) {
@@ -46,7 +46,7 @@ void ToldMix::follow(Session& session, const Mix& mix) {
     const bool any = std::ranges::find(follows, true) != follows.end(),
                wereAny = std::ranges::find(follows_, true) != follows_.end();
     follows_ = std::move(follows);
-    if (any || wereAny) session.take({Lanes{any ? std::make_shared<const Mix>(mix) : nullptr}});
+    if (any || wereAny) session.submit({Lanes{any ? std::make_shared<const Mix>(mix) : nullptr}});
 }
 
 } // namespace physvib

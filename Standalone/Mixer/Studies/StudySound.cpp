@@ -56,11 +56,11 @@ void StudySound::post(Kind kind, int channel, float value, const PhantomPanner* 
     control.channel = channel;
     control.value = value;
     control.panner = panner;
-    if (!desk_.session().take({control})) desk_.report(noControls);
+    if (!desk_.session().submit({control})) desk_.report(noControls);
 }
 
 void StudySound::useRecordings(const std::vector<ContactRecording>& recordings) {
-    if (!desk_.session().take({PlayedRecordings{recordings}})) desk_.report(noControls);
+    if (!desk_.session().submit({PlayedRecordings{recordings}})) desk_.report(noControls);
 }
 
 Result<FeltStimulus> StudySound::make(Desk& desk, const TrialJob& job, const std::string& folder) {
@@ -96,7 +96,7 @@ std::string StudySound::play(const FeltStimulus& stimulus) {
         for (std::size_t j = 0; j < strips.size(); ++j) post(Kind::mute, static_cast<int>(j), 0.0f);
     auto strikes = stimulus.stimulus.events;
     for (auto& strike : strikes) strike.timeNs += leadNs;
-    const auto taken = desk_.session().take({Strikes{strikes}});
+    const auto taken = desk_.session().submit({Strikes{strikes}});
     if (!taken) return taken.error;
     fromNs_ = taken.value + leadNs;
     untilNs_ = fromNs_ + std::llround(1e9 * stimulus.stimulus.seconds);

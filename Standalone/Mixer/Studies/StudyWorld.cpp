@@ -78,7 +78,7 @@ void StudyWorld::tellStrips() {
     for (Strip& strip : strips) strip.gainDb = 0.0, strip.isMuted = strip.isSolo = false;
     std::array<ToldStrip, limits::maxEnchanters> told{};
     physvib::tellStrips(told, strips, [this](const RenderControl& control) {
-        return session_->take({control}).error.empty();
+        return session_->submit({control}).error.empty();
     });
 }
 
@@ -88,11 +88,11 @@ void StudyWorld::end() {
     stop.kind = RenderControl::Kind::stopAll;
     session_->world().setSlowness(0);
     // queue full: the world continues, and end() is called again by the next look()
-    if (const auto stopped = session_->take({stop})) stoppedNs_ = stopped.value;
+    if (const auto stopped = session_->submit({stop})) stoppedNs_ = stopped.value;
 }
 
 std::string StudyWorld::act(const Action& action) {
-    return isMoving() ? session_->take({action}).error : std::string{};
+    return isMoving() ? session_->submit({action}).error : std::string{};
 }
 
 WorldMoment StudyWorld::look() {
