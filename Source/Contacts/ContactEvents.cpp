@@ -219,7 +219,7 @@ ContactCounts ContactEvents::takeRecent() noexcept {
     return now;
 }
 
-void ContactEvents::take(std::vector<CollisionEvent>& events) {
+void ContactEvents::drain(std::vector<CollisionEvent>& events) {
     const std::size_t first = events.size();
     held_.release(settledNs(), events);
     name(events, first);

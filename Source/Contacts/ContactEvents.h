@@ -89,7 +89,7 @@ public:
     double stepSeconds() const noexcept { return span_.seconds(); }
 
     /// Appends the final events in time order.
-    void take(std::vector<CollisionEvent>& events);
+    void drain(std::vector<CollisionEvent>& events);
 
     /// Appends all events, final or not, for immediate use. Later events may precede them by up to a step.
     void flush(std::vector<CollisionEvent>& events);

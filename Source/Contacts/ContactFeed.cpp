@@ -182,7 +182,7 @@ std::string_view ContactFeed::endStep() {
 
 std::int64_t ContactFeed::timeNs() const noexcept { return contacts_->events().timeNs(); }
 std::int64_t ContactFeed::settledNs() const noexcept { return contacts_->events().settledNs(); }
-void ContactFeed::take(std::vector<CollisionEvent>& events) { contacts_->events().take(events); }
+void ContactFeed::take(std::vector<CollisionEvent>& events) { contacts_->events().drain(events); }
 void ContactFeed::flush(std::vector<CollisionEvent>& events) { contacts_->events().flush(events); }
 std::uint64_t ContactFeed::drops() const noexcept { return contacts_->events().drops(); }
 std::uint64_t ContactFeed::overBudget() const noexcept { return contacts_->events().overBudget(); }

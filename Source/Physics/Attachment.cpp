@@ -148,7 +148,7 @@ void Attachment::shiftOrigin(b2Vec2 newOrigin) {
 
 std::int64_t Attachment::timeNs() const noexcept { return parts_->events.timeNs(); }
 std::int64_t Attachment::settledNs() const noexcept { return parts_->events.settledNs(); }
-void Attachment::take(std::vector<CollisionEvent>& events) { parts_->events.take(events); }
+void Attachment::take(std::vector<CollisionEvent>& events) { parts_->events.drain(events); }
 void Attachment::flush(std::vector<CollisionEvent>& events) { parts_->events.flush(events); }
 std::uint64_t Attachment::drops() const noexcept { return parts_->events.drops(); }
 std::uint64_t Attachment::overBudget() const noexcept { return parts_->events.overBudget(); }

@@ -33,8 +33,8 @@ TEST(ContactAudio, ARenderIsWhatIsPlayedAtItsLevelWithFieldsAndStops) {
 
     ContactAudio live{{}, 2, field};
     live.prepare(48'000);
-    for (const auto& event : events) live.tell(event);
-    for (const auto& control : controls) live.tell(control);
+    for (const auto& event : events) live.mirror(event);
+    for (const auto& control : controls) live.mirror(control);
     const int latency = HapticRenderer::latencyFramesAt(48'000);
     std::vector<float> played[2];
     for (int done = 0; done < frames + latency; done += 480) {

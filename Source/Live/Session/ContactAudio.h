@@ -32,8 +32,8 @@ public:
     void moveTo(int sampleRateHz, std::int64_t frame);
 
     /// Repeats what the actuators' renderer was given. Render thread (R), wait-free.
-    void tell(const CollisionEvent& event) noexcept { events_.push(event); }
-    void tell(const RenderControl& control) noexcept {
+    void mirror(const CollisionEvent& event) noexcept { events_.push(event); }
+    void mirror(const RenderControl& control) noexcept {
         if (control.kind == RenderControl::Kind::stopAll) changes_.push({control.timeNs});
         if (control.kind == RenderControl::Kind::panner && ears_ > 1)
             changes_.push(

@@ -18,7 +18,7 @@ namespace physvib {
 class RenderedChannels {
 public:
     /// Number of channels with the audio of contacts, in sync with the actuators: 0, 1, or left and right.
-    int heard() const noexcept { return heard_ ? heard_->ears() : 0; }
+    int heard() const noexcept { return contactAudio_ ? contactAudio_->ears() : 0; }
 
     /// Trigger output on the last channel: a pulse at each onset. Gains, ceilings and delays do not affect
     /// it. Null: none.
@@ -40,9 +40,9 @@ private:
 
     explicit RenderedChannels(const SessionSetup& setup)
         : actuators_{setup.channels}
-        , heard_{setup.contactSound
-                     ? std::make_unique<ContactAudio>(*setup.contactSound, setup.ears, setup.panner)
-                     : nullptr}
+        , contactAudio_{setup.contactSound
+                            ? std::make_unique<ContactAudio>(*setup.contactSound, setup.ears, setup.panner)
+                            : nullptr}
         , marks_{setup.marks ? std::make_unique<OnsetMarks>(*setup.marks) : nullptr} {
         std::ranges::copy(setup.ceilings, ceilings_.begin());
     }
@@ -61,40 +61,40 @@ private:
     /// prepare: silence, beginning with that frame. moveTo: another rate, where the actuators' renderer is at
     /// frame `rendered`. Message thread (M), not while rendering.
     void prepare(int sampleRateHz, std::int64_t firstFrame) {
-        if (heard_) heard_->prepare(sampleRateHz);
+        if (contactAudio_) contactAudio_->prepare(sampleRateHz);
         if (marks_) marks_->prepare(sampleRateHz, firstFrame);
     }
     void moveTo(int sampleRateHz, std::int64_t rendered, std::int64_t nextFrame) {
-        if (heard_) heard_->moveTo(sampleRateHz, rendered);
+        if (contactAudio_) contactAudio_->moveTo(sampleRateHz, rendered);
         if (marks_) marks_->prepare(sampleRateHz, nextFrame);
     }
 
     /// Repeats what the actuators' renderer was given; struck: what it plays, with its first frame. Render
     /// thread (R), wait-free.
-    void tell(const CollisionEvent& event) noexcept {
-        if (heard_ && !isClip(event.sound)) heard_->tell(event);
+    void mirror(const CollisionEvent& event) noexcept {
+        if (contactAudio_ && !isClip(event.sound)) contactAudio_->mirror(event);
     }
-    void tell(const RenderControl& control) noexcept {
-        if (heard_) heard_->tell(control);
+    void mirror(const RenderControl& control) noexcept {
+        if (contactAudio_) contactAudio_->mirror(control);
     }
     void struck(const CollisionEvent& event, std::int64_t frame) noexcept {
         if (marks_) marks_->strike(event, frame);
     }
 
     void discard(const WaitingEvents& which) noexcept {
-        if (heard_) heard_->discard(which);
+        if (contactAudio_) contactAudio_->discard(which);
     }
 
     /// The channels after the actuators', rendered after them. R, wait-free.
     void render(float* const* out, int frames) noexcept {
-        if (heard_) heard_->render(out + actuators_, frames);
+        if (contactAudio_) contactAudio_->render(out + actuators_, frames);
         if (marks_) marks_->render(out[count() - 1], frames);
     }
 
-    std::uint64_t lost() const noexcept { return heard_ ? heard_->lost() : 0; }
+    std::uint64_t lost() const noexcept { return contactAudio_ ? contactAudio_->lost() : 0; }
 
     const int actuators_;
-    const std::unique_ptr<ContactAudio> heard_;
+    const std::unique_ptr<ContactAudio> contactAudio_;
     const std::unique_ptr<OnsetMarks> marks_;
     std::array<std::atomic<float>, limits::maxEnchanters> ceilings_;
     LastChanges last_; // the scheduler's thread

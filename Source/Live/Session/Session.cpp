@@ -15,7 +15,7 @@ struct Session::Source {
     std::int64_t nextFrame, endNs; // nextFrame: of the renderer; endNs: of the block
     bool pop(CollisionEvent& event) noexcept {
         if (!session.callback_.popStrike(event) && !popOfWorld(event)) return false;
-        session.channels_.tell(event);
+        session.channels_.mirror(event);
         return true;
     }
     bool popOfWorld(CollisionEvent& event) noexcept {
@@ -27,7 +27,7 @@ struct Session::Source {
     }
     bool pop(RenderControl& control) noexcept {
         if (!session.callback_.popControl(control) && !session.scheduler_.pop(control)) return false;
-        session.channels_.tell(control);
+        session.channels_.mirror(control);
         return true;
     }
     void done(const RenderControl& control) noexcept { ControlQueue<1>::done(control); }
