@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Side-chain input: detects onsets in incoming music, which trigger strikes.
 #pragma once
-#include "Core/DenormalGuard.h"
+#include "Core/Nonblocking.h"
 #include "Host/Music/BeatDetector.h"
 #include "Host/Music/BeatStrikes.h"
 #include <cmath>

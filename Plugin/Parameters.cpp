@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The two mappings of a parameter's values.
 #include "Parameters.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -4,8 +4,7 @@
 #include "Contacts/Texture.h"
 #include "Contacts/Voice.h"
 #include "Core/Limits.h"
-#include "Core/PartNumber.h"
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -2,7 +2,7 @@
 // Why events that were made are not felt: device, silence, level, channels, field.
 #include "Contacts/ContactCounts.h"
 #include "Contacts/Explanations.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Core/PhantomPanner.h"
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Surface texture for rolling and sliding: spacing and strength of the roughness elements (grains).
 #pragma once
-#include "Core/StandardGravity.h"
+#include "Core/Units.h"
 #include <string_view>
 
 namespace physvib {

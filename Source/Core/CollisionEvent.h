@@ -3,9 +3,8 @@
 // passes nothing else to the renderer.
 #pragma once
 #include "Core/Limits.h"
-#include "Core/PartNumber.h"
-#include "Core/SoundNumber.h"
-#include "Core/Spread.h"
+#include "Core/NameNumbers.h"
+#include "Core/PanningLaws.h"
 #include <cmath>
 #include <cstdint>
 

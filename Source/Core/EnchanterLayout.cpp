@@ -2,7 +2,6 @@
 // Preset actuator layouts: PHONE and RING with 1 to 4 actuators, and a pinball cabinet; those on a body
 // (Core/BodyLayouts.h); and the checks of any layout.
 #include "Core/EnchanterLayout.h"
-#include "Core/BodyLayouts.h"
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -7,12 +7,12 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <type_traits>
 #include <utility>
 
 namespace physvib {
-
 /// Single producer, single consumer, first in first out, `Capacity` items (a power of two). Never allocates,
 /// unless it is on the heap: then resize does, and before its first call the queue is full.
 template <class T, std::size_t Capacity, bool isOnHeap = false>
@@ -153,6 +153,42 @@ private:
     alignas(64) Chunk* oldest_; // the producer's, as the next ones
     Chunk* tail_;
     std::size_t used_ = 0, chunks_ = 1;
+};
+
+// Wait-free triple buffer that hands the newest value from one thread to another without tearing, for
+// telemetry.
+
+/// One writer, one reader. The reader gets the newest value; values in between may be skipped. Do not use it
+/// for anything audible: that needs a time and travels as an event.
+template <class T>
+class LatestValue {
+    static_assert(std::is_trivially_copyable_v<T>, "values are copied across threads");
+
+public:
+    /// Writer only, wait-free.
+    void write(const T& value) noexcept PHYSVIB_NONBLOCKING {
+        slots_[writing_].value = value;
+        writing_ =
+            shared_.exchange(static_cast<std::uint8_t>(writing_ | fresh), std::memory_order_acq_rel) & index;
+    }
+
+    /// The newest value; T{} before the first write. Reader only, wait-free.
+    const T& read() noexcept PHYSVIB_NONBLOCKING {
+        if (shared_.load(std::memory_order_relaxed) & fresh)
+            reading_ = shared_.exchange(reading_, std::memory_order_acq_rel) & index;
+        return slots_[reading_].value;
+    }
+
+private:
+    static constexpr std::uint8_t index = 3;
+    static constexpr std::uint8_t fresh = 4; // set by the writer, cleared when the reader takes the slot
+    struct alignas(64) Slot {
+        T value{};
+    };
+    std::array<Slot, 3> slots_{};
+    alignas(64) std::atomic<std::uint8_t> shared_{1};
+    alignas(64) std::uint8_t writing_ = 0;
+    alignas(64) std::uint8_t reading_ = 2;
 };
 
 } // namespace physvib

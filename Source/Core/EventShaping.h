@@ -2,15 +2,179 @@
 // Stages between a collision and the rendered event: the rendering method of the thesis, then the mapping of
 // frequencies into the actuators' band, then the level.
 #pragma once
-#include "Core/Actuators/PerceivedLevel.h"
-#include "Core/Actuators/Resonator.h"
-#include "Core/FixedLevel.h"
-#include "Core/RenderingMethod.h"
-#include "Core/SoundNumber.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
+#include "Core/CollisionEvent.h"
+#include "Core/NameNumbers.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string_view>
 
 namespace physvib {
+
+// Frequency weighting of amplitudes towards equal perceived strength.
+
+/// Weights amplitudes, which are accelerations, towards what feels as strong at 250 Hz. The detection
+/// threshold as a displacement is flat to 40 Hz and falls by 12 dB per octave to its minimum at about 250 Hz
+/// (Verrillo 1963, large contactors at the thenar, as reported by Gescheider and Verrillo; unverified against
+/// the paper, and displacement is assumed). Above that it rises; it is taken as flat here, the smallest
+/// possible rise. Acceleration is (2 pi f)^2 times displacement: as an acceleration the threshold rises by 12
+/// dB per octave, is flat from 40 to 250 Hz, and rises again. Half of it, in dB, is compensated, at most by a
+/// factor of 2. Any thread.
+struct PerceivedLevel {
+    static constexpr double flatLowHz = 40.0, flatHighHz = 250.0; ///< constant threshold acceleration in
+                                                                  ///< between
+    static constexpr double greatestWeight = 2.0;                 ///< from 500 Hz on; its inverse up to 20 Hz
+
+    bool isWeighted = false; ///< false: amplitudes stay unchanged
+
+    /// Weight of a frequency > 0: sqrt((f / 40)^2) below 40 Hz, 1, sqrt((f / 250)^2) above 250 Hz; 0.5 to 2.
+    static constexpr double weight(double frequencyHz) noexcept {
+        const double nearest = std::clamp(frequencyHz, flatLowHz, flatHighHz);
+        return std::clamp(frequencyHz / nearest, 1.0 / greatestWeight, greatestWeight);
+    }
+
+    /// The weighted amplitude. Weighting raises no amplitude above full scale, and none that already exceeds
+    /// it.
+    double operator()(double amplitude, double frequencyHz) const noexcept {
+        if (!isWeighted) return amplitude;
+        const double most = std::max(std::abs(amplitude), 1.0);
+        return std::clamp(amplitude * weight(frequencyHz), -most, most);
+    }
+    bool operator==(const PerceivedLevel&) const = default;
+};
+
+/// Approximate detection threshold in g at a frequency, by the same curve: 0.1 um at 250 Hz (20 dB below 1
+/// um) is 0.025 g. An assumption: people, places and contactors differ by 10 dB. Any thread.
+constexpr double detectionThresholdG(double frequencyHz) noexcept {
+    constexpr double lowestG = 0.025;
+    const double share =
+        frequencyHz / std::clamp(frequencyHz, PerceivedLevel::flatLowHz, PerceivedLevel::flatHighHz);
+    return lowestG * share * share;
+}
+
+// Rendering method: which of amplitude, frequency and decay follow the collision and which are fixed (the
+// eight renderings of the thesis' study 2, 5.3).
+
+/// A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency and decay are varied (from physics) or fixed. The call
+/// operator turns a collision into the event that is rendered; AV-FV-DRV changes nothing. Any thread.
+struct RenderingMethod {
+    static constexpr double fixedLevelG = 1.5; ///< acceleration in g; divide by the full scale in g for an
+                                               ///< amplitude
+    static constexpr double fixedFrequencyHz = 250.0;
+    static constexpr std::int64_t fixedPulseNs = 20'000'000; ///< rectangular envelope: five periods of 250
+                                                             ///< Hz; other frequencies are cut in mid-period
+
+    bool fixesAmplitude = false;
+    bool fixesFrequency = false;
+    bool fixesDecay = false;
+    double fixedAmplitude = fixedLevelG; ///< 1 = full scale of an actuator, as in an event
+    bool holdsLevel = false; ///< true: fixedAmplitude is the peak of the summed vibration, not each impact's
+                             ///< A of Eq. 5.1 (FixedLevel.h)
+
+    constexpr CollisionEvent operator()(CollisionEvent event) const noexcept {
+        if (fixesAmplitude) event.amplitude = fixedAmplitude;
+        if (fixesFrequency) event.frequencyHz = fixedFrequencyHz;
+        if (!fixesDecay) return event;
+        event.decayPerSecond = 0.0;
+        event.durationNs = fixedPulseNs;
+        return event;
+    }
+    constexpr bool fixesNothing() const noexcept { return !fixesAmplitude && !fixesFrequency && !fixesDecay; }
+    bool operator==(const RenderingMethod&) const = default;
+};
+
+/// Parses a name like "AF-FV-DRF"; false, and `method` unchanged, if there is no such method. Any thread.
+constexpr bool renderingMethodNamed(std::string_view name, RenderingMethod& method) noexcept {
+    constexpr std::string_view varied = "AV-FV-DRV";
+    constexpr std::size_t choices[] = {1, 4, 8}; // where V or F stands
+    bool fixes[3] = {};
+    if (name.size() != varied.size()) return false;
+    for (std::size_t i = 0, next = 0; i < varied.size(); ++i) {
+        const bool isChoice = next < 3 && i == choices[next];
+        if (isChoice) fixes[next++] = name[i] == 'F';
+        if (name[i] != varied[i] && !(isChoice && name[i] == 'F')) return false;
+    }
+    method.fixesAmplitude = fixes[0];
+    method.fixesFrequency = fixes[1];
+    method.fixesDecay = fixes[2];
+    return true;
+}
+
+/// The method's name. Any thread.
+constexpr std::array<char, 9> nameOf(const RenderingMethod& method) noexcept {
+    std::array<char, 9> name{'A', 'V', '-', 'F', 'V', '-', 'D', 'R', 'V'};
+    if (method.fixesAmplitude) name[1] = 'F';
+    if (method.fixesFrequency) name[4] = 'F';
+    if (method.fixesDecay) name[8] = 'F';
+    return name;
+}
+
+// Holds the summed amplitude of overlapping impacts at a fixed level, whatever their number and materials.
+
+/// The largest value of sin(2 pi f t) exp(-tau t), a little before its first quarter period. Any thread.
+inline double peakOfDecay(double frequencyHz, double decayPerSecond) noexcept {
+    const double turn = 2.0 * std::numbers::pi * frequencyHz, phase = std::atan2(turn, decayPerSecond);
+    return std::sin(phase) * std::exp(-decayPerSecond * phase / turn);
+}
+
+/// Impacts of one world, in time order. An impact from rest peaks at the fixed amplitude. A later one adds
+/// only what the sounding ones leave free, so that the sum never exceeds the level, on one actuator or on
+/// all. One thread at a time; never allocates.
+class FixedLevel {
+public:
+    /// Events without a causing fixture or without a frequency stay unchanged.
+    CollisionEvent operator()(CollisionEvent event, const RenderingMethod& method) noexcept {
+        if (!method.holdsLevel || !method.fixesAmplitude || event.source.fixture < 0 ||
+            !(event.frequencyHz > 0.0))
+            return event;
+        const double left = std::max(0.0, method.fixedAmplitude - soundingAt(event.timeNs));
+        event.amplitude = left / peakOfDecay(event.frequencyHz, event.decayPerSecond);
+        if (left > 0.0) add(event);
+        return event;
+    }
+    void forget() noexcept { sounding_ = {}; }
+
+private:
+    struct Envelope {
+        double level = 0.0, decayPerSecond = 0.0;
+        std::int64_t sinceNs = 0, untilNs = 0;
+
+        double at(std::int64_t timeNs) const noexcept {
+            return timeNs >= untilNs
+                       ? 0.0
+                       : level * std::exp(-1e-9 * decayPerSecond * static_cast<double>(timeNs - sinceNs));
+        }
+    };
+
+    double soundingAt(std::int64_t timeNs) const noexcept {
+        double sum = 0.0;
+        for (const Envelope& e : sounding_) sum += e.at(timeNs);
+        return sum;
+    }
+
+    /// Uses the entry with the lowest level. There are more entries than materials that sound at once, so the
+    /// replaced envelope has practically decayed.
+    void add(const CollisionEvent& event) noexcept {
+        const std::int64_t untilNs = event.durationNs > 0 ? event.timeNs + event.durationNs : INT64_MAX;
+        const auto isSame = [&](const Envelope& e) {
+            return e.untilNs == INT64_MAX && untilNs == INT64_MAX && e.decayPerSecond == event.decayPerSecond;
+        };
+        auto at = std::find_if(sounding_.begin(), sounding_.end(), isSame);
+        if (at == sounding_.end())
+            at = std::min_element(sounding_.begin(), sounding_.end(),
+                                  [&](const Envelope& a, const Envelope& b) {
+                                      return a.at(event.timeNs) < b.at(event.timeNs);
+                                  });
+        // The level of the replaced envelope is kept, though its decay then differs.
+        const double rest = at->at(event.timeNs);
+        *at = {rest + event.amplitude, event.decayPerSecond, event.timeNs, untilNs};
+    }
+
+    std::array<Envelope, 16> sounding_{};
+};
 
 /// Maps the tactile frequency range into an actuator's band and keeps the order: equal musical intervals stay
 /// equal, but become smaller. Live and offline rendering use the same mapping. Any thread.

@@ -9,21 +9,81 @@
 // controls, never at block borders: output does not depend on block size.
 #pragma once
 #include "Core/Actuators/ActuatorStage.h"
+#include "Core/Actuators/DriveMatrices.h"
 #include "Core/Actuators/LinkedLimiter.h"
 #include "Core/Actuators/OutputGuard.h"
-#include "Core/DenormalGuard.h"
-#include "Core/EventQueue.h"
-#include "Core/FrameClock.h"
-#include "Core/Modes/ModeBank.h"
-#include "Core/MovingTones.h"
 #include "Core/Nonblocking.h"
-#include "Core/PartPanners.h"
+#include "Core/EventQueue.h"
+#include "Core/Clocks.h"
+#include "Core/Limits.h"
+#include "Core/Modes/InstructionSet.h"
+#include "Core/Modes/ModeBank.h"
+#include "Core/Voices.h"
+#include "Core/PhantomPanner.h"
 #include "Core/RenderControl.h"
-#include "Core/RendererSettings.h"
-#include "Core/SamplePlayer.h"
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
+// Settings of a HapticRenderer, and its status counters.
+
+namespace physvib {
+/// True if the renderer supports that sample rate. Any thread.
+constexpr bool isSampleRate(int hz) noexcept {
+    return hz >= limits::minSampleRateHz && hz <= limits::maxSampleRateHz;
+}
+
+/// Settings of HapticRenderer::prepare.
+struct RendererSettings {
+    int sampleRateHz = 48000; ///< see isSampleRate
+    int channels = 0; ///< outputs; 0: as many as the panner has actuators. Outputs without an actuator are
+                      ///< silent. At most limits::maxEnchanters
+    PhantomPanner panner;       ///< at most `channels` actuators; a control can change it
+    bool limiterEnabled = true; ///< off: samples may exceed 1 and no OutputGuard acts; the latency stays the
+                                ///< same
+    std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
+    int modes = 0; ///< modes that sound at once; a further one steals the quietest, which is counted. Memory
+                   ///< depends on it. 0, and at most: limits::maxModes
+    InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
+    EqualisedActuators equalised{}; ///< equalisation per channel; a channel without measured figures is not
+                                    ///< equalised
+    DriveMatrices drives{}; ///< matrices against mechanical coupling of the panner's actuators; empty: none.
+                            ///< The caller keeps them alive
+
+    /** `most` times modes / mostModes, but at least `least`; `most` if modes is 0. Any thread. */ int
+    shareOf(int most, int mostModes, int least) const noexcept {
+        return modes == 0 ? most
+                          : std::min(most, std::max(least, static_cast<int>(static_cast<std::int64_t>(most) *
+                                                                            modes / mostModes)));
+    }
+    /// Channels that are rendered.
+    int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); }
+
+    static constexpr std::array<float, limits::maxEnchanters> fullScale() {
+        std::array<float, limits::maxEnchanters> all{};
+        all.fill(1.0f);
+        return all;
+    } ///< A ceiling of 1 for each channel.
+};
+
+/// Counts since prepare, and the state after the last call of render.
+struct RenderStatus {
+    std::int64_t framesRendered = 0; ///< since prepare
+    std::uint64_t played = 0;        ///< events started
+    std::uint64_t late = 0;          ///< of these: after their time, started at once
+    std::uint64_t rejected = 0;      ///< not playable, above half the sample rate, or without a free gate
+    std::uint64_t withoutPart = 0;   ///< of those played: PhantomPanner::lacksPartOf, felt on all by place
+    std::uint64_t stolen = 0;        ///< modes faded out early because all slots were used
+    std::uint64_t nonFinite = 0;     ///< samples that were not finite and became 0
+    std::uint64_t untold = 0;        ///< played events that the full played queue refused
+    int liveModes = 0;               ///< modes that sound
+    int pending = 0;                 ///< events whose time has not come
+    float limiterGain = 1.0f;        ///< current gain; 1: no reduction
+    float guardGain = 1.0f;          ///< lowest gain of the OutputGuard over all channels; 1: no reduction
+    std::uint64_t guarded = 0;       ///< how often the guard began to reduce
+};
+} // namespace physvib
 namespace physvib {
 
 /// Events that wait to be played: up to a time, and of no world, or of any.
@@ -139,4 +199,113 @@ private:
 
 } // namespace physvib
 
-#include "Core/RenderLoop.h"
+// The template members of HapticRenderer, among them the render loop. Include it where HapticRenderer::render
+// is called.
+
+namespace physvib {
+template <class Source>
+void HapticRenderer::refill(Source& source) noexcept {
+    while (!pending_.full() && source.pop(pending_.blank())) {
+        if (const CollisionEvent& event = pending_.blank(); canPlay(event))
+            pending_.pushBlank(event.timeNs);
+        else
+            ++rejected_;
+    }
+    if constexpr (requires(RenderControl c) { source.pop(c); }) {
+        RenderControl control;
+        while (!controls_.full() && source.pop(control)) controls_.push(control.timeNs, control);
+    }
+}
+
+// Order within a frame: gates that end close first, then controls act, then strikes begin.
+template <class Source>
+void HapticRenderer::actOnDue(Source& source) noexcept {
+    while (bank_.nextGateFrame() <= position_) bank_.closeNextGate();
+    for (; !controls_.empty() && clock_.at(controls_.nextTime()).frame <= position_; controls_.pop()) {
+        apply(controls_.next());
+        if constexpr (requires(const RenderControl& c) { source.done(c); }) source.done(controls_.next());
+    }
+}
+
+// Strikes the events that are due before the next change that divides the block, and returns how many frames
+// can be rendered until then. If the mode bank cannot take strikes ahead of their frame, the next onset
+// divides the block as well. After each event the loop refills the store, because popping freed a place; an
+// event with a duration adds a gate, so `end` is computed again.
+template <class Source>
+int HapticRenderer::strikeAndReach(Source& source, int most) noexcept {
+    for (;;) {
+        refill(source);
+        actOnDue(source);
+        const std::int64_t end = nextChange(most);
+        const bool wasFull = pending_.full();
+        for (bool isSame = true; isSame;) {
+            if (pending_.empty()) return static_cast<int>(end - position_);
+            const FramePosition onset = clock_.at(pending_.nextTime());
+            const bool isDue = onset.frame <= position_ || (onset.frame < end && bank_.takesStrikesAhead()),
+                       isHeard = !isSilenced(pending_.next());
+            if (isHeard && !isDue) return static_cast<int>(std::min(end, onset.frame) - position_);
+            isSame = !wasFull && pending_.next().durationNs == 0;
+            if (isHeard && strike(pending_.next(), onset))
+                if constexpr (requires(const CollisionEvent& e, std::int64_t frame) {
+                                  source.struck(e, frame);
+                              })
+                    source.struck(pending_.next(), std::max(onset.frame, position_));
+            pending_.pop();
+        }
+    }
+}
+
+template <class Source>
+int HapticRenderer::discard(Source& source, const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING {
+    int count = 0;
+    for (int last = -1; last != 0;) { // more than the pending store takes may wait in the source
+        refill(source);
+        count += last = discardWaiting(which);
+    }
+    return count;
+}
+
+template <class Source>
+void HapticRenderer::render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
+    if (!isPrepared_) {
+        for (int j = 0; j < channels_; ++j) std::fill_n(out[j], frames, 0.0f);
+        return;
+    }
+    const DenormalGuard guard;
+    Channels at; // only the first channels_ entries are set
+    std::copy_n(out, channels_, at.begin());
+    for (int done = 0; done < frames;) {
+        const int part = strikeAndReach(source, frames - done);
+        const float* const* added = nullptr;
+        if constexpr (requires { source.added(position_, part); }) added = source.added(position_, part);
+        if (added || !passModes(at, part)) playAll(at, part, added);
+        position_ += part;
+        done += part;
+        for (int j = 0; j < channels_; ++j) at[static_cast<std::size_t>(j)] += part;
+    }
+}
+} // namespace physvib
+
+// Offline rendering of all events of a source, from frame 0 on, with the renderer's latency removed.
+
+namespace physvib {
+/// Renders frames 0 to `frames` of a renderer that has just been prepared, in blocks of `blockFrames`. Each
+/// block is written to out[channel] and passed to `consume(channels, n)`, the next n frames in order, until
+/// it returns false. The limiter's look-ahead is rendered first and dropped, so that frame n is time n/rate.
+/// On the thread that owns the renderer.
+template <class Source, class Consume>
+void renderFromStart(HapticRenderer& renderer, Source& source, float* const* out, int channels,
+                     std::int64_t frames, int blockFrames, Consume&& consume) {
+    std::array<float*, static_cast<std::size_t>(limits::maxEnchanters)> kept{};
+    const std::int64_t latency = renderer.latencyFrames(), end = frames + latency;
+    for (std::int64_t done = 0; done < end;) {
+        const int block = static_cast<int>(std::min<std::int64_t>(blockFrames, end - done));
+        renderer.render(source, out, block);
+        const int dropped = static_cast<int>(std::clamp<std::int64_t>(latency - done, 0, block));
+        for (int j = 0; j < channels; ++j) kept[static_cast<std::size_t>(j)] = out[j] + dropped;
+        done += block;
+        if (block > dropped && !consume(static_cast<const float* const*>(kept.data()), block - dropped))
+            break;
+    }
+}
+} // namespace physvib

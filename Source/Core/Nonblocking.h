@@ -2,6 +2,10 @@
 // Macro that marks functions of the render thread: they neither allocate, free, lock, wait nor make system
 // calls.
 #pragma once
+#include <cstdint>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
 
 /// Stands after a function's noexcept. clang 20 and later can check it: at run time with RealtimeSanitizer
 /// (Tests/Realtime/rtsan.sh), in part already while compiling. For other compilers it is empty.
@@ -13,3 +17,59 @@
 #ifndef PHYSVIB_NONBLOCKING
 #define PHYSVIB_NONBLOCKING
 #endif
+
+// RAII guard that flushes denormal numbers to zero, so that decaying tails do not slow the processor down.
+
+namespace physvib {
+/// Sets flush-to-zero (and denormals-are-zero) for this thread and restores the earlier mode when destroyed.
+/// If the mode is already set, it does not write it: writing stalls until all arithmetic under way has
+/// finished. Render thread (R), wait-free.
+class DenormalGuard {
+public:
+    DenormalGuard() noexcept
+        : saved_{read()} {
+        if (!isSet()) write(saved_ | flushBits);
+    }
+    ~DenormalGuard() {
+        if (!isSet()) write(saved_);
+    }
+    DenormalGuard(const DenormalGuard&) = delete;
+    DenormalGuard& operator=(const DenormalGuard&) = delete;
+
+private:
+#if defined(__SSE__)
+    using Mode = unsigned int;
+    static constexpr Mode flushBits = 0x8040; // FTZ, DAZ (Intel SDM vol. 1, 10.2.3)
+    static Mode read() noexcept { return _mm_getcsr(); }
+    static void write(Mode mode) noexcept { _mm_setcsr(mode); }
+#elif defined(__aarch64__)
+    using Mode = std::uint64_t;
+    static constexpr Mode flushBits = Mode{1} << 24; // FPCR.FZ (Arm ARM)
+    static Mode read() noexcept {
+        Mode mode;
+        asm volatile("mrs %0, fpcr" : "=r"(mode));
+        return mode;
+    }
+    static void write(Mode mode) noexcept { asm volatile("msr fpcr, %0" ::"r"(mode)); }
+#elif defined(__ARM_FP)
+    using Mode = std::uint32_t;
+    static constexpr Mode flushBits = Mode{1} << 24; // FPSCR.FZ (ARMv7-M ARM)
+    static Mode read() noexcept {
+        Mode mode;
+        asm volatile("vmrs %0, fpscr" : "=r"(mode));
+        return mode;
+    }
+    static void write(Mode mode) noexcept { asm volatile("vmsr fpscr, %0" ::"r"(mode)); }
+#elif defined(__wasm__)
+    using Mode = std::uint32_t;
+    static constexpr Mode flushBits = 0; // WebAssembly always keeps denormals; tails end at retireDecibels,
+                                         // far above them
+    static Mode read() noexcept { return 0; }
+    static void write(Mode) noexcept {}
+#else
+#error "say here how this machine flushes denormals"
+#endif
+    bool isSet() const noexcept { return (saved_ & flushBits) == flushBits; }
+    Mode saved_; // the mode before this guard
+};
+} // namespace physvib

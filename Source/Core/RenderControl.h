@@ -4,12 +4,29 @@
 // queue; what is larger it names.
 #pragma once
 #include "Core/CollisionEvent.h"
+#include "Core/NameNumbers.h"
 #include "Core/PhantomPanner.h"
-#include "Core/RecordedContact.h"
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 namespace physvib {
+
+// Recordings of contacts that a renderer plays instead of modes, one per material.
+
+/// A recording is found by the number of its sound or, if it has none, by the frequency of its events. The
+/// caller keeps the samples alive as long as the renderer; they are at the renderer's rate.
+struct RecordedContact {
+    double frequencyHz = 0.0;
+    std::span<const float> samples; ///< for an event of amplitude 1
+    SoundNumber sound = 0;          ///< 0: of all events of that frequency whose own sound has no recording
+};
+
+/// The recordings of a renderer; without any, all events play modes.
+struct RecordedContacts {
+    std::span<const RecordedContact> list{}; ///< at the renderer's rate
+    bool othersAreModes = false; ///< events without a recording play their mode; if false they are rejected
+};
 
 /// One change of how events are rendered, at a session time.
 struct RenderControl {
@@ -42,6 +59,28 @@ struct PlayedEvent {
     CollisionEvent event;   ///< as it was played
     std::int64_t frame = 0; ///< the renderer's first frame of it
     bool isLate = false;    ///< played after its time, at once
+};
+
+// The last changes of a renderer, to explain why it is silent.
+
+/// Of all controls so far, also those that take effect later. One thread at a time.
+struct LastChanges {
+    PhantomPanner panner;
+    double level = 1.0;
+    std::int64_t silentUntilNs = 0;
+    std::uint64_t muted = 0, zeroGains = 0; ///< bit j: channel j
+
+    std::uint64_t mutedChannels() const noexcept { return muted | zeroGains; } ///< those that play nothing
+
+    void take(const RenderControl& control) noexcept {
+        using Kind = RenderControl::Kind;
+        const std::uint64_t bit = std::uint64_t{1} << (static_cast<unsigned>(control.channel) % 64U);
+        if (control.kind == Kind::panner && control.panner != nullptr) panner = *control.panner;
+        if (control.kind == Kind::level) level = static_cast<double>(control.value);
+        if (control.kind == Kind::silence) silentUntilNs = control.untilNs;
+        if (control.kind == Kind::mute) muted = control.value != 0.0F ? muted | bit : muted & ~bit;
+        if (control.kind == Kind::gain) zeroGains = control.value > 0.0F ? zeroGains & ~bit : zeroGains | bit;
+    }
 };
 
 } // namespace physvib

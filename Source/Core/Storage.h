@@ -2,13 +2,14 @@
 // Array whose size is fixed when a renderer is prepared: on a computer it is allocated on the heap then, on a
 // board it lies inside the object.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <type_traits>
 
 namespace physvib {
-
 /// At most `Most` items. resize: message thread (M), not while rendering; all else: any thread that may use
 /// the items.
 template <class T, std::size_t Most, bool isOnHeap>
@@ -65,6 +66,120 @@ private:
 
     T* items_ = nullptr;
     std::size_t count_ = 0;
+};
+
+// Fixed-capacity priority queue by time; equal times keep their order of arrival. Items that arrive in time
+// order, nearly all of them, are in a linked list; the others are in a binary heap.
+
+/// At most `Capacity` items of type T, each with an integer time. Render thread (R): constant time for items
+/// in order, else at most log2(Capacity) moves of indices. Items are not moved in memory.
+template <class T, int Capacity, bool isOnHeap = false>
+class TimeOrdered {
+public:
+    /// Empties the queue and reserves `capacity` items, at most `Capacity`. On the heap its capacity is 0
+    /// before the first call. False: no memory. Message thread (M), not while rendering.
+    bool resize(int capacity) noexcept {
+        clear();
+        const auto count = static_cast<std::size_t>(capacity);
+        const bool has = nodes_.resize(count) && items_.resize(count) && heap_.resize(count);
+        capacity_ = has ? capacity : 0;
+        return has;
+    }
+
+    bool empty() const noexcept { return size_ == 0; }
+    bool full() const noexcept { return size_ == capacity_; }
+    int size() const noexcept { return size_; }
+    void clear() noexcept {
+        size_ = heaped_ = used_ = 0;
+        free_ = first_ = last_ = none;
+    }
+
+    /// False if the queue is full; then nothing has changed.
+    bool push(std::int64_t time, const T& item) noexcept {
+        if (full()) return false;
+        blank() = item;
+        pushBlank(time);
+        return true;
+    }
+
+    /// The memory of the next item: write it in place, then call pushBlank. Only when not full.
+    T& blank() noexcept { return items_[index(free_ != none ? free_ : used_)]; }
+    void pushBlank(std::int64_t time) noexcept {
+        const std::int32_t at = free_ != none ? free_ : used_++;
+        if (free_ != none) free_ = node(at).next;
+        node(at) = {time, arrivals_++, none};
+        ++size_;
+        if (first_ == none)
+            first_ = last_ = at;
+        else if (time >= node(last_).time)
+            last_ = node(last_).next = at;
+        else
+            heapUp(at);
+    }
+
+    /// Time and value of the first item. Only when not empty.
+    std::int64_t nextTime() const noexcept { return node(firstPlace()).time; }
+    const T& next() const noexcept { return items_[index(firstPlace())]; }
+
+    /// Removes the first item. Only when not empty.
+    void pop() noexcept {
+        const std::int32_t at = firstPlace();
+        if (at == first_)
+            first_ = node(at).next;
+        else
+            std::pop_heap(heap_.data(), heap_.data() + heaped_--, later());
+        node(at).next = free_;
+        free_ = at;
+        --size_;
+    }
+
+    /// Gives every item a new time: `newTime(oldTime, item)`, which may change the item too. Linear time; not
+    /// between next() and pop().
+    template <class Function>
+    void retime(Function newTime) noexcept {
+        for (; first_ != none; first_ = node(first_).next)
+            heap_[index(heaped_++)] = static_cast<Place>(first_);
+        std::for_each(heap_.data(), heap_.data() + heaped_,
+                      [&](std::int32_t at) { node(at).time = newTime(node(at).time, items_[index(at)]); });
+        std::make_heap(heap_.data(), heap_.data() + heaped_, later());
+    }
+
+private:
+    static constexpr std::int32_t none = -1;
+    struct Node {
+        std::int64_t time = 0;
+        std::uint32_t arrival = 0; // may wrap: arrivals in the queue are never 2^31 apart
+        std::int32_t next = none;  // in the list of items, or in the list of free places
+    };
+    static constexpr std::size_t index(std::int32_t at) noexcept { return static_cast<std::size_t>(at); }
+    Node& node(std::int32_t at) noexcept { return nodes_[index(at)]; }
+    const Node& node(std::int32_t at) const noexcept { return nodes_[index(at)]; }
+    static bool isLater(const Node& a, const Node& b) noexcept {
+        return a.time != b.time ? a.time > b.time : static_cast<std::int32_t>(a.arrival - b.arrival) > 0;
+    }
+    auto later() const noexcept {
+        return [this](std::int32_t a, std::int32_t b) { return isLater(node(a), node(b)); };
+    }
+    void heapUp(std::int32_t at) noexcept {
+        heap_[index(heaped_++)] = static_cast<Place>(at);
+        std::push_heap(heap_.data(), heap_.data() + heaped_, later());
+    }
+    std::int32_t firstPlace() const noexcept {
+        if (heaped_ == 0) return first_;
+        return first_ == none || isLater(node(first_), node(heap_[0])) ? heap_[0] : first_;
+    }
+
+    static constexpr auto most = static_cast<std::size_t>(Capacity);
+    Storage<Node, most, isOnHeap> nodes_;
+    Storage<T, most, isOnHeap> items_;
+    using Place = std::conditional_t<(Capacity < 128), std::int8_t, std::int32_t>; // boards have little
+                                                                                   // memory
+    Storage<Place, most, isOnHeap> heap_; // places of items that arrived out of order
+    std::uint32_t arrivals_ = 0;
+    std::int32_t first_ = none, last_ = none; // of the list
+    std::int32_t free_ = none, used_ = 0;     // places from `used_` on have never been used
+    int size_ = 0, heaped_ = 0;
+    int capacity_ = isOnHeap ? 0 : Capacity;
 };
 
 } // namespace physvib

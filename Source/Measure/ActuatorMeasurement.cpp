@@ -2,7 +2,7 @@
 // Fits the actuator model: transfer function, a first guess from magnitudes, the delay from phases, then
 // least squares of all parameters.
 #include "Measure/ActuatorMeasurement.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Io/Text/NumberText.h"
 #include "Measure/RecordingFaults.h"
 #include <Eigen/Cholesky>

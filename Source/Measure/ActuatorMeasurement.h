@@ -2,7 +2,7 @@
 // Measures resonance, Q, gain and delay of an actuator, or gain and delay of a loopback cable, from a played
 // sweep and its recording.
 #pragma once
-#include "Core/Actuators/Resonator.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
 #include "Io/Result.h"
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Selects the loudest channel of a multichannel recording.
 #pragma once
-#include "Core/SamplePeak.h"
+#include "Core/Samples.h"
 #include <algorithm>
 #include <vector>
 

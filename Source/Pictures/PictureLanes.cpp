@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws one lane per channel: waveforms, or strips of brightness if there are many channels.
-#include "Core/BodyLayouts.h"
+#include "Core/EnchanterLayout.h"
 #include "Pictures/PictureParts.h"
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Actuator profiles as JSON: measured properties of an actuator and their source; unknown values are null.
 #pragma once
-#include "Core/Actuators/Resonator.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
 #include "Io/Result.h"
 #include <filesystem>
 #include <optional>

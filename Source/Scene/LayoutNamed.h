@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Resolves the value of --layout: presets, special layouts, or a file.
 #pragma once
-#include "Core/RenderingMethod.h"
+#include "Core/EventShaping.h"
 #include "Scene/LayoutFile.h"
 #include <string>
 

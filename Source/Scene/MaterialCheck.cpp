@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ranges and names of materials.
 #include "Scene/MaterialCheck.h"
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Scene/SceneRanges.h"
 #include "Scene/UniqueNames.h"
 #include <algorithm>

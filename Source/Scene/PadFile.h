@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Profiles of game controllers as JSON: properties of their rumble motors, and the source of the figures.
 #pragma once
-#include "Core/Pads/PadLaw.h"
+#include "Core/Pads/PadMotors.h"
 #include "Io/Result.h"
 #include <string>
 #include <string_view>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Names of the parts of a body that events and actuators carry as numbers, as files write and read them.
 #pragma once
-#include "Core/BodyLayouts.h"
+#include "Core/EnchanterLayout.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/NumberedNames.h"
 #include <string>

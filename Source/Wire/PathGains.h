@@ -6,7 +6,7 @@
 // (Core/MovingTones.h).
 #pragma once
 #include "Core/CollisionEvent.h"
-#include "Core/FrameClock.h"
+#include "Core/Clocks.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Looks up actuator profiles and derives equalisation, voltage scales and the frequency remapping.
 #include "Calls/ActuatorChoice.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/ActuatorFile.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads a coupling, checks it against the layout, and describes its residual error.
 #include "Calls/CouplingChoice.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/CouplingFile.h"
 

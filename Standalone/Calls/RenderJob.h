@@ -4,7 +4,7 @@
 #pragma once
 #include "Core/Modes/InstructionSet.h"
 #include "Core/PanningLaws.h"
-#include "Core/RenderingMethod.h"
+#include "Core/EventShaping.h"
 #include "Live/Session/OnsetMarks.h"
 #include "Live/Session/Patience.h"
 #include "Scene/FieldSize.h"

@@ -4,7 +4,7 @@
 #include "Calls/CallFiles.h"
 #include "Calls/JobSession.h"
 #include "Calls/StimulusOptions.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/MakeStimulus.h"
 #include "Lab/Study/StudyRun.h"

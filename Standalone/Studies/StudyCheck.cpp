@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks a study by rendering its stimuli without the limiter.
 #include "Studies/StudyCheck.h"
-#include "Core/Actuators/HandWeighting.h"
+#include "Core/Actuators/Exposure.h"
 #include "Core/Actuators/OutputGuard.h"
-#include "Core/Actuators/PerceivedLevel.h"
-#include "Core/Decibels.h"
-#include "Core/Fnv1a.h"
+#include "Core/EventShaping.h"
+#include "Core/Units.h"
+#include "Core/NameNumbers.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NameList.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compares the prints of a study's stimuli: equal prints are equal samples, which nobody can tell apart.
 #include "Studies/StudyRules.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"

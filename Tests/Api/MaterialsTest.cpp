@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Materials by name and single impacts, as a program in another language asks for them.
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Scene/MaterialTable.h"
 #include <array>
 #include <cmath>

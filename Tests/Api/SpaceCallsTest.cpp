@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Depth and parts of a body through the C functions: layouts, event lists and samples.
-#include "Core/PartNumber.h"
+#include "Core/NameNumbers.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

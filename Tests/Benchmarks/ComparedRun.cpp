@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What compare.sh times of two commits: figures of one instruction set, a line each: name, tab, value.
 // Compiles against both.
-#include "Core/DenormalGuard.h"
+#include "Core/Nonblocking.h"
 #include "Rain.h"
 #include "Timing.h"
 #include <cstdio>

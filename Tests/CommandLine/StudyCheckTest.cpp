@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib study check`: what nobody should find out by feeling it.
 #include "Calls.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A channel's delay: exact when it rests, without a step when it changes, silent when it is empty.
-#include "Core/Actuators/ChannelDelay.h"
+#include "Core/Actuators/ActuatorStage.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // W_h against the standard's formula and table at every rate, and A(8) against its closed form.
-#include "Core/Actuators/ExposureMeter.h"
+#include "Core/Actuators/Exposure.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iostream>

@@ -2,7 +2,6 @@
 // HapticRenderer against the closed form, for every law, width and rate, and at every block size.
 #include "Core/HapticRenderer.h"
 #include "Core/EventQueue.h"
-#include "Core/LatestValue.h"
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"
 #include "Support/Sets.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The vector kernels against the scalar oracle and against each other; the low-rank rows and the index they
 // rest on.
-#include "Core/Modes/LowRankBasis.h"
-#include "Core/Modes/ModeIndex.h"
+#include "Core/Modes/ModeTiles.h"
+#include "Core/Modes/ModeBank.h"
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"
 #include "Support/Sets.h"

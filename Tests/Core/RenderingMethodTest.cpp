@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // RenderingMethod: each of the eight renders the closed form of what it fixes, and leaves the rest alone.
-#include "Core/RenderingMethod.h"
+#include "Core/EventShaping.h"
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Layouts in space and parts of a body: gains of the laws `triangles` and `distance`, and of events that are
 // bound to a part.
-#include "Core/BodyLayouts.h"
+#include "Core/EnchanterLayout.h"
 #include "Core/PhantomPanner.h"
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // TimeOrdered: time order, arrival order among equals, refusal when full.
-#include "Core/TimeOrdered.h"
+#include "Core/Storage.h"
 #include <gtest/gtest.h>
 #include <random>
 #include <set>

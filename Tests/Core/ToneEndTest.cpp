@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where a tone is cut.
-#include "Core/ToneEnd.h"
+#include "Core/Samples.h"
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A file that is dropped on the field, a badge or a strip: felt there, saved with the session, or refused in
 // one line.
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Live/Recordings/LoadRecordings.h"
 #include "MixerTesting.h"
 

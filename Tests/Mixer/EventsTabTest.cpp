@@ -2,7 +2,7 @@
 // What is chosen in the list of events, dragged out or saved: those contacts alone, from the first on, on the
 // enchanters that are there.
 #include "Mixer/Output/EventsTab.h"
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "MixerTesting.h"
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Worlds as a newcomer makes them, with the automatic full-scale impulse: none clips and none whispers.
-#include "Core/OfflineLoop.h"
+#include "Core/HapticRenderer.h"
 #include "Physics/Attachment.h"
 #include <cmath>
 #include <gtest/gtest.h>

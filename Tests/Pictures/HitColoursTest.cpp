@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "Core/BodyLayouts.h"
+#include "Core/EnchanterLayout.h"
 #include "Pictures/PictureParts.h"
 #include <algorithm>
 #include <gtest/gtest.h>

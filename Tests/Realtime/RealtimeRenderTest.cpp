@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A million guarded blocks of a live session while another thread edits it ten thousand times.
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Session/Session.h"
 #include "Realtime/RealtimeGuard.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The audio of contacts: a render of it is what is played live, to the bit.
 #include "Live/Session/ContactAudio.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

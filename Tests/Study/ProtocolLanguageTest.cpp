@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Protocols of one's own: variables that follow the level, weighted staircases, levels that can be reached,
 // equal energy, the schema; and the times of a study.
-#include "Core/Actuators/HandWeighting.h"
+#include "Core/Actuators/Exposure.h"
 #include "Io/Disk/ReadFile.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/StudyCsv.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Simulated actuator to test equalisers and measurements with: drive in, acceleration out.
 #pragma once
-#include "Core/Actuators/Biquad.h"
-#include "Core/Actuators/Resonator.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
 #include <algorithm>
 
 namespace physvib {

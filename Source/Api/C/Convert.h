@@ -3,7 +3,7 @@
 #pragma once
 #include "Api/C/Calls.h"
 #include "Core/CollisionEvent.h"
-#include "Core/RendererSettings.h"
+#include "Core/HapticRenderer.h"
 #include <optional>
 #include <span>
 #include <string_view>

@@ -3,7 +3,7 @@
 // rendering.
 #include "Api/C/Convert.h"
 #include "Contacts/Texture.h"
-#include "Core/OfflineLoop.h"
+#include "Core/HapticRenderer.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NameList.h"
 #include "Io/Wav/WavSink.h"

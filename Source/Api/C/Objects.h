@@ -8,8 +8,8 @@
 #include "Contacts/ContactFeed.h"
 #include "Core/ControlQueue.h"
 #include "Core/HapticRenderer.h"
-#include "Core/LastChanges.h"
-#include "Core/LatestValue.h"
+#include "Core/RenderControl.h"
+#include "Core/EventQueue.h"
 #include <atomic>
 #include <mutex>
 #include <unordered_map>

@@ -5,7 +5,7 @@
 #include "Api/C/Handles.h"
 #include "Api/Live/Live.h"
 #include "Api/Live/physvib-live.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include <vector>
 
 namespace physvib::api {

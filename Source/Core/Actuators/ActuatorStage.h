@@ -2,14 +2,146 @@
 // Per-channel processing before the linked limiter: equaliser, delay, gain, polarity, mute.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
-#include "Core/Actuators/ChannelDelay.h"
 #include "Core/Actuators/GainRamp.h"
 #include "Core/Limits.h"
+#include "Core/Storage.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <utility>
 
 namespace physvib {
+
+// Delay line of one channel. Its delay can be changed while it plays: it cross-fades between the old and the
+// new read position.
+
+/// Render thread (R) only; prepare: message thread (M).
+template <int Capacity>
+class ChannelDelay {
+public:
+    /// Delay of `frames`, filled with silence; `most`, at most Capacity, is the longest delay. False: no
+    /// memory. M, not while rendering.
+    bool prepare(int fadeFrames, int frames, int most = Capacity) noexcept {
+        size_ = static_cast<std::size_t>(most) + 1;
+        if (!ring_.resize(size_)) return false;
+        fadeFrames_ = std::max(1, fadeFrames);
+        most_ = most;
+        delay_ = before_ = std::clamp(frames, 0, most);
+        faded_ = fadeFrames_;
+        next_ = none;
+        write_ = 0;
+        std::fill_n(ring_.data(), size_, 0.0f);
+        silentFrames_ = most;
+        return true;
+    }
+
+    void moveTo(int frames) noexcept {
+        frames = std::clamp(frames, 0, most_);
+        if (faded_ < fadeFrames_) { // a fade that is under way is finished first
+            next_ = frames;
+            return;
+        }
+        if (frames == delay_) return;
+        before_ = delay_;
+        delay_ = frames;
+        faded_ = 0;
+    }
+
+    /// True if the output equals the input.
+    bool isOut() const noexcept { return delay_ == 0 && faded_ == fadeFrames_; }
+
+    /// True if the line holds only silence and no fade is under way.
+    bool isResting() const noexcept { return silentFrames_ >= most_ && faded_ == fadeFrames_; }
+
+    /// While isOut: the memory for the next `frames` inputs. Null if it is not contiguous.
+    float* placeFor(int frames) noexcept {
+        const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1;
+        return next + static_cast<std::size_t>(frames) <= size_ ? ring_.data() + next : nullptr;
+    }
+    /// Replaces process: the inputs have been written to placeFor, and are not silent.
+    void pass(int frames) noexcept {
+        write_ += static_cast<std::size_t>(frames);
+        if (write_ >= size_) write_ -= size_;
+        silentFrames_ = 0;
+    }
+
+    /// In place. `isSilent`: all input is 0. True if all output is 0.
+    bool process(float* io, int frames, bool isSilent) noexcept {
+        if (isSilent && silentFrames_ >= most_) {
+            faded_ = std::min(fadeFrames_, faded_ + frames);
+            goOn();
+            return true;
+        }
+        const bool passes = isOut();
+        if (passes)
+            keep(io, static_cast<std::size_t>(frames));
+        else
+            std::transform(io, io + frames, io, [this](float x) { return step(x); });
+        silentFrames_ = isSilent ? std::min(most_, silentFrames_ + frames) : 0;
+        return passes && isSilent;
+    }
+
+private:
+    static constexpr int none = -1;
+
+    float at(int delay) const noexcept {
+        const auto back = static_cast<std::size_t>(delay);
+        return ring_[write_ >= back ? write_ - back : write_ + size_ - back];
+    }
+    void keep(float x) noexcept {
+        write_ = write_ + 1 == size_ ? 0 : write_ + 1;
+        ring_[write_] = x;
+    }
+    // Blocks are short: copies of constant size need no library call.
+    static void copy(const float* from, std::size_t count, float* to) noexcept {
+        constexpr std::size_t whole = 16;
+        std::size_t k = 0;
+        for (; k + whole <= count; k += whole) std::memcpy(to + k, from + k, whole * sizeof(float));
+        std::copy_n(from + k, count - k, to + k);
+    }
+    // Inputs are stored even without a delay: a delay that is set later starts with them.
+    void keep(const float* x, std::size_t frames) noexcept {
+        while (frames > 0) {
+            const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1,
+                              part = std::min(frames, size_ - next);
+            copy(x, part, ring_.data() + next);
+            write_ = next + part - 1;
+            x += part;
+            frames -= part;
+        }
+    }
+    float step(float x) noexcept {
+        keep(x);
+        if (faded_ == fadeFrames_) return at(delay_);
+        const float share = static_cast<float>(++faded_) / static_cast<float>(fadeFrames_);
+        const float y = at(before_) + share * (at(delay_) - at(before_));
+        goOn();
+        return y;
+    }
+    void goOn() noexcept {
+        if (faded_ == fadeFrames_ && next_ != none) moveTo(std::exchange(next_, none));
+    }
+
+    Storage<float, static_cast<std::size_t>(Capacity) + 1, true> ring_;
+    std::size_t write_ = 0, size_ = 0;
+    int delay_ = 0, before_ = 0, faded_ = 1, fadeFrames_ = 1, next_ = none;
+    int most_ = 0, silentFrames_ = 0; // silentFrames_: trailing silent inputs, at most most_
+};
+
+/// No delay where there is no memory for one.
+template <>
+class ChannelDelay<0> {
+public:
+    bool prepare(int, int, int) noexcept { return true; }
+    void moveTo(int) noexcept {}
+    bool isOut() const noexcept { return true; }
+    bool isResting() const noexcept { return true; }
+    float* placeFor(int) noexcept { return nullptr; }
+    void pass(int) noexcept {}
+    bool process(float*, int, bool isSilent) noexcept { return isSilent; }
+};
 
 /// Per channel: out = gain * delayed, equalised in. Every change is a ramp of limits::channelRampSeconds,
 /// except before the first frame. Render thread (R) only; prepare: message thread (M).

@@ -2,8 +2,7 @@
 // Implementation of the look-ahead limiter: sliding minimum, linear release, moving average, delayed
 // multiplication.
 #include "Core/Actuators/LinkedLimiter.h"
-#include "Core/Actuators/LimiterKernel.h"
-#include "Core/Modes/TileKernel.h"
+#include "Core/Modes/TileKernels.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>

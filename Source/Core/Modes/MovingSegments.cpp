@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Kernel of the board's moving-tone segments. Most of their cost is in `add`; a block takes a hundred
 // instructions per segment and frame.
-#include "Core/Modes/MovingSegments.h"
+#include "Core/BoardRenderer.h"
 #include <algorithm>
 
 namespace physvib {

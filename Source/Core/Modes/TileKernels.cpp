@@ -6,7 +6,7 @@
 // im) serves both products. A panel of 16 floats times a few channels stays in registers while modes are
 // read; after 64 modes it is added to sums in double precision. Every lane does the same operations in the
 // same order whatever the vector's width: sets with fused multiply-adds agree to the bit.
-#include "Core/Modes/TileKernel.h"
+#include "Core/Modes/TileKernels.h"
 #include "Core/Trigonometry.h"
 
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)

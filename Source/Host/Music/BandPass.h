@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Band-pass filter that keeps the band an actuator can render: two Butterworth slopes of fourth order.
 #pragma once
-#include "Core/Actuators/Biquad.h"
-#include "Core/Actuators/Resonator.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
 #include <algorithm>
 #include <array>
 #include <span>

@@ -2,7 +2,7 @@
 // Turns the readings of phone sensor programs into gravity in the world, so that tilting the phone tilts the
 // world. Formats: Docs/osc.md.
 #pragma once
-#include "Core/StandardGravity.h"
+#include "Core/Units.h"
 #include "Host/Osc/OscPacket.h"
 #include "Scene/Scene.h"
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Formats numbers by <charconv>, with digits in groups of three.
 #include "Io/Text/ReadableNumber.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Core/Limits.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>

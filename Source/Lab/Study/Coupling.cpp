@@ -3,7 +3,7 @@
 // Steps: 1. Solve (C^H C + lambda) D = C^H. 2. Compute the strongest drive of D over all gains from 0 to 1.
 // 3. If it exceeds the limit, find the smallest lambda within it by bisection of log lambda.
 #include "Lab/Study/Coupling.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A study protocol as data: conditions (stimuli and layouts) and sessions (tasks, repetitions and orders).
 #pragma once
-#include "Core/Actuators/HandWeighting.h"
+#include "Core/Actuators/Exposure.h"
 #include "Lab/Study/PhantomGrid.h"
 #include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/StimulusLevels.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Response models of the simulated observer, one per task.
 #include "Lab/Study/SimulatedObserver.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Checks a stimulus job against its valid ranges.
 #include "Lab/Study/StimulusJob.h"
-#include "Core/Actuators/HandWeighting.h"
+#include "Core/Actuators/Exposure.h"
 #include "Lab/Study/NumberWord.h"
 #include "Lab/Study/PercentCounts.h"
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scores a trial and creates the jobs that reproduce its stimulus.
 #include "Lab/Study/Trial.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -6,7 +6,7 @@
 // No manager of devices chooses for it: one that opens the default device (the loudspeakers) when the chosen
 // device disappears would play there what is meant for skin.
 #pragma once
-#include "Core/Actuators/ExposureMeter.h"
+#include "Core/Actuators/Exposure.h"
 #include "Core/Actuators/GainRamp.h"
 #include "Core/Nonblocking.h"
 #include "Live/Devices/AudioOutputSettings.h"

@@ -3,7 +3,7 @@
 // measuring devices.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Live/Devices/AudioOutputSettings.h"
 #include "Live/Devices/Clip.h"
 #include "Live/Devices/OutputMap.h"

@@ -2,7 +2,7 @@
 // Reference to a recorded contact, as sessions and commands store it: path of the samples, and a hash to
 // detect changes.
 #pragma once
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Json/FieldTable.h"
 #include <charconv>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reading and writing a session; scenes and inputs by the table in SceneFields.h.
 #include "Live/Documents/SessionFile.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/ReadFile.h"
 #include "Live/Documents/SessionJournalText.h"

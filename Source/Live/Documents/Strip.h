@@ -2,7 +2,7 @@
 // Channel strips of mixer and plug-in, one per actuator, and groups of strips. The fields of each struct in
 // files are listed below it.
 #pragma once
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Core/Limits.h"
 #include "Core/RenderControl.h"
 #include "Io/Json/FieldTable.h"

@@ -2,7 +2,7 @@
 // Rate limit for error reports per cause, so that many faulty messages do not flood a log or an input's reply
 // line.
 #pragma once
-#include "Core/Fnv1a.h"
+#include "Core/NameNumbers.h"
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Routes messages: looks up the name, checks values and time, acts, and answers queries.
 #include "Live/Messages/MessageRouter.h"
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"

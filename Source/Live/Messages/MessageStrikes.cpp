@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Computes the events of the messages strike, pattern, phantom, path and clip.
 #include "Live/Messages/MessageStrikes.h"
-#include "Core/SpaceVectors.h"
-#include "Core/ToneEnd.h"
+#include "Core/ActuatorCells.h"
+#include "Core/Samples.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/EventColumns.h"
 #include "Scene/PartNames.h"

@@ -2,7 +2,7 @@
 // Runs the motors of a controller one after the other, to be felt by the user or measured by the controller's
 // accelerometer.
 #pragma once
-#include "Core/Pads/PadLaw.h"
+#include "Core/Pads/PadMotors.h"
 #include "Io/Result.h"
 #include "Live/Pads/GamePads.h"
 #include <functional>

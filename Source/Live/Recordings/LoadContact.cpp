@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads a recorded contact, trims it to its strongest hit and normalises its level.
 #include "Live/Recordings/LoadContact.h"
-#include "Core/SamplePeak.h"
+#include "Core/Samples.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Live/Recordings/ReadRecording.h"

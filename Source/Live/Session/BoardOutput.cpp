@@ -2,7 +2,7 @@
 // Converts session events to board events: session time to board time, places to four amplitudes, moving
 // tones to segments.
 #include "Live/Session/BoardOutput.h"
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Live/Session/BoardWords.h"
 #include <algorithm>
 #include <cmath>

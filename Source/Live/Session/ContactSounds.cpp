@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Resamples recordings of contacts to the renderer's sample rate.
 #include "Live/Session/ContactSounds.h"
-#include "Core/SamplePeak.h"
+#include "Core/Samples.h"
 #include <algorithm>
 #include <samplerate.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Recordings of contacts, as read from files and resampled to the renderer's rate.
 #pragma once
-#include "Core/RecordedContact.h"
+#include "Core/RenderControl.h"
 #include "Live/Documents/RecordingFile.h"
 #include <span>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Storage of a session's recordings: each set once per sample rate, and its clips.
 #pragma once
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Live/Session/ContactSounds.h"
 #include <algorithm>
 #include <deque>

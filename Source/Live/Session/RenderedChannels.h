@@ -2,8 +2,8 @@
 // The channels that a session renders: those of the actuators, then the audio of contacts, then the trigger
 // output.
 #pragma once
-#include "Core/LastChanges.h"
-#include "Core/SoundNumber.h"
+#include "Core/RenderControl.h"
+#include "Core/NameNumbers.h"
 #include "Live/Session/ContactAudio.h"
 #include "Live/Session/OnsetMarks.h"
 #include "Live/Session/SessionSetup.h"

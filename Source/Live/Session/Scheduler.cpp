@@ -2,7 +2,7 @@
 // Processes external inputs while a session plays (actions, controls, recordings, events, stops, lanes), and
 // logs them.
 #include "Live/Session/Scheduler.h"
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Io/Disk/FileLimits.h"
 #include "Live/Documents/StripGroups.h"
 #include <algorithm>

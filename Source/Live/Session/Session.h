@@ -15,7 +15,7 @@
 // closed by DeviceThread, and a BoardLink has a thread of its own.
 #pragma once
 #include "Core/HapticRenderer.h"
-#include "Core/LatestValue.h"
+#include "Core/EventQueue.h"
 #include "Live/Session/CallbackInputs.h"
 #include "Live/Session/DevicePulse.h"
 #include "Live/Session/RenderedChannels.h"

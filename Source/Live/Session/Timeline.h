@@ -2,8 +2,7 @@
 // Clock of a session: session time in frames and nanoseconds, and the output latency by which the output
 // lags behind it.
 #pragma once
-#include "Core/ClockLaw.h"
-#include "Core/FrameClock.h"
+#include "Core/Clocks.h"
 #include <algorithm>
 #include <atomic>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "Calls/RenderWords.h"
 #include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/Command.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/SilentWords.h"
 #include "Scene/World/Simulation.h"

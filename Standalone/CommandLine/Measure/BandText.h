@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parses frequency bands such as "90-1000".
 #pragma once
-#include "Core/Actuators/Resonator.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
 #include "Io/Text/NumberText.h"
 #include <optional>
 #include <string_view>

@@ -3,7 +3,7 @@
 // profile.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"

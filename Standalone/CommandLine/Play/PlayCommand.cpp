@@ -11,7 +11,7 @@
 #include "CommandLine/Play/LivePlay.h"
 #include "CommandLine/Play/SoundPlay.h"
 #include "CommandLine/Study/NumberList.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/FileClash.h"
 #include "Live/Devices/SystemDrivers.h"

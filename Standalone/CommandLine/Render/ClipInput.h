@@ -2,7 +2,7 @@
 // Haptic files of others as inputs: on which enchanters each of their channels is felt.
 #pragma once
 #include "Calls/LoadedRender.h"
-#include "Core/RecordedContact.h"
+#include "Core/RenderControl.h"
 #include "Io/Wav/SampledSound.h"
 #include <vector>
 

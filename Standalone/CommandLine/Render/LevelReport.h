@@ -2,7 +2,7 @@
 // Levels in words: in dB of full scale and in g.
 #pragma once
 #include "Calls/LoadedRender.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Core/Limits.h"
 #include "Io/Text/NumberText.h"
 #include "Pictures/WaveformEnvelope.h"

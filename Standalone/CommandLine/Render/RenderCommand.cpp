@@ -7,7 +7,7 @@
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/RenderOutputs.h"
 #include "Contacts/ContactCounts.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Io/Disk/FileClash.h"
 #include "Live/Session/ContactAudio.h"
 #include "Live/Session/OfflineRender.h"

@@ -3,7 +3,7 @@
 #include "CommandLine/Render/RenderOutputs.h"
 #include "CommandLine/Render/LevelReport.h"
 #include "CommandLine/Render/MarkWords.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Pictures/RenderPicture.h"
 #include "System/Process.h"
 #include <cmath>

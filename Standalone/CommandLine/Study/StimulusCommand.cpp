@@ -4,7 +4,7 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Limits.h"
-#include "Core/SamplePeak.h"
+#include "Core/Samples.h"
 #include "Io/Wav/WavSink.h"
 #include "Lab/Study/MakeStimulus.h"
 #include "Live/Recordings/ReadRecording.h"

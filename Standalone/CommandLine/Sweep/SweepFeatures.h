@@ -2,7 +2,7 @@
 // Numeric features of a render for data analysis and machine learning, from its events and samples.
 #pragma once
 #include "CommandLine/Render/RenderListener.h"
-#include "Core/Actuators/ExposureMeter.h"
+#include "Core/Actuators/Exposure.h"
 #include "Core/CollisionEvent.h"
 #include "Measure/PowerSpectrum.h"
 #include "Scene/LayoutFile.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opens the OSC port, and applies inputs and controls to the mixer.
 #include "Mixer/Desk/DeskInputs.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Mixer/Desk/Desk.h"
 #include <algorithm>
 #include <cmath>

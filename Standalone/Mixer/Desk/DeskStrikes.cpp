@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Posts events at an actuator or anywhere on the field.
 #include "Mixer/Desk/DeskStrikes.h"
-#include "Core/ToneEnd.h"
+#include "Core/Samples.h"
 #include "Scene/ActuatorFile.h"
 #include <cmath>
 

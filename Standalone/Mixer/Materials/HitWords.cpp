@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names of what is felt in an impact: its material, its place, its strongest actuator.
 #include "Mixer/Materials/HitWords.h"
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include <cmath>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A list that is brought up to date a few times a second, and under it what can be done with what is chosen.
 #include "Mixer/Output/EventsTab.h"
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Mixer/Materials/HitWords.h"
 #include <algorithm>
 #include <iterator>

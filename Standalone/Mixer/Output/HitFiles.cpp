@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hits by the door of `physvib export`, or as samples.
 #include "Mixer/Output/HitFiles.h"
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Live/Recordings/HitExport.h"
 #include <algorithm>
 #include <filesystem>

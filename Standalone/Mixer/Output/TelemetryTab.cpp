@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Formats counters of session and device; amber marks losses.
 #include "Mixer/Output/TelemetryTab.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Live/Devices/NoDevice.h"
 #include <cmath>
 

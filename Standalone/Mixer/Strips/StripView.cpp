@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls of channel strips and their edits of the mixer state.
 #include "Mixer/Strips/StripView.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Mixer/Strips/GroupView.h"
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Course of a trial: plays its parts, and stores the answer.
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Mixer/Studies/StudyScreen.h"
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays a stimulus in the mixer's session: controls first, then its events slightly later.
 #include "Mixer/Studies/StudySound.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Live/Documents/StripGroups.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"

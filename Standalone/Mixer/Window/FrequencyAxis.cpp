@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Maps frequencies and levels to logarithmic axes, and draws spectra.
 #include "Mixer/Window/FrequencyAxis.h"
-#include "Core/Decibels.h"
+#include "Core/Units.h"
 #include "Mixer/Window/Parts.h"
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What hands do in the world becomes inputs of the session.
 #include "Mixer/World/WorldPanel.h"
-#include "Core/SoundNumber.h"
+#include "Core/NameNumbers.h"
 #include "Mixer/Materials/HitWords.h"
 #include "Scene/SceneEdits.h"
 #include <limits>

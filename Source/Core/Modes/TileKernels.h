@@ -1,16 +1,46 @@
 // SPDX-License-Identifier: MIT
+// What a vector kernel does for one tile of 64 frames. Written once in TileKernels.cpp, compiled once per
+// instruction set.
+#pragma once
+#include "Core/Limits.h"
+#include "Core/Modes/InstructionSet.h"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace physvib {
+
+// Interface of the limiter's vector kernels: passes over part of a block, all channels at once, when no gain
+// has to be computed or the gains are known.
+
+/// Each channel has a line: from `front` on the frames of this part, then padding; before it `latency`
+/// delayed ones. Lines and `front` are a multiple of the widest vector.
+struct LimiterLines {
+    const float* const* in = nullptr; ///< may be `out`
+    float* const* out = nullptr;      ///< each from frame `first` on
+    std::size_t first = 0, frames = 0, channels = 0;
+    float* lines = nullptr;
+    float* const* kept = nullptr; ///< if given, the inputs are copied there as well; null: no copy
+    std::size_t floatsPerLine = 0, front = 0, latency = 0;
+
+    float* line(std::size_t channel) const noexcept { return lines + channel * floatsPerLine; }
+};
+
+/// One instruction set's functions; the same bits as LinkedLimiter's own. Render thread (R), wait-free.
+struct LimiterKernel {
+    /// Writes the inputs behind the delayed frames, with denormals as 0, and unchanged to `kept`. True if a
+    /// magnitude exceeds its channel's in `mostBits`.
+    bool (*take)(const LimiterLines& lines, const std::int32_t* mostBits) = nullptr;
+    /// Writes the delayed frames times `gains` (null: 1), within the ceilings, and shifts the lines.
+    void (*give)(const LimiterLines& lines, const float* gains, const float* ceilings) = nullptr;
+};
+
 // What a vector kernel is given of one tile of 64 frames: modes, amplitudes, carriers, strikes.
 //
 // Low rank: inside a tile any decaying sinusoid of less than a turn or so is a combination of a few
 // polynomials (LowRankBasis.h). A mode is a row of complex coefficients, fixed for life; a tile is the
 // product of the modes' amplitudes with these rows, summed over modes, and one expansion per channel at the
 // end, whatever the number of modes.
-#pragma once
-#include "Core/Limits.h"
-#include <array>
-#include <cstdint>
-
-namespace physvib {
 
 namespace tiles {
 constexpr int frames = limits::tileFrames;         // one mode's share stays in registers
@@ -76,5 +106,19 @@ struct TileStrikes {
     double* tails = nullptr;        ///< [channel * 64 + frame], of all modes; on a cache line
     TileCarriers carriers;
 };
+/// One instruction set's functions. R, wait-free.
+struct TileKernel {
+    InstructionSet set = InstructionSet::scalar;
+    void (*advance)(const TileCarriers& carriers) = nullptr;
+    void (*render)(const TileLayer& layer, float* out) = nullptr; ///< out[channel * 64 + frame]
+    void (*strike)(const TileStrikes& strikes) = nullptr;
+    /// out = base + tails
+    void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr;
+    void (*clear)(float* const* out, int channels, int frames) = nullptr; ///< out[channel][frame] = 0
+    LimiterKernel limiter;
+};
+
+/// Null for scalar and for sets that this build or processor lacks. Any thread.
+const TileKernel* tileKernel(InstructionSet set) noexcept;
 
 } // namespace physvib

@@ -5,11 +5,14 @@
 #include <cmath>
 
 namespace physvib {
-
 /// 20 dB are a factor of ten. Any thread.
 inline double fromDecibels(double decibels) noexcept { return std::pow(10.0, decibels / 20.0); }
 
 /// Decibels of an amplitude of 0 or more; 0 gives minus infinity. Any thread.
 inline double toDecibels(double amplitude) noexcept { return 20.0 * std::log10(amplitude); }
+
+// Standard gravity (1 g) in SI units.
+
+constexpr double standardGravity = 9.80665; ///< m/s^2 (CGPM 1901)
 
 } // namespace physvib

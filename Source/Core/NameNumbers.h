@@ -1,15 +1,33 @@
 // SPDX-License-Identifier: MIT
-// Numbers of sounds. An event's number says which recording plays it, if there is one: a clip, or the
-// recorded contact of its material. An event without a number, or whose number has no recording, is played by
-// its frequency and decay.
+// The hash function FNV-1a, for short names and lines: not for files, nor against forgery.
 #pragma once
-#include "Core/Fnv1a.h"
 #include "Core/Limits.h"
 #include <cstdint>
 #include <limits>
 #include <string_view>
 
 namespace physvib {
+/// 64 bits. `from`: the hash of what precedes `text`. Any thread.
+constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t from = 0xcbf29ce484222325u) noexcept {
+    for (const char c : text) from = (from ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return from;
+}
+
+// Parts of a body (palm, thumb, chest) as numbers: actuators belong to one, and an event may be felt on one
+// alone.
+
+using PartNumber = std::int32_t; ///< 0: none; above: of a name
+
+/// The number of a part, which follows from its name alone, as that of a sound; "": 0. Two names share a
+/// number with a probability of 5e-10. Any thread.
+constexpr PartNumber partNamed(std::string_view name) noexcept {
+    if (name.empty()) return 0;
+    return static_cast<PartNumber>(fnv1a(name) % std::numeric_limits<PartNumber>::max()) + 1;
+}
+
+// Numbers of sounds. An event's number says which recording plays it, if there is one: a clip, or the
+// recorded contact of its material. An event without a number, or whose number has no recording, is played by
+// its frequency and decay.
 
 using SoundNumber = std::int32_t; ///< 0: none; 1 to mostClips: clips; above: materials
 

@@ -2,7 +2,7 @@
 // Digital filter design of the hand-arm weighting W_h. The bilinear transform would warp frequencies above a
 // tenth of the rate, by a decibel and more at 5 kHz. So poles are mapped exactly, and zeros are chosen so
 // that the magnitude matches at three frequencies (after Vicanek 2016).
-#include "Core/Actuators/HandWeighting.h"
+#include "Core/Actuators/Exposure.h"
 #include <algorithm>
 #include <numbers>
 

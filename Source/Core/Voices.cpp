@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How a tone that moves begins: its phase, its decay and its end in whole numbers.
-#include "Core/MovingTones.h"
+#include "Core/Voices.h"
 #include "Core/Modes/ModeIncrements.h"
 
 namespace physvib {
-
 bool MovingTones::strike(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept {
     Voice* const voice = voices_.add(onset.frame);
     if (voice == nullptr) return false;

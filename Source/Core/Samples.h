@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Where a tone can be cut without a step: at its zero crossings, every half period.
+// Peak magnitude of samples.
 #pragma once
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 namespace physvib {
+/// The largest magnitude; 0 if there are no samples. NaN counts as infinite. Any thread.
+inline float peakOf(std::span<const float> samples) noexcept {
+    float peak = 0.0f;
+    for (const float x : samples) peak = std::max(peak, std::isfinite(x) ? std::abs(x) : HUGE_VALF);
+    return peak;
+}
+
+// Where a tone can be cut without a step: at its zero crossings, every half period.
 
 /// The zero crossing of sin(2 pi frequencyHz t) that is nearest to `ns`, rounded to whole nanoseconds. Any
 /// thread.
