@@ -3,7 +3,7 @@
 #pragma once
 #include "Core/Actuators/GainRamp.h"
 #include "Core/EnchanterLayout.h"
-#include "Live/Session/AddedSamples.h"
+#include "Live/Session/CallbackInputs.h"
 #include <array>
 #include <cstdint>
 #include <vector>

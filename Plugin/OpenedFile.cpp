@@ -2,7 +2,7 @@
 // Opens a file by its detected kind.
 #include "OpenedFile.h"
 #include "Io/Disk/ReadFile.h"
-#include "Live/Documents/DeskLimits.h"
+#include "Live/Documents/Mix.h"
 #include "Live/Documents/SessionFile.h"
 #include "Parameters.h"
 #include "PluginSettings.h"

@@ -14,7 +14,7 @@
 #include "HalfRate.h"
 #include "HeldNotes.h"
 #include "HostParameter.h"
-#include "Live/Devices/ChannelMeters.h"
+#include "Live/Devices/DeviceMeters.h"
 #include "MidiMap.h"
 #include "MusicInput.h"
 #include "ParameterPoints.h"

@@ -2,18 +2,180 @@
 // Collects the contacts that a physics engine reports during a step, in fixed arrays (the thesis' collision
 // catcher, 5.1.3).
 #pragma once
-#include "Contacts/ChainLoads.h"
 #include "Contacts/ContactCounts.h"
 #include "Contacts/ContactGraph.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Impact.h"
-#include "Contacts/NameSketch.h"
-#include "Contacts/TouchingPairs.h"
+#include "Contacts/IndexMaps.h"
+#include "Contacts/Vectors.h"
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace physvib {
+
+// Numbers for pairs of touching fixtures, under which per-pair data are stored, so that each access needs no
+// search.
+
+/// A pair of slots has a number while it touches or while one of its fields is set. Check a number kept for
+/// longer with `is`. Allocates only to grow. World thread (M) only.
+class TouchingPairs {
+public:
+    static constexpr std::int32_t none = IntegerMap::none;
+
+    /// Two slots in the order of their contact, and their number.
+    struct Name {
+        std::int32_t a = none, b = none, number = none;
+    };
+
+    struct Pair {
+        std::int32_t a = none, b = none; ///< slots in any order; none: the number is free
+        std::int32_t collision = none;   ///< index of its collision in this step
+        std::int32_t last = none;        ///< index of its collision in the last step
+        std::int32_t load = none;        ///< index of its resting load
+    };
+
+    explicit TouchingPairs(std::size_t pairs = 128)
+        : numbers_(pairs) {
+        pairs_.reserve(pairs);
+        free_.reserve(pairs);
+        loose_.reserve(pairs);
+    }
+
+    /// The number of a pair, a new one if necessary.
+    std::int32_t know(std::int32_t a, std::int32_t b) {
+        if (const std::int32_t known = numbers_.find(pairKey(a, b)); known != none) return known;
+        if (free_.empty()) {
+            free_.push_back(static_cast<std::int32_t>(pairs_.size()));
+            pairs_.emplace_back();
+        }
+        const std::int32_t number = free_.back();
+        free_.pop_back();
+        numbers_.set(pairKey(a, b), number);
+        (*this)[number] = {.a = a, .b = b};
+        loose_.push_back(number);
+        return number;
+    }
+
+    bool is(const Name& name) const noexcept {
+        if (name.number == none) return false;
+        const Pair& pair = (*this)[name.number];
+        return (pair.a == name.a && pair.b == name.b) || (pair.a == name.b && pair.b == name.a);
+    }
+
+    Pair& operator[](std::int32_t number) noexcept { return pairs_[static_cast<std::size_t>(number)]; }
+    const Pair& operator[](std::int32_t number) const noexcept {
+        return pairs_[static_cast<std::size_t>(number)];
+    }
+
+    /// Contacts of a pair, or of all pairs of a slot, have ended: the number is freed once no field is set.
+    void loosen(std::int32_t a, std::int32_t b) {
+        if (const std::int32_t known = numbers_.find(pairKey(a, b)); known != none) loose_.push_back(known);
+    }
+    void loosen(std::int32_t slot) {
+        for (const Pair& pair : pairs_)
+            if (pair.a == slot || pair.b == slot) loosen(pair.a, pair.b);
+    }
+
+    /// Call at the end of a step: frees numbers.
+    void endStep(const ContactGraph& graph) {
+        std::erase_if(loose_, [&](std::int32_t number) {
+            Pair& pair = (*this)[number];
+            if (pair.a == none || graph.isTouching(pair.a, pair.b)) return true;
+            if (pair.collision != none || pair.last != none || pair.load != none) return false;
+            numbers_.erase(pairKey(pair.a, pair.b));
+            pair = {};
+            free_.push_back(number);
+            return true;
+        });
+    }
+
+private:
+    std::vector<Pair> pairs_;
+    IntegerMap numbers_; // by the pair
+    std::vector<std::int32_t> free_;
+    std::vector<std::int32_t> loose_; // candidates to be freed
+};
+
+// Finds impulses that reach haptic sources through existing contacts: impacts transmitted by neighbouring
+// bodies.
+
+/// Watches the existing contacts of haptic sources. Resting bodies push too, equally in every step: that is a
+/// contact's load, the smallest of its impulses in the last three steps (an impact, which may take two, is no
+/// load). The excess over the load is a transmitted impact; an impulse below it is none. Impulses at one body
+/// are summed as vectors; the spin of Eq. 5.2 is not added, because the sum is already the whole impulse.
+/// Allocates when the world grows. World thread (M) only.
+class ChainLoads {
+public:
+    struct Passed {
+        Vector3 newtonSeconds;
+        float strongest = 0.0F;                  ///< magnitude of the part that came through `other`
+        std::int32_t other = FixtureTable::none; ///< slot of the neighbour that transmitted most
+        Vector3 point;
+    };
+
+    ChainLoads(const FixtureTable& table, TouchingPairs& pairs);
+
+    /// Within a step: an existing contact of (a, b) has pushed b by `newtonSeconds` (world), and a by the
+    /// opposite.
+    void add(const TouchingPairs::Name& pair, Vector3 newtonSeconds, Vector3 point) {
+        Contact& contact = find(pair, true);
+        // Summed over the step's points and solver passes, and over the segments of a chain.
+        contact.now += contact.b == pair.b ? newtonSeconds : -newtonSeconds;
+        contact.point = point;
+        contact.isSolved = true;
+    }
+
+    /// After a step: sums up the transmitted impulses.
+    void settle();
+
+    /// Haptic sources that received an impulse through existing contacts in this step. After settle().
+    const std::vector<std::int32_t>& receivers() const noexcept { return receivers_; }
+
+    /// The impulse that a haptic source received through existing contacts in this step. After settle().
+    Passed passed(std::int32_t slot) const noexcept {
+        const auto index = static_cast<std::size_t>(slot);
+        return index < passed_.size() ? passed_[index] : Passed{};
+    }
+
+    /// A contact begins: its load is 0.
+    void begin(const TouchingPairs::Name& pair) { find(pair, false); }
+
+    /// Ends the step: its impulses become history. Sleeping bodies keep their load.
+    void endStep(const ContactGraph& graph) noexcept;
+
+    /// The slot is freed or reassigned: drops its contacts.
+    void forget(std::int32_t slot) noexcept;
+
+private:
+    struct alignas(32) Contact { // read for every push: half a cache line
+        Vector3 now, point;      // now: impulse on b in this step
+        std::int32_t b;
+        bool isSolved;
+        bool isUnknown; // first seen in mid-contact: the impulse of this step is taken as its load
+    };
+    struct Past { // read once per step
+        TouchingPairs::Name of;
+        Vector3 load{};
+        std::array<Vector3, 3> pushed{}; // newest first
+    };
+    static Vector3 smallestOf(const std::array<Vector3, 3>& pushed) noexcept;
+    Contact& find(const TouchingPairs::Name& pair, bool isUnknown) {
+        const std::int32_t at = pairs_[pair.number].load;
+        return at != TouchingPairs::none ? contacts_[static_cast<std::size_t>(at)] : meet(pair, isUnknown);
+    }
+    Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
+    void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size, Vector3 point);
+    void drop(std::size_t index) noexcept;
+
+    const FixtureTable& table_;
+    TouchingPairs& pairs_; // stores the index of each pair's load
+    std::vector<Contact> contacts_;
+    std::vector<Past> pasts_;    // parallel to contacts_
+    std::vector<Passed> passed_; // by slot
+    std::vector<std::int32_t> receivers_;
+};
 
 /// Updates the contact graph and records the collisions of each step (`Collision`). A collision needs parts
 /// of two surfaces that were apart and that approach each other faster than a resting body does; its impulse

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Adds contact counts and lists them; words and names that explanations share.
 #include "Contacts/ContactCounts.h"
-#include "Contacts/Explanations.h"
 #include <algorithm>
 #include <cstdio>
 

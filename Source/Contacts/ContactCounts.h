@@ -7,7 +7,6 @@
 #include <string_view>
 
 namespace physvib {
-
 class PhantomPanner;
 
 /// Why the physics engine lets a haptic source touch nothing: a look at its bodies says so.
@@ -99,5 +98,20 @@ std::string describe(const ContactCounts& counts, const OutputFacts* output = nu
 /// Why events that were made are not felt, as one sentence with names of physvib.h; empty: no reason is
 /// known. Any thread.
 std::string outputReason(const ContactCounts& made, const OutputFacts& output);
+
+// Words that explanations share.
+
+/// Three digits, with a point in every locale. Any thread.
+std::string threeDigits(double value);
+
+/// `1 event`, `2 events`. Any thread.
+std::string counted(std::uint64_t count, std::string_view what);
+
+/// Whose names an explanation uses: those of the C++ classes, or of scene files.
+enum class Names { cpp, scene };
+
+/// Replaces the names of physvib.h in an explanation. Languages with bindings do so themselves, by the names
+/// of their bindings. Any thread.
+std::string inNames(std::string sentence, Names names);
 
 } // namespace physvib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Validates what the caller reports of bodies and contacts; what is valid goes to FedContacts.
+// Validates what the caller reports of bodies and contacts; what is valid goes to ReportedContacts.
 #include "Contacts/ContactFeed.h"
-#include "Contacts/FedContacts.h"
+#include "Contacts/ReportedContacts.h"
 #include <cmath>
 #include <stdexcept>
 
@@ -63,7 +63,7 @@ std::string_view faultOf(const FedContact& contact) noexcept {
     return {};
 }
 
-std::string_view faultOf(FedContacts& contacts, const FedContact& contact) {
+std::string_view faultOf(ReportedContacts& contacts, const FedContact& contact) {
     ContactCounts& tally = contacts.events().catcher().tally();
     if (!contacts.isStepping()) return ++tally.outsideSteps, outsideStep;
     for (const std::int32_t body : {contact.a, contact.b})
@@ -86,7 +86,7 @@ std::string_view faultOf(const FedBody& body) noexcept {
 }
 
 ContactFeed::ContactFeed(const ImpactSettings& settings)
-    : contacts_(std::make_unique<FedContacts>(onsetAlone(settings))) {}
+    : contacts_(std::make_unique<ReportedContacts>(onsetAlone(settings))) {}
 ContactFeed::~ContactFeed() = default;
 
 void ContactFeed::configure(const ImpactSettings& settings) {

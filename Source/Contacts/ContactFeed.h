@@ -5,9 +5,7 @@
 #include "Contacts/ContactCounts.h"
 #include "Contacts/HapticFixture.h"
 #include "Contacts/ImpactSettings.h"
-#include "Contacts/InverseInertia.h"
-#include "Contacts/PairSounds.h"
-#include "Contacts/Vector2.h"
+#include "Contacts/Vectors.h"
 #include "Core/CollisionEvent.h"
 #include <cstdint>
 #include <memory>
@@ -17,7 +15,7 @@
 
 namespace physvib {
 
-class FedContacts;
+class ReportedContacts;
 
 /// What the caller reports of a body, once.
 struct FedBody {
@@ -170,7 +168,7 @@ public:
     const ImpactModel& impactModel() const noexcept;
 
 private:
-    std::unique_ptr<FedContacts> contacts_; // what it is made of, which is not installed
+    std::unique_ptr<ReportedContacts> contacts_; // what it is made of, which is not installed
 };
 
 } // namespace physvib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Contact graph: which fixtures are connected through touching ones (the thesis' contact-state graph, 5.1.3).
 #pragma once
-#include "Contacts/IntegerMap.h"
+#include "Contacts/IndexMaps.h"
 #include <cstddef>
 #include <cstdint>
 #include <utility>

@@ -1,19 +1,81 @@
 // SPDX-License-Identifier: MIT
 // Converts impacts of haptic sources to collision events: amplitude, voice and place.
 #pragma once
-#include "Contacts/BodyReader.h"
 #include "Contacts/ContactCounts.h"
-#include "Contacts/EventSorter.h"
 #include "Contacts/FixtureTable.h"
+#include "Contacts/HapticFixture.h"
 #include "Contacts/Impact.h"
 #include "Contacts/ImpactSettings.h"
-#include "Contacts/PairSounds.h"
 #include "Core/CollisionEvent.h"
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <tuple>
+#include <vector>
 
 namespace physvib {
+
+// Holds events until no earlier one can arrive, and releases them in time order.
+
+/// Sorted by time, then by fixture id, then by arrival. Memory grows with what waits, up to the capacity.
+/// World thread (M) only.
+class EventSorter {
+public:
+    explicit EventSorter(std::size_t capacity)
+        : capacity_{capacity} {}
+
+    /// Adds an event; when full, or without memory, the weakest of all is dropped and counted.
+    void push(const CollisionEvent& event) noexcept {
+        if (free_.empty() && !grow() && !dropWeakest(event.amplitude)) return;
+        const std::uint32_t slot = free_.back();
+        free_.pop_back();
+        held_[slot] = event;
+        waiting_.push_back({event.timeNs, event.source.fixture, slot});
+    }
+
+    /// Moves all events before `beforeNs` to the end of `finished`.
+    void release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished);
+
+    /// Releases all events, whatever their time.
+    void flush(std::vector<CollisionEvent>& finished) {
+        release(std::numeric_limits<std::int64_t>::max(), finished);
+    }
+
+    /// Removes the events of a fixture (by its id), and if `asOther` also those of other fixtures that it
+    /// caused.
+    void withdraw(std::int32_t fixture, bool asOther) noexcept;
+
+    std::uint64_t drops() const noexcept { return drops_; }
+
+private:
+    struct Waiting {
+        std::int64_t timeNs;
+        std::int32_t fixture;
+        std::uint32_t slot; // index in held_
+    };
+    struct Place : Waiting {
+        std::uint32_t arrival; // order of arrival among the released
+        std::uint32_t share;   // bucket in time
+        friend bool operator<(const Place& a, const Place& b) noexcept {
+            if (a.timeNs != b.timeNs) return a.timeNs < b.timeNs;
+            return a.fixture != b.fixture ? a.fixture < b.fixture : a.arrival < b.arrival;
+        }
+    };
+    bool grow() noexcept;                        // false: full, or no memory
+    bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
+    void sort();
+    void forget(std::size_t place) noexcept;
+
+    std::size_t capacity_;
+    std::uint64_t drops_ = 0;
+    std::vector<CollisionEvent> held_; // an event stays in its slot until it is released
+    std::vector<std::uint32_t> free_;  // free slots
+    std::vector<Waiting> waiting_;     // in order of arrival
+    std::vector<Place> order_, other_; // of those being released
+    std::vector<std::uint32_t> ends_;  // ends of the buckets
+};
 
 /// Adds one event per impact and mode (Eq. 5.4). If the source's voice is `both`, both bodies sound, each
 /// with the full amplitude, because sounds that overlap add (Eq. 5.1). Voice `other` or `both` with a partner
@@ -66,5 +128,41 @@ private:
 /// The amplitude of the impact's first mode (Eq. 5.4 and the source's gain). World thread (M).
 double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies,
                    const ImpactModel& model);
+
+// The impulse that gives full scale, learned from the hits of a world, so that nobody has to guess a gain.
+
+/// Follows the strength of the hardest usual hit and puts it 6 dB below full scale.
+///
+/// Strength is the impulse of what sounds at once: impulses are summed to the power of 1.5, between the sum
+/// of vibrations in phase and that of powers. It fades by 30 per second, as a usual vibration does. The level
+/// rises to it at once, so no hit is played above the goal. It falls by a time constant of 10 s, of which a
+/// pause counts 1 s at most: a quiet minute does not make the next touch loud.
+///
+/// The speeds below are multiples of the threshold for impacts, which fits the scale of the world. At first
+/// the level is that of a change of the lighter body's velocity by 10 thresholds (1.5 m/s by default). It is
+/// never below 2 thresholds (0.3 m/s), so the smallest impact stays 6 dB below the goal.
+///
+/// It depends on simulated time and impulses only. World thread (M).
+class FullScale {
+public:
+    static constexpr double goal = 0.5; ///< amplitude of the hardest usual hit: 6 dB below full scale
+    static constexpr double fallSeconds = 10.0;
+    static constexpr double longestPauseSeconds = 1.0;
+    static constexpr double fadePerSecond = 30.0;
+    static constexpr double firstThresholds = 10.0;
+    static constexpr double leastThresholds = 2.0;
+
+    /// Learns from the impacts of a step, whatever their order. Those of muted sources do not count, and
+    /// grains do not raise the level.
+    void learn(std::span<const Impact> impacts, const StepSpan& step, const FixtureTable& table);
+
+    /// The impulse of an amplitude of 1. Until something was learned 1, which keeps the order of impacts.
+    double newtonSeconds() const noexcept { return level_ > 0.0 ? level_ / goal : 1.0; }
+
+private:
+    double level_ = 0.0;    // N s, of the goal
+    double sounding_ = 0.0; // N s, of what sounds at once
+    std::int64_t learnedNs_ = 0;
+};
 
 } // namespace physvib

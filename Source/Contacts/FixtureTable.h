@@ -2,10 +2,9 @@
 // Table of the fixtures that have haptic values or touch something. It is kept beside the physics world, so
 // the engine's user data remain the user's.
 #pragma once
-#include "Contacts/BodyReader.h"
+#include "Contacts/Impact.h"
 #include "Contacts/HapticFixture.h"
-#include "Contacts/IntegerMap.h"
-#include "Contacts/NameSketch.h"
+#include "Contacts/IndexMaps.h"
 #include <cmath>
 #include <cstdint>
 #include <limits>

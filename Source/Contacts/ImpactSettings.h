@@ -2,7 +2,7 @@
 // Settings of the conversion from contacts to events, and the impact model that follows from them: from the
 // impulse of an impact to the amplitude of its vibration (Eq. 5.4 and 5.7 of the thesis).
 #pragma once
-#include "Contacts/Vector2.h"
+#include "Contacts/Vectors.h"
 #include <optional>
 #include <string_view>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `release` timing: impacts that are pending until their contact ends.
-#include "Contacts/ReleaseImpacts.h"
+#include "Contacts/ImpactTimings.h"
 #include <algorithm>
 #include <limits>
 #include <utility>

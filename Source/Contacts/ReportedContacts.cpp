@@ -1,13 +1,260 @@
 // SPDX-License-Identifier: MIT
-// Solves the points of a pair together at the end of a step, so that a flat landing is one impact.
-#include "Contacts/FedContacts.h"
+// The list of touching pairs: a pair is added when it is first reported, and removed when it ends.
+#include "Contacts/ReportedContacts.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace physvib {
+ReportedContacts::ReportedContacts(const ImpactSettings& settings)
+    : events_(bodies_, settings) {}
 
-void FedContacts::settleTogether() {
+void ReportedContacts::beginStep(std::int64_t endNs, double gravityMetresPerSecond2) {
+    lastStepSeconds_ = events_.stepSeconds();
+    gravity_ = gravityMetresPerSecond2;
+    events_.beginStep(endNs, {0.0F, -static_cast<float>(gravityMetresPerSecond2)}, bodies_.largestMassKg());
+}
+
+void ReportedContacts::remove(std::int32_t id) {
+    const std::int32_t slot = slotOf(id);
+    dropAllOf(slot);
+    events_.vanish(slot);
+    bodies_.remove(id);
+}
+
+void ReportedContacts::touch(const FedContact& contact) {
+    Pair& pair = know(contact, true);
+    pair.isNamed = true;
+    const bool isNewPoint = this->isNewPoint(pair, contact);
+    if (isNewPoint && !pair.isNew) events_.catcher().meet(pair.a, pair.b);
+    tell(pair, contact, pair.isNew || isNewPoint);
+}
+
+void ReportedContacts::begin(const FedContact& contact) {
+    Pair& pair = know(contact, false);
+    isNewPoint(pair, contact); // the next step knows this point
+    tell(pair, contact, true);
+}
+
+void ReportedContacts::push(const FedContact& contact) {
+    Pair& pair = know(contact, false); // it may have touched before the first report
+    const bool isNewPoint = this->isNewPoint(pair, contact) && !pair.isNew;
+    if (isNewPoint) events_.catcher().meet(pair.a, pair.b);
+    tell(pair, contact, isNewPoint);
+}
+
+bool ReportedContacts::end(std::int32_t a, std::int32_t b) {
+    const std::int32_t pair = pairOf_.find(pairKey(slotOf(a), slotOf(b)));
+    if (pair == IntegerMap::none) return false;
+    // reported in this step, and not solved yet
+    if (pairs_[static_cast<std::size_t>(pair)].waiting != FedPoints::none) {
+        momentum_.solve();
+        settle(pairs_[static_cast<std::size_t>(pair)]);
+    }
+    drop(static_cast<std::size_t>(pair));
+    return true;
+}
+
+void ReportedContacts::endStep() {
+    settleTogether();
+    for (std::size_t i = pairs_.size(); i-- > 0;) {
+        Pair& pair = pairs_[i];
+        if (pair.isAsked && !pair.isNamed) {
+            drop(i);
+            continue;
+        }
+        pair.isNew = pair.isNamed = false;
+        pair.points = {.before = pair.points.now};
+        pair.waiting = FedPoints::none;
+    }
+    points_.endStep();
+    waiting_.clear();
+    bodies_.endStep();
+    rubs_.endStep(events_.stepSeconds(), events_.lasting());
+    events_.endStep();
+}
+
+ReportedContacts::Pair& ReportedContacts::know(const FedContact& contact, bool isAsked) {
+    const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
+    if (const std::int32_t known = pairOf_.find(pairKey(a, b)); known != IntegerMap::none)
+        return pairs_[static_cast<std::size_t>(known)];
+    pairOf_.set(pairKey(a, b), static_cast<std::int32_t>(pairs_.size()));
+    pairs_.push_back({std::min(a, b), std::max(a, b), isAsked, true, false});
+    events_.catcher().begin(a, b);
+    return pairs_.back();
+}
+
+// The place of a contact at its end is only needed for release timing, which feeds do not have.
+void ReportedContacts::drop(std::size_t pair) {
+    Pair& hole = pairs_[pair];
+    events_.catcher().end(hole.a, hole.b);
+    pairOf_.erase(pairKey(hole.a, hole.b));
+    if (&hole != &pairs_.back()) {
+        hole = pairs_.back();
+        pairOf_.set(pairKey(hole.a, hole.b), static_cast<std::int32_t>(pair));
+    }
+    pairs_.pop_back();
+}
+
+void ReportedContacts::dropAllOf(std::int32_t slot) {
+    for (std::size_t i = pairs_.size(); i-- > 0;)
+        if (pairs_[i].a == slot || pairs_[i].b == slot) drop(i);
+    rubs_.forget(slot);
+}
+
+// Points are followed even without haptic sources: a source that is added later must not take an old point
+// for a new one.
+bool ReportedContacts::isNewPoint(Pair& pair, const FedContact& contact) {
+    if (contact.pointId == FedContact::noPoint) return false;
+    constexpr double trembleMetres = 0.002;
+    const double slide =
+        bodies_.slide(contact.a, contact.b, contact.point, contact.normal) * events_.stepSeconds();
+    return points_.isNew(pair.points, contact.pointId, contact.point, contact.normal,
+                         trembleMetres + 1.5 * slide) &&
+           // an impulse alone does not tell an impact from a load that shifts
+           (pair.isNew || speedOf(contact) > 0.0);
+}
+
+void ReportedContacts::tell(Pair& pair, const FedContact& contact, bool isNew) {
+    if (!events_.catcher().hasSources()) return;
+    if (waits(contact)) {
+        const bool isByMomentum = this->isByMomentum(contact);
+        const auto momentum = isByMomentum
+                                  ? static_cast<std::int32_t>(momentum_.add(bodies_, contact.a, contact.b,
+                                                                            contact.point, contact.normal))
+                                  : FedPoints::none;
+        waiting_.push_back({contact, isNew, pair.waiting, momentum});
+        pair.waiting = static_cast<std::int32_t>(waiting_.size()) - 1;
+        if (isNew || contact.isImpulseOfPair || isByMomentum) return;
+    }
+    if (isNew)
+        strike(contact);
+    else
+        load(contact);
+}
+
+// Impacts of single points: impulse and time of each. A point without an impact is a load of its pair.
+
+// A struck body may stand on something, hang in joints or carry others. Then the engine's impulse of the step
+// is larger than speed and mass of the two bodies say. What gravity adds after they met is a load.
+double ReportedContacts::supported(double bySpeed, double pushed, double gainedMetresPerSecond,
+                                   double fraction) const {
+    constexpr double clearly = 1.2; // the impulse of a step also moves overlaps apart
+    const double falls = gravity_ * events_.stepSeconds() * (1.0 - std::clamp(fraction, 0.0, 1.0));
+    const double ofCollision = pushed * gainedMetresPerSecond / (gainedMetresPerSecond + falls);
+    return ofCollision > clearly * bySpeed ? ofCollision : bySpeed;
+}
+
+double ReportedContacts::speedOf(const FedContact& contact) const {
+    return contact.approachMetresPerSecond.value_or(
+        bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
+}
+
+// Only counts. A threshold is passed if two thirds of it are approached and all of it is the change of the
+// lighter body's velocity. Surfaces that part no faster than resting bodies do are at rest.
+void ReportedContacts::passOver(const TouchingPairs::Name& pair, const FedContact& contact, double speed,
+                                double impulse) {
+    CollisionCatcher& catcher = events_.catcher();
+    const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
+    const double lighter = std::min(a.movableMassKg(), b.movableMassKg());
+    const double change = std::isfinite(impulse) ? impulse / lighter : 0.0;
+    catcher.passOver(pair.a, pair.b, std::max(0.0, std::min(1.5 * speed, change)));
+    if (!std::isfinite(lighter) || !catcher.touchesSource(pair.a, pair.b)) return;
+    ContactCounts& tally = catcher.tally();
+    if (catcher.isCollision(std::max(a.gravityScale(), b.gravityScale()), -speed)) {
+        ++tally.parting;
+        tally.fastestParting = std::max(tally.fastestParting, -speed);
+    } else if (speed == 0.0 && !contact.approachMetresPerSecond && !(impulse > 0.0)) {
+        ++tally.motionless;
+    }
+}
+
+void ReportedContacts::strike(const FedContact& contact, double pushed) {
+    CollisionCatcher& catcher = events_.catcher();
+    const TouchingPairs::Name pair = nameOf(contact);
+    const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
+    const double told = speedOf(contact);
+    const double mass = contact.effectiveMassKg.value_or(
+        bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal));
+    const bool isImpulseTold = contact.impulseNewtonSeconds && !contact.isSoft;
+    double impulse = isImpulseTold ? *contact.impulseNewtonSeconds
+                                   : mass * std::max(0.0, told) * (1.0 + contact.restitution);
+    if (pushed > 0.0 && told > 0.0)
+        impulse = supported(impulse, pushed, told * (1.0 + contact.restitution), fractionOf(contact, told));
+    if (!(impulse > 0.0 && std::isfinite(impulse))) { // they separate, or neither can be moved
+        passOver(pair, contact, told, 0.0);
+        return contact.isSoft ? load(contact) : void();
+    }
+    // With an impulse alone, the speed is the change of the lighter body's velocity, which is at least the
+    // speed before.
+    const bool isSpeedKnown = contact.approachMetresPerSecond || !isImpulseTold || told > 0.0;
+    const double speed = isSpeedKnown ? told : impulse / std::min(a.movableMassKg(), b.movableMassKg());
+    if (!catcher.isCollision(std::max(a.gravityScale(), b.gravityScale()), speed)) {
+        passOver(pair, contact, speed, impulse);
+        return load(contact);
+    }
+
+    Collision* collision = catcher.collision(pair);
+    const bool isFirst = collision == nullptr;
+    if (isFirst && (collision = catcher.strike(pair, speed)) == nullptr) return;
+    const double fraction = fractionOf(contact, isSpeedKnown ? speed : 0.0);
+    collision->fraction = isFirst ? fraction : std::min(collision->fraction, fraction);
+    if (isImpulseTold || isFirst) { // impulses of points add up; a speed gives that of the whole impact
+        const double sum = collision->normalImpulse + impulse;
+        collision->point += static_cast<float>(impulse / sum) * (contact.point - collision->point);
+        collision->normalImpulse = sum;
+        collision->tangentialImpulse += isImpulseTold ? contact.tangentialNewtonSeconds : 0.0;
+        if (isImpulseTold) addFriction(*collision, contact, pair.a, 1.0F);
+    } else if (impulse > collision->normalImpulse) {
+        collision->normalImpulse = impulse;
+        collision->point = contact.point;
+    }
+}
+
+// A contact may name its bodies in the other order than the collision does.
+void ReportedContacts::addFriction(Collision& collision, const FedContact& contact, std::int32_t a,
+                                   float share) noexcept {
+    collision.frictionNewtonSeconds += (collision.a == a ? share : -share) * contact.frictionNewtonSeconds;
+}
+
+void ReportedContacts::load(const FedContact& contact) {
+    if (!contact.impulseNewtonSeconds || !events_.catcher().hasSources()) return;
+    const TouchingPairs::Name pair = nameOf(contact);
+    rub(contact, pair);
+    if (!events_.catcher().isRelevant(pair)) return;
+    const auto along = static_cast<float>(*contact.impulseNewtonSeconds),
+               across = static_cast<float>(contact.tangentialNewtonSeconds);
+    const Vector3 inPlane = along * contact.normal + across * physvib::inPlane(contact.normal).turnedLeft();
+    events_.catcher().push(pair, inPlane + contact.frictionNewtonSeconds, contact.point);
+}
+
+void ReportedContacts::rub(const FedContact& contact, const TouchingPairs::Name& pair) {
+    if (!contact.alongAMetresPerSecond || !contact.alongBMetresPerSecond ||
+        !events_.lasting().isRelevant(pair.a, pair.b))
+        return;
+    rubs_.tell({pair.a, pair.b, *contact.impulseNewtonSeconds, contact.point, *contact.alongAMetresPerSecond,
+                *contact.alongBMetresPerSecond});
+}
+
+// The gap between the surfaces closes, or has closed, at the speed at which they approach.
+double ReportedContacts::fractionOf(const FedContact& contact,
+                                    double approachMetresPerSecond) const noexcept {
+    if (contact.fraction) return *contact.fraction;
+    const double ahead = approachMetresPerSecond > 0.0 ? contact.gapMetres / approachMetresPerSecond : 0.0;
+    const double now = events_.stepSeconds();
+    const double seconds = contact.gapFraction * now + ahead;
+    const double length = seconds < 0.0 ? lastStepSeconds_ : now;
+    return length > 0.0 ? std::clamp(seconds / length, -1.0, 1.0) : 0.0;
+}
+
+TouchingPairs::Name ReportedContacts::nameOf(const FedContact& contact) {
+    const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
+    return {a, b, events_.catcher().know(a, b)};
+}
+
+// Solves the points of a pair together at the end of a step, so that a flat landing is one impact.
+
+void ReportedContacts::settleTogether() {
     if (waiting_.empty()) return;
     momentum_.solve();
     for (const Pair& pair : pairs_)
@@ -15,7 +262,7 @@ void FedContacts::settleTogether() {
     momentum_.clear();
 }
 
-FedContact FedContacts::withMomentum(const Waiting& each) const {
+FedContact ReportedContacts::withMomentum(const Waiting& each) const {
     FedContact contact = each.contact;
     if (each.momentum == FedPoints::none) return contact;
     contact.impulseNewtonSeconds = momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum));
@@ -24,7 +271,7 @@ FedContact FedContacts::withMomentum(const Waiting& each) const {
     return contact;
 }
 
-double FedContacts::pushed(const Waiting& each) const {
+double ReportedContacts::pushed(const Waiting& each) const {
     const FedContact& contact = each.contact;
     if (!contact.isSoft) return 0.0;
     const double told = contact.isPushWhole ? contact.impulseNewtonSeconds.value_or(0.0) : 0.0;
@@ -34,7 +281,7 @@ double FedContacts::pushed(const Waiting& each) const {
 }
 
 // Of contacts that are not soft: the impulse of the impact is that of the new points.
-void FedContacts::strikeByMomentum() {
+void ReportedContacts::strikeByMomentum() {
     meeting_.clear();
     for (const Waiting* each : together_) {
         const double newtonSeconds =
@@ -45,7 +292,7 @@ void FedContacts::strikeByMomentum() {
     strikeTogether();
 }
 
-void FedContacts::settle(const Pair& pair) {
+void ReportedContacts::settle(const Pair& pair) {
     together_.clear();
     for (std::int32_t at = pair.waiting; at != FedPoints::none;
          at = waiting_[static_cast<std::size_t>(at)].next)
@@ -83,7 +330,7 @@ void FedContacts::settle(const Pair& pair) {
 }
 
 // Below 0: all of them part.
-double FedContacts::fastestOfNew() const {
+double ReportedContacts::fastestOfNew() const {
     double fastest = -std::numeric_limits<double>::infinity();
     for (const Waiting* each : together_)
         if (each->isNew) fastest = std::max(fastest, speedOf(each->contact));
@@ -91,7 +338,7 @@ double FedContacts::fastestOfNew() const {
 }
 
 // An impact at several points: place and impulse are those of all together, the time is that of the first.
-void FedContacts::strikeTogether() {
+void ReportedContacts::strikeTogether() {
     CollisionCatcher& catcher = events_.catcher();
     const FedContact& first = together_.front()->contact;
     const TouchingPairs::Name pair = nameOf(first);

@@ -14,7 +14,7 @@
 #include "Core/Actuators/OutputGuard.h"
 #include "Core/Nonblocking.h"
 #include "Core/EventQueue.h"
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include "Core/Limits.h"
 #include "Core/Modes/InstructionSet.h"
 #include "Core/Modes/ModeBank.h"

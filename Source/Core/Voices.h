@@ -2,7 +2,7 @@
 // Voice pool: voices that sound between two frames and can be faded out together. Shared by the players of
 // recordings and of moving tones.
 #pragma once
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include "Core/CollisionEvent.h"
 #include "Core/Limits.h"
 #include "Core/RenderControl.h"

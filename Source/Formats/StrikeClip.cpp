@@ -2,7 +2,7 @@
 // Converts events to waves: each start or cut of a mode is an edge on a tick; between two edges the sum of a
 // mode's events is one decaying sine.
 #include "Formats/StrikeClip.h"
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/DecayCurve.h"
 #include "Formats/TimeOrder.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Extracts a surface's grains from the recording of a scrape, or from an autoregressive model of one.
 #pragma once
-#include "Contacts/Texture.h"
+#include "Contacts/Grains.h"
 #include "Io/Result.h"
 #include <cstddef>
 #include <vector>

@@ -1,20 +1,33 @@
 // SPDX-License-Identifier: MIT
 // Installs the listener in a world, runs the stages around each step, and restores the world.
 #include "Physics/Attachment.h"
+#include "Contacts/ContactCounts.h"
 #include "Contacts/ContactEvents.h"
-#include "Contacts/Explanations.h"
-#include "Physics/BodySweeps.h"
-#include "Physics/SourceNotes.h"
+#include "Contacts/FixtureTable.h"
 #include "Physics/WorldBodies.h"
 #include "Physics/WorldListener.h"
-#include "Physics/WorldNames.h"
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <utility>
+
+// A look at a world's haptic sources, to explain why they touch nothing.
+
+class b2World;
 
 namespace physvib {
 
+class FixtureTable;
+struct ContactCounts;
+
+/// Notes the sources that are sensors, filtered from every other fixture, disabled or asleep. World thread
+/// (M), not inside a step.
+void noteSources(const b2World& world, const FixtureTable& fixtures, ContactCounts& counts);
+
+} // namespace physvib
+
+namespace physvib {
 namespace {
 
 // A world may call a listener for as long as the program runs.
@@ -163,4 +176,44 @@ std::string Attachment::explain(const OutputFacts* output) {
 
 const ImpactModel& Attachment::impactModel() const noexcept { return parts_->events.impactModel(); }
 
+// Finds haptic sources that Box2D lets touch nothing. It starts from the world's own lists, because a
+// fixture in the table may have been destroyed unseen.
+
+namespace {
+
+// As b2ContactFilter decides.
+bool mayTouch(const b2Filter& a, const b2Filter& b) noexcept {
+    if (a.groupIndex == b.groupIndex && a.groupIndex != 0) return a.groupIndex > 0;
+    return (a.maskBits & b.categoryBits) != 0 && (a.categoryBits & b.maskBits) != 0;
+}
+
+bool isFiltered(const b2World& world, const b2Fixture& source) {
+    bool hasOthers = false;
+    for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+        for (const b2Fixture* f = body->GetFixtureList(); f != nullptr && body != source.GetBody();
+             f = f->GetNext()) {
+            if (mayTouch(source.GetFilterData(), f->GetFilterData())) return false;
+            hasOthers = true;
+        }
+    return hasOthers;
+}
+
+std::optional<EngineNote> noteOf(const b2World& world, const b2Fixture& source) {
+    const b2Body& body = *source.GetBody();
+    if (!body.IsEnabled()) return EngineNote::disabled;
+    if (source.IsSensor()) return EngineNote::sensor;
+    if (isFiltered(world, source)) return EngineNote::filtered;
+    if (body.GetType() != b2_staticBody && !body.IsAwake()) return EngineNote::asleep;
+    return {};
+}
+
+} // namespace
+
+void noteSources(const b2World& world, const FixtureTable& fixtures, ContactCounts& counts) {
+    for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+        for (const b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext())
+            if (const std::int32_t slot = fixtures.find(idOf(*f));
+                slot != FixtureTable::none && fixtures.isCamera(slot))
+                if (const auto note = noteOf(world, *f)) counts.note(*note, fixtures[slot].id);
+}
 } // namespace physvib

@@ -4,7 +4,6 @@
 #include "Contacts/ContactCounts.h"
 #include "Contacts/HapticFixture.h"
 #include "Contacts/ImpactSettings.h"
-#include "Contacts/PairSounds.h"
 #include "Core/CollisionEvent.h"
 #include <box2d/box2d.h>
 #include <cstdint>

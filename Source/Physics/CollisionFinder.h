@@ -3,13 +3,118 @@
 // the impulses between them.
 #pragma once
 #include "Contacts/ContactEvents.h"
-#include "Physics/BodySweeps.h"
-#include "Physics/FreshPoints.h"
+#include "Contacts/IndexMaps.h"
+#include "Contacts/LastingContacts.h"
+#include "Physics/WorldBodies.h"
+#include <algorithm>
+#include <array>
 #include <box2d/box2d.h>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace physvib {
+
+// Detects which points of Box2D's contacts are new: where surfaces that were apart have met.
+
+/// A point is new from when Box2D finds it until the end of the step in which the solver has applied an
+/// impulse there. That may be a later step, for a disabled contact (a one-way platform) or a contact found in
+/// a step of length 0. A point whose id Box2D's manifold keeps is old. Contacts are identified by their
+/// addresses. World thread (M) only.
+class FreshPoints {
+public:
+    FreshPoints() { entries_.reserve(expectedContacts); }
+
+    /// In PreSolve: updates a contact and returns its new points, one bit each. Outside a reported step,
+    /// whose end is not known, a point with an impulse is old at once.
+    unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
+        const b2Manifold& now = *contact.GetManifold();
+        int known = find(contact);
+        if (!isStepping && known >= 0 && entries_[static_cast<std::size_t>(known)].isSolved) {
+            drop(static_cast<std::size_t>(known));
+            known = -1;
+        }
+        if (known < 0 && isSame(before, now)) return 0U; // the usual case
+        // then all of its points are still new
+        const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved;
+        for (int i = 0; i < now.pointCount; ++i) {
+            const std::uint32_t id = now.points[i].id.key;
+            if (!isWaiting && hasPoint(before, id)) continue;
+            if (known < 0) {
+                known = static_cast<int>(entries_.size());
+                entries_.push_back({idOf(contact), {}, 0, false});
+                indices_.set(idOf(contact), known);
+            }
+            Entry& entry = entries_[static_cast<std::size_t>(known)];
+            if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
+                entry.ids[static_cast<std::size_t>(entry.count++)] = id;
+        }
+        return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], now);
+    }
+
+    /// In PostSolve: the same; marks the points as having an impulse.
+    unsigned solved(const b2Contact& contact) noexcept {
+        const int known = find(contact);
+        if (known < 0) return 0U;
+        entries_[static_cast<std::size_t>(known)].isSolved = true;
+        return maskOf(entries_[static_cast<std::size_t>(known)], *contact.GetManifold());
+    }
+
+    /// In EndContact.
+    void forget(const b2Contact& contact) noexcept {
+        if (const int known = find(contact); known >= 0) drop(static_cast<std::size_t>(known));
+    }
+
+    /// Call right after the step: points with an impulse become old.
+    void endStep() noexcept {
+        for (std::size_t i = entries_.size(); i-- > 0;)
+            if (entries_[i].isSolved) drop(i);
+    }
+
+private:
+    static bool hasPoint(const b2Manifold& manifold, std::uint32_t id) noexcept {
+        const auto isIt = [id](const b2ManifoldPoint& point) { return point.id.key == id; };
+        return std::any_of(manifold.points, manifold.points + manifold.pointCount, isIt);
+    }
+    /// True if both have the same points in the same order.
+    static bool isSame(const b2Manifold& before, const b2Manifold& now) noexcept {
+        if (before.pointCount < now.pointCount) return false;
+        for (int i = 0; i < now.pointCount; ++i)
+            if (before.points[i].id.key != now.points[i].id.key) return false;
+        return true;
+    }
+
+    static constexpr std::size_t expectedContacts = 128; // contacts that begin in a step, or are disabled
+
+    struct Entry {
+        std::uint64_t contact;
+        std::array<std::uint32_t, 2 * b2_maxManifoldPoints> ids; // of all solver passes of a step
+        int count;
+        bool isSolved;
+    };
+    int find(const b2Contact& contact) const noexcept {
+        return entries_.empty() ? IntegerMap::none : indices_.find(idOf(contact));
+    }
+    static bool has(const Entry& entry, std::uint32_t id) noexcept {
+        const auto* end = entry.ids.data() + entry.count;
+        return std::find(entry.ids.data(), end, id) != end;
+    }
+    static unsigned maskOf(const Entry& entry, const b2Manifold& manifold) noexcept {
+        unsigned mask = 0;
+        for (int i = 0; i < manifold.pointCount; ++i)
+            mask |= has(entry, manifold.points[i].id.key) ? 1U << i : 0U;
+        return mask;
+    }
+    void drop(std::size_t entry) noexcept {
+        indices_.erase(entries_[entry].contact);
+        entries_[entry] = entries_.back();
+        entries_.pop_back();
+        if (entry < entries_.size()) indices_.set(entries_[entry].contact, static_cast<std::int32_t>(entry));
+    }
+
+    std::vector<Entry> entries_;
+    IntegerMap indices_; // small, to stay in the first-level cache
+};
 
 /// Converts Box2D's contact callbacks to the reports that CollisionCatcher needs. World thread (M) only.
 class CollisionFinder {
@@ -70,5 +175,12 @@ private:
     std::vector<Known> known_;             // contacts that touch
     IntegerMap knownAt_{expectedContacts}; // by contact
 };
+
+// Positions and speeds of Box2D's contact points along the touching surfaces, for rolling and sliding.
+
+/// In PostSolve: reports the points of a contact of two slots to `lasting`, except those in `collisions` (a
+/// bit each), which belong to a collision. World thread (M) only.
+void tellLasting(const b2Contact& contact, const b2WorldManifold& world, const b2ContactImpulse& impulse,
+                 unsigned collisions, std::int32_t a, std::int32_t b, LastingContacts& lasting);
 
 } // namespace physvib

@@ -1,13 +1,164 @@
 // SPDX-License-Identifier: MIT
 // Implements BodyReader for a b2World.
 #pragma once
-#include "Contacts/IntegerMap.h"
-#include "Physics/BodySweeps.h"
-#include "Physics/WorldNames.h"
+#include "Contacts/Impact.h"
+#include "Contacts/IndexMaps.h"
+#include <algorithm>
 #include <array>
+#include <box2d/box2d.h>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace physvib {
+
+// Access to private members of Box2D 2.4 that have no getter: how far a step has advanced a body, and a
+// world's destruction listener.
+
+namespace boxPrivates {
+
+struct Sweep {
+    using Member = b2Sweep b2Body::*;
+    friend Member member(Sweep);
+};
+struct Listener {
+    using Member = b2DestructionListener* b2World::*;
+    friend Member member(Listener);
+};
+template <class Of, typename Of::Member Pointer>
+struct Reveal {
+    friend typename Of::Member member(Of) { return Pointer; }
+};
+// Names in an explicit instantiation are exempt from access control (C++20 [temp.spec]): no cast, no assumed
+// layout.
+template struct Reveal<Sweep, &b2Body::m_sweep>;
+template struct Reveal<Listener, &b2World::m_destructionListener>;
+
+} // namespace boxPrivates
+
+/// 0 to 1: how far Box2D's time-of-impact solver last advanced the body; valid until that solver starts
+/// again. World thread (M).
+inline float advancedPartOf(const b2Body& body) noexcept {
+    return (body.*member(boxPrivates::Sweep{})).alpha0;
+}
+
+/// nullptr if there is none. World thread (M).
+inline b2DestructionListener* destructionListenerOf(b2World& world) noexcept {
+    return world.*member(boxPrivates::Listener{});
+}
+
+// Conversions between Box2D's objects and Contacts: objects to numbers (their addresses), vectors, body
+// properties.
+
+template <class T>
+std::uint64_t idOf(const T& thing) noexcept {
+    return reinterpret_cast<std::uintptr_t>(&thing);
+}
+inline const b2Body& bodyOf(std::uint64_t name) noexcept {
+    return *reinterpret_cast<const b2Body*>(static_cast<std::uintptr_t>(name));
+}
+
+inline Vector2 toVector(b2Vec2 v) noexcept { return {v.x, v.y}; }
+
+inline BodyMotion motionOf(const b2Body& body) noexcept {
+    return {toVector(body.GetLinearVelocity()), body.GetAngularVelocity()};
+}
+
+inline BodyFacts factsOf(const b2Body& body) noexcept {
+    return {idOf(body), body.GetMass(), body.GetGravityScale(), body.GetType() == b2_dynamicBody,
+            body.IsEnabled()};
+}
+
+/// Centre of mass of the fixture alone, in its body's frame.
+inline Vector2 centreOf(const b2Fixture& fixture) {
+    b2MassData mass;
+    fixture.GetMassData(&mass);
+    return toVector(mass.center);
+}
+
+// Body states at the beginning of a step, and how far Box2D has advanced a body when it reports a contact.
+
+/// Contacts of the regular solver are found at the beginning of a step, those of the time-of-impact solver at
+/// the time to which the body has been moved. World thread (M) only.
+class BodySweeps {
+public:
+    /// Call before b2World::Step. Visits each body once (Box2D does so several times) and no fixture.
+    /// Allocates if the world has grown.
+    void beginStep(const b2World& world, double stepSeconds) {
+        lastStepSeconds_ = std::exchange(stepSeconds_, stepSeconds);
+        largestMassKg_ = 0.0;
+        std::size_t count = 0;
+        bool isKnown = true; // usually the bodies and their order are those of the last step
+        for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) {
+            if (body->GetType() == b2_staticBody) continue;
+            isKnown = isKnown && count < sweeps_.size() && sweeps_[count].body == body;
+            const Sweep sweep{body, body->GetWorldCenter(), motionOf(*body)};
+            if (count < sweeps_.size())
+                sweeps_[count] = sweep;
+            else
+                sweeps_.push_back(sweep);
+            ++count;
+            if (body->GetType() == b2_dynamicBody && body->IsEnabled())
+                largestMassKg_ = std::max(largestMassKg_, static_cast<double>(body->GetMass()));
+        }
+        if (isKnown && count == sweeps_.size()) return;
+        sweeps_.erase(sweeps_.begin() + static_cast<std::ptrdiff_t>(count), sweeps_.end());
+        index();
+    }
+
+    double stepSeconds() const noexcept { return stepSeconds_; }
+    /// of the last step; 0: there was none
+    double lastStepSeconds() const noexcept { return lastStepSeconds_; }
+
+    /// The largest mass of an enabled dynamic body, kg (m_max of Eq. 5.7).
+    double largestMassKg() const noexcept { return largestMassKg_; }
+
+    /// In BeginContact, PreSolve and EndContact: how far this body has been advanced, 0 (start) to 1 (end of
+    /// the step).
+    double fraction(const b2Body& body) const noexcept {
+        const Sweep* sweep = find(body);
+        // otherwise Box2D's value is from an earlier step
+        const bool hasMoved = sweep != nullptr && body.GetWorldCenter() != sweep->centre;
+        return hasMoved ? static_cast<double>(advancedPartOf(body)) : 0.0;
+    }
+
+    /// Hash of a world's list of bodies and their order (different lists collide with a probability of
+    /// 2^-64).
+    static std::uint64_t censusOf(const b2World& world) noexcept {
+        std::uint64_t sum = static_cast<std::uint64_t>(world.GetBodyCount()) + 1; // never 0
+        for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+            sum = (sum ^ idOf(*body)) * 0x9E3779B97F4A7C15U;
+        return sum;
+    }
+
+    /// Velocity before the step; for a body that was created later, its present one.
+    BodyMotion start(const b2Body& body) const noexcept {
+        const Sweep* sweep = find(body);
+        return sweep == nullptr ? motionOf(body) : sweep->start;
+    }
+
+private:
+    struct Sweep {
+        const b2Body* body; // used as an address only
+        b2Vec2 centre;
+        BodyMotion start;
+    };
+    const Sweep* find(const b2Body& body) const noexcept {
+        const std::int32_t i = indices_.find(idOf(body));
+        return i == IntegerMap::none ? nullptr : &sweeps_[static_cast<std::size_t>(i)];
+    }
+    void index() {
+        indices_.clear();
+        for (std::size_t i = 0; i < sweeps_.size(); ++i)
+            indices_.set(idOf(*sweeps_[i].body), static_cast<std::int32_t>(i));
+    }
+
+    double stepSeconds_ = 0.0, lastStepSeconds_ = 0.0;
+    double largestMassKg_ = 0.0;
+    std::vector<Sweep> sweeps_; // of bodies that are not static
+    IntegerMap indices_;        // indices into sweeps_, by body
+};
 
 /// Bodies are identified by their addresses. Box2D has no callback for a body whose fixtures were destroyed
 /// before it, so a stored address may be invalid; it is looked up in the world's list before it is

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Box2D listener that is one link in a chain of listeners.
 #include "Physics/WorldListener.h"
-#include "Physics/BoxPrivates.h"
+#include "Physics/WorldBodies.h"
 #include <typeinfo>
 #include <utility>
 

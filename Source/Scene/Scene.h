@@ -2,8 +2,8 @@
 // Description of a physics scene as plain data: the simulation is built from it and pictures are drawn from
 // it. Independent of Box2D.
 #pragma once
-#include "Contacts/Texture.h"
-#include "Contacts/Voice.h"
+#include "Contacts/Grains.h"
+#include "Contacts/HapticFixture.h"
 #include <algorithm>
 #include <optional>
 #include <string>

@@ -6,7 +6,7 @@
 // (Core/MovingTones.h).
 #pragma once
 #include "Core/CollisionEvent.h"
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

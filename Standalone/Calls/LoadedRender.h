@@ -9,7 +9,6 @@
 #include "Io/Disk/Embedded.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/SessionFile.h"
-#include "Live/Recordings/LoadContact.h"
 #include "Live/Recordings/LoadRecordings.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/LayoutNamed.h"

@@ -6,7 +6,7 @@
 #include "Core/PanningLaws.h"
 #include "Core/EventShaping.h"
 #include "Live/Session/OnsetMarks.h"
-#include "Live/Session/Patience.h"
+#include "Live/Session/OfflineRender.h"
 #include "Scene/FieldSize.h"
 #include "Scene/SceneFile.h"
 #include "Scene/World/RunSettings.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Audio devices of this machine, for the list of `devices` and the suggestion of `play`.
 #pragma once
-#include "Live/Devices/AudioDevices.h"
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AudioDevice.h"
 #include <ostream>
 #include <string>
 #include <vector>

@@ -17,7 +17,6 @@
 #include "Lab/Study/StudyPlan.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
-#include "Live/Session/StimulusRender.h"
 #include "Scene/LayoutNamed.h"
 #include "Studies/StudyCalls.h"
 #include "Studies/StudyRules.h"

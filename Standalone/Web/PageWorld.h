@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A running scene and its haptic output, on the thread that renders the audio.
 #pragma once
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include "Core/ControlQueue.h"
 #include "Core/HapticRenderer.h"
 #include "Core/PanningLaws.h"

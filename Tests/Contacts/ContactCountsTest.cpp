@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Counts in words: `--explain` promises these lines.
 #include "Contacts/ContactCounts.h"
-#include "Contacts/Explanations.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Order, release and overflow of events that wait for their turn.
-#include "Contacts/EventSorter.h"
+#include "Contacts/EventMaker.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The impulse of full scale, told and learned, and the time in which a world settles: hits of known impulses.
-#include "Contacts/FullScale.h"
+#include "Contacts/EventMaker.h"
 #include "Contacts/ContactFeed.h"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The map against std::map, with keys that collide.
-#include "Contacts/IntegerMap.h"
+#include "Contacts/IndexMaps.h"
 #include <gtest/gtest.h>
 #include <map>
 #include <random>

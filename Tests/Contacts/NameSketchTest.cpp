@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A sketch of a set of names: no is certain, and yes is rare of what is not there.
-#include "Contacts/NameSketch.h"
+#include "Contacts/IndexMaps.h"
 #include "Contacts/FixtureTable.h"
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // FrameClock: exact frames and leads at every rate.
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include "Core/Limits.h"
 #include <gtest/gtest.h>
 #include <random>

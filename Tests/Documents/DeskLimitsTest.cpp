@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A file's mix on a desk that allows less: nothing gets louder, and all that was lowered is told.
-#include "Live/Documents/DeskLimits.h"
+#include "Live/Documents/Mix.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lanes are lines between points, bounded as faders are; groups act on their strips, and nothing that a file
 // brings is louder.
-#include "Live/Documents/DeskLimits.h"
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The law of grains in session files.
 #include "Io/Json/JsonField.h"
-#include "Live/Documents/ControlJson.h"
+#include "Live/Documents/DocumentJson.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

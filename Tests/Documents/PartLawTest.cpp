@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The law of parts of the body in session files: what is rendered again is panned as it was live.
 #include "Io/Json/JsonField.h"
-#include "Live/Documents/ControlJson.h"
+#include "Live/Documents/DocumentJson.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

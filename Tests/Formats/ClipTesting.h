@@ -2,7 +2,7 @@
 // Strikes on enchanters, their samples by the closed form, and how far two sounds are apart.
 #pragma once
 #include "Core/CollisionEvent.h"
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include "Core/PhantomPanner.h"
 #include "Formats/ClipSound.h"
 #include "Formats/StrikeClip.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of what reads sounds: our head of them, and libsndfile behind it.
 #include "Fuzzing.h"
-#include "Live/Recordings/DecodeSound.h"
+#include "Live/Recordings/ReadRecording.h"
 #include <algorithm>
 #include <memory>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A device that asks for nothing has gone; a program that did not look has not lost one.
-#include "Live/Devices/DeviceWatch.h"
+#include "Live/Devices/DeviceMeters.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // One rig from its beginning to its end: what it plays, keeps and says.
 #include "Live/Rig/Rig.h"
 #include "Live/Devices/NoDevice.h"
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Documents/SessionFile.h"
 #include "MessageLoop.h"
 #include "Session/FakeHost.h"

@@ -2,10 +2,9 @@
 // Recorded contacts: at a level that is known, in a live session, and in the session that is rendered again
 // from its file.
 #include "Io/Wav/WavSink.h"
-#include "Live/Recordings/LoadContact.h"
 #include "Live/Recordings/LoadRecordings.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Live/Recordings/SessionWav.h"
+#include "Live/Recordings/Recording.h"
 #include "Live/Session/SessionJournal.h"
 #include "Session/FakeHost.h"
 #include <cmath>

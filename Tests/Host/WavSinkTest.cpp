@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Io/Wav/WavSink.h"
-#include "Live/Recordings/PlayedRecorder.h"
+#include "Live/Recordings/Recording.h"
 #include "Support/FileTesting.h"
 #include "Support/FullDisk.h"
 #include "Support/ReadWav.h"

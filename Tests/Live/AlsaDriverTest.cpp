@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Devices of ALSA without hardware: null devices that write to files what a sound card would get.
-#include "Live/Devices/AlsaDriver.h"
+#include "Live/Devices/AlsaDevice.h"
 #include "DeviceNoise.h"
-#include "Live/Devices/AudioDevices.h"
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AudioDevice.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -2,7 +2,7 @@
 // What tests of devices play: samples that nothing may change, not even denormals and those beyond full
 // scale.
 #pragma once
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AudioDevice.h"
 #include <atomic>
 #include <bit>
 #include <chrono>

@@ -4,7 +4,7 @@
 // what was played is what the log renders. Usage: physvib-direct-meter MESSAGES
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/SimulationDriver.h"
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Live/Session/SessionRender.h"
 #include "MeterClient.h"

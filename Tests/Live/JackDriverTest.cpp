@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Devices of a JACK server: samples at the ports, and connections.
 #include "JackDriverFixture.h"
-#include "Live/Devices/AudioDevices.h"
+#include "Live/Devices/AudioDevice.h"
 #include "PortRecorder.h"
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A JACK server without hardware for one test, which may kill it and start it again.
 #pragma once
-#include "Live/Devices/JackClient.h"
+#include "Live/Devices/JackDevice.h"
 #include <chrono>
 #include <csignal>
 #include <cstdlib>

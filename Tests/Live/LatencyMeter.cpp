@@ -3,9 +3,8 @@
 // same process a client that records what it plays and notes which frame of the session each cycle is. Prints
 // a row of a table. Usage: physvib-latency-meter message|thread SECONDS
 #include "Live/Devices/AudioOutput.h"
-#include "Live/Devices/RepeatEvery.h"
 #include "Live/Devices/SimulationDriver.h"
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AudioDevice.h"
 #include "MeterClient.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/World/RunSettings.h"

@@ -2,7 +2,7 @@
 // Drawing by mouse and keys, and the first start, in the mixer's view: what they do is in the world, in the
 // saved session, and comes back by undo.
 #include "Host/FakeAudioDevice.h"
-#include "Live/Devices/LikelyDevices.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/PicoDevice.h"
 #include "Mixer/Desk/PaceWatch.h"
 #include "Mixer/Window/FirstStart.h"

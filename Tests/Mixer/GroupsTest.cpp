@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Groups at the desk and in its window: what they do to strips, how they are named, shown and taken back.
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include "MixerTesting.h"
 
 namespace physvib {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Gain lanes in the mixer's window: points are added, moved and taken away by pointer and keys.
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include "Mixer/Strips/LanesTab.h"
 #include "MixerTesting.h"
 

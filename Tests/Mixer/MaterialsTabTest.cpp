@@ -4,7 +4,7 @@
 #include "Io/Wav/WavSink.h"
 #include "Live/Documents/SessionFile.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Live/Recordings/SessionWav.h"
+#include "Live/Recordings/Recording.h"
 #include "Mixer/Knock.h"
 #include "MixerTesting.h"
 #include "Support/WriteSound.h"

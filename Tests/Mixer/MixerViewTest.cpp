@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window's components without a display: names and the keyboard for every control, sizes, looks, and what
 // clicks do.
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include "MixerTesting.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/World/BodyMass.h"

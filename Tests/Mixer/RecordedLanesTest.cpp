@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Faders that are moved while the desk records become lanes, which play and are taken back.
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include "MixerTesting.h"
 
 namespace physvib {

@@ -4,7 +4,7 @@
 #pragma once
 #include "Host/Osc/OscDoor.h"
 #include "Io/Json/StrictJson.h"
-#include "Live/Documents/ControlJson.h"
+#include "Live/Documents/DocumentJson.h"
 #include "Scene/SceneFields.h"
 #include "Support/ClosedForm.h"
 #include <bit>

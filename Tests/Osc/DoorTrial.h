@@ -4,7 +4,7 @@
 #pragma once
 #include "../Fuzz/SessionFuzzing.h"
 #include "Host/Osc/OscDoor.h"
-#include "Live/Session/MuteRequests.h"
+#include "Live/Session/OutputClock.h"
 #include <algorithm>
 #include <stdexcept>
 

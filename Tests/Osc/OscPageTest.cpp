@@ -3,7 +3,7 @@
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Documents/ControlJson.h"
+#include "Live/Documents/DocumentJson.h"
 #include "Scene/SceneFields.h"
 #include "TestPlaces.h"
 #include <functional>

@@ -2,7 +2,6 @@
 // A game controller of SDL's own making, which notes what its motors are told: a judge without hardware.
 #pragma once
 #include "Live/Pads/GamePads.h"
-#include "Live/Pads/SdlLibrary.h"
 #include "Live/Pads/SharedLibrary.h"
 #include <chrono>
 #include <mutex>

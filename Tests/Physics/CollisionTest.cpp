@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A collision is what goes beyond load: what must be felt, and what must not, with the figures of a pencil.
 #include "AttachedWorld.h"
-#include "Contacts/OnsetImpacts.h"
+#include "Contacts/ImpactTimings.h"
 #include <algorithm>
 #include <numeric>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hits handed on through rows and stacks of touching bodies, against the bodies' own change of momentum.
-#include "Contacts/OnsetImpacts.h"
+#include "Contacts/ImpactTimings.h"
 #include "AttachedWorld.h"
 #include <algorithm>
 

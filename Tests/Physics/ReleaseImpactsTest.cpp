@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The thesis' timing against the solver's impulses and against Eq. 5.2 and 5.3 by hand.
-#include "Contacts/ReleaseImpacts.h"
+#include "Contacts/ImpactTimings.h"
 #include "AttachedWorld.h"
 
 namespace physvib {

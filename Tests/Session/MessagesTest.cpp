@@ -5,7 +5,6 @@
 #include "Io/Text/NameList.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Documents/SessionFile.h"
-#include "Live/Documents/SessionJournalText.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Live/Messages/MessageStrikes.h"
 #include "Live/Session/SessionRender.h"

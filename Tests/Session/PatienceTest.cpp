@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a world is given up for is the processor's time, not that of the day.
-#include "Live/Session/Patience.h"
+#include "Live/Session/OfflineRender.h"
 #include <chrono>
 #include <gtest/gtest.h>
 #include <thread>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SessionClock: calls that come late, a crystal that drifts, a device that pauses.
-#include "Live/Session/SessionClock.h"
+#include "Live/Session/OutputClock.h"
 #include <gtest/gtest.h>
 #include <random>
 

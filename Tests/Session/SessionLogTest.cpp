@@ -4,7 +4,6 @@
 #include "FakeHost.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Documents/SessionFile.h"
-#include "Live/Documents/SessionJournalText.h"
 #include "Live/Session/OfflineRender.h"
 #include "Live/Session/Session.h"
 #include <atomic>

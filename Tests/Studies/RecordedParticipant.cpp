@@ -3,7 +3,7 @@
 // mixer's window, on a real device at a master level of 0 dB: feels each part of each trial to its end (where
 // there are hands: drags and tilts for as long as asked), answers anything.
 #include "Host/Devices/HostDrivers.h"
-#include "Live/Devices/AudioDevices.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Participant.h"
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // C functions for version, errors, defaults of structures, layouts, event lists, WAV files and offline
 // rendering.
 #include "Api/C/Convert.h"
-#include "Contacts/Texture.h"
+#include "Contacts/Grains.h"
 #include "Core/HapticRenderer.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NameList.h"

@@ -2,7 +2,7 @@
 // C functions of a renderer: queue events and changes, render samples.
 #include "Api/C/Convert.h"
 #include "Api/C/Objects.h"
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 
 using namespace physvib;
 using namespace physvib::api;

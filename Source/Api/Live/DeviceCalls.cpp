@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // physvib_live_devices: what can be opened.
 #include "Api/Live/Lives.h"
-#include "Live/Devices/AudioDevices.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/SinkTable.h"
-#include "Live/Devices/SystemDrivers.h"
 #include <algorithm>
 #include <cstring>
 

@@ -2,8 +2,8 @@
 // The message thread of the live library, which owns the device.
 #include "Api/Live/Live.h"
 #include "Live/Devices/NoDevice.h"
-#include "Live/Devices/RepeatEvery.h"
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/SimulationDriver.h"
+#include "Live/Devices/AudioDevice.h"
 #include <utility>
 
 namespace physvib::api {

@@ -9,7 +9,7 @@
 // frame from these integers. With vector instructions ModeTiles renders whole tiles; otherwise the scalar
 // kernel sums sample by sample.
 #pragma once
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include "Core/CollisionEvent.h"
 #include "Core/Modes/ModeTiles.h"
 #include "Core/Storage.h"

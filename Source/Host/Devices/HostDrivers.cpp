@@ -3,7 +3,7 @@
 // linked.
 #include "Host/Devices/HostDrivers.h"
 #if !JUCE_MODULE_AVAILABLE_juce_audio_devices
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AudioDevice.h"
 
 namespace physvib {
 

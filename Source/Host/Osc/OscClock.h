@@ -2,7 +2,7 @@
 // Converts between OSC time tags (the sender's clock) and session time.
 #pragma once
 #include "Host/Osc/OscPacket.h"
-#include "Live/Session/SessionClock.h"
+#include "Live/Session/OutputClock.h"
 #include <cstdint>
 
 namespace physvib {

@@ -3,7 +3,7 @@
 // does that only for its own sockets.
 #pragma once
 #include "Io/Result.h"
-#include "Live/Documents/PlainMessage.h"
+#include "Live/Documents/InputLine.h"
 #include <cstdint>
 #include <initializer_list>
 #include <span>

@@ -5,7 +5,7 @@
 #include "Host/Osc/OscDoor.h"
 #include "Host/Osc/OscReplies.h"
 #include "Host/Osc/OscSocket.h"
-#include "Live/Session/InputQueue.h"
+#include "Live/Session/Input.h"
 #include "Live/Session/OutputClock.h"
 #include "Live/Session/Sink.h"
 #include <atomic>

@@ -2,9 +2,10 @@
 // Plays on an ALSA device.
 #include "Live/Devices/AlsaDevice.h"
 #include <algorithm>
+#include <cstdlib>
+#include <map>
 
 namespace physvib {
-
 AlsaDevice::AlsaDevice(const AlsaLibrary& alsa, std::string name, const std::string& outputId,
                        const std::string& inputId)
     : name_{std::move(name)}
@@ -120,6 +121,125 @@ void AlsaDevice::run() noexcept {
         out_.join();
         if (!moveAll(out_)) return;
     }
+}
+
+// Reads ALSA's list of devices.
+
+namespace {
+
+// Variants of devices that are listed anyway, and what plays nowhere.
+bool isLeftOut(const std::string& id) {
+    return id.empty() || id == "null" || id.starts_with("default:") || id.starts_with("sysdefault:") ||
+           id.starts_with("plughw:");
+}
+
+std::string inOneLine(const std::string& text) {
+    std::string line;
+    for (const char c : text) line += c == '\n' ? std::string{"; "} : std::string{c};
+    return line;
+}
+
+} // namespace
+
+std::string AlsaDriver::hintText(const void* hint, const char* kind) const {
+    char* const text = alsa_.device_name_get_hint(hint, kind);
+    std::string found = text != nullptr ? text : "";
+    std::free(text);
+    return found;
+}
+
+std::string AlsaDriver::configText(snd_config_t* node) const {
+    const char* text = nullptr;
+    return alsa_.config_get_string(node, &text) >= 0 && text != nullptr ? text : "";
+}
+
+// A plug-in names the next one, or has its definition inside of its own.
+std::string AlsaDriver::endOf(const std::string& id, int mostPlugins) const {
+    snd_config_t *all = nullptr, *definition = nullptr;
+    if (mostPlugins < 1 || alsa_.config_update_ref(&all) < 0) return {};
+    std::string end, next;
+    if (alsa_.config_search_definition(all, "pcm", id.c_str(), &definition) >= 0) {
+        const auto in = [this](snd_config_t* node, std::initializer_list<const char*> keys) {
+            snd_config_t* found = nullptr;
+            for (const char* key : keys)
+                if (found == nullptr && alsa_.config_search(node, key, &found) < 0) found = nullptr;
+            return found;
+        };
+        for (auto* node = definition; node != nullptr && next.empty();) {
+            if (auto* const type = in(node, {"type"})) end = configText(type);
+            node = in(node, {"slave.pcm", "playback.pcm", "slave"});
+            if (node != nullptr) next = configText(node);
+        }
+        alsa_.config_delete(definition);
+    }
+    alsa_.config_unref(all);
+    const std::string further = next.empty() ? std::string{} : endOf(next, mostPlugins - 1);
+    return further.empty() ? end : further;
+}
+
+void AlsaDriver::addHint(const void* hint) {
+    const std::string id = hintText(hint, "NAME"), direction = hintText(hint, "IOID");
+    if (isLeftOut(id)) return;
+    const std::string end = endOf(id);
+    if (end == "jack") return;
+    std::string name = inOneLine(hintText(hint, "DESC"));
+    if (name.empty()) name = id;
+    // ALSA says of dmix and dsnoop that they have both directions, but they have one each.
+    if (direction != "Output" && !id.starts_with("dmix")) inputs_.push_back({id, name, end});
+    if (direction != "Input" && !id.starts_with("dsnoop")) outputs_.push_back({id, name, end});
+}
+
+void AlsaDriver::addUnlisted(const std::string& id, const std::string& name) {
+    if (std::ranges::find(outputs_, id, &Listed::id) != outputs_.end()) return;
+    const std::string end = endOf(id);
+    if (end == "jack") return;
+    const auto offers = [&](snd_pcm_stream_t direction) {
+        const AlsaRange range = AlsaPcm{alsa_, id, direction}.range();
+        return range.maxChannels > 0 && range.rateHz > 0;
+    };
+    if (offers(SND_PCM_STREAM_PLAYBACK)) outputs_.push_back({id, name + " output", end});
+    if (offers(SND_PCM_STREAM_CAPTURE)) inputs_.push_back({id, name + " input", end});
+}
+
+void AlsaDriver::scan() {
+    inputs_.clear();
+    outputs_.clear();
+    void** hints = nullptr;
+    if (alsa_.device_name_hint(-1, "pcm", &hints) == 0) {
+        for (void** hint = hints; *hint != nullptr; ++hint) addHint(*hint);
+        alsa_.device_name_free_hint(hints);
+    }
+    addUnlisted("default", "Default ALSA");
+    addUnlisted("pulse", "Pulseaudio");
+    for (List* list : {&inputs_, &outputs_}) {
+        const auto rank = [](const Listed& l) { return l.id == "default" ? 0 : l.id == "pulse" ? 1 : 2; };
+        std::ranges::stable_sort(*list, {}, rank);
+        std::map<std::string, int> total, seen;
+        for (const Listed& l : *list) ++total[l.name];
+        for (Listed& l : *list)
+            if (const std::string name = l.name; total[name] > 1)
+                l.name += " (" + std::to_string(++seen[name]) + ")";
+    }
+}
+
+std::vector<std::string> AlsaDriver::deviceNames(bool inputs) {
+    std::vector<std::string> names;
+    const bool withPulse = !isJackThere_();
+    for (const Listed& l : inputs ? inputs_ : outputs_)
+        if (withPulse || l.end != "pulse") names.push_back(l.name);
+    return names;
+}
+
+std::string AlsaDriver::idOf(const List& list, const std::string& name) {
+    const auto at = std::ranges::find(list, name, &Listed::name);
+    return at != list.end() ? at->id : "";
+}
+
+std::unique_ptr<AudioDevice> AlsaDriver::create(const std::string& name, bool withInputs) {
+    const std::string id = idOf(outputs_, name);
+    if (id.empty()) return nullptr;
+    auto device = std::make_unique<AlsaDevice>(alsa_, name, id, withInputs ? idOf(inputs_, name) : "");
+    return device->isThere() ? std::move(device) : nullptr;
 }
 
 } // namespace physvib

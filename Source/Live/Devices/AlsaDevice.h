@@ -1,12 +1,106 @@
 // SPDX-License-Identifier: MIT
 // A device of ALSA: a thread that asks for blocks as fast as the device takes them.
 #pragma once
-#include "Live/Devices/AlsaPcm.h"
-#include "Live/Devices/UserSlot.h"
+#include "Live/Devices/AudioDevice.h"
+#include <alsa/asoundlib.h>
 #include <atomic>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace physvib {
+
+// Loads ALSA's library (LGPL) at run time, when devices are first looked for.
+
+// clang-format off: one list, not a staircase
+#define PHYSVIB_ALSA_FUNCTIONS(use)                                                                          \
+    use(lib_error_set_handler) use(strerror) use(device_name_hint) use(device_name_get_hint)                 \
+        use(device_name_free_hint) use(config_update_ref) use(config_unref) use(config_search) use(          \
+            config_search_definition) use(config_get_string) use(config_delete) use(pcm_open) use(pcm_close) \
+            use(pcm_hw_params_sizeof) use(pcm_hw_params_any) use(pcm_hw_params_get_channels_min) use(        \
+                pcm_hw_params_get_channels_max) use(pcm_hw_params_test_rate) use(pcm_hw_params_test_format)  \
+                use(pcm_hw_params_set_access) use(pcm_hw_params_set_format) use(pcm_hw_params_set_rate_near) \
+                    use(pcm_hw_params_set_channels) use(pcm_hw_params_set_periods_near)                      \
+                        use(pcm_hw_params_set_period_size_near) use(pcm_hw_params)                           \
+                            use(pcm_hw_params_get_buffer_size) use(pcm_hw_params_get_period_size)            \
+                                use(pcm_hw_params_get_periods) use(pcm_sw_params_sizeof)                     \
+                                    use(pcm_sw_params_current) use(pcm_sw_params_get_boundary)               \
+                                        use(pcm_sw_params_set_silence_threshold)                             \
+                                            use(pcm_sw_params_set_silence_size)                              \
+                                                use(pcm_sw_params_set_start_threshold)                       \
+                                                    use(pcm_sw_params_set_stop_threshold) use(pcm_sw_params) \
+                                                        use(pcm_prepare) use(pcm_start) use(pcm_wait)        \
+                                                            use(pcm_avail_update) use(pcm_writei)            \
+                                                                use(pcm_readi) use(pcm_recover)
+// clang-format on
+
+struct AlsaLibrary {
+#define PHYSVIB_ALSA_MEMBER(name) decltype(&::snd_##name) name = nullptr;
+    PHYSVIB_ALSA_FUNCTIONS(PHYSVIB_ALSA_MEMBER)
+#undef PHYSVIB_ALSA_MEMBER
+};
+
+/// Loads ALSA at the first call, for the life of the process, and keeps it from printing. Null: it is missing
+/// or too old. Any thread.
+const AlsaLibrary* alsaLibrary();
+
+// One direction of an ALSA device: its parameters, and interleaved samples to or from it.
+
+/// What a device offers in one direction; no channels if it cannot be asked.
+struct AlsaRange {
+    int minChannels = 0, maxChannels = 0;
+    bool isMissing = false; ///< it cannot be opened, and not because another program has it or because of
+                            ///< rights
+    int rateHz = 0;         ///< the first usual rate from 44.1 kHz on that it has; 0: none
+};
+
+class AlsaPcm {
+public:
+    AlsaPcm(const AlsaLibrary& alsa, std::string id, snd_pcm_stream_t direction)
+        : alsa_{alsa}
+        , id_{std::move(id)}
+        , direction_{direction} {}
+    ~AlsaPcm() { close(); }
+    AlsaPcm(const AlsaPcm&) = delete;
+    AlsaPcm& operator=(const AlsaPcm&) = delete;
+
+    /// Opens the device for a moment. M; may wait for the driver.
+    AlsaRange range() const;
+
+    /// Near `rateHz` and `blockFrames`, which become what the device chose; floats, which ALSA converts where
+    /// the device has other samples. Returns empty or one line. M; may wait for the driver.
+    std::string open(int channels, int& rateHz, int& blockFrames);
+    void close();
+    bool isOpen() const noexcept { return pcm_ != nullptr; }
+    bool hasName() const noexcept { return !id_.empty(); }
+    int channels() const noexcept { return channels_; }
+    int latencyFrames() const noexcept { return latencyFrames_; }
+
+    /// Starts recording; playing starts with the first block. Device thread.
+    void begin();
+
+    enum class Moved { some, none, failed };
+    /// Moves interleaved `frames` after waiting at most 100 ms; returns how many in `done`. Device thread.
+    Moved move(float* samples, int frames, int& done) noexcept;
+    int xruns() const noexcept { return xruns_; } ///< any thread
+
+private:
+    int openAs(const std::string& id);
+    std::string configure(int channels, int& rateHz, int& blockFrames);
+    int chooseHardware(int channels, unsigned int& rateHz, snd_pcm_uframes_t& periodFrames);
+    int chooseSoftware(snd_pcm_uframes_t periodFrames);
+    bool hasFloats() const;
+    void countGap() noexcept;
+
+    const AlsaLibrary& alsa_;
+    const std::string id_;
+    const snd_pcm_stream_t direction_;
+    snd_pcm_t* pcm_ = nullptr;
+    int channels_ = 0, latencyFrames_ = 0;
+    snd_pcm_uframes_t bufferFrames_ = 0;
+    std::atomic<int> xruns_{0};
+    bool isLate_ = false; // since the last block that came in time
+};
 
 /// One name of ALSA's for output and input. It is opened by that name, so a device that was plugged in while
 /// others play is found.
@@ -62,6 +156,43 @@ private:
     std::thread thread_;
     std::atomic<bool> isEnding_{false}, hasFailed_{false};
     int rateHz_ = 0, blockFrames_ = 0;
+};
+
+// Lists ALSA's devices: those that `aplay -L` lists, by their descriptions.
+
+/// "ALSA". A scan opens no device but "default" and "pulse", and these only if ALSA does not list them. A
+/// description that several devices have gets a number: "Audio (1)", "Audio (2)". What ends in JACK is left
+/// out: a second client of the server in this process, which outlives it and is used when JACK has freed it.
+class AlsaDriver final : public AudioDriver {
+public:
+    /// `isJackThere`: a JACK server runs. What ends in PulseAudio is then created by its name, but not
+    /// listed.
+    AlsaDriver(const AlsaLibrary& alsa, bool (*isJackThere)())
+        : alsa_{alsa}
+        , isJackThere_{isJackThere} {}
+    std::string name() const override { return "ALSA"; }
+    void scan() override;
+    std::vector<std::string> deviceNames(bool inputs) override;
+    std::unique_ptr<AudioDevice> create(const std::string& name, bool withInputs) override;
+
+private:
+    struct Listed {
+        std::string id, name, end; // see endOf()
+    };
+    using List = std::vector<Listed>;
+
+    void addHint(const void* hint);
+    /// The type of the last in a device's chain of plug-ins: "hw", "jack", "pulse"; empty: not known. Opens
+    /// no device. A chain may be a circle.
+    std::string endOf(const std::string& id, int mostPlugins = 16) const;
+    std::string configText(snd_config_t* node) const;
+    void addUnlisted(const std::string& id, const std::string& name);
+    std::string hintText(const void* hint, const char* kind) const;
+    static std::string idOf(const List& list, const std::string& name);
+
+    const AlsaLibrary& alsa_;
+    bool (*isJackThere_)();
+    List inputs_, outputs_;
 };
 
 } // namespace physvib

@@ -2,14 +2,17 @@
 // Audio devices and their drivers, as this project uses them: the interface between the output and a library
 // of devices.
 #pragma once
+#include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 namespace physvib {
-
 /// Channels of a device, from 0.
 using ChannelSet = std::set<int>;
 
@@ -74,5 +77,86 @@ public:
 
 /// Creates the drivers to search; they have not been scanned yet.
 using AudioDrivers = std::function<std::vector<std::unique_ptr<AudioDriver>>()>;
+
+// Hands blocks of a device to whoever has started it, and ends that without a lock in the render thread.
+
+class UserSlot {
+public:
+    /// Blocks go to `user` from now on. M.
+    void begin(AudioDevice& device, DeviceUser& user) {
+        user.aboutToStart(device);
+        user_ = &user;
+    }
+
+    /// Returns the user, if any, when the render thread has left its last block. M.
+    DeviceUser* end() noexcept {
+        DeviceUser* const user = user_.exchange(nullptr);
+        while (calls_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds{1}); // at most for one block
+        return user;
+    }
+
+    /// Calls `words` with the user, or with null if nobody has started the device; end() returns after it.
+    /// R, wait-free if `words` is.
+    template <class Words>
+    void call(const Words& words) noexcept {
+        ++calls_; // sequentially consistent, as user_: either this call sees the end, or end() sees this call
+        words(user_.load());
+        --calls_;
+    }
+
+private:
+    std::atomic<DeviceUser*> user_{nullptr};
+    std::atomic<int> calls_{0};
+};
+
+// Lists the audio output devices of drivers, and finds one of them by its name.
+
+/// One output device of one driver.
+struct AudioDeviceName {
+    std::string type; ///< "ALSA", "JACK", "CoreAudio"...
+    std::string name;
+    int channels = 0; ///< number of outputs; 0 if the driver could not be queried
+};
+
+/// All output devices that can be opened, or that another program has. M; scans the drivers, which takes a
+/// while.
+std::vector<AudioDeviceName> listAudioDevices(const AudioDrivers& drivers);
+
+/// A device that is not open yet, and its driver, which must outlive the device.
+struct FoundDevice {
+    std::unique_ptr<AudioDriver> driver;
+    std::unique_ptr<AudioDevice> device;
+
+    /// "driver:name": identifies this device and no other.
+    std::string fullName() const { return driver->name() + ":" + device->name(); }
+};
+
+/// The device with that name or driver:name, or the first Pico for `pico`; empty if there is none.
+/// `withInputs`: opens inputs of the same name too, if there are any. M; scans drivers only until it finds
+/// the device.
+FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& name, bool withInputs = false);
+
+/// The layout preset of the Pico with that name, or of the one that `pico` finds: "pico4", "pico8"; empty:
+/// that is no Pico. M; scans drivers for `pico` alone.
+std::string picoLayout(const AudioDrivers& drivers, const std::string& name);
+
+// Guesses which audio device the actuators are connected to.
+
+/// Number of outputs that reach the hardware one to one. A device that mixes for a sound server counts as
+/// two at most, whatever it reports. Any thread.
+int ownOutputs(const AudioDeviceName& device);
+
+/// Sorted by likelihood: many outputs before few, a Pico and a running JACK server before other devices,
+/// displays and "no device" last. Any thread.
+std::vector<AudioDeviceName> byLikelihood(std::vector<AudioDeviceName> devices);
+
+/// The layout preset for that many outputs, at most four; a Pico's own ones for its four or eight. Any
+/// thread.
+const char* layoutFor(int outputs, std::string_view device = {});
+
+// The audio drivers of this system.
+
+/// In the order in which names are searched. M.
+std::vector<std::unique_ptr<AudioDriver>> systemAudioDrivers();
 
 } // namespace physvib

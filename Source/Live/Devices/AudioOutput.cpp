@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opens, feeds and supervises the audio device that plays a session on the actuators.
 #include "Live/Devices/AudioOutput.h"
-#include "Live/Devices/InputTap.h"
+#include "Live/Devices/Taps.h"
 #include "Live/Devices/PicoDevice.h"
 #include <algorithm>
 #include <array>

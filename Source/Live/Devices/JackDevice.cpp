@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Plays on the ports of another JACK client.
 #include "Live/Devices/JackDevice.h"
+#include "Live/Pads/SharedLibrary.h"
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <initializer_list>
+#include <utility>
 
 namespace physvib {
-
 JackDevice::JackDevice(const JackLibrary& jack, std::string name, bool withInputs)
     : jack_{jack}
     , name_{std::move(name)}
@@ -124,6 +129,150 @@ int JackDevice::deviceLatencyFrames() {
         if (others != nullptr) jack_.free(static_cast<void*>(others));
     }
     return static_cast<int>(longest);
+}
+
+// Loads all of JACK's functions, or none.
+
+namespace {
+
+struct LoadedJack {
+    JackLibrary jack;
+    bool isWhole = true;
+};
+
+LoadedJack loadJack() {
+    LoadedJack loaded;
+    void* library = nullptr;
+    for (const char* name : {"libjack.so.0", "libjack64.dll", "libjack.0.dylib"})
+        if (library == nullptr) library = openLibrary(name);
+    if (library == nullptr) return {{}, false};
+#define PHYSVIB_JACK_FIND(name)                                                                              \
+    loaded.jack.name = reinterpret_cast<decltype(loaded.jack.name)>(functionIn(library, "jack_" #name));     \
+    loaded.isWhole = loaded.isWhole && loaded.jack.name != nullptr;
+    PHYSVIB_JACK_FUNCTIONS(PHYSVIB_JACK_FIND)
+#undef PHYSVIB_JACK_FIND
+    if (!loaded.isWhole) return loaded;
+    // Without a running server, JACK prints five lines to stderr for each query. The caller says it in one.
+    loaded.jack.set_error_function([](const char*) {});
+    loaded.jack.set_info_function([](const char*) {});
+    return loaded;
+}
+
+} // namespace
+
+const JackLibrary* jackLibrary() {
+    static const LoadedJack loaded = loadJack();
+    return loaded.isWhole ? &loaded.jack : nullptr;
+}
+
+// Opens and closes clients of JACK, one at a time in the process, as JACK's library does itself.
+
+namespace {
+
+std::shared_timed_mutex openingJack;
+std::atomic<unsigned int> serversLost{0};
+
+std::vector<std::shared_ptr<void>>& keptForJack() {
+    static std::vector<std::shared_ptr<void>> kept;
+    return kept;
+}
+
+// The server's number comes by value, because the client's object may have gone. The first of its clients
+// counts the loss for all.
+void onJackShutdown(void* server) {
+    auto lost = static_cast<unsigned int>(reinterpret_cast<std::uintptr_t>(server));
+    serversLost.compare_exchange_strong(lost, lost + 1);
+}
+
+} // namespace
+
+JackClient::JackClient(const JackLibrary& jack, const char* name)
+    : jack_{jack} {
+    std::vector<std::shared_ptr<void>> freed;
+    const std::lock_guard lock{openingJack};
+    jack_status_t status{};
+    client_ = jack_.client_open(name, JackNoStartServer, &status);
+    // The server may have gone this very moment: opening may then have freed clients whose loss JACK had no
+    // time to report.
+    if (client_ == nullptr && (status & JackServerFailed) != 0) ++serversLost;
+    if (client_ == nullptr) return;
+    server_ = serversLost;
+    const std::uintptr_t number = server_;
+    jack_.on_shutdown(client_, onJackShutdown, reinterpret_cast<void*>(number));
+    freed.swap(keptForJack()); // opening freed their clients
+}
+
+JackClient::~JackClient() {
+    if (const auto held = hold()) jack_.client_close(client_);
+}
+
+bool JackClient::isAlive() const noexcept { return client_ != nullptr && serversLost == server_; }
+
+JackClient::Held JackClient::hold() const {
+    if (!isAlive()) return {};
+    Held held{openingJack};
+    return isAlive() ? std::move(held) : Held{};
+}
+
+JackClient::Held JackClient::holdSoon() const {
+    if (!isAlive()) return {};
+    Held held{openingJack, std::chrono::milliseconds{50}};
+    return held && isAlive() ? std::move(held) : Held{};
+}
+
+void JackClient::keepUntilFreed(std::shared_ptr<void> callbacks) {
+    const std::lock_guard lock{openingJack};
+    keptForJack().push_back(std::move(callbacks));
+}
+
+std::vector<std::string> JackClient::ports(JackPortFlags direction) const {
+    std::vector<std::string> names;
+    const char** const all = jack_.get_ports(client_, nullptr, JACK_DEFAULT_AUDIO_TYPE, direction);
+    for (const char** name = all; name != nullptr && *name != nullptr; ++name) names.emplace_back(*name);
+    if (all != nullptr) jack_.free(static_cast<void*>(all));
+    return names;
+}
+
+std::vector<std::string> JackClient::portsOf(const std::string& owner, JackPortFlags direction) const {
+    std::vector<std::string> names = ports(direction);
+    std::erase_if(names, [&](const std::string& name) { return !name.starts_with(owner + ":"); });
+    return names;
+}
+
+// Lists JACK's clients by their ports.
+
+namespace {
+
+// "physvib", or "physvib-01" and so on: another device of this program, or another run of it.
+bool isOurs(const std::string& client) {
+    return client == "physvib" ||
+           (client.starts_with("physvib-") && client.find_first_not_of("0123456789", 8) == std::string::npos);
+}
+
+std::vector<std::string> ownersOf(const std::vector<std::string>& ports) {
+    std::vector<std::string> owners;
+    for (const std::string& port : ports) {
+        const std::string owner = port.substr(0, port.find(':'));
+        if (!isOurs(owner) && std::ranges::find(owners, owner) == owners.end()) owners.push_back(owner);
+    }
+    return owners;
+}
+
+} // namespace
+
+void JackDriver::scan() {
+    inputs_.clear();
+    outputs_.clear();
+    const JackClient client{jack_, "physvib-scan"};
+    const auto held = client.hold();
+    if (!held) return;
+    inputs_ = ownersOf(client.ports(JackPortIsOutput)); // what gives samples is an input here
+    outputs_ = ownersOf(client.ports(JackPortIsInput));
+}
+
+std::unique_ptr<AudioDevice> JackDriver::create(const std::string& name, bool withInputs) {
+    if (std::ranges::find(outputs_, name) == outputs_.end()) return nullptr;
+    return std::make_unique<JackDevice>(jack_, name, withInputs);
 }
 
 } // namespace physvib

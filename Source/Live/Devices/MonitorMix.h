@@ -5,7 +5,6 @@
 #include "Core/Actuators/GainRamp.h"
 #include "Core/Units.h"
 #include "Live/Devices/AudioOutputSettings.h"
-#include "Live/Devices/Clip.h"
 #include "Live/Devices/OutputMap.h"
 #include "Live/Session/Session.h"
 #include "Stimuli/PinkNoise.h"
@@ -16,6 +15,15 @@
 #include <vector>
 
 namespace physvib {
+
+// Limits samples to a range.
+
+/// Limits to -most..most; what is not a number becomes -most, which OutputGuard then takes away. R,
+/// wait-free.
+inline void clip(float* samples, float most, int frames) noexcept {
+    std::transform(samples, samples + frames, samples,
+                   [most](float x) { return std::min(most, std::max(-most, x)); });
+}
 
 /// Levels come from ListeningSettings; the master level does not apply.
 class MonitorMix {

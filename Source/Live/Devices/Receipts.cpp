@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes receipts into the ring, and sums up those of a span.
 #include "Live/Devices/Receipts.h"
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include <algorithm>
 #include <cmath>
 

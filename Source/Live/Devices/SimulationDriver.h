@@ -7,7 +7,6 @@
 #include <thread>
 
 namespace physvib {
-
 /// A thread with absolute deadlines, one per step, so that delays do not add up (driverThreadGapSeconds). It
 /// runs at realtime priority where the system permits, because an ordinary thread is sometimes late on a
 /// loaded machine. It steps the session from construction to destruction, or until `ends` (may be null) is
@@ -30,5 +29,18 @@ private:
     std::atomic<bool> isDestroyed_{false};
     std::thread thread_;
 };
+
+// A loop at a steady pace, for programs without a message loop.
+
+/// Calls `tick()` once per period until it returns false. Ticks that a stall has missed are left out.
+template <class Tick>
+void repeatEvery(std::chrono::milliseconds period, Tick tick) {
+    using Clock = std::chrono::steady_clock;
+    for (auto next = Clock::now() + period;; next += period) {
+        std::this_thread::sleep_until(next);
+        if (!tick()) return;
+        if (const auto now = Clock::now(); now > next + period) next = now;
+    }
+}
 
 } // namespace physvib

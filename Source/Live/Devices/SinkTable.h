@@ -3,7 +3,7 @@
 // the first-start dialog are made from it.
 #pragma once
 #include "Core/PhantomPanner.h"
-#include "Live/Session/SinkSet.h"
+#include "Live/Session/Sink.h"
 #include <functional>
 #include <memory>
 #include <span>

@@ -3,7 +3,7 @@
 // frame.
 #pragma once
 #include "Io/Result.h"
-#include "Live/Devices/AudioDevices.h"
+#include "Live/Devices/AudioDevice.h"
 #include <string>
 #include <vector>
 

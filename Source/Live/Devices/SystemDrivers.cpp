@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The drivers whose libraries this machine has.
-#include "Live/Devices/SystemDrivers.h"
-#include "Live/Devices/AlsaDriver.h"
-#include "Live/Devices/JackClient.h"
-#include "Live/Devices/JackDriver.h"
+#include "Live/Devices/AudioDevice.h"
+#include "Live/Devices/AlsaDevice.h"
+#include "Live/Devices/JackDevice.h"
 
 namespace physvib {
 namespace {

@@ -3,7 +3,7 @@
 #include "Live/Documents/InputLine.h"
 #include "Io/Json/JsonLines.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Documents/ControlJson.h"
+#include "Live/Documents/DocumentJson.h"
 #include "Scene/JsonReader.h"
 #include <algorithm>
 #include <cmath>

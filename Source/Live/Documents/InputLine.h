@@ -3,16 +3,36 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Io/Result.h"
-#include "Live/Documents/PlainMessage.h"
 #include "Scene/Scene.h"
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 namespace physvib {
+
+// A message or an answer in a form independent of its transport (line, OSC, C): a name and named values.
+// Source/Live/Messages defines what each message does.
+
+using PlainValue = std::variant<double, std::string, std::vector<double>>;
+
+struct NamedValue {
+    std::string name;
+    PlainValue value;
+    bool operator==(const NamedValue&) const = default;
+};
+
+struct PlainMessage {
+    std::string name;
+    std::vector<NamedValue> values;
+    bool operator==(const PlainMessage&) const = default;
+};
+
+/// As a line of JSON: `{ "answer": "latency", "play_out_s": 0.03 }`. Any thread.
+std::string answerLine(const PlainMessage& answer);
 
 /// Silences the output at once, or ends the silence.
 struct SilenceControl {

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
-
 // N s per metre of the screen (thesis 5.3.1)
 constexpr double thesisDrag = 32'000.0, leastDrag = 1'000.0, mostDrag = 100'000.0;
 
@@ -91,5 +93,56 @@ inline bool isSame(const Mix& a, const Mix& b) {
 inline float masterGain(const Mix& mix) noexcept {
     return mix.levelDb <= leastStripDb ? 0.0f : static_cast<float>(fromDecibels(mix.levelDb));
 }
+
+// Effective gain and mute of strips, with their groups and lanes applied.
+
+/// The strips as they are sent to the session: with their group's fader and mute applied, without group and
+/// lanes. Any thread (allocates), as all functions here.
+std::vector<Strip> feltStrips(const Mix& mix);
+
+/// Whether the strip or its group has a lane.
+bool hasLane(const Mix& mix, std::size_t strip);
+
+/// The strip's gain at that time of the scene run, in dB: fader, group and both lanes.
+double gainDbAt(const Mix& mix, std::size_t strip, double seconds);
+
+/// Maximum of gainDbAt() over time; and the maximum that group and lanes add to the fader, not limited to a
+/// fader's range.
+double loudestDb(const Mix& mix, std::size_t strip);
+double mostAddedDb(const Mix& mix, std::size_t strip);
+
+/// Adds an empty group; returns its index.
+int addGroup(Mix& mix, std::string name);
+/// An unused name: "Left hand", "Right hand", "Back", then numbers.
+std::string freeGroupName(const Mix& mix);
+/// Removes a group without changing the output: its strips absorb its fader, mute and lane.
+void removeGroup(Mix& mix, int group);
+
+// Limits that a mixer state loaded from a file must not exceed: the levels that the user of this computer has
+// set.
+
+/// The limits, taken from the mixer state as the user left it.
+struct DeskLimits {
+    double levelDb = 0.0;
+    std::vector<Strip> strips; ///< one per output in use, with the gain that reaches it
+
+    static DeskLimits of(const Mix& mix);
+    /// Level of the loudest output by gain, ceiling and master; the master's alone if no output is in use.
+    double loudestOutputDb() const;
+};
+
+void visitFields(auto& v, FieldsOf<DeskLimits>) {
+    v.field("level_db", &DeskLimits::levelDb, masterRangeDb);
+    v.field("strips", &DeskLimits::strips, kinds::Objects<Strip>{});
+}
+
+/// Lowers `mix` to `most`: its master level, and gain and ceiling of each output. An output that is muted in
+/// `most` is muted. An actuator on an output that `most` does not use gets no output. Returns a text for the
+/// user that lists the changes; empty: none. Any thread.
+std::string lowerTo(const DeskLimits& most, Mix& mix);
+
+/// Conversion to text for a program's settings, and back; nullopt if the text is invalid. Any thread.
+std::string deskLimitsText(const DeskLimits& limits);
+std::optional<DeskLimits> readDeskLimits(std::string_view text);
 
 } // namespace physvib

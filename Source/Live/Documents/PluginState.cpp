@@ -2,7 +2,7 @@
 // Reads and writes the plug-in's state as JSON; the tables of its fields are in PluginState.h.
 #include "Live/Documents/PluginState.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Documents/MixJson.h"
+#include "Live/Documents/DocumentJson.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneFileLimits.h"
 #include "Scene/SceneLimits.h"

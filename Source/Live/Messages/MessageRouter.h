@@ -3,7 +3,7 @@
 // time, and passes them to the session.
 #pragma once
 #include "Io/Result.h"
-#include "Live/Documents/PlainMessage.h"
+#include "Live/Documents/InputLine.h"
 #include "Live/Messages/ClipSource.h"
 #include "Live/Messages/MessageTable.h"
 #include "Live/Session/Session.h"

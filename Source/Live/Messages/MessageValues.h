@@ -3,7 +3,7 @@
 // reports the same.
 #pragma once
 #include "Core/PhantomPanner.h"
-#include "Live/Documents/PlainMessage.h"
+#include "Live/Documents/InputLine.h"
 #include "Live/Messages/MessageTable.h"
 #include <stdexcept>
 #include <string>

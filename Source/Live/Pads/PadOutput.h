@@ -11,7 +11,6 @@
 #include "Live/Documents/SessionLog.h"
 #include "Live/Pads/GamePads.h"
 #include "Live/Session/OutputClock.h"
-#include "Live/Session/SessionClock.h"
 #include "Live/Session/Sink.h"
 #include "Scene/PadFile.h"
 #include <atomic>

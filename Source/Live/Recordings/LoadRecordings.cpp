@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Loads each recording of a saved session once, and checks the limits on samples.
 #include "Live/Recordings/LoadRecordings.h"
+#include "Core/Samples.h"
 #include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
 #include "Live/Recordings/ClipFolder.h"
-#include "Live/Recordings/LoadContact.h"
+#include "Live/Recordings/ReadRecording.h"
+#include "Measure/HitExcerpt.h"
+#include "Measure/LoudestChannel.h"
+#include "Measure/RecordingFaults.h"
+#include "Measure/SlowPart.h"
 #include "Scene/SceneFileLimits.h"
+#include "Stimuli/SeededRandom.h"
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace physvib {
 namespace {
@@ -72,6 +81,126 @@ std::vector<std::string> recordingPaths(const SessionLog& log) {
         for (const RecordingFile& file : change.files) paths.push_back(file.path);
     for (const ClipFile& clip : log.clips) paths.push_back(clip.file.path);
     return paths;
+}
+
+// Reads a recorded contact, trims it to its strongest hit and normalises its level.
+
+namespace {
+
+void normalise(std::vector<float>& samples) {
+    const float peak = peakOf(samples);
+    for (float& x : samples) x /= peak;
+}
+
+/// A synthetic contact, for trying out what needs recordings: six partials from `frequencyHz` up and 3 ms of
+/// noise. The partials are inharmonic like those of a struck bar (assumed: ratios near the square roots of 1,
+/// 2, 4, 6, 9, 13, varied by the seed); higher ones are weaker and shorter. One second at most. The same
+/// arguments give the same samples. Any thread.
+std::vector<float> syntheticContact(double frequencyHz, double decayPerSecond, std::uint32_t seed,
+                                    int sampleRateHz) {
+    constexpr double ratios[] = {1.0, 1.41, 2.0, 2.45, 3.0, 3.61}, noiseSeconds = 0.003;
+    SeededRandom random{seed, "contact"};
+    // to -60 dB
+    std::vector<float> samples(static_cast<std::size_t>(sampleRateHz * std::min(1.0, 7.0 / decayPerSecond)));
+    double weight = 1.0, decay = decayPerSecond;
+    for (const double ratio : ratios) {
+        const double f = frequencyHz * ratio * (ratio > 1.0 ? 0.96 + 0.08 * random.uniform() : 1.0),
+                     a = weight * (0.7 + 0.6 * random.uniform());
+        if (f < 0.45 * sampleRateHz)
+            for (std::size_t n = 0; n < samples.size(); ++n) {
+                const double t = static_cast<double>(n) / sampleRateHz;
+                samples[n] +=
+                    static_cast<float>(a * std::sin(2.0 * std::numbers::pi * f * t) * std::exp(-decay * t));
+            }
+        weight *= 0.6;
+        decay *= 1.4;
+    }
+    for (std::size_t n = 0; n < samples.size(); ++n)
+        samples[n] += static_cast<float>(0.3 * random.normal() *
+                                         std::exp(-static_cast<double>(n) / (noiseSeconds * sampleRateHz)));
+    return samples;
+}
+
+constexpr int syntheticRateHz = 48000;
+constexpr double assumedDecayPerSecond = 40.0; // of synthetic contacts of an unknown material
+
+Result<ContactRecording> readContact(const RecordingFile& file) {
+    constexpr double shortestSeconds = 0.001;
+    const std::string& path = file.path;
+    if (const auto seed = syntheticSeed(path)) {
+        const double decay = file.decayPerSecond > 0.0 ? file.decayPerSecond : assumedDecayPerSecond;
+        return ContactRecording{file.frequencyHz, syntheticRateHz,
+                                syntheticContact(file.frequencyHz, decay, *seed, syntheticRateHz), file};
+    }
+    const auto read = readRecording(path);
+    if (!read) return Failure{read.error};
+    const std::vector<float>& heard = loudestOf(read.value.channels);
+    const double rateHz = read.value.sampleRateHz;
+    std::string fault = recordingFault(heard, rateHz, shortestSeconds);
+    if (fault.empty() && isSilent(heard)) fault = "expected a hit, found silence";
+    if (fault.empty()) fault = clippingFault(heard, rateHz);
+    if (!fault.empty()) return Failure{path + ": " + fault};
+    const HitExcerpt hit = strongestHit(heard, rateHz);
+    ContactRecording contact{file.frequencyHz,
+                             read.value.sampleRateHz,
+                             {heard.begin() + static_cast<std::ptrdiff_t>(hit.begin),
+                              heard.begin() + static_cast<std::ptrdiff_t>(hit.end)},
+                             file};
+    for (float& x : contact.samples) x -= static_cast<float>(hit.offset);
+    if (!(peakOf(contact.samples) > 0.0f)) return Failure{path + ": expected a hit, found silence"};
+    const SlowPart taken = takeSlowPart(contact.samples, rateHz, peakOf(contact.samples));
+    if (!(peakOf(contact.samples) > 0.0f))
+        return Failure{path + ": expected a hit, found nothing above " + numberText(limits::slowestToneHz) +
+                       " Hz"};
+    if (taken.isAny()) contact.note = cleanLine(path + ": " + taken.text());
+    return contact;
+}
+
+/// Checks and sets the hash; empty, or the error that the file has changed.
+std::string takeHash(RecordingFile& file) {
+    if (syntheticSeed(file.path)) return {};
+    const auto bytes = readFile(file.path, limits::maxRecordingFileBytes);
+    if (!bytes) return bytes.error;
+    const std::string hash = contentHash(bytes.value);
+    if (!file.hash.empty() && file.hash != hash)
+        return file.path + ": expected the recording with the hash " + file.hash + ", found " + hash +
+               ": it has changed since";
+    file.hash = hash;
+    return {};
+}
+
+double energyOf(const std::vector<float>& samples, int rateHz) {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < std::min(samples.size(), static_cast<std::size_t>(matchedSeconds * rateHz));
+         ++n)
+        sum += double{samples[n]} * samples[n];
+    return sum / rateHz;
+}
+
+/// Energy of the mode whose envelope starts at 1.
+double energyOfMode(double frequencyHz, double decayPerSecond, int rateHz) {
+    std::vector<float> mode(static_cast<std::size_t>(matchedSeconds * rateHz));
+    for (std::size_t n = 0; n < mode.size(); ++n) {
+        const double t = static_cast<double>(n) / rateHz;
+        mode[n] = static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * t) *
+                                     std::exp(-decayPerSecond * t));
+    }
+    return energyOf(mode, rateHz);
+}
+
+} // namespace
+
+Result<ContactRecording> loadContact(const RecordingFile& file) {
+    auto contact = readContact(file);
+    if (!contact) return contact;
+    if (auto fault = takeHash(contact.value.file); !fault.empty()) return Failure{fault};
+    auto& [frequencyHz, rateHz, samples, source, note] = contact.value;
+    normalise(samples);
+    if (!file.isMatched || !(file.decayPerSecond > 0.0)) return contact;
+    const auto gain = static_cast<float>(
+        std::sqrt(energyOfMode(frequencyHz, file.decayPerSecond, rateHz) / energyOf(samples, rateHz)));
+    for (float& x : samples) x *= gain;
+    return contact;
 }
 
 } // namespace physvib

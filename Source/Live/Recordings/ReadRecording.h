@@ -5,12 +5,13 @@
 #include "Io/Result.h"
 #include "Io/Wav/SampledSound.h"
 #include <array>
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace physvib {
-
 /// Names of recordings usually end so; what they are is decided by their content.
 inline constexpr std::array<std::string_view, 6> soundEndings{".wav",  ".aiff", ".aif",
                                                               ".flac", ".ogg",  ".opus"};
@@ -31,5 +32,32 @@ std::string takeSlowPart(SampledSound& sound, const std::filesystem::path& path,
 /// Reads a recording of up to a day block by block, with constant memory. Returns empty, or one line naming
 /// the file, with the file's error or that of `taker`. No clips. Any thread but R.
 std::string streamRecording(const std::filesystem::path& path, SoundTaker& taker);
+
+// What a sound file says of itself, checked against what is there, before a library reads it.
+
+/// The part of a file that libsndfile is to read, and how.
+struct SoundHead {
+    int format = 0;           ///< of libsndfile, where the part is bare samples; 0: a file of its own
+    std::string head;         ///< what stands before the part, instead of what the file has there
+    std::int64_t begin = 0;   ///< of the part, in bytes
+    std::int64_t bytes = 0;   ///< its length
+    SoundShape shape{};       ///< as the file says; 0 frames: libsndfile knows
+    bool isSurveyed = false;  ///< all samples are looked at first: for their number, or their place
+    int bits = 0, room = 0;   ///< of a sample of WAVE, and of its place
+    bool isLowRather = false; ///< it stands in the lower bits, if the samples do not show where
+};
+
+/// Of a file that is `bytes` long. Or what is wrong with it, without its name: another kind of file, fewer
+/// bytes or more than it says, several streams. A length that was not known when the header was written is
+/// what is there. Any thread but R.
+Result<SoundHead> readSoundHead(std::FILE& file, std::int64_t bytes);
+
+// Samples of sound files, by libsndfile.
+
+/// Decodes a file of `bytes` bytes that can be searched, block by block; full scale is 1. WAVE (RIFF, RIFX,
+/// RF64, BW64; PCM, float, G.711), AIFF, FLAC, Ogg Vorbis and Opus. Read whole, or refused: returns empty, or
+/// one line without the file's name: what is wrong with it, a sample that is not finite, or what `taker`
+/// says. `mostSeconds` bounds what does not say how long it is. Any thread but R.
+std::string decodeSound(std::FILE& file, std::int64_t bytes, std::int64_t mostSeconds, SoundTaker& taker);
 
 } // namespace physvib

@@ -2,12 +2,134 @@
 // Records a live session: the channels as a WAV file, and the events as CSV in the WAV's time.
 #pragma once
 #include "Core/RenderControl.h"
-#include "Live/Recordings/PlayedRecorder.h"
+#include "Io/Disk/FileClash.h"
+#include "Io/Text/NumberText.h"
+#include "Io/Wav/WavSink.h"
+#include "Live/Devices/Taps.h"
+#include "Live/Recordings/LoadRecordings.h"
+#include "Live/Session/SessionRender.h"
 #include "Scene/EventsCsv.h"
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
 #include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
 #include <vector>
 
 namespace physvib {
+
+// Records the output of a live session to a WAV file: the render thread fills a ring buffer, another thread
+// writes it to disk.
+
+/// Records all channels of the session, or the first ones, before the output's master gain. A file has one
+/// sample rate, so the recording ends when the rate changes. The file is a valid WAV from its first samples
+/// on: if the program is killed or the disk fills up, only the half second before that is missing. Only
+/// finish() waits for the disk.
+class PlayedRecorder final : public Sink {
+public:
+    /// `seconds`: capacity of the buffer, for delays of the disk. M.
+    PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz, double seconds = 4.0)
+        : sampleRateHz_{sampleRateHz}
+        , tap_{channels, static_cast<int>(seconds * sampleRateHz)}
+        , wav_{path, channels, sampleRateHz}
+        , error_{wav_.error()} {
+        if (error_.empty()) thread_ = std::thread{[this] { run(); }};
+    }
+    ~PlayedRecorder() override { end(); }
+
+    /// Empty, or one line with the reason. M.
+    std::string error() const {
+        const std::lock_guard lock{mutex_};
+        return error_;
+    }
+
+    int sampleRateHz() const noexcept { return sampleRateHz_; }
+
+    /// Frames that find the buffer full are lost and counted. R, wait-free.
+    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
+        if (block.sampleRateHz != sampleRateHz_) isWhole_.store(false, std::memory_order_relaxed);
+        if (!isWhole()) return;
+        if (firstFrame_.load(std::memory_order_relaxed) < 0)
+            firstFrame_.store(block.sessionFrame, std::memory_order_relaxed);
+        tap_.take(block.channels, block.frames);
+    }
+    /// The sample rate has not changed. Any thread.
+    bool isWhole() const noexcept { return isWhole_.load(std::memory_order_relaxed); }
+
+    /// Sets the output latency that the file's start time is computed with; before the first frame. M.
+    void tellBeginning(std::int64_t outputLatencyFrames) noexcept {
+        outputLatencyFrames_ = outputLatencyFrames;
+    }
+
+    /// Writes the last samples and the header. Returns empty, or one line with the reason. M, after R
+    /// stopped.
+    std::string finish() {
+        end();
+        write();
+        return error_ = wav_.finish();
+    }
+
+    /// In session time; -1: no frame yet.
+    std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); }
+    /// Session time at which the file begins, in seconds: an event at session time t is at t minus this in
+    /// the file. Empty before tellBeginning() and the first frame.
+    std::optional<double> beginsSeconds() const noexcept {
+        if (outputLatencyFrames_ < 0 || firstFrame() < 0) return {};
+        return static_cast<double>(firstFrame() - outputLatencyFrames_) / sampleRateHz_;
+    }
+    std::int64_t frames() const noexcept { return written_; } ///< written to the file. M
+    std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
+
+private:
+    // With the disk's own delay, shorter than the audio that may be lost when the process is killed.
+    static constexpr std::chrono::milliseconds period{200};
+
+    void run() {
+        std::unique_lock lock{mutex_};
+        while (!ends_.wait_for(lock, period, [this] { return isEnding_; })) {
+            lock.unlock();
+            write();
+            lock.lock();
+            error_ = wav_.error();
+        }
+    }
+    void write() {
+        const std::int64_t before = written_;
+        tap_.read([this](const float* const* channels, int frames) {
+            if (const auto begins = beginsSeconds(); begins && written_ == 0)
+                wav_.setComment("begins at session time " + fixedNumber(*begins, 6) + " s");
+            if (wav_.write(channels, frames)) written_ += frames;
+        });
+        if (written_ > before) wav_.show();
+    }
+    void end() {
+        if (!thread_.joinable()) return;
+        {
+            const std::lock_guard lock{mutex_};
+            isEnding_ = true;
+        }
+        ends_.notify_one();
+        thread_.join();
+    }
+
+    int sampleRateHz_;
+    SignalTap tap_;
+    std::atomic<std::int64_t> firstFrame_{-1}, outputLatencyFrames_{-1}, written_{0};
+    std::atomic<bool> isWhole_{true};
+
+    WavSink wav_; // used by the thread; by M once the thread has ended
+
+    mutable std::mutex mutex_; // guards the members below
+    std::condition_variable ends_;
+    bool isEnding_ = false;
+    std::string error_;
+
+    std::thread thread_; // last: it uses the other members
+};
 
 /// M only; the audio output feeds recorder().
 class Recording {
@@ -34,5 +156,21 @@ private:
     PlayedRecorder recorder_;
     std::vector<CollisionEvent> played_;
 };
+
+// Renders a saved session to a WAV file.
+
+/// Writes the whole file or none. Returns empty, one line with the reason, or "cancelled". Any thread but R.
+inline std::string renderSessionWav(const SavedSession& session, const SessionExtent& extent,
+                                    const std::string& path, const std::string& comment) {
+    const auto loaded = loadRecordings(session.log);
+    if (!loaded) return loaded.error;
+    if (auto clash = fileClash({&path, 1}, recordingPaths(session.log)); !clash.empty()) return clash;
+    WavSink wav{path, session.channels, extent.sampleRateHz, comment};
+    if (!wav.error().empty()) return wav.error();
+    const bool isWhole = renderSession(session, loaded.value, extent,
+                                       [&](const float* const* block, int n) { return wav.write(block, n); });
+    if (!wav.error().empty()) return wav.error();
+    return isWhole ? wav.finish() : "cancelled";
+}
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Walks chunks, blocks and pages, and leaves samples alone.
-#include "Live/Recordings/SoundHead.h"
+#include "Live/Recordings/ReadRecording.h"
 #include <algorithm>
 #include <array>
 #include <sndfile.h>

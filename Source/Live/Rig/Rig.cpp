@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opens and closes the parts of a live rig in the order that their threads require.
 #include "Live/Rig/Rig.h"
-#include "Live/Devices/InputTap.h"
+#include "Live/Devices/Taps.h"
 #include <utility>
 
 namespace physvib {

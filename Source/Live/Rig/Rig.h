@@ -5,7 +5,7 @@
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/SimulationDriver.h"
 #include "Live/Devices/SinkTable.h"
-#include "Live/Recordings/PlayedRecorder.h"
+#include "Live/Recordings/Recording.h"
 #include "Live/Session/SessionJournal.h"
 #include <chrono>
 #include <memory>

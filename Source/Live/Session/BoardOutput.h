@@ -12,16 +12,16 @@
 #include "Live/Documents/SessionLog.h"
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/OutputClock.h"
-#include "Live/Session/SessionClock.h"
 #include "Live/Session/Sink.h"
 #include "Wire/BoardPath.h"
 #include "Wire/BoardSteps.h"
 #include <array>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace physvib {
-
 /// Runs on the link thread while it follows a device.
 class BoardOutput final : public Sink, private BoardSource {
 public:
@@ -86,5 +86,15 @@ private:
     std::optional<std::array<double, limits::board::channels>> sent_; // gains that the link has
     std::array<bool, limits::board::channels> muted_{};
 };
+
+// Texts about a board link: its state for display, and a summary after playing.
+
+/// State of a board that is wanted at `port` and gets events `latencySeconds` before they are felt. Any
+/// thread, as the next function.
+SinkState sinkStateOf(const BoardLinkStatus& board, const std::string& port, double latencySeconds);
+
+/// Lines on what was sent and played since `before`. Waits briefly for newer telemetry.
+std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
+                         const std::function<bool()>& keepGoing);
 
 } // namespace physvib

@@ -3,7 +3,6 @@
 // world.
 #pragma once
 #include "Core/ControlQueue.h"
-#include "Live/Session/AddedSamples.h"
 #include "Live/Session/SessionWorld.h"
 #include "Live/Session/Timeline.h"
 #include <array>
@@ -12,6 +11,20 @@
 #include <vector>
 
 namespace physvib {
+
+// Interface of a source of samples, such as incoming audio, that a session mixes with the rendered events.
+
+/// Mixed before the actuators' own stages: level, equaliser, delay and limiter act on all samples alike.
+class AddedSamples {
+public:
+    /// The renderer's frames from `frame` on (session time in frames), at most limits::tileFrames. One
+    /// pointer per channel of the session; null: silence. Valid until the next call. Render thread (R),
+    /// wait-free.
+    virtual const float* const* at(std::int64_t frame, int frames) noexcept = 0;
+
+protected:
+    ~AddedSamples() = default;
+};
 
 /// Part of a session.
 class CallbackInputs {

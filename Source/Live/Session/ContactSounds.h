@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Recordings of contacts, as read from files and resampled to the renderer's rate.
 #pragma once
+#include "Core/NameNumbers.h"
 #include "Core/RenderControl.h"
-#include "Live/Documents/RecordingFile.h"
+#include "Live/Documents/SessionLog.h"
+#include <algorithm>
+#include <deque>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace physvib {
-
 /// A recording from its onset on, with its original level.
 struct ContactRecording {
     double frequencyHz = 0.0; ///< of the events that play it, unless its file names a material
@@ -39,6 +42,96 @@ public:
 private:
     std::vector<std::vector<float>> samples_;
     std::vector<RecordedContact> contacts_;
+};
+
+// Storage of a session's recordings: each set once per sample rate, and its clips.
+
+/// A clip at each requested sample rate.
+class ClipSound {
+public:
+    ClipSound(ContactRecording clip)
+        : clip_{std::move(clip)} {}
+
+    bool isAt(int sampleRateHz) const {
+        return std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz) != sounds_.end();
+    }
+
+    /// The first call for a rate takes long. Valid as long as this object, even if it is moved.
+    std::span<const float> at(int sampleRateHz) {
+        auto known = std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz);
+        if (known == sounds_.end())
+            known = sounds_.insert(sounds_.end(), AtRate{sampleRateHz, {{clip_}, sampleRateHz}});
+        return known->sounds.contacts().front().samples;
+    }
+
+    /// Its number of samples at the highest of these rates, or at its own rate if that is higher.
+    double samplesAt(const std::vector<int>& rates) const {
+        const double most = rates.empty() ? 0.0 : *std::ranges::max_element(rates);
+        return static_cast<double>(clip_.samples.size()) * std::max(1.0, most / clip_.sampleRateHz);
+    }
+
+private:
+    struct AtRate {
+        int sampleRateHz;
+        ContactSounds sounds;
+    };
+    ContactRecording clip_;
+    std::vector<AtRate> sounds_;
+};
+
+/// Keeps every set for the session's life, because the render thread (R) may still use any. One thread at a
+/// time: Session guards it by its input mutex.
+class RecordingSets {
+public:
+    /// The list for a renderer at that rate: these recordings and all clips, including those that are added
+    /// later. Valid as long as this object. If there are no recordings, events that are not clips play their
+    /// mode.
+    RecordedContacts at(int sampleRateHz, const std::vector<ContactRecording>& recordings) {
+        const auto known = std::ranges::find_if(sets_, [&](const Set& set) {
+            return set.sampleRateHz == sampleRateHz && set.recordings == recordings;
+        });
+        if (known != sets_.end()) return known->played();
+        Set& set = sets_.emplace_back(Set{recordings, sampleRateHz, {recordings, sampleRateHz}, {}});
+        const auto sounds = set.sounds.contacts();
+        set.contacts.assign(sounds.begin(), sounds.end());
+        for (int k = 0; k < mostClips; ++k) set.contacts.push_back({clipFrequencyHz, {}, soundOfClip(k)});
+        for (std::size_t k = 0; k < clips_.size(); ++k) fill(set, k);
+        return set.played();
+    }
+
+    /// The rates of the stored lists.
+    std::vector<int> rates() const {
+        std::vector<int> all;
+        for (const Set& set : sets_) all.push_back(set.sampleRateHz);
+        return all;
+    }
+
+    const std::deque<ClipSound>& clips() const noexcept { return clips_; }
+
+    /// Adds a clip with the number clips().size(), which must be below mostClips. Fast if it is at all
+    /// rates() already. R may be searching any list meanwhile: it reads the numbers of the clips'
+    /// entries, which do not change, and reads this clip's samples only for an event that is sent after this
+    /// call.
+    void add(ClipSound clip) {
+        clips_.push_back(std::move(clip));
+        for (Set& set : sets_) fill(set, clips_.size() - 1);
+    }
+
+private:
+    struct Set {
+        std::vector<ContactRecording> recordings;
+        int sampleRateHz;
+        ContactSounds sounds; // at that rate
+        std::vector<RecordedContact> contacts;
+        RecordedContacts played() const noexcept { return {contacts, recordings.empty()}; }
+    };
+
+    void fill(Set& set, std::size_t number) {
+        set.contacts[set.recordings.size() + number].samples = clips_[number].at(set.sampleRateHz);
+    }
+
+    std::deque<Set> sets_;
+    std::deque<ClipSound> clips_;
 };
 
 } // namespace physvib

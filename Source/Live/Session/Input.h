@@ -6,15 +6,21 @@
 #include "Live/Documents/Mix.h"
 #include "Live/Session/ContactSounds.h"
 #include "Scene/Scene.h"
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
 namespace physvib {
-
 /// Events that no world produced (a test pulse, a material preview), at their own times after the input's.
 /// The caller keeps them alive during the call.
 struct Strikes {
@@ -47,6 +53,52 @@ struct Input {
     /// Session time at which it acts. Strikes and Stop may be in the future; if that time is past they are
     /// late. All other inputs act now.
     std::int64_t timeNs = now;
+};
+
+// Bounded queue from a thread that reads input to a thread that acts on it. The reader is never blocked, so
+// it can react to a request for silence further behind.
+
+/// One thread pushes, another pops. Neither may be the render thread (R).
+template <class Item>
+class InputQueue {
+public:
+    static constexpr std::size_t mostBytes = 16 << 20; ///< limit for pending items
+    static constexpr std::size_t itemBytes = 256;      ///< counted per item beside its text
+
+    /// False, and nothing changes, while the queue is full.
+    bool push(Item&& item, std::size_t textBytes) {
+        const std::size_t bytes = textBytes + itemBytes;
+        {
+            const std::lock_guard lock{mutex_};
+            if (bytes_ + bytes > mostBytes) return false;
+            items_.emplace_back(std::move(item), bytes);
+            bytes_ += bytes;
+        }
+        came_.notify_one();
+        return true;
+    }
+
+    /// Waits for an item; false after the time-out.
+    bool wait(std::chrono::milliseconds patience) {
+        std::unique_lock lock{mutex_};
+        return came_.wait_for(lock, patience, [this] { return !items_.empty(); });
+    }
+
+    /// The first item, if any.
+    std::optional<Item> pop() {
+        const std::lock_guard lock{mutex_};
+        if (items_.empty()) return std::nullopt;
+        std::optional<Item> item{std::move(items_.front().first)};
+        bytes_ -= items_.front().second;
+        items_.pop_front();
+        return item;
+    }
+
+private:
+    std::mutex mutex_; // guards the following members
+    std::condition_variable came_;
+    std::deque<std::pair<Item, std::size_t>> items_; // with their sizes in bytes
+    std::size_t bytes_ = 0;
 };
 
 } // namespace physvib

@@ -4,13 +4,19 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/HapticRenderer.h"
+#include "Io/Result.h"
+#include "Io/Text/NumberText.h"
+#include "Io/Wav/SampledSound.h"
 #include "Live/Session/OnsetMarks.h"
+#include "Live/Session/ThreadTime.h"
+#include "Scene/LayoutFile.h"
+#include "Stimuli/Stimulus.h"
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 
 namespace physvib {
-
 /// Length and block size of a render; the block size does not change the samples.
 struct OfflineSettings {
     RendererSettings renderer;
@@ -28,5 +34,57 @@ using BlockConsumer = std::function<bool(const float* const* channels, int frame
 /// frame n is time n/rate. Returns the renderer's final status. Message thread (M) only, any number at once.
 RenderStatus renderOffline(std::span<const CollisionEvent> events, const OfflineSettings& settings,
                            const BlockConsumer& consume);
+
+// Renders a stimulus of a study to samples, one channel per actuator, with the common renderer.
+
+constexpr double fullScaleSlack = 1e-6; ///< tolerance above full scale: rounding of a sine's peak
+
+/// 1 is an actuator's full scale.
+using StimulusSound = SampledSound;
+
+/// The stimulus in units of each actuator's full scale. Without a limiter: a stimulus that would exceed full
+/// scale is refused, so that it is never changed. `layout` has as many actuators as the stimulus. Message
+/// thread (M) only.
+Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescription& layout,
+                                     int sampleRateHz);
+
+/// A one-channel recording as a phantom at `place`: scaled to a peak of `levelG` and distributed by `panner`.
+/// Refused above full scale, as above. M only.
+Result<StimulusSound> placeRecording(const StimulusSound& recording, const FieldPlace& place, double levelG,
+                                     const PhantomPanner& panner, const LayoutDescription& layout);
+
+// Time limit for simulating a scene before its first sample: a user's scene may take hours.
+
+/// A StepWatch that stops once the simulation has used `seconds` more processor time than the simulated time.
+/// Processor time is used because a busy machine is not a slow scene. It affects only whether a render is
+/// made, not its samples. For the thread that creates it and simulates; must not be moved.
+class Patience {
+public:
+    static constexpr double usualSeconds = 4.0; // the built-in scenes simulate a hundred times faster than
+                                                // real time
+
+    /// Infinity: no limit.
+    explicit Patience(double seconds)
+        : seconds_{seconds} {}
+
+    bool operator()(std::int64_t simulatedNs) {
+        simulatedSeconds_ = static_cast<double>(simulatedNs) * 1e-9;
+        takenSeconds_ = threadSeconds() - beganSeconds_;
+        return takenSeconds_ <= seconds_ + simulatedSeconds_;
+    }
+
+    /// Empty, or the error that the limit was exceeded.
+    std::string fault() const {
+        if (takenSeconds_ <= seconds_ + simulatedSeconds_) return {};
+        return "expected a world that is simulated as fast as it lasts, found " +
+               fixedNumber(simulatedSeconds_, 2) + " s of it after " + fixedNumber(takenSeconds_, 1) +
+               " s of processor time (--patience waits longer)";
+    }
+
+private:
+    double seconds_;
+    double simulatedSeconds_ = 0.0, takenSeconds_ = 0.0;
+    double beganSeconds_ = threadSeconds();
+};
 
 } // namespace physvib

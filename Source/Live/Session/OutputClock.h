@@ -2,12 +2,77 @@
 // State of an output device for the sinks that follow it: when a session time is felt, the master level, and
 // mute.
 #pragma once
-#include "Live/Session/MuteRequests.h"
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace physvib {
+
+// Requests for silence, counted per input: an output sounds only while no input requests silence.
+
+struct SilenceControl;
+
+/// The inputs that can request silence. machine: the user at this computer, by Esc, a button or the program's
+/// own call.
+enum class MuteRequester : std::size_t { machine, standardInput, osc };
+
+/// Counts requests and withdrawals per input, so that a delayed "off" does not withdraw a newer request. Any
+/// thread, lock-free.
+class MuteRequests {
+public:
+    /// Requests silence; returns the number of the request: 1 for the first of `holder`.
+    std::uint64_t request(MuteRequester holder) noexcept { return of(holder).asked.fetch_add(1) + 1; }
+
+    /// The same for a request that has a number already; repeating it changes nothing.
+    void request(MuteRequester holder, std::uint64_t number) noexcept { raise(of(holder).asked, number); }
+
+    /// How many times `holder` has requested silence.
+    std::uint64_t asked(MuteRequester holder) const noexcept { return of(holder).asked.load(); }
+
+    /// Withdraws the requests of `holder` up to that number.
+    void lift(MuteRequester holder, std::uint64_t number) noexcept {
+        raise(of(holder).lifted, std::min(number, asked(holder)));
+    }
+
+    /// Withdraws all requests of all inputs: only for the machine.
+    void liftAll() noexcept {
+        for (Requests& all : requests_) raise(all.lifted, all.asked.load());
+    }
+
+    bool isHeldBy(MuteRequester holder) const noexcept { return of(holder).isHeld(); }
+
+    /// Wait-free.
+    bool isSilent() const noexcept { return std::ranges::any_of(requests_, &Requests::isHeld); }
+
+private:
+    using Number = std::atomic<std::uint64_t>;
+    static_assert(Number::is_always_lock_free);
+
+    struct Requests {
+        Number asked{0}, lifted{0};
+        bool isHeld() const noexcept {
+            const std::uint64_t until = lifted.load(); // read first, so that it never exceeds `asked`
+            return asked.load() > until;
+        }
+    };
+    Requests& of(MuteRequester holder) noexcept { return requests_[static_cast<std::size_t>(holder)]; }
+    const Requests& of(MuteRequester holder) const noexcept {
+        return requests_[static_cast<std::size_t>(holder)];
+    }
+    static void raise(Number& number, std::uint64_t least) noexcept {
+        for (std::uint64_t now = number.load(); now < least && !number.compare_exchange_weak(now, least);) {
+        }
+    }
+
+    std::array<Requests, 3> requests_;
+};
+
+/// Executes an input's control. Empty, or one line: withdrawn, but other inputs still request silence. Any
+/// thread.
+std::string takeSilence(MuteRequests& silence, const SilenceControl& control, MuteRequester holder);
 
 /// What happened at `sessionNs` is felt at `steadyNs` of the steady clock.
 struct OutputMoment {
@@ -75,6 +140,46 @@ private:
     std::atomic<std::uint64_t> writes_{0};
     std::atomic<std::int64_t> sessionNs_{0}, steadyNs_{0}, behindNs_{0};
     std::atomic<int> sampleRateHz_{0};
+};
+
+// Estimates when a session time is felt, on the computer's steady clock, from the times at which a device
+// requests blocks.
+//
+// A driver requests a block when there is room for it: never earlier, often a little later. So the earliest
+// of the recent requests, relative to the time that it requested, represents the device's clock; a mean would
+// lag by the computer's load. The window is a quarter to half a second: 300 ppm of drift are then at most
+// 0.15 ms.
+
+/// One thread.
+class SessionClock {
+public:
+    static constexpr std::int64_t halfWindowNs = 250'000'000;
+
+    /// In time order; repeating a moment changes nothing.
+    void add(const OutputMoment& moment) noexcept {
+        const std::int64_t lag = moment.steadyNs - moment.sessionNs, age = moment.steadyNs - halfBeganNs_;
+        // the first, or the first after a pause
+        if (!isReady_ || age > 2 * halfWindowNs) before_ = now_ = lag;
+        if (!isReady_ || age > halfWindowNs) {
+            before_ = now_;
+            now_ = lag;
+            halfBeganNs_ = moment.steadyNs;
+        }
+        now_ = std::min(now_, lag);
+        isReady_ = true;
+    }
+
+    bool isReady() const noexcept { return isReady_; }
+
+    /// Steady time at which `sessionNs` is felt; only if ready.
+    std::int64_t steadyAt(std::int64_t sessionNs) const noexcept {
+        return sessionNs + std::min(before_, now_);
+    }
+
+private:
+    std::int64_t before_ = 0, now_ = 0; // smallest lag of the last half window and of the current one
+    std::int64_t halfBeganNs_ = 0;
+    bool isReady_ = false;
 };
 
 } // namespace physvib

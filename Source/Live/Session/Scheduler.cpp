@@ -4,7 +4,7 @@
 #include "Live/Session/Scheduler.h"
 #include "Core/NameNumbers.h"
 #include "Io/Disk/FileLimits.h"
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include <algorithm>
 #include <iterator>
 #include <limits>

@@ -6,8 +6,8 @@
 #include "Io/Result.h"
 #include "Live/Documents/SessionLog.h"
 #include "Live/Session/Input.h"
-#include "Live/Session/RecordingSets.h"
-#include "Live/Session/RenderedChannels.h"
+#include "Live/Session/ContactSounds.h"
+#include "Live/Session/ContactAudio.h"
 #include "Live/Session/WorldRunner.h"
 #include "Scene/World/InputCheck.h"
 #include <array>

@@ -18,9 +18,9 @@
 #include "Core/EventQueue.h"
 #include "Live/Session/CallbackInputs.h"
 #include "Live/Session/DevicePulse.h"
-#include "Live/Session/RenderedChannels.h"
+#include "Live/Session/ContactAudio.h"
 #include "Live/Session/Scheduler.h"
-#include "Live/Session/SinkSet.h"
+#include "Live/Session/Sink.h"
 #include "Live/Session/Timeline.h"
 #include "Live/Session/WorldRunner.h"
 #include <cstdint>

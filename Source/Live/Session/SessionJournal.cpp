@@ -7,7 +7,6 @@
 #include <utility>
 
 namespace physvib {
-
 namespace {
 
 constexpr std::chrono::milliseconds period{500}; // at most half of what may be lost when the process is
@@ -143,6 +142,42 @@ std::string SessionJournal::finish(std::size_t mostBytes) {
     if (const std::string& error = whole_->commit(); !error.empty())
         return error + "; the session is there as it was kept while it played, and renders";
     return fault();
+}
+
+// Appends all pending lines at once, or keeps them pending if the disk fails.
+
+void GrowingFile::open(const std::filesystem::path& path) {
+    path_ = path;
+    file_ = SystemFile::grow(path);
+    if (file_.error() != 0)
+        fail(file_.reason());
+    else if (file_.lock() == SystemFile::Lock::others)
+        fail("it is being written already");
+    bytes_ = file_.size();
+}
+
+bool GrowingFile::sync() {
+    if (!error_.empty()) return true;
+    if (!file_.sync()) fail(file_.reason());
+    const auto change = file_.changeByOthers(path_, bytes_);
+    if (!change.empty()) fail(change);
+    return change.empty();
+}
+
+void GrowingFile::append(std::string_view lines) {
+    if (isOver_) return;
+    if (waiting_.size() + lines.size() > maxWaitingBytes) {
+        isOver_ = true;
+        waiting_ = {};
+        error_ += "; too much would have to wait, so it ends here";
+        return;
+    }
+    waiting_ += lines;
+    file_.forgetError();
+    if (!file_.append(waiting_)) return fail(file_.reason());
+    bytes_ += static_cast<std::int64_t>(waiting_.size());
+    waiting_.clear();
+    error_.clear();
 }
 
 } // namespace physvib

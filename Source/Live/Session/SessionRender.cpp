@@ -5,7 +5,6 @@
 #include <cmath>
 
 namespace physvib {
-
 SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const StepWatch& keepGoing) {
     SceneEvents all = runTakes(session.log.takes, session.run, endNs, keepGoing);
     for (const CollisionEvent& strike : session.log.strikes)
@@ -43,6 +42,33 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
                                                                                 static_cast<double>(frames));
                   });
     return keepGoing;
+}
+
+// Prepares a saved session's recordings: resampled sets, and timed controls that change between them.
+
+std::vector<std::string> notesOf(const LoadedRecordings& loaded) {
+    std::vector<std::string> notes = notesOf(loaded.clips);
+    for (const auto& set : loaded.sets)
+        for (std::string& note : notesOf(set))
+            if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
+    return notes;
+}
+
+SessionRecordings::SessionRecordings(const SessionLog& log, const LoadedRecordings& loaded, int sampleRateHz)
+    : sampleRateHz_{sampleRateHz} {
+    for (const ContactRecording& clip : loaded.clips) sets_.add(clip);
+    for (std::size_t i = 0; i < log.recordings.size() && i < loaded.setOfChange.size(); ++i) {
+        RenderControl& control = changes_.emplace_back();
+        control.timeNs = log.recordings[i].timeNs;
+        control.kind = RenderControl::Kind::recordings;
+        control.recordings = sets_.at(sampleRateHz, loaded.sets[loaded.setOfChange[i]]);
+    }
+}
+
+std::vector<RenderControl> SessionRecordings::with(std::vector<RenderControl> controls) const {
+    controls.insert(controls.end(), changes_.begin(), changes_.end());
+    std::ranges::stable_sort(controls, {}, &RenderControl::timeNs);
+    return controls;
 }
 
 } // namespace physvib

@@ -1,13 +1,49 @@
 // SPDX-License-Identifier: MIT
 // Renders a saved session offline, to the samples that were played.
 #pragma once
+#include "Core/RenderControl.h"
 #include "Live/Documents/SessionFile.h"
+#include "Live/Documents/SessionLog.h"
+#include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
-#include "Live/Session/SessionRecordings.h"
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace physvib {
+
+// The recordings and clips of a saved session, prepared for a renderer.
+
+/// The recordings that a session plays. A study switches between the same few sets many times.
+struct LoadedRecordings {
+    std::vector<std::vector<ContactRecording>> sets; ///< without duplicates
+    std::vector<std::size_t> setOfChange;  ///< index into `sets` per change in SessionLog::recordings
+    std::vector<ContactRecording> clips{}; ///< in the order of SessionLog::clips
+};
+
+/// All their notes. Any thread.
+std::vector<std::string> notesOf(const LoadedRecordings& loaded);
+
+/// The recordings at one sample rate, and the controls that change between them. Must outlive the render.
+/// Message thread (M) only.
+class SessionRecordings {
+public:
+    SessionRecordings(const SessionLog& log, const LoadedRecordings& loaded, int sampleRateHz);
+
+    /// Merges `controls`, in time order, with the changes of recordings.
+    std::vector<RenderControl> with(std::vector<RenderControl> controls) const;
+
+    /// These recordings plus the session's clips: what is in use from the start.
+    RecordedContacts beside(const std::vector<ContactRecording>& recordings) {
+        return sets_.at(sampleRateHz_, recordings);
+    }
+
+private:
+    int sampleRateHz_;
+    RecordingSets sets_;
+    std::vector<RenderControl> changes_;
+};
 
 /// All events of the session before `endNs`, of its worlds and its inputs, in time order and without shaping.
 /// Message thread (M) only. Throws what Simulation throws.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Settings of a session, the part of them that can change while it plays, and its status.
 #pragma once
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include "Core/EventShaping.h"
 #include "Core/HapticRenderer.h"
 #include "Live/Session/ContactSounds.h"

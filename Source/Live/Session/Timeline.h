@@ -2,7 +2,7 @@
 // Clock of a session: session time in frames and nanoseconds, and the output latency by which the output
 // lags behind it.
 #pragma once
-#include "Core/Clocks.h"
+#include "Core/ClockLaw.h"
 #include <algorithm>
 #include <atomic>
 #include <cstdint>

@@ -2,7 +2,6 @@
 // Simulates one impact of a body with each kind of surface that the scene has.
 #include "Scene/Drawing/FeltTrial.h"
 #include "Contacts/ContactCounts.h"
-#include "Contacts/Explanations.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/Drawing/DrawnBodies.h"
 #include "Scene/MaterialTable.h"

@@ -2,7 +2,7 @@
 // Waits for a board, and prints its status.
 #pragma once
 #include "Live/Session/BoardLink.h"
-#include "Live/Session/BoardWords.h"
+#include "Live/Session/BoardOutput.h"
 #include "System/Interrupt.h"
 #include <chrono>
 #include <iomanip>

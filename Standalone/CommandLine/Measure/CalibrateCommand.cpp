@@ -10,7 +10,7 @@
 #include "Io/Wav/WavSink.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/SweepRecorder.h"
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Measure/ActuatorMeasurement.h"
 #include "Scene/ActuatorFile.h"

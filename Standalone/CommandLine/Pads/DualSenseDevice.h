@@ -2,7 +2,7 @@
 // Finds the audio device of a DualSense controller, and switches its coils to audio.
 #pragma once
 #include "Io/Result.h"
-#include "Live/Devices/AudioDevices.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Pads/DualSense.h"
 #include "Live/Pads/GamePads.h"
 #include <chrono>

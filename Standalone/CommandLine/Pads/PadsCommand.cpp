@@ -5,7 +5,7 @@
 #include "Core/Pads/PadMotors.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Pads/PadTrial.h"
 #include "Scene/PadFile.h"
 #include "System/Interrupt.h"

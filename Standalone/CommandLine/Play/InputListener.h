@@ -6,7 +6,7 @@
 #include "Live/Documents/InputLine.h"
 #include "Live/Messages/ErrorRateLimit.h"
 #include "Live/Messages/MessageRouter.h"
-#include "Live/Session/InputQueue.h"
+#include "Live/Session/Input.h"
 #include "Live/Session/Session.h"
 #include <atomic>
 #include <string>

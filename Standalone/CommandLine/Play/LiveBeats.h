@@ -3,7 +3,7 @@
 #pragma once
 #include "Host/Music/BeatDetector.h"
 #include "Host/Music/BeatStrikes.h"
-#include "Live/Devices/InputTap.h"
+#include "Live/Devices/Taps.h"
 #include "Live/Session/Session.h"
 #include <atomic>
 #include <chrono>

@@ -14,7 +14,7 @@
 #include "Core/Units.h"
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/FileClash.h"
-#include "Live/Devices/SystemDrivers.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Pads/DualSense.h"
 #include "Scene/SceneEdits.h"
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "Core/Units.h"
 #include "Core/Samples.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Devices/LikelyDevices.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Recordings/ClipFolder.h"
 #include "Live/Recordings/ReadRecording.h"
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include "Lab/Report/StudyPlanned.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyRun.h"
-#include "Live/Recordings/LoadContact.h"
+#include "Live/Recordings/LoadRecordings.h"
 #include "Studies/StudyCalls.h"
 #include "Studies/StudyCheck.h"
 #include "System/Process.h"

@@ -7,7 +7,7 @@
 #include "Io/Provenance.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/StudyFileLimits.h"
-#include "Live/Recordings/SoundHead.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "Scene/SceneFileLimits.h"
 #include <algorithm>
 #include <chrono>

@@ -8,7 +8,7 @@
 #include "CommandLine/Sweep/HeardWords.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Session/GrowingFile.h"
+#include "Live/Session/SessionJournal.h"
 #include "System/ExitCode.h"
 #include "System/Process.h"
 #include <chrono>

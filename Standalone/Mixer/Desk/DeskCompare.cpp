@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exchanges two mixer states and matches their levels.
 #include "Mixer/Desk/DeskCompare.h"
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include "Mixer/Desk/Desk.h"
 #include <cmath>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Records fader moves during a recording as automation lanes over the scene's time.
 #pragma once
-#include "Live/Documents/GainLane.h"
+#include "Live/Documents/Strip.h"
 #include <cstddef>
 #include <vector>
 

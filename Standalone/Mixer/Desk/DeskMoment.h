@@ -2,7 +2,7 @@
 // Snapshot of the mixer for display, how it begins, and the choice of its device.
 #pragma once
 #include "Live/Devices/AudioOutput.h"
-#include "Live/Devices/ChannelMeters.h"
+#include "Live/Devices/DeviceMeters.h"
 #include "Live/Devices/SinkTable.h"
 #include "Live/Session/SessionSetup.h"
 #include <array>

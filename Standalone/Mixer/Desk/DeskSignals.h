@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mixer's output samples for display: peaks, scope and spectrum.
 #pragma once
-#include "Live/Devices/SignalTap.h"
+#include "Live/Devices/Taps.h"
 #include "Mixer/Desk/DeskMoment.h"
 #include "Mixer/Strips/ScopeTrace.h"
 #include "Mixer/Strips/SpectrumTrace.h"

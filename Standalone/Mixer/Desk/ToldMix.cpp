@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sends changes of the mixer state to the session as controls.
 #include "Mixer/Desk/ToldMix.h"
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include <algorithm>
 #include <limits>
 #include <memory>

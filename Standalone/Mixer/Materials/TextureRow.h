@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls for the surface grains of a material: distance, strength, pattern, and share when rolling.
 #pragma once
-#include "Contacts/Texture.h"
+#include "Contacts/Grains.h"
 #include "Mixer/Window/TabPanel.h"
 #include <functional>
 

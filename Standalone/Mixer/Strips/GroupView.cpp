@@ -3,7 +3,7 @@
 #include "Mixer/Strips/GroupView.h"
 #include "Host/Views/StripParts.h"
 #include "Io/Disk/FileLimits.h"
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include <algorithm>
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // Plays a stimulus in the mixer's session: controls first, then its events slightly later.
 #include "Mixer/Studies/StudySound.h"
 #include "Core/Units.h"
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
 #include "Mixer/Window/Parts.h"

@@ -3,7 +3,7 @@
 // actuators.
 #include "Mixer/Window/FirstStart.h"
 #include "Core/Limits.h"
-#include "Live/Devices/LikelyDevices.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
 #include "Live/Devices/PicoDevice.h"
 #include "Mixer/Desk/DeskRouting.h"

@@ -2,7 +2,7 @@
 // Opens and saves sessions, scenes and layouts; records and renders; asks before unsaved changes are lost.
 #include "Calls/SessionMovie.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Live/Recordings/SessionWav.h"
+#include "Live/Recordings/Recording.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/FileKind.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that the mixer keeps between runs: settings, recent documents, and recovery copies of the session.
 #pragma once
-#include "Live/Documents/DeskLimits.h"
+#include "Live/Documents/Mix.h"
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/RecoveryCopies.h"
 #include <juce_gui_extra/juce_gui_extra.h>

@@ -3,7 +3,7 @@
 #include "Mixer/Window/MixerWindow.h"
 #include "Core/Limits.h"
 #include "Host/Views/DisplayScale.h"
-#include "Live/Devices/LikelyDevices.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/Parts.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tries a material or a body in a world of its own, and reports what that world explains.
 #include "Mixer/World/FeltHint.h"
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include "Mixer/Desk/DeskWords.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/Drawing/FeltTrial.h"

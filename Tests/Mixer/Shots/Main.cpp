@@ -4,7 +4,7 @@
 // --states lists the states; those that begin with "sheet" are for ../../figures/mixer-sheet.sh alone. They
 // are reached as a person would reach them, with a clock instead of a device.
 #include "Io/Disk/AtomicFile.h"
-#include "Live/Documents/StripGroups.h"
+#include "Live/Documents/Mix.h"
 #include "Mixer/Knock.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/OnlyNoDevice.h"

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// The collisions of one step, and which of them reach a haptic source through a path of contacts.
+#pragma once
+#include "Contacts/CollisionCatcher.h"
+#include "Contacts/ContactGraph.h"
+#include "Contacts/FixtureTable.h"
+#include "Contacts/Impact.h"
+#include "Contacts/IndexMaps.h"
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+/// A collision above the impact threshold.
+struct HardCollision {
+    std::int32_t a, b, pair; // slots, and the number of their pair
+    std::int64_t timeNs;
+    double newtonSeconds;
+    double aftermath; // N s that the pair added in the next step
+    std::int32_t componentA, componentB;
+    std::int32_t nextA, nextB; // the next weaker collision of the same slot
+};
+
+/// Sums are kept per component of the graph, so that a query costs the same however many collisions there
+/// are: a shaken box of haptic sources has hundreds of collisions and a thousand queries per step. World
+/// thread (M) only.
+class StrikeCauses {
+public:
+    void clear() noexcept;
+    void add(const HardCollision& strike);
+    bool isEmpty() const noexcept { return strikes_.empty(); }
+
+    /// Reads what the pairs added in the next step, after which the graph has changed.
+    void follow(const CollisionCatcher& catcher);
+
+    /// Sum and strongest of the collisions that reach a haptic source in the present graph, without its own.
+    /// The first query after add() or follow() visits each collision.
+    struct Found {
+        const HardCollision* strongest = nullptr;    // nullptr: none
+        double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
+    };
+    Found find(std::int32_t camera, ContactGraph& graph);
+
+    /// The slot is freed or reassigned: drops its collisions.
+    void forget(std::int32_t slot) noexcept;
+
+private:
+    struct Sum {
+        std::size_t strongest;
+        double newtonSeconds, aftermath;
+    };
+    void locate(ContactGraph& graph);
+    void sum(std::int32_t component, std::size_t strike);
+    bool isReached(const HardCollision& strike) const noexcept;
+
+    std::vector<HardCollision> strikes_; // sorted by strength once located
+    std::vector<Sum> sums_;
+    bool isLocated_ = false;
+    SlotMap sumOf_;                     // by component
+    SlotMap struck_;                    // the strongest of a slot's own collisions
+    std::vector<std::int32_t> reached_; // components at the current source
+};
+
+// `onset` timing: impacts of haptic sources from the solver's impulses, when a contact begins.
+
+/// A haptic source that takes part in a collision receives its impulse in that step. One farther along the
+/// chain receives what its existing contacts transmit in that step and the next. Two are needed: engines
+/// transmit a collision of their time-of-impact pass one step later, and spread the impulse through a long
+/// chain over two steps, because their iterations end too early (a row of five: half and half). The impulse
+/// is attributed to the strongest collision that is connected by contacts. It counts once, however many
+/// collisions there are, and never exceeds what all of these gave, so that a humming machine on the same
+/// floor adds nothing. Cost grows with collisions and transmitted impulses, not with the size of the world.
+/// World thread (M) only.
+class OnsetImpacts {
+public:
+    OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph);
+
+    /// Appends the impacts that the step, now settled, has completed.
+    void collect(const StepSpan& span, std::vector<Impact>& impacts);
+
+    /// Drops pending impacts.
+    void reset() noexcept;
+
+    /// The world's origin has moved: shifts all places by this.
+    void shift(Vector2 by) noexcept;
+
+    /// Completes what a haptic source has received so far, because it is about to be destroyed.
+    void finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const;
+
+    /// The slot is freed or reassigned. Impacts that it caused at others stay, unless `withdraws`.
+    void forget(std::int32_t slot, bool withdraws) noexcept;
+
+private:
+    struct HandedOn {
+        std::int32_t camera;
+        std::int64_t timeNs;        // of the strongest cause
+        std::int32_t a, b;          // the slots of that cause
+        double causedNewtonSeconds; // by all causes
+        ChainLoads::Passed passed;  // in the first step
+    };
+    void strike(const StepSpan& span, std::vector<Impact>& impacts);
+    void complete(const StepSpan& span, std::vector<Impact>& impacts);
+    void completeLate(const StepSpan& span, std::vector<Impact>& impacts);
+    template <class Later>
+    void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span,
+                  std::vector<Impact>& impacts) const;
+    void begin();
+    static HandedOn handOn(std::int32_t camera, const StrikeCauses::Found& found,
+                           const ChainLoads::Passed& passed) noexcept;
+
+    const CollisionCatcher& catcher_;
+    const FixtureTable& table_;
+    ContactGraph& graph_;
+    StrikeCauses strikes_, before_; // of this step and of the last
+    std::vector<HandedOn> waiting_; // pending until the next step
+    SlotMap isUsed_;                // sources whose impulse of this step has been used
+};
+
+// `release` timing, as in the thesis: impulses from the velocities before a contact and at its end.
+
+/// Eq. 5.2 and 5.3: J = m dv + (I dw / |l|) t, from the beginning of a contact to its end, at most 50 ms
+/// later; the impact is timed at the end. A source that is not dynamic gets the summed momentum change of the
+/// dynamic bodies that touch it. Other causes that change these velocities meanwhile, such as gravity, are
+/// included. Therefore a source that does not collide itself gets the smaller value with and without gravity,
+/// so that neither rest nor fall counts, and at most what the collisions meanwhile gave (so that a humming
+/// machine on the same floor adds nothing to a pebble's impact). At most one such transmitted impact is
+/// pending per source. World thread (M) only.
+class ReleaseImpacts {
+public:
+    static constexpr std::int64_t latestNs = 50'000'000; // thesis 5.1.3: released 10 to 50 ms later
+
+    ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph,
+                   const BodyReader& bodies);
+
+    /// Appends the impacts of contacts that ended or expired in a settled step.
+    void collect(const StepSpan& span, std::vector<Impact>& impacts);
+
+    /// Drops pending impacts.
+    void reset() noexcept {
+        strikes_.clear();
+        before_.clear();
+    }
+
+    /// The world's origin has moved: shifts all places by this.
+    void shift(Vector2 by) noexcept {
+        for (Strike& strike : strikes_) strike.point += by;
+    }
+
+    /// Ends a contact outside a step.
+    void cut(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts);
+
+    /// Completes what a haptic source has received so far, because it is about to be destroyed.
+    void finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const;
+
+    /// The slot is freed or reassigned. A destroyed source gets no impacts; a source whose partner is
+    /// destroyed keeps what it received so far, unless `withdraws`.
+    void forget(std::int32_t slot, bool withdraws) noexcept;
+
+    /// Impacts dropped so far because the buffer was full.
+    std::uint64_t drops() const noexcept { return drops_; }
+
+private:
+    struct Strike {
+        std::int32_t camera, other; // slots; other: none once it is destroyed
+        std::int32_t a, b;          // the contact
+        std::int32_t order;         // of its beginning within the step; in earlier steps: -1
+        bool isDirect, isOver;
+        std::int64_t beginNs;
+        Vector3 point;
+        Vector2 arm; // from the centre of mass to the point, -l of Eq. 5.3
+        BodyMotion start;
+        double lighterMassKg;
+        float gravityScale;
+        Vector2 gained{};                 // N s, from the bodies that touch an immovable source
+        double causedNewtonSeconds = 0.0; // of a transmitted impact: the sum of all connected collisions so
+                                          // far
+    };
+    void open(const StepSpan& span);
+    void openDirect(const Collision& collision, const StepSpan& span);
+    void openHandedOn(const StepSpan& span);
+    void openHandedOn(std::int32_t camera, const StepSpan& span);
+    void findCauses(const StepSpan& span);
+    bool isStronger(std::int32_t collision, std::int32_t than) const noexcept;
+    void push(const Strike& strike);
+    void follow();
+    void followCauses();
+    Vector2 gain(std::int32_t camera);
+    Vector2 gainOf(std::int32_t slot);
+    void release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts);
+    template <class Choice>
+    void release(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts, Choice choice);
+    void expire(const StepSpan& span, std::vector<Impact>& impacts);
+    void finish(const Strike& strike, const BodyMotion& end, std::int64_t timeNs, const StepSpan& span,
+                std::vector<Impact>& impacts) const;
+    Vector2 impulse(const Strike& strike, const BodyMotion& end) const;
+
+    const CollisionCatcher& catcher_;
+    const FixtureTable& table_;
+    ContactGraph& graph_;
+    const BodyReader& bodies_;
+    std::vector<Strike> strikes_;
+    static constexpr std::int32_t handedOn = 0, direct = 1;
+    SlotMap underWay_;                  // whether a source has a transmitted or a direct impact pending
+    SlotMap isStruckA_, isStruckB_;     // slots of pending impacts, whose contacts' ends matter
+    std::vector<double> impulses_;      // of this step's collisions
+    SlotMap strongestOf_;               // strongest collision by component
+    StrikeCauses causes_, before_;      // of this step and of the last
+    std::vector<std::int32_t> reached_; // components at the current source
+    IntegerMap counted_;                // by body: the last sum in which it was counted
+    std::int32_t sums_ = 0;
+    std::uint64_t drops_ = 0;
+};
+
+} // namespace physvib

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// Hash table from 64-bit keys (addresses, pairs of indices) to indices, for lookups inside contact callbacks.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+/// The key of an unordered pair of different indices (>= 0). Never 0, because the larger index is above 0.
+/// Any thread.
+constexpr std::uint64_t pairKey(std::int32_t a, std::int32_t b) noexcept {
+    const auto low = static_cast<std::uint64_t>(std::min(a, b));
+    return low << 32U | static_cast<std::uint64_t>(std::max(a, b));
+}
+
+/// Open addressing with linear probing, at most half full. Unlike std::unordered_map it allocates only to
+/// grow, and a lookup reads one or two cache lines. It cannot be iterated over. One thread at a time.
+class IntegerMap {
+public:
+    static constexpr std::int32_t none = -1;
+
+    /// `capacity` keys fit without an allocation.
+    explicit IntegerMap(std::size_t capacity = 32) { allocate(std::bit_ceil(2 * capacity + 2)); }
+
+    /// The value of `key` (not 0), or `none`.
+    std::int32_t find(std::uint64_t key) const noexcept {
+        const Entry& entry = entries_[locate(key)];
+        return isTaken(entry) ? entry.value : none;
+    }
+
+    /// Sets the value of `key` (not 0).
+    void set(std::uint64_t key, std::int32_t value) {
+        if (2 * (size_ + 1) > entries_.size()) grow();
+        Entry& entry = entries_[locate(key)];
+        if (!isTaken(entry)) ++size_;
+        entry = {key, value, age_};
+    }
+
+    /// Removes `key`, if present. Later keys of the same run move up, so that linear probing still finds
+    /// them.
+    void erase(std::uint64_t key) noexcept {
+        std::size_t hole = locate(key);
+        if (!isTaken(entries_[hole])) return;
+        for (std::size_t next = after(hole); isTaken(entries_[next]); next = after(next)) {
+            const std::size_t fromHome = (next - home(entries_[next].key)) & mask();
+            if (fromHome < ((next - hole) & mask())) continue;
+            entries_[hole] = entries_[next];
+            hole = next;
+        }
+        entries_[hole] = {};
+        --size_;
+    }
+
+    /// Removes all keys, and keeps the memory. Constant time: entries of another age count as free.
+    void clear() noexcept {
+        size_ = 0;
+        if (++age_ != 0) return;
+        std::fill(entries_.begin(), entries_.end(), Entry{});
+        age_ = 1;
+    }
+
+    std::size_t size() const noexcept { return size_; }
+
+private:
+    struct Entry {
+        std::uint64_t key = 0;
+        std::int32_t value = none;
+        std::uint32_t age = 0;
+    };
+    bool isTaken(const Entry& entry) const noexcept { return entry.age == age_; }
+
+    std::size_t mask() const noexcept { return entries_.size() - 1; }
+    std::size_t after(std::size_t place) const noexcept { return (place + 1) & mask(); }
+    std::size_t home(std::uint64_t key) const noexcept {
+        return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_); // Fibonacci hashing,
+                                                                                // Knuth 6.4
+    }
+    std::size_t locate(std::uint64_t key) const noexcept {
+        std::size_t place = home(key);
+        while (isTaken(entries_[place]) && entries_[place].key != key) place = after(place);
+        return place;
+    }
+    void allocate(std::size_t places) {
+        entries_.assign(places, {});
+        shift_ = 64 - std::countr_zero(places);
+        size_ = 0;
+    }
+    void grow() {
+        std::vector<Entry> before;
+        before.swap(entries_);
+        allocate(2 * before.size());
+        for (const Entry& entry : before)
+            if (isTaken(entry)) set(entry.key, entry.value);
+    }
+
+    std::vector<Entry> entries_;
+    std::size_t size_ = 0;
+    std::uint32_t age_ = 1;
+    int shift_ = 0;
+};
+
+// Array map from small indices (fixture slots) to values, cleared in constant time; for per-step data.
+
+/// Like IntegerMap, for keys that are small (>= 0) and looked up very often. Allocates when a key exceeds all
+/// earlier ones. One thread at a time.
+class SlotMap {
+public:
+    static constexpr std::int32_t none = -1;
+
+    explicit SlotMap(std::size_t slots = 128) { entries_.reserve(slots); }
+
+    /// The value of `slot`, or `none`.
+    std::int32_t find(std::int32_t slot) const noexcept {
+        const auto index = static_cast<std::size_t>(slot);
+        return index < entries_.size() && entries_[index].age == age_ ? entries_[index].value : none;
+    }
+
+    void set(std::int32_t slot, std::int32_t value) {
+        const auto index = static_cast<std::size_t>(slot);
+        if (entries_.size() <= index) entries_.resize(index + 1);
+        entries_[index] = {value, age_};
+    }
+
+    /// Removes all values in constant time: entries of another age count as empty.
+    void clear() noexcept {
+        if (++age_ != 0) return;
+        for (Entry& entry : entries_) entry = {};
+        age_ = 1;
+    }
+
+private:
+    struct Entry {
+        std::int32_t value = none;
+        std::uint32_t age = 0;
+    };
+    std::vector<Entry> entries_;
+    std::uint32_t age_ = 1;
+};
+
+// Counting hash filter: tests quickly, in the first-level cache, whether a number may be in a set.
+
+/// Never returns false for a number that was added; returns true for others with a probability that grows
+/// with the set. Counts how often a number was added. One thread at a time.
+class NameSketch {
+public:
+    void add(std::uint64_t name) noexcept { ++counts_[place(name)]; }
+
+    /// Removes a number that was added.
+    void remove(std::uint64_t name) noexcept { --counts_[place(name)]; }
+
+    bool mayHave(std::uint64_t name) const noexcept { return counts_[place(name)] != 0; }
+
+private:
+    static constexpr int bits = 11;
+    static constexpr std::size_t place(std::uint64_t name) noexcept {
+        return static_cast<std::size_t>((name * 0x9E3779B97F4A7C15U) >> (64 - bits)); // hash as in IntegerMap
+    }
+
+    std::array<std::uint32_t, std::size_t{1} << bits> counts_{};
+};
+
+} // namespace physvib

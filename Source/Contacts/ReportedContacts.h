@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT
+// The implementation of ContactFeed: reported bodies and touching pairs, and what they give to the stages
+// that make events.
+#pragma once
+#include "Contacts/ContactEvents.h"
+#include "Contacts/ContactFeed.h"
+#include "Contacts/Impact.h"
+#include "Contacts/IndexMaps.h"
+#include "Contacts/LastingContacts.h"
+#include "Contacts/Vectors.h"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+// Decides which contact points of a touching pair are new, by comparing numbers or places with those of the
+// last step.
+
+/// Points of pairs, of this step and of the last. All methods: the world's thread (M). Allocates only to
+/// grow.
+class FedPoints {
+public:
+    static constexpr std::int32_t none = -1; ///< of a chain: empty
+
+    /// The points of one pair; the pair stores it.
+    struct Chain {
+        std::int32_t now = none, before = none;
+    };
+
+    /// Records a point of this step. True if the pair did not have it in the last step: no point of that
+    /// number, or none within `withinMetres` across the normal. Distance along the normal does not count,
+    /// because surfaces sink into each other, by several centimetres where contacts are springs.
+    bool isNew(Chain& chain, std::int32_t id, Vector3 place, Vector3 normal, double withinMetres) {
+        bool isOld = false;
+        for (std::int32_t at = chain.before; at != none && !isOld;
+             at = before_[static_cast<std::size_t>(at)].next) {
+            const Point& point = before_[static_cast<std::size_t>(at)];
+            isOld = id == FedContact::byPlace ? across(point.place - place, normal) <= withinMetres
+                                              : point.id == id;
+        }
+        now_.push_back({place, id, chain.now});
+        chain.now = static_cast<std::int32_t>(now_.size()) - 1;
+        return !isOld;
+    }
+
+    /// This step's points become those of the last; the owner of each chain updates it likewise.
+    void endStep() {
+        std::swap(before_, now_);
+        now_.clear();
+    }
+
+private:
+    static double across(Vector3 way, Vector3 normal) noexcept { return lengthOf(cross(way, normal)); }
+
+    struct Point {
+        Vector3 place;
+        std::int32_t id, next;
+    };
+    std::vector<Point> now_, before_;
+};
+
+// Bodies of a world whose engine PhysVib cannot read: the caller reports their masses and motions.
+
+/// Bodies by numbers (>= 0) of the engine's side. M only.
+class ReportedBodies final : public BodyReader {
+public:
+    /// The number by which contacts and later stages identify that body.
+    static std::uint64_t idOf(std::int32_t id) noexcept { return static_cast<std::uint64_t>(id) + 1; }
+
+    void set(std::int32_t id, const FedBody& body);
+    /// `inverse`: in the world's axes; without it, FedBody's moment of inertia counts about every axis.
+    void move(std::int32_t id, Vector3 centre, const SpaceMotion& motion,
+              const std::optional<InverseInertia>& inverse = {});
+    void remove(std::int32_t id);
+    /// The motion after the engine's solver, in this step.
+    void moveAfter(std::int32_t id, const SpaceMotion& motion);
+    /// True if that motion was reported in this step, or is not needed.
+    bool hasAfter(std::int32_t id) const;
+    bool isAnyAfter() const noexcept { return isAnyAfter_; }
+    void endStep() noexcept { isAnyAfter_ = false, ++age_; }
+    const FedBody& told(std::int32_t id) const { return at(idOf(id)).told; }
+    bool has(std::int32_t id) const noexcept { return slots_.find(idOf(id)) != IntegerMap::none; }
+
+    /// The largest mass of a movable body, kg (m_max of Eq. 5.7).
+    double largestMassKg();
+
+    /// Speed at which B approaches A at a point, m/s, from the reported motions; the normal points from A to
+    /// B.
+    double approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const;
+
+    /// The same after the solver.
+    double approachAfter(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const;
+
+    /// Upper bound of the speed at which the contact point moves along the two surfaces, m/s: the sum of each
+    /// body's motion and rotation across the normal.
+    double slide(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const;
+
+    /// Change of the speed along `otherNormal` at `otherPoint` by an impulse of 1 N s along `normal` at
+    /// `point`, 1/kg. Both normals point from A to B.
+    double coupling(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal, Vector3 otherPoint,
+                    Vector3 otherNormal) const;
+
+    /// How easily a body turns; all 0 if it is not movable, or its moment of inertia is not known.
+    InverseInertia inverseInertia(std::int32_t id) const;
+    /// Lever of a force along `normal` at `point`, about the body's centre of mass, m.
+    Vector3 lever(std::int32_t id, Vector3 point, Vector3 normal) const {
+        return cross(point - at(idOf(id)).centre, normal);
+    }
+
+    /// Effective mass at a contact point, kg: impulse per change of the approach speed. Infinite if neither
+    /// body is movable.
+    double effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const;
+
+    BodyFacts facts(std::uint64_t body) const override;
+    // The part in the plane: release timing alone asks for motions, and feeds do not have it.
+    BodyMotion motion(std::uint64_t body) const override {
+        const SpaceMotion& motion = at(body).motion;
+        return {inPlane(motion.metresPerSecond), motion.radiansPerSecond.z};
+    }
+    BodyMotion motionBefore(std::uint64_t body) const override { return motion(body); }
+    Vector2 centre(std::uint64_t body) const override { return inPlane(at(body).centre); }
+    Vector3 toWorld(std::uint64_t body, Vector2 ofBody) const override { return at(body).centre + ofBody; }
+    double inertia(std::uint64_t body) const override { return at(body).told.inertiaKgSquareMetres; }
+
+private:
+    struct Body {
+        std::int32_t id;
+        FedBody told;
+        Vector3 centre;
+        SpaceMotion motion, after;
+        std::optional<InverseInertia> inverse{};
+        std::uint64_t afterAge = 0; // the step in which `after` was reported
+    };
+    const Body& at(std::uint64_t name) const { return bodies_[static_cast<std::size_t>(slots_.find(name))]; }
+    static double turning(const Body& body, Vector3 lever, Vector3 other) noexcept;
+    void forgetLargest(const Body& body) noexcept;
+
+    std::vector<Body> bodies_;
+    IntegerMap slots_; // by idOf()
+    double largestMassKg_ = 0.0;
+    bool isLargestKnown_ = true;
+    std::uint64_t age_ = 1;
+    bool isAnyAfter_ = false;
+};
+
+// Impulses at the points where two bodies collide, solved together.
+
+/// One contact point. New points are to separate at `restitution` times their approach speed; old ones only
+/// stay closed.
+struct MeetingPoint {
+    Vector3 point, normal; ///< normal: from A to B, of length 1
+    double approach = 0.0; ///< m/s, before the engine's solver
+    double restitution = 0.0;
+    bool isNew = false;
+    double newtonSeconds = 0.0; ///< result of solve
+};
+
+/// Computes the impulses along the normals such that none pulls, no surfaces approach, and none is larger
+/// than necessary (the linear complementarity problem of a rigid impact, by projected Gauss-Seidel). Where
+/// the masses leave the distribution open, all points get equal impulses. The bodies must be registered.
+/// World thread (M) only; no allocation.
+void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points);
+
+// Estimates contact impulses from the bodies' velocities before and after the solver, for engines that do not
+// report impulses.
+
+/// Finds the impulses along the normals, none of them pulling, that together explain the bodies' change of
+/// momentum (least kinetic energy of the remainder, by projected Gauss-Seidel). Friction and joints are not
+/// known; their effects are attributed to the contacts as far as they act along the normals. A body between
+/// two others has the impulses on both sides, so a row transmits an impact, and a landing on a supported body
+/// counts the whole. World thread (M) only; allocates only to grow.
+class MomentumImpulses {
+public:
+    void clear();
+    /// Adds a point of two bodies whose velocities are known (ReportedBodies::hasAfter). Returns its number,
+    /// from 0 on.
+    std::size_t add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
+                    Vector3 normal);
+    void solve();
+    double newtonSeconds(std::size_t point) const { return points_[point].newtonSeconds; }
+
+private:
+    static constexpr std::int32_t none = IntegerMap::none;
+    struct Body {
+        double perKg;
+        InverseInertia turning;
+        // changes by the impulses found so far, m/s and rad/s
+        std::array<double, 3> velocity{}, spin{};
+    };
+    struct Point {
+        std::int32_t a, b;              // bodies, or none: immovable
+        Vector3 normal, leverA, leverB; // m
+        double change;                  // m/s by which the contact has reduced the approach speed
+        double perNewtonSecond, newtonSeconds;
+    };
+    std::int32_t know(const ReportedBodies& bodies, std::int32_t id);
+    bool isInPlane(const Point& point) const;
+    // `inPlane` leaves out what is 0 there.
+    template <bool inPlane>
+    static double along(const Body& body, Vector3 normal, Vector3 lever) noexcept;
+    template <bool inPlane>
+    double found(const Point& point) const;
+    template <bool inPlane>
+    void push(const Point& point, double newtonSeconds);
+    template <bool inPlane>
+    void sweep();
+
+    bool isInPlane_ = true; // all points: normals along x and y, spin about z alone
+    std::vector<Body> bodies_;
+    IntegerMap bodyOf_; // by ReportedBodies::idOf()
+    std::vector<Point> points_;
+};
+
+// Converts the lasting contacts (rolling, sliding) that a foreign engine reports per step to tracked contact
+// points.
+
+/// A pair in contact whose contact point moves. A ball that rolls at v over a floor: v along both. A box that
+/// slides at v: v along the floor, 0 along the box.
+struct Rub {
+    std::int32_t a = 0, b = 0; ///< slots of the FixtureTable
+    double newtonSeconds = 0.0;
+    Vector3 point;                     ///< world
+    double alongA = 0.0, alongB = 0.0; ///< m/s, speed of the point along each surface; their difference is
+                                       ///< the slip
+};
+
+/// One point per pair: impulses of several points are summed, the last one's place is used. Positions along
+/// the surfaces are integrated from the speeds, starting at 0 with the contact. All methods: the world's
+/// thread (M).
+class ReportedSlides {
+public:
+    void tell(const Rub& rub);
+    /// Passes the step's points to `lasting`; contacts that were not reported have ended.
+    void endStep(double seconds, LastingContacts& lasting);
+    void forget(std::int32_t slot); ///< the slot is freed or reassigned
+
+private:
+    struct Track {
+        std::uint64_t key;
+        LastingPoint point;
+        Vector3 before;
+        bool isNew, isTold;
+    };
+    void drop(std::size_t track);
+
+    std::vector<Track> tracks_;
+    IntegerMap trackOf_;
+};
+
+/// Its arguments are valid: ContactFeed has checked that bodies are known, that contacts have no errors, and
+/// that the call is allowed now. M only.
+class ReportedContacts {
+public:
+    explicit ReportedContacts(const ImpactSettings& settings);
+    ReportedContacts(const ReportedContacts&) = delete;
+    ReportedContacts& operator=(const ReportedContacts&) = delete;
+
+    ReportedBodies& bodies() noexcept { return bodies_; }
+    ContactEvents& events() noexcept { return events_; }
+    bool isStepping() noexcept { return events_.catcher().isStepping(); }
+
+    void remove(std::int32_t id);
+    void beginStep(std::int64_t endNs, double gravityMetresPerSecond2);
+    void touch(const FedContact& contact);
+    void begin(const FedContact& contact);
+    void push(const FedContact& contact);
+    bool end(std::int32_t a, std::int32_t b); ///< False: the pair does not touch.
+    void endStep();
+
+private:
+    struct Pair {
+        std::int32_t a, b; // slots, the lower one first
+        bool isAsked;      // it was reported by touch(), and ends when touch() leaves it out
+        bool isNew, isNamed;
+        FedPoints::Chain points{};              // of this step and the one before, if the engine names points
+        std::int32_t waiting = FedPoints::none; // the newest of its contacts that are solved at the end of
+                                                // the step
+    };
+    struct Waiting {
+        FedContact contact;
+        bool isNew;
+        std::int32_t next;
+        std::int32_t momentum; // its number there, or none
+    };
+    bool isByMomentum(const FedContact& contact) const {
+        return bodies_.isAnyAfter() && bodies_.hasAfter(contact.a) && bodies_.hasAfter(contact.b);
+    }
+    void strikeByMomentum();
+    FedContact withMomentum(const Waiting& each) const;
+    double pushed(const Waiting& each) const;
+    double supported(double bySpeed, double pushed, double gainedMetresPerSecond, double fraction) const;
+    static bool waits(const FedContact& contact) noexcept {
+        return contact.isSoft || contact.isImpulseOfPair || !contact.impulseNewtonSeconds;
+    }
+    bool isNewPoint(Pair& pair, const FedContact& contact);
+    void tell(Pair& pair, const FedContact& contact, bool isNew);
+    void settle(const Pair& pair);
+    void settleTogether();
+    double speedOf(const FedContact& contact) const;
+    std::int32_t slotOf(std::int32_t id) const noexcept {
+        return events_.fixtures().find(ReportedBodies::idOf(id));
+    }
+    TouchingPairs::Name nameOf(const FedContact& contact);
+    Pair& know(const FedContact& contact, bool isAsked);
+    void drop(std::size_t pair);
+    void dropAllOf(std::int32_t slot);
+    void strike(const FedContact& contact, double pushed = 0.0);
+    void passOver(const TouchingPairs::Name& pair, const FedContact& contact, double speed, double impulse);
+    void strikeTogether();
+    double fastestOfNew() const;
+    static void addFriction(Collision& collision, const FedContact& contact, std::int32_t a,
+                            float share) noexcept;
+    void load(const FedContact& contact);
+    void rub(const FedContact& contact, const TouchingPairs::Name& pair);
+    double fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept;
+
+    ReportedBodies bodies_;
+    ContactEvents events_;
+    ReportedSlides rubs_;
+    FedPoints points_;
+    std::vector<Waiting> waiting_;
+    MomentumImpulses momentum_;
+    std::vector<const Waiting*> together_; // of one pair, in the order in which they were reported
+    std::vector<MeetingPoint> meeting_;    // the same for the solver
+    std::vector<Pair> pairs_;
+    IntegerMap pairOf_;
+    double lastStepSeconds_ = 0.0, gravity_ = 0.0;
+};
+
+} // namespace physvib

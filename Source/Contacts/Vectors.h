@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// A vector in the plane, in the single precision that 2D physics engines compute with, and a body's motion
+// there.
+#pragma once
+#include <array>
+#include <cmath>
+
+namespace physvib {
+
+// A vector in space, in the single precision that physics engines compute with, and a body's motion there.
+
+/// A place (m), velocity (m/s), impulse (N s) and so on, as the variable's name says. What lies in the plane
+/// has z = 0, and every sum below then has the bits of the same sum of Vector2: z adds exact zeros, last. Any
+/// thread.
+struct Vector3 {
+    float x = 0.0F, y = 0.0F, z = 0.0F;
+
+    friend Vector3 operator+(Vector3 a, Vector3 b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend Vector3 operator-(Vector3 a, Vector3 b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend Vector3 operator-(Vector3 a) noexcept { return {-a.x, -a.y, -a.z}; }
+    friend Vector3 operator*(float s, Vector3 a) noexcept { return {s * a.x, s * a.y, s * a.z}; }
+    friend double dot(Vector3 a, Vector3 b) noexcept {
+        return static_cast<double>(a.x * b.x + a.y * b.y + a.z * b.z);
+    }
+    friend Vector3 cross(Vector3 a, Vector3 b) noexcept {
+        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    }
+    Vector3& operator+=(Vector3 other) noexcept { return *this = *this + other; }
+
+    float lengthSquared() const noexcept { return x * x + y * y + z * z; }
+    float length() const noexcept { return std::sqrt(lengthSquared()); }
+};
+
+/// The length in double precision, in which the root of one component's square is that component. Any thread.
+inline double lengthOf(Vector3 of) noexcept {
+    const auto x = static_cast<double>(of.x), y = static_cast<double>(of.y), z = static_cast<double>(of.z);
+    return std::sqrt(x * x + y * y + z * z);
+}
+
+/// Velocity of a body in space.
+struct SpaceMotion {
+    Vector3 metresPerSecond;
+    Vector3 radiansPerSecond; ///< about each axis, counter-clockwise seen from its end
+};
+
+/// A place (m), velocity (m/s), impulse (N s) and so on, as the variable's name says. Any thread.
+struct Vector2 {
+    float x = 0.0F, y = 0.0F;
+
+    friend Vector2 operator+(Vector2 a, Vector2 b) noexcept { return {a.x + b.x, a.y + b.y}; }
+    friend Vector2 operator-(Vector2 a, Vector2 b) noexcept { return {a.x - b.x, a.y - b.y}; }
+    friend Vector2 operator-(Vector2 a) noexcept { return {-a.x, -a.y}; }
+    friend Vector2 operator*(float s, Vector2 a) noexcept { return {s * a.x, s * a.y}; }
+    friend double dot(Vector2 a, Vector2 b) noexcept { return static_cast<double>(a.x * b.x + a.y * b.y); }
+    Vector2& operator+=(Vector2 other) noexcept { return *this = *this + other; }
+
+    operator Vector3() const noexcept { return {x, y, 0.0F}; } ///< The same in space.
+
+    float lengthSquared() const noexcept { return x * x + y * y; }
+    float length() const noexcept { return std::sqrt(lengthSquared()); }
+
+    /// The vector rotated by 90 degrees counter-clockwise.
+    Vector2 turnedLeft() const noexcept { return {-y, x}; }
+};
+
+/// The part of a vector in space that lies in the plane. Any thread.
+inline Vector2 inPlane(Vector3 of) noexcept { return {of.x, of.y}; }
+
+/// Velocity of a body.
+struct BodyMotion {
+    Vector2 metresPerSecond;
+    float radiansPerSecond = 0.0F; ///< counter-clockwise
+};
+
+// How easily a body turns about each axis through its centre of mass.
+
+/// The inverse of the moments of inertia about the centre of mass, 1/(kg m^2): a symmetric matrix in the
+/// world's axes. All 0: nothing turns the body. Any thread.
+struct InverseInertia {
+    double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
+
+    /// The same about every axis, as of a ball.
+    static InverseInertia ofBall(double perKgSquareMetre) noexcept {
+        return {perKgSquareMetre, perKgSquareMetre, perKgSquareMetre, 0.0, 0.0, 0.0};
+    }
+
+    /// Change of spin, rad/s, by `newtonSeconds` that act with this lever (arm x direction), m.
+    std::array<double, 3> spin(double newtonSeconds, Vector3 lever) const noexcept {
+        const auto x = static_cast<double>(lever.x), y = static_cast<double>(lever.y),
+                   z = static_cast<double>(lever.z), s = newtonSeconds;
+        return {s * xx * x + s * xy * y + s * xz * z, s * xy * x + s * yy * y + s * yz * z,
+                s * xz * x + s * yz * y + s * zz * z};
+    }
+
+    /// Change of speed at one lever by 1 N s at the other, 1/kg.
+    double between(Vector3 one, Vector3 other) const noexcept {
+        const auto product = [](float a, float b) { return static_cast<double>(a) * static_cast<double>(b); };
+        return product(one.x, other.x) * xx + product(one.y, other.y) * yy + product(one.z, other.z) * zz +
+               (product(one.x, other.y) + product(one.y, other.x)) * xy +
+               (product(one.x, other.z) + product(one.z, other.x)) * xz +
+               (product(one.y, other.z) + product(one.z, other.y)) * yz;
+    }
+
+    /// Numbers that some body has: 0 or more about every axis, also about those between x, y and z. A matrix
+    /// that turns about one or two axes only (singular) is valid; false of NaN. Else an impulse could push a
+    /// body towards what struck it.
+    bool isValid() const noexcept {
+        constexpr double most = 1.0e18;
+        for (const double about : {xx, yy, zz})
+            if (!(about >= 0.0 && about <= most)) return false;
+        // no product of inertia is larger than the root of its two moments' product; engines round
+        const auto isWithin = [](double product, double one, double other) {
+            return std::abs(product) <= 1.0001 * std::sqrt(one * other);
+        };
+        return isWithin(xy, xx, yy) && isWithin(xz, xx, zz) && isWithin(yz, yy, zz) && isAboveZero();
+    }
+
+private:
+    /// The last pivot of Cholesky's factors, where each axis has a moment: with those of the pairs above, it
+    /// tells a positive semi-definite matrix. In parts of the moments, since a rod's differ a lot.
+    bool isAboveZero() const noexcept {
+        if (!(xx > 0.0 && yy > 0.0 && zz > 0.0)) return true; // the pairs are all there is
+        const double a = xy / std::sqrt(xx * yy), b = xz / std::sqrt(xx * zz), c = yz / std::sqrt(yy * zz);
+        return 1.0 + 2.0 * a * b * c - a * a - b * b - c * c >= -1e-3;
+    }
+};
+
+} // namespace physvib

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Scans drivers for their output devices.
+#include "Live/Devices/AudioDevice.h"
+#include "Io/Text/CleanText.h"
+#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/PicoDevice.h"
+#include <algorithm>
+
+namespace physvib {
+std::vector<AudioDeviceName> listAudioDevices(const AudioDrivers& drivers) {
+    std::vector<AudioDeviceName> devices;
+    for (const auto& driver : drivers()) {
+        driver->scan();
+        for (const std::string& name : driver->deviceNames(false))
+            if (const auto device = driver->create(name, false))
+                devices.push_back({driver->name(), name, device->outputs()});
+    }
+    return devices;
+}
+
+FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& asked, bool withInputs) {
+    auto all = drivers();
+    // what older versions saved: a way to these very outputs that is not taken any more (AlsaDriver)
+    const std::string wanted = asked == "ALSA:JACK Audio Connection Kit" ? "JACK:system" : asked;
+    const auto prefix = [](const auto& driver) { return driver->name() + ":"; };
+    const auto isNamed = [&](const auto& driver) { return wanted.starts_with(prefix(driver)); };
+    const bool hasDriver = std::ranges::any_of(all, isNamed);
+    for (auto& driver : all) {
+        if (hasDriver && !isNamed(driver)) continue;
+        driver->scan();
+        std::string name = cleanLine(wanted.substr(hasDriver ? prefix(driver).size() : 0));
+        const auto has = [&](bool inputs) {
+            const auto names = driver->deviceNames(inputs);
+            return std::ranges::find(names, name) != names.end();
+        };
+        if (name == picoDeviceName && !has(false)) name = picoAmong(driver->deviceNames(false));
+        if (name.empty()) continue;
+        auto device = driver->create(name, withInputs && has(true));
+        if (device) return {std::move(driver), std::move(device)};
+    }
+    return {};
+}
+
+std::string picoLayout(const AudioDrivers& drivers, const std::string& name) {
+    if (name != picoDeviceName) return picoLayoutOf(name);
+    const auto found = findAudioDevice(drivers, name);
+    return found.device ? picoLayoutOf(found.device->name()) : std::string{};
+}
+
+// Scores devices by name and number of outputs, without opening any.
+
+namespace {
+
+bool says(const AudioDeviceName& device, std::initializer_list<const char*> words) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; };
+    const auto isSame = [lower](char a, char b) { return lower(a) == lower(b); };
+    return std::ranges::any_of(words, [&](std::string_view word) {
+        return std::search(device.name.begin(), device.name.end(), word.begin(), word.end(), isSame) !=
+               device.name.end();
+    });
+}
+
+int likelihood(const AudioDeviceName& device) {
+    if (device.type == noDeviceType) return -100;
+    const int outputs = ownOutputs(device);
+    int points = outputs > 2 ? 50 : 10 * outputs;
+    if (device.type == "JACK") points += 10;
+    if (says(device, {"DualSense"})) points += 5;
+    if (isPico(device.name)) points += 20; // it has no other use
+    if (says(device, {"HDMI", "DisplayPort", "Monitor of"})) points -= 40;
+    return points;
+}
+
+} // namespace
+
+int ownOutputs(const AudioDeviceName& device) {
+    const bool isMixed =
+        device.type == "ALSA" && says(device, {"default", "pulse", "pipewire", "dmix", "front:", "surround"});
+    return isMixed ? std::min(2, device.channels) : device.channels;
+}
+
+std::vector<AudioDeviceName> byLikelihood(std::vector<AudioDeviceName> devices) {
+    std::ranges::stable_sort(devices, std::greater{}, likelihood);
+    return devices;
+}
+
+const char* layoutFor(int outputs, std::string_view device) {
+    if (isPico(device) && outputs >= 4) return outputs >= 8 ? "pico8" : "pico4";
+    return outputs >= 4 ? "phone4" : outputs == 3 ? "phone3" : outputs == 2 ? "phone2" : "phone1";
+}
+
+} // namespace physvib

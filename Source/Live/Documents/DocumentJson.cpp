@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Reads and writes strips, lanes and equalisers as JSON, and checks the fields of a mixer state against each
+// other.
+#include "Live/Documents/DocumentJson.h"
+#include "Core/Limits.h"
+#include "Scene/LayoutJson.h"
+#include "Scene/SceneFileLimits.h"
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace physvib {
+void visitFields(auto& v, FieldsOf<EqualisedActuator>) {
+    constexpr auto resonator = &EqualisedActuator::resonator;
+    v.field("resonance_hz", in(resonator, &Resonator::resonanceHz),
+            kinds::within(limits::leastMeasuredHz, limits::maxFrequencyHz));
+    v.field("q", in(resonator, &Resonator::q), kinds::within(limits::leastQ, limits::mostQ));
+    v.field("band_hz", &EqualisedActuator::band, Own<FrequencyBand>{});
+}
+
+GainLane readKind(const JsonField& list, const Own<GainLane>&) {
+    constexpr double mostSeconds = static_cast<double>(limits::maxSessionNs) / 1e9;
+    if (list.arraySize() > mostGainPoints)
+        list.fail("expected at most " + std::to_string(mostGainPoints) + " points");
+    GainLane lane;
+    for (std::size_t i = 0; i < list.arraySize(); ++i) {
+        const JsonField point = list.item(i);
+        if (point.arraySize() != 2) point.fail("expected [seconds, dB]");
+        const double least = lane.empty() ? 0.0 : lane.back().seconds;
+        lane.push_back({point.item(0).numberWithin(least, mostSeconds), stripRangeDb(point.item(1))});
+    }
+    return lane;
+}
+
+OrderedJson writeKind(const Own<GainLane>&, const GainLane& lane) {
+    OrderedJson list = OrderedJson::array();
+    for (const GainPoint& point : lane) list.push_back({point.seconds, point.db});
+    return list;
+}
+
+namespace {
+
+void expectStrips(const JsonField& list, int count) {
+    if (list.arraySize() != static_cast<std::size_t>(count))
+        list.fail("expected one strip per actuator, " + std::to_string(count));
+}
+
+} // namespace
+
+std::vector<Strip> readKind(const JsonField& list, const PerChannel<std::vector<Strip>>& kind) {
+    expectStrips(list, kind.channels);
+    return kinds::Objects<Strip>{}(list);
+}
+
+OrderedJson writeKind(const PerChannel<std::vector<Strip>>&, const std::vector<Strip>& strips) {
+    return kinds::Objects<Strip>{}.write(strips);
+}
+
+std::vector<Strip> readKind(const JsonField& list, const kinds::PluginStrips& kind) {
+    expectStrips(list, kind.count);
+    std::vector<Strip> strips(list.arraySize());
+    for (std::size_t j = 0; j < strips.size(); ++j) {
+        readTable<Strip, PluginStrip>(list.item(j), strips[j]);
+        strips[j].output = static_cast<int>(j);
+    }
+    return strips;
+}
+
+OrderedJson writeKind(const kinds::PluginStrips& kind, const std::vector<Strip>& strips) {
+    std::vector<Strip> whole = strips;
+    resizeStrips(whole, kind.count);
+    OrderedJson list = OrderedJson::array();
+    for (const Strip& strip : whole) list.push_back(writeTable<Strip, PluginStrip>(strip));
+    return list;
+}
+
+FrequencyBand readKind(const JsonField& json, const Own<FrequencyBand>&) {
+    if (json.arraySize() != 2) json.fail("expected [lowest, highest]");
+    const auto hz = [&](std::size_t i) {
+        return json.item(i).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz);
+    };
+    const FrequencyBand band{hz(0), hz(1)};
+    if (!band.isKnown()) json.fail("expected a highest frequency above the lowest");
+    return band;
+}
+
+OrderedJson writeKind(const Own<FrequencyBand>&, const FrequencyBand& band) {
+    return {band.lowHz, band.highHz};
+}
+
+EqualisedActuators readKind(const JsonField& list, const PerChannel<EqualisedActuators>& kind) {
+    if (list.arraySize() != static_cast<std::size_t>(kind.channels))
+        list.fail("expected " + std::to_string(kind.channels) + " items, one per channel");
+    EqualisedActuators equalised{};
+    for (std::size_t j = 0; j < list.arraySize(); ++j)
+        if (!list.item(j).isNull()) readTable(list.item(j), equalised[j]);
+    return equalised;
+}
+
+OrderedJson writeKind(const PerChannel<EqualisedActuators>& kind, const EqualisedActuators& equalised) {
+    OrderedJson list = OrderedJson::array();
+    for (std::size_t j = 0; j < static_cast<std::size_t>(kind.channels); ++j)
+        list.push_back(equalised[j].isKnown() ? writeTable(equalised[j]) : OrderedJson());
+    return list;
+}
+
+Mix readMix(const JsonField& json) {
+    Mix mix;
+    readTable(json, mix);
+    for (std::size_t j = 0; j < mix.strips.size(); ++j)
+        if (const int group = mix.strips[j].group; group >= std::ssize(mix.groups))
+            json["strips"].item(j)["group"].fail("expected a group that is listed, of " +
+                                                 std::to_string(mix.groups.size()) + ", found " +
+                                                 std::to_string(group + 1));
+    return mix;
+}
+
+// Reads and writes render controls and panners as JSON, with their value ranges.
+
+namespace {
+
+int readChannel(const JsonField& field, int channels) {
+    const int found = field.wholeNumber();
+    if (found < 1 || found > channels)
+        field.fail("expected a channel from 1 to " + std::to_string(channels) + ", found " +
+                   std::to_string(found));
+    return found - 1;
+}
+
+void expectFields(const JsonField& json, std::vector<std::string_view> known, std::string_view other) {
+    known.push_back("control");
+    if (!other.empty()) known.push_back(other);
+    json.expectOnly(known);
+}
+
+} // namespace
+
+PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescription>& kind) {
+    json.expectObject({"layout", "law", "exponent", "field_m", "grain_law", "part_law"});
+    kind.described = readKind(json["layout"], Own<LayoutDescription>{});
+    const auto& layout = kind.described.geometry;
+    if (layout.count > kind.channels)
+        json["layout"].fail("expected at most " + std::to_string(kind.channels) +
+                            " actuators, as many as there are channels");
+    const JsonField field = json["field_m"];
+    if (field.arraySize() != 2) field.fail("expected [width, height]");
+    PhantomPanner panner{layout, panningLaws[json["law"].oneOf(panningLawNames)].law,
+                         exponentRange(json["exponent"]),
+                         field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres),
+                         field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
+    // without this field, grains are panned like impacts
+    if (json.has("grain_law"))
+        panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law));
+    // without this field parts are panned by `law`
+    const char* const partLaw = json.has("part_law") ? "part_law" : "law";
+    panner.setPartLaw(panningLaws[json[partLaw].oneOf(panningLawNames)].law);
+    return panner;
+}
+
+OwnedControl readControl(const JsonField& json, int channels, std::string_view otherField) {
+    using Holds = ControlDescription::Holds;
+    json.expectObject();
+    const ControlDescription& one = controlTable[json["control"].oneOf(controlNames)];
+    OwnedControl control;
+    control.kind = one.kind;
+    if (one.holds == Holds::nothing)
+        expectFields(json, {}, otherField);
+    else if (one.holds == Holds::panner) {
+        expectFields(json, {one.field}, otherField);
+        LayoutDescription unused;
+        control.kept = std::make_shared<const PhantomPanner>(
+            readKind(json[one.field], DescribedPanner{channels, unused}));
+        control.panner = control.kept.get();
+    } else {
+        expectFields(json, {"channel", one.field}, otherField);
+        control.channel = readChannel(json["channel"], channels);
+        if (one.holds == Holds::truth)
+            control.value = json[one.field].truth() ? 1.0f : 0.0f;
+        else
+            control.value = static_cast<float>(json[one.field].numberWithin(one.least, one.most));
+    }
+    return control;
+}
+
+OrderedJson writeKind(const DescribedPanner<const LayoutDescription>& kind, const PhantomPanner& panner) {
+    const bool isKnown = !kind.described.enchanters.empty();
+    OrderedJson json{{"layout", writeKind(Own<LayoutDescription>{},
+                                          isKnown ? kind.described : describeLayout("", panner.layout()))},
+                     {"law", nameOf(panner.law())},
+                     {"exponent", panner.exponent()},
+                     {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
+    if (panner.grains() != Spread::layout) json["grain_law"] = nameOf(panner.grains());
+    if (panner.partLaw() != panner.law() && hasParts(panner.layout()))
+        json["part_law"] = nameOf(panner.partLaw());
+    return json;
+}
+
+OrderedJson controlJson(const RenderControl& control) {
+    using Holds = ControlDescription::Holds;
+    // every control that is written is in the table
+    const auto one = std::ranges::find(controlTable, control.kind, &ControlDescription::kind);
+    OrderedJson json{{"control", one->name}};
+    if (one->holds == Holds::panner)
+        json[one->field] =
+            writeKind(DescribedPanner<const LayoutDescription>{control.channel, {}}, *control.panner);
+    if (one->holds == Holds::number || one->holds == Holds::truth) json["channel"] = control.channel + 1;
+    if (one->holds == Holds::number) json[one->field] = static_cast<double>(control.value);
+    if (one->holds == Holds::truth) json[one->field] = control.value != 0.0f;
+    return json;
+}
+
+} // namespace physvib
