@@ -2,8 +2,8 @@
 // Extracts the low frequencies of the side-chain input for the actuators.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
-#include "Core/Nonblocking.h"
 #include "Core/Limits.h"
+#include "Core/Nonblocking.h"
 #include "Host/Music/BandPass.h"
 #include "MusicDelay.h"
 #include <array>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Engine-independent pipeline from physics contacts to collision events.
 #pragma once
-#include "Contacts/Impact.h"
 #include "Contacts/CollisionCatcher.h"
 #include "Contacts/ContactCounts.h"
 #include "Contacts/ContactGraph.h"
 #include "Contacts/EventMaker.h"
 #include "Contacts/FixtureTable.h"
-#include "Contacts/ImpactSettings.h"
-#include "Contacts/LastingContacts.h"
-#include "Contacts/ImpactTimings.h"
 #include "Contacts/HapticFixture.h"
+#include "Contacts/Impact.h"
+#include "Contacts/ImpactSettings.h"
+#include "Contacts/ImpactTimings.h"
+#include "Contacts/LastingContacts.h"
 #include "Core/CollisionEvent.h"
 #include <cstdint>
 #include <vector>

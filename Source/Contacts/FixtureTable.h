@@ -2,8 +2,8 @@
 // Table of the fixtures that have haptic values or touch something. It is kept beside the physics world, so
 // the engine's user data remain the user's.
 #pragma once
-#include "Contacts/Impact.h"
 #include "Contacts/HapticFixture.h"
+#include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
 #include <cmath>
 #include <cstdint>

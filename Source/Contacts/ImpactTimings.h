@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The collisions of one step, and which of them reach a haptic source through a path of contacts.
+// From collisions to impacts, at their onset or, as in the thesis, at their release.
 #pragma once
 #include "Contacts/CollisionCatcher.h"
 #include "Contacts/ContactGraph.h"
@@ -10,6 +10,9 @@
 #include <vector>
 
 namespace physvib {
+
+// The collisions of one step, and which of them reach a haptic source through a path of contacts.
+
 /// A collision above the impact threshold.
 struct HardCollision {
     std::int32_t a, b, pair; // slots, and the number of their pair

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hash table from 64-bit keys (addresses, pairs of indices) to indices, for lookups inside contact callbacks.
+// Maps from numbers to indices, for lookups inside contact callbacks.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -9,6 +9,9 @@
 #include <vector>
 
 namespace physvib {
+
+// Hash table from 64-bit keys (addresses, pairs of indices) to indices.
+
 /// The key of an unordered pair of different indices (>= 0). Never 0, because the larger index is above 0.
 /// Any thread.
 constexpr std::uint64_t pairKey(std::int32_t a, std::int32_t b) noexcept {

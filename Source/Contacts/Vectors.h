@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A vector in the plane, in the single precision that 2D physics engines compute with, and a body's motion
-// there.
+// Vectors in the single precision that physics engines compute with, bodies' motions, and what turns them.
 #pragma once
 #include <array>
 #include <cmath>
 
 namespace physvib {
+
+// In the plane.
 
 // A vector in space, in the single precision that physics engines compute with, and a body's motion there.
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds rows, grids and belts among the places of actuators, and the cell that contains an impact.
+// Finds rows, grids and belts among the places of actuators, in the plane or in any other, and the triangles
+// of what closes around a place; and the cell that contains an impact.
 #include "Core/ActuatorCells.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Arithmetic of places in space. Any thread.
+// Cells between actuators, to which the panning laws `neighbours` and `triangles` go: rows, grids and belts
+// in a plane, and triangles of a layout in space. Each shares an impact among the actuators around its place.
 #pragma once
 #include "Core/EnchanterLayout.h"
 #include <cmath>
@@ -8,6 +9,9 @@
 #include <tuple>
 
 namespace physvib {
+
+// Arithmetic of places in space. Any thread.
+
 /// The way from a to b.
 inline ActuatorPlace vectorFrom(const ActuatorPlace& a, const ActuatorPlace& b) noexcept {
     return {b.xMetres - a.xMetres, b.yMetres - a.yMetres, b.zMetres - a.zMetres};

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Converts session time in nanoseconds to sample frames, exactly: integers only, at any sample rate.
+// The clocks of a session: from nanoseconds to frames, and the latency of the output.
 #pragma once
 #include "Core/Limits.h"
 #include <algorithm>
 #include <cstdint>
 
 namespace physvib {
+
+// Converts session time in nanoseconds to sample frames, exactly: integers only, at any sample rate.
+
 /// An onset on the frame grid. `frame` is the first frame not earlier than the onset, which lies `leadFrames`
 /// before it.
 struct FramePosition {

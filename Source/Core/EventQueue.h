@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wait-free queues that carry events from one producer thread to one consumer thread and count the items that
-// a full queue refused.
+// Wait-free hand-over between two threads: queues of events, which count the items that a full queue refused,
+// and the newest value.
 #pragma once
 #include "Core/Nonblocking.h"
 #include "Core/Storage.h"

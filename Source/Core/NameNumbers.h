@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The hash function FNV-1a, for short names and lines: not for files, nor against forgery.
+// Names as numbers, which events carry: of sounds, and of parts of a body.
 #pragma once
 #include "Core/Limits.h"
 #include <cstdint>
@@ -7,6 +7,9 @@
 #include <string_view>
 
 namespace physvib {
+
+// The hash function FNV-1a, for short names and lines: not for files, nor against forgery.
+
 /// 64 bits. `from`: the hash of what precedes `text`. Any thread.
 constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t from = 0xcbf29ce484222325u) noexcept {
     for (const char c : text) from = (from ^ static_cast<unsigned char>(c)) * 0x100000001b3u;

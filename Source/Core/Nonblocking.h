@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Macro that marks functions of the render thread: they neither allocate, free, lock, wait nor make system
-// calls.
+// What the render thread keeps to: no allocation, lock, wait or call of the system, and no denormal numbers.
 #pragma once
 #include <cstdint>
 #if defined(__SSE__)

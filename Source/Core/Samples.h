@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Peak magnitude of samples.
+// What samples are like: their peak, and where a tone can be cut.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Array whose size is fixed when a renderer is prepared: on a computer it is allocated on the heap then, on a
-// board it lies inside the object.
+// Memory of a fixed size: an array, and a queue in the order of times.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -10,6 +9,10 @@
 #include <type_traits>
 
 namespace physvib {
+
+// Array whose size is fixed when a renderer is prepared: on a computer it is allocated on the heap then, on a
+// board it lies inside the object.
+
 /// At most `Most` items. resize: message thread (M), not while rendering; all else: any thread that may use
 /// the items.
 template <class T, std::size_t Most, bool isOnHeap>

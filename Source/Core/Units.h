@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conversion between amplitudes and decibels. One home for it, so that every level that is set or displayed
-// has the same bits.
+// Conversions and constants of units. One home for them, so that every level that is set or displayed is the
+// same.
 #pragma once
 #include <cmath>
 

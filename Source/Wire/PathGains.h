@@ -5,8 +5,8 @@
 // That renderer evaluates the panning law at the ends of each tile of its frames and interpolates linearly
 // (Core/MovingTones.h).
 #pragma once
-#include "Core/CollisionEvent.h"
 #include "Core/ClockLaw.h"
+#include "Core/CollisionEvent.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -3,8 +3,8 @@
 #pragma once
 #include "Calls/ActuatorChoice.h"
 #include "Calls/CouplingChoice.h"
-#include "Core/Units.h"
 #include "Core/NameNumbers.h"
+#include "Core/Units.h"
 #include "Formats/ClipFile.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Text/NumberText.h"

@@ -2,11 +2,11 @@
 // A render job as a value: input, rendering options and output files. Calls, sweep designs and buttons create
 // such jobs.
 #pragma once
+#include "Core/EventShaping.h"
 #include "Core/Modes/InstructionSet.h"
 #include "Core/PanningLaws.h"
-#include "Core/EventShaping.h"
-#include "Live/Session/OnsetMarks.h"
 #include "Live/Session/OfflineRender.h"
+#include "Live/Session/OnsetMarks.h"
 #include "Scene/FieldSize.h"
 #include "Scene/SceneFile.h"
 #include "Scene/World/RunSettings.h"

@@ -8,7 +8,7 @@
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/MakeStimulus.h"
 #include "Lab/Study/StudyRun.h"
-#include "Live/Session/OfflineRender.h"
+#include "Live/Session/StimulusRender.h"
 #include "Options/Parser.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/LayoutNamed.h"

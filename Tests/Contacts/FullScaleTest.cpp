@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The impulse of full scale, told and learned, and the time in which a world settles: hits of known impulses.
-#include "Contacts/EventMaker.h"
 #include "Contacts/ContactFeed.h"
+#include "Contacts/EventMaker.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>

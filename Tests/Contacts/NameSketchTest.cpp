@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A sketch of a set of names: no is certain, and yes is rare of what is not there.
-#include "Contacts/IndexMaps.h"
 #include "Contacts/FixtureTable.h"
+#include "Contacts/IndexMaps.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rows, grids and belts in any plane or on any line of space, and parts of the body that have one.
-#include "Core/PhantomPanner.h"
 #include "Core/ActuatorCells.h"
+#include "Core/PhantomPanner.h"
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"
 #include <algorithm>

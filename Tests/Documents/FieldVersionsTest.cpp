@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A field that older files lack makes a new version of its format.
-#include "Live/Documents/PluginState.h"
 #include "Live/Documents/DocumentJson.h"
+#include "Live/Documents/PluginState.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Strikes on enchanters, their samples by the closed form, and how far two sounds are apart.
 #pragma once
-#include "Core/CollisionEvent.h"
 #include "Core/ClockLaw.h"
+#include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
 #include "Formats/ClipSound.h"
 #include "Formats/StrikeClip.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Devices of ALSA without hardware: null devices that write to files what a sound card would get.
-#include "Live/Devices/AlsaDevice.h"
 #include "DeviceNoise.h"
+#include "Live/Devices/AlsaDevice.h"
 #include "Live/Devices/AudioDevice.h"
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 // Measures how long after a message its strike comes out of a JACK server where the session is direct. Prints
 // a line; fails unless each is heard one block and the limiter after the session frame at which it came, and
 // what was played is what the log renders. Usage: physvib-direct-meter MESSAGES
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/SimulationDriver.h"
-#include "Live/Devices/AudioDevice.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Live/Session/SessionRender.h"
 #include "MeterClient.h"

@@ -2,9 +2,9 @@
 // Measures how long after its contact a collision comes out of a JACK server: a session on it, and in the
 // same process a client that records what it plays and notes which frame of the session each cycle is. Prints
 // a row of a table. Usage: physvib-latency-meter message|thread SECONDS
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/SimulationDriver.h"
-#include "Live/Devices/AudioDevice.h"
 #include "MeterClient.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/World/RunSettings.h"

@@ -2,9 +2,9 @@
 // Measures how long after one's own push the hit comes out of a JACK server. A ball between two walls, 4 mm
 // of way: each push is a hit within the step. Prints a line; fails unless every hit is heard exactly L after
 // its contact. Usage: physvib-own-action-meter PUSHES
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/SimulationDriver.h"
-#include "Live/Devices/AudioDevice.h"
 #include "MeterClient.h"
 #include "Session/WallsScene.h"
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Hits handed on through rows and stacks of touching bodies, against the bodies' own change of momentum.
-#include "Contacts/ImpactTimings.h"
 #include "AttachedWorld.h"
+#include "Contacts/ImpactTimings.h"
 #include <algorithm>
 
 namespace physvib {

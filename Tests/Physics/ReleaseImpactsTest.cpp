@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The thesis' timing against the solver's impulses and against Eq. 5.2 and 5.3 by hand.
-#include "Contacts/ImpactTimings.h"
 #include "AttachedWorld.h"
+#include "Contacts/ImpactTimings.h"
 
 namespace physvib {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Who asks for silence, and who lifts it.
-#include "Live/Session/OutputClock.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Session/Input.h"
+#include "Live/Session/OutputClock.h"
 #include <gtest/gtest.h>
 #include <thread>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a mixer does to a session while it plays is saved, and rendered again to the bit.
 #include "FakeHost.h"
-#include "Live/Documents/SessionFile.h"
 #include "Live/Documents/Mix.h"
+#include "Live/Documents/SessionFile.h"
 #include "Live/Session/OfflineRender.h"
 #include "Live/Session/Session.h"
 #include "Live/Session/SessionRender.h"

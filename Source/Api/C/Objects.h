@@ -7,9 +7,9 @@
 #include "Api/C/physvib.h"
 #include "Contacts/ContactFeed.h"
 #include "Core/ControlQueue.h"
+#include "Core/EventQueue.h"
 #include "Core/HapticRenderer.h"
 #include "Core/RenderControl.h"
-#include "Core/EventQueue.h"
 #include <atomic>
 #include <mutex>
 #include <unordered_map>

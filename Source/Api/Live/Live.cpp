@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The message thread of the live library, which owns the device.
 #include "Api/Live/Live.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
 #include "Live/Devices/SimulationDriver.h"
-#include "Live/Devices/AudioDevice.h"
 #include <utility>
 
 namespace physvib::api {

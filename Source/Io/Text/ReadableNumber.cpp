@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Formats numbers by <charconv>, with digits in groups of three.
 #include "Io/Text/ReadableNumber.h"
-#include "Core/Units.h"
 #include "Core/Limits.h"
+#include "Core/Units.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>

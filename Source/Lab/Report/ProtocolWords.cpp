@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Writes one sentence or clause per protocol field, in the order of Lab/Files/ProtocolFields.h.
 #include "Lab/Report/ProtocolWords.h"
-#include "Core/Units.h"
 #include "Core/EventShaping.h"
+#include "Core/Units.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFields.h"

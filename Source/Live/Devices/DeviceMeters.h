@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts rendered blocks and measures the share of their duration that rendering takes.
+// What an output measures of its device: load, blocks that stay away, levels.
 #pragma once
 #include "Core/Limits.h"
 #include "Live/Session/DevicePulse.h"

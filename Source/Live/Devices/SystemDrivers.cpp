@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The drivers whose libraries this machine has.
-#include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/AlsaDevice.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/JackDevice.h"
 
 namespace physvib {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lock-free queue of audio input with session time, from the render thread to one reader.
+// Copies of the signals of a live session for other threads: what comes in, what goes out.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/Nonblocking.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// JSON form of the mixer state and its parts, for other files that contain them. Included by .cpp files only.
+// JSON forms that documents share: controls and panners, the mixer state, parts of sessions. Included by .cpp
+// files of documents only.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Io/Json/FieldTable.h"

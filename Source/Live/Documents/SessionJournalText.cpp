@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a session journal line by line, and reads one up to its last complete part.
-#include "Live/Documents/SessionFile.h"
 #include "Live/Documents/DocumentJson.h"
+#include "Live/Documents/SessionFile.h"
 #include "Scene/JsonReader.h"
 #include "Scene/SceneFileLimits.h"
 #include "Scene/SceneValidation.h"

@@ -4,13 +4,9 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/HapticRenderer.h"
-#include "Io/Result.h"
 #include "Io/Text/NumberText.h"
-#include "Io/Wav/SampledSound.h"
 #include "Live/Session/OnsetMarks.h"
 #include "Live/Session/ThreadTime.h"
-#include "Scene/LayoutFile.h"
-#include "Stimuli/Stimulus.h"
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -34,24 +30,6 @@ using BlockConsumer = std::function<bool(const float* const* channels, int frame
 /// frame n is time n/rate. Returns the renderer's final status. Message thread (M) only, any number at once.
 RenderStatus renderOffline(std::span<const CollisionEvent> events, const OfflineSettings& settings,
                            const BlockConsumer& consume);
-
-// Renders a stimulus of a study to samples, one channel per actuator, with the common renderer.
-
-constexpr double fullScaleSlack = 1e-6; ///< tolerance above full scale: rounding of a sine's peak
-
-/// 1 is an actuator's full scale.
-using StimulusSound = SampledSound;
-
-/// The stimulus in units of each actuator's full scale. Without a limiter: a stimulus that would exceed full
-/// scale is refused, so that it is never changed. `layout` has as many actuators as the stimulus. Message
-/// thread (M) only.
-Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescription& layout,
-                                     int sampleRateHz);
-
-/// A one-channel recording as a phantom at `place`: scaled to a peak of `levelG` and distributed by `panner`.
-/// Refused above full scale, as above. M only.
-Result<StimulusSound> placeRecording(const StimulusSound& recording, const FieldPlace& place, double levelG,
-                                     const PhantomPanner& panner, const LayoutDescription& layout);
 
 // Time limit for simulating a scene before its first sample: a user's scene may take hours.
 

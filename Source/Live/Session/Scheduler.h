@@ -5,9 +5,9 @@
 #include "Core/ControlQueue.h"
 #include "Io/Result.h"
 #include "Live/Documents/SessionLog.h"
-#include "Live/Session/Input.h"
-#include "Live/Session/ContactSounds.h"
 #include "Live/Session/ContactAudio.h"
+#include "Live/Session/ContactSounds.h"
+#include "Live/Session/Input.h"
 #include "Live/Session/WorldRunner.h"
 #include "Scene/World/InputCheck.h"
 #include <array>

@@ -14,11 +14,11 @@
 // plays an event of world time w at w + L, L being the output latency. A driver that may hang is opened and
 // closed by DeviceThread, and a BoardLink has a thread of its own.
 #pragma once
-#include "Core/HapticRenderer.h"
 #include "Core/EventQueue.h"
+#include "Core/HapticRenderer.h"
 #include "Live/Session/CallbackInputs.h"
-#include "Live/Session/DevicePulse.h"
 #include "Live/Session/ContactAudio.h"
+#include "Live/Session/DevicePulse.h"
 #include "Live/Session/Scheduler.h"
 #include "Live/Session/Sink.h"
 #include "Live/Session/Timeline.h"

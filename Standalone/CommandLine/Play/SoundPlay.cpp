@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays a sound file as a `clip` message, with each channel on its own actuator.
 #include "CommandLine/Play/SoundPlay.h"
-#include "Core/Units.h"
 #include "Core/Samples.h"
+#include "Core/Units.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Recordings/ClipFolder.h"

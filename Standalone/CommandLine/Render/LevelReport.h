@@ -2,8 +2,8 @@
 // Levels in words: in dB of full scale and in g.
 #pragma once
 #include "Calls/LoadedRender.h"
-#include "Core/Units.h"
 #include "Core/Limits.h"
+#include "Core/Units.h"
 #include "Io/Text/NumberText.h"
 #include "Pictures/WaveformEnvelope.h"
 #include "Scene/SilentWords.h"

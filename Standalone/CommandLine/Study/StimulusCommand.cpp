@@ -8,7 +8,7 @@
 #include "Io/Wav/WavSink.h"
 #include "Lab/Study/MakeStimulus.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Live/Session/OfflineRender.h"
+#include "Live/Session/StimulusRender.h"
 #include "Pictures/RenderPicture.h"
 #include "Scene/LayoutNamed.h"
 #include <filesystem>
