@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Preset actuator layouts: PHONE and RING with 1 to 4 actuators, and a pinball cabinet; those on a body
-// (Core/BodyLayouts.h); and the checks of any layout.
+// (Core/EnchanterLayout.h); and the checks of any layout.
 #include "Core/EnchanterLayout.h"
 #include <algorithm>
 #include <cmath>

@@ -72,7 +72,7 @@ struct RenderingMethod {
     bool fixesDecay = false;
     double fixedAmplitude = fixedLevelG; ///< 1 = full scale of an actuator, as in an event
     bool holdsLevel = false; ///< true: fixedAmplitude is the peak of the summed vibration, not each impact's
-                             ///< A of Eq. 5.1 (FixedLevel.h)
+                             ///< A of Eq. 5.1 (FixedLevel)
 
     constexpr CollisionEvent operator()(CollisionEvent event) const noexcept {
         if (fixesAmplitude) event.amplitude = fixedAmplitude;

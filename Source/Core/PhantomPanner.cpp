@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Gains of a panning law for each arrangement of actuators: single, line, rectangle, triangle, scattered.
-// PanningRule.cpp decides which of them, or which cells, an event uses.
+// The panning rule, at the end, decides which of them, or which cells, an event uses.
 #include "Core/PhantomPanner.h"
 #include <algorithm>
 #include <cmath>

@@ -150,7 +150,7 @@ private:
 /// until the panner changes. Of more parts than `maxKept`, or than were prepared, the oldest is found anew.
 class PartPanners {
 public:
-    static constexpr std::size_t maxKept = 16; ///< Core/BodyLayouts.h names 15
+    static constexpr std::size_t maxKept = 16; ///< Core/EnchanterLayout.h names 15
 
     /// Makes room for the parts of a panner of at most so many actuators: each part has one of its own.
     /// False: no memory. Message thread (M), not while rendering.

@@ -20,7 +20,7 @@ struct SweepSettings {
 std::vector<float> sweepOf(const SweepSettings& settings, double rateHz);
 
 /// Model of a linear actuator and everything between output and recording: gain e^(-i w delay) H(f), see
-/// Core/Actuators/Resonator.h.
+/// Core/Actuators/ActuatorEqualiser.h.
 struct MeasuredActuator {
     Resonator resonator;
     double gain = 0.0;          ///< recorded over played at the resonance; negative: inverted polarity

@@ -16,7 +16,7 @@ constexpr int actuatorFormatVersion = 1;
 
 /// Principle of the actuator.
 enum class ActuatorKind {
-    linear,  ///< follows the drive's waveform, coloured by a resonance (Core/Actuators/Resonator.h)
+    linear,  ///< follows the drive's waveform, coloured by a resonance (Core/Actuators/ActuatorEqualiser.h)
     rotating ///< a rotating mass: it is on or off, and its frequency depends on its speed
 };
 

@@ -79,8 +79,8 @@ struct FixtureDescription {
     bool isCamera = false; ///< haptic source: collisions of this fixture are felt (thesis 5.1.1)
     Voice voice = Voice::own;
     std::optional<double> restitution{}; ///< of this fixture alone; none: the material's
-    std::string part{}; ///< part of the user's body on whose actuators it is felt (Core/PartNumber.h); empty:
-                        ///< on all, by place
+    std::string part{}; ///< part of the user's body on whose actuators it is felt (Core/NameNumbers.h);
+                        ///< empty: on all, by place
     bool operator==(const FixtureDescription&) const = default;
 };
 

@@ -3,7 +3,7 @@
 // can use the same.
 //
 // That renderer evaluates the panning law at the ends of each tile of its frames and interpolates linearly
-// (Core/MovingTones.h).
+// (Core/Voices.h).
 #pragma once
 #include "Core/ClockLaw.h"
 #include "Core/CollisionEvent.h"

@@ -22,7 +22,7 @@ struct CheckedStimulus {
     double peakShare = 0.0; ///< of the actuator with the largest share of its full scale; without the limiter
     double neededG = 0.0;   ///< full scale that this actuator needs
     double peakG = 0.0, rmsG = 0.0; ///< of the strongest actuator; rmsG over the duration
-    double squareGSeconds = 0.0;    ///< hand-weighted sum over all actuators: see HandWeighting.h
+    double squareGSeconds = 0.0;    ///< hand-weighted sum over all actuators: see Exposure.h
     double guardGain = 1.0;         ///< minimum gain of OutputGuard; 1: unchanged
     bool isOpenEnded = false;       ///< an interactive world, measured with its own script
     std::uint64_t print = 0;        ///< hash of what every actuator gets: equal samples, equal prints

@@ -2,7 +2,7 @@
 // Equaliser that makes a resonant actuator flat within its band: the input is the acceleration, in units of
 // the full scale at resonance.
 //
-// The plain inverse of the resonance (Core/Actuators/Resonator.h) would boost without bound. So E(s) = HP(s)
+// The plain inverse of the resonance (Resonator) would boost without bound. So E(s) = HP(s)
 // LP(s) / H(s), with Butterworth slopes whose corners lie outside the band: the band is flat and frequencies
 // beyond it are not driven. All sections have their zeros and poles in the unit circle (or on it at 0 Hz and
 // half the rate): stable and minimal-phase.

@@ -38,7 +38,7 @@ struct LimiterKernel {
 // What a vector kernel is given of one tile of 64 frames: modes, amplitudes, carriers, strikes.
 //
 // Low rank: inside a tile any decaying sinusoid of less than a turn or so is a combination of a few
-// polynomials (LowRankBasis.h). A mode is a row of complex coefficients, fixed for life; a tile is the
+// polynomials (LowRankBasis). A mode is a row of complex coefficients, fixed for life; a tile is the
 // product of the modes' amplitudes with these rows, summed over modes, and one expansion per channel at the
 // end, whatever the number of modes.
 

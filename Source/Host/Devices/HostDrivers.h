@@ -5,7 +5,7 @@
 
 namespace physvib {
 
-/// Our own on Linux (SystemDrivers.h), those of JUCE elsewhere; in the order in which names are searched. M.
+/// Our own on Linux (AudioDevice.h), those of JUCE elsewhere; in the order in which names are searched. M.
 std::vector<std::unique_ptr<AudioDriver>> hostAudioDrivers();
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads sounds by DecodeSound.h, clips by Formats.
+// Reads sounds by libsndfile, which reads what SoundHead.cpp has checked and nothing else of the file; clips
+// by Formats.
 #include "Live/Recordings/ReadRecording.h"
 #include "Formats/ClipFile.h"
 #include "Formats/ClipSound.h"
@@ -58,7 +59,7 @@ std::string streamRecording(const std::filesystem::path& path, SoundTaker& taker
     return fault.empty() ? fault : path.string() + ": " + fault;
 }
 
-// libsndfile reads what SoundHead.h has checked, and nothing else of the file.
+// Sounds.
 
 namespace {
 

@@ -16,7 +16,7 @@ namespace physvib {
 inline constexpr std::array<std::string_view, 6> soundEndings{".wav",  ".aiff", ".aif",
                                                               ".flac", ".ogg",  ".opus"};
 
-/// Reads a recording (DecodeSound.h, recognised by content) with its own rate and channels, or a clip
+/// Reads a recording (a sound, recognised by content) with its own rate and channels, or a clip
 /// (recognised by file extension: Formats/ClipFile.h) at 48 kHz. Or one line naming the file. Only regular
 /// files within the limits of recordings, whose content is as long as the header says, and finite. Any thread
 /// but R.
