@@ -3,7 +3,6 @@
 // catcher, 5.1.3).
 #pragma once
 #include "Contacts/ContactCounts.h"
-#include "Contacts/ContactGraph.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"

@@ -3,7 +3,6 @@
 #pragma once
 #include "Contacts/CollisionCatcher.h"
 #include "Contacts/ContactCounts.h"
-#include "Contacts/ContactGraph.h"
 #include "Contacts/EventMaker.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/HapticFixture.h"

@@ -2,7 +2,6 @@
 // From collisions to impacts, at their onset or, as in the thesis, at their release.
 #pragma once
 #include "Contacts/CollisionCatcher.h"
-#include "Contacts/ContactGraph.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"

@@ -10,7 +10,6 @@
 #pragma once
 #include "Core/Actuators/ActuatorStage.h"
 #include "Core/Actuators/DriveMatrices.h"
-#include "Core/Actuators/LinkedLimiter.h"
 #include "Core/Actuators/OutputGuard.h"
 #include "Core/ClockLaw.h"
 #include "Core/EventQueue.h"

@@ -4,14 +4,73 @@
 #include "Contacts/ContactCounts.h"
 #include "Contacts/ContactEvents.h"
 #include "Contacts/FixtureTable.h"
+#include "Physics/CollisionFinder.h"
 #include "Physics/WorldBodies.h"
-#include "Physics/WorldListener.h"
 #include <algorithm>
 #include <atomic>
+#include <box2d/box2d.h>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <typeinfo>
 #include <utility>
 
+// Listener that receives Box2D's callbacks for an attachment and forwards them to the game's own listeners.
+
+namespace physvib {
+/// Listens to one b2World, and forwards every call to the listeners that were set before.
+///
+/// A world keeps bare pointers to its listeners and does not announce its destruction. So a listener may be
+/// destroyed only once its world is known to have another one (`remove`); otherwise the attachment leaves it
+/// behind, deactivated and forwarding calls. World thread (M) only.
+class WorldListener final : public b2ContactListener, public b2DestructionListener {
+public:
+    WorldListener(ContactEvents& events, BodySweeps& sweeps, WorldBodies& bodies)
+        : events_(events)
+        , bodies_(bodies)
+        , finder_(std::make_unique<CollisionFinder>(events, sweeps)) {}
+    WorldListener(const WorldListener&) = delete;
+    WorldListener& operator=(const WorldListener&) = delete;
+
+    /// Sets itself as the world's listener, also again after a game has set another one or none, and forwards
+    /// to the one that it replaces.
+    void install(b2World& world);
+
+    /// True if the world reports destructions to it.
+    bool isInstalled(b2World& world) const;
+
+    /// Restores the world's earlier listeners. False, and nothing is restored, if another listener has been
+    /// set that may forward to this one.
+    bool remove(b2World& world);
+
+    /// From now on it only forwards calls.
+    void deactivate() noexcept { finder_.reset(); }
+
+    CollisionFinder& finder() noexcept { return *finder_; }
+
+    void BeginContact(b2Contact* contact) override;
+    void EndContact(b2Contact* contact) override;
+    void PreSolve(b2Contact* contact, const b2Manifold* oldManifold) override;
+    void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
+    void SayGoodbye(b2Joint* joint) override;
+    void SayGoodbye(b2Fixture* fixture) override;
+
+private:
+    class Call;
+    template <class Listener>
+    static Listener* skipInactive(Listener* found, Listener* WorldListener::*next);
+    template <class Listener>
+    bool isReachedBy(Listener* found, Listener* WorldListener::*next) const;
+
+    ContactEvents& events_;
+    WorldBodies& bodies_;
+    std::unique_ptr<CollisionFinder> finder_; // null: deactivated
+    b2ContactListener* chained_ = nullptr;
+    bool isAlone_ = false; // nothing to forward to: no other listener, or Box2D's own, which does nothing
+    b2DestructionListener* chainedEnds_ = nullptr;
+    const void* callFor_ = nullptr; // object of the call that is being forwarded
+};
+} // namespace physvib
 // A look at a world's haptic sources, to explain why they touch nothing.
 
 class b2World;
@@ -215,5 +274,126 @@ void noteSources(const b2World& world, const FixtureTable& fixtures, ContactCoun
             if (const std::int32_t slot = fixtures.find(idOf(*f));
                 slot != FixtureTable::none && fixtures.isCamera(slot))
                 if (const auto note = noteOf(world, *f)) counts.note(*note, fixtures[slot].id);
+}
+} // namespace physvib
+
+// Box2D listener that is one link in a chain of listeners.
+
+namespace physvib {
+/// A game's listener may forward calls to the listener that it replaced, which may be this one: each call is
+/// processed once.
+class WorldListener::Call {
+public:
+    Call(WorldListener& listener, const void* about) noexcept
+        : callFor_(listener.callFor_)
+        , outer_(std::exchange(listener.callFor_, about))
+        , isFirst_(outer_ != about) {}
+    ~Call() { callFor_ = outer_; }
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
+    explicit operator bool() const noexcept { return isFirst_; }
+
+private:
+    const void*& callFor_;
+    const void* outer_;
+    bool isFirst_;
+};
+
+void WorldListener::BeginContact(b2Contact* contact) {
+    const Call call{*this, contact};
+    if (!call) return;
+    if (finder_) finder_->begin(*contact);
+    if (chained_ != nullptr) chained_->BeginContact(contact);
+}
+
+void WorldListener::EndContact(b2Contact* contact) {
+    const Call call{*this, contact};
+    if (!call) return;
+    if (finder_) {
+        const b2Body &a = *contact->GetFixtureA()->GetBody(), &b = *contact->GetFixtureB()->GetBody();
+        // Ended by the game outside a step; it may have destroyed other bodies without a callback.
+        if (!a.GetWorld()->IsLocked()) bodies_.invalidate(&a, &b);
+        finder_->end(*contact);
+    }
+    if (chained_ != nullptr) chained_->EndContact(contact);
+}
+
+void WorldListener::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) {
+    if (isAlone_ && finder_) return finder_->onPreSolve(*contact, *oldManifold);
+    const Call call{*this, contact};
+    if (!call) return;
+    if (chained_ != nullptr) chained_->PreSolve(contact, oldManifold); // it may disable the contact
+    if (finder_) finder_->onPreSolve(*contact, *oldManifold);
+}
+
+void WorldListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
+    if (isAlone_ && finder_) return finder_->onPostSolve(*contact, *impulse);
+    const Call call{*this, contact};
+    if (!call) return;
+    if (finder_) finder_->onPostSolve(*contact, *impulse);
+    if (chained_ != nullptr) chained_->PostSolve(contact, impulse);
+}
+
+void WorldListener::SayGoodbye(b2Joint* joint) {
+    const Call call{*this, joint};
+    if (call && chainedEnds_ != nullptr) chainedEnds_->SayGoodbye(joint);
+}
+
+void WorldListener::SayGoodbye(b2Fixture* fixture) {
+    const Call call{*this, fixture};
+    if (!call) return;
+    if (const std::int32_t slot = finder_ ? finder_->find(*fixture) : FixtureTable::none;
+        slot != FixtureTable::none) {
+        finder_->forgetContacts();
+        bodies_.invalidate(fixture->GetBody());
+        events_.vanish(slot);
+    }
+    if (chainedEnds_ != nullptr) chainedEnds_->SayGoodbye(fixture);
+}
+
+// The first listener that is active: skips those of ended attachments.
+template <class Listener>
+Listener* WorldListener::skipInactive(Listener* found, Listener* WorldListener::*next) {
+    for (auto* deaf = dynamic_cast<WorldListener*>(found); deaf != nullptr && !deaf->finder_;
+         deaf = dynamic_cast<WorldListener*>(found))
+        found = deaf->*next;
+    return found;
+}
+
+// True if calls to `found` reach this listener through attachments that were made later.
+template <class Listener>
+bool WorldListener::isReachedBy(Listener* found, Listener* WorldListener::*next) const {
+    if (found == this) return true; // the usual case
+    for (auto* link = dynamic_cast<WorldListener*>(found); link != nullptr;
+         link = dynamic_cast<WorldListener*>(link->*next))
+        if (link == this) return true;
+    return false;
+}
+
+void WorldListener::install(b2World& world) {
+    if (b2ContactListener* found = world.GetContactManager().m_contactListener;
+        !isReachedBy(found, &WorldListener::chained_)) {
+        chained_ = skipInactive(found, &WorldListener::chained_);
+        isAlone_ = chained_ == nullptr || typeid(*chained_) == typeid(b2ContactListener);
+        world.SetContactListener(this);
+        if (finder_) finder_->forgetContacts();
+    }
+    if (b2DestructionListener* found = destructionListenerOf(world);
+        !isReachedBy(found, &WorldListener::chainedEnds_)) {
+        chainedEnds_ = skipInactive(found, &WorldListener::chainedEnds_);
+        world.SetDestructionListener(this);
+    }
+}
+
+bool WorldListener::isInstalled(b2World& world) const {
+    return isReachedBy(destructionListenerOf(world), &WorldListener::chainedEnds_);
+}
+
+bool WorldListener::remove(b2World& world) {
+    b2ContactListener* const contacts = world.GetContactManager().m_contactListener;
+    b2DestructionListener* const ends = destructionListenerOf(world);
+    if (contacts == this) world.SetContactListener(chained_);
+    if (ends == this) world.SetDestructionListener(chainedEnds_);
+    return contacts == this && ends == this;
 }
 } // namespace physvib

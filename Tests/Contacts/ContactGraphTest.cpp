@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Components and reach against a plain breadth-first search, as the thesis has it.
-#include "Contacts/ContactGraph.h"
+#include "Contacts/FixtureTable.h"
 #include <array>
 #include <gtest/gtest.h>
 #include <random>

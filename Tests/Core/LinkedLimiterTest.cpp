@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // LinkedLimiter at 20 dB of random overload: ceilings, ratios, slopes, release to exactly 1, and what never
 // passes.
-#include "Core/Actuators/LinkedLimiter.h"
+#include "Core/Actuators/OutputGuard.h"
 #include "Support/ClosedForm.h"
 #include "Support/Sets.h"
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Implementation of the look-ahead limiter: sliding minimum, linear release, moving average, delayed
 // multiplication.
-#include "Core/Actuators/LinkedLimiter.h"
+#include "Core/Actuators/OutputGuard.h"
 #include "Core/Modes/TileKernels.h"
 #include <algorithm>
 #include <bit>
