@@ -134,7 +134,7 @@ Result<std::string> exportFelt(const FeltExport& felt, const std::string& path) 
     std::ranges::transform(ending, ending.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     if (ending != ".mid" && ending != ".midi" && ending != ".csv")
-        return Failure{path + ": expected a name that ends in .mid, .csv, .hjif, .hmpg, .haptic or .ahap"};
+        return Failure{path + ": expected a name that ends in .mid, .csv, .hjif, .haptic or .ahap"};
     const std::string bytes = ending == ".csv"
                                   ? eventsCsv(felt.events, fieldOf(felt.panner),
                                               {PHYSVIB_VERSION, {{"scene", felt.state.scene.name}}})

@@ -40,7 +40,7 @@ struct FeltExport {
 };
 
 /// What files they become, by their endings.
-inline constexpr const char* feltEndings = "*.mid;*.csv;*.hjif;*.hmpg;*.haptic;*.ahap";
+inline constexpr const char* feltEndings = "*.mid;*.csv;*.hjif;*.haptic;*.ahap";
 
 /// The file, or files (a format of one channel has one for each actuator), by the ending of `path`. A line
 /// for people on what was written, or one line with the reason, and nothing is written. Levels are as struck:

@@ -36,7 +36,7 @@ void PluginEditor::showFiles() {
     });
     menu.addItem(
         juce::String::fromUTF8("Export what was felt\xe2\x80\xa6"), plugin_.felt().areThere(), false, [this] {
-            askSave("MIDI (.mid), a list of events (.csv) or a haptic file (.hjif, .hmpg, .haptic, .ahap)",
+            askSave("MIDI (.mid), a list of events (.csv) or a haptic file (.hjif, .haptic, .ahap)",
                     juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile("felt.mid"),
                     feltEndings, &PluginEditor::exportFeltAs);
         });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes haptic files (.hjif, .hmpg, .haptic, .ahap); the format follows from the file's ending.
+// Reads and writes haptic files (.hjif, .haptic, .ahap); the format follows from the file's ending.
 #pragma once
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
@@ -13,9 +13,9 @@
 
 namespace physvib {
 
-enum class ClipFormat { hjif, hmpg, haptic, ahap };
+enum class ClipFormat { hjif, haptic, ahap };
 /// indexed by ClipFormat
-constexpr std::array<std::string_view, 4> clipEndings{".hjif", ".hmpg", ".haptic", ".ahap"};
+constexpr std::array<std::string_view, 3> clipEndings{".hjif", ".haptic", ".ahap"};
 
 /// By the file's ending, case-insensitive. Any thread.
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept;
@@ -32,9 +32,9 @@ Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat 
 /// The same for a file. Any thread but the render thread (R).
 Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale = {});
 
-/// The bytes of a file with `clip`, or its first channel if the format has only one; or a one-line error if
-/// the format cannot represent it. Any thread.
-Result<std::string> clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
+/// The bytes of a file with `clip` (without a clipFault), or its first channel if the format has only one.
+/// Any thread.
+std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
 
 /// What the format cannot store of `clip`, one line each, for the user. Any thread.
 std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});

@@ -13,7 +13,7 @@ static_assert(usualContactDb == safeContactDb, "as on a device");
 
 void declareSceneOptions(OptionTable& command, RenderJob& o) {
     command.add("scene", o.scene,
-                "a built-in scene (see `physvib scenes`), SCENE.json, or a CLIP.hjif, .hmpg, .haptic, .ahap, "
+                "a built-in scene (see `physvib scenes`), SCENE.json, or a CLIP.hjif, .haptic, .ahap, "
                 "or (render, export) a saved SESSION.json, or (play) a SOUND.wav, .flac, .ogg");
     addSettings(command, o.settings);
     command.add("--seconds", o.seconds, "length of the render").in(0.001, 86400.0, " s");

@@ -16,7 +16,7 @@ SampledSound sound;
 
 ClipFormat formatOf(const char* name) {
     const auto format = clipFormatOf(name);
-    if (!format) refuse("expected a file .hjif, .hmpg, .haptic or .ahap");
+    if (!format) refuse("expected a file .hjif, .haptic or .ahap");
     return *format;
 }
 
@@ -91,9 +91,7 @@ int PHYSVIB_JS(clip_write)(const char* name, int channel) {
     const ClipFormat format = formatOf(name);
     const Clip one = channel < 0 ? clip : oneOf(clip, channel);
     if (!(one.seconds() > 0.0)) return 0;
-    auto bytes = clipBytes(one, format);
-    if (!bytes) refuse(bytes.error);
-    text() = std::move(bytes.value);
+    text() = clipBytes(one, format);
     return 1;
 }
 

@@ -89,7 +89,7 @@ void declareExport(OptionTable& command, ExportOptions& o) {
     declareSceneOptions(command, o.input);
     command
         .add("--to", o.to,
-             "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)")
+             "the file; its ending says the format: .hjif (MPEG), .haptic (Meta), .ahap (Apple)")
         .required()
         .written("FILE");
     command.add("--error", o.error, "how far lines may be from each hit's exponential, of its strength")
@@ -101,8 +101,7 @@ int runExport(const OptionTable& command, ExportOptions& options) {
     noteGiven(command, o);
     if (const std::string refusal = refusalOf(o); !refusal.empty()) return leave(exitUsage, refusal);
     const auto format = clipFormatOf(options.to);
-    if (!format)
-        return leave(exitUsage, "--to: " + endingFault(options.to, {".hjif", ".hmpg", ".haptic", ".ahap"}));
+    if (!format) return leave(exitUsage, "--to: " + endingFault(options.to, {".hjif", ".haptic", ".ahap"}));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
     o.isEqualised = false; // of the player's own actuators
     if (const std::string refusal = sceneFault(o); !refusal.empty()) return leave(exitUsage, refusal);

@@ -78,7 +78,7 @@ EventsTab::EventsTab(Desk& desk)
     choice_.setMinimumHorizontalScale(1.0f); // two lines rather than narrow letters
     for (int k = 0; k < hitEndings().size(); ++k) format_.addItem("as " + hitEndings()[k], k + 1);
     format_.setTitle("Dragged as");
-    format_.setTooltip(".wav: a channel for each actuator. .hjif, .hmpg: channels and places. .haptic, "
+    format_.setTooltip(".wav: a channel for each actuator. .hjif: channels and places. .haptic, "
                        ".ahap: a file for each actuator");
     format_.setSelectedItemIndex(files_->ending(), juce::dontSendNotification);
     format_.onChange = [this] { files_->setEnding(format_.getSelectedItemIndex()); };
