@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes haptic files (.hjif, .haptic, .ahap); the format follows from the file's ending.
+// Reads and writes haptic files of others; the format follows from the file's ending.
 #pragma once
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
@@ -14,15 +14,28 @@
 namespace physvib {
 
 enum class ClipFormat { hjif, haptic, ahap };
-/// indexed by ClipFormat
-constexpr std::array<std::string_view, 3> clipEndings{".hjif", ".haptic", ".ahap"};
+
+struct ClipFormatRow {
+    std::string_view ending, owner;
+    bool isMono; ///< one channel only
+};
+
+/// The one table of haptic files, indexed by ClipFormat: help, dialogs and errors list what it has.
+inline constexpr std::array<ClipFormatRow, 3> clipFormats{
+    {{".hjif", "MPEG", false}, {".haptic", "Meta", true}, {".ahap", "Apple", true}}};
+
+inline constexpr auto clipEndings = [] {
+    std::array<std::string_view, clipFormats.size()> endings;
+    for (std::size_t i = 0; i < endings.size(); ++i) endings[i] = clipFormats[i].ending;
+    return endings;
+}();
 
 /// By the file's ending, case-insensitive. Any thread.
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept;
 
 /// True if the format has one channel only. Any thread.
 constexpr bool isMono(ClipFormat format) noexcept {
-    return format == ClipFormat::haptic || format == ClipFormat::ahap;
+    return clipFormats[static_cast<std::size_t>(format)].isMono;
 }
 
 /// The clip of a file's bytes, or a one-line error. `scale`: frequency range of phone formats. Any thread.

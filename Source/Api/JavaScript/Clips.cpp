@@ -6,6 +6,7 @@
 #include "Formats/ClipLimits.h"
 #include "Formats/ClipSound.h"
 #include "Formats/StrikeClip.h"
+#include "Io/Text/NameList.h"
 #include "Scene/LayoutFile.h"
 
 namespace physvib::js {
@@ -16,7 +17,7 @@ SampledSound sound;
 
 ClipFormat formatOf(const char* name) {
     const auto format = clipFormatOf(name);
-    if (!format) refuse("expected a file .hjif, .haptic or .ahap");
+    if (!format) refuse("expected a file " + listed(clipEndings, " or "));
     return *format;
 }
 

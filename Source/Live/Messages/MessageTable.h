@@ -123,9 +123,10 @@ inline constexpr std::array path{
     part};
 
 inline constexpr std::array clip{
-    MessageArgument{"file", Type::word, 0.0, 0.0, "",
-                    "WAV, AIFF, FLAC, Ogg Vorbis, Opus, `.hjif`, `.haptic` or `.ahap`, in the folder "
-                    "that the door reads from"},
+    MessageArgument{
+        "file", Type::word, 0.0, 0.0, "",
+        "a recording or [haptic file](events.md#haptic-files-of-others), in the folder that the door "
+        "reads from"},
     MessageArgument{
         "place", Type::place, 0.0, 0.0, "",
         "where; left out: its own places, or one channel per actuator, or the middle of the field"},
