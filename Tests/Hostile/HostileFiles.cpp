@@ -130,7 +130,6 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
             {"hjif", "hjif", filesIn(corpus / "hjif"), clipCalls},
             {"haptic", "haptic", filesIn(corpus / "haptic"), clipCalls},
             {"ahap", "ahap", filesIn(corpus / "ahap"), clipCalls},
-            {"texture", "xml", filesIn(corpus / "texture"), {"material --texture FILE --speed 0.1"}},
             {"wav", "wav", {knock(SF_FORMAT_WAV | SF_FORMAT_PCM_16, folder)}, recordingCalls},
             {"aiff", "aiff", {knock(SF_FORMAT_AIFF | SF_FORMAT_PCM_16, folder)}, recordingCalls},
             {"flac", "flac", {knock(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, folder)}, recordingCalls},
