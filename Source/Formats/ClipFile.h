@@ -2,7 +2,6 @@
 // Reads and writes haptic files of others; the format follows from the file's ending.
 #pragma once
 #include "Formats/Clip.h"
-#include "Formats/FrequencyScale.h"
 #include "Io/Result.h"
 #include <array>
 #include <filesystem>
