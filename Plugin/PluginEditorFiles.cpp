@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Menus of the plug-in's window: opening, saving and exporting files, and MIDI learn.
 #include "EditorParts.h"
-#include "Formats/ClipFile.h"
 #include "Io/Text/NameList.h"
 #include "OpenedFile.h"
 #include "PluginEditor.h"
@@ -38,8 +37,7 @@ void PluginEditor::showFiles() {
     });
     menu.addItem(
         juce::String::fromUTF8("Export what was felt\xe2\x80\xa6"), plugin_.felt().areThere(), false, [this] {
-            askSave("MIDI (.mid), a list of events (.csv) or a haptic file (" + words(listed(clipEndings)) +
-                        ")",
+            askSave("MIDI, a list of events or a haptic file: " + words(listed(feltEndings())),
                     juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile("felt.mid"),
                     "*" + words(joined(feltEndings(), ";*")), &PluginEditor::exportFeltAs);
         });

@@ -95,8 +95,9 @@ TEST(PluginProcessor, ARateThatCannotBeRenderedIsSaidAndSilent) {
         host.play(static_cast<std::int64_t>(rate), signal);
         EXPECT_EQ(peakOf(signal), 0.0f) << rate;
         EXPECT_EQ(host.plugin->getLatencySamples(), 0) << "none of another rate is told";
-        EXPECT_TRUE(host.plugin->trouble().startsWith(
-            "the host runs at " + juce::String{static_cast<int>(rate)} + " Hz; expected 5000 to 192000: silent"))
+        EXPECT_TRUE(host.plugin->trouble().startsWith("the host runs at " +
+                                                      juce::String{static_cast<int>(rate)} +
+                                                      " Hz; expected 5000 to 192000: silent"))
             << host.plugin->trouble();
     }
     for (const int rate : {5000, 8000, 48000, 192000}) {
