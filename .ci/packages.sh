@@ -64,8 +64,8 @@ physvib_cross_packages="g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-pos
 # Of Docs/Site/build-site.sh alone, and of Tests/site.sh.
 physvib_site_packages="cmark-gfm doxygen python3"
 physvib_site_test_packages="$physvib_site_packages chromium"
-# Of the test of sweeps on a cluster.
-physvib_cluster_packages="slurm-wlm munge"
+# Of Tests/Sweep/sweeps.sh alone.
+physvib_sweep_packages="snakemake python3-numpy slurm-wlm munge"
 
 say() { printf 'physvib: %s\n' "$*" >&2; }
 

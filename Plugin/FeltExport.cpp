@@ -3,6 +3,7 @@
 // ending.
 #include "FeltExport.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Io/Text/NameList.h"
 #include "Live/Recordings/HitExport.h"
 #include "Scene/EventsCsv.h"
 #include <algorithm>
@@ -125,6 +126,12 @@ std::string midiOf(const FeltExport& felt) {
     return {static_cast<const char*>(bytes.getData()), bytes.getDataSize()};
 }
 
+std::vector<std::string_view> feltEndings() {
+    std::vector<std::string_view> endings{".mid", ".csv"};
+    endings.insert(endings.end(), clipEndings.begin(), clipEndings.end());
+    return endings;
+}
+
 Result<std::string> exportFelt(const FeltExport& felt, const std::string& path) {
     if (felt.events.empty())
         return Failure{"nothing was felt yet that could be exported: music is not in it, only notes, beats "
@@ -134,7 +141,7 @@ Result<std::string> exportFelt(const FeltExport& felt, const std::string& path) 
     std::ranges::transform(ending, ending.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     if (ending != ".mid" && ending != ".midi" && ending != ".csv")
-        return Failure{path + ": expected a name that ends in .mid, .csv, .hjif, .hmpg, .haptic or .ahap"};
+        return Failure{path + ": expected a name that ends in " + listed(feltEndings(), " or ")};
     const std::string bytes = ending == ".csv"
                                   ? eventsCsv(felt.events, fieldOf(felt.panner),
                                               {PHYSVIB_VERSION, {{"scene", felt.state.scene.name}}})

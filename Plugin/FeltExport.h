@@ -4,6 +4,7 @@
 #include "Takes.h"
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
@@ -39,8 +40,8 @@ struct FeltExport {
     PhantomPanner panner;
 };
 
-/// What files they become, by their endings.
-inline constexpr const char* feltEndings = "*.mid;*.csv;*.hjif;*.hmpg;*.haptic;*.ahap";
+/// Endings of the files they become. M only.
+std::vector<std::string_view> feltEndings();
 
 /// The file, or files (a format of one channel has one for each actuator), by the ending of `path`. A line
 /// for people on what was written, or one line with the reason, and nothing is written. Levels are as struck:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Menus of the plug-in's window: opening, saving and exporting files, and MIDI learn.
 #include "EditorParts.h"
+#include "Io/Text/NameList.h"
 #include "OpenedFile.h"
 #include "PluginEditor.h"
 #include "PresetFiles.h"
@@ -36,9 +37,9 @@ void PluginEditor::showFiles() {
     });
     menu.addItem(
         juce::String::fromUTF8("Export what was felt\xe2\x80\xa6"), plugin_.felt().areThere(), false, [this] {
-            askSave("MIDI (.mid), a list of events (.csv) or a haptic file (.hjif, .hmpg, .haptic, .ahap)",
+            askSave("MIDI, a list of events or a haptic file: " + words(listed(feltEndings())),
                     juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile("felt.mid"),
-                    feltEndings, &PluginEditor::exportFeltAs);
+                    "*" + words(joined(feltEndings(), ";*")), &PluginEditor::exportFeltAs);
         });
     menu.addSeparator();
     using Step = PluginProcessor::Step;

@@ -230,7 +230,7 @@ juce::String PluginProcessor::trouble() const {
     const auto fault = takes_.fault();
     if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
         return "the host runs at " + juce::String{rate} + " Hz; expected " +
-               juce::String{limits::minSampleRateHz} + " to " + juce::String{HalfRate::fastestHz} +
+               juce::String{limits::minSampleRateHz} + " to " + juce::String{limits::maxSampleRateHz} +
                ": silent";
     const std::lock_guard lock{mutex_};
     return trouble_.isNotEmpty() ? trouble_ : asString(fault);
@@ -260,18 +260,11 @@ void PluginProcessor::publish() {
     if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
         setLatencySamples(0);
     else if (const auto frames = static_cast<int>(takes_.latencyFrames()); frames > 0)
-        setLatencySamples(isHalved_ ? 2 * frames + HalfRate::lagFrames : frames);
+        setLatencySamples(frames);
 }
 
 void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
-    int rate = juce::roundToInt(sampleRateHz), usual = usualBlockFrames_;
-    isHalved_ = HalfRate::isNeeded(rate);
-    if (isHalved_) {
-        half_.prepare(std::max(getTotalNumInputChannels(), getTotalNumOutputChannels()), blockFrames);
-        sampleRateHz = rate /= 2;
-        blockFrames = blockFrames / 2 + 1;
-        usual = usual > 0 ? usual / 2 + 1 : 0;
-    }
+    const int rate = juce::roundToInt(sampleRateHz), usual = usualBlockFrames_;
     sampleRateHz_ = sampleRateHz;
     if (!isSampleRate(rate)) { // silent, and trouble() says so
         releaseResources();

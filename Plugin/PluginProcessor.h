@@ -11,7 +11,6 @@
 #include "Core/Actuators/OutputGuard.h"
 #include "EditHistory.h"
 #include "FeltExport.h"
-#include "HalfRate.h"
 #include "HeldNotes.h"
 #include "HostParameter.h"
 #include "Live/Devices/DeviceMeters.h"
@@ -63,7 +62,7 @@ public:
     bool keepsRefused() const;
     /// grows with every state that was taken
     std::uint64_t stateCount() const noexcept { return stateCount_; }
-    /// At which it renders: of hosts above 192 kHz half of theirs.
+    /// The host's; at one that no renderer takes all is silent, and trouble() says so.
     int preparedRateHz() const noexcept { return static_cast<int>(sampleRateHz_.load()); }
 
     /// How many frames a block usually has where a host announces far more (LV2); 0: as announced. M, before
@@ -162,7 +161,6 @@ private:
     }
     NoteKnobs knobs() const noexcept;
     void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
-    void renderAtRate(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
     void readParameters() noexcept;
     void takePoints(int until) noexcept;
     int renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message,
@@ -225,8 +223,6 @@ private:
     int usualBlockFrames_ = 0;
 
     // R
-    std::atomic<bool> isHalved_{false}; // changes while nobody renders
-    HalfRate half_;
     BeatInput beats_;
     MusicInput music_;
     Transport transport_;

@@ -37,21 +37,9 @@ void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juc
     midi.clear();
 }
 
+// In parts: some hosts exceed what they announced, and SILENCE closes at its frame.
 void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi,
                              bool bypassed) noexcept {
-    if (!isHalved_ || blockFrames_ == 0 || buffer.getNumSamples() == 0)
-        return renderAtRate(buffer, midi, bypassed);
-    half_.process(buffer, getTotalNumInputChannels(), midi, std::exchange(source_, nullptr),
-                  [this, bypassed](juce::AudioBuffer<float>& ours, const juce::MidiBuffer& events,
-                                   PointSource* source) {
-                      source_ = source;
-                      renderAtRate(ours, events, bypassed);
-                  });
-}
-
-// In parts: some hosts exceed what they announced, and SILENCE closes at its frame.
-void PluginProcessor::renderAtRate(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi,
-                                   bool bypassed) noexcept {
     const int frames = buffer.getNumSamples();
     if (blockFrames_ == 0 || frames == 0) {
         source_ = nullptr;
@@ -133,7 +121,7 @@ void PluginProcessor::followTransport(int frames) noexcept {
     if (auto* host = getPlayHead())
         if (const auto position = host->getPosition()) {
             plays = position->getIsPlaying();
-            if (const auto samples = position->getTimeInSamples()) at = isHalved_ ? *samples / 2 : *samples;
+            if (const auto samples = position->getTimeInSamples()) at = *samples;
         }
     const auto change = transport_.follow(plays, at, frames);
     const bool restarts = takes_.lookForNew() == TransportMode::restartOnPlay;

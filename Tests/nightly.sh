@@ -26,7 +26,7 @@ step() {
         freed) Tests/Physics/freed.sh ;;
         hostile) Tests/Hostile/run.sh 10000 ;;
         guard) $bin/physvib-guard-figures attack 20000 ;;
-        kills) Tests/CommandLine/kills.sh $bin 200 render study sweep play ;;
+        kills) Tests/CommandLine/kills.sh $bin 200 render study play ;;
         full-disk) Tests/CommandLine/full-disk.sh $bin ;;
         kinds) ensure_packages ffmpeg sox && Tests/Live/sounds.py $bin/physvib-sound-kinds --judges && Tests/Formats/texts.py $bin/physvib ;;
         skipped) Tests/Plugin/skipped.sh $bin ;;
@@ -48,7 +48,7 @@ step() {
         projucer) Tests/House/projucer.sh ;;
         tidy) Tests/House/tidy.sh ;;
         abi) Tests/Release/abi.sh ;;
-        sweep) Tests/Sweep/speed.sh $bin && Tests/Sweep/cluster.sh $bin ;;
+        sweep) Tests/Sweep/sweeps.sh $bin ;;
         godot) Tests/godot.sh build/release build/nightly/godot && Tests/godot-sanitized.sh build/nightly/godot && Tests/godot-cross.sh build/nightly/godot-arm64 ;;
         web) Tests/web.sh $bin/physvib ;;
         javascript) Tests/javascript.sh $bin/physvib ;;

@@ -7,7 +7,6 @@
 // full scale, Hz. Ignored with a note when reading: sound, attack, decay, release, and unknown fields.
 #pragma once
 #include "Formats/Clip.h"
-#include "Formats/FrequencyScale.h"
 #include "Io/Result.h"
 #include <string>
 #include <string_view>
@@ -18,8 +17,8 @@ namespace physvib {
 /// clamped and missing ones have defaults, as in Apple's definition (Docs/events.md). Any thread.
 Result<Clip> readAhap(std::string_view text, std::string_view name, const FrequencyScale& scale = {});
 
-/// `channel` as such a file. No curve affects a transient (see AhapPieces.h) or has more than 16 points. Any
-/// thread.
+/// `channel` as such a file. No curve affects a transient (see AhapWriter.cpp) or has more than 16 points.
+/// Any thread.
 std::string ahapText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale = {});
 
 } // namespace physvib

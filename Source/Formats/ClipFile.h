@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes haptic files (.hjif, .hmpg, .haptic, .ahap); the format follows from the file's ending.
+// Reads and writes haptic files of others; the format follows from the file's ending.
 #pragma once
 #include "Formats/Clip.h"
-#include "Formats/FrequencyScale.h"
 #include "Io/Result.h"
 #include <array>
 #include <filesystem>
@@ -13,16 +12,29 @@
 
 namespace physvib {
 
-enum class ClipFormat { hjif, hmpg, haptic, ahap };
-/// indexed by ClipFormat
-constexpr std::array<std::string_view, 4> clipEndings{".hjif", ".hmpg", ".haptic", ".ahap"};
+enum class ClipFormat { hjif, haptic, ahap };
+
+struct ClipFormatRow {
+    std::string_view ending, owner;
+    bool isMono; ///< one channel only
+};
+
+/// The one table of haptic files, indexed by ClipFormat: help, dialogs and errors list what it has.
+inline constexpr std::array<ClipFormatRow, 3> clipFormats{
+    {{".hjif", "MPEG", false}, {".haptic", "Meta", true}, {".ahap", "Apple", true}}};
+
+inline constexpr auto clipEndings = [] {
+    std::array<std::string_view, clipFormats.size()> endings;
+    for (std::size_t i = 0; i < endings.size(); ++i) endings[i] = clipFormats[i].ending;
+    return endings;
+}();
 
 /// By the file's ending, case-insensitive. Any thread.
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept;
 
 /// True if the format has one channel only. Any thread.
 constexpr bool isMono(ClipFormat format) noexcept {
-    return format == ClipFormat::haptic || format == ClipFormat::ahap;
+    return clipFormats[static_cast<std::size_t>(format)].isMono;
 }
 
 /// The clip of a file's bytes, or a one-line error. `scale`: frequency range of phone formats. Any thread.
@@ -32,9 +44,9 @@ Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat 
 /// The same for a file. Any thread but the render thread (R).
 Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale = {});
 
-/// The bytes of a file with `clip`, or its first channel if the format has only one; or a one-line error if
-/// the format cannot represent it. Any thread.
-Result<std::string> clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
+/// The bytes of a file with `clip` (without a clipFault), or its first channel if the format has only one.
+/// Any thread.
+std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
 
 /// What the format cannot store of `clip`, one line each, for the user. Any thread.
 std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});

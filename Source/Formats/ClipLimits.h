@@ -17,8 +17,4 @@ constexpr double maxClipAmplitude = 1000.0;     // a channel's gain times an amp
 
 constexpr double maxAhapEventSeconds = 30.0; // for Apple's continuous events
 
-constexpr std::size_t maxTextureFileBytes = 16'000'000; // the toolkit's files have less than a tenth
-constexpr std::size_t maxTextureModels = 4096;          // combinations of speed and force
-constexpr std::size_t maxTextureCoefficients = 256;     // per model
-
 } // namespace physvib::limits

@@ -8,8 +8,10 @@
 #pragma once
 #include "Formats/Clip.h"
 #include "Io/Result.h"
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace physvib {
 
@@ -20,5 +22,8 @@ Result<Clip> readHjif(std::string_view text, std::string_view name);
 /// `clip` (without a clipFault) as JSON with 48,000 ticks per second. Equal clips give equal text, because
 /// the date is constant. Any thread.
 std::string hjifText(const Clip& clip);
+
+/// What .hjif cannot store of `clip`, of these frequencies, one line each. Any thread.
+std::vector<std::string> hjifLosses(const Clip& clip, const std::set<double>& frequenciesHz);
 
 } // namespace physvib

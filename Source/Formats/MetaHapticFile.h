@@ -6,7 +6,6 @@
 // store: several channels, places, several frequencies at once, phases, levels beyond full scale, Hz.
 #pragma once
 #include "Formats/Clip.h"
-#include "Formats/FrequencyScale.h"
 #include "Io/Result.h"
 #include <string>
 #include <string_view>

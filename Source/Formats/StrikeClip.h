@@ -5,8 +5,10 @@
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
 #include "Formats/Clip.h"
+#include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace physvib {
 
@@ -26,5 +28,11 @@ struct StrikeClipSettings {
 /// mode's wave ends, and one with the sum's amplitude and phase begins. Stops after exceeding a clip's
 /// limits, so that clipFault reports it. Any thread.
 Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSettings& settings);
+
+/// Points on `amplitude` exp(-decayPerSecond t), in ticks of `ticksPerSecond`, whose chords differ from it by
+/// at most `error` times |amplitude|. The last point is 0 where the decay is below that error, or lies on it
+/// at `endTick`. Any thread.
+std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::int64_t endTick, double error,
+                                  int ticksPerSecond);
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Extracts a surface's grains from the recording of a scrape, or from an autoregressive model of one.
+// Extracts a surface's grains from the recording of a scrape.
 #pragma once
 #include "Contacts/Grains.h"
 #include "Io/Result.h"
@@ -18,7 +18,7 @@ struct Scrape {
 struct ScrapedTexture {
     Texture texture; ///< its roughness is 1 if the strength is not known
     double grainsPerSecond = 0.0;
-    double strength = 0.0; ///< of a grain, in the recording's full scale or the model's m/s^2; 0: not known
+    double strength = 0.0; ///< of a grain, in the recording's full scale; 0: not known
     double frequencyHz = 0.0, decayPerSecond = 0.0; ///< of the resonance; 0: not known
     std::size_t counted = 0;                        ///< grains that stood out in a recording
     double lostShare = 0.0;                         ///< estimated share of grains that did not
@@ -28,16 +28,5 @@ struct ScrapedTexture {
 /// without a file's name: "expected a scrape, found silence". A grain counts as an impact in Eq. 5.4 with A*
 /// and a drive gain of 1: full scale for 1 N s on 1 kg. Message thread (M) only.
 Result<ScrapedTexture> extractTexture(const std::vector<float>& samples, double rateHz, const Scrape& scrape);
-
-/// y[n] = noise[n] - sum a[k] y[n - k]: an acceleration in m/s^2.
-struct AutoregressiveModel {
-    double rateHz = 0.0;
-    double variance = 0.0;            ///< of the noise
-    std::vector<double> coefficients; ///< a[1], a[2]...
-};
-
-/// The resonance is the highest peak of the model's spectrum from 20 to 1000 Hz. Two random grains per period
-/// of it together have the model's power in that band. M only.
-Result<ScrapedTexture> textureOf(const AutoregressiveModel& model, const Scrape& scrape);
 
 } // namespace physvib

@@ -26,10 +26,9 @@ struct EventList {
 /// The events of `text`, all playable and in time order; or, for the first error, one line `name:17: column
 /// decay_per_s: expected a number >= 0, found "-3"`. No event, or more than `maxRows`, is an error too. The
 /// header line names the columns, in any order; those after y_m may be missing. Cells are plain numbers (no
-/// quotes; spaces around them are allowed), lines end in
-///  or \r
-/// . Comments (#) and blank lines may precede the header, blank lines may also end the file. A comment with a
-/// word `field_m=W,H` sets the field. Any thread.
+/// quotes; spaces around them are allowed), lines end in LF or CR LF. Comments (#) and blank lines may
+/// precede the header, blank lines may also end the file. A comment with a word `field_m=W,H` sets the field.
+/// Any thread.
 Result<EventList> readEventsCsv(std::string_view text, std::string_view name,
                                 std::size_t maxRows = limits::maxEventRows);
 

@@ -25,11 +25,11 @@ constexpr Bounds upTo(double most) { return {0.0, most}; }
 constexpr Bounds within(double reach) { return {-reach, reach}; }
 
 /// visitFields(v, FieldsOf<T>{}) calls v once per field of T:
-///   field(name, member, Bounds, Need)    text, truth, number, Vector, optional or list of those, struct,
-///   list pair(name, member, member, Bounds)   two numbers as [a, b], required choice(name, member, names) an
-///   enumeration, optional material(name, member)               an index into Scene::materials, in files a
-///   name; required variant(name, member, names)         which alternative it is; its fields follow in the
-///   same object
+///   field(name, member, Bounds, Need)   text, truth, number, Vector, struct; optionals and lists of those
+///   pair(name, member, member, Bounds)  two numbers as [a, b]; required
+///   choice(name, member, names)         an enumeration; optional
+///   material(name, member)              an index into Scene::materials, in files a name; required
+///   variant(name, member, names)        which alternative it is; its fields follow in the same object
 inline constexpr Bounds anyText{};
 inline constexpr Bounds positionBounds = within(sceneLimits::maxPositionMetres);
 inline constexpr Bounds angleBounds = within(sceneLimits::maxAngleRadians);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A render job as a value: input, rendering options and output files. Calls, sweep designs and buttons create
+// A render job as a value: input, rendering options and output files. Calls and buttons create
 // such jobs.
 #pragma once
 #include "Core/EventShaping.h"

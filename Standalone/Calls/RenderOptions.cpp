@@ -3,6 +3,7 @@
 #include "Calls/RenderOptions.h"
 #include "Calls/RenderWords.h"
 #include "Core/EventShaping.h"
+#include "Formats/ClipFile.h"
 #include "Io/Text/NameList.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Scene/World/Simulation.h"
@@ -13,8 +14,8 @@ static_assert(usualContactDb == safeContactDb, "as on a device");
 
 void declareSceneOptions(OptionTable& command, RenderJob& o) {
     command.add("scene", o.scene,
-                "a built-in scene (see `physvib scenes`), SCENE.json, or a CLIP.hjif, .hmpg, .haptic, .ahap, "
-                "or (render, export) a saved SESSION.json, or (play) a SOUND.wav, .flac, .ogg");
+                "a built-in scene (see `physvib scenes`), SCENE.json, or a CLIP" + listed(clipEndings) +
+                    ", or (render, export) a saved SESSION.json, or (play) a SOUND.wav, .flac, .ogg");
     addSettings(command, o.settings);
     command.add("--seconds", o.seconds, "length of the render").in(0.001, 86400.0, " s");
     command.add("--seed", o.seed, "seed of the scene").in(0u, 4294967295u);

@@ -14,8 +14,8 @@
 
 namespace physvib {
 
-Command scenesCommand(), renderCommand(), sweepCommand(), exportCommand(), beatsCommand(), playCommand(),
-    analyseCommand(), reportCommand(), stimulusCommand(), boardCommand(), studyCommand(), materialCommand(),
+Command scenesCommand(), renderCommand(), exportCommand(), beatsCommand(), playCommand(), analyseCommand(),
+    reportCommand(), stimulusCommand(), boardCommand(), studyCommand(), materialCommand(),
     attenuationCommand(), couplingCommand(), actuatorsCommand(), devicesCommand(), padsCommand(),
     calibrateCommand();
 
@@ -23,9 +23,9 @@ namespace {
 
 /// In the order of --help; each is in its own file.
 constexpr Command (*commands[])() = {
-    scenesCommand,      renderCommand,   sweepCommand,     exportCommand,  beatsCommand, playCommand,
-    analyseCommand,     reportCommand,   stimulusCommand,  boardCommand,   studyCommand, materialCommand,
-    attenuationCommand, couplingCommand, actuatorsCommand, devicesCommand, padsCommand,  calibrateCommand};
+    scenesCommand,   renderCommand,    exportCommand,  beatsCommand, playCommand,     analyseCommand,
+    reportCommand,   stimulusCommand,  boardCommand,   studyCommand, materialCommand, attenuationCommand,
+    couplingCommand, actuatorsCommand, devicesCommand, padsCommand,  calibrateCommand};
 
 int writeOwnReference(const OptionTable& app, const char* folder) {
     const std::string error = writeReference(app, folder);

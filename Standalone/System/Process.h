@@ -53,9 +53,6 @@ bool isErrorTerminal() noexcept;
 /// One thread, not the render thread.
 std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept;
 
-/// Process id. Any thread but the render thread.
-int processNumber() noexcept;
-
 /// Runs a program with our standard streams until it ends: true if it exited with 0, or why it could not
 /// start. Any thread but the render thread.
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments);
@@ -72,12 +69,6 @@ bool hasProgram(const std::string& name);
 
 /// True if a window can be opened. Any thread but the render thread.
 bool hasDisplay() noexcept;
-
-/// Name of this computer in its network. Any thread but the render thread.
-std::string computerName();
-
-/// Path of this program. Message thread.
-std::string ownPath();
 
 /// Path of another program of PhysVib: beside this one, else by the system's search path. Message thread.
 std::string ownProgram(const std::string& name);

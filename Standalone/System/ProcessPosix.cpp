@@ -90,8 +90,6 @@ std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) 
     return count < 0 ? std::nullopt : std::optional{static_cast<std::size_t>(count)};
 }
 
-int processNumber() noexcept { return getpid(); }
-
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     const auto child = start(name, arguments, nullptr);
     if (!child) return Failure{child.error};
@@ -162,20 +160,9 @@ bool hasDisplay() noexcept {
 #endif
 }
 
-std::string computerName() {
-    std::array<char, 256> name{};
-    gethostname(name.data(), name.size() - 1);
-    return name.data();
-}
-
-std::string ownPath() {
-    std::error_code none;
-    return std::filesystem::read_symlink("/proc/self/exe", none).string();
-}
-
 std::string ownProgram(const std::string& name) {
     std::error_code none;
-    const auto beside = std::filesystem::path{ownPath()}.replace_filename(name);
+    const auto beside = std::filesystem::read_symlink("/proc/self/exe", none).replace_filename(name);
     return !none && std::filesystem::exists(beside, none) ? beside.string() : name;
 }
 

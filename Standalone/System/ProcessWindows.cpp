@@ -65,8 +65,6 @@ std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) 
     return count < 0 ? std::nullopt : std::optional{static_cast<std::size_t>(count)};
 }
 
-int processNumber() noexcept { return static_cast<int>(GetCurrentProcessId()); }
-
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     const std::wstring program = std::filesystem::path{name}.wstring();
     std::vector<std::wstring> quoted;
@@ -95,18 +93,6 @@ bool hasProgram(const std::string& name) {
 bool hasDisplay() noexcept { return true; }
 
 // Windows searches the folder of the running program first.
-std::string computerName() {
-    std::array<char, 256> name{};
-    DWORD size = name.size();
-    return GetComputerNameA(name.data(), &size) != 0 ? name.data() : "";
-}
-
-std::string ownPath() {
-    std::array<char, 32768> path{};
-    GetModuleFileNameA(nullptr, path.data(), path.size());
-    return path.data();
-}
-
 std::string ownProgram(const std::string& name) { return name; }
 
 } // namespace physvib

@@ -4,7 +4,6 @@
 #include "Formats/ClipFile.h"
 #include "Formats/ClipSound.h"
 #include "Formats/HjifFile.h"
-#include "Formats/HmpgFile.h"
 #include "Measure/SlowPart.h"
 #include "Scene/EventsCsv.h"
 
@@ -46,9 +45,8 @@ Result<PageFile> readClipFile(std::string_view name, std::string_view text, Clip
 
 // Stubs that replace the readers and writers of MPEG formats.
 Result<Clip> readHjif(std::string_view, std::string_view) { return noRoom(); }
-Result<Clip> readHmpg(std::string_view, std::string_view) { return noRoom(); }
 std::string hjifText(const Clip&) { return {}; }
-Result<std::string> hmpgBytes(const Clip&) { return noRoom(); }
+std::vector<std::string> hjifLosses(const Clip&, const std::set<double>&) { return {}; }
 
 Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings,
                               Vector fieldMetres, int sampleRateHz) {

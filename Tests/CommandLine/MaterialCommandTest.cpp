@@ -97,23 +97,6 @@ TEST_F(MaterialCommand, TexturesOfARenderedScrapeAreThoseOfItsScene) {
     EXPECT_NE(outcome.err.find(" grains a second, "), std::string::npos) << outcome.err;
 }
 
-TEST_F(MaterialCommand, ATexturesModelNearestToTheScrapeIsTaken) {
-    write("ours.xml",
-          "<modelSet><SampleRate>10000</SampleRate>"
-          "<model><ARcoeff><value>1</value><value>-1.9554</value><value>0.9802</value></ARcoeff><var>0.01</"
-          "var><speedMod>100</speedMod><forceMod>1</forceMod></model>"
-          "<model><ARcoeff><value>1</value><value>-1.9</value><value>0.95</value></ARcoeff><var>0.01</"
-          "var><speedMod>200</speedMod><forceMod>1</forceMod></model></modelSet>");
-    const auto outcome = call("material --texture ours.xml --speed 0.09 --load 1.1");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("the model of 0.1 m/s, 1 N and 1 kg, of 2"), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.out.find(",random\n"), std::string::npos) << outcome.out;
-    write("tap.xml", "<tapSet></tapSet>");
-    refuses("material --texture tap.xml --speed 0.1", 1,
-            "tap.xml: line 1: expected a modelSet, found \"tapSet\"", 2);
-    refuses("material --texture none.xml --speed 0.1", 1, "none.xml: cannot be read", 2);
-}
-
 TEST_F(MaterialCommand, WhatIsNoScrapeIsOneLine) {
     record("0.1,349,106.99,0,0,0");
     refuses("material --texture hit.wav --speed 1", 1, "hit.wav: expected a scrape, found silence", 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Designs, protocols and trial files of others: none of their calls writes a file, whatever option it takes,
+// Protocols and trial files of others: none of their calls writes a file, whatever option it takes,
 // and no link leads them out of their folder.
 #include "CommandLine/Calls.h"
 #include <algorithm>
@@ -19,10 +19,6 @@ protected:
     void SetUp() override {
         CommandLine::SetUp();
         write("thesis.tex", mine);
-    }
-    void writeDesign(const std::string& options, const std::string& scene = "drop") const {
-        write("design.json", R"({"physvib_sweep": 1, "name": "s", "scenes": [")" + scene +
-                                 R"("], "seeds": [1], "options": {)" + options + "}}");
     }
     void writeProtocol(const std::string& words, const std::string& a = R"("1")",
                        const std::string& b = R"("1")", const std::string& more = {}) const {
@@ -58,16 +54,12 @@ protected:
     }
 };
 
-TEST_F(StrangersCall, NoOptionOfAnyCommandLetsADesignOrAProtocolWrite) {
+TEST_F(StrangersCall, NoOptionOfAnyCommandLetsAProtocolWrite) {
     const auto rendered = optionsOf("render"), made = optionsOf("stimulus");
     int refused = 0;
     for (const std::string& option : optionsOf("")) {
         if (option == "help") continue;
         const std::string word = "--" + option + "=thesis.tex";
-        writeDesign("\"seconds\": 0.1, \"rate\": 8000, \"" + option + "\": \"thesis.tex\"");
-        const auto swept = call("sweep design.json --out s");
-        ASSERT_EQ(read("thesis.tex"), mine) << "a design's " << option;
-        refused += isRefusedAsWriting(swept, word) ? 1 : 0;
         const auto runs = [&](const std::string& words) {
             writeProtocol(words);
             const auto ran = call("study run p.json --observer simulated --out rows");
@@ -83,17 +75,13 @@ TEST_F(StrangersCall, NoOptionOfAnyCommandLetsADesignOrAProtocolWrite) {
             runs("render drop --seconds 0.1 --rate 8000 --" + option + " thesis.tex");
         if (made.contains(option)) runs("stimulus phantom --at 0.5,0.5 --seconds 0.1 " + word);
     }
-    EXPECT_EQ(refused, 7 + 7 + 2) << "render writes seven files, stimulus two";
+    EXPECT_EQ(refused, 7 + 2) << "render writes seven files, stimulus two";
 }
 
 TEST_F(StrangersCall, AMarkerIsAFileAsWell) {
-    writeDesign(R"("marker": "thesis.tex")");
-    refuses("sweep design.json --out s", 1,
-            "design.json: options.marker: expected no file to be written, found --marker=thesis.tex", 2);
-    refuses("sweep design.json --plan", 1, "options.marker: expected no file to be written", 2);
     writeProtocol("render drop --marker thesis.tex");
     for (const std::string command : {"study run p.json --observer simulated", "study show p.json"})
-        refuses(command, 1, "p.json: conditions[0].call: expected no file to be written, found --marker", 3);
+        refuses(command, 1, "p.json: conditions[0].call: expected no file to be written, found --marker", 2);
     EXPECT_EQ(read("thesis.tex"), mine);
 }
 
@@ -131,9 +119,6 @@ TEST_F(StrangersCall, NoLinkLeadsOutOfTheFolder) {
         EXPECT_EQ(read(".err").find("physvib_protocol"), std::string::npos) << "and nothing of what is there";
     };
     for (const std::string path : {"scene.json", "up/secret.json"}) {
-        writeDesign("\"seconds\": 0.1", path);
-        fs::rename(folder_ / "design.json", folder_ / "theirs/design.json");
-        refusesThere("sweep design.json --out s");
         writeProtocol("render " + path + " --set a={a}{b}");
         fs::rename(folder_ / "p.json", folder_ / "theirs/p.json");
         refusesThere("study run p.json --observer simulated --out rows");
@@ -142,18 +127,10 @@ TEST_F(StrangersCall, NoLinkLeadsOutOfTheFolder) {
                   R"(", "stimuli": "grid", "columns": 2, "rows": 2}], "sessions": [{"name": "s"}]})");
         refusesThere("study run q.json --observer simulated --out rows");
     }
-    for (const char* const option : {"layout", "actuator", "coupling"}) {
-        write("theirs/design.json",
-              R"({"physvib_sweep": 1, "name": "s", "scenes": ["drop"], "seeds": [1], )" +
-                  std::string(option == std::string("layout")
-                                  ? R"("layouts": ["scene.json"]})"
-                                  : R"("options": {")" + std::string(option) + R"(": "scene.json"}})"));
-        refusesThere("sweep design.json --out s");
-    }
 }
 
 TEST_F(StrangersCall, NothingIsWrittenThroughALinkThatLeadsElsewhere) {
-    fs::create_directories(folder_ / "theirs/s");
+    fs::create_directories(folder_ / "theirs");
     const auto isMineStill = [&](const std::string& words) { EXPECT_EQ(read("thesis.tex"), mine) << words; };
     fs::create_symlink(folder_ / "thesis.tex", folder_ / "theirs/o.wav");
     const auto rendered = call("render drop --seconds 0.1 --out theirs/o.wav");
@@ -161,18 +138,6 @@ TEST_F(StrangersCall, NothingIsWrittenThroughALinkThatLeadsElsewhere) {
     EXPECT_EQ(rendered.err, "physvib: theirs/o.wav: cannot be written: expected a file in its own folder or "
                             "below, found a link that leads elsewhere\n");
     isMineStill("render");
-    writeDesign(R"("seconds": 0.1, "rate": 8000)");
-    fs::create_symlink(folder_ / "thesis.tex", folder_ / "theirs/s/index.csv");
-    EXPECT_EQ(call("sweep design.json --out theirs/s").exitCode, 1);
-    isMineStill("sweep");
-    fs::remove_all(folder_ / "theirs/s/tasks");
-    fs::create_directories(folder_ / "elsewhere");
-    fs::create_symlink(folder_ / "elsewhere", folder_ / "theirs/s/tasks");
-    EXPECT_NE(call("sweep design.json --out theirs/s")
-                  .err.find("theirs/s/tasks: expected a file in its own folder"),
-              std::string::npos)
-        << read(".err");
-    EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere"));
     fs::create_symlink(folder_ / "new.csv", folder_ / "theirs/patterns-P01.csv"); // nothing is there yet
     const auto ran = call("study run patterns --observer simulated --out theirs");
     EXPECT_EQ(ran.exitCode, 1);

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# kills.sh BIN_FOLDER KILLS render|study|sweep|play|mixer...: kills each of them (SIGKILL) at so many random moments. Every file is whole or
-# absent, an old one stays as it was until then (a recording: until it has samples), a study or a sweep goes on to the bytes of one that was never cut off, a session that is
+# kills.sh BIN_FOLDER KILLS render|study|play|mixer...: kills each of them (SIGKILL) at so many random moments. Every file is whole or
+# absent, an old one stays as it was until then (a recording: until it has samples), a study goes on to the bytes of one that was never cut off, a session that is
 # killed loses at most a second, and nothing that was left behind is in the way. `play` needs jackd, `mixer` a display (with-display.sh) and xdotool.
 set -eu
 bin=$1 kills=$2
@@ -65,27 +65,6 @@ kill_studies() {
     echo "study: killed $kills times; $((studies + 1)) studies, each the bytes of one that was never cut off"
 }
 
-kill_sweeps() {
-    cat >design.json <<'DESIGN'
-{"physvib_sweep": 1, "name": "kills", "scenes": ["shake-the-box", "drop"], "seeds": {"from": 1, "count": 40}, "layouts": ["phone4", "ring2"], "options": {"seconds": 2}}
-DESIGN
-    "$physvib" sweep design.json --out whole >said
-    n=0 sweeps=0
-    while [ $n -lt "$kills" ]; do
-        n=$((n + 1))
-        kill_within 1 "$physvib" sweep design.json --out cut
-        [ -e cut/index.csv ] || continue
-        cmp whole/index.csv cut/index.csv || fail "sweep $sweeps differs"
-        sweeps=$((sweeps + 1))
-        rm -r cut
-    done
-    "$physvib" sweep design.json --out cut >said 2>&1 || fail "what was left is in the way"
-    cmp whole/index.csv cut/index.csv || fail "the last sweep differs"
-    [ -z "$(find cut -name '*.part')" ] || fail "left behind: $(find cut -name '*.part')"
-    [ -z "$(cat cut/log/*.txt | awk '$1 == "finished" && seen[$2]++')" ] || fail "done twice"
-    echo "sweep: killed $kills times; $((sweeps + 1)) sweeps, each the bytes of one that was never cut off, no task done twice"
-}
-
 # whole_wav FILE: it has all that its head tells of; what follows was being written.
 whole_wav() { [ "$(head -c 4 "$1")" = RIFF ] && [ "$(($(od -An -tu4 -j4 -N4 "$1") + 8))" -le "$(wc -c <"$1")" ]; }
 
@@ -127,9 +106,8 @@ for what in "$@"; do
     case $what in
     render) kill_renders ;;
     study) kill_studies ;;
-    sweep) kill_sweeps ;;
     play) kill_plays ;;
     mixer) kill_mixers ;;
-    *) echo "kills.sh: expected render, study, sweep, play or mixer, found $what"; exit 2 ;;
+    *) echo "kills.sh: expected render, study, play or mixer, found $what"; exit 2 ;;
     esac
 done

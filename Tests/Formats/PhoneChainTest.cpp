@@ -85,9 +85,7 @@ private:
 };
 
 Clip through(const Clip& clip, ClipFormat format) {
-    const auto bytes = clipBytes(clip, format);
-    EXPECT_EQ(bytes.error, "");
-    auto again = readClip(bytes.value, "f", format);
+    auto again = readClip(clipBytes(clip, format), "f", format);
     EXPECT_EQ(again.error, "");
     return std::move(again.value);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Strikes as lines: how near, how few, and what is merged.
+#include "Formats/StrikeClip.h"
 #include "ClipTesting.h"
-#include "Formats/DecayCurve.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -7,7 +7,7 @@ set -eu
 bin=${2:-$(dirname "$0")/../../build/release/bin}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-find "$1" -type f \( -iname '*.hjif' -o -iname '*.hmpg' -o -iname '*.haptic' -o -iname '*.ahap' \) | sort >"$work/files"
+find "$1" -type f \( -iname '*.hjif' -o -iname '*.haptic' -o -iname '*.ahap' \) | sort >"$work/files"
 : >"$work/outcomes"
 while IFS= read -r file; do
     ending=$(printf '%s' "${file##*.}" | tr '[:upper:]' '[:lower:]')

@@ -14,11 +14,8 @@ inline void tryClip(std::string_view bytes, ClipFormat format) {
     const auto clip = read(bytes);
     if (!clip) return demandClearRefusal(clip, clip.value == Clip{});
     demand(clipFault(clip.value).empty(), "a clip with a fault", clipFault(clip.value));
-    for (const ClipFormat other :
-         {ClipFormat::hjif, ClipFormat::hmpg, ClipFormat::haptic, ClipFormat::ahap}) {
-        const auto bytes = clipBytes(clip.value, other);
-        if (!bytes) continue; // more bands than it has numbers for
-        const auto again = readClip(bytes.value, "f", other);
+    for (const ClipFormat other : {ClipFormat::hjif, ClipFormat::haptic, ClipFormat::ahap}) {
+        const auto again = readClip(clipBytes(clip.value, other), "f", other);
         // of one channel of several, or longer by a rise
         const bool isNothing = again.error.find("silence") != std::string::npos ||
                                again.error.find("at most") != std::string::npos;

@@ -9,7 +9,7 @@ inputs=${1:-100000}
 seed=${2:-0} # 0: libFuzzer takes another each time
 build=${PHYSVIB_FUZZ_BUILD:-build/asan}
 mkdir -p "$build/findings"
-for name in actuator ahap calls coupling events haptic hjif hmpg input layout materials message osc pad protocol scene session sound state study sweep texture wire words; do
+for name in actuator ahap calls coupling events haptic hjif input layout materials message osc pad protocol scene session sound state study wire words; do
     mkdir -p "$build/corpus/$name" "Tests/Fuzz/corpus/$name" # what libFuzzer finds worth keeping; the first folder is the one it writes to
     echo "fuzz: $name, $inputs inputs"
     "$build/bin/physvib-fuzz-$name" -runs="$inputs" -seed="$seed" -max_len=8192 -timeout=5 -rss_limit_mb=1024 -malloc_limit_mb=300 -verbosity=0 -dict=Tests/Fuzz/words.dict -print_final_stats=1 \

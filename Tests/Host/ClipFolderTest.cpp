@@ -80,7 +80,7 @@ TEST_F(ClipFolderTest, SamplesHashAndPlacesAreThoseOfTheFile) {
     Clip half = placed;
     half.channels[1].place.reset();
     for (const auto& [name, clip] : {std::pair{"placed.hjif", placed}, {"half.hjif", half}})
-        std::ofstream{folder / name} << clipBytes(clip, ClipFormat::hjif).value;
+        std::ofstream{folder / name} << clipBytes(clip, ClipFormat::hjif);
     std::ofstream{folder / "sampled.wav", std::ios::binary} << test::wavBytes({.channels = 2}, "abcdefgh");
     expectTheSameInParts(folder / "placed.hjif", {{0.25, 1.0}, {1.0, 0.0}});
     expectTheSameInParts(folder / "half.hjif", {});

@@ -81,7 +81,6 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
     const std::vector<std::string> clipCalls{"render FILE --out o.wav --picture p.png",
                                              "render FILE --layout ring3 --out o.wav",
                                              "export FILE --to o.hjif",
-                                             "export FILE --to o.hmpg",
                                              "export FILE --to o.haptic",
                                              "export FILE --to o.ahap",
                                              "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav"};
@@ -129,10 +128,8 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
               "analyse kruskal-wallis FILE --measure x --between condition --export e.csv",
               "analyse psychometric FILE --level x --measure y --export e.csv"}},
             {"hjif", "hjif", filesIn(corpus / "hjif"), clipCalls},
-            {"hmpg", "hmpg", filesIn(corpus / "hmpg"), clipCalls},
             {"haptic", "haptic", filesIn(corpus / "haptic"), clipCalls},
             {"ahap", "ahap", filesIn(corpus / "ahap"), clipCalls},
-            {"texture", "xml", filesIn(corpus / "texture"), {"material --texture FILE --speed 0.1"}},
             {"wav", "wav", {knock(SF_FORMAT_WAV | SF_FORMAT_PCM_16, folder)}, recordingCalls},
             {"aiff", "aiff", {knock(SF_FORMAT_AIFF | SF_FORMAT_PCM_16, folder)}, recordingCalls},
             {"flac", "flac", {knock(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, folder)}, recordingCalls},

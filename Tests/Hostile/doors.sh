@@ -250,8 +250,6 @@ try_commands() {
     playing=$helpers
     until_true 5000 test -s mute
     command_ends "render" never.wav "$physvib" render shake-the-box --seconds 86000 --layout phone1 --rate 8000 --out never.wav
-    echo '{"physvib_sweep": 1, "name": "long", "scenes": ["shake-the-box", "drop"], "seeds": {"from": 1, "count": 4}, "layouts": ["phone1"], "options": {"seconds": 80000, "rate": 8000}}' >design.json
-    command_ends sweep cut/index.csv "$physvib" sweep design.json --out cut
     command_ends "study run" - "$physvib" study run magnitudes --observer simulated --out . --pace 5
     patience=0.2
     command_ends "stimulus" never.wav "$physvib" stimulus phantom --at 0.5,0.5 --seconds 600 --rate 192000 --layout ring4 --out never.wav

@@ -175,46 +175,5 @@ TEST(TextureExtractor, WhatIsNoScrapeIsTold) {
     expectFault(clipped, "expected a recording that is not clipped");
 }
 
-/// Two poles at this frequency and decay, of this rms.
-AutoregressiveModel model(double hz, double tau, double rms) {
-    constexpr double modelRate = 10'000.0;
-    const double r = std::exp(-tau / modelRate), angle = 2.0 * std::numbers::pi * hz / modelRate,
-                 a1 = -2.0 * r * std::cos(angle), a2 = r * r;
-    // power of y for noise of 1
-    const double gain = (1.0 + a2) / ((1.0 - a2) * ((1.0 + a2) * (1.0 + a2) - a1 * a1));
-    return {modelRate, rms * rms / gain, {a1, a2}};
-}
-
-// A model is read as grains; a scrape of them, by our engine, has the model's frequency, decay and power.
-TEST(TextureOfAModel, IsFeltAsTheModelIs) {
-    constexpr double speed = 0.1, rms = 0.5;
-    for (const auto& [hz, tau] : {std::pair{250.0, 100.0}, {120.0, 30.0}, {500.0, 300.0}}) {
-        const auto found = textureOf(model(hz, tau, rms), {speed, newtons, massKg});
-        ASSERT_TRUE(found) << found.error;
-        EXPECT_NEAR(found.value.frequencyHz, std::sqrt(hz * hz - std::pow(tau / 2.0 / std::numbers::pi, 2.0)),
-                    0.02 * hz);
-        EXPECT_NEAR(found.value.decayPerSecond, tau, 0.1 * tau);
-        EXPECT_NEAR(found.value.texture.grainMetres, speed / 2.0 / found.value.frequencyHz, 1e-12);
-        const auto samples =
-            scrape(found.value.texture, speed, found.value.frequencyHz, found.value.decayPerSecond, 4.0);
-        double power = 0.0; // of J / m; an acceleration is omega times as much
-        for (std::size_t n = rate / 2; n < samples.size(); ++n)
-            power += std::pow(2.0 * std::numbers::pi * hz * static_cast<double>(samples[n]), 2.0);
-        EXPECT_NEAR(10.0 * std::log10(power / static_cast<double>(samples.size() - rate / 2) / (rms * rms)),
-                    0.0, 2.0)
-            << hz;
-    }
-}
-
-TEST(TextureOfAModel, WhatGrowsOrIsNotFeltIsTold) {
-    AutoregressiveModel grows = model(250.0, 100.0, 1.0);
-    grows.coefficients[1] = 1.01;
-    EXPECT_NE(textureOf(grows, {0.1}).error.find("expected a model that comes to rest"), std::string::npos);
-    AutoregressiveModel still = model(250.0, 100.0, 0.0);
-    EXPECT_NE(textureOf(still, {0.1}).error.find("expected a model that is felt"), std::string::npos);
-    EXPECT_NE(textureOf({30.0, 1.0, {}}, {0.1}).error.find("expected a model that is felt"),
-              std::string::npos);
-}
-
 } // namespace
 } // namespace physvib

@@ -72,7 +72,7 @@ TEST(PluginProcessor, HostsSeeTheParametersInTheOrderOfTheTableAndInGroups) {
 TEST(PluginProcessor, AnyRateAndAnyBlockIsFiniteAndWithinFullScale) {
     TestHost host;
     Random random{1};
-    for (const double rate : {22050.0, 44100.0, 47999.6, 88200.0, 192000.0, 384000.0})
+    for (const double rate : {22050.0, 44100.0, 47999.6, 88200.0, 192000.0})
         for (const int largest : {1, 32, 8192}) {
             host.prepare(rate, largest);
             float peak = 0;
@@ -89,21 +89,24 @@ TEST(PluginProcessor, AnyRateAndAnyBlockIsFiniteAndWithinFullScale) {
 TEST(PluginProcessor, ARateThatCannotBeRenderedIsSaidAndSilent) {
     TestHost host;
     host.prepare(48000, 512);
-    for (const double rate : {384002.0, 192001.0, 4000.0}) {
+    for (const double rate : {384000.0, 192001.0, 4999.0, 4000.0}) {
         host.prepare(rate, 512);
         Samples signal;
         host.play(static_cast<std::int64_t>(rate), signal);
         EXPECT_EQ(peakOf(signal), 0.0f) << rate;
         EXPECT_EQ(host.plugin->getLatencySamples(), 0) << "none of another rate is told";
-        EXPECT_TRUE(host.plugin->trouble().startsWith(
-            "the host runs at " + juce::String{static_cast<int>(rate)} + " Hz; expected 5000 to 384000"))
+        EXPECT_TRUE(host.plugin->trouble().startsWith("the host runs at " +
+                                                      juce::String{static_cast<int>(rate)} +
+                                                      " Hz; expected 5000 to 192000: silent"))
             << host.plugin->trouble();
     }
-    host.prepare(48000, 512);
-    EXPECT_EQ(host.plugin->trouble(), "");
-    Samples signal;
-    host.play(2 * 48000, signal);
-    EXPECT_GT(peakOf(signal), 0.01f);
+    for (const int rate : {5000, 8000, 48000, 192000}) {
+        host.prepare(rate, 512);
+        EXPECT_EQ(host.plugin->trouble(), "");
+        Samples signal;
+        host.play(2 * rate, signal);
+        EXPECT_GT(peakOf(signal), 0.01f) << rate;
+    }
 }
 
 TEST(PluginProcessor, ABlockLargerThanAnnouncedIsRenderedInParts) {

@@ -6,6 +6,7 @@
 #include "Formats/ClipLimits.h"
 #include "Formats/ClipSound.h"
 #include "Formats/StrikeClip.h"
+#include "Io/Text/NameList.h"
 #include "Scene/LayoutFile.h"
 
 namespace physvib::js {
@@ -16,7 +17,7 @@ SampledSound sound;
 
 ClipFormat formatOf(const char* name) {
     const auto format = clipFormatOf(name);
-    if (!format) refuse("expected a file .hjif, .hmpg, .haptic or .ahap");
+    if (!format) refuse("expected a file " + listed(clipEndings, " or "));
     return *format;
 }
 
@@ -91,9 +92,7 @@ int PHYSVIB_JS(clip_write)(const char* name, int channel) {
     const ClipFormat format = formatOf(name);
     const Clip one = channel < 0 ? clip : oneOf(clip, channel);
     if (!(one.seconds() > 0.0)) return 0;
-    auto bytes = clipBytes(one, format);
-    if (!bytes) refuse(bytes.error);
-    text() = std::move(bytes.value);
+    text() = clipBytes(one, format);
     return 1;
 }
 

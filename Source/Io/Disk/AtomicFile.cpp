@@ -62,9 +62,7 @@ std::string removeLeftBehind(const fs::path& sibling) {
 AtomicFile::AtomicFile(const fs::path& path)
     : named_(path)
     , target_(path) {
-    const std::string reason = prepare();
-    isTaken_ = reason == beingWritten;
-    if (!reason.empty()) fail(reason);
+    if (const std::string reason = prepare(); !reason.empty()) fail(reason);
 }
 
 AtomicFile::~AtomicFile() { removeTemporary(); }

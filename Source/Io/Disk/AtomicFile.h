@@ -25,9 +25,6 @@ public:
     /// Empty, or one line naming the path and why it cannot be written.
     const std::string& error() const noexcept { return error_; }
 
-    /// True if another writer has locked the path: a retry may succeed.
-    bool isTaken() const noexcept { return isTaken_; }
-
     /// Writes `bytes` at that position. False after an error.
     bool writeAt(std::int64_t position, std::string_view bytes);
 
@@ -63,7 +60,6 @@ private:
     std::int64_t bytes_ = 0;           // written, up to the last
     int folderError_ = 0;              // why the folder was not flushed; 0: it was
     std::string error_;
-    bool isTaken_ = false;
 };
 
 /// Writes `bytes` to `path` atomically. Returns "", or one line naming path and reason. M only.

@@ -4,6 +4,7 @@
 // 3. If it exceeds the limit, find the smallest lambda within it by bisection of log lambda.
 #include "Lab/Study/Coupling.h"
 #include "Core/Units.h"
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,30 +18,16 @@ constexpr double leastLambda = 1e-9, mostLambda = 1e3; // of full scale squared:
                                                        // drives near zero
 constexpr double mismatchDb = 2.0, mismatchDegrees = 20.0;
 
-/// (C^H C + lambda)^-1 C^H, by elimination of all right sides at once: the matrix is positive definite for
-/// lambda > 0.
-CouplingMatrix drivesAt(const CouplingMatrix& c, double lambda) {
-    const std::size_t n = c.size, width = 2 * n;
-    std::vector<ComplexNumber> m(n * width);
-    const auto at = [&m, width](std::size_t i, std::size_t j) -> ComplexNumber& { return m[i * width + j]; };
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
-            for (std::size_t k = 0; k < n; ++k) at(i, j) += std::conj(c.at(k, i)) * c.at(k, j);
-            at(i, n + j) = std::conj(c.at(j, i));
-        }
-    for (std::size_t i = 0; i < n; ++i) at(i, i) += lambda;
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t r = i + 1; r < n; ++r) {
-            const ComplexNumber factor = at(r, i) / at(i, i);
-            for (std::size_t j = i; j < width; ++j) at(r, j) -= factor * at(i, j);
-        }
-    CouplingMatrix drives(n);
-    for (std::size_t j = 0; j < n; ++j)
-        for (std::size_t i = n; i-- > 0;) {
-            ComplexNumber sum = at(i, n + j);
-            for (std::size_t k = i + 1; k < n; ++k) sum -= at(i, k) * drives.at(k, j);
-            drives.at(i, j) = sum / at(i, i);
-        }
+using Entries = Eigen::Matrix<ComplexNumber, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// (C^H C + lambda)^-1 C^H, the matrix being positive definite for lambda > 0.
+CouplingMatrix drivesAt(const CouplingMatrix& coupling, double lambda) {
+    const auto n = static_cast<Eigen::Index>(coupling.size);
+    const Eigen::Map<const Entries> c{coupling.entries.data(), n, n};
+    Eigen::MatrixXcd damped = c.adjoint() * c;
+    damped.diagonal().array() += lambda;
+    CouplingMatrix drives(coupling.size);
+    Eigen::Map<Entries>{drives.entries.data(), n, n} = damped.ldlt().solve(c.adjoint());
     return drives;
 }
 

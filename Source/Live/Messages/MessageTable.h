@@ -125,8 +125,8 @@ inline constexpr std::array path{
 inline constexpr std::array clip{
     MessageArgument{
         "file", Type::word, 0.0, 0.0, "",
-        "WAV, AIFF, FLAC, Ogg Vorbis, Opus, `.hjif`, `.hmpg`, `.haptic` or `.ahap`, in the folder "
-        "that the door reads from"},
+        "a recording or [haptic file](events.md#haptic-files-of-others), in the folder that the door "
+        "reads from"},
     MessageArgument{
         "place", Type::place, 0.0, 0.0, "",
         "where; left out: its own places, or one channel per actuator, or the middle of the field"},

@@ -112,12 +112,11 @@ Result<std::string> writeParts(const std::vector<ClipPart>& parts, ClipFormat fo
     std::list<AtomicFile> files;
     std::string told;
     for (const ClipPart& part : parts) {
-        const auto bytes = clipBytes(part.clip, format, scaleOf(part.clip, usual));
-        if (!bytes) return Failure{part.path + ": " + bytes.error};
+        const std::string bytes = clipBytes(part.clip, format, scaleOf(part.clip, usual));
         if (const std::string& error = files.emplace_back(part.path).error(); !error.empty())
             return Failure{error};
-        if (const std::string& error = files.back().write(bytes.value); !error.empty()) return Failure{error};
-        told += summary(part, bytes.value.size());
+        if (const std::string& error = files.back().write(bytes); !error.empty()) return Failure{error};
+        told += summary(part, bytes.size());
     }
     for (AtomicFile& file : files)
         if (const std::string& error = file.commit(); !error.empty()) return Failure{error};

@@ -2,7 +2,6 @@
 // The command `physvib material`: measures frequency and decay of a recorded contact, and their confidence.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
-#include "Formats/TextureModels.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Measure/LoudestChannel.h"
@@ -19,61 +18,37 @@
 namespace physvib {
 namespace {
 
-struct Told {
-    ScrapedTexture found;
-    std::string about; ///< description in one line
-};
-
 std::string conditions(const Scrape& scrape) {
     return numberText(scrape.metresPerSecond) + " m/s, " + numberText(scrape.loadNewtons) + " N and " +
            numberText(scrape.massKg) + " kg";
 }
 
-Result<Told> ofRecording(const std::string& path, const Scrape& scrape) {
-    const auto recording = readRecording(path);
-    if (!recording) return Failure{recording.error};
-    const auto found =
-        extractTexture(loudestOf(recording.value.channels), recording.value.sampleRateHz, scrape);
-    if (!found) return Failure{path + ": " + found.error};
-    const ScrapedTexture& f = found.value;
-    std::string about = fixedNumber(f.grainsPerSecond, 1) + " grains a second, ";
-    about += f.counted > 0 ? std::to_string(f.counted) + " counted, " + fixedNumber(100.0 * f.lostShare, 1) +
+std::string howMeasured(const ScrapedTexture& f, const Scrape& scrape) {
+    std::string words = fixedNumber(f.grainsPerSecond, 1) + " grains a second, ";
+    words += f.counted > 0 ? std::to_string(f.counted) + " counted, " + fixedNumber(100.0 * f.lostShare, 1) +
                                  " % taken to be hidden"
                            : "by their tone alone";
-    about += f.strength > 0.0
-                 ? "; " + fixedNumber(100.0 * f.strength, 2) +
-                       " % of full scale each; roughness as if recorded at 1 for 1 N s on 1 kg, for " +
-                       conditions(scrape)
-                 : "; modes and roughness cannot be measured at this speed: scrape more slowly";
-    return Told{f, std::move(about)};
+    return words + (f.strength > 0.0
+                        ? "; " + fixedNumber(100.0 * f.strength, 2) +
+                              " % of full scale each; roughness as if recorded at 1 for 1 N s on 1 kg, for " +
+                              conditions(scrape)
+                        : "; modes and roughness cannot be measured at this speed: scrape more slowly");
 }
 
-Result<Told> ofModels(const std::string& path, const Scrape& scrape) {
-    const auto models = loadTextureModels(path);
-    if (!models) return Failure{models.error};
-    const TextureModel& model = models.value.nearest(scrape.metresPerSecond, scrape.loadNewtons);
-    const Scrape recorded{model.metresPerSecond, model.newtons, scrape.massKg};
-    if (!(recorded.metresPerSecond > 0.0) || !(recorded.loadNewtons > 0.0))
-        return Failure{path + ": expected a model of a speed and a force above 0, found none near " +
-                       conditions(scrape)};
-    const auto found = textureOf({models.value.sampleRateHz, model.variance, model.coefficients}, recorded);
-    if (!found) return Failure{path + ": " + found.error};
-    return Told{found.value, "the model of " + conditions(recorded) + ", of " +
-                                 std::to_string(models.value.models.size()) +
-                                 "; spacing and pattern are ours, a model has none"};
-}
-
-/// Uses a recording, or the texture model that is nearest to the scraping conditions. Returns an exit code.
+/// Returns an exit code.
 int tellTexture(const std::string& path, const Scrape& scrape) {
-    const Result<Told> told = isTextureModels(path) ? ofModels(path, scrape) : ofRecording(path, scrape);
-    if (!told) return leave(exitFailed, told.error);
-    const ScrapedTexture& f = told.value.found;
+    const auto recording = readRecording(path);
+    if (!recording) return leave(exitFailed, recording.error);
+    const auto found =
+        extractTexture(loudestOf(recording.value.channels), recording.value.sampleRateHz, scrape);
+    if (!found) return leave(exitFailed, path + ": " + found.error);
+    const ScrapedTexture& f = found.value;
     const auto known = [&](double number) { return f.strength > 0.0 ? numberText(number) : std::string{}; };
     std::cout << "frequency_hz,decay_per_s,grain_m,roughness,grain_pattern\n"
               << known(f.frequencyHz) << ',' << known(f.decayPerSecond) << ','
               << numberText(f.texture.grainMetres) << ',' << known(f.texture.roughness) << ','
               << grainPatternNames[static_cast<std::size_t>(f.texture.pattern)] << '\n';
-    std::cerr << "physvib: " << told.value.about << '\n';
+    std::cerr << "physvib: " << howMeasured(f, scrape) << '\n';
     return exitDone;
 }
 
@@ -83,7 +58,7 @@ struct MaterialOptions {
     std::string band = "20-1000"; ///< "LO-HI" in Hz
     std::string rule = "fit";     ///< or "two-peaks"
     bool lists = false;           ///< list the built-in materials
-    std::string texturePath;      ///< a scrape recording or a toolkit's texture models, instead of an impact
+    std::string texturePath;      ///< a scrape recording, instead of an impact
     std::optional<double> speedMetresPerSecond;
     double loadNewtons = 1.0, massKg = 1.0;
 };
@@ -121,10 +96,8 @@ void declareMaterial(OptionTable& command, MaterialOptions& o) {
     command.add("--band", o.band, "Hz within which the frequency is looked for").as("LO-HI");
     command.add("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks")
         .oneOf({"fit", "two-peaks"});
-    command
-        .add("--texture", o.texturePath,
-             "a scrape at a steady speed, or an autoregressive texture: grains instead of one contact")
-        .as("FILE.wav|FILE.xml");
+    command.add("--texture", o.texturePath, "a scrape at a steady speed: grains instead of one contact")
+        .as("FILE.wav");
     command.add("--speed", o.speedMetresPerSecond, "m/s at which it was scraped").as("V").in(0.001, 100.0);
     command.add("--load", o.loadNewtons, "N that pressed").as("N").in(0.001, 1000.0);
     command.add("--mass", o.massKg, "kg of what vibrated").as("KG").in(0.0001, 10000.0);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -87,9 +88,10 @@ std::string takeEvents(LoadedRender& job, std::vector<std::string>& warnings) {
 
 void declareExport(OptionTable& command, ExportOptions& o) {
     declareSceneOptions(command, o.input);
-    command
-        .add("--to", o.to,
-             "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)")
+    std::vector<std::string> formats;
+    for (const ClipFormatRow& row : clipFormats)
+        formats.push_back(std::string{row.ending} + " (" + std::string{row.owner} + ")");
+    command.add("--to", o.to, "the file; its ending says the format: " + listed(formats))
         .required()
         .written("FILE");
     command.add("--error", o.error, "how far lines may be from each hit's exponential, of its strength")
@@ -101,8 +103,7 @@ int runExport(const OptionTable& command, ExportOptions& options) {
     noteGiven(command, o);
     if (const std::string refusal = refusalOf(o); !refusal.empty()) return leave(exitUsage, refusal);
     const auto format = clipFormatOf(options.to);
-    if (!format)
-        return leave(exitUsage, "--to: " + endingFault(options.to, {".hjif", ".hmpg", ".haptic", ".ahap"}));
+    if (!format) return leave(exitUsage, "--to: " + endingFault(options.to, clipEndings));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
     o.isEqualised = false; // of the player's own actuators
     if (const std::string refusal = sceneFault(o); !refusal.empty()) return leave(exitUsage, refusal);

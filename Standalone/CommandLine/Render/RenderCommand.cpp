@@ -130,8 +130,8 @@ void printExplanation(const LoadedRender& job, const RenderStatus& status) {
     std::cout << describe(job.made.counts, &output);
 }
 
-std::string render(LoadedRender& job, RenderListener* listener) {
-    RenderOutputs outputs{job, listener};
+std::string render(LoadedRender& job) {
+    RenderOutputs outputs{job};
     if (auto error = outputs.open(); !error.empty()) return error;
     const auto warnings = makeEvents(job);
     if (!warnings) return warnings.error;
@@ -154,7 +154,7 @@ std::string render(LoadedRender& job, RenderListener* listener) {
 
 } // namespace
 
-int runRender(const RenderJob& options, RenderListener* listener) {
+int runRender(const RenderJob& options) {
     LoadedRender job{options, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;
     if (job.clip && !options.pad.empty())
@@ -163,7 +163,7 @@ int runRender(const RenderJob& options, RenderListener* listener) {
         return leave(exitUsage, clash);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
         return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");
-    const std::string error = render(job, listener);
+    const std::string error = render(job);
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 

@@ -30,9 +30,8 @@ std::string open(std::unique_ptr<WavSink>& wav, const std::string& path, int cha
 
 } // namespace
 
-RenderOutputs::RenderOutputs(const LoadedRender& job, RenderListener* listener)
+RenderOutputs::RenderOutputs(const LoadedRender& job)
     : job_{job}
-    , listener_{listener}
     , pattern_{job.channels(), job.options.sampleRateHz, job.options.threshold}
     , whole_{job.channels(), 0, job.frames()} {}
 
@@ -70,17 +69,13 @@ void RenderOutputs::takeMotors(const std::vector<RenderControl>& controls) {
 void RenderOutputs::begin() {
     const FrameWindow window = zoomWindow(job_.made.events, job_.options.sampleRateHz);
     zoom_.emplace(job_.channels(), window.firstFrame, window.frameCount);
-    if (listener_) listener_->begin(job_);
 }
 
 bool RenderOutputs::take(const float* const* channels, int frames) {
     framesTaken_ += frames;
     whole_.add(channels, frames);
     zoom_->add(channels, frames);
-    if (listener_)
-        listener_->take(channels, frames);
-    else
-        showProgress();
+    showProgress();
     if (patternFile_) pattern_.convert(channels, frames);
     return !wav_ || writeWav(channels, frames);
 }
@@ -218,7 +213,6 @@ void RenderOutputs::showProgress() {
 }
 
 void RenderOutputs::summarise(std::ostream& out) const {
-    if (listener_) return;
     const RenderJob& o = job_.options;
     out << std::fixed << std::setprecision(1);
     if (wav_) {

@@ -5,7 +5,6 @@
 #include "Calls/LoadedRender.h"
 #include "Calls/MovieOutput.h"
 #include "CommandLine/Render/OnOffPattern.h"
-#include "CommandLine/Render/RenderListener.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Wav/WavSink.h"
 #include "Pictures/WaveformEnvelope.h"
@@ -21,9 +20,8 @@ namespace physvib {
 /// Errors are one line each; after one, nothing is left behind. M only.
 class RenderOutputs {
 public:
-    /// `job` outlives this object; its layout is known, its events need not be. A listener, if there is one,
-    /// hears what is taken, and tells people as much of it as it wants.
-    explicit RenderOutputs(const LoadedRender& job, RenderListener* listener = nullptr);
+    /// `job` outlives this object; its layout is known, its events need not be.
+    explicit RenderOutputs(const LoadedRender& job);
 
     /// Makes sure that every wanted file can be written.
     std::string open();
@@ -67,7 +65,6 @@ private:
     bool writeWav(const float* const* channels, int frames);
 
     const LoadedRender& job_;
-    RenderListener* listener_;
     std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_, motorsFile_;
     PadProfile pad_;
     std::vector<PadCommand> motors_;

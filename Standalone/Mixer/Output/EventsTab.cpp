@@ -2,6 +2,7 @@
 // A list that is brought up to date a few times a second, and under it what can be done with what is chosen.
 #include "Mixer/Output/EventsTab.h"
 #include "Core/NameNumbers.h"
+#include "Io/Text/NameList.h"
 #include "Mixer/Materials/HitWords.h"
 #include <algorithm>
 #include <iterator>
@@ -78,8 +79,10 @@ EventsTab::EventsTab(Desk& desk)
     choice_.setMinimumHorizontalScale(1.0f); // two lines rather than narrow letters
     for (int k = 0; k < hitEndings().size(); ++k) format_.addItem("as " + hitEndings()[k], k + 1);
     format_.setTitle("Dragged as");
-    format_.setTooltip(".wav: a channel for each actuator. .hjif, .hmpg: channels and places. .haptic, "
-                       ".ahap: a file for each actuator");
+    std::vector<std::string_view> whole, parted;
+    for (const ClipFormatRow& row : clipFormats) (row.isMono ? parted : whole).push_back(row.ending);
+    format_.setTooltip(hitEndings()[0] + ": a channel for each actuator. " + utf8(listed(whole)) +
+                       ": channels and places. " + utf8(listed(parted)) + ": a file for each actuator");
     format_.setSelectedItemIndex(files_->ending(), juce::dontSendNotification);
     format_.onChange = [this] { files_->setEnding(format_.getSelectedItemIndex()); };
     save_ = quietButton("Save as clip" + dots(), "Save the chosen contacts as a clip (Return)");

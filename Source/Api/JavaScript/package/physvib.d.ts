@@ -317,7 +317,7 @@ export class PhysVib {
     eventsText(events: readonly HapticEvent[], field?: { fieldWidth?: number; fieldHeight?: number }): Promise<string>;
     /** A WAVE file of 32-bit floats. */
     wav(channels: readonly Float32Array[], rate?: number): Promise<Uint8Array>;
-    /** A .hjif, .hmpg, .haptic or .ahap, to samples. */
+    /** A haptic file, of a format that `physvib export` writes, to samples. */
     readClip(data: string | ArrayBuffer | Uint8Array, name: string, settings?: { rate?: number }): Promise<Clip>;
     /** Events as such a file; formats with one channel give a file for each actuator that plays. */
     writeClip(events: readonly HapticEvent[], name: string, settings?: RendererSettings & { error?: number }): Promise<{ name: string; bytes: Uint8Array }[]>;

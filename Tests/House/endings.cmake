@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# Endings of haptic files stand in the table of Source/Formats/ClipFile.h alone. The page reads those of phones only, and says so itself.
+file(GLOB_RECURSE files ${ROOT}/Source/*.h ${ROOT}/Source/*.cpp ${ROOT}/Source/*.ts ${ROOT}/Source/*.js ${ROOT}/Plugin/*.h ${ROOT}/Plugin/*.cpp ${ROOT}/Standalone/*.h ${ROOT}/Standalone/*.cpp)
+list(FILTER files EXCLUDE REGEX "/Source/Formats/|/Standalone/Web/")
+set(bad "")
+foreach(file ${files})
+    file(READ ${file} text)
+    if(text MATCHES "\\.ahap")
+        list(APPEND bad ${file})
+    endif()
+endforeach()
+if(bad)
+    list(JOIN bad "\n" lines)
+    message(FATAL_ERROR "expected endings of haptic files by clipFormats of Formats/ClipFile.h, found .ahap in:\n${lines}")
+endif()
