@@ -21,7 +21,7 @@ physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohm
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool zbar-tools clang libclang-rt-dev clang-format-14 \
-    liblo-tools python3-numpy python3-pandas luajit doxygen cmark-gfm \
+    liblo-tools python3-numpy python3-pandas r-base-core luajit doxygen cmark-gfm \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
 # Of .ci/pico-sources.sh alone, and of Tests/Firmware/pico.sh.
 physvib_pico_packages="cmake ninja-build gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib python3"

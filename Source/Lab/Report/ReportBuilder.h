@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A report under construction: its page, its tables, and the list of tests that the R script repeats.
+// A report under construction: its page, its tables, and the list of tests that analysis.R runs.
 #pragma once
 #include "Io/Charts/Charts.h"
 #include "Lab/Analysis/Analysis.h"
+#include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/ReportPage.h"
 #include "Lab/Report/ReportTrials.h"
 #include <map>
@@ -10,19 +11,6 @@
 #include <vector>
 
 namespace physvib {
-
-/// One call of `physvib analyse` in the report's folder.
-struct ReportTest {
-    std::string analysis; ///< "anova" ...
-    AnalysisJob options;
-    std::string table;     ///< name of the file with its results
-    std::size_t lines = 0; ///< comparisons or effects
-
-    std::string call() const;
-};
-
-/// `words` as part of a file name: letters, digits, ., - and _ are kept. Any thread.
-std::string fileWord(const std::string& words);
 
 /// Name of the table of all trials.
 inline constexpr const char* trialsTable = "trials.csv";
@@ -54,25 +42,21 @@ public:
     /// `error` is empty on success.
     AnalysisReport analysis(const std::string& kind, const AnalysisJob& options, const std::string& name);
 
-    /// Runs a test. Its call and results are added to the page, and its table is stored. If the test fails,
-    /// the page has the reason and no lines are returned. With `isLong`, the page only names the table.
-    std::vector<TestLine> test(const std::string& kind, AnalysisJob options, const std::string& name,
-                               bool isLong = false);
+    /// Adds a test to analysis.R, and to the page that it runs there. None of a single participant.
+    void test(StudyTest test);
 
     /// Frame of the next chart, with a unique name.
     ChartFrame frame(std::string title) {
         return {"chart" + std::to_string(++charts_), std::move(title), isSimulated()};
     }
 
-    const std::vector<ReportTest>& tests() const noexcept { return tests_; }
+    const std::vector<StudyTest>& tests() const noexcept { return tests_; }
     const std::map<std::string, std::string>& tables() const noexcept { return tables_; }
 
 private:
     void warn(const std::vector<std::string>& warnings);
-    /// Assumptions of an analysis of variance with these effects.
-    void tellAssumptions(AnalysisJob options, const std::string& name, const std::vector<TestLine>& lines);
     std::map<std::string, std::string> tables_; // by file name
-    std::vector<ReportTest> tests_;
+    std::vector<StudyTest> tests_;
     std::vector<std::string> warned_;
     int charts_ = 0;
 };

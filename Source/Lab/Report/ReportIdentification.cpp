@@ -60,23 +60,6 @@ std::vector<BarSeries> barsOf(const ConditionAxes& axes, const std::vector<Ident
     return series;
 }
 
-/// Adds brackets for significantly different groups, and a mark in the legend for different series.
-void markPairs(BarChart& chart, const std::vector<TestLine>& lines, const ConditionAxes& axes) {
-    for (const TestLine& line : lines) {
-        const double p = line.pCorrected.value_or(line.p.value_or(1.0));
-        for (std::size_t a = 0; a < axes.groups.size(); ++a)
-            for (std::size_t b = 0; b < axes.groups.size(); ++b)
-                if (line.effect == axes.factors.back() + ": " + axes.groups[a] + " - " + axes.groups[b] &&
-                    p < 0.05)
-                    chart.brackets.push_back({a, b, significanceMark(p)});
-        if (axes.series.size() == 2 && line.effect.starts_with("condition.1: "))
-            chart.series.back().name += "  (" + line.effect.substr(13) + ": " + significanceMark(p) + ")";
-    }
-    std::ranges::stable_sort(chart.brackets, {}, [](const ChartBracket& b) {
-        return b.from > b.to ? b.from - b.to : b.to - b.from;
-    });
-}
-
 std::vector<double> ceilingsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all) {
     std::vector<double> most;
     for (std::size_t g = 0; g < axes.groups.size(); ++g) {
@@ -149,17 +132,15 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     std::vector<std::string> names;
     for (const auto& one : all) names.push_back(one.condition);
     const ConditionAxes axes = ConditionAxes::of(names);
-    std::vector<TestLine> pairs;
     if (axes.factors.size() == 2 && !tolerance)
         report.page.paragraph("condition.1 and condition.2 are the parts of the conditions' names: " +
                               listed(axes.series) + "; " + listed(axes.groups) + ".");
     if (!axes.factors.empty()) {
-        AnalysisJob test = report.optionsFor(values);
-        test.measure = "percent_correct";
-        test.within = axes.factors;
-        report.test("anova", test, "anova-percent-correct" + suffix + ".csv");
-        test.correction = Correction::bonferroni;
-        pairs = report.test("pairs", test, "pairs-percent-correct" + suffix + ".csv");
+        StudyTest test{StudyTest::Kind::anova, values, "percent_correct", axes.factors};
+        report.test(test);
+        test.kind = StudyTest::Kind::pairs;
+        test.isBonferroni = true;
+        report.test(test);
     }
     const bool hasPeople = all.front().shares.size() > 1;
     BarChart it{report.frame("Information transfer" + words), "condition", "IT (bit)", axes.groups,
@@ -180,14 +161,8 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)", axes.groups,
                 barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
     pc.most = 100.0;
-    if (!pairs.empty()) markPairs(pc, pairs, axes);
-    std::string caption =
-        "Mean percent correct" + words + " (as thesis Fig. 3.12, 4.3)" + report.intervals() + ".";
-    if (!pairs.empty())
-        caption.append(axes.series.size() == 2 ? " Brackets and the legend: pairs of" : " Brackets: pairs of")
-            .append(axes.factors.size() > 1 ? " levels over the means of the other factor" : " conditions")
-            .append(", t corrected by Bonferroni: *** p < 0.001, ** p < 0.01, * p < 0.05.");
-    report.page.figure({barChart(pc)}, caption);
+    report.page.figure({barChart(pc)}, "Mean percent correct" + words + " (as thesis Fig. 3.12, 4.3)" +
+                                           report.intervals() + ".");
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
         const auto& trials = data.conditions[c].trials;

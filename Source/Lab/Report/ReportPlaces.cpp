@@ -55,27 +55,24 @@ std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std
     return lineChart(chart);
 }
 
+/// Whether perceived rows or columns differ by target.
 void testPlaces(ReportBuilder& report, const PlacesOf& one, bool hasConditions, bool isRow) {
-    AnalysisJob test = report.optionsFor(trialsTable);
-    test.measure = isRow ? "y" : "x";
+    StudyTest test{StudyTest::Kind::anova, trialsTable, isRow ? "y" : "x"};
     if (hasConditions) test.where = {"condition=" + one.condition};
     std::set<int> rows, columns;
     for (const LocationTrial& trial : one.trials) {
         rows.insert(trial.targetRow);
         columns.insert(trial.targetColumn);
     }
-    const std::string suffix =
-        (isRow ? "row" : "column") + (hasConditions ? "-" + fileWord(one.condition) : std::string{}) + ".csv";
     if (rows.size() > 1) test.within.emplace_back("target_row");
     if (columns.size() > 1) test.within.emplace_back("target_column");
     if (test.within.empty()) return;
-    report.page.subheading((isRow ? "Perceived row" : "Perceived column") +
-                           (hasConditions ? ", " + one.condition : std::string{}));
-    report.test("anova", test, "anova-perceived-" + suffix);
-    test.within = {isRow ? "target_row" : "target_column"};
+    report.test(test);
     if ((isRow ? rows : columns).size() < 2) return;
-    test.correction = Correction::bonferroni;
-    report.test("pairs", test, "pairs-perceived-" + suffix, true);
+    test.kind = StudyTest::Kind::pairs;
+    test.within = {isRow ? "target_row" : "target_column"};
+    test.isBonferroni = true;
+    report.test(test);
 }
 
 } // namespace

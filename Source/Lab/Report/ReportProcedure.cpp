@@ -310,9 +310,7 @@ void tellProvenance(ReportBuilder& report) {
     report.page.paragraph(
         std::string{
             "Every table below is CSV with names of columns in its second line, after one of its origin"} +
-        (report.tests().empty() ? "."
-                                : "; report.R (R with afex) repeats every test from them "
-                                  "and compares each p."));
+        (report.tests().empty() ? "." : "; analysis.R runs every test on them."));
     std::vector<std::string> files;
     for (const auto& [name, text] : report.tables()) files.push_back(name);
     report.page.list(files);

@@ -12,7 +12,6 @@ void tellApparatus(ReportBuilder& report); ///< device, levels, noise and limite
 void tellTimes(ReportBuilder& report);  ///< dates, breaks, resumes and outputs, if files of times are there
 void tellOrders(ReportBuilder& report); ///< condition orders as run
 void tellDoses(ReportBuilder& report);  ///< levels and exposure, by condition and by stimulus
-void tellPower(ReportBuilder& report);  ///< differences that this number of participants can detect
 void tellProvenance(ReportBuilder& report); ///< versions, seeds, files
 
 // Results; each section is for trials of one kind of task.

@@ -12,6 +12,8 @@
 namespace physvib {
 namespace {
 
+constexpr std::size_t mostTestedFactors = 3;
+
 /// Factors in condition names like "pair=wood size=small", with their values in table order; empty if a
 /// condition has another kind of name.
 std::vector<std::pair<std::string, std::vector<std::string>>>
@@ -44,19 +46,17 @@ std::string shareIntervals(const ReportBuilder& report) {
     return report.people() > 1 ? report.intervals() : ", of one participant: 95 % intervals over trials";
 }
 
-void tellChoiceTests(ReportBuilder& report,
+void listChoiceTests(ReportBuilder& report,
                      const std::vector<std::pair<std::string, std::vector<std::string>>>& factors,
                      const std::string& alternative) {
-    AnalysisJob test = report.optionsFor(trialsTable);
-    test.measure = "choice=" + alternative;
+    StudyTest test{StudyTest::Kind::friedman, trialsTable, "choice=" + alternative};
     for (const auto& [name, values] : factors)
-        if (values.size() > 1 && test.within.size() < mostWithinFactors) test.within.push_back(name);
+        if (values.size() > 1 && test.within.size() < mostTestedFactors) test.within.push_back(name);
     if (test.within.empty()) return;
-    report.page.subheading("Do shares differ by factor?");
-    report.test("friedman", test, "friedman-choices.csv");
-    test.pairTest = PairTest::ranks;
-    test.correction = Correction::bonferroni;
-    report.test("pairs", test, "pairs-choices.csv");
+    report.test(test);
+    test.kind = StudyTest::Kind::pairs;
+    test.isOfRanks = test.isBonferroni = true;
+    report.test(test);
 }
 
 /// Mean share of the first alternative for each combination of two factors, over the levels of the others.
@@ -101,11 +101,9 @@ struct RatedFactor {
 constexpr RatedFactor ratedFactors[] = {
     {"A", "amplitude", "AV", "AF"}, {"F", "frequency", "FV", "FF"}, {"DR", "decay rate", "DRV", "DRF"}};
 
-/// One panel per scale with the three factors of the thesis' methods, marked with significances of the
-/// scale's analysis of variance.
+/// One panel per scale with the three factors of the thesis' methods.
 std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<std::string>& scales,
-                                      const std::vector<RatingSummary>& summaries,
-                                      const std::vector<std::vector<TestLine>>& tests) {
+                                      const std::vector<RatingSummary>& summaries) {
     std::vector<std::string> charts;
     for (std::size_t s = 0; s < scales.size(); ++s) {
         BarChart chart{
@@ -116,10 +114,7 @@ std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<s
                                                                                          summaries,
                                                                                          factor.fixed);
             if (!varied || !fixed) continue;
-            std::string mark;
-            for (const TestLine& line : tests[s])
-                if (line.effect == factor.name && line.p) mark.append(" ").append(significanceMark(*line.p));
-            chart.groups.push_back(factor.words + mark);
+            chart.groups.emplace_back(factor.words);
             chart.series[0].bars.push_back(scoreOf(*varied, s));
             chart.series[1].bars.push_back(scoreOf(*fixed, s));
         }
@@ -181,18 +176,14 @@ void tellChoices(ReportBuilder& report) {
         }
     std::string names;
     for (const auto& [name, values] : factors) names.append(names.empty() ? "all; by " : ", ").append(name);
-    report.page.figure(
-        {sharesChart(report.frame("Shares of the alternatives"), names.empty() ? "condition" : names, groups,
-                     chosen)},
-        "Mean of the participants' shares (as thesis Fig. 5.8, which has medians)" + shareIntervals(report) +
-            "." +
-            (summaries.front().p
-                 ? " Marks: signed ranks of the shares against one half, corrected by Holm for the bars of "
-                   "this figure: * p < 0.05, ** p < 0.01, *** p < 0.001."
-                 : ""));
+    report.page.figure({sharesChart(report.frame("Shares of the alternatives"),
+                                    names.empty() ? "condition" : names, groups, chosen)},
+                       "Mean of the participants' shares (as thesis Fig. 5.8, which has medians)" +
+                           shareIntervals(report) + ".");
     if (summaries.front().shares.size() != 2) return;
     const std::string alternative = summaries.front().shares.front().alternative;
-    tellChoiceTests(report, factors, alternative);
+    report.test({StudyTest::Kind::choices, trialsTable});
+    listChoiceTests(report, factors, alternative);
     std::vector<std::pair<std::string, std::vector<std::string>>> several;
     for (const auto& factor : factors)
         if (factor.second.size() > 1) several.push_back(factor);
@@ -216,32 +207,22 @@ void tellRatings(ReportBuilder& report) {
     std::set<std::string> conditions;
     for (const RatingTrial& trial : trials) conditions.insert(trial.condition);
     const bool hasMethods = summaries.size() > conditions.size();
-    std::vector<std::vector<TestLine>> tests(scales.size());
     for (std::size_t s = 0; s < scales.size() && conditions.size() > 1; ++s) {
-        AnalysisJob test = report.optionsFor(trialsTable);
-        test.measure = scales[s];
+        StudyTest test{StudyTest::Kind::anova, trialsTable, scales[s]};
         if (!hasMethods)
             test.within = {report.trials.all.column("stimulus") ? "stimulus" : "condition"};
         else
             for (const RatedFactor& factor : ratedFactors)
                 if (conditionNamed(summaries, factor.varied) && conditionNamed(summaries, factor.fixed))
                     test.within.emplace_back(factor.name);
-        report.page.subheading(scales[s]);
-        tests[s] = report.test("anova", test, "anova-" + fileWord(scales[s]) + ".csv");
-        if (hasMethods) continue;
-        test.correction = Correction::holm;
-        report.test("pairs", test, "pairs-" + fileWord(scales[s]) + ".csv", true);
+        report.test(test);
+        if (hasMethods) continue; // two levels each: no pairs
+        test.kind = StudyTest::Kind::pairs;
+        report.test(test);
     }
     if (hasMethods)
-        report.page.figure(
-            factorCharts(report, scales, summaries, tests),
-            "Mean scores by factor (as thesis Fig. 5.13)" + report.intervals() + "." +
-                (tests.front().empty()
-                     ? ""
-                     : " Marks: main "
-                       "effect in the analysis of variance of that scale (two levels each, so no pairs are "
-                       "to be "
-                       "compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05."));
+        report.page.figure(factorCharts(report, scales, summaries),
+                           "Mean scores by factor (as thesis Fig. 5.13)" + report.intervals() + ".");
     std::vector<const RatingSummary*> shown;
     for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) // reverse order, so that AV-FV-DRV comes
                                                                      // first

@@ -6,6 +6,7 @@
 #include "Io/Text/CsvText.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialLog.h"
+#include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/ProtocolWords.h"
 #include "Lab/Report/StudyReport.h"
 #include "Lab/Study/SimulatedObserver.h"
@@ -16,7 +17,7 @@ namespace physvib {
 namespace {
 
 constexpr int mostSimulated = 6; // as many as tests need; more change no test's call
-constexpr std::string_view testMark = "- physvib analyse ";
+constexpr std::string_view testMark = "- test: ", oldTestMark = "- physvib analyse ";
 
 std::string codeOf(int number) { return std::string("P").append(std::to_string(number)); }
 
@@ -30,13 +31,13 @@ std::string simulatedFile(const Protocol& protocol, int number) {
     return text;
 }
 
-Result<std::vector<std::string>> testsOf(const Protocol& protocol, int participants) {
+Result<StudyReport> rehearsed(const Protocol& protocol, int participants) {
     std::vector<std::pair<std::string, std::string>> files;
     for (int number = 1; number <= std::min(participants, mostSimulated); ++number)
         files.emplace_back(codeOf(number), simulatedFile(protocol, number));
     const auto trials = readReportTrials(files, {}, protocol);
     if (!trials) return Failure{trials.error};
-    return studyReport(trials.value).tests;
+    return studyReport(trials.value);
 }
 
 std::string listOf(const char* title, const std::vector<std::string>& lines) {
@@ -48,10 +49,11 @@ std::string listOf(const char* title, const std::vector<std::string>& lines) {
 
 } // namespace
 
-Result<std::string> plannedStudy(const Protocol& protocol, int participants) {
-    const auto tests = testsOf(protocol, participants);
-    if (!tests) return Failure{tests.error};
-    std::vector<std::string> conditions, sessions;
+Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants) {
+    auto report = rehearsed(protocol, participants);
+    if (!report) return Failure{report.error};
+    std::vector<std::string> conditions, sessions, tests;
+    for (const std::string& test : report.value.tests) tests.push_back("test: " + test);
     for (const ConditionPlan& condition : protocol.conditions)
         conditions.push_back(conditionWords(condition));
     for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session, protocol));
@@ -68,10 +70,9 @@ Result<std::string> plannedStudy(const Protocol& protocol, int participants) {
         "Exclusions",
         {"those who are excluded have a reason in the table of people, and all their trials are left out",
          "tests leave out who lacks a combination of levels; who did not finish is named"});
-    text += listOf("Tests over participants, with their corrections", tests.value);
-    text +=
-        tests.value.empty() ? "none\n" : "Pairs are corrected by Holm, unless their call names another.\n";
-    return text;
+    text += listOf("Tests over participants, with their corrections, as analysis.R runs them in R", tests);
+    if (tests.empty()) text += "none\n";
+    return PlannedStudy{std::move(text), std::move(report.value.files[analysisScriptName])};
 }
 
 Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::string_view name,
@@ -82,9 +83,12 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     if (!head.contains("plan") || !head.contains("hash") || !head.contains("participants"))
         return Failure{std::string{name} + ":1: expected a plan of `physvib study plan`"};
     std::set<std::string> planned;
-    while (!rest.empty())
-        if (const std::string_view line = takeUntil('\n', rest); line.starts_with(testMark))
-            planned.emplace(line.substr(2));
+    bool isOld = false; // its tests are calls of an analysis that is gone
+    while (!rest.empty()) {
+        const std::string_view line = takeUntil('\n', rest);
+        if (line.starts_with(testMark)) planned.emplace(line.substr(testMark.size()));
+        isOld |= line.starts_with(oldTestMark);
+    }
     std::vector<std::string> sentences{"The plan has the hash " + contentHash(std::string{plan}) + "."};
     if (head.at("hash") != trials.common("hash"))
         sentences.push_back("The protocol is not the planned one: hash " + trials.common("hash") +
@@ -96,6 +100,11 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     if (std::to_string(people.size()) != head.at("participants"))
         sentences.push_back("Planned were " + head.at("participants") + " participants, " +
                             std::to_string(people.size()) + " took part.");
+    if (isOld) {
+        sentences.emplace_back(
+            "The plan lists its tests as calls of an earlier version: compare them with those here.");
+        return sentences;
+    }
     for (const std::string& test : tests)
         if (!planned.contains(test)) sentences.push_back("Not planned: " + test);
     for (const std::string& test : planned)

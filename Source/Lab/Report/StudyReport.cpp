@@ -2,7 +2,7 @@
 // Composes a report from the sections that fit its trials.
 #include "Lab/Report/StudyReport.h"
 #include "Lab/Files/LeftRows.h"
-#include "Lab/Report/ReportScript.h"
+#include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Report/StudyPlanned.h"
 #include "Lab/Study/StudyTasks.h"
@@ -43,6 +43,26 @@ std::string titleOf(const ReportTrials& trials) {
     return "Report: " + (name.empty() ? trials.files.front().name : name);
 }
 
+/// The same in a plan and in the report of the study.
+std::string studyWords(const ReportTrials& trials) {
+    std::string words = "physvib " PHYSVIB_VERSION;
+    for (const char* key : {"protocol", "hash"})
+        if (const std::string value = trials.common(key); !value.empty())
+            words.append(", ").append(key).append(" ").append(value);
+    return words;
+}
+
+void tellTests(ReportBuilder& report) {
+    if (report.tests().empty()) return;
+    report.page.heading("Tests");
+    report.page.paragraph(
+        "Tests: run `Rscript analysis.R` in this folder. It needs R alone (Debian: r-base-core), prints "
+        "each test with its assumptions and writes tests.csv. It runs:");
+    std::vector<std::string> words;
+    for (const StudyTest& test : report.tests()) words.push_back(test.words());
+    report.page.list(words);
+}
+
 } // namespace
 
 StudyReport studyReport(const ReportTrials& trials) {
@@ -63,8 +83,8 @@ StudyReport studyReport(const ReportTrials& trials) {
         report.page.note(made.notes.back());
         report.page.table(report.tableText(trialsTable), trialsTable);
     }
-    tellPower(report);
-    for (const ReportTest& test : report.tests()) made.tests.push_back(test.call());
+    for (const StudyTest& test : report.tests()) made.tests.push_back(test.words());
+    tellTests(report);
     if (!trials.facts.plan.empty()) {
         report.page.heading("Planned and done");
         const auto compared = comparedWithPlan(trials.facts.plan, "plan", trials, made.tests);
@@ -72,7 +92,8 @@ StudyReport studyReport(const ReportTrials& trials) {
     }
     tellProvenance(report);
     made.files = report.tables();
-    made.files["report.R"] = reportScript(report);
+    if (!report.tests().empty())
+        made.files[analysisScriptName] = analysisScript(report.tests(), studyWords(trials));
     made.files["index.html"] = report.page.html();
     return made;
 }

@@ -10,9 +10,9 @@ namespace physvib {
 
 struct StudyReport {
     std::map<std::string, std::string> files; ///< file names within the report's folder, and contents:
-                                              ///< index.html, tables, report.R
+                                              ///< index.html, tables, analysis.R if there are tests
     std::vector<std::string> notes;           ///< one line each on trials without a known analysis
-    std::vector<std::string> tests;           ///< calls of all tests
+    std::vector<std::string> tests;           ///< all tests, in words
     bool isSimulated = false;                 ///< trials are of a simulated observer
 };
 
