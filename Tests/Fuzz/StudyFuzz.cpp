@@ -39,8 +39,7 @@ void analyse(const StudyData<PercentCounts>& data) {
 
 void analyse(const StudyData<ChoiceTrial>& data) {
     for (const auto& summary : summariseChoices(data.conditions.front().trials))
-        fuzz::demand(std::isfinite(summary.p.value_or(0.0)) && std::isfinite(summary.shares.front().least),
-                     "a number is missing");
+        fuzz::demand(std::isfinite(summary.shares.front().least), "a number is missing");
 }
 
 void analyse(const StudyData<LevelTrial>& data) {

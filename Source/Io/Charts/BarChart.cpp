@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bar chart as SVG: groups of bars with intervals, ceilings and significance brackets.
+// Bar chart as SVG: groups of bars with intervals and ceilings.
 #include "Io/Charts/ChartParts.h"
 #include "Io/Charts/Charts.h"
 #include <algorithm>
@@ -10,29 +10,7 @@ namespace {
 
 using namespace detail;
 
-constexpr double chartWidth = 680.0, plotHeight = 250.0, bracketHeight = 20.0, leftMargin = 66.0,
-                 narrowGroup = 30.0;
-
-/// Arranges brackets in rows so that none overlap: the row of each, from 0 at the bottom.
-std::vector<std::size_t> bracketRows(const std::vector<ChartBracket>& brackets) {
-    std::vector<std::size_t> rows;
-    const auto overlap = [](const ChartBracket& a, const ChartBracket& b) {
-        return std::min(a.from, a.to) <= std::max(b.from, b.to) &&
-               std::min(b.from, b.to) <= std::max(a.from, a.to);
-    };
-    for (std::size_t i = 0; i < brackets.size(); ++i) {
-        std::size_t row = 0;
-        for (std::size_t j = 0; j < i;) {
-            if (rows[j] == row && overlap(brackets[i], brackets[j])) {
-                ++row;
-                j = 0;
-            } else
-                ++j;
-        }
-        rows.push_back(row);
-    }
-    return rows;
-}
+constexpr double chartWidth = 680.0, plotHeight = 250.0, leftMargin = 66.0, narrowGroup = 30.0;
 
 ChartAxis valueAxis(const BarChart& chart) {
     double least = 0.0, most = chart.reference ? chart.reference->first : 0.0;
@@ -78,9 +56,6 @@ struct BarDrawing {
                 const double zero = area.y(axis, std::clamp(0.0, axis.least, axis.most)),
                              y = area.y(axis, bar->value);
                 svg.bar({x + 1.0, std::min(zero, y)}, width - 2.0, std::abs(zero - y), s);
-                if (g < chart.series[s].marks.size())
-                    svg.text({x + 0.5 * width, area.y(axis, std::max(bar->value, bar->most)) - 5.0},
-                             chart.series[s].marks[g], {smallSize, Anchor::middle});
                 if (bar->least < bar->most)
                     svg.whisker({x + 0.5 * width, area.y(axis, bar->least)},
                                 {x + 0.5 * width, area.y(axis, bar->most)}, {"#000", 1.4});
@@ -112,21 +87,6 @@ struct BarDrawing {
         svg.line({area.left, y}, {area.right, y}, {"#000", 1.2, "6 4"});
         svg.text({area.right + 4.0, y + 4.0}, chart.reference->second, {smallSize});
     }
-    void brackets(double top) const {
-        const auto rows = bracketRows(chart.brackets);
-        std::size_t most = 0;
-        for (const std::size_t row : rows) most = std::max(most, row);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const ChartBracket& bracket = chart.brackets[i];
-            const double y = top + bracketHeight * static_cast<double>(most - rows[i] + 1) - 4.0;
-            const double from = middle(std::min(bracket.from, bracket.to)) + 3.0,
-                         to = middle(std::max(bracket.from, bracket.to)) - 3.0;
-            svg.line({from, y + 5.0}, {from, y});
-            svg.line({from, y}, {to, y});
-            svg.line({to, y}, {to, y + 5.0});
-            svg.text({0.5 * (from + to), y - 2.0}, bracket.mark, {labelSize, Anchor::middle});
-        }
-    }
 };
 
 } // namespace
@@ -145,12 +105,9 @@ std::string barChart(const BarChart& chart) {
     const double leftEdge =
         isTurned && !isUpright ? std::max(leftMargin, 0.8 * textWidth(chart.groups.front(), smallSize) - 10.0)
                                : leftMargin;
-    const auto rows = bracketRows(chart.brackets);
-    const double brackets =
-        rows.empty() ? 0.0 : bracketHeight * static_cast<double>(*std::ranges::max_element(rows) + 1);
     const double titleBottom = titleHeight(chart.frame.title, chartWidth);
     const double top = titleBottom + legendHeight(legend, right - leftEdge) + 8.0;
-    const PlotArea area{leftEdge, top + brackets + 8.0, right, top + brackets + 8.0 + plotHeight};
+    const PlotArea area{leftEdge, top + 8.0, right, top + 8.0 + plotHeight};
     Svg svg{chart.frame.name, chartWidth, area.bottom + labels + 24.0};
     drawTitle(svg, chart.frame.title, chartWidth);
     drawLegend(svg, legend, {leftEdge, titleBottom}, right - leftEdge);
@@ -161,15 +118,10 @@ std::string barChart(const BarChart& chart) {
     svg.line({area.left, zero}, {area.right, zero});
     drawing.ceilings();
     drawing.reference();
-    drawing.brackets(top);
     drawing.groupLabels(isTurned);
     svg.text({0.5 * (area.left + area.right), area.bottom + labels + 16.0}, chart.groupsWords,
              {labelSize, Anchor::middle});
     return svg.finish(chart.frame.title, chart.frame.isSimulated);
-}
-
-std::string significanceMark(double p) {
-    return p < 0.001 ? "***" : p < 0.01 ? "**" : p < 0.05 ? "*" : "n.s.";
 }
 
 } // namespace physvib

@@ -15,7 +15,6 @@ void tell(std::ostream& out, const ChoiceSummary& summary) {
         out << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' '
             << percent(share.share) << " % (" << percent(share.least) << " to " << percent(share.most) << ')';
     out << ", " << counted(summary.trials, "trial") << " of " << counted(summary.participants, "participant");
-    if (summary.p) out << ", signed ranks " << chanceWords(*summary.p);
     out << '\n';
 }
 
@@ -59,7 +58,7 @@ AnalysisReport analyseChoices(const AnalysisJob& o) {
     const auto summaries = summariseChoices(data.value.conditions.front().trials);
     ExportTable table{"choices", data.value.isSimulated,
                       "condition,alternative,votes,trials,percent,least_percent,most_percent,participants,"
-                      "participants_median_percent,p_signed_ranks"};
+                      "participants_median_percent"};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
     if (summaries.front().participants == 1)
@@ -74,7 +73,7 @@ AnalysisReport analyseChoices(const AnalysisJob& o) {
         for (const auto& share : summary.shares) {
             table.row(summary.condition, share.alternative, std::size_t{share.hits},
                       std::size_t{summary.trials}, 100.0 * share.share, 100.0 * share.least,
-                      100.0 * share.most, summary.participants, 100.0 * share.median, summary.p);
+                      100.0 * share.most, summary.participants, 100.0 * share.median);
         }
     }
     report.words = out.str();

@@ -2,7 +2,6 @@
 // Draws study results, for the pictures of `analyse` and for reports.
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Statistics/Moments.h"
-#include "Lab/Statistics/TestReport.h"
 #include <algorithm>
 #include <map>
 
@@ -23,18 +22,6 @@ std::vector<std::string> numbersTo(std::size_t most) {
     std::vector<std::string> numbers;
     for (std::size_t i = 1; i <= most; ++i) numbers.push_back(std::to_string(i));
     return numbers;
-}
-
-/// p values of all bars of a chart, with Holm's correction for their number.
-TestReport correctedOver(const std::vector<const ChoiceSummary*>& summaries) {
-    TestReport report;
-    for (const ChoiceSummary* summary : summaries) {
-        TestLine& line = report.lines.emplace_back();
-        line.effect = summary->condition;
-        line.p = summary->p;
-    }
-    correctForNumber(report, Correction::holm);
-    return report;
 }
 
 } // namespace
@@ -102,14 +89,11 @@ std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
     BarChart chart{std::move(frame), groupsWords, "chosen (%)", groups, {}};
     for (const ChoiceShare& share : summaries.front()->shares)
         chart.series.push_back({share.alternative, {}});
-    const TestReport corrected = correctedOver(summaries);
     for (std::size_t i = 0; i < summaries.size(); ++i)
         for (std::size_t s = 0; s < chart.series.size(); ++s) {
             const ChoiceShare& share = summaries[i]->shares[s];
             chart.series[s].bars.push_back(
                 ChartValue{100.0 * share.share, 100.0 * share.least, 100.0 * share.most});
-            const auto& p = corrected.lines[i].pCorrected;
-            if (s == 0) chart.series[s].marks.push_back(p && *p < 0.05 ? significanceMark(*p) : "");
         }
     chart.most = 100.0;
     chart.reference = {100.0 / static_cast<double>(chart.series.size()), "chance"};

@@ -31,8 +31,7 @@ std::string countsChart(ChartFrame frame, const PercentCounts& counts);
 /// Counts of the largest merged grid, with its size in the title. Precondition: such a grid was found.
 std::string mergedChart(ChartFrame frame, const ConditionResolution& one);
 
-/// One bar per alternative and summary. With two alternatives, the first one's bar is marked if it differs
-/// from one half by a signed-rank test with Holm's correction for the chart's bars.
+/// One bar per alternative and summary.
 std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
                         const std::vector<std::string>& groups,
                         const std::vector<const ChoiceSummary*>& summaries);

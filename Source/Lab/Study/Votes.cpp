@@ -2,7 +2,6 @@
 // Summarises forced choices and ratings: groups by name, means, medians and intervals.
 #include "Lab/Study/Votes.h"
 #include "Lab/Statistics/Moments.h"
-#include "Lab/Statistics/RankTests.h"
 #include "Lab/Study/Proportion.h"
 #include <algorithm>
 #include <array>
@@ -44,17 +43,12 @@ ChoiceSummary summarise(const std::string& condition, const std::vector<const Ch
         ++totals[trial->choice];
         ++trialsOf[trial->participant];
     }
-    ChoiceSummary summary{condition, votes.size(), trials.size(), {}, {}};
+    ChoiceSummary summary{condition, votes.size(), trials.size(), {}};
     for (const auto& alternative : alternatives) {
-        std::vector<double> shares, leads; // leads, 2 share - 1, are computed so that equal leads in either
-                                           // direction tie exactly
-        for (auto& [participant, own] : votes) {
-            const auto hits = static_cast<double>(own[alternative]),
-                       all = static_cast<double>(trialsOf[participant]);
-            shares.push_back(hits / all);
-            leads.push_back((2.0 * hits - all) / all);
-        }
-        if (alternatives.size() == 2 && leads.size() > 1) summary.p = signedRank(leads).p;
+        std::vector<double> shares;
+        for (auto& [participant, own] : votes)
+            shares.push_back(static_cast<double>(own[alternative]) /
+                             static_cast<double>(trialsOf[participant]));
         summary.shares.push_back(shareOf(alternative, totals[alternative], trials.size(), shares));
     }
     return summary;

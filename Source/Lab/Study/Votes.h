@@ -3,7 +3,6 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +28,6 @@ struct ChoiceSummary {
     std::size_t participants = 0;
     std::uint64_t trials = 0;
     std::vector<ChoiceShare> shares; ///< by name of the alternative
-    std::optional<double> p; ///< two alternatives: signed-rank test of participants' shares against one half;
-                             ///< none for one participant or identical shares
 };
 
 /// First all trials together. With several conditions, then each factor of names like "pair=wood size=small"
