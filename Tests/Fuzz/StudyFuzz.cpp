@@ -5,7 +5,6 @@
 #include "Lab/Files/LongTableCsv.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Statistics/RankTests.h"
-#include "Lab/Statistics/RepeatedMeasures.h"
 #include "Lab/Statistics/ShapiroWilk.h"
 #include "Lab/Study/InformationTransfer.h"
 #include <cmath>
@@ -65,8 +64,7 @@ void analyse(const StudyData<LevelAnswer>& data) {
 void analyse(const LongTableData& data) {
     const Design design = Design::of(data.table);
     if (design.cells() > 16) return;
-    for (const auto test :
-         {repeatedMeasures, alignedRanks, friedman, wilcoxon, mannWhitney, kruskalWallis, shapiroByCell})
+    for (const auto test : {friedman, wilcoxon, mannWhitney, kruskalWallis, shapiroByCell})
         for (const TestLine& line : test(design).lines)
             for (const auto& number :
                  {line.df1, line.df2, line.statistic, line.p, line.pCorrected, line.epsilon, line.effectSize})

@@ -6,7 +6,6 @@
 #include "Lab/Files/LongTableCsv.h"
 #include "Lab/Statistics/Pairs.h"
 #include "Lab/Statistics/RankTests.h"
-#include "Lab/Statistics/RepeatedMeasures.h"
 #include "Lab/Statistics/ShapiroWilk.h"
 #include <cmath>
 #include <sstream>
@@ -26,21 +25,10 @@ std::string statisticWords(const TestReport& report, const TestLine& line) {
     return words + " = " + fixedNumber(*line.statistic, 3) + ", " + chanceWords(*line.p);
 }
 
-std::string sphericityWords(const TestLine& line) {
-    const Sphericity& s = *line.sphericity;
-    std::string words = " (epsilon " + fixedNumber(*line.epsilon, 3) + "), Huynh-Feldt " +
-                        chanceWords(s.pHuynhFeldt) + " (epsilon " + fixedNumber(s.epsilonHuynhFeldt, 3) + ")";
-    if (s.mauchlyW)
-        return words + ", Mauchly W = " + fixedNumber(*s.mauchlyW, 3) + " " + chanceWords(*s.mauchlyP);
-    return words + ", no Mauchly's test (too few participants, or differences that follow from others)";
-}
-
 void tell(std::ostream& out, const TestReport& report, const TestLine& line) {
     out << cleanLine(line.effect) << ": " << statisticWords(report, line);
-    const bool isCorrected =
-        line.pCorrected && !report.correction.empty() && (line.sphericity || report.statistic != "F");
+    const bool isCorrected = line.pCorrected && !report.correction.empty();
     if (isCorrected) out << ", " << report.correction << ' ' << chanceWords(*line.pCorrected);
-    if (line.sphericity) out << sphericityWords(line);
     if (line.differenceInterval) {
         const auto& [least, most] = *line.differenceInterval;
         const int decimals = decimalsOf(most - least);
@@ -99,9 +87,6 @@ AnalysisReport analyseDesign(const AnalysisJob& o, const std::string& name, Test
 
 } // namespace
 
-AnalysisReport analyseAnova(const AnalysisJob& o) {
-    return analyseDesign(o, "anova", o.usesAlignedRanks ? alignedRanks : repeatedMeasures);
-}
 AnalysisReport analyseFriedman(const AnalysisJob& o) { return analyseDesign(o, "friedman", friedman); }
 AnalysisReport analyseWilcoxon(const AnalysisJob& o) { return analyseDesign(o, "wilcoxon", wilcoxon); }
 AnalysisReport analyseMannWhitney(const AnalysisJob& o) {

@@ -20,7 +20,6 @@ AnalysisReport analyseRatings(const AnalysisJob& job);
 AnalysisReport analyseLevels(const AnalysisJob& job);
 
 // Tests over participants, for any long table.
-AnalysisReport analyseAnova(const AnalysisJob& job);
 AnalysisReport analyseFriedman(const AnalysisJob& job);
 AnalysisReport analyseWilcoxon(const AnalysisJob& job);
 AnalysisReport analyseMannWhitney(const AnalysisJob& job);

@@ -24,7 +24,6 @@ constexpr Analysis analyses[] = {
      "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means", analyseLevels},
     {Analysis::Kind::results, "icons", "stimulus,response per trial: the patterns that are confused least",
      analyseIcons},
-    {Analysis::Kind::test, "anova", "analysis of variance with repeated measures", analyseAnova},
     {Analysis::Kind::test, "friedman", "levels of a within-factor, by ranks", analyseFriedman},
     {Analysis::Kind::test, "wilcoxon", "two levels of a within-factor, by signed ranks", analyseWilcoxon},
     {Analysis::Kind::test, "mann-whitney", "two groups, by ranks", analyseMannWhitney},

@@ -28,7 +28,6 @@ struct AnalysisJob : StudySources {
     std::vector<std::string> within, where;
     std::optional<Correction> correction;
     PairTest pairTest = PairTest::student;
-    bool usesAlignedRanks = false;
     // Fits to each participant's trials:
     std::string level;
     PsychometricModel model{};

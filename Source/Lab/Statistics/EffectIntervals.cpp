@@ -2,7 +2,6 @@
 // Inverts noncentral distributions of Boost.Math by bisection.
 #include "Lab/Statistics/EffectIntervals.h"
 #include "Lab/Statistics/Distributions.h"
-#include <boost/math/distributions/non_central_f.hpp>
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
@@ -11,8 +10,7 @@
 namespace physvib {
 namespace {
 
-constexpr double largestT = 100.0;           // beyond it the mean's own error counts as nothing
-constexpr double largestNoncentrality = 1e4; // of F, whose sums take ever longer
+constexpr double largestT = 100.0; // beyond it the mean's own error counts as nothing
 
 /// Where `falling` is `target`, between `least` and `most`.
 template <class Function>
@@ -41,23 +39,6 @@ std::optional<Interval95> noncentralityOfT(double t, double df) {
     try {
         return Interval95{crossing(below, 0.975, t - reach, t + reach),
                           crossing(below, 0.025, t - reach, t + reach)};
-    } catch (const std::exception&) {
-        return std::nullopt;
-    }
-}
-
-std::optional<Interval95> noncentralityOfF(double f, double df1, double df2) {
-    const double most = 4.0 * df1 * f + 100.0;
-    if (!(most < largestNoncentrality)) return std::nullopt;
-    const auto below = [&](double noncentrality) {
-        return noncentrality > 0.0 ? boost::math::cdf(boost::math::non_central_f{df1, df2, noncentrality}, f)
-                                   : 1.0 - fUpper(f, df1, df2);
-    };
-    const auto bound = [&](double share) {
-        return below(0.0) > share ? crossing(below, share, 0.0, most) : 0.0;
-    };
-    try {
-        return Interval95{bound(0.975), bound(0.025)};
     } catch (const std::exception&) {
         return std::nullopt;
     }

@@ -11,9 +11,6 @@ namespace physvib {
 /// Noncentrality of Student's t by inversion of its distribution; over the root of n, d of a paired test.
 std::optional<Interval95> noncentralityOfT(double t, double df);
 
-/// Noncentrality of F, from 0 on (Steiger 2004).
-std::optional<Interval95> noncentralityOfF(double f, double df1, double df2);
-
 /// Rank-biserial r on Fisher's scale, from r's variance where there is no effect. None of r = 1 and -1.
 std::optional<Interval95> intervalOfR(double r, double variance);
 

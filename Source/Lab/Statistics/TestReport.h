@@ -10,14 +10,6 @@
 
 namespace physvib {
 
-/// Sphericity of a within-participant effect with two or more degrees of freedom.
-struct Sphericity {
-    std::optional<double> mauchlyW, mauchlyP; ///< none if there are too few participants, or differences are
-                                              ///< linearly dependent
-    double epsilonHuynhFeldt = 1.0;           ///< may exceed 1; its p uses at most 1
-    double pHuynhFeldt = 1.0;
-};
-
 /// 95 % interval.
 struct Interval95 {
     double least = 0.0, most = 0.0;
@@ -27,7 +19,6 @@ struct TestLine {
     std::string effect;
     std::optional<double> df1, df2, statistic, p, pCorrected, epsilon, effectSize;
     std::size_t n = 0; ///< number of participants
-    std::optional<Sphericity> sphericity{};
     std::optional<Interval95> effectInterval{};
     std::optional<double> difference{}; ///< pairs by t: of the means, over participants
     std::optional<Interval95> differenceInterval{};

@@ -60,10 +60,6 @@ void declareTest(OptionTable& command, AnalysisJob& o) {
     command.add("--where", o.where, "only rows that say so; may be repeated").as("COLUMN=WORD").single();
     command.add("--participant", o.participant, "column that names the participant (participant)")
         .as("COLUMN");
-    if (name == "anova") {
-        command.add("--aligned-ranks", o.usesAlignedRanks, "of aligned ranks, for ratings");
-        return; // its correction is for sphericity
-    }
     command
         .addRow(
             "--correction", [&o](int correction) { o.correction = static_cast<Correction>(correction); },
