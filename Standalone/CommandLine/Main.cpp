@@ -34,7 +34,8 @@ int writeOwnReference(const OptionTable& app, const char* folder) {
 
 /// Where tests over participants are, for who calls them as analyses; empty for other calls.
 std::string goneAnalysis(int argc, char** argv) {
-    constexpr std::string_view tests[] = {"anova"};
+    constexpr std::string_view tests[] = {"anova",          "friedman", "wilcoxon", "mann-whitney",
+                                          "kruskal-wallis", "shapiro",  "pairs"};
     if (argc < 3 || std::string_view{argv[1]} != "analyse" ||
         std::ranges::find(tests, argv[2]) == std::end(tests))
         return {};

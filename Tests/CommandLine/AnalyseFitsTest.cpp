@@ -47,7 +47,8 @@ TEST_F(AnalyseFits, FunctionsAreFittedToEachParticipant) {
 
 TEST_F(AnalyseFits, TestsThatWentToRSayWhereTheyAre) {
     write("t.csv", "participant,condition,y\nP,a,1\n");
-    for (const char* test : {"anova"})
+    for (const char* test :
+         {"anova", "friedman", "wilcoxon", "mann-whitney", "kruskal-wallis", "shapiro", "pairs"})
         refuses(std::string("analyse ") + test + " t.csv --measure y --within condition", 2,
                 std::string("analyse ") + test +
                     ": tests are run in R: `physvib report TRIALS.csv... --out FOLDER`, then "

@@ -19,14 +19,6 @@ AnalysisReport analyseChoices(const AnalysisJob& job);
 AnalysisReport analyseRatings(const AnalysisJob& job);
 AnalysisReport analyseLevels(const AnalysisJob& job);
 
-// Tests over participants, for any long table.
-AnalysisReport analyseFriedman(const AnalysisJob& job);
-AnalysisReport analyseWilcoxon(const AnalysisJob& job);
-AnalysisReport analyseMannWhitney(const AnalysisJob& job);
-AnalysisReport analyseKruskalWallis(const AnalysisJob& job);
-AnalysisReport analyseShapiro(const AnalysisJob& job);
-AnalysisReport analysePairs(const AnalysisJob& job);
-
 // Functions fitted to each participant's trials.
 AnalysisReport analysePsychometric(const AnalysisJob& job);
 AnalysisReport analysePowerLaw(const AnalysisJob& job);

@@ -2,9 +2,7 @@
 // Interface of the analyses of study trials: options and results.
 #pragma once
 #include "Lab/Analysis/AnalysisFiles.h"
-#include "Lab/Statistics/Pairs.h"
 #include "Lab/Statistics/Psychometric.h"
-#include "Lab/Statistics/TestReport.h"
 #include "Lab/Study/PercentCounts.h"
 #include <cstddef>
 #include <functional>
@@ -23,13 +21,8 @@ struct AnalysisJob : StudySources {
     std::size_t meanings = 8;                          ///< icons: number of meanings
     std::string picturePath, exportPath, countsPath;   ///< output files; empty: none
     std::string participantsPath; ///< confusion: output file with one row per participant
-    // Tests over participants:
-    std::string measure, between, participant;
-    std::vector<std::string> within, where;
-    std::optional<Correction> correction;
-    PairTest pairTest = PairTest::student;
     // Fits to each participant's trials:
-    std::string level;
+    std::string level, measure; ///< columns; empty: those of our own files
     PsychometricModel model{};
 
     bool operator==(const AnalysisJob&) const = default;
@@ -43,7 +36,6 @@ struct AnalysisReport {
     std::string words{};                           ///< text result, in lines
     std::function<std::string()> picture{};        ///< SVG, watermarked if simulated; empty: none
     std::string table{}, counts{}, participants{}; ///< CSV
-    std::vector<TestLine> lines{};                 ///< results of a test
 };
 
 /// Names of the analyses that fit a table: for a trial file by its tasks, else by its columns. Any thread.
@@ -54,11 +46,7 @@ AnalysisReport analyse(const std::string& name, const AnalysisJob& options);
 
 /// Entry of the list of all analyses.
 struct Analysis {
-    enum class Kind {
-        results,
-        test,
-        fit
-    } kind; ///< of trials, over participants, or fitted to each participant's trials
+    enum class Kind { results, fit } kind; ///< of trials, or fitted to each participant's trials
     std::string_view name;
     const char* purpose;
     AnalysisReport (*run)(const AnalysisJob&);

@@ -17,8 +17,6 @@ namespace physvib {
 
 inline std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
 
-inline std::string chanceWords(double p) { return p < 0.001 ? "p < 0.001" : "p = " + fixedNumber(p, 3); }
-
 /// A printable label of any length. It is not truncated, so labels that differ only at the end stay distinct.
 inline std::string wholeLabel(std::string_view label) {
     constexpr std::size_t piece = 40; // printable() truncates longer text
