@@ -2,7 +2,6 @@
 // Fuzz target of the readers of study files, and of the analyses on whatever they let through: no number may
 // be missing.
 #include "Fuzzing.h"
-#include "Lab/Files/LongTableCsv.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Study/InformationTransfer.h"
 #include <cmath>
@@ -59,10 +58,6 @@ void analyse(const StudyData<LevelAnswer>& data) {
                      "a number is missing");
 }
 
-void analyse(const LongTableData&) {}
-
-bool isEmpty(const LongTableData& data) { return data.table.rows() == 0; }
-
 template <class T>
 bool isEmpty(const StudyData<T>& data) {
     return data.conditions.empty();
@@ -90,11 +85,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     tryOne(readLevels, text);
     tryOne(readPercentCounts, text);
     tryOne([](const auto& files) { return readLevelAnswers(files, {"level_db", "correct", false}); }, text);
-    tryOne(
-        [](const auto& files) {
-            return readLongTable(files, {"choice=RM", {"condition"}, "", ""});
-        },
-        text);
-    tryOne([](const auto& files) { return readLongTable(files, {"x", {}, "condition", ""}); }, text);
     return 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Computes information transfer from the non-empty cells of a confusion matrix, since 0 log 0 is 0.
 #include "Lab/Study/InformationTransfer.h"
-#include "Lab/Statistics/LongTable.h"
+#include "Lab/Statistics/ByParticipant.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -57,17 +57,10 @@ InformationTransfer informationTransfer(const ConfusionMatrix& matrix) {
 }
 
 std::vector<ParticipantTransfer> transferByParticipant(const std::vector<IdentificationTrial>& trials) {
-    WordList participants;
-    std::vector<std::vector<IdentificationTrial>> own;
-    for (const auto& trial : trials) {
-        const std::size_t at = participants.indexOf(trial.participant);
-        own.resize(participants.size());
-        own[at].push_back(trial);
-    }
     std::vector<ParticipantTransfer> transfers;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        const ConfusionMatrix matrix{own[i]};
-        transfers.push_back({participants[i], matrix, informationTransfer(matrix)});
+    for (const auto& [participant, own] : byParticipant(trials)) {
+        const ConfusionMatrix matrix{own};
+        transfers.push_back({participant, matrix, informationTransfer(matrix)});
     }
     return transfers;
 }
