@@ -118,7 +118,6 @@ std::vector<Sentence> sentences() {
         {", 95 % intervals over participants", of(grid, 3), of(grid, 1)},
         {"intervals over participants: Student", of(grid, 3), of(grid, 1)},
         {"95 % interval over trials", of(grid, 1), of(grid, 3)},
-        {"intervals of thresholds and exponents over 6 participants or more", of(steps, 3), of(grid, 3)},
         {"Magnitude estimations: geometric means", of(numbers, 3), of(steps, 3)},
         {"condition.1 and condition.2 are the parts of the conditions", of(builtIn("phantom-grids"), 2),
          of(grid, 2)},

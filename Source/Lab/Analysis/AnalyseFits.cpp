@@ -3,7 +3,6 @@
 #include "Lab/Analysis/Analyses.h"
 #include "Lab/Analysis/AnalysisFiles.h"
 #include "Lab/Analysis/FitCharts.h"
-#include "Lab/Statistics/Bootstrap.h"
 #include "Lab/Statistics/LevelFits.h"
 #include "Lab/Statistics/Moments.h"
 #include <algorithm>
@@ -23,10 +22,10 @@ Result<LevelAnswers> readAnswers(const AnalysisJob& o, LevelAnswerColumns column
 
 /// "threshold 12.3 (11.0 to 13.4)".
 std::string meanWords(const char* name, const std::vector<double>& values, int decimals) {
-    const BootstrapInterval mean = bootstrapMean(values);
-    std::string words = std::string(name) + " " + fixedNumber(mean.mean, decimals);
-    if (values.size() > 1)
-        words += " (" + fixedNumber(mean.least, decimals) + " to " + fixedNumber(mean.most, decimals) + ")";
+    const Moments own{values};
+    std::string words = std::string(name) + " " + fixedNumber(own.mean, decimals);
+    if (own.n > 1)
+        words += " (" + fixedNumber(own.least(), decimals) + " to " + fixedNumber(own.most(), decimals) + ")";
     return words;
 }
 

@@ -2,7 +2,6 @@
 // Charts of fits: answers as points, fitted functions as lines.
 #include "Lab/Analysis/FitCharts.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Statistics/Bootstrap.h"
 #include "Lab/Statistics/Moments.h"
 #include <algorithm>
 #include <cmath>
@@ -88,9 +87,9 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
             mean.style = 4;
             chart.series.push_back(std::move(mean));
         }
-        const BootstrapInterval interval = bootstrapMean(thresholds);
-        chart.threshold = {interval.mean, interval.least, interval.most};
-        chart.thresholdWords = "threshold " + fixedNumber(interval.mean, decimalsOf(0.2 * meanOf(widths)));
+        const Moments own{thresholds};
+        chart.threshold = ChartValue::around(own.mean, own.halfInterval());
+        chart.thresholdWords = "threshold " + fixedNumber(own.mean, decimalsOf(0.2 * meanOf(widths)));
     }
     chart.series.push_back(std::move(answers));
     if (model.guess > 0.0) chart.references = {{100.0 * model.guess, "guessing"}};

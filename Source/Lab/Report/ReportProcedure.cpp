@@ -9,7 +9,6 @@
 #include "Lab/Report/ReportCells.h"
 #include "Lab/Report/ReportSections.h"
 #include "Lab/Report/UnfinishedRuns.h"
-#include "Lab/Statistics/Bootstrap.h"
 #include "Lab/Statistics/Moments.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
@@ -298,14 +297,7 @@ void tellProvenance(ReportBuilder& report) {
                                                                     {"seed", "seed of all orders: "}})
         if (const std::string value = report.trials.common(key); !value.empty())
             facts.push_back(words + value);
-    const auto has = [&](const char* table) { return report.tables().contains(table); };
-    if (report.people() > 1 &&
-        (has("psychometric.csv") || has("psychometric-stimuli.csv") || has("power-law.csv")))
-        facts.push_back("intervals of thresholds and exponents over " + std::to_string(fewestDrawn) +
-                        " participants or more: " + std::to_string(bootstrapDraws) +
-                        " draws of participants, seed 1; all other intervals over participants: Student's t");
-    else if (report.people() > 1)
-        facts.emplace_back("intervals over participants: Student's t");
+    if (report.people() > 1) facts.emplace_back("intervals over participants: Student's t");
     report.page.list(facts);
     report.page.paragraph(
         std::string{

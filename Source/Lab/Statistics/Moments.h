@@ -10,13 +10,6 @@
 
 namespace physvib {
 
-/// Largest absolute value; 0 for an empty span. Any thread.
-inline double largestMagnitude(std::span<const double> values) noexcept {
-    double largest = 0.0;
-    for (const double v : values) largest = std::max(largest, std::abs(v));
-    return largest;
-}
-
 /// Median (mean of the two middle values if the count is even); 0 if empty. Any thread.
 inline double median(std::vector<double> values) {
     if (values.empty()) return 0.0;
@@ -44,6 +37,8 @@ struct Moments {
     double halfInterval() const {
         return n > 1 ? studentQuantile(0.975, static_cast<double>(n - 1)) * standardError() : 0.0;
     }
+    double least() const { return mean - halfInterval(); }
+    double most() const { return mean + halfInterval(); }
 };
 
 } // namespace physvib
