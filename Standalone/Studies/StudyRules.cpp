@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compares the prints of a study's stimuli: equal prints are equal samples, which nobody can tell apart.
-#include "Studies/StudyRules.h"
+#include "Studies/StudyCheck.h"
 #include "Core/Decibels.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"

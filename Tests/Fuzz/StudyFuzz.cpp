@@ -3,7 +3,7 @@
 // be missing.
 #include "Fuzzing.h"
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Study/InformationTransfer.h"
+#include "Lab/Study/Identification.h"
 #include <cmath>
 
 namespace {

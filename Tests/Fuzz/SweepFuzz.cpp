@@ -3,7 +3,7 @@
 // nothing else.
 #include "Fuzzing.h"
 #include "Lab/Files/SweepFile.h"
-#include "Lab/Study/CallWords.h"
+#include "Lab/Study/Protocol.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

@@ -2,8 +2,7 @@
 // Charts as SVG: nothing of a file becomes markup, series are told apart without colours, simulated data say
 // so.
 #include "Io/Charts/Charts.h"
-#include "Io/Charts/ChartAxis.h"
-#include "Io/Charts/Svg.h"
+#include "Io/Charts/ChartParts.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

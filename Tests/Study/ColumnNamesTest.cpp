@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tables of experiment programs under our columns' names.
-#include "Lab/Files/ColumnNames.h"
+#include "Lab/Files/StudyTables.h"
 #include "Lab/Files/StudyCsv.h"
 #include <gtest/gtest.h>
 

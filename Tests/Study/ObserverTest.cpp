@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The simulated observer: blur fitted to published exact shares, what it predicts of the others, and what its
 // analysis says.
-#include "Lab/Study/InformationTransfer.h"
-#include "Lab/Study/Proportion.h"
+#include "Lab/Study/Identification.h"
+#include "Lab/Study/Summaries.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Thesis/PlaceBlur.h"
 #include "Thesis/Published.h"

@@ -7,7 +7,7 @@
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/AdaptiveLevel.h"
-#include "Lab/Study/LevelTrials.h"
+#include "Lab/Study/Summaries.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyRun.h"
 #include "Stimuli/SeededRandom.h"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Psychometric functions against R's glm and simulated observers, intervals by how often they hold, QUEST+
 // against a staircase.
-#include "Lab/Statistics/Psychometric.h"
-#include "Lab/Statistics/Moments.h"
-#include "Lab/Statistics/PowerLaw.h"
-#include "Lab/Statistics/QuestPlus.h"
+#include "Lab/Study/Psychometric.h"
+#include "Lab/Study/Summaries.h"
+#include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/AdaptiveLevel.h"
 #include "Stimuli/SeededRandom.h"
 #include "Study/StaircaseThreshold.h"

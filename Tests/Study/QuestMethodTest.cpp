@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // QUEST+ as a session of a protocol: what simulated observers' rows come to, beside a staircase's.
-#include "Lab/Statistics/Distributions.h"
+#include "Lab/Study/Summaries.h"
 #include "Lab/Study/Experiment.h"
-#include "Lab/Study/LevelTrials.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include <algorithm>
 #include <cmath>

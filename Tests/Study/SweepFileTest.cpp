@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Designs of sweeps are read strictly; their tasks are to be had one by one.
 #include "Lab/Files/SweepFile.h"
-#include "Lab/Study/CallWords.h"
+#include "Lab/Study/Protocol.h"
 #include "Support/FileTesting.h"
 #include <set>
 

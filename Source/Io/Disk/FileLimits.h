@@ -11,7 +11,7 @@ constexpr std::size_t maxTableCells = 3'000'000;  // 150,000 trials of twenty co
 constexpr std::size_t maxTableBytes = 64'000'000; // those cells, usually 200 bytes a trial
 constexpr std::size_t maxTableColumns = 256;      // a trial has twenty; an exported matrix one per response
 constexpr std::size_t maxCellBytes = 200'000; // the longest cell has the presentations of a trial: 64 parts
-                                              // of 2000 bytes (CallWords.h), and their levels
+                                              // of 2000 bytes (Protocol.h), and their levels
 constexpr std::int64_t maxRecordingSeconds = 600;        // a longer contact or stimulus is a mistake
 constexpr std::int64_t maxRecordingSamples = 32'000'000; // of all channels: one channel of that length at 48
                                                          // kHz, 128 MB

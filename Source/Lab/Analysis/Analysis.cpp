@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // List of all analyses, and selection of those that fit a table.
-#include "Lab/Analysis/Analyses.h"
-#include "Lab/Files/TrialColumns.h"
+#include "Lab/Analysis/Analysis.h"
+#include "Lab/Files/TrialLog.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
 #include <set>

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Readers for each kind of study table; StudyRows provides the rows.
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Files/SharedParticipants.h"
-#include "Lab/Files/StudyFileLimits.h"
-#include "Lab/Files/StudyRows.h"
+#include "Lab/Files/StudyTables.h"
+#include "Lab/Study/Experiment.h"
 #include "Lab/Study/QuestMethod.h"
-#include "Lab/Study/StimulusJob.h"
-#include "Lab/Study/Trial.h"
+#include "Lab/Study/Stimulus.h"
 #include <algorithm>
 #include <cmath>
 #include <set>

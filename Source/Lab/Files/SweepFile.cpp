@@ -4,7 +4,7 @@
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Files/StudyFileLimits.h"
+#include "Lab/Files/StudyTables.h"
 #include "Lab/Files/SweepText.h"
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #pragma once
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/SweepFile.h"
-#include "Lab/Study/CallWords.h"
+#include "Lab/Study/Protocol.h"
 #include <algorithm>
 #include <string>
 #include <string_view>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs the analyses of a report and lists its tests.
 #include "Lab/Report/ReportBuilder.h"
-#include "Lab/Report/ReportCells.h"
 #include <algorithm>
 #include <set>
 

@@ -2,13 +2,10 @@
 // Report section on levels: thresholds with psychometric functions, adjusted levels, and magnitude estimates.
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Analysis/FitCharts.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Report/ConditionAxes.h"
-#include "Lab/Report/ReportCells.h"
-#include "Lab/Report/ReportSections.h"
-#include "Lab/Study/LevelTrials.h"
+#include "Lab/Report/ReportBuilder.h"
+#include "Lab/Study/Summaries.h"
 #include <algorithm>
 
 namespace physvib {

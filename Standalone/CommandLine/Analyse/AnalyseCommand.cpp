@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib analyse`: options of each analysis, and running it.
-#include "CommandLine/Analyse/AnalyseCommand.h"
-#include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
+#include "CommandLine/Command.h"
 #include "Lab/Analysis/Analysis.h"
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Files/StudyFileLimits.h"
+#include "Lab/Files/StudyTables.h"
 #include <algorithm>
 #include <optional>
 #include <string>

@@ -6,7 +6,7 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Files/StudyFileLimits.h"
+#include "Lab/Files/StudyTables.h"
 #include "Live/Recordings/SoundHead.h"
 #include "Scene/SceneFileLimits.h"
 #include <algorithm>
