@@ -2,9 +2,9 @@
 // Psychometric functions against R's glm and simulated observers, intervals by how often they hold, QUEST+
 // against a staircase.
 #include "Lab/Study/Psychometric.h"
-#include "Lab/Study/Summaries.h"
-#include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/QuestMethod.h"
+#include "Lab/Study/Summaries.h"
 #include "Stimuli/SeededRandom.h"
 #include "Study/StaircaseThreshold.h"
 #include <cmath>
@@ -126,7 +126,14 @@ TEST(Moments, FewParticipantsHaveAnIntervalToo) {
     EXPECT_NEAR(Moments(two).halfInterval(), 12.706204736174698, 1e-9);
     EXPECT_EQ(Moments(same).least(), 2.0);
     EXPECT_EQ(Moments(std::span{two}.first(1)).most(), 1.0);
-    EXPECT_NEAR(studentQuantile(0.975, 11), 2.2009851600916388, 1e-12);
+    for (const auto& [df, quantile] : {std::pair{1u, 12.706204736174698},
+                                       {2u, 4.3026527297494637},
+                                       {11u, 2.2009851600916388},
+                                       {48u, 2.0106347576242314},
+                                       {1000u, 1.9623390808264078}}) // R: qt(0.975, df)
+        EXPECT_NEAR(studentQuantile(0.975, df), quantile, 1e-12) << df;
+    EXPECT_NEAR(normalQuantile(0.975), 1.959963984540054, 1e-14);
+    EXPECT_NEAR(normalQuantile(1e-6), -4.753424308822899, 1e-13);
 }
 
 QuestPlan questPlanOfTests() {

@@ -1,27 +1,56 @@
 // SPDX-License-Identifier: MIT
-// Quantiles by Boost.Math; choices and ratings grouped by name; thresholds from reversals or QUEST+, means in dB
-// or in logarithms.
+// Quantiles by bisection; choices and ratings grouped by name; thresholds from reversals or QUEST+, means in
+// dB or in logarithms.
 #include "Lab/Study/Summaries.h"
 #include "Lab/Study/QuestMethod.h"
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/students_t.hpp>
-#include <boost/math/special_functions/erf.hpp>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <string_view>
 #include <tuple>
 
 namespace physvib {
-double studentQuantile(double probability, double df) {
-    return boost::math::quantile(boost::math::students_t{df}, probability);
+namespace {
+
+/// Where a rising function reaches `target`, to the last bit, between 0 and `most` > 0.
+template <class Function>
+double crossing(Function rising, double target, double most) {
+    double least = 0.0;
+    for (double middle = 0.5 * most; middle > least && middle < most; middle = std::midpoint(least, most))
+        (rising(middle) < target ? least : most) = middle;
+    return most;
+}
+
+/// Probability that Student's t lies within -t and t (Abramowitz and Stegun 26.7.3, 26.7.4).
+double studentWithin(double t, std::size_t df) {
+    const double root = std::sqrt(static_cast<double>(df)), reach = std::hypot(root, t);
+    const double sine = t / reach, cosine = root / reach;
+    const bool isOdd = df % 2 == 1;
+    double term = isOdd ? cosine : 1.0, sum = 0.0;
+    for (std::size_t n = isOdd ? 3 : 2; n <= df; n += 2) {
+        sum += term;
+        term *= cosine * cosine * static_cast<double>(n - 1) / static_cast<double>(n);
+    }
+    return isOdd ? 2.0 / std::numbers::pi * (std::atan2(t, root) + sine * sum) : sine * sum;
+}
+
+} // namespace
+
+double studentQuantile(double probability, std::size_t df) {
+    if (probability < 0.5) return -studentQuantile(1.0 - probability, df);
+    return crossing([df](double t) { return studentWithin(t, df); }, 2.0 * probability - 1.0, 1e6);
 }
 
 double normalQuantile(double probability) {
-    return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * probability);
+    const double tail = std::min(probability, 1.0 - probability);
+    const double z =
+        crossing([](double at) { return -std::erfc(at / std::numbers::sqrt2); }, -2.0 * tail, 40.0);
+    return probability < 0.5 ? -z : z;
 }
 
 // Forced choices and ratings.

@@ -15,8 +15,8 @@
 
 namespace physvib {
 
-// Quantiles of Student's and the normal distribution. Any thread. Preconditions: 0 < probability < 1; degrees of freedom > 0, not necessarily integers.
-double studentQuantile(double probability, double df);
+// Quantiles of Student's and the normal distribution. Any thread. Preconditions: 0 < probability < 1; df > 0.
+double studentQuantile(double probability, std::size_t df);
 double normalQuantile(double probability);
 
 /// Median (mean of the two middle values if the count is even); 0 if empty. Any thread.
@@ -44,7 +44,7 @@ struct Moments {
     }
     /// Half of the 95 % interval by Student's t; 0 for fewer than two values.
     double halfInterval() const {
-        return n > 1 ? studentQuantile(0.975, static_cast<double>(n - 1)) * standardError() : 0.0;
+        return n > 1 ? studentQuantile(0.975, n - 1) * standardError() : 0.0;
     }
     double least() const { return mean - halfInterval(); }
     double most() const { return mean + halfInterval(); }
