@@ -9,9 +9,7 @@ build=$(cd "$1" && pwd)
 if [ "${PHYSVIB_HIDDEN:-}" != yes ]; then
     exec unshare --mount env PHYSVIB_HIDDEN=yes "$0" "$build"
 fi
-for folder in /usr/include/eigen3; do
-    [ ! -d "$folder" ] || mount -t tmpfs none "$folder"
-done
+[ ! -d /usr/include/eigen3 ] || mount -t tmpfs none /usr/include/eigen3
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPHYSVIB_UNITY=ON -DPHYSVIB_LAB=OFF -DPHYSVIB_TESTS=OFF -DPHYSVIB_FIRMWARE=OFF \
     -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON >"$build/log" 2>&1 || { tail -n 20 "$build/log"; exit 1; }
 cmake --build "$build" >>"$build/log" 2>&1 || { tail -n 20 "$build/log"; exit 1; }
