@@ -76,6 +76,9 @@ inline constexpr std::array ratings{Rating{"AV-FV-DRV", {76.4, 68.9, 71.2}},
 
 /// More for varied than for fixed, mean of the three scales: amplitude, frequency, decay rate (5.3.2).
 inline constexpr double amplitudeGain = 8.0, frequencyGain = 23.2, decayGain = 2.0;
+/// Means of the printed F(1, 19) of their scales (5.3.2; all are in printed-tests.R).
+inline constexpr double amplitudeF = (13.8 + 10.87) / 2.0, frequencyF = (56.49 + 32.98 + 59.74) / 3.0,
+                        decayF = 6.30;
 
 /// How many took part in each study, by our protocol.
 struct Participants {
