@@ -135,6 +135,7 @@ choices <- function(test, file) { cat(test, "\n", sep = ""); attempt(test, "all"
   d <- table.of(file)
   if ("phase" %in% names(d)) d <- d[d$phase != "training", ]
   if ("task" %in% names(d)) d <- d[d$task == "choose", ]
+  if (!("choice" %in% names(d))) d$choice <- d$response
   d <- d[d$choice != "", ]
   words <- sort(unique(d$choice), method = "radix")
   if (length(words) != 2) stop(paste("expected two alternatives that were chosen, found", length(words)))

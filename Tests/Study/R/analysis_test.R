@@ -80,6 +80,8 @@ for (n in c(1, 6, 49, 50)) {
     same(paste("choices of wood, n", n), line(ours, "pair=wood")$p, wilcox.test(share(d[grepl("wood", d$stimulus), ]))$p.value)
     same(paste("share, n", n), line(ours, "all")$effect_size, mean((share(d) + 1) / 2))
     same(paste("Holm, n", n), min(ours$p_corrected), min(p.adjust(ours$p, "holm")))
+    names(d)[names(d) == "choice"] <- "response"; rows(d)
+    same(paste("in a column response, n", n), line(told(choices("t", "trials.csv")), "all")$p, line(ours, "all")$p)
   }
 }
 # Three alternatives have no one half; their shares are tested by Friedman's test of one of them.
