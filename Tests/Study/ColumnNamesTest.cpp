@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tables of experiment programs under our columns' names.
-#include "Lab/Files/StudyTables.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Files/StudyTables.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Intervals and tests against tabled values; grouping of choices and ratings; the choice of icons.
-#include "Lab/Study/Summaries.h"
 #include "Lab/Study/Identification.h"
+#include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

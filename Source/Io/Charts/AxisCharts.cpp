@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Charts with axes as SVG: bars in groups with intervals and ceilings; lines and points, linear or logarithmic.
+// Charts with axes as SVG: bars in groups with intervals and ceilings; lines and points, linear or
+// logarithmic.
 #include "Io/Charts/ChartParts.h"
 #include "Io/Charts/Charts.h"
 #include <algorithm>

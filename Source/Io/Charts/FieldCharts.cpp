@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Charts of a field as SVG: a matrix of shaded cells (confusion matrices, shares by place), and the response field
-// (indicated places, normal ellipse of each target, map of the nearest target).
+// Charts of a field as SVG: a matrix of shaded cells (confusion matrices, shares by place), and the response
+// field (indicated places, normal ellipse of each target, map of the nearest target).
 #include "Io/Charts/ChartParts.h"
 #include "Io/Charts/Charts.h"
 #include "Io/Text/NumberText.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tables of trials, ours and other programs': names of columns, rows with checked access to their cells, people
-// who are in several tables, and limits.
+// Tables of trials, ours and other programs': names of columns, rows with checked access to their cells,
+// people who are in several tables, and limits.
 #pragma once
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Report sections on what the rows of the trials say, whatever the protocol says: apparatus, levels and exposure,
-// orders of conditions.
+// Report sections on what the rows of the trials say, whatever the protocol says: apparatus, levels and
+// exposure, orders of conditions.
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Report sections on identification (information transfer, percent correct by condition and by stimulus) and on
-// pointing.
+// Report sections on identification (information transfer, percent correct by condition and by stimulus) and
+// on pointing.
 #include "Io/Text/NameList.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
@@ -200,7 +200,8 @@ void tellIdentification(ReportBuilder& report) {
     if (allGrids) tellCriterion(report, data.value, 1);
 }
 
-// Pointing: responses with normal distributions, perceived rows and columns, most likely targets, percent counts.
+// Pointing: responses with normal distributions, perceived rows and columns, most likely targets, percent
+// counts.
 
 namespace {
 

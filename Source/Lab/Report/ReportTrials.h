@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The trial files of a report, combined into one study, with what the files do not contain: facts of its people,
-// and who did not finish.
+// The trial files of a report, combined into one study, with what the files do not contain: facts of its
+// people, and who did not finish.
 #pragma once
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"

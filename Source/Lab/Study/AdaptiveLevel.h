@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stimulus level controlled by the participant's answers, with a transformed up-down staircase or QUEST+ as the
-// session specifies.
+// Stimulus level controlled by the participant's answers, with a transformed up-down staircase or QUEST+ as
+// the session specifies.
 #pragma once
 #include "Lab/Study/Protocol.h"
 #include "Stimuli/SeededRandom.h"

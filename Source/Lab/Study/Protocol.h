@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A study protocol as data: conditions (stimuli and layouts) and sessions (tasks, repetitions and orders), and
-// the check of the calls that it contains.
+// A study protocol as data: conditions (stimuli and layouts) and sessions (tasks, repetitions and orders),
+// and the check of the calls that it contains.
 #pragma once
 #include "Core/Actuators/HandWeighting.h"
 #include "Lab/Study/PercentCounts.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Functions fitted to each participant's trials: psychometric functions (probability of an answer by level, by
-// maximum likelihood) and Stevens' power law.
+// Functions fitted to each participant's trials: psychometric functions (probability of an answer by level,
+// by maximum likelihood) and Stevens' power law.
 #pragma once
 #include <array>
 #include <cmath>

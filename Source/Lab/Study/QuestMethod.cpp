@@ -52,7 +52,8 @@ std::string questFault(const QuestMethod& m) {
 
 QuestPlan questPlan(const QuestMethod& m, double guess) {
     QuestPlan plan{m.shape, guess, {}, {}, {}, {m.lapse}};
-    for (int step = 0; step < static_cast<int>(levelCount(m)); ++step) plan.levels.push_back(levelAt(m, step));
+    for (int step = 0; step < static_cast<int>(levelCount(m)); ++step)
+        plan.levels.push_back(levelAt(m, step));
     plan.thresholds = plan.levels;
     for (int i = 0; i < widths; ++i)
         plan.widths.push_back(m.leastWidthDb * std::pow(m.mostWidthDb / m.leastWidthDb, i / (widths - 1.0)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A stimulus specification as a value, used by `physvib stimulus`, protocols and screens; its events; and levels
-// of stimuli that other participants adjusted.
+// A stimulus specification as a value, used by `physvib stimulus`, protocols and screens; its events; and
+// levels of stimuli that other participants adjusted.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/PhantomPanner.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What trials say of each condition: means, shares and thresholds, with 95 % intervals. The unit is the
-// participant: trials of one are averaged first, so that many trials of a few people do not look like many people.
+// participant: trials of one are averaged first, so that many trials of a few people do not look like many
+// people.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -43,9 +44,7 @@ struct Moments {
         return n > 1 ? deviation / std::sqrt(static_cast<double>(n)) : 0.0;
     }
     /// Half of the 95 % interval by Student's t; 0 for fewer than two values.
-    double halfInterval() const {
-        return n > 1 ? studentQuantile(0.975, n - 1) * standardError() : 0.0;
-    }
+    double halfInterval() const { return n > 1 ? studentQuantile(0.975, n - 1) * standardError() : 0.0; }
     double least() const { return mean - halfInterval(); }
     double most() const { return mean + halfInterval(); }
 };

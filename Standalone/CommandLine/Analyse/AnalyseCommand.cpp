@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib analyse`: options of each analysis, and running it.
-#include "CommandLine/Study/StudyOutput.h"
 #include "CommandLine/Command.h"
+#include "CommandLine/Study/StudyOutput.h"
 #include "Lab/Analysis/Analysis.h"
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib report`: reads trial files and writes a folder, completely or not at all.
 #include "Calls/CallFiles.h"
-#include "CommandLine/Study/StudyOutput.h"
 #include "CommandLine/Command.h"
+#include "CommandLine/Study/StudyOutput.h"
 #include "Io/Disk/FileClash.h"
 #include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/StudyReport.h"
