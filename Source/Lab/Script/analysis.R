@@ -4,7 +4,12 @@ script <- sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE)
 if (length(script) == 1 && basename(script) == "analysis.R") setwd(dirname(script))
 options(warn = -1) # R warns of ties in rank tests, where p is not exact, and of names in an appended table
 
-table.of <- function(file) read.csv(file, comment.char = "#", colClasses = "character", check.names = FALSE, encoding = "UTF-8", na.strings = character())
+# All cells as text: 01 is not 1, and NA may be a code. The apostrophe before what a spreadsheet would take for a formula goes.
+table.of <- function(file) {
+  d <- read.csv(file, comment.char = "#", colClasses = "character", check.names = FALSE, encoding = "UTF-8", na.strings = character())
+  d[] <- lapply(d, sub, pattern = "^'('*[=+@-])", replacement = "\\1")
+  d
+}
 # The level of a factor in each row: a column, the second part of one (condition.2), a word of condition or stimulus (pair=wood), or a letter of a
 # method's name (A of AV-FF-DRV).
 level.in <- function(cell, factor) {

@@ -95,6 +95,11 @@ wide <- with(d, tapply(choice == "B", list(participant, condition), mean))
 if (ours$n != 4) fault("NA, 1 and 01 are three people, found", ours$n)
 r <- tryCatch(t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value, error = function(e) NaN)
 if (!is.nan(r)) same("one of three", ours$p, r)
+# What a spreadsheet would take for a formula stands behind an apostrophe in our tables.
+d <- expand.grid(trial = 1:6, condition = c("a", "b"), participant = person(6), stringsAsFactors = FALSE)
+d$choice <- sample(c("'+6 dB", "'-6 dB"), nrow(d), TRUE); rows(d)
+wide <- with(d, tapply(choice == "'+6 dB", list(participant, condition), mean))
+same("+6 dB", told(pairs.test("t", "trials.csv", "choice=+6 dB", "condition"))$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
 # Factors in names: parts of conditions, letters of the thesis' methods, words of stimuli; a filter by one of them.
 d <- expand.grid(condition = c("PHONE-3x3", "PHONE-4x4", "RING-3x3", "RING-4x4"), stimulus = c("AV-FF-DRV", "AF-FF-DRV"), participant = person(5), stringsAsFactors = FALSE)
 d$y <- rnorm(nrow(d)); rows(d)
