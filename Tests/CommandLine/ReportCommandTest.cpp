@@ -4,6 +4,7 @@
 #include "Calls.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
+#include <algorithm>
 
 namespace physvib {
 namespace {
@@ -68,6 +69,20 @@ TEST_F(Report, TheTestsAreThoseOfTheScriptBesideIt) {
     EXPECT_EQ(count(read("out/analysis.R"),
                     "anova.test(\"" + test + "\", \"trials.csv\", \"realism\", c(\"A\", \"F\", \"DR\"))\n"),
               1u);
+}
+
+TEST_F(Report, WordsInTheScriptAreTheSameInEveryLocale) {
+    std::string rows = "participant,condition,choice\n";
+    for (const char* who : {"P", "Q"})
+        for (const char* pair : {"wood", "steel"})
+            for (const char* choice : {"a\\b sch\xc3\xb6n", "z"})
+                rows += std::string(who) + ",pair=" + pair + "," + choice + "\n";
+    write("t.csv", rows);
+    ASSERT_EQ(call("report t.csv --out out").exitCode, 0);
+    const std::string script = read("out/analysis.R");
+    EXPECT_TRUE(has(script, R"("trials.csv", "choice=a\\b sch\U{f6}n", c("pair"))"))
+        << script.substr(script.size() - 600);
+    EXPECT_TRUE(std::ranges::all_of(script, [](char c) { return static_cast<unsigned char>(c) < 0x80; }));
 }
 
 TEST_F(Report, AScriptThatSomebodyEditedStays) {

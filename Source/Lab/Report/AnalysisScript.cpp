@@ -7,6 +7,7 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
+#include <sstream>
 
 namespace physvib {
 
@@ -16,14 +17,20 @@ namespace {
 
 constexpr std::string_view firstWords = "# Written by physvib, hash ";
 
-/// A quoted and escaped R string.
+/// A quoted R string, in ASCII: other characters are read as their bytes where the locale is C.
 std::string inR(const std::string& words) {
-    std::string out = "\"";
-    for (const char c : cleanLine(words)) {
-        if (c == '"' || c == '\\') out += '\\';
-        out += c;
+    std::ostringstream out;
+    out << '"' << std::hex;
+    const std::string line = cleanLine(words);
+    for (std::string_view rest = line; !rest.empty();) {
+        const auto [code, bytes] = firstCharacter(rest);
+        if (code >= 0x80)
+            out << "\\U{" << code << '}';
+        else
+            out << (code == '"' || code == '\\' ? "\\" : "") << rest.front();
+        rest.remove_prefix(bytes);
     }
-    return out + "\"";
+    return out.str() + '"';
 }
 
 std::string vectorInR(const std::vector<std::string>& words) {
