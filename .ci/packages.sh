@@ -16,12 +16,12 @@ libssl3 | libssl3t64"
 # holds its size). A compiler cache that came later would change every rule, and compile all of it again.
 physvib_first_packages="g++ cmake ninja-build libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libfreetype-dev libpng-dev fonts-dejavu-core ccache"
 # What the programs, the library and the plug-ins are made with, beside a compiler.
-physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev libboost-dev \
+physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev \
     pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev libsndfile1-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev libqrcodegen-dev"
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool zbar-tools clang libclang-rt-dev clang-format-14 \
-    liblo-tools python3-numpy python3-pandas luajit doxygen cmark-gfm \
+    liblo-tools python3-numpy python3-pandas r-base-core luajit doxygen cmark-gfm \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
 # Of .ci/pico-sources.sh alone, and of Tests/Firmware/pico.sh.
 physvib_pico_packages="cmake ninja-build gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib python3"
@@ -55,12 +55,12 @@ physvib_apply_packages="lilv-utils ecasound python3"
 physvib_daw_packages="qtractor muse openbox xdotool imagemagick xvfb jackd2 lv2-dev libasound2-dev libqt5svg5 gcc python3-numpy"
 physvib_validator_packages="lv2-dev sordi"
 # Of the library alone (preset "library"), for Tests/Benchmarks.
-physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libboost-dev libhwy-dev"
+physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libhwy-dev"
 # Of Tests/Osc/run.sh alone.
 physvib_osc_packages="jackd2 liblo-tools puredata-core python3"
 # Of Tests/arm64.sh and Tests/windows.sh alone: compilers, what runs their programs, libraries that are headers only.
 physvib_cross_packages="g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64 wine cmake ninja-build ccache dpkg-dev \
-    googletest nlohmann-json3-dev libcli11-dev libeigen3-dev libboost-dev pkg-config python3"
+    googletest nlohmann-json3-dev libcli11-dev libeigen3-dev pkg-config python3"
 # Of Docs/Site/build-site.sh alone, and of Tests/site.sh.
 physvib_site_packages="cmark-gfm doxygen python3"
 physvib_site_test_packages="$physvib_site_packages chromium"

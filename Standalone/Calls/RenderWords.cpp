@@ -3,7 +3,7 @@
 #include "Calls/RenderWords.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Study/StimulusJob.h"
+#include "Lab/Study/Stimulus.h"
 #include <algorithm>
 
 namespace physvib {

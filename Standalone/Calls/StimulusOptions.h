@@ -3,7 +3,7 @@
 // names (stimulusWords).
 #pragma once
 #include "Io/Result.h"
-#include "Lab/Study/StimulusJob.h"
+#include "Lab/Study/Stimulus.h"
 #include <string>
 
 namespace physvib {

@@ -32,6 +32,18 @@ int writeOwnReference(const OptionTable& app, const char* folder) {
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 
+/// Where tests over participants are, for who calls them as analyses; empty for other calls.
+std::string goneAnalysis(int argc, char** argv) {
+    constexpr std::string_view tests[] = {"anova",          "friedman", "wilcoxon", "mann-whitney",
+                                          "kruskal-wallis", "shapiro",  "pairs"};
+    if (argc < 3 || std::string_view{argv[1]} != "analyse" ||
+        std::ranges::find(tests, argv[2]) == std::end(tests))
+        return {};
+    return std::string{"analyse "} + argv[2] +
+           ": tests are run in R: `physvib report TRIALS.csv... --out FOLDER`, then `Rscript "
+           "FOLDER/analysis.R`";
+}
+
 int run(int argc, char** argv) {
     OptionTable app{"physvib", "PhysVib: physics collisions as vibration, on 1 to 64 actuators."};
     app.addVersion("physvib " PHYSVIB_VERSION);
@@ -50,6 +62,8 @@ int run(int argc, char** argv) {
         std::cout << parsed.help;
         return exitDone;
     }
+    if (const std::string gone = goneAnalysis(argc, argv); !parsed.fault.empty() && !gone.empty())
+        return leave(exitUsage, gone);
     if (!parsed.fault.empty()) return leave(exitUsage, parsed.reason() + " (see physvib --help)");
     if (const std::string clash = clashOfCall(app); !clash.empty()) return leave(exitUsage, clash);
     return runs.at(app.called())();

@@ -108,8 +108,7 @@ constexpr auto descriptions = std::to_array<Description>({
                       "here a simulated observer does, to rehearse a protocol and its analysis. An "
                       "interrupted run continues with the trial that was cut off."},
     {"physvib-analyse", "Analyses tables of trials: confusion matrices and information transfer, perceptual "
-                        "resolution, choices, ratings, thresholds, and tests over participants. Trials of "
-                        "a training are left out."},
+                        "resolution, choices, ratings, thresholds. Trials of a training are left out."},
     {"physvib-board", "Talks to the four-channel board over a serial port: its state, a self-test, and event "
                       "lists to play. The port is a path, or auto."},
 });

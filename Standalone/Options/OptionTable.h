@@ -124,7 +124,7 @@ public:
     bool isCalled(std::string_view name) const { return called() != nullptr && called()->name() == name; }
     std::string name() const { return words.substr(words.rfind(' ') + 1); }
 
-    std::string words;   ///< its words in a call: "physvib analyse anova"
+    std::string words;   ///< its words in a call: "physvib analyse confusion"
     std::string meaning; ///< one line
     std::string usage;   ///< own usage text; empty: generated from the options
     std::string version; ///< see addVersion

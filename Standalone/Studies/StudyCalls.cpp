@@ -6,7 +6,7 @@
 #include "Calls/StimulusOptions.h"
 #include "Core/Units.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Study/MakeStimulus.h"
+#include "Lab/Study/Stimulus.h"
 #include "Lab/Study/StudyRun.h"
 #include "Live/Session/StimulusRender.h"
 #include "Options/Parser.h"

@@ -3,7 +3,7 @@
 // the program's option tables.
 #pragma once
 #include "Io/Result.h"
-#include "Lab/Study/Trial.h"
+#include "Lab/Study/Experiment.h"
 #include "Live/Session/SessionSetup.h"
 #include "Scene/LayoutFile.h"
 #include "Stimuli/Stimulus.h"

@@ -11,15 +11,14 @@
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Report/LevelChain.h"
+#include "Lab/Report/ProtocolWords.h"
 #include "Lab/Report/ReportPage.h"
-#include "Lab/Study/MakeStimulus.h"
+#include "Lab/Study/Stimulus.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
 #include "Scene/LayoutNamed.h"
 #include "Studies/StudyCalls.h"
-#include "Studies/StudyRules.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -2,14 +2,13 @@
 // Check of a study before it is run: level of each stimulus, effect of limiter and guard, duration, and
 // balance of orders.
 #pragma once
-#include "Lab/Study/Trial.h"
+#include "Lab/Study/Experiment.h"
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace physvib {
-
 /// A stimulus of a condition, or one part of it (an alternative or object), at a level that its sessions can
 /// reach.
 struct CheckedStimulus {
@@ -56,5 +55,13 @@ StudyCheck checkStudy(const Protocol& protocol, int participants, const std::fun
 /// samples, and interactive worlds, whose levels depend on the participant, are not rendered, and pulses and
 /// phantoms only where their gains exceed the layout. Message thread only.
 std::string studyFault(const Protocol& protocol);
+
+// Rules of a study's check: what cannot be told apart, as it renders alike, and what no number of trials
+// reaches.
+
+/// Adds to the errors and warnings of a check whose stimuli have their prints. Errors: a level, a factor,
+/// alternatives or objects that change no sample; reversals, steps and times that cannot be reached.
+/// Warnings: single stimuli or conditions that are the same samples, and what may be meant. Message thread.
+void judgeRules(const Protocol& protocol, StudyCheck& check);
 
 } // namespace physvib

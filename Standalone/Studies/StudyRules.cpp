@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compares the prints of a study's stimuli: equal prints are equal samples, which nobody can tell apart.
-#include "Studies/StudyRules.h"
 #include "Core/Units.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
@@ -8,6 +7,7 @@
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Scene/LayoutNamed.h"
+#include "Studies/StudyCheck.h"
 #include <algorithm>
 #include <map>
 #include <set>

@@ -2,7 +2,7 @@
 // What a row of a study says is read as the value that it was written from.
 #include "Calls/StimulusOptions.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Study/Trial.h"
+#include "Lab/Study/Experiment.h"
 #include "Options/Parser.h"
 #include <gtest/gtest.h>
 

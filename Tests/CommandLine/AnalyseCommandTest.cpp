@@ -225,7 +225,7 @@ TEST_F(Analyse, ChoicesAndRatings) {
     const auto choices = call("analyse choices c.csv --picture c.svg --export c-out.csv");
     ASSERT_EQ(choices.exitCode, 0) << choices.err;
     EXPECT_EQ(choices.out.rfind("all: RM 75.0 % (0.0 to 100.0), SV 25.0 % (0.0 to 100.0), 4 trials of 2 "
-                                "participants, signed ranks p = 1.000\n",
+                                "participants\n",
                                 0),
               0u)
         << choices.out;

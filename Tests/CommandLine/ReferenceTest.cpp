@@ -86,7 +86,7 @@ TEST_F(Reference, ProposesWhatMayFollow) {
     EXPECT_EQ(proposals("physvib rend"), "render\n");
     EXPECT_EQ(proposals("physvib render shake"), "shake-the-box\n");
     EXPECT_EQ(proposals("physvib render drop --limiter \"\""), "on off\n");
-    EXPECT_EQ(proposals("physvib analyse anov"), "anova\n");
+    EXPECT_EQ(proposals("physvib analyse confu"), "confusion\n");
     EXPECT_EQ(proposals("physvib render --out rend"), "\n") << "a file";
 }
 

@@ -4,6 +4,7 @@
 #include "Calls.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
+#include <algorithm>
 
 namespace physvib {
 namespace {
@@ -54,21 +55,52 @@ TEST_F(Report, EveryBuiltInStudyHasAPageThatNeedsNothingElse) {
     }
 }
 
-TEST_F(Report, TheTestsAreThoseOfAnalyseOnTheTablesBesideIt) {
+TEST_F(Report, TheTestsAreThoseOfTheScriptBesideIt) {
     simulate("eight-methods", 5);
-    ASSERT_EQ(call("report eight-methods-P*.csv --out out").exitCode, 0);
-    const std::string html = page(), command = "analyse anova trials.csv --measure realism --within A,F,DR";
-    EXPECT_TRUE(has(html, "physvib " + command));
-    const auto again = call(command + " --export again.csv", "cd '" + (folder_ / "out").string() + "' && ");
-    const auto analysed =
-        call("analyse anova out/trials.csv --measure realism --within A,F,DR --export again.csv");
-    ASSERT_EQ(analysed.exitCode, 0) << analysed.err;
-    EXPECT_EQ(read("again.csv"), read("out/anova-realism.csv"));
-    const std::string line = analysed.out.substr(analysed.out.find("\nA: ") + 1);
-    EXPECT_TRUE(has(html, line.substr(0, line.find('\n')))) << line;
-    EXPECT_TRUE(
-        has(read("out/report.R"),
-            "anova.test(\"anova-realism.csv\", \"trials.csv\", \"realism\", c(\"A\", \"F\", \"DR\"))"));
+    const auto outcome = call("report eight-methods-P*.csv --out out");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "tests: run `Rscript out/analysis.R`, 3 tests\n")) << outcome.out;
+    const std::string test =
+        "analysis of variance of realism by A, F, DR, trials.csv; Greenhouse and Geisser's "
+        "correction";
+    EXPECT_EQ(count(page(), "analysis of variance of realism by A, F, DR, trials.csv"), 2u)
+        << "there, and in the list";
+    EXPECT_TRUE(has(page(), "Tests: run `Rscript analysis.R` in this folder."));
+    EXPECT_EQ(count(read("out/analysis.R"),
+                    "anova.test(\"" + test + "\", \"trials.csv\", \"realism\", c(\"A\", \"F\", \"DR\"))\n"),
+              1u);
+}
+
+TEST_F(Report, WordsInTheScriptAreTheSameInEveryLocale) {
+    std::string rows = "participant,condition,choice\n";
+    for (const char* who : {"P", "Q"})
+        for (const char* pair : {"wood", "steel"})
+            for (const char* choice : {"a\\b sch\xc3\xb6n", "z"})
+                rows += std::string(who) + ",pair=" + pair + "," + choice + "\n";
+    write("t.csv", rows);
+    ASSERT_EQ(call("report t.csv --out out").exitCode, 0);
+    const std::string script = read("out/analysis.R");
+    EXPECT_TRUE(has(script, R"("trials.csv", "choice=a\\b sch\U{f6}n", c("pair"))"))
+        << script.substr(script.size() - 600);
+    EXPECT_TRUE(std::ranges::all_of(script, [](char c) { return static_cast<unsigned char>(c) < 0x80; }));
+}
+
+TEST_F(Report, AScriptThatSomebodyEditedStays) {
+    simulate("eight-methods", 2);
+    const std::string make = "report eight-methods-P*.csv --out out";
+    ASSERT_EQ(call(make).exitCode, 0);
+    EXPECT_EQ(call(make).exitCode, 0) << "as it was written, it is written again";
+    const std::string edited = read("out/analysis.R") + "cat(1)\n";
+    write("out/analysis.R", edited);
+    const auto outcome = call(make);
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_TRUE(has(outcome.err, "out/analysis.R: expected no file, or the script as physvib wrote it"))
+        << outcome.err;
+    EXPECT_EQ(read("out/analysis.R"), edited);
+    write("analysis.R", "my own\n");
+    EXPECT_EQ(call("study plan eight-methods --participants 4 --out plan.txt").exitCode, 1);
+    EXPECT_EQ(read("analysis.R"), "my own\n");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "plan.txt"));
 }
 
 TEST_F(Report, TheSameTrialsGiveTheSameBytes) {
@@ -201,6 +233,7 @@ TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
         const std::string files = "report " + name + "-P*.csv --plan plan.txt --out ";
         ASSERT_EQ(call(files + name).exitCode, 0) << name;
         EXPECT_TRUE(has(page(name), "The plan has the hash " + hash + ".")) << hash;
+        EXPECT_EQ(read("analysis.R"), read(name + "/analysis.R")) << "planned and run are one script";
         EXPECT_TRUE(has(page(name), kept))
             << name << page(name).substr(page(name).find("Planned and done"), 400);
     }
@@ -211,15 +244,19 @@ TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
     EXPECT_TRUE(has(page("fewer"), "Planned were 4 participants, 3 took part."));
     EXPECT_FALSE(has(page("fewer"), kept));
     std::string plan = read("plan.txt");
-    const auto test = plan.find("- physvib analyse ");
+    const auto test = plan.find("- test: Friedman");
     ASSERT_NE(test, std::string::npos) << plan;
-    plan.replace(test, 18, "- physvib analyse other ");
-    write("plan.txt", plan);
+    write("plan.txt", plan.substr(0, test) + "- test: other" + plan.substr(test + 16));
     ASSERT_EQ(call("report magnitudes-P*.csv --plan plan.txt --out other").exitCode, 0);
-    EXPECT_TRUE(has(page("other"), "Planned, not done: physvib analyse other ")) << plan;
-    EXPECT_TRUE(has(page("other"), "Not planned: physvib analyse "));
+    EXPECT_TRUE(has(page("other"), "Planned, not done: other")) << plan;
+    EXPECT_TRUE(has(page("other"), "Not planned: Friedman"));
+    write("plan.txt",
+          plan.substr(0, test) + "- physvib analyse friedman trials.csv --measure value --within stimulus\n");
+    ASSERT_EQ(call("report magnitudes-P*.csv --plan plan.txt --out older").exitCode, 0);
+    EXPECT_TRUE(has(page("older"), "The plan lists its tests as calls of an earlier version"));
+    EXPECT_FALSE(has(page("older"), "not done"));
     refuses("report magnitudes-P01.csv --plan magnitudes-P01.csv --out none", 1,
-            "expected a plan of `physvib study plan`", 18);
+            "expected a plan of `physvib study plan`", 20);
 }
 
 TEST_F(Report, PeopleInTwoTablesAreNamed) {
@@ -232,8 +269,7 @@ TEST_F(Report, PeopleInTwoTablesAreNamed) {
     table("a.csv", 1, 3), table("b.csv", 3, 4), table("c.csv", 5, 6);
     const std::string note = "count as one person each; if they are not, give them different codes: "
                              "3 in a.csv, b.csv";
-    const std::string lines[] = {"report a.csv b.csv c.csv --out out", "analyse confusion a.csv b.csv c.csv",
-                                 "analyse anova a.csv b.csv c.csv --measure response=hi --within stimulus"};
+    const std::string lines[] = {"report a.csv b.csv c.csv --out out", "analyse confusion a.csv b.csv c.csv"};
     for (const std::string& line : lines) EXPECT_TRUE(has(call(line).err, note)) << line << call(line).err;
     EXPECT_TRUE(has(page(), note));
     EXPECT_TRUE(has(page(), "6 participants in 3 files."));
@@ -251,7 +287,6 @@ TEST_F(Report, ASecondTrialFileOfAParticipantIsRefused) {
                             "level-steps-P01.csv, found participant P01 in both";
     refuses("report " + files + " --out out", 1, why, 4);
     refuses("analyse levels " + files, 1, why, 4);
-    refuses("analyse anova " + files + " --measure response_s --within session", 1, why, 4);
     EXPECT_EQ(call("analyse levels level-steps-P01.csv level-quest-P01.csv").exitCode, 0) << "two studies";
 }
 
@@ -279,8 +314,8 @@ TEST_F(Report, OneParticipantIsToldAndNotTested) {
     const auto outcome = call("report phantom-grids-P01.csv --out out");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_TRUE(has(page(), "one participant: intervals and tests over participants are not possible"));
-    EXPECT_TRUE(has(page(), "not tested: "));
-    EXPECT_TRUE(has(outcome.out, " 0 tests")) << outcome.out;
+    EXPECT_FALSE(has(outcome.out, "tests")) << outcome.out;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out/analysis.R"));
     for (const char* untrue :
          {"intervals over participants:", "intervals over participants.", "over 1 participant"})
         EXPECT_FALSE(has(page(), untrue)) << untrue;

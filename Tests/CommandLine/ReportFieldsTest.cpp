@@ -98,10 +98,6 @@ TEST_F(ReportFields, EveryPlantedFieldHasItsSentence) {
     EXPECT_TRUE(has(read("out/orders.csv"), "P01,1,")) << read("out/orders.csv");
     EXPECT_TRUE(has(whole, " of 30 successions of two conditions occurred."));
     EXPECT_TRUE(has(whole, "4.1.1: orders of all six conditions by Latin squares; here: "));
-    EXPECT_TRUE(has(whole, "Assumptions: by Shapiro and Wilk&#39;s test") ||
-                has(whole, "Assumptions: by Shapiro and Wilk's test"));
-    EXPECT_TRUE(has(whole, "Power of the design as it was run"));
-    EXPECT_TRUE(has(whole, " pairs as tested here, d = "));
 }
 
 TEST_F(ReportFields, LevelsStandByStimulusAndPartAndAreToldAsAssumed) {

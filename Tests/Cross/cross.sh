@@ -35,7 +35,7 @@ libraries() {
     library "$PWD/build/sources/box2d-2.4.1" -DBOX2D_BUILD_TESTBED=OFF -DBOX2D_BUILD_UNIT_TESTS=OFF
     library "$PWD/build/sources/highway-1.0.3" -DHWY_ENABLE_TESTS=OFF -DHWY_ENABLE_EXAMPLES=OFF -DHWY_ENABLE_CONTRIB=OFF
     library /usr/src/googletest -DBUILD_GMOCK=OFF
-    for headers in nlohmann boost eigen3 CLI; do ln -sfn "/usr/include/$headers" "$prefix/include/$headers"; done
+    for headers in nlohmann eigen3 CLI; do ln -sfn "/usr/include/$headers" "$prefix/include/$headers"; done
     for package in nlohmann_json CLI11; do ln -sfn "/usr/share/cmake/$package" "$prefix/share/cmake/$package"; done
     ln -sfn /usr/share/eigen3 "$prefix/share/eigen3"
     : >"$prefix/whole"

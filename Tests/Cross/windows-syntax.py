@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 ROOMS = r"(Source/(Session|Host|Api/Live)|Plugin|Standalone/(CommandLine|Mixer))/"
-HEADERS = ["nlohmann", "boost", "CLI", "box2d", "hwy", "lo", "aubio", "libserialport.h", "samplerate.h", "eigen3/Eigen", "eigen3/unsupported"]
+HEADERS = ["nlohmann", "CLI", "box2d", "hwy", "lo", "aubio", "libserialport.h", "samplerate.h", "eigen3/Eigen", "eigen3/unsupported"]
 OTHER_SYSTEM = re.compile(r"-D(JUCE_LINUX|LINUX)\b|-I/usr/include")
 
 

@@ -124,8 +124,6 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
              filesIn(corpus / "study"),
              {"analyse confusion" + table, "analyse resolution" + table, "analyse percent-counts" + table,
               "analyse choices" + table, "analyse ratings" + table, "analyse levels" + table,
-              "analyse anova FILE --measure choice=RM --within condition --export e.csv",
-              "analyse kruskal-wallis FILE --measure x --between condition --export e.csv",
               "analyse psychometric FILE --level x --measure y --export e.csv"}},
             {"hjif", "hjif", filesIn(corpus / "hjif"), clipCalls},
             {"haptic", "haptic", filesIn(corpus / "haptic"), clipCalls},

@@ -20,7 +20,7 @@ cmake --preset first -B "$folder" >"$folder.log" 2>&1 || { cat "$folder.log" >&2
 objects=$(grep -c '"file"' "$folder/compile_commands.json")
 echo "files that are compiled: $objects of at most $most_objects"
 [ "$objects" -le $most_objects ] || fail "run.sh compiles $objects files before anybody sees a picture: at most $most_objects"
-asked=$(sed -nE 's/^(JUCE|GTest|benchmark|Eigen3|Boost|AUBIO|SERIALPORT|SAMPLERATE|LIBLO)_(DIR|FOUND|INCLUDE_DIR|INCLUDEDIR).*/\1/p' "$folder/CMakeCache.txt" | sort -u | tr '\n' ' ')
+asked=$(sed -nE 's/^(JUCE|GTest|benchmark|Eigen3|AUBIO|SERIALPORT|SAMPLERATE|LIBLO)_(DIR|FOUND|INCLUDE_DIR|INCLUDEDIR).*/\1/p' "$folder/CMakeCache.txt" | sort -u | tr '\n' ' ')
 [ -z "$asked" ] || fail "the first build asks for what it does not need: $asked"
 
 # An empty machine of apt's own: nothing is installed there.

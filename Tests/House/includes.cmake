@@ -7,7 +7,7 @@ set(Contacts_may "Contacts/|Core/")
 set(Physics_may "Physics/|Contacts/|Core/|box2d/")
 set(Scene_may "Scene/|Physics/|Contacts/|Io/|Core/|box2d/|nlohmann/")
 set(Stimuli_may "Stimuli/|Core/")
-set(Lab_may "Lab/|Stimuli/|Scene/|Io/|Core/|Eigen/|boost/|nlohmann/")
+set(Lab_may "Lab/|Stimuli/|Scene/|Io/|Core/|Eigen/|nlohmann/")
 set(Formats_may "Formats/|Io/|Core/|nlohmann/")
 set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Io/(Result|Text/NumberText)\\.h|Contacts/(Grains|Texture)\\.h|Core/") # one line of words for what a recording lacks
 set(Api_may "Api/C/|Scene/|Io/|Contacts/|Core/")

@@ -2,14 +2,12 @@
 // Charts as SVG: nothing of a file becomes markup, series are told apart without colours, simulated data say
 // so.
 #include "Io/Charts/Charts.h"
-#include "Io/Charts/ChartAxis.h"
-#include "Io/Charts/Svg.h"
+#include "Io/Charts/ChartParts.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iostream>
-#include <set>
 
 namespace physvib {
 namespace {
@@ -28,9 +26,8 @@ std::vector<std::string> chartsWith(const std::string& words, bool isSimulated) 
                   words,
                   words,
                   {words, "b"},
-                  {{words, {ChartValue{40, 30, 50}, std::nullopt}, {words}},
+                  {{words, {ChartValue{40, 30, 50}, std::nullopt}},
                    {"two", {ChartValue{60, 60, 60}, ChartValue{20, 10, 30}}}}};
-    bars.brackets = {{0, 1, words}};
     bars.reference = {50.0, words};
     bars.ceilings = {90.0, 95.0};
     bars.ceilingWords = words;
@@ -196,40 +193,12 @@ TEST(Charts, BarsAreAsHighAsTheirValues) {
                                           {},
                                           {},
                                           {},
-                                          {},
                                           100.0});
         const std::size_t at = svg.find("height=", svg.find("fill=\"#0072B2\"") - 40) + 8;
         return std::stod(svg.substr(at));
     };
     EXPECT_NEAR(heightOf(80.0), 2.0 * heightOf(40.0), 0.02);
     EXPECT_NEAR(heightOf(100.0), 250.0, 0.02);
-}
-
-TEST(Charts, BracketsDoNotCross) {
-    const auto bottoms = [](const std::vector<ChartBracket>& brackets) {
-        BarChart chart{{"c", "t", false},
-                       "x",
-                       "y",
-                       {"a", "b", "c"},
-                       {{"", {ChartValue{1, 1, 1}, ChartValue{1, 1, 1}, ChartValue{1, 1, 1}}}},
-                       brackets};
-        const std::string svg = barChart(chart);
-        std::set<std::string> rows; // of the marks
-        for (std::size_t at = svg.find(">@<"); at != std::string::npos; at = svg.find(">@<", at + 1)) {
-            const std::size_t y = svg.rfind(" y=\"", at) + 4;
-            rows.insert(svg.substr(y, svg.find('"', y) - y));
-        }
-        return rows.size();
-    };
-    EXPECT_EQ(bottoms({{0, 1, "@"}, {1, 2, "@"}, {0, 2, "@"}}), 3u);
-    EXPECT_EQ(bottoms({{0, 0, "@"}, {1, 2, "@"}}), 1u);
-}
-
-TEST(Charts, MarksOfSignificance) {
-    EXPECT_EQ(significanceMark(0.0009), "***");
-    EXPECT_EQ(significanceMark(0.001), "**");
-    EXPECT_EQ(significanceMark(0.049), "*");
-    EXPECT_EQ(significanceMark(0.05), "n.s.");
 }
 
 } // namespace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tables of experiment programs under our columns' names.
-#include "Lab/Files/ColumnNames.h"
-#include "Lab/Files/LongTableCsv.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Files/StudyTables.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -87,23 +86,6 @@ TEST(ColumnNames, WordsThatNameNothingAreRefused) {
     EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b:c:1"}).value.front().theirs, "b:c:1")
         << "no two numbers: a name with colons";
     EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b:0:1"}).value.front().theirs, "b");
-}
-
-TEST(ColumnNames, PartsOfAConditionAreFactorsAndRowsCanBeChosen) {
-    const std::string text =
-        "participant,condition,score\nP,PHONE-3x3,1\nP,PHONE-4x4,2\nP,RING-3x3,3\nP,RING-4x4,4\n";
-    const NamedText file{text, "t.csv"};
-    const auto read = readLongTable({&file, 1}, {"score", {"condition.1", "condition.2"}, "", ""});
-    ASSERT_TRUE(read) << read.error;
-    const Design design = Design::of(read.value.table);
-    EXPECT_EQ(design.within[1].levels, (std::vector<std::string>{"3x3", "4x4"}));
-    const auto ring = readLongTable({&file, 1}, {"score", {"condition.2"}, "", "", {"condition.1=RING"}});
-    ASSERT_TRUE(ring) << ring.error;
-    EXPECT_EQ(Design::of(ring.value.table).values, (std::vector<double>{3, 4}));
-    EXPECT_EQ(readLongTable({&file, 1}, {"score", {"condition.3"}, "", ""}).error,
-              "t.csv:2: column condition: expected 3 parts between hyphens, found \"PHONE-3x3\"");
-    EXPECT_EQ(readLongTable({&file, 1}, {"score", {"condition"}, "", "", {"hand=left"}}).error.substr(0, 5),
-              "t.csv");
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Labels, counts and tolerance.
-#include "Lab/Study/ConfusionMatrix.h"
+#include "Lab/Study/Identification.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

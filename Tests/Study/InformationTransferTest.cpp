@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Exact values, and the estimates on simulated data whose truth is known.
-#include "Lab/Study/InformationTransfer.h"
+#include "Lab/Study/Identification.h"
 #include "Stimuli/SeededRandom.h"
 #include <cmath>
 #include <cstdio>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The simulated observer: blur fitted to published exact shares, what it predicts of the others, and what its
 // analysis says.
-#include "Lab/Study/InformationTransfer.h"
-#include "Lab/Study/Proportion.h"
+#include "Lab/Study/Identification.h"
 #include "Lab/Study/SimulatedObserver.h"
+#include "Lab/Study/Summaries.h"
 #include "Thesis/PlaceBlur.h"
 #include "Thesis/Published.h"
 #include <array>
@@ -146,16 +146,9 @@ TEST(SimulatedObserver, TheThesisObserverIsFittedToWhatIsPrinted) {
                         (pulses > 1 ? 1.0 - s.numerosityConfusion : 1.0) / 3.0;
     EXPECT_NEAR(100.0 * patterns, thesis::patternsPercentMean, 0.05);
     EXPECT_DOUBLE_EQ(100.0 * s.firstAlternativePreference, thesis::modelChosenPercent);
-    const auto meanF = [](std::string_view effect) {
-        double sum = 0.0, n = 0.0;
-        for (const auto& test : thesis::tests)
-            if (test.where == "5.3.2" && test.effect.ends_with(effect))
-                sum += std::stod(std::string(test.value)), n += 1.0;
-        return sum / n;
-    };
-    EXPECT_NEAR(s.amplitudeSpread, thesis::amplitudeGain * std::sqrt(20.0 / meanF("amplitude")), 0.1);
-    EXPECT_NEAR(s.frequencySpread, thesis::frequencyGain * std::sqrt(20.0 / meanF("frequency")), 0.1);
-    EXPECT_NEAR(s.decaySpread, thesis::decayGain * std::sqrt(20.0 / meanF("decay rate")), 0.1);
+    EXPECT_NEAR(s.amplitudeSpread, thesis::amplitudeGain * std::sqrt(20.0 / thesis::amplitudeF), 0.1);
+    EXPECT_NEAR(s.frequencySpread, thesis::frequencyGain * std::sqrt(20.0 / thesis::frequencyF), 0.1);
+    EXPECT_NEAR(s.decaySpread, thesis::decayGain * std::sqrt(20.0 / thesis::decayF), 0.1);
     EXPECT_EQ(s.amplitudeScore, thesis::amplitudeGain);
     EXPECT_EQ(s.frequencyScore, thesis::frequencyGain);
     EXPECT_EQ(s.decayScore, thesis::decayGain);

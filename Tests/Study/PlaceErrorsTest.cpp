@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Constant and variable error of pointing at targets on no grid, against figures worked out by hand.
-#include "Lab/Study/PlaceErrors.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Study/Places.h"
 #include <cmath>
 #include <gtest/gtest.h>
 

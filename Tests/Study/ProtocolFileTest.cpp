@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Protocols as JSON, and the thesis' studies as protocols.
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Files/ThesisVersions.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include <gtest/gtest.h>

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Psychometric functions against R's glm and simulated observers, intervals by how often they hold, QUEST+
 // against a staircase.
-#include "Lab/Statistics/Psychometric.h"
-#include "Lab/Statistics/Bootstrap.h"
-#include "Lab/Statistics/Moments.h"
-#include "Lab/Statistics/PowerLaw.h"
-#include "Lab/Statistics/QuestPlus.h"
+#include "Lab/Study/Psychometric.h"
 #include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/QuestMethod.h"
+#include "Lab/Study/Summaries.h"
 #include "Stimuli/SeededRandom.h"
 #include "Study/StaircaseThreshold.h"
 #include <cmath>
@@ -100,8 +98,8 @@ TEST(Psychometric, IntervalsOfFittedParticipantsHoldAsOftenAsTheySay) {
             off += thresholds.back() - truth.threshold;
             widths += truth.width;
         }
-        const auto interval = bootstrapMean(thresholds, static_cast<std::uint64_t>(study));
-        held += interval.least < 5.0 && 5.0 < interval.most;
+        const auto interval = Moments(thresholds);
+        held += interval.least() < 5.0 && 5.0 < interval.most();
     }
     EXPECT_LT(std::abs(off), 0.02 * widths);
     EXPECT_NEAR(held, 0.95 * studies, 0.02 * studies);
@@ -109,27 +107,33 @@ TEST(Psychometric, IntervalsOfFittedParticipantsHoldAsOftenAsTheySay) {
               << 100.0 * held / studies << " %\n";
 }
 
-TEST(Bootstrap, IntervalsOfTwelveParticipantsHoldAsOftenAsTheySay) {
+TEST(Moments, IntervalsOfTwelveParticipantsHoldAsOftenAsTheySay) {
     SeededRandom random{3, "studies"};
     int held = 0;
     constexpr int studies = 500;
     for (int study = 0; study < studies; ++study) {
         std::vector<double> thresholds(12);
         for (double& threshold : thresholds) threshold = 5.0 + random.normal();
-        const auto interval = bootstrapMean(thresholds, static_cast<std::uint64_t>(study));
-        held += interval.least < 5.0 && 5.0 < interval.most;
+        const auto interval = Moments(thresholds);
+        held += interval.least() < 5.0 && 5.0 < interval.most();
     }
     EXPECT_GE(held, 0.93 * studies);
     EXPECT_LE(held, 0.97 * studies);
 }
 
-TEST(Bootstrap, FewParticipantsHaveAnIntervalToo) {
+TEST(Moments, FewParticipantsHaveAnIntervalToo) {
     const std::vector<double> two{1, 3}, same{2, 2, 2};
-    const auto interval = bootstrapMean(two);
-    EXPECT_NEAR(interval.most - 2.0, 12.706204736174698, 1e-9)
-        << "Student's t, where there is nothing to draw from";
-    EXPECT_EQ(bootstrapMean(same).least, 2.0);
-    EXPECT_EQ(bootstrapMean(std::span{two}.first(1)).most, 1.0);
+    EXPECT_NEAR(Moments(two).halfInterval(), 12.706204736174698, 1e-9);
+    EXPECT_EQ(Moments(same).least(), 2.0);
+    EXPECT_EQ(Moments(std::span{two}.first(1)).most(), 1.0);
+    for (const auto& [df, quantile] : {std::pair{1u, 12.706204736174698},
+                                       {2u, 4.3026527297494637},
+                                       {11u, 2.2009851600916388},
+                                       {48u, 2.0106347576242314},
+                                       {1000u, 1.9623390808264078}}) // R: qt(0.975, df)
+        EXPECT_NEAR(studentQuantile(0.975, df), quantile, 1e-12) << df;
+    EXPECT_NEAR(normalQuantile(0.975), 1.959963984540054, 1e-14);
+    EXPECT_NEAR(normalQuantile(1e-6), -4.753424308822899, 1e-13);
 }
 
 QuestPlan questPlanOfTests() {
@@ -251,8 +255,8 @@ TEST(Psychometric, IntervalsOfThresholdsHoldWhoeverChoseTheLevelsAndSlopesDoNot)
                     thresholds.push_back(fit.function.threshold);
                     jnds += fit.function.jnd() / truth.jnd() / people / 100.0;
                 }
-                const auto interval = bootstrapMean(thresholds);
-                held += interval.least <= 6.0 && 6.0 <= interval.most;
+                const auto interval = Moments(thresholds);
+                held += interval.least() <= 6.0 && 6.0 <= interval.most();
             }
             std::cout << held << " of 100, JND " << jnds << '\n';
             EXPECT_GE(held, 88) << people << " people: 95 of 100, of which 88 are rare";

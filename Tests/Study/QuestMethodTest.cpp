@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // QUEST+ as a session of a protocol: what simulated observers' rows come to, beside a staircase's.
-#include "Lab/Statistics/Distributions.h"
 #include "Lab/Study/Experiment.h"
-#include "Lab/Study/LevelTrials.h"
 #include "Lab/Study/SimulatedObserver.h"
+#include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -216,7 +215,7 @@ TEST(QuestMethod, SeveralPeopleTellTheWidthTogether) {
     const LevelSummary together = summariseLevels(trials).front();
     EXPECT_LT(alone, truth - 0.3);
     EXPECT_NEAR(together.estimate, truth, 0.1);
-    EXPECT_GT(together.halfInterval, studentQuantile(0.975, observers - 1.0) * together.deviation /
+    EXPECT_GT(together.halfInterval, studentQuantile(0.975, observers - 1) * together.deviation /
                                          std::sqrt(static_cast<double>(observers)))
         << "what is unknown of the widths counts";
     std::cout << "bias, dB: alone " << alone - truth << ", together " << together.estimate - truth << '\n';

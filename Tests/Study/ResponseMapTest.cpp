@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Moments against a hand calculation, maps against geometry, and data that allows no normal.
-#include "Lab/Study/ResponseMap.h"
+#include "Lab/Study/Places.h"
 #include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <cmath>

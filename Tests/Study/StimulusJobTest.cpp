@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Stimuli as values: what is wrong with one, and the words that make it again.
-#include "Lab/Study/StimulusJob.h"
+#include "Lab/Study/Stimulus.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

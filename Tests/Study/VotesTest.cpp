@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Intervals and tests against tabled values; grouping of choices and ratings; the choice of icons.
-#include "Lab/Study/Votes.h"
-#include "Lab/Study/LevelTrials.h"
-#include "Lab/Study/Proportion.h"
-#include "Lab/Study/TactileIcons.h"
+#include "Lab/Study/Identification.h"
+#include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -44,13 +42,10 @@ TEST(Votes, ThirteenForAndSevenAgainstIsNoDecision) {
     const auto all = summariseChoices(trials).front();
     EXPECT_EQ(all.participants, 20u);
     EXPECT_EQ(all.trials, 2000u);
-    ASSERT_TRUE(all.p);
-    EXPECT_NEAR(*all.p, 0.62151, 1e-5); // R: wilcox.test(2 * c(60:72, 17:11) - 100)
     EXPECT_LT(all.shares[0].least, 0.5);
     EXPECT_GT(all.shares[0].most, 0.5);
     trials.resize(100);
     const auto one = summariseChoices(trials).front();
-    EXPECT_FALSE(one.p) << "one participant says nothing about others";
     EXPECT_NEAR(one.shares[0].least, proportion(one.shares[0].hits, 100).least, 1e-12);
 }
 

@@ -2,7 +2,7 @@
 // A model of where phantoms are felt: the place, blurred by a normal distribution, answered with the nearest
 // point.
 #pragma once
-#include "Lab/Study/PhantomGrid.h"
+#include "Lab/Study/PercentCounts.h"
 #include <cmath>
 #include <numbers>
 #include <span>

@@ -2,16 +2,15 @@
 // First what the print says of itself, then what simulated people make of the same studies.
 #include "Thesis/ThesisReport.h"
 #include "Io/Charts/Charts.h"
-#include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Report/ReportPage.h"
 #include "Lab/Report/StudyReport.h"
-#include "Lab/Statistics/Distributions.h"
-#include "Lab/Study/InformationTransfer.h"
+#include "Lab/Study/Identification.h"
 #include "Lab/Study/PercentCounts.h"
-#include "Lab/Study/ResponseMap.h"
+#include "Lab/Study/Places.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Thesis/PlaceBlur.h"
 #include "Thesis/Published.h"
@@ -44,7 +43,6 @@ ReportTrials rehearse(const std::string& name, const std::string& observer, int 
 class ThesisPage {
 public:
     std::map<std::string, std::string> files() {
-        tellTests();
         tellTransfer();
         tellBlur();
         tellCounts();
@@ -66,7 +64,6 @@ private:
         files_[name] = table.text();
         page_.table(table.text(), name, mostRows);
     }
-    void tellTests();
     void tellTransfer();
     void tellBlur();
     void tellCounts();
@@ -87,70 +84,12 @@ private:
     int charts_ = 0;
 };
 
-/// p of that value of the statistic; none if no data can give it.
-std::optional<double> chanceOf(const thesis::Test& test, double value) {
-    if (test.statistic == 'F') return fUpper(value, test.df1, test.df2);
-    if (test.statistic == 'X') return chiSquaredUpper(value, test.df1);
-    if (value > 0.5 * test.df1 * (test.df1 + 1.0)) return std::nullopt;
-    return signedRankTwoSided(value, static_cast<std::size_t>(test.df1));
-}
-
-/// Half of the last digit of a printed number.
-double roundingOf(std::string_view printed) {
-    const std::size_t point = printed.find('.');
-    return 0.5 * std::pow(10.0, point == std::string_view::npos
-                                    ? 0.0
-                                    : -static_cast<double>(printed.size() - point - 1));
-}
-
-/// Whether some statistic that is printed like this one has a p that is printed like that.
-bool isAsPrinted(const thesis::Test& test) {
-    const double value = *parseNumber<double>(test.value), rounding = roundingOf(test.value);
-    const auto most = chanceOf(test, value - rounding), least = chanceOf(test, value + rounding);
-    if (!most || !least) return false;
-    if (test.p.starts_with("< ")) return *least < *parseNumber<double>(test.p.substr(2));
-    const double p = *parseNumber<double>(test.p);
-    return p + roundingOf(test.p) >= *least && p - roundingOf(test.p) <= *most;
-}
-
-void ThesisPage::tellTests() {
-    page_.heading("Tests as printed");
-    page_.paragraph("p of every printed statistic by its printed degrees of freedom, beside the printed p; "
-                    "both may have been rounded. The degrees of freedom of Table 4.1 are those of an "
-                    "analysis of single trials with a block per participant "
-                    "(16 x 175 - 35 - 15 = 2750), not of repeated measures.");
-    page_.paragraph("What cannot be had again from the print: F from means, as no mean has its deviation "
-                    "beside it, and information transfer from counts, as no confusion matrix is printed; "
-                    "there are bounds below, and the rehearsals.");
-    ExportTable table{"thesis-tests", false,
-                      "where,effect,statistic,df1,df2,value,p_printed,p,as_printed,note"};
-    std::size_t differing = 0;
-    for (const thesis::Test& test : thesis::tests) {
-        const auto p = chanceOf(test, *parseNumber<double>(test.value));
-        const bool isSame = isAsPrinted(test);
-        differing += !isSame;
-        table.cell(test.where)
-            .cell(test.effect)
-            .cell(test.statistic == 'X' ? "chi-squared" : std::string(1, test.statistic))
-            .cell(test.df1);
-        if (test.df2 > 0.0)
-            table.cell(test.df2);
-        else
-            table.cell("");
-        table.cell(test.value).cell(test.p);
-        if (p)
-            table.cell(*p);
-        else
-            table.cell("impossible");
-        table.cell(isSame ? "yes" : "NO").cell(test.note);
-        table.endRow();
-    }
-    page_.paragraph(std::to_string(thesis::tests.size()) + " tests, " + std::to_string(differing) +
-                    " whose printed p is not that of the printed statistic:");
-    addTable("tests.csv", table);
-}
-
 void ThesisPage::tellTransfer() {
+    page_.paragraph("The printed tests are computed again in R: Tests/Thesis/printed-tests.R. What cannot be "
+                    "had again from the "
+                    "print: F from means, as no mean has its deviation beside it, and information transfer "
+                    "from counts, as "
+                    "no confusion matrix is printed; there are bounds below, and the rehearsals.");
     page_.heading("Information transfer as printed (Fig. 3.11, 4.2)");
     page_.paragraph(
         "The most that so many stimuli can transfer is log2 of their number. The least is Fano's inequality "
@@ -346,8 +285,6 @@ void ThesisPage::compareChoices(const ReportTrials& trials) {
     ExportTable table{"thesis-choices-rehearsed", true, "measure,printed,rehearsed"};
     table.cell("model chosen, %").cell(thesis::modelChosenPercent).cell(100.0 * all.shares.front().share);
     table.endRow();
-    table.cell("p of signed ranks").cell("0.017");
-    table.cell(all.p).endRow();
     addTable("choices-rehearsed.csv", table);
 }
 

@@ -16,13 +16,8 @@ std::size_t count(const std::string& text, const std::string& words) {
 
 TEST(Thesis, StandsBesideWhatFollowsFromIt) {
     const auto files = thesisReport();
-    const std::string html = files.at("index.html"), tests = files.at("tests.csv"),
-                      transfer = files.at("transfer.csv"), resolutions = files.at("resolutions.csv");
-    EXPECT_TRUE(has(tests, "\n5.3.2,realism: amplitude,F,1,19,13.8,0.0147,0.0014"))
-        << "a digit slipped: " << tests;
-    EXPECT_TRUE(has(tests, "412.5,0.017,impossible,NO,")) << tests;
-    EXPECT_TRUE(has(tests, "\n3.2.2,percent correct: configuration,F,1,11,0.21,0.658,0.65")) << tests;
-    EXPECT_EQ(count(tests, ",NO,"), 4u) << tests;
+    const std::string html = files.at("index.html"), transfer = files.at("transfer.csv"),
+                      resolutions = files.at("resolutions.csv");
     EXPECT_EQ(count(transfer, ",NO: "), 1u) << transfer;
     EXPECT_TRUE(has(transfer.substr(transfer.rfind("RING-5x5")), "tolerance 1,25,2.62,")) << transfer;
     for (const char* line : {"PHONE-LINEAR,", "PHONE-LOGARITHM,", "RING-LINEAR,", "RING-LOGARITHM,"})

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Simulates every built-in study and the thesis', makes their reports, and looks at them from outside: pictures as XML, the page in headless Chromium (no complaint
-# on the console, nothing loaded, A4 in print), every p again by R. Pictures of the pages stay in FOLDER, to be looked at.
+# on the console, nothing loaded, A4 in print), the tests in R. Pictures of the pages stay in FOLDER, to be looked at.
 # Usage: report.sh PHYSVIB FOLDER [PARTICIPANTS]
 set -euo pipefail
 physvib=$1
@@ -10,7 +10,7 @@ participants=${3:-12}
 here=$(cd "$(dirname "$0")" && pwd)
 # shellcheck source=../../.ci/packages.sh
 . "$here/../../.ci/packages.sh"
-ensure_packages chromium-headless-shell poppler-utils libxml2-utils r-base-core r-cran-afex || say "what is missing is left out below"
+ensure_packages chromium-headless-shell poppler-utils libxml2-utils r-base-core || say "what is missing is left out below"
 faults=0
 fault() { echo "  FAULT: $*"; faults=$((faults + 1)); }
 has() { command -v "$1" >/dev/null 2>&1; }
@@ -35,11 +35,11 @@ look_at() {
         echo "  $pictures pictures are XML"
     fi
     if has chromium-headless-shell && has pdfinfo; then in_chromium "$1"; else echo "  Chromium is not here: the page was not opened"; fi
-    [ -e "$1/report.R" ] || return 0 # the thesis' own page has no tests
+    [ -e "$1/analysis.R" ] || return 0
     if has Rscript; then
-        (cd "$1" && Rscript report.R >r.txt 2>&1) || fault "R: $(grep -m 3 -v '^same' "$1/r.txt")"
+        (cd "$1" && Rscript analysis.R >r.txt 2>&1) || fault "R: $(tail -n 3 "$1/r.txt")"
         echo "  R: $(tail -n 1 "$1/r.txt")"
-    else echo "  R is not here: no p was repeated"; fi
+    else echo "  R is not here: no test was run"; fi
 }
 
 mkdir -p "$folder/trials"

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Layout of legends, titles and axes by estimated text width.
 #include "Io/Charts/ChartParts.h"
+#include "Io/Charts/Charts.h"
+#include "Io/Text/CleanText.h"
+#include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
 namespace physvib::detail {
 namespace {
@@ -92,5 +99,296 @@ void drawAxisBelow(Svg& svg, const PlotArea& area, const ChartAxis& axis, const 
     svg.line({area.left, area.bottom}, {area.right, area.bottom});
     svg.text({0.5 * (area.left + area.right), area.bottom + 36.0}, words, {labelSize, Anchor::middle});
 }
-
 } // namespace physvib::detail
+
+// Writes SVG elements as text.
+
+namespace physvib {
+namespace {
+
+constexpr std::array<std::string_view, chartStyles> colours{"#0072B2", "#E69F00", "#009E73", "#CC79A7",
+                                                            "#D55E00", "#56B4E9", "#F0E442", "#000000"};
+constexpr std::array<std::string_view, chartStyles> dashes{"",     "7 3", "2 3", "9 3 2 3",
+                                                           "12 4", "4 4", "1 5", "14 3 3 3"};
+// In a tile of 8 x 8, white over the colour. The first has no hatch.
+constexpr std::array<std::string_view, chartStyles> hatchPaths{"",
+                                                               "M-2 10L10 -2M-2 2L2 -2M6 10L10 6",
+                                                               "M2 2h0.01M6 6h0.01",
+                                                               "M-2 -2L10 10M-2 6L2 10M6 -2L10 2",
+                                                               "M0 4H8",
+                                                               "M4 0V8",
+                                                               "M0 4H8M4 0V8",
+                                                               "M-2 10L10 -2M-2 -2L10 10"};
+constexpr std::array<double, chartStyles> hatchWidths{0.0, 1.6, 2.6, 1.6, 1.8, 1.8, 1.4, 1.2};
+
+constexpr std::string_view svgBegin = "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 ";
+
+const std::string ground = "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
+
+std::string svgHead(double width, double height) {
+    std::string out{svgBegin};
+    appendPixels(out, width);
+    out += ' ';
+    appendPixels(out, height);
+    out += "\" width=\"";
+    appendPixels(out, width);
+    out += "\" height=\"";
+    appendPixels(out, height);
+    return out + "\" font-family=\"Helvetica, Arial, sans-serif\">\n";
+}
+
+/// The size that svgHead() wrote.
+ChartPoint sizeOf(std::string_view svg) {
+    svg.remove_prefix(svgBegin.size());
+    const std::string_view width = takeUntil(' ', svg), height = takeUntil('"', svg);
+    return {parseNumber<double>(width).value_or(0.0), parseNumber<double>(height).value_or(0.0)};
+}
+
+} // namespace
+
+std::string markup(std::string_view text) {
+    std::string out;
+    for (const char c : cleanLine(text)) {
+        switch (c) {
+        case '<': out += "&lt;"; break;
+        case '>': out += "&gt;"; break;
+        case '&': out += "&amp;"; break;
+        case '"': out += "&quot;"; break;
+        case '\'': out += "&#39;"; break;
+        default: out += c;
+        }
+    }
+    return out;
+}
+
+std::string_view seriesColour(std::size_t series) noexcept { return colours[series % chartStyles]; }
+
+std::string_view seriesDash(std::size_t series) noexcept { return dashes[series % chartStyles]; }
+
+double textWidth(std::string_view text, double size) noexcept {
+    double ems = 0.0;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if ((byte & 0xc0) == 0x80) continue; // not the first byte of a character
+        if (byte >= 'A' && byte <= 'Z')
+            ems += 0.70;
+        else
+            ems += std::string_view{" .,:;|ilj1'()-"}.find(c) != std::string_view::npos ? 0.38 : 0.58;
+    }
+    return ems * size;
+}
+
+void appendPixels(std::string& out, double pixels) {
+    std::string text = fixedNumber(pixels, 2);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+    out += text.empty() || text == "-0" ? "0" : text;
+}
+
+void appendPoint(std::string& out, char command, ChartPoint at) {
+    out += command;
+    appendPixels(out, at.x);
+    out += ' ';
+    appendPixels(out, at.y);
+}
+
+Svg::Svg(std::string name, double width, double height)
+    : name_{std::move(name)}
+    , width_{width}
+    , height_{height} {}
+
+void Svg::open(std::string_view tag) { body_.append("<").append(tag); }
+
+void Svg::attribute(std::string_view name, double value) {
+    body_.append(" ").append(name).append("=\"");
+    appendPixels(body_, value);
+    body_ += '"';
+}
+
+void Svg::attribute(std::string_view name, std::string_view value) {
+    body_.append(" ").append(name).append("=\"").append(value).append("\"");
+}
+
+void Svg::stroked(const Stroke& stroke) {
+    attribute("stroke", stroke.colour);
+    if (stroke.width != 1.0) attribute("stroke-width", stroke.width);
+    if (!stroke.dash.empty()) attribute("stroke-dasharray", stroke.dash);
+}
+
+void Svg::line(ChartPoint from, ChartPoint to, Stroke stroke) {
+    open("line");
+    attribute("x1", from.x);
+    attribute("y1", from.y);
+    attribute("x2", to.x);
+    attribute("y2", to.y);
+    stroked(stroke);
+    body_ += "/>\n";
+}
+
+void Svg::rect(ChartPoint corner, double width, double height, std::string_view fill, Stroke stroke) {
+    open("rect");
+    attribute("x", corner.x);
+    attribute("y", corner.y);
+    attribute("width", width);
+    attribute("height", height);
+    attribute("fill", fill);
+    if (stroke.colour != "none") stroked(stroke);
+    body_ += "/>\n";
+}
+
+void Svg::path(std::string_view commands, std::string_view fill, Stroke stroke) {
+    open("path");
+    attribute("d", commands);
+    attribute("fill", fill);
+    if (stroke.colour != "none") {
+        stroked(stroke);
+        attribute("stroke-linecap", "round");
+        attribute("stroke-linejoin", "round");
+    }
+    body_ += "/>\n";
+}
+
+void Svg::ellipse(ChartPoint centre, double radiusX, double radiusY, double degrees, std::string_view fill,
+                  Stroke stroke) {
+    open("ellipse");
+    attribute("rx", radiusX);
+    attribute("ry", radiusY);
+    body_ += " transform=\"translate(";
+    appendPixels(body_, centre.x);
+    body_ += ' ';
+    appendPixels(body_, centre.y);
+    body_ += ") rotate(";
+    appendPixels(body_, degrees);
+    body_ += ")\"";
+    attribute("fill", fill);
+    if (stroke.colour != "none") stroked(stroke);
+    body_ += "/>\n";
+}
+
+void Svg::text(ChartPoint at, std::string_view words, TextStyle style) {
+    constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
+    open("text");
+    attribute("x", at.x);
+    attribute("y", at.y);
+    attribute("font-size", style.size);
+    if (style.anchor != Anchor::start)
+        attribute("text-anchor", anchors[static_cast<std::size_t>(style.anchor)]);
+    if (style.isBold) attribute("font-weight", "bold");
+    attribute("fill", style.colour);
+    if (style.degrees != 0.0) {
+        body_ += " transform=\"rotate(";
+        for (const double number : {style.degrees, at.x, at.y}) {
+            if (!body_.ends_with('(')) body_ += ' ';
+            appendPixels(body_, number);
+        }
+        body_ += ")\"";
+    }
+    body_.append(">").append(markup(words)).append("</text>\n");
+}
+
+void Svg::bar(ChartPoint corner, double width, double height, std::size_t series) {
+    const std::size_t style = series % chartStyles;
+    rect(corner, width, height, colours[style], {"#222", 0.8});
+    if (hatchPaths[style].empty()) return;
+    hatches_ |= 1u << style;
+    rect(corner, width, height, "url(#" + name_ + "-h" + std::to_string(style) + ")");
+}
+
+void Svg::marker(ChartPoint at, std::size_t series, double r) {
+    const std::size_t style = series % chartStyles;
+    const auto around = [&](std::initializer_list<ChartPoint> corners) {
+        std::string d;
+        for (const ChartPoint& corner : corners)
+            appendPoint(d, d.empty() ? 'M' : 'L', {at.x + r * corner.x, at.y + r * corner.y});
+        path(d + "Z", colours[style], {"#222", 0.8});
+    };
+    switch (style) {
+    case 1: return around({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}});
+    case 2: return around({{0, -1.2}, {1.1, 0.9}, {-1.1, 0.9}});
+    case 3: return around({{0, -1.3}, {1.3, 0}, {0, 1.3}, {-1.3, 0}});
+    case 4: return around({{0, 1.2}, {1.1, -0.9}, {-1.1, -0.9}});
+    case 5:
+        return around({{-0.4, -1.2},
+                       {0.4, -1.2},
+                       {0.4, -0.4},
+                       {1.2, -0.4},
+                       {1.2, 0.4},
+                       {0.4, 0.4},
+                       {0.4, 1.2},
+                       {-0.4, 1.2},
+                       {-0.4, 0.4},
+                       {-1.2, 0.4},
+                       {-1.2, -0.4},
+                       {-0.4, -0.4}});
+    case 6: return around({{0, -1.3}, {1.2, -0.4}, {0.75, 1.0}, {-0.75, 1.0}, {-1.2, -0.4}});
+    case 7: return around({{-1.2, -0.6}, {1.2, -0.6}, {1.2, 0.6}, {-1.2, 0.6}});
+    default: ellipse(at, r, r, 0.0, colours[style], {"#222", 0.8});
+    }
+}
+
+void Svg::whisker(ChartPoint from, ChartPoint to, Stroke stroke) {
+    constexpr double foot = 3.5;
+    line(from, to, {"#fff", stroke.width + 2.0});
+    line(from, to, stroke);
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    if (length == 0.0) return;
+    const double x = foot * (to.y - from.y) / length, y = foot * (to.x - from.x) / length;
+    for (const ChartPoint& end : {from, to}) line({end.x - x, end.y + y}, {end.x + x, end.y - y}, stroke);
+}
+
+std::string Svg::finish(std::string_view words, bool isSimulated) const {
+    std::string out = svgHead(width_, height_) + "<title>" + markup(words) +
+                      (isSimulated ? " (simulated)" : "") + "</title>\n";
+    if (hatches_ != 0) {
+        out += "<defs>";
+        for (std::size_t style = 0; style < chartStyles; ++style) {
+            if ((hatches_ >> style & 1u) == 0) continue;
+            out += "<pattern id=\"" + name_ + "-h" + std::to_string(style) +
+                   "\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\"><path d=\"" +
+                   std::string(hatchPaths[style]) +
+                   "\" stroke=\"#fff\" stroke-linecap=\"round\" fill=\"none\" stroke-width=\"";
+            appendPixels(out, hatchWidths[style]);
+            out += "\"/></pattern>";
+        }
+        out += "</defs>\n";
+    }
+    out += ground + body_;
+    if (isSimulated) {
+        const double size = 0.8 * std::hypot(width_, height_) / textWidth("SIMULATED", 1.0);
+        out += "<text font-weight=\"bold\" fill=\"#b00020\" fill-opacity=\"0.1\" text-anchor=\"middle\" "
+               "font-size=\"";
+        appendPixels(out, size);
+        out += "\" transform=\"translate(";
+        appendPixels(out, 0.5 * width_);
+        out += ' ';
+        appendPixels(out, 0.5 * height_);
+        out += ") rotate(";
+        appendPixels(out, -57.2957795 * std::atan2(height_, width_));
+        out += ")\" dy=\"0.35em\">SIMULATED</text>\n";
+    }
+    return out + "</svg>\n";
+}
+
+std::string chartSheet(const std::vector<std::string>& charts) {
+    constexpr double mostWidth = 1340.0; // a condition of places, or one chart of bars
+    if (charts.size() == 1) return charts.front();
+    double x = 0.0, y = 0.0, width = 0.0, height = 0.0; // of the row: y, height
+    std::string body;
+    for (const std::string& chart : charts) {
+        const ChartPoint size = sizeOf(chart);
+        if (x > 0.0 && x + size.x > mostWidth) {
+            y += height;
+            x = height = 0.0;
+        }
+        body += "<g transform=\"translate(";
+        appendPixels(body, x);
+        body += ' ';
+        appendPixels(body, y);
+        body += ")\">\n" + chart + "</g>\n";
+        x += size.x;
+        width = std::max(width, x);
+        height = std::max(height, size.y);
+    }
+    return svgHead(width, y + height) + ground + body + "</svg>\n";
+}
+} // namespace physvib

@@ -25,16 +25,9 @@ struct ChartValue {
     }
 };
 
-/// A mark of significance between two groups.
-struct ChartBracket {
-    std::size_t from = 0, to = 0;
-    std::string mark;
-};
-
 struct BarSeries {
     std::string name;                            ///< empty in a chart of one series
     std::vector<std::optional<ChartValue>> bars; ///< one per group
-    std::vector<std::string> marks{};            ///< above the bars; empty: none
 };
 
 struct BarChart {
@@ -42,7 +35,6 @@ struct BarChart {
     std::string groupsWords, valueWords; ///< of the axes, with units
     std::vector<std::string> groups;
     std::vector<BarSeries> series;
-    std::vector<ChartBracket> brackets{};
     std::optional<std::pair<double, std::string>> reference{}; ///< a line across all groups, and its label
     std::vector<double> ceilings{};                            ///< per group: the maximum possible value
     std::string ceilingWords{};
@@ -120,8 +112,5 @@ std::string placeChart(const PlaceChart& chart);
 
 /// Charts as one picture: side by side where there is room, then in rows.
 std::string chartSheet(const std::vector<std::string>& charts);
-
-/// "***" below 0.001, "**" below 0.01, "*" below 0.05, else "n.s.".
-std::string significanceMark(double p);
 
 } // namespace physvib

@@ -9,11 +9,9 @@ namespace physvib::limits {
 constexpr std::size_t maxTableRows = 1'000'000;   // for the three columns that an analysis needs
 constexpr std::size_t maxTableCells = 3'000'000;  // 150,000 trials of twenty columns: a thousand participants
 constexpr std::size_t maxTableBytes = 64'000'000; // those cells, usually 200 bytes a trial
-constexpr std::size_t maxLongTableBytes = 256'000'000; // read row by row, keeping only a number and some
-                                                       // names per row: a million trials of 200 bytes
-constexpr std::size_t maxTableColumns = 256;  // a trial has twenty; an exported matrix one per response
+constexpr std::size_t maxTableColumns = 256;      // a trial has twenty; an exported matrix one per response
 constexpr std::size_t maxCellBytes = 200'000; // the longest cell has the presentations of a trial: 64 parts
-                                              // of 2000 bytes (CallWords.h), and their levels
+                                              // of 2000 bytes (Protocol.h), and their levels
 constexpr std::int64_t maxRecordingSeconds = 600;        // a longer contact or stimulus is a mistake
 constexpr std::int64_t maxRecordingSamples = 32'000'000; // of all channels: one channel of that length at 48
                                                          // kHz, 128 MB

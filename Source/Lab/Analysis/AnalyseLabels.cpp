@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Analyses of identification: confusion matrices, information transfer and icons, as text and tables.
-#include "Lab/Analysis/Analyses.h"
-#include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
-#include "Lab/Statistics/Moments.h"
-#include "Lab/Study/InformationTransfer.h"
-#include "Lab/Study/Proportion.h"
-#include "Lab/Study/TactileIcons.h"
+#include "Lab/Study/Identification.h"
+#include "Lab/Study/Summaries.h"
 #include "Stimuli/PulsePattern.h"
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Analysis of pointing errors as text and table: means over participants of means over targets.
-#include "Lab/Analysis/Analyses.h"
-#include "Lab/Statistics/Moments.h"
+// Analyses of pointing as text and tables: errors (means over participants of means over targets), perceptual
+// resolution, percent counts.
+#include "Io/Text/NameList.h"
+#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/StudyCharts.h"
+#include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 
 namespace physvib {
@@ -74,6 +80,190 @@ AnalysisReport analysePlaces(const AnalysisJob& o) {
     }
     report.words = out.str();
     report.table = table.text();
+    return report;
+}
+
+// Analyses of perceptual resolution, as text and tables.
+
+namespace {
+
+constexpr std::size_t mostTiesTold = 20;
+
+/// "1+2 | 3 | 4" of {2, 1, 1}.
+std::string groupWords(const std::vector<std::size_t>& groups) {
+    std::string words;
+    std::size_t line = 1;
+    for (const std::size_t size : groups) {
+        if (line > 1) words += " | ";
+        for (std::size_t i = 0; i < size; ++i) words.append(i ? "+" : "").append(std::to_string(line++));
+    }
+    return words;
+}
+
+std::string sizeWords(const GridMerge& merge) {
+    return std::to_string(merge.columnGroups.size()) + " x " + std::to_string(merge.rowGroups.size());
+}
+
+std::string mergeWords(const GridMerge& merge) {
+    return "columns " + groupWords(merge.columnGroups) + "; rows " + groupWords(merge.rowGroups);
+}
+
+void tell(std::ostream& out, const PercentCounts& counts, const PerceptualResolution& resolution,
+          double threshold) {
+    out << printable(counts.condition) << ": ";
+    if (resolution.ties.empty()) {
+        out << "0 x 0\n  even the whole field does not reach " << numberText(threshold) << " %\n";
+        return;
+    }
+    out << sizeWords(resolution.ties.front()) << "\n  merge: " << mergeWords(resolution.ties.front()) << '\n';
+    for (std::size_t i = 1; i < std::min(resolution.ties.size(), mostTiesTold); ++i)
+        out << "  tie: " << sizeWords(resolution.ties[i]) << ", " << mergeWords(resolution.ties[i]) << '\n';
+    if (resolution.ties.size() > mostTiesTold)
+        out << "  and " << resolution.ties.size() - mostTiesTold << " more ties\n";
+    out << "  sum " << fixedNumber(counts.sum(), 2) << " %, standard deviation "
+        << fixedNumber(counts.standardDeviation(), 2) << '\n';
+}
+
+/// "21.6 +- 2.2 cells": bootstrap over the responses of one condition, which says nothing of differences.
+std::string spreadWords(const CellSpread& spread) {
+    return fixedNumber(spread.mean, 1) + " +- " + fixedNumber(spread.deviation, 1) +
+           " cells (responses drawn again 200 times)";
+}
+
+std::set<std::pair<int, int>> targetsOf(const std::vector<LocationTrial>& trials) {
+    std::set<std::pair<int, int>> targets;
+    for (const LocationTrial& trial : trials) targets.emplace(trial.targetRow, trial.targetColumn);
+    return targets;
+}
+
+/// A line for conditions with the same targets; those of other targets cannot be exchanged.
+void tellChance(std::ostream& out, const StudyData<LocationTrial>& data, double thresholdPercent) {
+    std::map<std::set<std::pair<int, int>>, std::vector<const StudyCondition<LocationTrial>*>> alike;
+    for (const auto& condition : data.conditions) alike[targetsOf(condition.trials)].push_back(&condition);
+    for (const auto& [targets, conditions] : alike) {
+        if (conditions.size() < 2) continue;
+        std::vector<std::vector<LocationTrial>> trials;
+        std::vector<std::string> names;
+        for (const auto* const condition : conditions) {
+            trials.push_back(condition->trials);
+            names.push_back(printable(condition->name));
+        }
+        const CellChance chance = cellChance(trials, thresholdPercent);
+        out << "sizes of " << listed(names) << ": by chance any two differ by up to "
+            << numberText(chance.cells)
+            << " cells (95 % of 199 studies in which the conditions were exchanged within each "
+            << (chance.people > 1
+                    ? "of " + counted(chance.people, "person") + "); more is a finding of people\n"
+                    : std::string{"target); more is a finding of these trials, not of people\n"});
+    }
+}
+
+void exportMerged(ExportTable& table, const PercentCounts& counts, const PerceptualResolution& resolution) {
+    if (resolution.ties.empty()) return;
+    const PercentCounts grid = merged(counts, resolution.ties.front());
+    for (std::size_t r = 0; r < grid.rows; ++r)
+        for (std::size_t c = 0; c < grid.columns; ++c) {
+            table.row(grid.condition, r + 1, c + 1, grid.at(r, c));
+        }
+}
+
+void exportNormals(ExportTable& table, const ConditionResolution& made) {
+    for (std::size_t i = 0; i < made.normals.normals.size(); ++i) {
+        const PlaceNormal& n = made.normals.normals[i];
+        if (n.responses == 0) continue;
+        table.row(made.condition, i % made.normals.columns + 1, i / made.normals.columns + 1, n.responses,
+                  n.meanX, n.meanY, n.varianceX, n.varianceY, n.covariance, made.counts.percent[i],
+                  std::size_t{n.isBorrowed});
+    }
+}
+
+void warnOfSum(const PercentCounts& counts, std::vector<std::string>& warnings) {
+    const double printed = 0.005 * static_cast<double>(counts.percent.size()); // rounding to two decimals
+    if (std::abs(counts.sum() - 100.0) > printed + 1e-9)
+        warnings.push_back(printable(counts.condition) + ": percent counts sum to " +
+                           fixedNumber(counts.sum(), 2) + ", expected 100 within " + fixedNumber(printed, 2));
+}
+
+ChartFrame frameOf(const ConditionResolution& one, const std::vector<std::string>& charts, bool isSimulated) {
+    return {chartName(charts.size()), one.condition, isSimulated};
+}
+
+void addCounts(std::vector<std::string>& charts, const ConditionResolution& one, bool isSimulated) {
+    charts.push_back(countsChart(frameOf(one, charts, isSimulated), one.counts));
+    if (!one.resolution.ties.empty()) charts.push_back(mergedChart(frameOf(one, charts, isSimulated), one));
+}
+
+} // namespace
+
+AnalysisReport analyseResolution(const AnalysisJob& o) {
+    const auto data = readStudyFiles(o, readLocations);
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    std::vector<ConditionResolution> made;
+    std::vector<PercentCounts> counts;
+    ExportTable table{"resolution", data.value.isSimulated,
+                      "condition,target_column,target_row,responses,mean_x,mean_y,variance_x,variance_y,"
+                      "covariance,percent,borrowed"};
+    for (const auto& condition : data.value.conditions) {
+        made.push_back(resolveCondition(condition.name.empty() ? "all trials" : condition.name,
+                                        condition.trials, o.thresholdPercent));
+        const auto& one = made.back();
+        for (const auto& words : one.normals.warnings)
+            report.warnings.push_back(printable(one.condition) + ": " + words);
+        if (!one.normals.fault.empty())
+            return {o.files.front() + ": " + printable(one.condition) + ": " + one.normals.fault};
+        counts.push_back(one.counts);
+        exportNormals(table, one);
+    }
+    for (std::size_t c = 0; c < made.size(); ++c) {
+        tell(out, made[c].counts, made[c].resolution, o.thresholdPercent);
+        if (!made[c].resolution.ties.empty())
+            out << "  by chance "
+                << spreadWords(cellSpread(data.value.conditions[c].trials, o.thresholdPercent)) << '\n';
+    }
+    tellChance(out, data.value, o.thresholdPercent);
+    Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
+    if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
+    report.words = out.str();
+    report.table = table.text();
+    report.counts = percentCountsCsv(counts, provenance);
+    report.picture = [made, conditions = data.value.conditions, isSimulated = report.isSimulated] {
+        std::vector<std::string> charts;
+        for (std::size_t c = 0; c < made.size(); ++c) {
+            const auto frame = [&] { return frameOf(made[c], charts, isSimulated); };
+            charts.push_back(responsesChart(frame(), made[c], conditions[c].trials));
+            charts.push_back(territoryChart(frame(), made[c]));
+            addCounts(charts, made[c], isSimulated);
+        }
+        return chartSheet(charts);
+    };
+    return report;
+}
+
+AnalysisReport analysePercentCounts(const AnalysisJob& o) {
+    const auto data = readStudyFiles(o, readPercentCounts);
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    ExportTable table{"percent-counts", data.value.isSimulated, "condition,row,column,percent"};
+    std::vector<ConditionResolution> made;
+    for (const auto& condition : data.value.conditions) {
+        const PercentCounts& counts = condition.trials.front();
+        warnOfSum(counts, report.warnings);
+        made.push_back({counts.condition, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
+        tell(out, counts, made.back().resolution, o.thresholdPercent);
+        out << "  by chance: shares do not say of how many responses they are; analyse resolution of the "
+               "trials does\n";
+        exportMerged(table, counts, made.back().resolution);
+    }
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [made, isSimulated = report.isSimulated] {
+        std::vector<std::string> charts;
+        for (const ConditionResolution& one : made) addCounts(charts, one, isSimulated);
+        return chartSheet(charts);
+    };
     return report;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // List of all analyses, and selection of those that fit a table.
-#include "Lab/Analysis/Analyses.h"
-#include "Lab/Files/TrialColumns.h"
+#include "Lab/Analysis/Analysis.h"
+#include "Lab/Files/TrialLog.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
 #include <set>
@@ -24,13 +24,6 @@ constexpr Analysis analyses[] = {
      "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means", analyseLevels},
     {Analysis::Kind::results, "icons", "stimulus,response per trial: the patterns that are confused least",
      analyseIcons},
-    {Analysis::Kind::test, "anova", "analysis of variance with repeated measures", analyseAnova},
-    {Analysis::Kind::test, "friedman", "levels of a within-factor, by ranks", analyseFriedman},
-    {Analysis::Kind::test, "wilcoxon", "two levels of a within-factor, by signed ranks", analyseWilcoxon},
-    {Analysis::Kind::test, "mann-whitney", "two groups, by ranks", analyseMannWhitney},
-    {Analysis::Kind::test, "kruskal-wallis", "two or more groups, by ranks", analyseKruskalWallis},
-    {Analysis::Kind::test, "shapiro", "whether values may be normal (Shapiro-Wilk)", analyseShapiro},
-    {Analysis::Kind::test, "pairs", "every two levels, corrected for their number", analysePairs},
     {Analysis::Kind::fit, "psychometric",
      "psychometric functions of each participant, thresholds and JNDs over participants",
      analysePsychometric},
@@ -107,7 +100,7 @@ namespace {
 /// For a table that an analysis rejected: the kind of its trials and the call that reads them. Empty if no
 /// analysis is known for them, or if the kind was right and the error is another.
 std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
-    if (asked.kind == Analysis::Kind::test || job.files.empty() || job.made != nullptr) return {};
+    if (job.files.empty() || job.made != nullptr) return {};
     const auto text = readFile(job.files.front(), limits::maxTableBytes);
     auto table = text ? readCsvTable(text.value, job.files.front(),
                                      job.columns.empty() ? CsvHeader::named : CsvHeader::loose)

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Interface of the analyses of study trials: options and results.
+// The analyses of study trials: options, results, and how they read files and write tables.
 #pragma once
-#include "Lab/Analysis/AnalysisFiles.h"
-#include "Lab/Statistics/Pairs.h"
-#include "Lab/Statistics/Psychometric.h"
-#include "Lab/Statistics/TestReport.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Provenance.h"
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Files/StudyCsv.h"
 #include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Psychometric.h"
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +20,100 @@
 
 namespace physvib {
 
+// Helpers of the analyses: reading input files, formatting text, and writing tables.
+
+inline std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
+
+/// A printable label of any length. It is not truncated, so labels that differ only at the end stay distinct.
+inline std::string wholeLabel(std::string_view label) {
+    constexpr std::size_t piece = 40; // printable() truncates longer text
+    std::string words;
+    for (; label.size() > piece; label.remove_prefix(piece)) words += printable(label.substr(0, piece));
+    return words + printable(label);
+}
+
+/// Input files of an analysis.
+struct StudySources {
+    std::vector<std::string> files;
+    std::vector<ColumnName> columns{}; ///< column mapping for tables of another program
+    /// tables in memory by name, with our columns; used instead of files
+    const std::map<std::string, std::string>* made = nullptr;
+    bool operator==(const StudySources&) const = default;
+};
+
+/// Reads all files, then calls `reader` once with their texts.
+template <class Reader>
+auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t mostBytes = limits::maxTableBytes)
+    -> decltype(reader(std::vector<NamedText>{})) {
+    std::vector<std::string> texts(sources.files.size());
+    std::vector<NamedText> files;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const std::string& path = sources.files[i];
+        if (sources.made)
+            if (const auto found = sources.made->find(path); found != sources.made->end()) {
+                files.push_back({found->second, path});
+                continue;
+            }
+        auto text = readFile(path, mostBytes);
+        if (!text) return Failure{text.error};
+        texts[i] = std::move(text.value);
+        files.push_back({texts[i], path, sources.columns});
+    }
+    return reader(files);
+}
+
+/// CSV table for statistics packages, written cell by cell.
+class ExportTable {
+public:
+    ExportTable(std::string_view kind, bool isSimulated, std::string_view header) {
+        Provenance provenance{PHYSVIB_VERSION, {{"analysis", std::string(kind)}}};
+        if (isSimulated) provenance.entries.emplace_back("observer", "simulated");
+        text_ = provenanceComment(provenance);
+        text_.append(header).append("\n");
+    }
+    ExportTable& cell(std::string_view words) {
+        separate();
+        appendCell(text_, words);
+        return *this;
+    }
+    ExportTable& cell(double number) {
+        separate();
+        appendNumber(text_, number);
+        return *this;
+    }
+    ExportTable& cell(std::size_t number) {
+        separate();
+        appendNumber(text_, number);
+        return *this;
+    }
+    /// An empty cell for nullopt.
+    ExportTable& cell(const std::optional<double>& number) {
+        return number ? cell(*number) : cell(std::string_view{});
+    }
+    template <class... Values>
+    ExportTable& cells(const Values&... values) {
+        return (cell(values), ...);
+    }
+    /// The last cells of a row, or all.
+    template <class... Values>
+    void row(const Values&... values) {
+        cells(values...).endRow();
+    }
+    void endRow() {
+        text_ += '\n';
+        isFirst_ = true;
+    }
+    const std::string& text() const { return text_; }
+
+private:
+    void separate() {
+        if (!isFirst_) text_ += ',';
+        isFirst_ = false;
+    }
+    std::string text_;
+    bool isFirst_ = true;
+};
+
 /// Input files, options and output files; each analysis uses some of them.
 struct AnalysisJob : StudySources {
     int tolerance = 0;                                 ///< confusion: grid steps that still count as correct
@@ -23,14 +121,8 @@ struct AnalysisJob : StudySources {
     std::size_t meanings = 8;                          ///< icons: number of meanings
     std::string picturePath, exportPath, countsPath;   ///< output files; empty: none
     std::string participantsPath; ///< confusion: output file with one row per participant
-    // Tests over participants:
-    std::string measure, between, participant;
-    std::vector<std::string> within, where;
-    std::optional<Correction> correction;
-    PairTest pairTest = PairTest::student;
-    bool usesAlignedRanks = false;
     // Fits to each participant's trials:
-    std::string level;
+    std::string level, measure; ///< columns; empty: those of our own files
     PsychometricModel model{};
 
     bool operator==(const AnalysisJob&) const = default;
@@ -44,7 +136,6 @@ struct AnalysisReport {
     std::string words{};                           ///< text result, in lines
     std::function<std::string()> picture{};        ///< SVG, watermarked if simulated; empty: none
     std::string table{}, counts{}, participants{}; ///< CSV
-    std::vector<TestLine> lines{};                 ///< results of a test
 };
 
 /// Names of the analyses that fit a table: for a trial file by its tasks, else by its columns. Any thread.
@@ -55,11 +146,7 @@ AnalysisReport analyse(const std::string& name, const AnalysisJob& options);
 
 /// Entry of the list of all analyses.
 struct Analysis {
-    enum class Kind {
-        results,
-        test,
-        fit
-    } kind; ///< of trials, over participants, or fitted to each participant's trials
+    enum class Kind { results, fit } kind; ///< of trials, or fitted to each participant's trials
     std::string_view name;
     const char* purpose;
     AnalysisReport (*run)(const AnalysisJob&);
@@ -67,5 +154,25 @@ struct Analysis {
 
 /// Any thread.
 std::span<const Analysis> allAnalyses() noexcept;
+
+// The functions of all analyses, which the list in Analysis.cpp refers to.
+
+// Labels: confusion matrices, information transfer, icons.
+AnalysisReport analyseConfusion(const AnalysisJob& job);
+AnalysisReport analyseIcons(const AnalysisJob& job);
+
+// Places: perceptual resolution from pointing responses or percent counts, and pointing errors.
+AnalysisReport analyseResolution(const AnalysisJob& job);
+AnalysisReport analysePlaces(const AnalysisJob& job);
+AnalysisReport analysePercentCounts(const AnalysisJob& job);
+
+// Judgements and levels: forced choices, slider ratings, staircases, QUEST+, adjustments, magnitudes.
+AnalysisReport analyseChoices(const AnalysisJob& job);
+AnalysisReport analyseRatings(const AnalysisJob& job);
+AnalysisReport analyseLevels(const AnalysisJob& job);
+
+// Functions fitted to each participant's trials.
+AnalysisReport analysePsychometric(const AnalysisJob& job);
+AnalysisReport analysePowerLaw(const AnalysisJob& job);
 
 } // namespace physvib

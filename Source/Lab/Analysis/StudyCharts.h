@@ -2,17 +2,17 @@
 // Charts of study results, for pictures of `physvib analyse` and figures of reports.
 #pragma once
 #include "Io/Charts/Charts.h"
+#include "Lab/Files/StudyTables.h"
 #include "Lab/Study/Attenuation.h"
-#include "Lab/Study/ConfusionMatrix.h"
-#include "Lab/Study/LevelTrials.h"
-#include "Lab/Study/ResponseMap.h"
-#include "Lab/Study/Votes.h"
+#include "Lab/Study/Identification.h"
+#include "Lab/Study/Places.h"
+#include "Lab/Study/Psychometric.h"
+#include "Lab/Study/Summaries.h"
 #include <span>
 #include <string>
 #include <vector>
 
 namespace physvib {
-
 // Each returns one chart as SVG. Any thread (allocates).
 
 /// Darker cells have a larger share of the stimulus' trials.
@@ -31,8 +31,7 @@ std::string countsChart(ChartFrame frame, const PercentCounts& counts);
 /// Counts of the largest merged grid, with its size in the title. Precondition: such a grid was found.
 std::string mergedChart(ChartFrame frame, const ConditionResolution& one);
 
-/// One bar per alternative and summary. With two alternatives, the first one's bar is marked if it differs
-/// from one half by a signed-rank test with Holm's correction for the chart's bars.
+/// One bar per alternative and summary.
 std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
                         const std::vector<std::string>& groups,
                         const std::vector<const ChoiceSummary*>& summaries);
@@ -57,5 +56,29 @@ std::vector<std::string> levelCharts(std::span<const LevelSummary> summaries, bo
 
 /// Gamma over frequency: one chart per axis, one curve per layer.
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results);
+
+// Charts of functions fitted to each participant's trials.
+
+/// Axis labels of the fitted levels and answers.
+struct FitWords {
+    std::string level = "level (dB)", answer = "correct";
+};
+
+/// Labels for another program's table, from its column mapping or the chosen columns (empty: none chosen).
+/// Any thread.
+FitWords fitWords(std::span<const ColumnName> columns, const std::string& level = {},
+                  const std::string& measure = {});
+
+/// Decimals that show two digits of such a JND; at least two. Any thread.
+int decimalsOf(double jnd) noexcept;
+
+// SVG. Participants without a fit are omitted. Any thread (allocates).
+
+/// `told`: the threshold of the method that chose the levels, shown in place of those of the fits.
+std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
+                              const PsychometricModel& model, const FitWords& words,
+                              const LevelSummary* told = nullptr);
+std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
+                          const std::string& levelWords);
 
 } // namespace physvib

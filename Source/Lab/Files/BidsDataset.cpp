@@ -4,7 +4,7 @@
 #include "Io/Json/JsonLines.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
-#include "Lab/Files/TrialColumns.h"
+#include "Lab/Files/TrialLog.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
 #include <utility>

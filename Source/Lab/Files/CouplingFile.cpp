@@ -7,7 +7,7 @@
 #include "Io/Json/JsonLines.h"
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Files/StudyFileLimits.h"
+#include "Lab/Files/StudyTables.h"
 #include "Scene/SceneFileLimits.h"
 #include <cmath>
 #include <numbers>

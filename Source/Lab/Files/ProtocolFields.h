@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Table of all protocol fields: name in files, member of the structs, and valid range.
 #pragma once
-#include "Lab/Study/CallWords.h"
 #include "Lab/Study/Protocol.h"
-#include "Lab/Study/StimulusJob.h"
+#include "Lab/Study/Stimulus.h"
 #include "Scene/SceneFields.h"
 
 namespace physvib {

@@ -7,22 +7,21 @@
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
+#include "Io/Json/JsonLines.h"
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Files/LevelsFile.h"
 #include "Lab/Files/ProtocolFields.h"
-#include "Lab/Files/StudyFileLimits.h"
-#include "Lab/Files/ThesisVersions.h"
-#include "Lab/Files/TrialColumns.h"
-#include "Lab/Study/CallWords.h"
+#include "Lab/Files/StudyTables.h"
+#include "Lab/Files/TrialLog.h"
+#include "Lab/Study/Protocol.h"
 #include "Scene/JsonReader.h"
 #include "Scene/JsonWriter.h"
 #include "Scene/SceneRanges.h"
 #include <algorithm>
 #include <iterator>
+#include <type_traits>
 
 namespace physvib {
-
 // Source/Lab/Protocols/*.json, in listing order
 const std::vector<EmbeddedFile>& embeddedProtocols();
 
@@ -42,10 +41,6 @@ Protocol readProtocolRoot(Json& root) {
                                     inQuotes(scale));
     return protocol;
 }
-
-} // namespace
-
-namespace {
 
 /// Loads the sessions' levels_file. Returns an error line or an empty string.
 std::string takeLevels(Protocol& protocol) {
@@ -151,6 +146,149 @@ Result<Protocol> findProtocol(const std::string& nameOrPath) {
     for (const Protocol& protocol : knownProtocols())
         if (protocol.name == nameOrPath) return protocol;
     return Failure{"no protocol " + inQuotes(nameOrPath) + " (see physvib study list)"};
+}
+
+// JSON schema of protocol files, from the same table of fields that reads and writes them.
+
+namespace {
+
+template <class T>
+OrderedJson objectSchema();
+
+OrderedJson schemaOf(const bool&, const Bounds&) { return {{"type", "boolean"}}; }
+OrderedJson schemaOf(const std::string&, const Bounds& bounds) {
+    OrderedJson schema{{"type", "string"}};
+    if (bounds.most > 0.0 && bounds.most < Bounds{}.most)
+        schema["maxLength"] = static_cast<std::size_t>(bounds.most);
+    return schema;
+}
+template <class Number>
+requires std::is_arithmetic_v<Number> OrderedJson schemaOf(const Number&, const Bounds& bounds) {
+    OrderedJson schema{{"type", std::is_integral_v<Number> ? "integer" : "number"}};
+    if (bounds.least > Bounds{}.least) schema["minimum"] = bounds.least;
+    if (bounds.most < Bounds{}.most) schema["maximum"] = bounds.most;
+    return schema;
+}
+template <class T>
+requires std::is_class_v<T> OrderedJson schemaOf(const T&, const Bounds&) { return objectSchema<T>(); }
+template <class T>
+OrderedJson schemaOf(const std::optional<T>&, const Bounds& bounds) {
+    return schemaOf(T{}, bounds);
+}
+template <class T>
+OrderedJson schemaOf(const std::vector<T>&, const Bounds& bounds) {
+    OrderedJson schema{{"type", "array"}, {"items", schemaOf(T{}, bounds)}, {"minItems", bounds.fewestItems}};
+    if (bounds.mostItems > 0) schema["maxItems"] = bounds.mostItems;
+    return schema;
+}
+
+/// Visits the table of T.
+template <class T>
+struct SchemaWriter {
+    OrderedJson properties = OrderedJson::object(), required = OrderedJson::array(),
+                cases = OrderedJson::array();
+
+    template <class F>
+    void field(std::string_view name, F T::*, const Bounds& bounds, Need need) {
+        properties[std::string(name)] = schemaOf(F{}, bounds);
+        if (need == Need::required) required.push_back(std::string(name));
+    }
+    void choice(std::string_view name, const auto&, const auto& names) {
+        properties[std::string(name)] = {{"enum", names}};
+    }
+    template <class... Kinds>
+    void variant(std::string_view name, std::variant<Kinds...> T::*, const auto& names) {
+        choice(name, nullptr, names);
+        required.push_back(std::string(name));
+        std::size_t index = 0;
+        (add<Kinds>(std::string(name), std::string(names[index++])), ...);
+    }
+
+private:
+    /// The fields of one kind, and those that it needs.
+    template <class Kind>
+    void add(const std::string& name, const std::string& kind) {
+        SchemaWriter<Kind> own;
+        visitFields(own, FieldsOf<Kind>{});
+        for (const auto& [key, schema] : own.properties.items()) properties[key] = schema;
+        cases.push_back(
+            {{"if", {{"properties", {{name, {{"const", kind}}}}}}}, {"then", {{"required", own.required}}}});
+    }
+};
+
+template <class T>
+OrderedJson objectSchema() {
+    SchemaWriter<T> writer;
+    visitFields(writer, FieldsOf<T>{});
+    OrderedJson schema{{"type", "object"},
+                       {"properties", writer.properties},
+                       {"required", writer.required},
+                       {"additionalProperties", false}};
+    if (!writer.cases.empty()) schema["allOf"] = writer.cases;
+    return schema;
+}
+
+} // namespace
+
+std::string protocolSchema() {
+    OrderedJson schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                       {"title", "PhysVib study protocol"}};
+    schema.update(objectSchema<Protocol>());
+    OrderedJson& properties = schema["properties"];
+    properties[protocolVersionField] = {
+        {"type", "integer"}, {"minimum", 1}, {"maximum", protocolFormatVersion}};
+    properties["$schema"] = {{"type", "string"}};
+    schema["required"].push_back(protocolVersionField);
+    return jsonLines(schema);
+}
+
+// Applies the edit of each deviation; deviations without an edit remain deviations of the edited version.
+
+namespace {
+
+/// Appends these options to all calls of the protocol.
+void addToCalls(Protocol& protocol, std::string_view options) {
+    for (ConditionPlan& condition : protocol.conditions)
+        std::visit(
+            [options](auto& set) {
+                if constexpr (requires { set.call; }) set.call.append(" ").append(options);
+            },
+            condition.stimuli);
+}
+
+void edit(Protocol& protocol, ThesisEdit how) {
+    switch (how) {
+    case ThesisEdit::none: break;
+    case ThesisEdit::noBreakBefore:
+        for (SessionPlan& session : protocol.sessions) session.breakBeforeSeconds = 0.0;
+        break;
+    case ThesisEdit::noGroups:
+        for (ConditionPlan& condition : protocol.conditions) condition.group.clear();
+        break;
+    case ThesisEdit::releaseTiming: addToCalls(protocol, "--timing release"); break;
+    case ThesisEdit::cutDecays: addToCalls(protocol, "--gamma 0.1"); break;
+    }
+}
+
+std::vector<Protocol> makeVersions() {
+    std::vector<Protocol> versions;
+    for (Protocol protocol : builtInProtocols()) {
+        const Protocol builtIn = protocol;
+        for (const ThesisDeviation& one : thesisDeviations)
+            if (one.protocol == builtIn.name) edit(protocol, one.edit);
+        if (protocol == builtIn) continue;
+        protocol.name.append(thesisSuffix);
+        protocol.title += ", as published";
+        versions.push_back(std::move(protocol));
+    }
+    return versions;
+}
+
+} // namespace
+
+const std::vector<Protocol>& thesisVersions() {
+    static const std::vector<Protocol> versions = makeVersions();
+    return versions;
 }
 
 } // namespace physvib

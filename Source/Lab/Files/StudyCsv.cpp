@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Readers for each kind of study table; StudyRows provides the rows.
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Files/FactorSource.h"
-#include "Lab/Files/SharedParticipants.h"
-#include "Lab/Files/StudyFileLimits.h"
-#include "Lab/Files/StudyRows.h"
+#include "Lab/Files/StudyTables.h"
+#include "Lab/Study/Experiment.h"
 #include "Lab/Study/QuestMethod.h"
-#include "Lab/Study/StimulusJob.h"
-#include "Lab/Study/Trial.h"
+#include "Lab/Study/Stimulus.h"
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -280,11 +277,40 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     return taken;
 }
 
+/// Where the levels of a table are: a column of that name, or `name=level` among the words of a condition or
+/// stimulus.
+struct LevelSource {
+    std::size_t column = 0;
+    std::string mark{}; ///< "level_g="; empty: the whole cell
+    std::optional<std::size_t> alsoIn{};
+
+    static std::optional<LevelSource> of(const CsvTable& table, const std::string& name) {
+        if (const auto column = table.column(name)) return LevelSource{*column};
+        const auto condition = table.column("condition"), stimulus = table.column("stimulus");
+        if (!condition && !stimulus) return std::nullopt;
+        return LevelSource{condition.value_or(stimulus.value_or(0)), name + "=", stimulus};
+    }
+    std::string_view level(const CsvRow& row) const {
+        if (mark.empty()) return row.cells[column];
+        const std::string_view found = markedIn(row.cells[column]);
+        return found.empty() && alsoIn ? markedIn(row.cells[*alsoIn]) : found;
+    }
+    std::string expected() const { return mark.empty() ? "a level" : "a word " + printable(mark) + "..."; }
+
+private:
+    std::string_view markedIn(std::string_view rest) const {
+        while (!rest.empty())
+            if (const std::string_view word = takeUntil(' ', rest); word.starts_with(mark))
+                return word.substr(mark.size());
+        return {};
+    }
+};
+
 std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data,
                              const LevelAnswerColumns& columns) {
     constexpr double largestLevel = 1e6;
     const auto measure = rows.required(columns.measure);
-    const auto level = detail::FactorSource::of(rows.table(), columns.level);
+    const auto level = LevelSource::of(rows.table(), columns.level);
     if (!level) rows.required(columns.level);
     const auto condition = rows.optional("condition"), participant = rows.optional("participant");
     // Of our own files' right and wrong choices those with a level are adaptive.

@@ -4,7 +4,7 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
-#include "Lab/Files/StudyRows.h"
+#include "Lab/Files/StudyTables.h"
 #include <chrono>
 #include <limits>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes and reads the rows of trial files; the columns are in TrialColumns.h.
+// Writes and reads the rows of trial files.
 #include "Lab/Files/TrialLog.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/FileLimits.h"
@@ -9,8 +9,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFields.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Files/StudyRows.h"
-#include "Lab/Files/TrialColumns.h"
+#include "Lab/Files/StudyTables.h"
 #include <limits>
 #include <map>
 #include <utility>

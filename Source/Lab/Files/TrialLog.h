@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: MIT
-// CSV file of one participant's trials. Each row is written at once, so that an interrupted study can resume.
+// CSV file of one participant's trials: its columns and first line, and writing each row at once, so that an
+// interrupted study can resume.
 #pragma once
+#include "Core/Limits.h"
 #include "Io/Disk/SystemFile.h"
 #include "Io/Provenance.h"
 #include "Io/Result.h"
-#include "Lab/Study/Trial.h"
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Study/Experiment.h"
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace physvib {
-
 /// Header of a trial file: a line of provenance, and the column names. Any thread.
 std::string trialHeader(const Protocol& protocol, const Participant& participant, std::string_view version);
 
@@ -76,5 +84,108 @@ private:
     SystemFile file_;
     std::string error_;
 };
+} // namespace physvib
 
+// Column names of trial files in their order, and fixed words in their cells.
+
+namespace physvib::trialColumns {
+constexpr std::string_view observer = "observer", phase = "phase", task = "task", render = "render";
+constexpr std::string_view training = "training", simulated = "simulated";
+
+/// followed by the study's rating scales
+inline constexpr std::array<std::string_view, 21> names{
+    "participant", "observer", "condition", "session",       "phase",      "trial",    "task",
+    "stimulus",    "parts",    "response",  "target_column", "target_row", "x",        "y",
+    "choice",      "value",    "correct",   "replays",       "response_s", "level_db", "render"};
+
+/// Only in protocols with a QUEST+ session, after the scales: the prior before the first trial.
+constexpr std::string_view quest = "quest";
+
+/// Only in protocols with staircases that are mixed: which one the trial is of.
+constexpr std::string_view staircase = "staircase";
+
+/// Measured values of each trial, after those. Files that older versions began without them stay without
+/// them.
+constexpr std::string_view peakG = "peak_g", rmsG = "rms_g", exposure = "a8_m_per_s2";
+inline constexpr std::array<std::string_view, 3> measured{peakG, rmsG, exposure};
+
+/// Settings of the apparatus. Files that older versions began without them stay without them.
+constexpr std::string_view limiterDb = "limiter_db", masterDb = "master_db", noiseDb = "noise_db",
+                           device = "device", version = "version";
+inline constexpr std::array<std::string_view, 5> apparatus{limiterDb, masterDb, noiseDb, device, version};
+constexpr std::string_view noNoise = "off"; ///< cell of noise_db without noise
+
+/// What of the trial left, the last columns; older files stay without them. `left`: 1 if every part left as
+/// it was planned, 0 if one did not, empty if nothing is known. `again`: plays that did not leave and were
+/// repeated.
+constexpr std::string_view left = "left", again = "again";
+inline constexpr std::array<std::string_view, 2> receipts{left, again};
+
+constexpr bool isReceipt(std::string_view name) {
+    return std::ranges::find(receipts, name) != receipts.end();
+}
+constexpr bool isMeasured(std::string_view name) {
+    return std::ranges::find(measured, name) != measured.end();
+}
+constexpr bool isApparatus(std::string_view name) {
+    return std::ranges::find(apparatus, name) != apparatus.end();
+}
+constexpr bool has(std::string_view name) {
+    return name == quest || name == staircase || isMeasured(name) || isApparatus(name) || isReceipt(name) ||
+           std::ranges::find(names, name) != names.end();
+}
+} // namespace physvib::trialColumns
+
+// First line of a trial file as keys and values.
+
+namespace physvib {
+/// version, protocol, hash, seed, participant ...
+using TrialHead = std::map<std::string, std::string>;
+
+/// Parses the first comment line that names this program; empty if there is none. Any thread.
+TrialHead trialHeadOf(const std::vector<std::string>& comments);
+} // namespace physvib
+
+// Tells which rows of a table are of trials that did not leave as planned, and so are evidence of nothing.
+
+namespace physvib {
+/// By the column `left`. Of rows without it, by a part whose peak is 0 though a device was open and its call
+/// does not ask for silence. Any thread; the table outlives it.
+class LeftRows {
+public:
+    explicit LeftRows(const CsvTable& table)
+        : left_{table.column(trialColumns::left)}
+        , peaks_{table.column(trialColumns::peakG)}
+        , device_{table.column(trialColumns::device)}
+        , calls_{table.column(trialColumns::render)} {}
+
+    bool didNotLeave(const CsvRow& row) const {
+        if (left_ && !row.cells[*left_].empty()) return row.cells[*left_] == "0";
+        if (!peaks_ || !device_ || row.cells[*device_].empty() || row.cells[*device_].starts_with("None:"))
+            return false;
+        std::string_view peaks = row.cells[*peaks_], calls = calls_ ? row.cells[*calls_] : std::string_view{};
+        while (!peaks.empty()) {
+            const std::string_view peak = takeUntil('|', peaks), call = calls.substr(0, calls.find(" ; "));
+            calls.remove_prefix(std::min(call.size() + 3, calls.size()));
+            if (parseNumber<double>(peak) == 0.0 && !asksForSilence(call)) return true;
+        }
+        return false;
+    }
+
+private:
+    static bool asksForSilence(std::string_view call) {
+        constexpr std::string_view option = "--level-db ";
+        const auto at = call.find(option);
+        if (at == std::string_view::npos) return false;
+        std::string_view rest = call.substr(at + option.size());
+        return parseNumber<double>(takeUntil(' ', rest)).value_or(0.0) <= -limits::maxLevelDb;
+    }
+    std::optional<std::size_t> left_, peaks_, device_, calls_;
+};
+
+/// "3 trials did not leave as planned and are left out". Any thread.
+inline std::string notLeftWords(std::size_t trials) {
+    return counted(trials, "trial") + " did not leave as planned (column left, or a peak of 0 g) and " +
+           (trials == 1 ? "is" : "are") + " left out";
+}
 } // namespace physvib

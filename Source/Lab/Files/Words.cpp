@@ -5,7 +5,7 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Files/StudyFileLimits.h"
+#include "Lab/Files/StudyTables.h"
 #include "Scene/JsonReader.h"
 #include <algorithm>
 #include <set>

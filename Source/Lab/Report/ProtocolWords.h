@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Describes a protocol in sentences for the methods section of a paper: one per field that has a value.
-// Device, noise, limiter and actual orders come from the trials: see ReportApparatus.cpp and
-// ReportDesign.cpp.
+// Device, noise, limiter and actual orders come from the trials: see
+// ReportApparatus.cpp.
 #pragma once
 #include "Lab/Study/Protocol.h"
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
-
 /// Sentences on the protocol as a whole. Message thread only.
 std::vector<std::string> protocolSentences(const Protocol& protocol);
 
@@ -24,5 +24,12 @@ std::vector<std::string> movedBesideStrength(const Protocol& protocol);
 
 /// One line per recording that calls with --method SV play. Any thread (allocates).
 std::vector<std::string> soundLines(const Protocol& protocol);
+
+// How a figure in g comes about, told wherever one is printed: samples, full scale, actuator.
+
+/// A sentence with the full scale of each layout of the protocol, calibrated or assumed. `samples`: "as
+/// rendered". A full scale counts as calibrated if the layout's actuator profile states the same. Message
+/// thread only.
+std::string levelChain(const Protocol& protocol, std::string_view samples);
 
 } // namespace physvib

@@ -1,29 +1,21 @@
 // SPDX-License-Identifier: MIT
-// A report under construction: its page, its tables, and the list of tests that the R script repeats.
+// A report under construction: its page, its tables, the list of tests that analysis.R runs; and the sections
+// that write into it.
 #pragma once
 #include "Io/Charts/Charts.h"
+#include "Io/Text/CsvTable.h"
 #include "Lab/Analysis/Analysis.h"
+#include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/ReportPage.h"
 #include "Lab/Report/ReportTrials.h"
+#include <algorithm>
+#include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
-
-/// One call of `physvib analyse` in the report's folder.
-struct ReportTest {
-    std::string analysis; ///< "anova" ...
-    AnalysisJob options;
-    std::string table;     ///< name of the file with its results
-    std::size_t lines = 0; ///< comparisons or effects
-
-    std::string call() const;
-};
-
-/// `words` as part of a file name: letters, digits, ., - and _ are kept. Any thread.
-std::string fileWord(const std::string& words);
-
 /// Name of the table of all trials.
 inline constexpr const char* trialsTable = "trials.csv";
 
@@ -54,27 +46,114 @@ public:
     /// `error` is empty on success.
     AnalysisReport analysis(const std::string& kind, const AnalysisJob& options, const std::string& name);
 
-    /// Runs a test. Its call and results are added to the page, and its table is stored. If the test fails,
-    /// the page has the reason and no lines are returned. With `isLong`, the page only names the table.
-    std::vector<TestLine> test(const std::string& kind, AnalysisJob options, const std::string& name,
-                               bool isLong = false);
+    /// Adds a test to analysis.R, and to the page that it runs there. None of a single participant.
+    void test(StudyTest test);
 
     /// Frame of the next chart, with a unique name.
     ChartFrame frame(std::string title) {
         return {"chart" + std::to_string(++charts_), std::move(title), isSimulated()};
     }
 
-    const std::vector<ReportTest>& tests() const noexcept { return tests_; }
+    const std::vector<StudyTest>& tests() const noexcept { return tests_; }
     const std::map<std::string, std::string>& tables() const noexcept { return tables_; }
 
 private:
     void warn(const std::vector<std::string>& warnings);
-    /// Assumptions of an analysis of variance with these effects.
-    void tellAssumptions(AnalysisJob options, const std::string& name, const std::vector<TestLine>& lines);
     std::map<std::string, std::string> tables_; // by file name
-    std::vector<ReportTest> tests_;
+    std::vector<StudyTest> tests_;
     std::vector<std::string> warned_;
     int charts_ = 0;
 };
+
+// Cells of a report's rows by the names of their columns.
+
+/// Cells of a row by column name; an empty string for missing columns.
+class Cells {
+public:
+    explicit Cells(const CsvTable& table)
+        : table_{table} {}
+    const std::string& operator()(const CsvRow& row, std::string_view column) const {
+        static const std::string none;
+        const auto at = table_.column(column);
+        return at ? row.cells[*at] : none;
+    }
+    bool has(std::string_view column) const { return table_.column(column).has_value(); }
+
+private:
+    const CsvTable& table_;
+};
+
+// Splits two-part condition names such as PHONE-3x3 into series and groups of a chart, and into factors of a
+// test.
+
+/// The summary of a condition; null if there is none.
+template <class Summary>
+const Summary* conditionNamed(const std::vector<Summary>& all, const std::string& name) {
+    const auto found = std::ranges::find(all, name, &Summary::condition);
+    return found == all.end() ? nullptr : &*found;
+}
+
+struct ConditionAxes {
+    std::vector<std::string> series, groups; ///< one empty series if conditions are groups
+    std::vector<std::string> factors;        ///< for --within; empty if there is only one condition
+
+    std::string conditionOf(std::size_t s, std::size_t g) const {
+        return series[s].empty() ? groups[g] : series[s] + "-" + groups[g];
+    }
+
+    /// Precondition: `names` are unique. Any thread (allocates).
+    static ConditionAxes of(std::vector<std::string> names) {
+        std::ranges::sort(names);
+        ConditionAxes axes;
+        for (const std::string& name : names) {
+            const std::size_t hyphen = name.find('-');
+            if (hyphen == std::string::npos || name.find('-', hyphen + 1) != std::string::npos)
+                return plain(std::move(names));
+            add(axes.series, name.substr(0, hyphen));
+            add(axes.groups, name.substr(hyphen + 1));
+        }
+        if (axes.series.size() * axes.groups.size() != names.size() || axes.groups.size() < 2)
+            return plain(std::move(names));
+        if (axes.series.size() > 1) axes.factors.emplace_back("condition.1");
+        axes.factors.emplace_back("condition.2");
+        return axes;
+    }
+
+private:
+    static ConditionAxes plain(std::vector<std::string> names) {
+        const bool isOne = names.size() < 2;
+        return {{""},
+                std::move(names),
+                isOne ? std::vector<std::string>{} : std::vector<std::string>{"condition"}};
+    }
+    static void add(std::vector<std::string>& words, std::string word) {
+        if (std::ranges::find(words, word) == words.end()) words.push_back(std::move(word));
+    }
+};
+
+// The sections of a report, in order.
+
+void tellParticipants(ReportBuilder& report); ///< participants, numbers of trials, exclusions, ethics and
+                                              ///< consent
+void tellProcedure(ReportBuilder& report); ///< protocol in sentences, calls of the stimuli, levels, exposure
+void tellApparatus(ReportBuilder& report); ///< device, levels, noise and limiter as recorded in the rows
+void tellTimes(ReportBuilder& report);  ///< dates, breaks, resumes and outputs, if files of times are there
+void tellOrders(ReportBuilder& report); ///< condition orders as run
+void tellDoses(ReportBuilder& report);  ///< levels and exposure, by condition and by stimulus
+void tellProvenance(ReportBuilder& report); ///< versions, seeds, files
+
+// Results; each section is for trials of one kind of task.
+void tellIdentification(ReportBuilder& report); ///< thesis Fig. 3.11, 3.12, 4.2 to 4.4
+void tellPlaces(ReportBuilder& report);         ///< Fig. 4.6 to 4.9, Table 4.1
+void tellPlaceErrors(ReportBuilder& report);    ///< targets without a grid: constant and variable error
+void tellChoices(ReportBuilder& report);        ///< Fig. 5.8, 5.9
+void tellRatings(ReportBuilder& report);        ///< Fig. 5.13, 5.14
+void tellLevels(ReportBuilder& report); ///< staircases, adjustments, magnitudes; psychometric functions
+/// Counts answers in words by stimulus; true if there are any.
+bool tellDescriptions(ReportBuilder& report);
+
+/// "P01 began at ...": from the columns time_utc, event, language, outputs and noise_outputs. Precondition:
+/// there are moments. Any thread (allocates).
+std::string timesSentence(const std::string& participant, const std::vector<StudyMoment>& moments);
 
 } // namespace physvib

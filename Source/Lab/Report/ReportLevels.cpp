@@ -2,13 +2,10 @@
 // Report section on levels: thresholds with psychometric functions, adjusted levels, and magnitude estimates.
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Analysis/FitCharts.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Report/ConditionAxes.h"
-#include "Lab/Report/ReportCells.h"
-#include "Lab/Report/ReportSections.h"
-#include "Lab/Study/LevelTrials.h"
+#include "Lab/Report/ReportBuilder.h"
+#include "Lab/Study/Summaries.h"
 #include <algorithm>
 
 namespace physvib {
@@ -78,13 +75,11 @@ void tellMagnitudes(ReportBuilder& report) {
                     ", and "
                     "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
                     "their own geometric mean first.");
-    AnalysisJob test = report.optionsFor(trialsTable);
-    test.measure = "value";
-    test.within = {"stimulus"};
-    report.test("friedman", test, "friedman-magnitudes.csv");
-    test.pairTest = PairTest::ranks;
-    test.correction = Correction::holm;
-    report.test("pairs", test, "pairs-magnitudes.csv", true);
+    StudyTest test{StudyTest::Kind::friedman, trialsTable, "value", {"stimulus"}};
+    report.test(test);
+    test.kind = StudyTest::Kind::pairs;
+    test.isOfRanks = true;
+    report.test(test);
 }
 
 /// "wood small" of "pair=wood size=small".
@@ -109,15 +104,14 @@ std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>&
 /// Compares the conditions' thresholds within participants, methods apart, as each has a threshold of its
 /// own.
 void tellDifferences(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
-    if (report.people() < 2) return;
     for (const auto& [kind, method] :
          {std::pair{LevelTrial::Kind::staircase, "staircase"}, {LevelTrial::Kind::quest, "quest"}}) {
         if (std::ranges::count(summaries, kind, &LevelSummary::kind) < 2) continue;
-        AnalysisJob test = report.optionsFor("thresholds.csv");
-        test.measure = "threshold";
-        test.within = {"condition"};
-        test.where = {std::string("method=").append(method)};
-        report.test("pairs", test, std::string("pairs-thresholds-").append(method).append(".csv"));
+        report.test({StudyTest::Kind::pairs,
+                     "thresholds.csv",
+                     "threshold",
+                     {"condition"},
+                     {std::string("method=").append(method)}});
     }
 }
 

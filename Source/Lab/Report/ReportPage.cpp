@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes the elements of a report's HTML page and its style sheet.
 #include "Lab/Report/ReportPage.h"
-#include "Io/Charts/Svg.h"
+#include "Io/Charts/ChartParts.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"

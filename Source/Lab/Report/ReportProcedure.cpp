@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Report sections on participants and procedure, for the methods section of a paper, from the study's files.
 #include "Io/Text/NameList.h"
-#include "Lab/Analysis/AnalysisFiles.h"
-#include "Lab/Files/LeftRows.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Analysis/Analysis.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Files/TrialColumns.h"
+#include "Lab/Files/TrialLog.h"
 #include "Lab/Report/ProtocolWords.h"
-#include "Lab/Report/ReportCells.h"
-#include "Lab/Report/ReportSections.h"
-#include "Lab/Report/UnfinishedRuns.h"
-#include "Lab/Statistics/Bootstrap.h"
-#include "Lab/Statistics/Moments.h"
+#include "Lab/Report/ReportBuilder.h"
+#include "Lab/Report/ReportTrials.h"
 #include "Lab/Study/StudyTasks.h"
+#include "Lab/Study/Summaries.h"
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 namespace physvib {
@@ -298,24 +297,89 @@ void tellProvenance(ReportBuilder& report) {
                                                                     {"seed", "seed of all orders: "}})
         if (const std::string value = report.trials.common(key); !value.empty())
             facts.push_back(words + value);
-    const auto has = [&](const char* table) { return report.tables().contains(table); };
-    if (report.people() > 1 &&
-        (has("psychometric.csv") || has("psychometric-stimuli.csv") || has("power-law.csv")))
-        facts.push_back("intervals of thresholds and exponents over " + std::to_string(fewestDrawn) +
-                        " participants or more: " + std::to_string(bootstrapDraws) +
-                        " draws of participants, seed 1; all other intervals over participants: Student's t");
-    else if (report.people() > 1)
-        facts.emplace_back("intervals over participants: Student's t");
+    if (report.people() > 1) facts.emplace_back("intervals over participants: Student's t");
     report.page.list(facts);
     report.page.paragraph(
         std::string{
             "Every table below is CSV with names of columns in its second line, after one of its origin"} +
-        (report.tests().empty() ? "."
-                                : "; report.R (R with afex) repeats every test from them "
-                                  "and compares each p."));
+        (report.tests().empty() ? "." : "; analysis.R runs every test on them."));
     std::vector<std::string> files;
     for (const auto& [name, text] : report.tables()) files.push_back(name);
     report.page.list(files);
+}
+
+// Report section on when participants answered, from the files of times beside the trial files.
+
+namespace {
+
+std::string minutesOf(double seconds) { return fixedNumber(seconds / 60.0, 1) + " min"; }
+
+/// Every value that a column has, in words.
+std::string listedOf(const std::vector<StudyMoment>& moments, std::string StudyMoment::*field,
+                     const char* none) {
+    std::set<std::string> values;
+    for (const StudyMoment& m : moments)
+        if (m.isBegin()) values.insert((m.*field).empty() ? none : m.*field);
+    return joined(values, ", then ");
+}
+
+} // namespace
+
+std::string timesSentence(const std::string& participant, const std::vector<StudyMoment>& moments) {
+    namespace events = studyEvents;
+    std::size_t sittings = 0, cutOff = 0, breaks = 0, pauses = 0;
+    double awaySeconds = 0.0, restSeconds = 0.0;
+    StudyRests rests;
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+        const StudyMoment& m = moments[i];
+        const double since = i > 0 ? secondsOf(m.timeUtc) - secondsOf(moments[i - 1].timeUtc) : 0.0;
+        sittings += m.isBegin() ? 1 : 0;
+        breaks += m.event == events::rest && !rests.isResting ? 1 : 0;
+        pauses += m.event == events::pause ? 1 : 0;
+        if (m.isBegin()) awaySeconds += since;
+        if (m.isBegin() && i > 0 && moments[i - 1].event != events::leave &&
+            moments[i - 1].event != events::end)
+            ++cutOff;
+        if (rests.isResting && !m.isBegin()) restSeconds += since;
+        rests.take(m);
+    }
+    const bool isOver = moments.back().event == events::end;
+    std::string words = participant + " began at " + moments.front().timeUtc +
+                        (isOver ? " and ended at " : " and has not ended; the last entry is of ") +
+                        moments.back().timeUtc + ": " + counted(sittings, "sitting");
+    if (sittings > 1) words += " with " + minutesOf(awaySeconds) + " between their entries";
+    if (cutOff > 0) words += ", " + std::to_string(cutOff) + " of them cut off";
+    words += ", " + counted(breaks, "break") + " of " + minutesOf(restSeconds) + " in all";
+    if (pauses > 0) words += ", " + counted(pauses, "pause") + " by closing the window";
+    return words + "; language " + listedOf(moments, &StudyMoment::language, "en") + "; outputs " +
+           listedOf(moments, &StudyMoment::outputs, "not known") + "; noise on outputs " +
+           listedOf(moments, &StudyMoment::noiseOutputs, "none") + ".";
+}
+
+void tellTimes(ReportBuilder& report) {
+    ExportTable table{"times", report.isSimulated(),
+                      "participant,time_utc,event,trials,language,outputs,noise_outputs"};
+    std::vector<std::string> sentences;
+    std::size_t unknown = 0;
+    for (const TrialFile& file : report.trials.files) {
+        const auto code = file.head.find("participant"), observer = file.head.find("observer");
+        if (code == file.head.end() || observer == file.head.end() || observer->second != "person") continue;
+        if (file.times.empty()) {
+            ++unknown;
+            continue;
+        }
+        for (const StudyMoment& m : file.times)
+            table.row(code->second, m.timeUtc, m.event, static_cast<std::size_t>(m.trials), m.language,
+                      m.outputs, m.noiseOutputs);
+        sentences.push_back(timesSentence(code->second, file.times));
+    }
+    if (unknown > 0)
+        report.page.note(counted(unknown, "participant") +
+                         " without a file of times: nothing is known of dates, breaks and outputs");
+    if (sentences.empty()) return;
+    report.page.subheading("When");
+    report.addTable("times.csv", table.text());
+    report.page.list(sentences);
 }
 
 } // namespace physvib

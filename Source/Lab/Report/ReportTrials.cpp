@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Combines trial files into one table and checks their first lines.
+// Combines trial files into one table and checks their first lines; reads the facts of people.
 #include "Lab/Report/ReportTrials.h"
+#include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Files/LeftRows.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Files/SharedParticipants.h"
-#include "Lab/Files/TrialColumns.h"
-#include "Lab/Report/ReportCells.h"
+#include "Lab/Files/StudyTables.h"
+#include "Lab/Files/TrialLog.h"
+#include "Lab/Report/ReportBuilder.h"
+#include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
+#include <set>
+#include <tuple>
 
 namespace physvib {
 namespace {
@@ -184,6 +189,124 @@ std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) 
     for (const CsvRow& row : trials.all.rows)
         if (!task || answerOf(row.cells[*task]) != AnswerKind::wish) addRow(row.cells);
     return text;
+}
+
+// Reads the table of participants. Unknown columns are errors, so that no fact is silently ignored.
+
+namespace {
+
+constexpr std::array<std::string_view, 5> peopleColumns{"participant", "age", "sex", "handedness",
+                                                        "excluded"};
+constexpr double oldestYears = 130.0;
+
+} // namespace
+
+const PersonFacts* StudyFacts::person(std::string_view participant) const noexcept {
+    const auto found = std::ranges::find(people, participant, &PersonFacts::participant);
+    return found == people.end() ? nullptr : &*found;
+}
+
+bool StudyFacts::isExcluded(std::string_view participant) const noexcept {
+    const PersonFacts* const facts = person(participant);
+    return facts != nullptr && !facts->excluded.empty();
+}
+
+Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_view name) {
+    auto read = readCsvTable(text, name, CsvHeader::named);
+    if (!read) return Failure{read.error};
+    const CsvTable& table = read.value;
+    for (const std::string& column : table.columns)
+        if (std::ranges::find(peopleColumns, column) == peopleColumns.end())
+            return Failure{table.name +
+                           ": expected the columns participant, age, sex, handedness, excluded, found " +
+                           inQuotes(column)};
+    if (!table.column("participant"))
+        return Failure{table.name + ": expected a column participant, found none"};
+    std::vector<PersonFacts> people;
+    std::set<std::string> codes;
+    for (const CsvRow& row : table.rows) {
+        const auto cell = [&](std::string_view column) {
+            const auto at = table.column(column);
+            return at ? row.cells[*at] : std::string{};
+        };
+        PersonFacts facts{cell("participant"), {}, cell("sex"), cell("handedness"), cell("excluded")};
+        if (facts.participant.empty() || !codes.insert(facts.participant).second)
+            return Failure{
+                table.fault(row, *table.column("participant"), "a code of its own for each participant")};
+        if (const std::string age = cell("age"); !age.empty()) {
+            facts.ageYears = parseNumber<double>(age);
+            if (!facts.ageYears || *facts.ageYears < 0.0 || *facts.ageYears > oldestYears)
+                return Failure{table.fault(row, *table.column("age"), "years from 0 to 130")};
+        }
+        people.push_back(std::move(facts));
+    }
+    return people;
+}
+
+// Counts the rows of every planned session, and plays adaptive ones again.
+
+namespace {
+
+/// The answer of a row of a run, and which of several staircases it is of, from 0.
+struct RunAnswer {
+    bool isCorrect = false;
+    std::size_t staircase = 0;
+};
+using Answers = std::vector<RunAnswer>;
+using RunKey = std::tuple<std::string, std::string, std::string>; // participant, condition, session
+
+bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t planned) {
+    if (plan.untilCorrect > 0) { // the last so many are right
+        const auto wrong = std::ranges::find(answers.rbegin(), answers.rend(), false, &RunAnswer::isCorrect);
+        if (wrong - answers.rbegin() >= plan.untilCorrect) return false;
+    }
+    if (!plan.adaptedAlternative()) return answers.size() < planned;
+    AdaptiveLevel level{plan};
+    for (const RunAnswer& answer : answers) {
+        level.choose(answer.staircase);
+        level.answer(answer.isCorrect);
+    }
+    return !level.isDone();
+}
+
+} // namespace
+
+std::string UnfinishedRun::words() const {
+    return "participant " + participant + " did not finish " + session + " in " + condition + ": " +
+           std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +
+           (isAdaptive ? ", so the threshold is not one of the method" : "");
+}
+
+std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
+    const Cells cell{trials.all};
+    if (!trials.protocol || !cell.has("participant") || !cell.has("session") || !cell.has("correct"))
+        return {};
+    std::map<RunKey, Answers> runs;
+    std::vector<std::string> people;
+    for (const CsvRow& row : trials.all.rows) {
+        const std::string& who = cell(row, "participant");
+        if (std::ranges::find(people, who) == people.end()) people.push_back(who);
+        const auto staircase = parseNumber<std::size_t>(cell(row, trialColumns::staircase));
+        runs[{who, cell(row, "condition"), cell(row, "session")}].push_back(
+            {cell(row, "correct") == "1", staircase.value_or(1) - 1});
+    }
+    std::map<RunKey, std::size_t> notLeft; // answered, though no evidence
+    for (const CsvRow& row : trials.notLeft)
+        ++notLeft[{cell(row, "participant"), cell(row, "condition"), cell(row, "session")}];
+    std::vector<UnfinishedRun> unfinished;
+    for (const std::string& who : people)
+        for (const ConditionPlan& planned : trials.protocol->conditions)
+            for (const SessionPlan& plan : trials.protocol->sessions) {
+                if (plan.answer() == AnswerKind::wish) continue;
+                const Answers& answers = runs[{who, planned.name, plan.name}];
+                const std::size_t most =
+                    static_cast<std::size_t>(mostTrialsOf(plan, stimuliOf(planned).size()));
+                if (isUnfinished(plan, answers,
+                                 most - std::min(most, notLeft[{who, planned.name, plan.name}])))
+                    unfinished.push_back({who, planned.name, plan.name, answers.size(), most,
+                                          plan.adaptedAlternative() != nullptr});
+            }
+    return unfinished;
 }
 
 } // namespace physvib

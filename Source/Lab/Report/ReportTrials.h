@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The trial files of a report, combined into one study.
+// The trial files of a report, combined into one study, with what the files do not contain: facts of its
+// people, and who did not finish.
 #pragma once
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"
-#include "Lab/Files/ColumnNames.h"
+#include "Lab/Files/StudyTables.h"
 #include "Lab/Files/StudyTimes.h"
-#include "Lab/Files/TrialHead.h"
-#include "Lab/Report/StudyFacts.h"
-#include "Lab/Statistics/Psychometric.h"
+#include "Lab/Files/TrialLog.h"
 #include "Lab/Study/Protocol.h"
+#include "Lab/Study/Psychometric.h"
 #include <functional>
 #include <optional>
 #include <string>
@@ -17,6 +17,35 @@
 #include <vector>
 
 namespace physvib {
+
+// Facts of a study that trial files do not contain: participants, exclusions with reasons, ethics, consent,
+// and the noise level at the ear.
+
+/// One participant; unknown fields are empty.
+struct PersonFacts {
+    std::string participant; ///< code, as in the trial files
+    std::optional<double> ageYears;
+    std::string sex, handedness;
+    std::string excluded; ///< why all trials are excluded; empty: they count
+    bool operator==(const PersonFacts&) const = default;
+};
+
+/// Facts given by the user.
+struct StudyFacts {
+    std::vector<PersonFacts> people;
+    std::string ethics, consent; ///< sentences for the report; if empty, the report has a reminder
+    std::string noise;           ///< sentence on the noise level at the ear, likewise
+    std::string plan{};          ///< text of the plan (StudyReport.h); empty: none was given
+    bool operator==(const StudyFacts&) const = default;
+
+    /// Null if the table has no such participant. Any thread.
+    const PersonFacts* person(std::string_view participant) const noexcept;
+    bool isExcluded(std::string_view participant) const noexcept;
+};
+
+/// A table with the column participant and any of age, sex, handedness, excluded; or one line `people.csv:3:
+/// column age: expected ...`. Any thread.
+Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_view name);
 
 struct TrialFile {
     std::string name; ///< without folder
@@ -30,8 +59,8 @@ struct ReportTrials {
     CsvTable all;                ///< rows of all files, file by file, without `notLeft`
     std::vector<CsvRow> notLeft; ///< rows of trials that did not leave as planned, with the columns of `all`
     bool isSimulated = false;
-    std::size_t rowsLeftOut = 0; ///< rows dropped for an empty cell in a mapped column
-    std::string sharedNote{};    ///< participants in several files (see SharedParticipants.h); empty: none
+    std::size_t rowsLeftOut = 0;              ///< rows dropped for an empty cell in a mapped column
+    std::string sharedNote{};                 ///< participants in several files (StudyTables.h); empty: none
     std::vector<ColumnName> columns{};        ///< column mapping for tables of another program
     double guess = PsychometricModel{}.guess; ///< guess rate of psychometric functions if no protocol
                                               ///< specifies it
@@ -61,5 +90,22 @@ std::string takeFacts(ReportTrials& trials, StudyFacts facts);
 
 /// All rows as one table with that first line, without unanswered training touches. Any thread.
 std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine);
+
+// Sessions of the protocol that a participant's rows do not bring to their end.
+
+/// A session in a condition that ended before the protocol ends it.
+struct UnfinishedRun {
+    std::string participant, condition, session;
+    std::size_t trials = 0;  ///< rows of it
+    std::size_t planned = 0; ///< of the protocol; of a staircase or a precision: the most
+    bool isAdaptive = false; ///< its threshold rests on too few trials
+
+    std::string words() const;
+};
+
+/// From the columns participant, condition, session and correct, and the protocol; excluded participants are
+/// not among them. Nothing is known without a protocol. Explorations end when participants like. Any thread
+/// (allocates).
+std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials);
 
 } // namespace physvib

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Report sections on forced choices and ratings.
 #include "Io/Text/CsvText.h"
-#include "Lab/Analysis/FitCharts.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Report/ConditionAxes.h"
-#include "Lab/Report/ReportSections.h"
-#include "Lab/Study/Votes.h"
+#include "Lab/Files/TrialLog.h"
+#include "Lab/Report/ReportBuilder.h"
+#include "Lab/Study/StudyTasks.h"
+#include "Lab/Study/Summaries.h"
+#include <array>
 #include <set>
 
 namespace physvib {
 namespace {
+
+constexpr std::size_t mostTestedFactors = 3;
 
 /// Factors in condition names like "pair=wood size=small", with their values in table order; empty if a
 /// condition has another kind of name.
@@ -44,19 +49,17 @@ std::string shareIntervals(const ReportBuilder& report) {
     return report.people() > 1 ? report.intervals() : ", of one participant: 95 % intervals over trials";
 }
 
-void tellChoiceTests(ReportBuilder& report,
+void listChoiceTests(ReportBuilder& report,
                      const std::vector<std::pair<std::string, std::vector<std::string>>>& factors,
                      const std::string& alternative) {
-    AnalysisJob test = report.optionsFor(trialsTable);
-    test.measure = "choice=" + alternative;
+    StudyTest test{StudyTest::Kind::friedman, trialsTable, "choice=" + alternative};
     for (const auto& [name, values] : factors)
-        if (values.size() > 1 && test.within.size() < mostWithinFactors) test.within.push_back(name);
+        if (values.size() > 1 && test.within.size() < mostTestedFactors) test.within.push_back(name);
     if (test.within.empty()) return;
-    report.page.subheading("Do shares differ by factor?");
-    report.test("friedman", test, "friedman-choices.csv");
-    test.pairTest = PairTest::ranks;
-    test.correction = Correction::bonferroni;
-    report.test("pairs", test, "pairs-choices.csv");
+    report.test(test);
+    test.kind = StudyTest::Kind::pairs;
+    test.isOfRanks = test.isBonferroni = true;
+    report.test(test);
 }
 
 /// Mean share of the first alternative for each combination of two factors, over the levels of the others.
@@ -101,11 +104,9 @@ struct RatedFactor {
 constexpr RatedFactor ratedFactors[] = {
     {"A", "amplitude", "AV", "AF"}, {"F", "frequency", "FV", "FF"}, {"DR", "decay rate", "DRV", "DRF"}};
 
-/// One panel per scale with the three factors of the thesis' methods, marked with significances of the
-/// scale's analysis of variance.
+/// One panel per scale with the three factors of the thesis' methods.
 std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<std::string>& scales,
-                                      const std::vector<RatingSummary>& summaries,
-                                      const std::vector<std::vector<TestLine>>& tests) {
+                                      const std::vector<RatingSummary>& summaries) {
     std::vector<std::string> charts;
     for (std::size_t s = 0; s < scales.size(); ++s) {
         BarChart chart{
@@ -116,10 +117,7 @@ std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<s
                                                                                          summaries,
                                                                                          factor.fixed);
             if (!varied || !fixed) continue;
-            std::string mark;
-            for (const TestLine& line : tests[s])
-                if (line.effect == factor.name && line.p) mark.append(" ").append(significanceMark(*line.p));
-            chart.groups.push_back(factor.words + mark);
+            chart.groups.emplace_back(factor.words);
             chart.series[0].bars.push_back(scoreOf(*varied, s));
             chart.series[1].bars.push_back(scoreOf(*fixed, s));
         }
@@ -181,18 +179,14 @@ void tellChoices(ReportBuilder& report) {
         }
     std::string names;
     for (const auto& [name, values] : factors) names.append(names.empty() ? "all; by " : ", ").append(name);
-    report.page.figure(
-        {sharesChart(report.frame("Shares of the alternatives"), names.empty() ? "condition" : names, groups,
-                     chosen)},
-        "Mean of the participants' shares (as thesis Fig. 5.8, which has medians)" + shareIntervals(report) +
-            "." +
-            (summaries.front().p
-                 ? " Marks: signed ranks of the shares against one half, corrected by Holm for the bars of "
-                   "this figure: * p < 0.05, ** p < 0.01, *** p < 0.001."
-                 : ""));
+    report.page.figure({sharesChart(report.frame("Shares of the alternatives"),
+                                    names.empty() ? "condition" : names, groups, chosen)},
+                       "Mean of the participants' shares (as thesis Fig. 5.8, which has medians)" +
+                           shareIntervals(report) + ".");
     if (summaries.front().shares.size() != 2) return;
     const std::string alternative = summaries.front().shares.front().alternative;
-    tellChoiceTests(report, factors, alternative);
+    report.test({StudyTest::Kind::choices, trialsTable});
+    listChoiceTests(report, factors, alternative);
     std::vector<std::pair<std::string, std::vector<std::string>>> several;
     for (const auto& factor : factors)
         if (factor.second.size() > 1) several.push_back(factor);
@@ -216,38 +210,56 @@ void tellRatings(ReportBuilder& report) {
     std::set<std::string> conditions;
     for (const RatingTrial& trial : trials) conditions.insert(trial.condition);
     const bool hasMethods = summaries.size() > conditions.size();
-    std::vector<std::vector<TestLine>> tests(scales.size());
     for (std::size_t s = 0; s < scales.size() && conditions.size() > 1; ++s) {
-        AnalysisJob test = report.optionsFor(trialsTable);
-        test.measure = scales[s];
+        StudyTest test{StudyTest::Kind::anova, trialsTable, scales[s]};
         if (!hasMethods)
             test.within = {report.trials.all.column("stimulus") ? "stimulus" : "condition"};
         else
             for (const RatedFactor& factor : ratedFactors)
                 if (conditionNamed(summaries, factor.varied) && conditionNamed(summaries, factor.fixed))
                     test.within.emplace_back(factor.name);
-        report.page.subheading(scales[s]);
-        tests[s] = report.test("anova", test, "anova-" + fileWord(scales[s]) + ".csv");
-        if (hasMethods) continue;
-        test.correction = Correction::holm;
-        report.test("pairs", test, "pairs-" + fileWord(scales[s]) + ".csv", true);
+        report.test(test);
+        if (hasMethods) continue; // two levels each: no pairs
+        test.kind = StudyTest::Kind::pairs;
+        report.test(test);
     }
     if (hasMethods)
-        report.page.figure(
-            factorCharts(report, scales, summaries, tests),
-            "Mean scores by factor (as thesis Fig. 5.13)" + report.intervals() + "." +
-                (tests.front().empty()
-                     ? ""
-                     : " Marks: main "
-                       "effect in the analysis of variance of that scale (two levels each, so no pairs are "
-                       "to be "
-                       "compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05."));
+        report.page.figure(factorCharts(report, scales, summaries),
+                           "Mean scores by factor (as thesis Fig. 5.13)" + report.intervals() + ".");
     std::vector<const RatingSummary*> shown;
     for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) // reverse order, so that AV-FV-DRV comes
                                                                      // first
         if (conditions.contains(at->condition)) shown.push_back(&*at);
     report.page.figure({scoresChart(report.frame("Mean scores"), scales, shown)},
                        "Mean scores by condition (as thesis Fig. 5.14)" + report.intervals() + ".");
+}
+
+// Report section on answers in words, from the columns task, phase, condition, session, stimulus and
+// response.
+
+bool tellDescriptions(ReportBuilder& report) {
+    const Cells cell{report.trials.all};
+    std::map<std::array<std::string, 4>, std::size_t> counts; // condition, session, stimulus, words
+    std::size_t all = 0, empty = 0;
+    for (const CsvRow& row : report.trials.all.rows) {
+        if (answerOf(cell(row, trialColumns::task)) != AnswerKind::words ||
+            cell(row, trialColumns::phase) == trialColumns::training)
+            continue;
+        ++all;
+        empty += cell(row, "response").empty();
+        ++counts[{cell(row, "condition"), cell(row, "session"), cell(row, "stimulus"),
+                  cell(row, "response")}];
+    }
+    if (all == 0) return false;
+    ExportTable table{"descriptions", report.isSimulated(), "condition,session,stimulus,response,trials"};
+    for (const auto& [key, trials] : counts) table.row(key[0], key[1], key[2], key[3], trials);
+    report.addTable("descriptions.csv", table.text());
+    report.page.heading("Answers in words");
+    report.page.paragraph(counted(all, "answer") + " in participants' own words" +
+                          (empty > 0 ? ", " + std::to_string(empty) + " of them empty" : std::string{}) +
+                          ": counted by stimulus, not analysed.");
+    report.page.table(report.tableText("descriptions.csv"), "descriptions.csv");
+    return true;
 }
 
 } // namespace physvib

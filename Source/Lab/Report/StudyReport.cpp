@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Composes a report from the sections that fit its trials.
+// Composes a report from the sections that fit its trials; a plan is the report of simulated people.
 #include "Lab/Report/StudyReport.h"
-#include "Lab/Files/LeftRows.h"
-#include "Lab/Report/ReportScript.h"
-#include "Lab/Report/ReportSections.h"
-#include "Lab/Report/StudyPlanned.h"
+#include "Io/Disk/ContentHash.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Provenance.h"
+#include "Io/Text/CsvText.h"
+#include "Lab/Files/BidsDataset.h"
+#include "Lab/Files/ProtocolFile.h"
+#include "Lab/Files/TrialLog.h"
+#include "Lab/Report/AnalysisScript.h"
+#include "Lab/Report/ProtocolWords.h"
+#include "Lab/Report/ReportBuilder.h"
+#include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
+#include <set>
 
 namespace physvib {
 namespace {
@@ -43,6 +52,26 @@ std::string titleOf(const ReportTrials& trials) {
     return "Report: " + (name.empty() ? trials.files.front().name : name);
 }
 
+/// The same in a plan and in the report of the study.
+std::string studyWords(const ReportTrials& trials) {
+    std::string words = "physvib " PHYSVIB_VERSION;
+    for (const char* key : {"protocol", "hash"})
+        if (const std::string value = trials.common(key); !value.empty())
+            words.append(", ").append(key).append(" ").append(value);
+    return words;
+}
+
+void tellTests(ReportBuilder& report) {
+    if (report.tests().empty()) return;
+    report.page.heading("Tests");
+    report.page.paragraph(
+        "Tests: run `Rscript analysis.R` in this folder. It needs R alone (Debian: r-base-core), prints "
+        "each test with its assumptions and writes tests.csv. It runs:");
+    std::vector<std::string> words;
+    for (const StudyTest& test : report.tests()) words.push_back(test.words());
+    report.page.list(words);
+}
+
 } // namespace
 
 StudyReport studyReport(const ReportTrials& trials) {
@@ -63,8 +92,8 @@ StudyReport studyReport(const ReportTrials& trials) {
         report.page.note(made.notes.back());
         report.page.table(report.tableText(trialsTable), trialsTable);
     }
-    tellPower(report);
-    for (const ReportTest& test : report.tests()) made.tests.push_back(test.call());
+    for (const StudyTest& test : report.tests()) made.tests.push_back(test.words());
+    tellTests(report);
     if (!trials.facts.plan.empty()) {
         report.page.heading("Planned and done");
         const auto compared = comparedWithPlan(trials.facts.plan, "plan", trials, made.tests);
@@ -72,9 +101,181 @@ StudyReport studyReport(const ReportTrials& trials) {
     }
     tellProvenance(report);
     made.files = report.tables();
-    made.files["report.R"] = reportScript(report);
+    if (!report.tests().empty())
+        made.files[analysisScriptName] = analysisScript(report.tests(), studyWords(trials));
     made.files["index.html"] = report.page.html();
     return made;
+}
+
+// Reads the input files of a report job and creates the report.
+
+namespace {
+
+void addBids(StudyReport& report, const ReportTrials& trials) {
+    BidsWords words{trials.protocol ? trials.protocol->title : trials.files.front().name,
+                    trials.common("protocol"),
+                    PHYSVIB_VERSION,
+                    {},
+                    trials.isSimulated};
+    if (words.task.empty()) words.task = trials.files.front().name;
+    for (const char* key : {"hash", "seed", "version"})
+        if (const std::string value = trials.common(key); !value.empty()) words.source[key] = value;
+    for (auto& [name, text] : bidsDataset(trials.all, words)) report.files["bids/" + name] = std::move(text);
+}
+
+Result<std::vector<std::pair<std::string, std::string>>> readTexts(const std::vector<std::string>& paths) {
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (const std::string& path : paths) {
+        auto text = readFile(path, limits::maxTableBytes);
+        if (!text) return Failure{text.error};
+        texts.emplace_back(path, std::move(text.value));
+    }
+    return texts;
+}
+
+} // namespace
+
+Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protocol>& protocol,
+                               const CallCheck& callFault) {
+    const auto texts = readTexts(job.files);
+    if (!texts) return Failure{texts.error};
+    auto trials = readReportTrials(texts.value, job.columns, protocol, callFault);
+    if (!trials) return Failure{trials.error};
+    for (std::size_t i = 0; i < job.files.size(); ++i) {
+        auto times = loadStudyTimes(timesPathOf(job.files[i]));
+        if (!times) return Failure{times.error};
+        trials.value.files[i].times = std::move(times.value);
+    }
+    trials.value.columns = job.columns;
+    trials.value.guess = job.guess;
+    if (trials.value.all.column("target_x") && !trials.value.all.column("target_column")) // need one unit
+        if (std::string fault = unitFault(job.columns); !fault.empty()) return Failure{std::move(fault)};
+    StudyFacts facts{{}, job.ethics, job.consent, job.noise};
+    if (!job.planPath.empty()) {
+        auto plan = readFile(job.planPath, limits::maxTableBytes);
+        if (!plan) return Failure{plan.error};
+        if (const auto read = comparedWithPlan(plan.value, job.planPath, trials.value, {}); !read)
+            return Failure{read.error};
+        facts.plan = std::move(plan.value);
+    }
+    if (!job.peoplePath.empty()) {
+        const auto text = readFile(job.peoplePath, limits::maxTableBytes);
+        auto people = text ? readPeople(text.value, job.peoplePath)
+                           : Result<std::vector<PersonFacts>>{Failure{text.error}};
+        if (!people) return Failure{people.error};
+        facts.people = std::move(people.value);
+    }
+    if (std::string fault = takeFacts(trials.value, std::move(facts)); !fault.empty())
+        return Failure{std::move(fault)};
+    StudyReport report = studyReport(trials.value);
+    report.isSimulated = trials.value.isSimulated;
+    if (!job.wantsBids) return report;
+    if (!trials.value.all.column("participant"))
+        return Failure{job.files.front() + ": --bids: expected a column participant, found none"};
+    addBids(report, trials.value);
+    return report;
+}
+
+// Plans by simulation: the tests of a plan are written by what will run them.
+
+namespace {
+
+constexpr int mostSimulated = 6; // as many as tests need; more change no test's call
+constexpr std::string_view testMark = "- test: ", oldTestMark = "- physvib analyse ";
+
+std::string codeOf(int number) { return std::string("P").append(std::to_string(number)); }
+
+std::string simulatedFile(const Protocol& protocol, int number) {
+    const Participant participant{codeOf(number), number, "simulated"};
+    Experiment experiment{protocol, participant};
+    const SimulatedObserver observer{ObserverSettings{}, protocol, participant};
+    std::string text = trialHeader(protocol, participant, PHYSVIB_VERSION);
+    while (!experiment.isDone())
+        text += trialRow(protocol, participant, experiment.take(observer.answer(experiment)));
+    return text;
+}
+
+Result<StudyReport> rehearsed(const Protocol& protocol, int participants) {
+    std::vector<std::pair<std::string, std::string>> files;
+    for (int number = 1; number <= std::min(participants, mostSimulated); ++number)
+        files.emplace_back(codeOf(number), simulatedFile(protocol, number));
+    const auto trials = readReportTrials(files, {}, protocol);
+    if (!trials) return Failure{trials.error};
+    return studyReport(trials.value);
+}
+
+std::string listOf(const char* title, const std::vector<std::string>& lines) {
+    std::string text = "\n";
+    text.append(title).append("\n");
+    for (const std::string& line : lines) text.append("- ").append(line).append("\n");
+    return text;
+}
+
+} // namespace
+
+Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants) {
+    auto report = rehearsed(protocol, participants);
+    if (!report) return Failure{report.error};
+    std::vector<std::string> conditions, sessions, tests;
+    for (const std::string& test : report.value.tests) tests.push_back("test: " + test);
+    for (const ConditionPlan& condition : protocol.conditions)
+        conditions.push_back(conditionWords(condition));
+    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session, protocol));
+    std::string text = provenanceComment({PHYSVIB_VERSION,
+                                          {{"plan", "study"},
+                                           {"protocol", protocol.name},
+                                           {"hash", protocolHash(protocol)},
+                                           {"participants", std::to_string(participants)}}});
+    text += listOf("Design", protocolSentences(protocol));
+    text += listOf("Conditions", conditions) + listOf("Sessions, with their ends", sessions);
+    text += listOf("Participants", {counted(static_cast<std::size_t>(participants), "participant") +
+                                    ", numbers from 1, each once; nobody more or fewer, whatever is found"});
+    text += listOf(
+        "Exclusions",
+        {"those who are excluded have a reason in the table of people, and all their trials are left out",
+         "tests leave out who lacks a combination of levels; who did not finish is named"});
+    text += listOf("Tests over participants, with their corrections, as analysis.R runs them in R", tests);
+    if (tests.empty()) text += "none\n";
+    return PlannedStudy{std::move(text), std::move(report.value.files[analysisScriptName])};
+}
+
+Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::string_view name,
+                                                  const ReportTrials& trials,
+                                                  const std::vector<std::string>& tests) {
+    std::string_view rest = plan, first = takeUntil('\n', rest);
+    const TrialHead head = trialHeadOf({std::string{first.substr(std::min<std::size_t>(1, first.size()))}});
+    if (!head.contains("plan") || !head.contains("hash") || !head.contains("participants"))
+        return Failure{std::string{name} + ":1: expected a plan of `physvib study plan`"};
+    std::set<std::string> planned;
+    bool isOld = false; // its tests are calls of an analysis that is gone
+    while (!rest.empty()) {
+        const std::string_view line = takeUntil('\n', rest);
+        if (line.starts_with(testMark)) planned.emplace(line.substr(testMark.size()));
+        isOld |= line.starts_with(oldTestMark);
+    }
+    std::vector<std::string> sentences{"The plan has the hash " + contentHash(std::string{plan}) + "."};
+    if (head.at("hash") != trials.common("hash"))
+        sentences.push_back("The protocol is not the planned one: hash " + trials.common("hash") +
+                            " instead of " + head.at("hash") + ".");
+    std::set<std::string> people;
+    for (const TrialFile& file : trials.files)
+        if (const auto column = file.table.column("participant"))
+            for (const CsvRow& row : file.table.rows) people.insert(row.cells[*column]);
+    if (std::to_string(people.size()) != head.at("participants"))
+        sentences.push_back("Planned were " + head.at("participants") + " participants, " +
+                            std::to_string(people.size()) + " took part.");
+    if (isOld) {
+        sentences.emplace_back(
+            "The plan lists its tests as calls of an earlier version: compare them with those here.");
+        return sentences;
+    }
+    for (const std::string& test : tests)
+        if (!planned.contains(test)) sentences.push_back("Not planned: " + test);
+    for (const std::string& test : planned)
+        if (std::ranges::find(tests, test) == tests.end()) sentences.push_back("Planned, not done: " + test);
+    if (sentences.size() == 1)
+        sentences.emplace_back("Protocol, number of participants and tests are as planned.");
+    return sentences;
 }
 
 } // namespace physvib

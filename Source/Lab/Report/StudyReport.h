@@ -1,22 +1,64 @@
 // SPDX-License-Identifier: MIT
-// The report of a study, as files in memory.
+// The report of a study and the plan written before it, as files in memory.
 #pragma once
+#include "Io/Result.h"
+#include "Lab/Files/StudyTables.h"
+#include "Lab/Report/ReportBuilder.h"
 #include "Lab/Report/ReportTrials.h"
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
-
 struct StudyReport {
     std::map<std::string, std::string> files; ///< file names within the report's folder, and contents:
-                                              ///< index.html, tables, report.R
+                                              ///< index.html, tables, analysis.R if there are tests
     std::vector<std::string> notes;           ///< one line each on trials without a known analysis
-    std::vector<std::string> tests;           ///< calls of all tests
+    std::vector<std::string> tests;           ///< all tests, in words
     bool isSimulated = false;                 ///< trials are of a simulated observer
 };
 
 /// Equal trials give identical bytes. Message thread only.
 StudyReport studyReport(const ReportTrials& trials);
+
+// Options of a report on trial files: inputs, output folder and additional facts.
+
+struct ReportJob {
+    std::vector<std::string> files;           ///< trial files of one study
+    std::vector<ColumnName> columns{};        ///< column mapping for tables of another program
+    double guess = PsychometricModel{}.guess; ///< guess rate of psychometric functions if no protocol
+                                              ///< specifies it
+    std::string folder;                       ///< output folder
+    bool wantsBids = false;                   ///< also export the trials as a BIDS dataset
+    std::string peoplePath{}; ///< table of facts on the participants (ReportTrials.h); empty: unknown
+    std::string ethics{}, consent{}, noise{}; ///< sentences for the page; if empty, the page has a reminder
+
+    std::string planPath{}; ///< plan of the study, made before it; empty: none
+
+    bool operator==(const ReportJob&) const = default;
+};
+
+/// The report's files in memory, or an error line. `protocol`: given by the user; without it, a built-in one
+/// is looked up. Message thread only.
+Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protocol>& protocol,
+                               const CallCheck& callFault);
+
+// What a study is going to do, written before its first participant, and what a report says of it afterwards.
+
+struct PlannedStudy {
+    std::string text;   ///< design, number of participants, stop rules, exclusions, tests and corrections
+    std::string script; ///< analysis.R with these tests; empty if there are none
+};
+
+/// The tests are those of a report of simulated participants. Message thread only.
+Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants);
+
+/// Sentences on what differs between a plan and the trials, or that nothing does; the first has the plan's
+/// hash. `tests`: those of the report. Fails on a text that is no plan. Any thread (allocates).
+Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::string_view name,
+                                                  const ReportTrials& trials,
+                                                  const std::vector<std::string>& tests);
 
 } // namespace physvib

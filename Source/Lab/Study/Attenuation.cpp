@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Groups isolation recordings: repetitions share a condition, and layers share the reference of their drive.
 #include "Lab/Study/Attenuation.h"
-#include "Lab/Statistics/Moments.h"
 #include "Lab/Study/Coupling.h"
+#include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -13,7 +13,7 @@ namespace {
 using Levels = std::vector<double>;
 
 /// Mean levels of the reference recordings of one drive.
-struct Sums {
+struct GammaSums {
     Levels levels;
     std::size_t count = 0;
     bool areAlike = true; ///< all have the same number of channels
@@ -22,11 +22,11 @@ using Drive = std::tuple<std::string, std::string, double>;
 
 Drive driveOf(const IsolationCondition& c) { return {c.axis, c.voltage, c.frequencyHz}; }
 
-std::map<Drive, Sums> referencesIn(const std::vector<IsolationMeasurement>& measurements) {
-    std::map<Drive, Sums> references;
+std::map<Drive, GammaSums> referencesIn(const std::vector<IsolationMeasurement>& measurements) {
+    std::map<Drive, GammaSums> references;
     for (const IsolationMeasurement& m : measurements) {
         if (!m.isReference) continue;
-        Sums& sums = references[driveOf(m.condition)];
+        GammaSums& sums = references[driveOf(m.condition)];
         if (sums.count++ == 0) sums.levels.assign(m.levels.size(), 0.0);
         sums.areAlike &= sums.levels.size() == m.levels.size();
         for (std::size_t i = 0; i < std::min(sums.levels.size(), m.levels.size()); ++i)

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Validates a protocol as a whole, and lists the stimuli of its conditions.
 #include "Lab/Study/Protocol.h"
-#include "Lab/Study/CallWords.h"
-#include "Lab/Study/NumberWord.h"
-#include "Lab/Study/Trial.h"
+#include "Lab/Study/Experiment.h"
 #include <algorithm>
 #include <cmath>
 

@@ -1,12 +1,70 @@
 // SPDX-License-Identifier: MIT
-// Settings of the adaptive method QUEST+ in a session, and their text in each row of the trial file.
+// Adaptive method QUEST+ (Watson 2017): presents each trial at the level with the largest expected
+// information about the psychometric function. Its settings in a session with their text in each row of the
+// trial file; the run of one observer; the thresholds of several runs together.
 #pragma once
-#include "Lab/Statistics/QuestPlus.h"
+#include "Lab/Study/Psychometric.h"
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace physvib {
+
+/// Grid of the uniform prior.
+struct QuestPlan {
+    PsychometricShape shape = PsychometricShape::weibull;
+    double guess = 0.5;
+    std::vector<double> levels;             ///< levels that can be presented
+    std::vector<double> thresholds, widths; ///< of the psychometric functions in the grid
+    std::vector<double> lapses{0.02};
+};
+
+/// QUEST+ run for one threshold of one observer. One thread at a time (allocates when constructed).
+class QuestPlus {
+public:
+    /// Precondition: every list of `plan` has at least one entry.
+    explicit QuestPlus(QuestPlan plan);
+
+    double level() const noexcept { return plan_.levels[next_]; } ///< level of the next trial
+    void answer(bool isCorrect) { answerAt(level(), isCorrect); } ///< answer to a trial at `level()`
+    void answerAt(double level, bool isCorrect); ///< answer to a trial at any level; uses the nearest level
+                                                 ///< of the plan
+    PsychometricFunction estimate() const;       ///< posterior mean
+    double thresholdDeviation() const;           ///< posterior standard deviation of the threshold
+    double thresholdHalfInterval(double share) const; ///< half-width of the interval around the mean
+                                                      ///< threshold that has this posterior probability
+    int trials() const noexcept { return trials_; }
+
+private:
+    PsychometricFunction possible(std::size_t index) const;
+    std::vector<double> thresholdBelief() const;
+    double correct(std::size_t level, std::size_t index) const {
+        return correct_[level * belief_.size() + index];
+    }
+    void chooseNext();
+
+    QuestPlan plan_;
+    std::vector<double> belief_;  ///< posterior probability of each function of the grid; sums to 1
+    std::vector<double> correct_; ///< probability of a correct answer, by level and function
+    std::vector<double> unsure_;  ///< entropy of that answer
+    std::size_t next_ = 0;
+    int trials_ = 0;
+};
+
+// Thresholds of several observers' QUEST+ runs: what the runs say together about the width of the
+// psychometric function replaces the uniform prior of each.
+
+struct PooledThresholds {
+    std::vector<double> thresholds; ///< posterior mean of each run
+    double deviation = 0.0; ///< posterior standard deviation of their mean that is due to the widths: an
+                            ///< error of all runs alike, which does not show in their spread
+};
+
+/// Each run is its answers by level (any order). All runs have the plan. Precondition: every list of `plan`
+/// and `runs` has at least one entry. Any thread (allocates).
+PooledThresholds pooledThresholds(const QuestPlan& plan, std::span<const std::vector<LevelCount>> runs);
 
 /// QUEST+ (Watson 2017) on this alternative's level: choosing it is correct.
 struct QuestMethod {

@@ -2,13 +2,14 @@
 // Plan of a study from its protocol: stimuli at their maximum levels, number of trials, duration, and balance
 // of orders.
 #pragma once
-#include "Lab/Study/Trial.h"
+#include "Lab/Study/Experiment.h"
+#include "Lab/Study/Protocol.h"
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace physvib {
-
 /// A stimulus of a condition, or one part of it, at a level that a session can reach.
 struct PlannedStimulus {
     std::size_t condition = 0, session = 0; ///< the session is one that sets the level

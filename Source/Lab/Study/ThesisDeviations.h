@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Table of deviations of the built-in protocols from the thesis' studies, and the change that removes each.
 // `study check`, the report and Docs/studies-thesis.md use it (Tests/Docs compares the page);
-// Files/ThesisVersions.h applies the changes.
+// Files/ProtocolFile.h applies the changes.
 #pragma once
 #include <array>
 #include <string_view>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib analyse`: options of each analysis, and running it.
-#include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Lab/Analysis/Analysis.h"
@@ -42,40 +41,6 @@ void declareOwn(OptionTable& command, AnalysisJob& o) {
             .add("--participants", o.participantsPath,
                  "percent correct and IT of each participant and condition")
             .written("FILE.csv");
-}
-
-void declareTest(OptionTable& command, AnalysisJob& o) {
-    const std::string name = command.name();
-    command
-        .add("--measure", o.measure,
-             "column of numbers to test; COLUMN=WORD counts 1 where the column says so, else 0")
-        .required()
-        .as("COLUMN");
-    if (name != "mann-whitney" && name != "kruskal-wallis")
-        command.add("--within", o.within, "factors that every participant has all levels of")
-            .as("A[,B[,C]]")
-            .listed(mostWithinFactors);
-    if (name != "friedman" && name != "wilcoxon")
-        command.add("--between", o.between, "column of the participants' groups").as("G");
-    command.add("--where", o.where, "only rows that say so; may be repeated").as("COLUMN=WORD").single();
-    command.add("--participant", o.participant, "column that names the participant (participant)")
-        .as("COLUMN");
-    if (name == "anova") {
-        command.add("--aligned-ranks", o.usesAlignedRanks, "of aligned ranks, for ratings");
-        return; // its correction is for sphericity
-    }
-    command
-        .addRow(
-            "--correction", [&o](int correction) { o.correction = static_cast<Correction>(correction); },
-            "of p, for so many lines (none; pairs: holm)")
-        .numbered({{"none", 0}, {"holm", 1}, {"bonferroni", 2}})
-        .as("holm|bonferroni|none");
-    if (name == "pairs")
-        command
-            .addRow(
-                "--test", [&o](int test) { o.pairTest = static_cast<PairTest>(test); }, "of two levels (t)")
-            .numbered({{"t", 0}, {"ranks", 1}})
-            .as("t|ranks");
 }
 
 void declareFit(OptionTable& command, AnalysisJob& o) {
@@ -122,7 +87,6 @@ void declareAnalyse(OptionTable& command, AnalyseOptions& o) {
     for (const Analysis& analysis : allAnalyses()) {
         OptionTable& own = declare(command, analysis, o.job);
         switch (analysis.kind) {
-        case Analysis::Kind::test: declareTest(own, o.job); continue;
         case Analysis::Kind::fit: declareFit(own, o.job); break;
         case Analysis::Kind::results:
             if (analysis.name != "places")

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib report`: reads trial files and writes a folder, completely or not at all.
 #include "Calls/CallFiles.h"
-#include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Disk/FileClash.h"
-#include "Lab/Report/ReportJob.h"
+#include "Lab/Report/AnalysisScript.h"
+#include "Lab/Report/StudyReport.h"
 #include "Studies/StudyCalls.h"
 #include <string>
 #include <vector>
@@ -59,6 +59,8 @@ int write(const std::filesystem::path& folder, const std::map<std::string, std::
         if (auto fault = folders.make(std::filesystem::path{path}.parent_path()); !fault.empty())
             return leave(exitFailed, fault);
     if (const std::string clash = fileClash(paths, inputs); !clash.empty()) return leave(exitUsage, clash);
+    if (const std::string fault = keptScriptFault(folder / analysisScriptName); !fault.empty())
+        return leave(exitFailed, fault);
     if (const int code = writeStudyFiles(outputs); code != exitDone) return code;
     folders.keep();
     return exitDone;
@@ -66,7 +68,7 @@ int write(const std::filesystem::path& folder, const std::map<std::string, std::
 
 void declareReport(OptionTable& command, ReportOptions& o) {
     command.add("files", o.job.files, "the trial files of one study").required().as("TRIALS.csv...");
-    command.add("--out", o.job.folder, "the folder: index.html, tables, report.R").required().as("FOLDER");
+    command.add("--out", o.job.folder, "the folder: index.html, tables, analysis.R").required().as("FOLDER");
     command.add("--protocol", o.protocol, "the study's protocol, if it is no built-in one")
         .as("PROTOCOL.json");
     command.add("--bids", o.job.wantsBids, "also the trials as a BIDS dataset, in the folder bids");
@@ -109,15 +111,19 @@ int runReport(ReportOptions& o) {
     for (const std::string& note : report.value.notes) warn(note);
     tellIfSimulated(report.value.isSimulated);
     std::cout << (std::filesystem::path{o.job.folder} / "index.html").string() << "  "
-              << report.value.files.size() << " files, " << report.value.tests.size() << " tests\n";
+              << report.value.files.size() << " files\n";
+    if (const std::size_t tests = report.value.tests.size(); tests > 0)
+        std::cout << "tests: run `Rscript "
+                  << (std::filesystem::path{o.job.folder} / analysisScriptName).string() << "`, " << tests
+                  << " tests\n";
     return exitDone;
 }
 
 } // namespace
 
 Command reportCommand() {
-    return commandOf("report", "trial files as a page with pictures, tests and tables", declareReport,
-                     runReport);
+    return commandOf("report", "trial files as a page with pictures and tables, and a script of tests for R",
+                     declareReport, runReport);
 }
 
 } // namespace physvib

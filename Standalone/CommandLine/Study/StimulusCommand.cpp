@@ -6,7 +6,7 @@
 #include "Core/Limits.h"
 #include "Core/Samples.h"
 #include "Io/Wav/WavSink.h"
-#include "Lab/Study/MakeStimulus.h"
+#include "Lab/Study/Stimulus.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Live/Session/StimulusRender.h"
 #include "Pictures/RenderPicture.h"

@@ -5,10 +5,10 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Disk/ContentHash.h"
-#include "Lab/Files/LevelsFile.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Report/StudyPlanned.h"
+#include "Lab/Report/AnalysisScript.h"
+#include "Lab/Report/StudyReport.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyRun.h"
 #include "Live/Recordings/LoadRecordings.h"
@@ -164,11 +164,17 @@ int plan(const StudyOptions& o) {
     if (!protocol) return leave(exitFailed, protocol.error);
     const auto planned = plannedStudy(protocol.value, o.participants);
     if (!planned) return leave(exitFailed, planned.error);
-    if (const int code = writeStudyFiles({StudyFile{o.planPath, planned.value}}); code != exitDone)
+    const auto script = std::filesystem::path{o.planPath}.replace_filename(analysisScriptName);
+    const bool hasScript = !o.planPath.empty() && !planned.value.script.empty();
+    if (const std::string fault = hasScript ? keptScriptFault(script) : ""; !fault.empty())
+        return leave(exitFailed, fault);
+    if (const int code = writeStudyFiles({StudyFile{o.planPath, planned.value.text},
+                                          StudyFile{hasScript ? script.string() : "", planned.value.script}});
+        code != exitDone)
         return code;
-    std::cout << planned.value;
+    std::cout << planned.value.text;
     if (!o.planPath.empty()) // as the report prints it
-        std::cout << '\n' << o.planPath << "  hash " << contentHash(planned.value) << '\n';
+        std::cout << '\n' << o.planPath << "  hash " << contentHash(planned.value.text) << '\n';
     return exitDone;
 }
 
@@ -212,7 +218,8 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
         "plan", "design, number of participants, stop rules, exclusions, tests and corrections, as text to "
                 "register before the study; nobody feels anything");
     plan.add("--participants", o.participants, "how many are to take part").in(1, 1000).required();
-    plan.add("--out", o.planPath, "the same text, for report --plan").written("PLAN.txt");
+    plan.add("--out", o.planPath, "the same text, for report --plan; beside it analysis.R, the tests in R")
+        .written("PLAN.txt");
     for (OptionTable* const one : {&show, &run, &check, &levels, &plan})
         one->add("protocol", o.protocol, "a built-in protocol or PROTOCOL.json").required();
     levels.add("trials", o.trials, "trial files of that protocol").as("TRIALS.csv").required();

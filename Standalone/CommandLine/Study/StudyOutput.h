@@ -2,7 +2,7 @@
 // Helpers of the study commands: warnings and output files.
 #pragma once
 #include "Io/Disk/AtomicFile.h"
-#include "Lab/Analysis/AnalysisFiles.h"
+#include "Lab/Analysis/Analysis.h"
 #include "System/ExitCode.h"
 #include <functional>
 #include <iostream>
@@ -11,7 +11,6 @@
 #include <vector>
 
 namespace physvib {
-
 inline void warn(const std::string& words) { tell("warning: " + words); }
 
 /// Marks results of a simulated observer, so that they cannot be mistaken for a person's.
@@ -44,5 +43,11 @@ inline int writeStudyFiles(const std::vector<StudyFile>& files) {
         if (const auto& error = file->commit(); !error.empty()) return leave(exitFailed, error);
     return exitDone;
 }
+
+// The option `--columns`, shared by commands that read tables of other programs.
+
+class OptionTable;
+
+void declareColumns(OptionTable& command, std::vector<std::string>& words);
 
 } // namespace physvib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Common parts of participants' screens: large buttons, a field with its actuators, arrow keys.
 #pragma once
-#include "Lab/Study/PhantomGrid.h"
+#include "Lab/Study/PercentCounts.h"
 #include "Mixer/Window/Parts.h"
 #include "Scene/LayoutFile.h"
 

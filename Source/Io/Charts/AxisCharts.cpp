@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// Charts with axes as SVG: bars in groups with intervals and ceilings; lines and points, linear or
+// logarithmic.
+#include "Io/Charts/ChartParts.h"
+#include "Io/Charts/Charts.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace physvib {
+namespace {
+
+using namespace detail;
+
+constexpr double chartWidth = 680.0, plotHeight = 250.0, leftMargin = 66.0, narrowGroup = 30.0;
+
+ChartAxis valueAxis(const BarChart& chart) {
+    double least = 0.0, most = chart.reference ? chart.reference->first : 0.0;
+    for (const BarSeries& series : chart.series)
+        for (const auto& bar : series.bars)
+            if (bar) {
+                least = std::min({least, bar->value, bar->least});
+                most = std::max({most, bar->value, bar->most});
+            }
+    for (const double ceiling : chart.ceilings) most = std::max(most, ceiling);
+    return ChartAxis::around(least, chart.most ? std::max(*chart.most, most > *chart.most * 1.2 ? most : 0.0)
+                                               : most);
+}
+
+std::vector<LegendItem> legendOf(const BarChart& chart) {
+    std::vector<LegendItem> items;
+    for (std::size_t s = 0; s < chart.series.size(); ++s)
+        if (!chart.series[s].name.empty()) items.push_back({chart.series[s].name, s, LegendItem::Kind::bar});
+    return items;
+}
+
+struct BarDrawing {
+    const BarChart& chart;
+    Svg& svg;
+    PlotArea area;
+    ChartAxis axis;
+
+    double groupWidth() const {
+        return area.width() / static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
+    }
+    double middle(std::size_t group) const {
+        return area.left + groupWidth() * (static_cast<double>(group) + 0.5);
+    }
+
+    void bars() const {
+        const double width = std::min(44.0, 0.8 * groupWidth() / static_cast<double>(chart.series.size()));
+        for (std::size_t s = 0; s < chart.series.size(); ++s)
+            for (std::size_t g = 0; g < chart.series[s].bars.size(); ++g) {
+                const auto& bar = chart.series[s].bars[g];
+                if (!bar) continue;
+                const double x = middle(g) + width * (static_cast<double>(s) -
+                                                      0.5 * static_cast<double>(chart.series.size()));
+                const double zero = area.y(axis, std::clamp(0.0, axis.least, axis.most)),
+                             y = area.y(axis, bar->value);
+                svg.bar({x + 1.0, std::min(zero, y)}, width - 2.0, std::abs(zero - y), s);
+                if (bar->least < bar->most)
+                    svg.whisker({x + 0.5 * width, area.y(axis, bar->least)},
+                                {x + 0.5 * width, area.y(axis, bar->most)}, {"#000", 1.4});
+            }
+    }
+    void groupLabels(bool isTurned) const {
+        for (std::size_t g = 0; g < chart.groups.size(); ++g) {
+            if (isTurned && groupWidth() < narrowGroup)
+                svg.text({middle(g) + 4.0, area.bottom + 6.0}, chart.groups[g],
+                         {smallSize, Anchor::end, -90.0});
+            else if (isTurned)
+                svg.text({middle(g) + 4.0, area.bottom + 14.0}, chart.groups[g],
+                         {smallSize, Anchor::end, -35.0});
+            else
+                svg.text({middle(g), area.bottom + 16.0}, chart.groups[g], {labelSize, Anchor::middle});
+        }
+    }
+    void ceilings() const {
+        for (std::size_t g = 0; g < chart.ceilings.size(); ++g) {
+            const double y = area.y(axis, chart.ceilings[g]), half = 0.45 * groupWidth();
+            svg.line({middle(g) - half, y}, {middle(g) + half, y}, {"#000", 1.6, "2 3"});
+            if (g == 0 && !chart.ceilingWords.empty())
+                svg.text({middle(g) - half, y - 5.0}, chart.ceilingWords, {smallSize});
+        }
+    }
+    void reference() const {
+        if (!chart.reference) return;
+        const double y = area.y(axis, chart.reference->first);
+        svg.line({area.left, y}, {area.right, y}, {"#000", 1.2, "6 4"});
+        svg.text({area.right + 4.0, y + 4.0}, chart.reference->second, {smallSize});
+    }
+};
+
+} // namespace
+
+std::string barChart(const BarChart& chart) {
+    const auto legend = legendOf(chart);
+    const double right = chart.reference ? chartWidth - 10.0 - textWidth(chart.reference->second, smallSize)
+                                         : chartWidth - 14.0;
+    double widest = 0.0;
+    for (const std::string& group : chart.groups) widest = std::max(widest, textWidth(group, labelSize));
+    const bool isTurned = widest > 0.95 * (right - leftMargin) /
+                                       static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
+    const bool isUpright =
+        isTurned && (right - leftMargin) / static_cast<double>(chart.groups.size()) < narrowGroup;
+    const double labels = isUpright ? 14.0 + widest : isTurned ? 18.0 + 0.60 * widest : 22.0;
+    const double leftEdge =
+        isTurned && !isUpright ? std::max(leftMargin, 0.8 * textWidth(chart.groups.front(), smallSize) - 10.0)
+                               : leftMargin;
+    const double titleBottom = titleHeight(chart.frame.title, chartWidth);
+    const double top = titleBottom + legendHeight(legend, right - leftEdge) + 8.0;
+    const PlotArea area{leftEdge, top + 8.0, right, top + 8.0 + plotHeight};
+    Svg svg{chart.frame.name, chartWidth, area.bottom + labels + 24.0};
+    drawTitle(svg, chart.frame.title, chartWidth);
+    drawLegend(svg, legend, {leftEdge, titleBottom}, right - leftEdge);
+    const BarDrawing drawing{chart, svg, area, valueAxis(chart)};
+    drawValueAxis(svg, area, drawing.axis, chart.valueWords);
+    drawing.bars();
+    const double zero = area.y(drawing.axis, std::clamp(0.0, drawing.axis.least, drawing.axis.most));
+    svg.line({area.left, zero}, {area.right, zero});
+    drawing.ceilings();
+    drawing.reference();
+    drawing.groupLabels(isTurned);
+    svg.text({0.5 * (area.left + area.right), area.bottom + labels + 16.0}, chart.groupsWords,
+             {labelSize, Anchor::middle});
+    return svg.finish(chart.frame.title, chart.frame.isSimulated);
+}
+
+// Lines.
+
+namespace {
+
+using namespace detail;
+
+ChartAxis axisOf(bool isLogarithmic, const std::optional<std::pair<double, double>>& range, double least,
+                 double most, int aboutTicks = 5) {
+    if (range) std::tie(least, most) = *range;
+    return isLogarithmic ? ChartAxis::logarithmic(least, most) : ChartAxis::around(least, most, aboutTicks);
+}
+
+struct Extent {
+    double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
+    void hold(double value) {
+        least = std::min(least, value);
+        most = std::max(most, value);
+    }
+};
+
+std::vector<LegendItem> legendOf(const LineChart& chart) {
+    std::vector<LegendItem> items;
+    for (const LineSeries& series : chart.series)
+        if (!series.name.empty())
+            items.push_back({series.name, series.style,
+                             series.isMarked ? LegendItem::Kind::marker : LegendItem::Kind::dashes});
+    return items;
+}
+
+struct LineDrawing {
+    const LineChart& chart;
+    Svg& svg;
+    PlotArea area;
+    ChartAxis x, y;
+
+    ChartPoint at(const LinePoint& point) const { return {area.x(x, point.x), area.y(y, point.y.value)}; }
+
+    void through(const LineSeries& series) const {
+        std::string d;
+        for (const LinePoint& point : series.points) appendPoint(d, d.empty() ? 'M' : 'L', at(point));
+        if (series.isFaint)
+            svg.path(d, "none", {"#aaa", 0.8});
+        else
+            svg.path(d, "none", {seriesColour(series.style), 2.0, seriesDash(series.style)});
+    }
+    void draw(const LineSeries& series) const {
+        if (series.points.empty()) return;
+        if (series.isDrawnThrough) through(series);
+        if (!series.isMarked) return;
+        for (const LinePoint& point : series.points) {
+            const ChartPoint place = at(point);
+            if (point.y.least < point.y.most)
+                svg.whisker({place.x, area.y(y, point.y.least)}, {place.x, area.y(y, point.y.most)},
+                            {"#222", 1.2});
+            svg.marker(place, series.style, 4.0 * point.size);
+        }
+    }
+    void references() const {
+        for (const auto& [value, words] : chart.references) {
+            const double level = area.y(y, value);
+            svg.line({area.left, level}, {area.right, level}, {"#000", 1.0, "6 4"});
+            svg.text({area.right - 4.0, level - 4.0}, words, {smallSize, Anchor::end});
+        }
+    }
+    void threshold() const {
+        if (!chart.threshold) return;
+        const double middle = area.x(x, chart.threshold->value);
+        svg.line({middle, area.top}, {middle, area.bottom}, {"#000", 1.4, "3 3"});
+        if (chart.threshold->least < chart.threshold->most) {
+            const double from = std::max(area.left, area.x(x, chart.threshold->least)),
+                         to = std::min(area.right, area.x(x, chart.threshold->most));
+            svg.rect({from, area.top}, to - from, area.height(), "rgba(0,0,0,0.08)");
+        }
+        const bool isLeft = middle > 0.5 * (area.left + area.right);
+        svg.text({middle + (isLeft ? -6.0 : 6.0), area.bottom - 8.0}, chart.thresholdWords,
+                 {smallSize, isLeft ? Anchor::end : Anchor::start});
+    }
+};
+
+} // namespace
+
+std::string lineChart(const LineChart& chart) {
+    Extent xs, ys;
+    for (const LineSeries& series : chart.series)
+        for (const LinePoint& point : series.points) {
+            xs.hold(point.x);
+            for (const double value : {point.y.value, point.y.least, point.y.most}) ys.hold(value);
+        }
+    const auto legend = legendOf(chart);
+    const double left = 66.0, right = chart.width - 16.0;
+    const double titleBottom = titleHeight(chart.frame.title, chart.width);
+    const double top = titleBottom + legendHeight(legend, right - left) + 10.0;
+    const PlotArea area{left, top, right, std::max(top + 160.0, chart.height - 48.0)};
+    Svg svg{chart.frame.name, chart.width, area.bottom + 48.0};
+    drawTitle(svg, chart.frame.title, chart.width);
+    drawLegend(svg, legend, {left, titleBottom}, right - left);
+    const LineDrawing drawing{chart, svg, area,
+                              axisOf(chart.isLogarithmic, chart.xRange, xs.least, xs.most, 8),
+                              axisOf(chart.isLogarithmic, chart.yRange, ys.least, ys.most)};
+    drawValueAxis(svg, area, drawing.y, chart.yWords);
+    drawAxisBelow(svg, area, drawing.x, chart.xWords);
+    drawing.references();
+    drawing.threshold();
+    for (const LineSeries& series : chart.series) drawing.draw(series);
+    return svg.finish(chart.frame.title, chart.frame.isSimulated);
+}
+
+} // namespace physvib

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// Charts of a field as SVG: a matrix of shaded cells (confusion matrices, shares by place), and the response
+// field (indicated places, normal ellipse of each target, map of the nearest target).
+#include "Io/Charts/ChartParts.h"
+#include "Io/Charts/Charts.h"
+#include "Io/Text/NumberText.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+using namespace detail;
+
+/// White to dark blue; lightness is monotonic, so it also works in greyscale.
+std::string shade(double share) {
+    const double t = std::clamp(share, 0.0, 1.0);
+    const auto mixed = [t](double dark) {
+        return std::to_string(static_cast<int>(std::lround(255.0 + t * (dark - 255.0))));
+    };
+    return "rgb(" + mixed(0) + "," + mixed(60) + "," + mixed(120) + ")";
+}
+
+struct GridDrawing {
+    const GridChart& chart;
+    Svg& svg;
+    PlotArea area;
+
+    double cellWidth() const { return area.width() / static_cast<double>(chart.columns.size()); }
+    double cellHeight() const { return area.height() / static_cast<double>(chart.rows.size()); }
+
+    void cell(std::size_t row, std::size_t column) const {
+        const auto& value = chart.values[row * chart.columns.size() + column];
+        if (!value) return;
+        const ChartPoint corner{area.left + cellWidth() * static_cast<double>(column),
+                                area.top + cellHeight() * static_cast<double>(row)};
+        const double share = *value / chart.most;
+        if (share > 0.0) svg.rect(corner, cellWidth(), cellHeight(), shade(share));
+        if (chart.markedBelow && *value < *chart.markedBelow)
+            svg.rect({corner.x + 1.5, corner.y + 1.5}, cellWidth() - 3.0, cellHeight() - 3.0, "none",
+                     {"#D55E00", 2.0, "4 3"});
+        numbers(corner, row * chart.columns.size() + column, share > 0.5);
+    }
+    void numbers(ChartPoint corner, std::size_t index, bool isDark) const {
+        const std::string words = fixedNumber(*chart.values[index], chart.decimals);
+        if (textWidth(words, smallSize) > cellWidth() - 4.0 || cellHeight() < 13.0) return;
+        const std::string_view colour = isDark ? "#fff" : "#111";
+        const bool hasInterval =
+            !chart.halfIntervals.empty() && chart.halfIntervals[index] > 0.0 && cellHeight() >= 28.0;
+        const double x = corner.x + 0.5 * cellWidth(),
+                     y = corner.y + 0.5 * cellHeight() + (hasInterval ? -2.0 : 4.0);
+        svg.text({x, y}, words, {smallSize, Anchor::middle, 0.0, false, colour});
+        if (hasInterval)
+            svg.text({x, y + 12.0}, "\u00b1" + fixedNumber(chart.halfIntervals[index], chart.decimals),
+                     {9.0, Anchor::middle, 0.0, false, colour});
+    }
+    /// Draws every label that fits.
+    void labels() const {
+        const auto rowStep = static_cast<std::size_t>(std::ceil(11.0 / cellHeight())),
+                   columnStep = static_cast<std::size_t>(std::ceil(13.0 / cellWidth()));
+        for (std::size_t r = 0; r < chart.rows.size(); r += rowStep)
+            svg.text({area.left - 5.0, area.top + cellHeight() * (static_cast<double>(r) + 0.5) + 3.5},
+                     chart.rows[r], {10.0, Anchor::end});
+        for (std::size_t c = 0; c < chart.columns.size(); c += columnStep) {
+            const double x = area.left + cellWidth() * (static_cast<double>(c) + 0.5);
+            if (isTurned())
+                svg.text({x + 3.5, area.bottom + 6.0}, chart.columns[c], {10.0, Anchor::end, -90.0});
+            else
+                svg.text({x, area.bottom + 14.0}, chart.columns[c], {10.0, Anchor::middle});
+        }
+    }
+    bool isTurned() const {
+        return std::ranges::any_of(chart.columns, [this](const std::string& words) {
+            return textWidth(words, 10.0) > cellWidth() - 2.0;
+        });
+    }
+};
+
+double widest(const std::vector<std::string>& labels) {
+    double most = 0.0;
+    for (const std::string& label : labels) most = std::max(most, textWidth(label, 10.0));
+    return most;
+}
+
+} // namespace
+
+std::string gridChart(const GridChart& chart) {
+    const double titleBottom = titleHeight(chart.frame.title, chart.width);
+    const double left = 26.0 + widest(chart.rows) + 6.0, right = chart.width - 10.0, top = titleBottom + 6.0;
+    const double cell = std::min((right - left) / static_cast<double>(chart.columns.size()), 64.0);
+    const double height = chart.shape * cell * static_cast<double>(chart.rows.size());
+    const PlotArea area{left, top, left + cell * static_cast<double>(chart.columns.size()), top + height};
+    const double below = widest(chart.columns) > cell - 2.0 ? widest(chart.columns) + 10.0 : 18.0;
+    Svg svg{chart.frame.name, chart.width, area.bottom + below + 20.0};
+    drawTitle(svg, chart.frame.title, chart.width);
+    const GridDrawing drawing{chart, svg, area};
+    for (std::size_t r = 0; r < chart.rows.size(); ++r)
+        for (std::size_t c = 0; c < chart.columns.size(); ++c) drawing.cell(r, c);
+    svg.rect({area.left, area.top}, area.width(), area.height(), "none", {"#222", 1.0});
+    drawing.labels();
+    svg.text({14.0, 0.5 * (area.top + area.bottom)}, chart.rowWords, {labelSize, Anchor::middle, -90.0});
+    svg.text({0.5 * (area.left + area.right), area.bottom + below + 12.0}, chart.columnWords,
+             {labelSize, Anchor::middle});
+    return svg.finish(chart.frame.title, chart.frame.isSimulated);
+}
+
+// The response field.
+
+namespace {
+
+using namespace detail;
+
+constexpr double fieldShape = 635.0 / 1230.0; // of the thesis' tablet
+
+struct PlaceDrawing {
+    const PlaceChart& chart;
+    Svg& svg;
+    PlotArea area;
+
+    ChartPoint at(double x, double y) const {
+        return {area.left + x * area.width(), area.top + y * area.height()};
+    }
+    /// Neighbours in a row and in a column have different styles.
+    std::size_t styleOf(std::size_t target) const {
+        return (target % chart.columns + 3 * (target / chart.columns)) % 7;
+    }
+
+    void territory() const {
+        if (chart.mapColumns == 0) return;
+        const std::size_t rows = chart.territory.size() / chart.mapColumns;
+        const double width = area.width() / static_cast<double>(chart.mapColumns),
+                     height = area.height() / static_cast<double>(rows);
+        std::vector<std::string> fills(chart.rows * chart.columns);
+        std::string edges;
+        for (std::size_t r = 0; r < rows; ++r)
+            for (std::size_t c = 0; c < chart.mapColumns;) {
+                const std::size_t owner = chart.territory[r * chart.mapColumns + c], from = c;
+                while (c < chart.mapColumns && chart.territory[r * chart.mapColumns + c] == owner) ++c;
+                const double x = area.left + width * static_cast<double>(from),
+                             y = area.top + height * static_cast<double>(r),
+                             run = width * static_cast<double>(c - from);
+                std::string& d = fills[owner];
+                move(d, x, y);
+                step(d, 'h', run);
+                step(d, 'v', height);
+                step(d, 'h', -run);
+                d += 'z';
+                if (c < chart.mapColumns) {
+                    move(edges, x + run, y);
+                    step(edges, 'v', height);
+                }
+            }
+        for (std::size_t target = 0; target < fills.size(); ++target)
+            if (!fills[target].empty())
+                svg.path(fills[target], seriesColour(styleOf(target)), {seriesColour(styleOf(target)), 0.4});
+        svg.path(edges + edgesBelow(rows, width, height), "none", {"#222", 0.7});
+    }
+    std::string edgesBelow(std::size_t rows, double width, double height) const {
+        std::string d;
+        for (std::size_t r = 1; r < rows; ++r)
+            for (std::size_t c = 0; c < chart.mapColumns; ++c)
+                if (chart.territory[r * chart.mapColumns + c] !=
+                    chart.territory[(r - 1) * chart.mapColumns + c]) {
+                    move(d, area.left + width * static_cast<double>(c),
+                         area.top + height * static_cast<double>(r));
+                    step(d, 'h', width);
+                }
+        return d;
+    }
+    static void move(std::string& d, double x, double y) { appendPoint(d, 'M', {x, y}); }
+    static void step(std::string& d, char direction, double length) {
+        d += direction;
+        appendPixels(d, length);
+    }
+    void places() const {
+        std::vector<std::string> dots(chart.rows * chart.columns);
+        for (const PlaceMark& mark : chart.places) {
+            const ChartPoint point = at(mark.x, mark.y);
+            move(dots[mark.target], point.x, point.y);
+            dots[mark.target] += "h0";
+        }
+        for (std::size_t target = 0; target < dots.size(); ++target)
+            if (!dots[target].empty()) svg.path(dots[target], "none", {seriesColour(styleOf(target)), 2.0});
+    }
+    void ellipses() const {
+        for (const PlaceEllipse& e : chart.ellipses) {
+            const double wx = area.width(), wy = area.height(); // because the field's shares are not square
+                                                                // in pixels
+            const double a = e.varianceX * wx * wx, b = e.covariance * wx * wy, c = e.varianceY * wy * wy;
+            const double middle = 0.5 * (a + c), spread = std::hypot(0.5 * (a - c), b);
+            const double degrees = 0.5 * std::atan2(2.0 * b, a - c) * 180.0 / std::numbers::pi;
+            svg.ellipse(at(e.x, e.y), std::sqrt(middle + spread), std::sqrt(std::max(0.0, middle - spread)),
+                        degrees, "none", {"#000", 1.3});
+        }
+    }
+    void labels() const {
+        for (const PlaceMark& mark : chart.labels) {
+            const ChartPoint place = at(mark.x, mark.y);
+            const std::string words = std::to_string(mark.target / chart.columns + 1) + "," +
+                                      std::to_string(mark.target % chart.columns + 1);
+            svg.rect({place.x - 8.0, place.y - 6.0}, 16.0, 11.0, "#fff");
+            svg.text({place.x, place.y + 3.0}, words, {8.5, Anchor::middle});
+        }
+    }
+    /// Targets as crosses, with lines to where they were felt.
+    void targets() const {
+        for (const PlaceEllipse& e : chart.ellipses)
+            if (e.target < chart.targets.size())
+                svg.line(at(chart.targets[e.target].first, chart.targets[e.target].second), at(e.x, e.y),
+                         {"#000", 0.8, "2 2"});
+        std::string crosses;
+        for (const auto& [x, y] : chart.targets) {
+            const ChartPoint p = at(x, y);
+            move(crosses, p.x - 3.0, p.y);
+            step(crosses, 'h', 6.0);
+            move(crosses, p.x, p.y - 3.0);
+            step(crosses, 'v', 6.0);
+        }
+        if (!crosses.empty()) svg.path(crosses, "none", {"#000", 1.2});
+    }
+};
+
+} // namespace
+
+std::string placeChart(const PlaceChart& chart) {
+    const double titleBottom = titleHeight(chart.frame.title, chart.width);
+    const double width = chart.width - 16.0;
+    const PlotArea area{8.0, titleBottom, 8.0 + width, titleBottom + width * fieldShape};
+    Svg svg{chart.frame.name, chart.width, area.bottom + 8.0};
+    drawTitle(svg, chart.frame.title, chart.width);
+    const PlaceDrawing drawing{chart, svg, area};
+    drawing.territory();
+    drawing.places();
+    drawing.targets();
+    drawing.ellipses();
+    drawing.labels();
+    svg.rect({area.left, area.top}, area.width(), area.height(), "none", {"#222", 1.0});
+    return svg.finish(chart.frame.title, chart.frame.isSimulated);
+}
+
+} // namespace physvib

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+// Analyses of choices, ratings and levels, and of functions fitted to them, as text and tables.
+#include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/StudyCharts.h"
+#include "Lab/Study/Psychometric.h"
+#include "Lab/Study/Summaries.h"
+#include <algorithm>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+void tell(std::ostream& out, const ChoiceSummary& summary) {
+    out << wholeLabel(summary.condition) << ':';
+    for (const ChoiceShare& share : summary.shares)
+        out << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' '
+            << percent(share.share) << " % (" << percent(share.least) << " to " << percent(share.most) << ')';
+    out << ", " << counted(summary.trials, "trial") << " of " << counted(summary.participants, "participant");
+    out << '\n';
+}
+
+const char* kindWord(LevelTrial::Kind kind) {
+    if (kind == LevelTrial::Kind::staircase) return "threshold";
+    if (kind == LevelTrial::Kind::quest) return "threshold by QUEST+";
+    return kind == LevelTrial::Kind::adjustment ? "matched at" : "magnitude";
+}
+
+void tell(std::ostream& out, const LevelSummary& s) {
+    const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
+    out << wholeLabel(s.condition) << (s.stimulus.empty() ? "" : ", " + wholeLabel(s.stimulus)) << ": "
+        << kindWord(s.kind) << ' ' << fixedNumber(s.estimate, isMagnitude ? 2 : 1)
+        << (isMagnitude ? "" : " dB");
+    const bool isThreshold = s.kind == LevelTrial::Kind::staircase || s.kind == LevelTrial::Kind::quest;
+    if (s.deviation > 0.0)
+        out << " (standard deviation " << fixedNumber(s.deviation, 2) << (isMagnitude ? " of log10" : " dB")
+            << (isThreshold ? " over participants)" : " over trials)");
+    if (s.halfInterval > 0.0)
+        out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to "
+            << fixedNumber(s.estimate + s.halfInterval, 1) << " dB"
+            << (s.participants > 1 ? " over participants" : " of what is still possible");
+    out << ", " << counted(s.trials, "trial") << " of " << counted(s.participants, "participant");
+    if (s.kind == LevelTrial::Kind::staircase)
+        out << ", " << s.reversals << " reversals that a trial followed";
+    out << '\n';
+}
+
+template <class Summary>
+std::vector<const Summary*> pointersTo(const std::vector<Summary>& summaries) {
+    std::vector<const Summary*> pointers;
+    for (const Summary& summary : summaries) pointers.push_back(&summary);
+    return pointers;
+}
+
+} // namespace
+
+AnalysisReport analyseChoices(const AnalysisJob& o) {
+    const auto data = readStudyFiles(o, readChoices);
+    if (!data) return {data.error};
+    const auto summaries = summariseChoices(data.value.conditions.front().trials);
+    ExportTable table{"choices", data.value.isSimulated,
+                      "condition,alternative,votes,trials,percent,least_percent,most_percent,participants,"
+                      "participants_median_percent"};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    if (summaries.front().participants == 1)
+        report.warnings.push_back("one participant, or no column participant: intervals are over trials, and "
+                                  "say nothing about other people");
+    if (summaries.front().shares.size() == 1)
+        report.warnings.push_back("every choice is " +
+                                  printable(summaries.front().shares.front().alternative) +
+                                  ": nothing to compare");
+    for (const auto& summary : summaries) {
+        tell(out, summary);
+        for (const auto& share : summary.shares) {
+            table.row(summary.condition, share.alternative, std::size_t{share.hits},
+                      std::size_t{summary.trials}, 100.0 * share.share, 100.0 * share.least,
+                      100.0 * share.most, summary.participants, 100.0 * share.median);
+        }
+    }
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [summaries, isSimulated = report.isSimulated] {
+        std::vector<std::string> groups;
+        for (const ChoiceSummary& summary : summaries) groups.push_back(summary.condition);
+        return sharesChart({chartName(0), "Shares of the alternatives", isSimulated}, "condition", groups,
+                           pointersTo(summaries));
+    };
+    return report;
+}
+
+AnalysisReport analyseRatings(const AnalysisJob& o) {
+    const auto ratings = readStudyFiles(o, readRatings);
+    if (!ratings) return {ratings.error};
+    const auto& [scales, data] = ratings.value;
+    const auto summaries = summariseRatings(data.conditions.front().trials);
+    ExportTable table{"ratings", data.isSimulated,
+                      "condition,scale,trials,participants,mean,standard_deviation,half_interval"};
+    AnalysisReport report{{}, data.isSimulated, data.warnings};
+    std::ostringstream out;
+    bool hasIntervals = false;
+    for (const auto& summary : summaries) {
+        hasIntervals |= std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; });
+        out << wholeLabel(summary.condition) << ": " << counted(summary.trials, "trial");
+        for (std::size_t s = 0; s < scales.size(); ++s) {
+            out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
+            if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
+            table.row(summary.condition, scales[s], summary.trials, summary.participants, summary.means[s],
+                      summary.deviations[s], summary.halfIntervals[s]);
+        }
+        out << '\n';
+    }
+    if (hasIntervals) out << "+-: half of the 95 % interval over participants\n";
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [scales = scales, summaries, isSimulated = report.isSimulated] {
+        return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, pointersTo(summaries));
+    };
+    return report;
+}
+
+AnalysisReport analyseLevels(const AnalysisJob& o) {
+    const auto data = readStudyFiles(o, readLevels);
+    if (!data) return {data.error};
+    const auto summaries = summariseLevels(data.value.conditions.front().trials);
+    ExportTable table{
+        "levels", data.value.isSimulated,
+        "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation,half_interval"};
+    ExportTable each{"thresholds", data.value.isSimulated, "method,condition,participant,threshold"};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    for (const LevelSummary& s : summaries) {
+        tell(out, s);
+        if (s.flatRuns > 0)
+            report.warnings.push_back(printable(s.condition) + ": " + std::to_string(s.flatRuns) +
+                                      (s.flatRuns == 1 ? " staircase has" : " staircases have") +
+                                      " fewer than two reversals: the level of the last trial "
+                                      "stands for a threshold");
+        for (const auto& [participant, threshold] : s.thresholds)
+            each.row(s.kind == LevelTrial::Kind::quest ? "quest" : "staircase", s.condition, participant,
+                     threshold);
+        table.row(kindWord(s.kind), s.condition, s.stimulus, s.trials, s.participants, s.reversals,
+                  s.estimate, s.deviation, s.halfInterval);
+    }
+    report.words = out.str();
+    report.table = table.text();
+    report.participants = each.text();
+    report.picture = [summaries, isSimulated = report.isSimulated] {
+        return chartSheet(levelCharts(summaries, isSimulated));
+    };
+    return report;
+}
+
+// Analyses psychometric and power-law: one fit per participant, and means with intervals per condition.
+
+namespace {
+
+using LevelAnswers = StudyData<LevelAnswer>;
+
+Result<LevelAnswers> readAnswers(const AnalysisJob& o, LevelAnswerColumns columns) {
+    if (!o.level.empty()) columns.level = o.level;
+    if (!o.measure.empty()) columns.measure = o.measure;
+    return readStudyFiles(
+        o, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
+}
+
+/// "threshold 12.3 (11.0 to 13.4)".
+std::string meanWords(const char* name, const std::vector<double>& values, int decimals) {
+    const Moments own{values};
+    std::string words = std::string(name) + " " + fixedNumber(own.mean, decimals);
+    if (own.n > 1)
+        words += " (" + fixedNumber(own.least(), decimals) + " to " + fixedNumber(own.most(), decimals) + ")";
+    return words;
+}
+
+std::string prefixOf(const std::string& condition) {
+    return condition.empty() ? "" : printable(condition) + ": ";
+}
+
+void leaveOut(AnalysisReport& report, const std::string& condition, const std::string& participant,
+              const std::string& fault) {
+    report.warnings.push_back(prefixOf(condition) + "participant " + printable(participant) +
+                              " left out: " + fault);
+}
+
+/// Error line if no participant could be fitted.
+AnalysisReport nobodyFitted(const AnalysisJob& o, const AnalysisReport& report) {
+    return {o.files.front() + ": nobody can be fitted; " + report.warnings.back()};
+}
+
+/// Chart of the first condition; reports have charts of all.
+ChartFrame frameOf(const AnalysisJob& o, const std::string& condition, bool isSimulated) {
+    return {"fit", condition.empty() ? std::filesystem::path{o.files.front()}.filename().string() : condition,
+            isSimulated};
+}
+
+/// Warning for a threshold outside the participant's levels; empty if it lies between them.
+std::string beyondWords(const std::vector<LevelAnswer>& trials, const std::string& participant,
+                        const PsychometricFunction& f) {
+    const double threshold = f.threshold;
+    double least = threshold, most = threshold;
+    bool isFirst = true;
+    for (const LevelAnswer& trial : trials) {
+        if (trial.participant != participant) continue;
+        least = isFirst ? trial.level : std::min(least, trial.level);
+        most = isFirst ? trial.level : std::max(most, trial.level);
+        isFirst = false;
+    }
+    if (threshold >= least && threshold <= most) return {};
+    return "participant " + printable(participant) + ": the threshold, " +
+           fixedNumber(threshold, decimalsOf(f.jnd())) + ", lies outside the levels that were played, " +
+           plainNumber(least) + " to " + plainNumber(most);
+}
+
+} // namespace
+
+AnalysisReport analysePsychometric(const AnalysisJob& o) {
+    const auto data = readAnswers(o, {"level_db", "correct", false});
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    ExportTable table{"psychometric", report.isSimulated,
+                      "condition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood"};
+    for (const auto& condition : data.value.conditions) {
+        std::vector<double> thresholds, jnds;
+        const bool isAdaptive = condition.trials.front().isAdaptive;
+        const auto ifKnown = [=](double slope) { return isAdaptive ? std::nullopt : std::optional{slope}; };
+        for (const auto& own : psychometricByParticipant(condition.trials, o.model)) {
+            if (!own.fit.fault.empty()) {
+                leaveOut(report, condition.name, own.participant, own.fit.fault);
+                continue;
+            }
+            const PsychometricFunction& f = own.fit.function;
+            if (std::string words = beyondWords(condition.trials, own.participant, f); !words.empty())
+                report.warnings.push_back(prefixOf(condition.name) + words);
+            thresholds.push_back(f.threshold);
+            jnds.push_back(f.jnd());
+            table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),
+                      ifKnown(f.jnd()), f.guess, f.lapse, own.fit.logLikelihood);
+        }
+        if (thresholds.empty()) return nobodyFitted(o, report);
+        const int decimals = decimalsOf(Moments(jnds).mean);
+        out << prefixOf(condition.name) << meanWords("threshold", thresholds, decimals) << ", "
+            << (isAdaptive ? "no JND (answers chose the levels, which makes slopes too steep)"
+                           : meanWords("JND", jnds, decimals))
+            << ", " << counted(thresholds.size(), "participant") << '\n';
+    }
+    report.words = out.str();
+    report.table = table.text();
+    const auto first = data.value.conditions.front();
+    report.picture = [first, model = o.model, words = fitWords(o.columns, o.level, o.measure),
+                      frame = frameOf(o, first.name, report.isSimulated)] {
+        return psychometricChart(frame, first.trials, model, words);
+    };
+    return report;
+}
+
+AnalysisReport analysePowerLaw(const AnalysisJob& o) {
+    const auto data = readAnswers(o, {"stimulus", "value", true});
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    ExportTable table{"power-law", report.isSimulated,
+                      "condition,participant,trials,exponent,factor,r_squared"};
+    for (const auto& condition : data.value.conditions) {
+        std::vector<double> exponents;
+        for (const auto& own : powerLawByParticipant(condition.trials)) {
+            if (!own.law.fault.empty()) {
+                leaveOut(report, condition.name, own.participant, own.law.fault);
+                continue;
+            }
+            exponents.push_back(own.law.exponent);
+            table.row(condition.name, own.participant, own.trials, own.law.exponent, own.law.factor,
+                      own.law.determination);
+        }
+        if (exponents.empty()) return nobodyFitted(o, report);
+        out << prefixOf(condition.name) << meanWords("exponent", exponents, 3) << ", "
+            << counted(exponents.size(), "participant") << '\n';
+    }
+    report.words = out.str();
+    report.table = table.text();
+    const auto first = data.value.conditions.front();
+    report.picture = [first, level = o.level.empty() ? std::string("level") : o.level,
+                      frame = frameOf(o, first.name, report.isSimulated)] {
+        return powerLawChart(frame, first.trials, level);
+    };
+    return report;
+}
+
+} // namespace physvib

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Finds the mapped columns once, then reduces every row to them.
+#include "Lab/Files/StudyTables.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Files/TrialLog.h"
+#include "Lab/Study/PercentCounts.h"
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+/// Splits "touch_x:0:1230". A name with another ending is a plain column name.
+ColumnName withRange(std::string ours, std::string words) {
+    const std::size_t second = words.rfind(':'), first = second == std::string::npos || second == 0
+                                                             ? std::string::npos
+                                                             : words.rfind(':', second - 1);
+    if (first == std::string::npos || first == 0) return {std::move(ours), std::move(words)};
+    const auto from = parseNumber<double>(words.substr(first + 1, second - first - 1)),
+               to = parseNumber<double>(words.substr(second + 1));
+    if (!from || !to || *from == *to) return {std::move(ours), std::move(words)};
+    return {std::move(ours), words.substr(0, first), std::pair{*from, *to}};
+}
+
+/// Converts a column to shares of its range. Returns an error for the first cell that is not a number, else
+/// an empty string.
+std::string scale(CsvTable& table, std::size_t column, const std::pair<double, double>& range) {
+    for (CsvRow& row : table.rows) {
+        const auto number = parseNumber<double>(row.cells[column]);
+        if (!number) return table.fault(row, column, "a number");
+        row.cells[column] = numberText((*number - range.first) / (range.second - range.first));
+    }
+    return {};
+}
+
+/// Also numbers the true places along one axis as grid lines, if there are few enough of them. Returns an
+/// error or an empty string.
+std::string numberLines(CsvTable& table, std::string_view places, const char* lines) {
+    const auto column = table.column(places);
+    if (!column || table.column(lines)) return {};
+    std::set<double> values;
+    for (const CsvRow& row : table.rows) {
+        const auto place = parseNumber<double>(row.cells[*column]);
+        if (!place) return table.fault(row, *column, "a number");
+        values.insert(*place);
+    }
+    if (values.size() > mostGridLines) return {};
+    table.columns.emplace_back(lines);
+    for (CsvRow& row : table.rows)
+        row.cells.push_back(std::to_string(
+            1 + std::distance(values.begin(), values.find(*parseNumber<double>(row.cells[*column])))));
+    return {};
+}
+
+} // namespace
+
+Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words) {
+    std::vector<ColumnName> names;
+    for (const std::string& word : words) {
+        const std::size_t equals = word.find('=');
+        if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
+            return Failure{"expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found " +
+                           inQuotes(word)};
+        names.push_back(withRange(word.substr(0, equals), word.substr(equals + 1)));
+        if (std::ranges::count(names, names.back().ours, &ColumnName::ours) > 1)
+            return Failure{"expected each name once, found " + inQuotes(names.back().ours) + " twice"};
+    }
+    return names;
+}
+
+std::string unitFault(std::span<const ColumnName> names) {
+    for (const auto& [answered, truth] : {std::pair{"x", "target_x"}, {"y", "target_y"}}) {
+        const auto a = std::ranges::find(names, answered, &ColumnName::ours),
+                   t = std::ranges::find(names, truth, &ColumnName::ours);
+        if (a != names.end() && t != names.end() && a->range.has_value() != t->range.has_value())
+            return std::string{"--columns: expected a range of both "}
+                .append(answered)
+                .append(" and ")
+                .append(truth)
+                .append(", or of none of them, as they are compared");
+    }
+    return {};
+}
+
+std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut) {
+    if (names.empty()) return {};
+    std::vector<std::size_t> from;
+    std::vector<std::string> columns;
+    for (const ColumnName& name : names) {
+        const auto found = table.column(name.theirs);
+        if (!found) return table.name + ": expected a column " + printable(name.theirs) + ", found none";
+        from.push_back(*found);
+        columns.push_back(name.ours);
+    }
+    if (const auto observer = table.column(trialColumns::observer);
+        observer && std::ranges::find(columns, trialColumns::observer) == columns.end()) {
+        from.push_back(*observer);
+        columns.emplace_back(trialColumns::observer);
+    }
+    const auto isWhole = [&](const CsvRow& row) {
+        return std::ranges::none_of(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(names.size()),
+                                    [&](std::size_t c) { return row.cells[c].empty(); });
+    };
+    rowsLeftOut += std::erase_if(table.rows, [&](const CsvRow& row) { return !isWhole(row); });
+    for (CsvRow& row : table.rows) {
+        std::vector<std::string> cells;
+        for (const std::size_t c : from) cells.push_back(row.cells[c]);
+        row.cells = std::move(cells);
+    }
+    table.columns = std::move(columns);
+    if (table.rows.empty())
+        return table.name + ": expected rows with something in every named column, found none";
+    for (std::size_t c = 0; c < names.size(); ++c)
+        if (names[c].range)
+            if (std::string fault = scale(table, c, *names[c].range); !fault.empty()) return fault;
+    if (std::string fault = numberLines(table, "target_x", "target_column"); !fault.empty()) return fault;
+    return numberLines(table, "target_y", "target_row");
+}
+
+// Detects participants in several tables. A trial file has one person, so a second file of the same person is
+// an error; other programs write one table per run.
+
+namespace {
+
+constexpr std::size_t mostNamed = 6; // limit of the participants, and of the tables of one, that a message
+                                     // lists
+
+std::string tablesOf(const std::vector<std::string>& names) {
+    std::string words;
+    for (std::size_t i = 0; i < names.size() && i < mostNamed; ++i)
+        words.append(i ? ", " : "").append(names[i]);
+    return names.size() > mostNamed ? words + " ..." : words;
+}
+
+} // namespace
+
+TrialHead trialHeadOf(const std::vector<std::string>& comments) {
+    TrialHead head;
+    for (const std::string& line : comments) {
+        std::istringstream words{line};
+        std::string word;
+        if (!(words >> word) || word != "physvib" || !(words >> head["version"])) continue;
+        while (words >> word)
+            if (const auto equals = word.find('='); equals != std::string::npos)
+                head[word.substr(0, equals)] = word.substr(equals + 1);
+        break;
+    }
+    return head;
+}
+
+std::string SharedParticipants::add(const CsvTable& head, const std::set<std::string>& participants) {
+    const auto entries = trialHeadOf(head.comments);
+    if (const auto code = entries.find("participant"), protocol = entries.find("protocol");
+        code != entries.end() && protocol != entries.end()) {
+        const auto [at, isNew] = trialFiles_.try_emplace({protocol->second, code->second}, head.name);
+        if (!isNew)
+            return head.name + ": expected trials of somebody else than " + at->second +
+                   ", found participant " + printable(code->second) +
+                   " in both: leave one of them out; two people need two codes";
+    }
+    for (const std::string& participant : participants)
+        if (!participant.empty()) tables_[participant].push_back(head.name);
+    return {};
+}
+
+std::string SharedParticipants::add(const CsvTable& table, std::string_view column) {
+    std::set<std::string> participants;
+    if (const auto at = table.column(column))
+        for (const CsvRow& row : table.rows) participants.insert(row.cells[*at]);
+    return add(table, participants);
+}
+
+std::string SharedParticipants::note() const {
+    std::string words;
+    std::size_t shared = 0;
+    for (const auto& [participant, tables] : tables_) {
+        if (tables.size() < 2 || ++shared > mostNamed) continue;
+        words.append(shared > 1 ? "; " : "")
+            .append(printable(participant))
+            .append(" in ")
+            .append(tablesOf(tables));
+    }
+    if (shared == 0) return {};
+    if (shared > mostNamed) words += "; and " + std::to_string(shared - mostNamed) + " more";
+    return "participants who are in several tables count as one person each; if they are not, give them "
+           "different codes: " +
+           words;
+}
+
+} // namespace physvib

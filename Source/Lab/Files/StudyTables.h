@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// Tables of trials, ours and other programs': names of columns, rows with checked access to their cells,
+// people who are in several tables, and limits.
+#pragma once
+#include "Io/Result.h"
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Files/TrialLog.h"
+#include "Lab/Study/StudyTasks.h"
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+// Maps column names of other programs' tables to the names used here.
+
+namespace physvib {
+/// A column name used here, and its name in a table.
+struct ColumnName {
+    std::string ours, theirs;
+    std::optional<std::pair<double, double>> range{}; ///< table values that map to 0 and 1; none: cells are
+                                                      ///< unchanged
+    bool operator==(const ColumnName&) const = default;
+};
+
+/// Parses words like `response=key_resp.keys` or, for places, `x=touch_x:0:1230` (0 is the left edge, 1230
+/// the right one), with each of our names once. Otherwise one line on the first invalid word. Any thread.
+Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words);
+
+/// Empty, or an error if only one of an answered and a true place has a range, because their units then
+/// differ. Any thread (allocates).
+std::string unitFault(std::span<const ColumnName> names);
+
+/// Reduces `table` to the named columns, under our names. The column `observer` stays, as it may mark
+/// simulated data. Rows with an empty cell in one of the columns (instructions, fixations, trials without an
+/// answer) are dropped and counted. From numeric true places target_x and target_y, columns target_column and
+/// target_row are derived, ascending from 1, if each axis has at most mostGridLines of them. Returns an error
+/// line or an empty string; without `names` it does nothing. Any thread.
+std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut);
+} // namespace physvib
+namespace physvib::detail {
+/// Error in a study file; caught within Lab/Files.
+struct StudyFault {
+    std::string message;
+};
+
+/// One table with access by column name. Every member throws StudyFault.
+class StudyRows {
+public:
+    enum class Kept { left, all }; ///< left: without the trials that did not leave as planned
+    StudyRows(std::string_view text, std::string_view name, std::span<const ColumnName> columns = {},
+              Kept kept = Kept::left) {
+        auto read = readCsvTable(text, name, columns.empty() ? CsvHeader::named : CsvHeader::loose);
+        if (!read) throw StudyFault{read.error};
+        table_ = std::move(read.value);
+        if (std::string fault = takeColumns(table_, columns, leftOut_); !fault.empty())
+            throw StudyFault{std::move(fault)};
+        if (kept == Kept::all) return;
+        const LeftRows rows{table_};
+        notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return rows.didNotLeave(row); });
+    }
+
+    std::size_t leftOut() const noexcept { return leftOut_; } ///< rows dropped for an empty mapped cell
+
+    std::size_t notLeft() const noexcept {
+        return notLeft_;
+    } ///< rows dropped as they did not leave as planned
+
+    const CsvTable& table() const { return table_; }
+
+    std::optional<std::size_t> optional(std::string_view column) const { return table_.column(column); }
+
+    std::size_t required(std::string_view column) const {
+        if (const auto found = table_.column(column)) return *found;
+        throw StudyFault{table_.name + ": expected a column " + std::string(column) + ", found none"};
+    }
+
+    /// Calls take(row) for each row that is not training and, if the table has tasks, has this kind of
+    /// answer. nullopt selects rows without a task. Returns the number of rows taken.
+    template <class Take>
+    std::size_t each(std::optional<AnswerKind> answer, Take take) const {
+        const auto phase = optional(trialColumns::phase), tasks = optional(trialColumns::task);
+        std::size_t taken = 0;
+        for (const CsvRow& row : table_.rows) {
+            if (phase && row.cells[*phase] == trialColumns::training) continue;
+            if (tasks && (answer ? answerOf(row.cells[*tasks]) != answer : !row.cells[*tasks].empty()))
+                continue;
+            take(row);
+            ++taken;
+        }
+        return taken;
+    }
+
+    const std::string& text(const CsvRow& row, std::size_t column) const {
+        if (row.cells[column].empty()) throw StudyFault{table_.fault(row, column, "a label")};
+        return row.cells[column];
+    }
+
+    static std::string textIf(const CsvRow& row, std::optional<std::size_t> column) {
+        return column ? row.cells[*column] : std::string{};
+    }
+
+    double number(const CsvRow& row, std::size_t column, double least, double most) const {
+        const auto found = parseNumber<double>(row.cells[column]);
+        if (!found || *found < least || *found > most)
+            throw StudyFault{table_.fault(
+                row, column, "a number from " + plainNumber(least) + " to " + plainNumber(most))};
+        return *found;
+    }
+
+    int wholeNumber(const CsvRow& row, std::size_t column, int least, int most) const {
+        const auto found = parseNumber<int>(row.cells[column]);
+        if (!found || *found < least || *found > most)
+            throw StudyFault{table_.fault(
+                row, column, "a whole number from " + std::to_string(least) + " to " + std::to_string(most))};
+        return *found;
+    }
+
+    bool isSimulated() const {
+        const auto holds = [](const std::string& text) {
+            return text.find(trialColumns::simulated) != std::string::npos;
+        };
+        const auto observer = optional(trialColumns::observer);
+        return std::ranges::any_of(table_.comments,
+                                   [&](const auto& line) {
+                                       return line.find(" observer=") != std::string::npos && holds(line);
+                                   }) ||
+               (observer && std::ranges::any_of(
+                                table_.rows, [&](const CsvRow& row) { return holds(row.cells[*observer]); }));
+    }
+
+private:
+    CsvTable table_;
+    std::size_t leftOut_ = 0, notLeft_ = 0;
+};
+} // namespace physvib::detail
+
+// Finds participants who occur in more than one table: one person with several files, or two people with the
+// same code.
+
+namespace physvib {
+class SharedParticipants {
+public:
+    /// Adds a table by its head and its participants. Returns one line if it is a trial file of a participant
+    /// of whom another file of the same protocol was added, else an empty string. Any thread (allocates).
+    std::string add(const CsvTable& head, const std::set<std::string>& participants);
+    /// Adds a whole table, by its participant column if it has one.
+    std::string add(const CsvTable& table, std::string_view column = "participant");
+
+    /// Lists participants in several tables, who count as one person; empty if there are none.
+    std::string note() const;
+
+private:
+    std::map<std::pair<std::string, std::string>, std::string> trialFiles_; // by protocol and participant
+    std::map<std::string, std::vector<std::string>> tables_;                // by participant
+};
+} // namespace physvib
+
+// Size limits of study files, with the reason for each value.
+
+namespace physvib::limits {
+constexpr std::size_t maxProtocolFileBytes = 1'000'000; // a protocol with many conditions has a few kB
+constexpr std::size_t maxCouplingFileBytes = 4'000'000; // four actuators need 1 kB per frequency, 64 need 100
+                                                        // kB
+constexpr std::size_t maxSweepFileBytes = 1'000'000; // a design has a few kB; 100,000 seeds are written as a
+                                                     // range
+constexpr std::size_t maxSweepValues = 4096; // per list; all pairs are compared, and every value is checked
+                                             // before the first render
+constexpr std::size_t maxSweepTasks = 10'000'000; // each task creates a file
+constexpr std::size_t maxConditions = 4096;       // per analysis; they are searched linearly
+constexpr std::size_t maxLabels = 2048;           // stimuli and responses; five actuators have 1240 patterns
+} // namespace physvib::limits

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// Absolute identification (thesis 3.2, 4.1): the confusion matrix (how often each response was given to each
+// stimulus), the information that it transfers, and the stimuli that are confused least.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+/// One trial of absolute identification: stimulus, response and participant (which may be empty).
+struct IdentificationTrial {
+    std::string stimulus, response, participant{};
+    bool operator==(const IdentificationTrial&) const = default;
+};
+
+/// A cell of a grid. Row and column start at 1; row 1 is the top row.
+struct GridCell {
+    int row = 0, column = 0;
+    bool operator==(const GridCell&) const = default;
+};
+
+/// Parses "2,5" as row 2, column 5; nullopt for any other text. Any thread.
+std::optional<GridCell> parseGridCell(std::string_view label) noexcept;
+
+/// "row,column". Any thread.
+std::string gridLabel(const GridCell& cell);
+
+/// |rows apart| + |columns apart|. Any thread.
+int manhattanDistance(const GridCell& a, const GridCell& b) noexcept;
+
+/// Counts of trials. Rows are the presented stimuli. Columns are the same labels in the same order, then the
+/// labels that occur only as responses. Grid labels are ordered by row and column, others by their bytes.
+class ConfusionMatrix {
+public:
+    explicit ConfusionMatrix(const std::vector<IdentificationTrial>& trials);
+
+    std::size_t stimuli() const noexcept { return stimuli_; }
+    std::size_t responses() const noexcept { return labels_.size(); }
+    const std::string& label(std::size_t response) const { return labels_[response]; }
+    std::uint32_t count(std::size_t stimulus, std::size_t response) const {
+        return counts_[stimulus * labels_.size() + response];
+    }
+    std::uint64_t trials() const noexcept { return trials_; }
+    std::uint64_t correct() const noexcept;
+    std::vector<std::uint64_t> stimulusTotals() const;
+    std::vector<std::uint64_t> responseTotals() const;
+
+private:
+    std::size_t indexOf(const std::string& label) const;
+
+    std::size_t stimuli_ = 0;
+    std::vector<std::string> labels_;
+    std::vector<std::uint32_t> counts_;
+    std::uint64_t trials_ = 0;
+};
+
+/// Copies the trials, with each response within `tolerance` of its stimulus (Manhattan distance of the grid
+/// cells) replaced by the stimulus. Tolerance-IT is computed from these trials (thesis 4.1). Responses that
+/// are no cells stay. Any thread.
+std::vector<IdentificationTrial> withTolerance(std::vector<IdentificationTrial> trials, int tolerance);
+
+// Information transfer of a confusion matrix in bits, with its bias and bounds (thesis 3.2, 4.1).
+
+/// Trials per matrix cell from which the bias-corrected estimate is reported
+/// (Docs/decisions/0017-correction-counts-what-was-seen.md).
+constexpr double trialsPerCellForCorrection = 5.0;
+
+struct InformationTransfer {
+    double bits = 0.0;          ///< maximum-likelihood estimate; biased upward with few trials
+    double biasBits = 0.0;      ///< expected bias of `bits`; 0 if every stimulus has one response only
+    double leastBits = 0.0;     ///< Fano's lower bound from the percent correct
+    double mostBits = 0.0;      ///< log2 of the number of stimuli
+    double trialsPerCell = 0.0; ///< trials / (stimuli x responses)
+
+    bool canBeCorrected() const noexcept { return trialsPerCell >= trialsPerCellForCorrection; }
+    double correctedBits() const noexcept { return bits > biasBits ? bits - biasBits : 0.0; }
+    /// The estimate to report: bias-corrected if there are enough trials, else the raw estimate.
+    double bestBits() const noexcept { return canBeCorrected() ? correctedBits() : bits; }
+};
+
+/// All zero without a trial. Any thread.
+/// bits = sum_ij n_ij/n log2(n_ij n / (n_i. n_.j))
+/// biasBits = max(0, cells - rows - columns + 1) / (2 n ln 2), counting only cells that occurred. Cells that
+/// cannot occur add no bias, so this is Miller's correction without its overshoot for sparse matrices.
+/// leastBits = H(stimuli) - h(P_e) - P_e log2(M - 1), M = number of stimuli (Fano)
+InformationTransfer informationTransfer(const ConfusionMatrix& matrix);
+
+/// Fano's lower bound, clamped to at least 0. Any thread.
+double fanoBits(double stimulusEntropyBits, double shareCorrect, std::size_t alternatives) noexcept;
+
+/// Information transfer of one participant's trials.
+struct ParticipantTransfer {
+    std::string participant;
+    ConfusionMatrix matrix;
+    InformationTransfer transfer;
+};
+
+/// In the order of first trials. If participants are unknown, one entry with an empty name. Any thread
+/// (allocates).
+std::vector<ParticipantTransfer> transferByParticipant(const std::vector<IdentificationTrial>& trials);
+
+// Selects the stimuli that participants confused least, for use as tactile icons (thesis 3.2.3).
+
+/// Bits needed for that number of meanings: log2. Any thread.
+inline double bitsFor(std::size_t meanings) noexcept {
+    return meanings > 1 ? std::log2(static_cast<double>(meanings)) : 0.0;
+}
+
+/// Share of the stimulus' trials that were answered correctly. Any thread.
+inline double shareCorrect(const ConfusionMatrix& matrix, std::size_t stimulus) {
+    std::uint64_t total = 0;
+    for (std::size_t j = 0; j < matrix.responses(); ++j) total += matrix.count(stimulus, j);
+    return total > 0 ? static_cast<double>(matrix.count(stimulus, stimulus)) / static_cast<double>(total)
+                     : 0.0;
+}
+
+/// Indices (ascending) of `count` stimuli, or of all if there are fewer. The most confused stimulus is
+/// removed until `count` remain. Confusion of two stimuli is the sum of the shares of trials in which one was
+/// answered with the other. Ties remove the stimulus with fewer correct answers, then the later one. Any
+/// thread (allocates).
+inline std::vector<std::size_t> leastConfused(const ConfusionMatrix& matrix, std::size_t count) {
+    const auto totals = matrix.stimulusTotals();
+    const auto confusion = [&](std::size_t a, std::size_t b) {
+        return matrix.count(a, b) / static_cast<double>(totals[a]) +
+               matrix.count(b, a) / static_cast<double>(totals[b]);
+    };
+    std::vector<std::size_t> left(matrix.stimuli());
+    std::iota(left.begin(), left.end(), 0u);
+    std::vector<double> with(matrix.stimuli(), 0.0);
+    for (const std::size_t a : left)
+        for (const std::size_t b : left)
+            if (a != b) with[a] += confusion(a, b);
+    while (left.size() > count) {
+        const auto better = [&](std::size_t a, std::size_t b) {
+            constexpr double rounding = 1e-9;
+            if (std::abs(with[a] - with[b]) > rounding) return with[a] < with[b];
+            const double ownA = shareCorrect(matrix, a), ownB = shareCorrect(matrix, b);
+            return ownA != ownB ? ownA > ownB : a < b;
+        };
+        const auto worst = std::ranges::max_element(left, better);
+        const std::size_t dropped = *worst;
+        left.erase(worst);
+        for (const std::size_t a : left) with[a] -= confusion(a, dropped);
+    }
+    return left;
+}
+
+} // namespace physvib

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+// Fits a normal distribution per target, then evaluates one quadratic form per target and pixel.
+#include "Lab/Study/Places.h"
+#include "Lab/Study/Summaries.h"
+#include "Stimuli/SeededRandom.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+// A determinant below this share of the product of the variances is rounding error. A variance below this
+// limit (a thousandth of the field's width, squared) is finer than a pixel and cannot be resolved.
+constexpr double leastDeterminantShare = 1e-9, leastVariance = 1e-6;
+
+bool canBeInverted(const PlaceNormal& n) noexcept {
+    return n.varianceX >= leastVariance && n.varianceY >= leastVariance &&
+           n.determinant() > leastDeterminantShare * n.varianceX * n.varianceY;
+}
+
+struct Sums {
+    double xx = 0.0, yy = 0.0, xy = 0.0;
+    void add(double dx, double dy) noexcept {
+        xx += dx * dx;
+        yy += dy * dy;
+        xy += dx * dy;
+    }
+    void give(PlaceNormal& n, double degreesOfFreedom) const noexcept {
+        n.varianceX = xx / degreesOfFreedom;
+        n.varianceY = yy / degreesOfFreedom;
+        n.covariance = xy / degreesOfFreedom;
+    }
+};
+
+std::string nameOf(std::size_t index, std::size_t columns) {
+    return "column " + std::to_string(index % columns + 1) + ", row " + std::to_string(index / columns + 1);
+}
+
+std::size_t indexOf(const LocationTrial& trial, std::size_t columns) noexcept {
+    return static_cast<std::size_t>(trial.targetRow - 1) * columns +
+           static_cast<std::size_t>(trial.targetColumn - 1);
+}
+
+void findMeans(const std::vector<LocationTrial>& trials, ResponseNormals& made) {
+    for (const auto& trial : trials) {
+        auto& normal = made.normals[indexOf(trial, made.columns)];
+        ++normal.responses;
+        normal.meanX += trial.x;
+        normal.meanY += trial.y;
+    }
+    for (auto& normal : made.normals) {
+        if (normal.responses == 0) continue;
+        normal.meanX /= static_cast<double>(normal.responses);
+        normal.meanY /= static_cast<double>(normal.responses);
+    }
+}
+
+/// Computes each target's covariance, and returns the covariance pooled over all targets.
+PlaceNormal findCovariances(const std::vector<LocationTrial>& trials, ResponseNormals& made) {
+    std::vector<Sums> sums(made.normals.size());
+    Sums all;
+    for (const auto& trial : trials) {
+        const std::size_t index = indexOf(trial, made.columns);
+        const double dx = trial.x - made.normals[index].meanX, dy = trial.y - made.normals[index].meanY;
+        sums[index].add(dx, dy);
+        all.add(dx, dy);
+    }
+    std::size_t targets = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        auto& normal = made.normals[i];
+        if (normal.responses > 0) ++targets;
+        if (normal.responses > 1) sums[i].give(normal, static_cast<double>(normal.responses - 1));
+    }
+    PlaceNormal pooled;
+    if (trials.size() > targets) all.give(pooled, static_cast<double>(trials.size() - targets));
+    return pooled;
+}
+
+void borrow(PlaceNormal& normal, const PlaceNormal& pooled) noexcept {
+    normal.varianceX = pooled.varianceX;
+    normal.varianceY = pooled.varianceY;
+    normal.covariance = pooled.covariance;
+    normal.isBorrowed = true;
+}
+
+void mend(ResponseNormals& made, const PlaceNormal& pooled) {
+    const bool canBorrow = canBeInverted(pooled);
+    for (std::size_t i = 0; i < made.normals.size() && made.fault.empty(); ++i) {
+        auto& normal = made.normals[i];
+        const std::string name = nameOf(i, made.columns);
+        if (normal.responses == 0) {
+            made.warnings.push_back(name + ": no responses, so it can never be the likeliest");
+        } else if (normal.responses >= 3 && canBeInverted(normal)) {
+            continue;
+        } else if (canBorrow) {
+            made.warnings.push_back(name + ": " + std::to_string(normal.responses) + " responses" +
+                                    (normal.responses < 3 ? "" : " on one line") +
+                                    ", the condition's pooled covariance is taken");
+            borrow(normal, pooled);
+        } else {
+            made.fault = name + ": expected three or more responses that are not on one line, and the "
+                                "condition has no pooled covariance to take instead";
+        }
+    }
+}
+
+/// Eq. 4.4 without its constant; everything that does not depend on the place is precomputed.
+struct LogLikelihood {
+    explicit LogLikelihood(const PlaceNormal& n) noexcept
+        : meanX{n.meanX}
+        , meanY{n.meanY} {
+        if (n.responses == 0) return;
+        const double d = n.determinant();
+        constant = -0.5 * std::log(d);
+        xx = -0.5 * n.varianceY / d;
+        yy = -0.5 * n.varianceX / d;
+        xy = n.covariance / d;
+    }
+    double at(double x, double y) const noexcept {
+        const double dx = x - meanX, dy = y - meanY;
+        return constant + xx * dx * dx + yy * dy * dy + xy * dx * dy;
+    }
+    double meanX, meanY;
+    double constant = -std::numeric_limits<double>::infinity(), xx = 0.0, yy = 0.0, xy = 0.0;
+};
+
+/// Number of perceived cells on a coarse map; 0 if there are no normal distributions.
+double cellsOf(const std::vector<LocationTrial>& trials, double thresholdPercent) {
+    constexpr std::size_t shrunk = 10; // a hundredth of the pixels; this rounds a share of 1.42 % by less
+                                       // than 0.02 %
+    const ResponseNormals normals = responseNormals(trials);
+    if (!normals.fault.empty()) return 0.0;
+    const auto counts =
+        percentCounts(normals, likelihoodMap(normals, mapColumns / shrunk, mapRows / shrunk), {});
+    const auto resolution = perceptualResolution(counts, thresholdPercent);
+    return static_cast<double>(resolution.columns * resolution.rows);
+}
+
+/// Trials that may be exchanged for each other, by condition.
+using Exchange = std::vector<std::vector<LocationTrial>>;
+
+/// Exchanges whole conditions of a person: trials of one person depend on each other.
+void exchangeConditions(Exchange& own, SeededRandom& random) { random.shuffle(own); }
+
+/// Exchanges single trials, and keeps the number in each condition.
+void exchangeTrials(Exchange& own, SeededRandom& random) {
+    std::vector<LocationTrial> all;
+    for (const auto& trials : own) all.insert(all.end(), trials.begin(), trials.end());
+    random.shuffle(all);
+    auto next = all.begin();
+    for (auto& trials : own)
+        std::ranges::copy_n(next, std::ssize(trials), trials.begin()), next += std::ssize(trials);
+}
+
+} // namespace
+
+ResponseNormals responseNormals(const std::vector<LocationTrial>& trials) {
+    ResponseNormals made;
+    if (trials.empty()) {
+        made.fault = "expected responses, found none";
+        return made;
+    }
+    for (const auto& trial : trials) {
+        made.rows = std::max(made.rows, static_cast<std::size_t>(trial.targetRow));
+        made.columns = std::max(made.columns, static_cast<std::size_t>(trial.targetColumn));
+    }
+    made.normals.resize(made.rows * made.columns);
+    findMeans(trials, made);
+    const PlaceNormal pooled = findCovariances(trials, made);
+    mend(made, pooled);
+    return made;
+}
+
+std::vector<std::uint16_t> likelihoodMap(const ResponseNormals& normals, std::size_t width,
+                                         std::size_t height) {
+    const std::vector<LogLikelihood> targets(normals.normals.begin(), normals.normals.end());
+    std::vector<std::uint16_t> map;
+    map.reserve(width * height);
+    for (std::size_t row = 0; row < height; ++row)
+        for (std::size_t column = 0; column < width; ++column) {
+            const double x = (static_cast<double>(column) + 0.5) / static_cast<double>(width);
+            const double y = (static_cast<double>(row) + 0.5) / static_cast<double>(height);
+            const auto likeliest =
+                std::ranges::max_element(targets, {}, [=](const LogLikelihood& t) { return t.at(x, y); });
+            map.push_back(static_cast<std::uint16_t>(likeliest - targets.begin()));
+        }
+    return map;
+}
+
+PercentCounts percentCounts(const ResponseNormals& normals, const std::vector<std::uint16_t>& map,
+                            std::string condition) {
+    std::vector<std::size_t> pixels(normals.normals.size());
+    for (const auto target : map) ++pixels[target];
+    PercentCounts counts{std::move(condition), normals.rows, normals.columns, {}};
+    for (const std::size_t count : pixels)
+        counts.percent.push_back(100.0 * static_cast<double>(count) / static_cast<double>(map.size()));
+    return counts;
+}
+
+ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
+                                     double thresholdPercent) {
+    ConditionResolution made{std::move(condition), responseNormals(trials), {}, {}};
+    if (!made.normals.fault.empty()) return made;
+    made.counts = percentCounts(made.normals, likelihoodMap(made.normals), made.condition);
+    made.resolution = perceptualResolution(made.counts, thresholdPercent);
+    return made;
+}
+
+CellSpread cellSpread(const std::vector<LocationTrial>& trials, double thresholdPercent, int draws,
+                      std::uint64_t seed) {
+    std::map<std::pair<int, int>, std::vector<std::size_t>> ofTarget;
+    for (std::size_t i = 0; i < trials.size(); ++i)
+        ofTarget[{trials[i].targetRow, trials[i].targetColumn}].push_back(i);
+    SeededRandom random{seed, "cells of responses drawn again"};
+    double sum = 0.0, squares = 0.0;
+    for (int draw = 0; draw < draws; ++draw) {
+        std::vector<LocationTrial> drawn;
+        for (const auto& [target, own] : ofTarget)
+            for (std::size_t i = 0; i < own.size(); ++i)
+                drawn.push_back(trials[own[random.below(own.size())]]);
+        const double cells = cellsOf(drawn, thresholdPercent);
+        sum += cells;
+        squares += cells * cells;
+    }
+    const double mean = sum / draws;
+    return {mean, std::sqrt(std::max(0.0, squares / draws - mean * mean) * draws / std::max(1, draws - 1))};
+}
+
+CellChance cellChance(const std::vector<std::vector<LocationTrial>>& conditions, double thresholdPercent,
+                      int draws, std::uint64_t seed) {
+    std::map<std::string, Exchange> byPerson;
+    std::map<std::pair<int, int>, Exchange> byTarget;
+    for (std::size_t c = 0; c < conditions.size(); ++c)
+        for (const LocationTrial& trial : conditions[c])
+            for (Exchange* const own :
+                 {&byPerson[trial.participant], &byTarget[{trial.targetRow, trial.targetColumn}]}) {
+                own->resize(conditions.size());
+                (*own)[c].push_back(trial);
+            }
+    CellChance chance;
+    for (const auto& [person, own] : byPerson)
+        chance.people += std::ranges::none_of(own, [](const auto& trials) { return trials.empty(); });
+    SeededRandom random{seed, "cells of exchanged conditions"};
+    std::vector<double> widest;
+    for (int draw = 0; draw < draws; ++draw) {
+        std::vector<std::vector<LocationTrial>> drawn(conditions.size());
+        const auto add = [&](auto& parts, auto exchange) {
+            for (auto& [key, own] : parts) {
+                exchange(own, random);
+                for (std::size_t c = 0; c < own.size(); ++c)
+                    drawn[c].insert(drawn[c].end(), own[c].begin(), own[c].end());
+            }
+        };
+        chance.people > 1 ? add(byPerson, exchangeConditions) : add(byTarget, exchangeTrials);
+        std::vector<double> cells;
+        for (const auto& trials : drawn) cells.push_back(cellsOf(trials, thresholdPercent));
+        widest.push_back(std::ranges::max(cells) - std::ranges::min(cells));
+    }
+    std::ranges::sort(widest);
+    // With the study itself there are draws + 1, of which at most 5 % lie beyond.
+    chance.cells = widest[static_cast<std::size_t>(std::ceil(0.95 * (draws + 1))) - 1];
+    return chance;
+}
+
+// Computes pointing errors in two passes (sums, then deviations), because pixel coordinates can be far from
+// 0.
+
+namespace {
+
+/// Groups trials by key, in the order of first occurrence.
+template <class KeyOf>
+std::vector<std::vector<const PlaceTrial*>> groupedBy(const std::vector<PlaceTrial>& trials, KeyOf keyOf) {
+    std::map<decltype(keyOf(trials.front())), std::size_t> indices;
+    std::vector<std::vector<const PlaceTrial*>> groups;
+    for (const PlaceTrial& trial : trials) {
+        const auto [found, isNew] = indices.emplace(keyOf(trial), groups.size());
+        if (isNew) groups.emplace_back();
+        groups[found->second].push_back(&trial);
+    }
+    return groups;
+}
+
+template <class Value>
+Moments momentsOf(const std::vector<const PlaceTrial*>& trials, Value value) {
+    std::vector<double> values;
+    for (const PlaceTrial* trial : trials) values.push_back(value(*trial));
+    return Moments{values};
+}
+
+TargetError errorOf(const std::vector<const PlaceTrial*>& trials) {
+    const Moments dx = momentsOf(trials, [](const PlaceTrial&t) { return t.x - t.trueX; }),
+                  dy = momentsOf(trials, [](const PlaceTrial&t) { return t.y - t.trueY; });
+    return {
+        trials.front()->participant,
+        trials.front()->target,
+        trials.size(),
+        momentsOf(trials, [](const PlaceTrial& t) { return t.trueX; }).mean,
+        momentsOf(trials, [](const PlaceTrial& t) { return t.trueY; }).mean,
+        dx.mean,
+        dy.mean,
+        std::hypot(dx.deviation, dy.deviation),
+        momentsOf(trials, [](const PlaceTrial& t) { return std::hypot(t.x - t.trueX, t.y - t.trueY); }).mean};
+}
+
+/// Least-squares slope; nullopt if all true places are equal.
+std::optional<double> slope(const std::vector<const PlaceTrial*>& trials, double PlaceTrial::*truth,
+                            double PlaceTrial::*answer) {
+    const double meanTrue = momentsOf(trials, [=](const PlaceTrial&t) { return t.*truth; }).mean,
+                 meanAnswer = momentsOf(trials, [=](const PlaceTrial&t) { return t.*answer; }).mean;
+    double squares = 0.0, products = 0.0;
+    for (const PlaceTrial* t : trials)
+        squares += (t->*truth - meanTrue) * (t->*truth - meanTrue),
+            products += (t->*truth - meanTrue) * (t->*answer - meanAnswer);
+    return squares > 0.0 ? std::optional{products / squares} : std::nullopt;
+}
+
+} // namespace
+
+std::vector<TargetError> targetErrors(const std::vector<PlaceTrial>& trials) {
+    std::vector<TargetError> errors;
+    if (trials.empty()) return errors;
+    for (const auto& group : groupedBy(trials, [](const PlaceTrial& t) {
+             return std::pair{t.participant, t.target};
+         }))
+        errors.push_back(errorOf(group));
+    return errors;
+}
+
+std::vector<ParticipantError> participantErrors(const std::vector<PlaceTrial>& trials) {
+    std::vector<ParticipantError> people;
+    if (trials.empty()) return people;
+    const std::vector<TargetError> targets = targetErrors(trials);
+    for (const auto& group : groupedBy(trials, [](const PlaceTrial& t) { return t.participant; })) {
+        ParticipantError one{.participant = group.front()->participant, .trials = group.size()};
+        std::size_t repeated = 0;
+        for (const TargetError& target : targets) {
+            if (target.participant != one.participant) continue;
+            ++one.targets;
+            one.constantX += target.constantX, one.constantY += target.constantY,
+                one.distance += target.distance;
+            if (target.trials > 1) ++repeated, one.variable += target.variable;
+        }
+        const auto count = static_cast<double>(one.targets);
+        one.constantX /= count, one.constantY /= count, one.distance /= count;
+        if (repeated > 0) one.variable /= static_cast<double>(repeated), one.hasVariable = true;
+        if (const auto gain = slope(group, &PlaceTrial::trueX, &PlaceTrial::x))
+            one.gainX = *gain, one.hasGainX = true;
+        if (const auto gain = slope(group, &PlaceTrial::trueY, &PlaceTrial::y))
+            one.gainY = *gain, one.hasGainY = true;
+        people.push_back(std::move(one));
+    }
+    return people;
+}
+
+} // namespace physvib

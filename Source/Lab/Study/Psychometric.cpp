@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Maximum-likelihood fit of threshold, width and lapse rate.
+// Steps: 1. Evaluate a coarse grid. 2. Start Nelder and Mead's simplex (1965) at its best point. 3. Restart
+// the simplex once, because the first may have collapsed on a slope.
+// Search units: the range of the levels is 1, the width is logarithmic, and the lapse rate is kept in bounds
+// by a cosine.
+#include "Lab/Study/Psychometric.h"
+#include "Lab/Study/Summaries.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+const double logisticSpan = 2.0 * std::log(19.0); // width of its argument from F = 0.05 to 0.95
+constexpr double normalSpan = 3.289707253902943;  // 2 x 1.644853626951472
+const double weibullSpan = std::log(-std::log(0.05)) - std::log(-std::log(0.95));
+
+/// F: 0.5 at `x` = 0; rises from 0.05 to 0.95 over a width of 1.
+double risen(PsychometricShape shape, double x) noexcept {
+    if (shape == PsychometricShape::logistic) return 1.0 / (1.0 + std::exp(-logisticSpan * x));
+    if (shape == PsychometricShape::normal) return 0.5 * std::erfc(-normalSpan * x / std::numbers::sqrt2);
+    return -std::expm1(-std::numbers::ln2 * std::exp(weibullSpan * x));
+}
+
+double whereRisen(PsychometricShape shape, double share) {
+    if (shape == PsychometricShape::logistic) return std::log(share / (1.0 - share)) / logisticSpan;
+    if (shape == PsychometricShape::normal) return normalQuantile(share) / normalSpan;
+    return std::log(-std::log1p(-share) / std::numbers::ln2) / weibullSpan;
+}
+
+using Point = std::array<double, 3>; // threshold, log of the width, lapse, each in search units
+
+/// Objective function of the fit: maps a point to a psychometric function and to the likelihood of the
+/// trials.
+class Likelihood {
+public:
+    Likelihood(std::span<const LevelCount> counts, const PsychometricModel& model)
+        : counts_{counts}
+        , model_{model} {
+        const auto [least, most] = std::ranges::minmax(counts, {}, &LevelCount::level);
+        least_ = least.level;
+        range_ = most.level - least.level;
+    }
+    PsychometricFunction function(const Point& at) const {
+        // The cosine maps any real number to a lapse rate within its bounds.
+        const double lapse = model_.lapseUpTo * 0.5 * (1.0 - std::cos(at[2]));
+        return {model_.shape, least_ + range_ * at[0], range_ * std::exp(at[1]), model_.guess, lapse};
+    }
+    /// Negative log-likelihood.
+    double operator()(const Point& at) const {
+        if (at[0] < -3.0 || at[0] > 4.0 || at[1] < std::log(1e-3) || at[1] > std::log(20.0))
+            return std::numeric_limits<double>::max();
+        return -logLikelihood(counts_, function(at));
+    }
+
+private:
+    std::span<const LevelCount> counts_;
+    PsychometricModel model_;
+    double least_ = 0.0, range_ = 1.0;
+};
+
+Point bestOfGrid(const Likelihood& likelihood) {
+    Point best{};
+    double least = std::numeric_limits<double>::max();
+    for (double threshold = -0.25; threshold < 1.3; threshold += 0.125)
+        for (const double width : {0.1, 0.25, 0.5, 1.0, 2.0})
+            for (const double lapse : {0.5, 1.5}) {
+                const Point at{threshold, std::log(width), lapse};
+                if (const double value = likelihood(at); value < least) least = value, best = at;
+            }
+    return best;
+}
+
+Point between(const Point& a, const Point& b, double share) {
+    Point point{};
+    for (std::size_t i = 0; i < point.size(); ++i) point[i] = a[i] + share * (b[i] - a[i]);
+    return point;
+}
+
+/// Runs the simplex until its corners are equal, and returns the best.
+Point climb(const Likelihood& likelihood, const Point& start) {
+    struct Corner {
+        Point at{};
+        double value = 0.0;
+    };
+    std::array<Corner, 4> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        corners[i].at = start;
+        if (i > 0) corners[i].at[i - 1] += 0.2;
+        corners[i].value = likelihood(corners[i].at);
+    }
+    constexpr int mostSteps = 1000;
+    for (int step = 0; step < mostSteps; ++step) {
+        std::ranges::sort(corners, {}, &Corner::value);
+        Corner& worst = corners.back();
+        if (worst.value - corners.front().value < 1e-10) break;
+        Point centre{};
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t c = 0; c < 3; ++c) centre[i] += corners[c].at[i] / 3.0;
+        const auto at = [&](double share) {
+            const Point point = between(worst.at, centre, share);
+            return Corner{point, likelihood(point)};
+        };
+        const Corner mirrored = at(2.0);
+        if (mirrored.value < corners.front().value) {
+            const Corner farther = at(3.0);
+            worst = farther.value < mirrored.value ? farther : mirrored;
+        } else if (mirrored.value < corners[2].value) {
+            worst = mirrored;
+        } else if (const Corner nearer = at(mirrored.value < worst.value ? 1.5 : 0.5);
+                   nearer.value < std::min(worst.value, mirrored.value)) {
+            worst = nearer;
+        } else {
+            for (std::size_t c = 1; c < corners.size(); ++c) {
+                corners[c].at = between(corners.front().at, corners[c].at, 0.5);
+                corners[c].value = likelihood(corners[c].at);
+            }
+        }
+    }
+    return std::ranges::min(corners, {}, &Corner::value).at;
+}
+
+std::string faultOfCounts(std::span<const LevelCount> counts) {
+    if (counts.empty()) return "expected trials, found none";
+    const auto [least, most] = std::ranges::minmax(counts, {}, &LevelCount::level);
+    if (least.level == most.level) return "expected trials at two or more levels, found one";
+    const auto share = [](const LevelCount& c) {
+        return static_cast<double>(c.hits) / static_cast<double>(c.trials);
+    };
+    const auto [lowest, highest] = std::ranges::minmax(counts, {}, share);
+    if (share(lowest) == share(highest))
+        return "expected answers that change with the level, found the same share at every one";
+    return {};
+}
+
+} // namespace
+
+double PsychometricFunction::probability(double level) const noexcept {
+    return guess + (1.0 - guess - lapse) * risen(shape, (level - threshold) / width);
+}
+
+double PsychometricFunction::levelOf(double probability) const {
+    return threshold + width * whereRisen(shape, (probability - guess) / (1.0 - guess - lapse));
+}
+
+double PsychometricFunction::jnd() const noexcept {
+    return 0.5 * width * (whereRisen(shape, 0.75) - whereRisen(shape, 0.25));
+}
+
+double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function) {
+    double sum = 0.0;
+    for (const LevelCount& count : counts) {
+        const double p = std::clamp(function.probability(count.level), 1e-12, 1.0 - 1e-12);
+        sum += static_cast<double>(count.hits) * std::log(p) +
+               static_cast<double>(count.trials - count.hits) * std::log1p(-p);
+    }
+    return sum;
+}
+
+PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model) {
+    if (auto fault = faultOfCounts(counts); !fault.empty()) return {fault};
+    const Likelihood likelihood{counts, model};
+    Point best = climb(likelihood, bestOfGrid(likelihood));
+    best = climb(likelihood, best); // step 3
+    return {{}, likelihood.function(best), -likelihood(best)};
+}
+
+// Groups trials by participant and fits each group.
+
+std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
+                                                               const PsychometricModel& model) {
+    std::vector<ParticipantPsychometric> fits;
+    for (const auto& [participant, own] : byParticipant(trials)) {
+        std::map<double, LevelCount> byLevel;
+        for (const LevelAnswer& trial : own) {
+            LevelCount& count = byLevel[trial.level];
+            count.level = trial.level;
+            ++count.trials;
+            count.hits += trial.answer > 0.5;
+        }
+        std::vector<LevelCount> counts;
+        for (const auto& [level, count] : byLevel) counts.push_back(count);
+        fits.push_back({participant, own.size(), fitPsychometric(counts, model)});
+    }
+    return fits;
+}
+
+std::vector<ParticipantPowerLaw> powerLawByParticipant(const std::vector<LevelAnswer>& trials) {
+    std::vector<ParticipantPowerLaw> laws;
+    for (const auto& [participant, own] : byParticipant(trials)) {
+        std::vector<MagnitudeTrial> magnitudes;
+        for (const LevelAnswer& trial : own) magnitudes.push_back({trial.level, trial.answer});
+        laws.push_back({participant, own.size(), fitPowerLaw(magnitudes)});
+    }
+    return laws;
+}
+
+} // namespace physvib

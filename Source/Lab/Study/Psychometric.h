@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Functions fitted to each participant's trials: psychometric functions (probability of an answer by level,
+// by maximum likelihood) and Stevens' power law.
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+enum class PsychometricShape {
+    logistic,
+    normal, ///< cumulative normal
+    weibull ///< for levels in dB or another logarithm (Gumbel's function of the level)
+};
+
+inline constexpr std::array<std::string_view, 3> psychometricShapeNames{"logistic", "normal", "weibull"};
+
+constexpr double mostLapse = 0.1; // maximum plausible lapse rate
+
+/// Model choices, made before the fit.
+struct PsychometricModel {
+    PsychometricShape shape = PsychometricShape::logistic;
+    double guess = 0.5;           ///< 1 / alternatives of a forced choice; 0: answers yes and no
+    double lapseUpTo = mostLapse; ///< upper bound of the fitted lapse rate
+    bool operator==(const PsychometricModel&) const = default;
+};
+
+/// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold and rises from 0.05 to 0.95 within
+/// the width.
+struct PsychometricFunction {
+    PsychometricShape shape = PsychometricShape::logistic;
+    double threshold = 0.0, width = 1.0; ///< in the unit of the levels; width > 0
+    double guess = 0.0, lapse = 0.0;     ///< guess: 1 / alternatives of a forced choice
+
+    /// Any thread.
+    double probability(double level) const noexcept;
+    double levelOf(double probability) const; ///< inverse function, for a probability between guess and 1 -
+                                              ///< lapse
+    /// Just noticeable difference: half the distance from F = 0.25 to F = 0.75.
+    double jnd() const noexcept;
+};
+
+/// Trials at one level.
+struct LevelCount {
+    double level = 0.0;
+    std::uint64_t hits = 0, trials = 0;
+};
+
+/// Natural logarithm of the probability of the answers. A probability of 0 or 1 counts as 1e-12 away from it.
+/// Any thread.
+double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function);
+
+struct PsychometricFit {
+    std::string fault; ///< error in one line; if set, the rest is invalid
+    PsychometricFunction function{};
+    double logLikelihood = 0.0;
+};
+
+/// Maximum-likelihood fit. Errors: fewer than two levels, or answers that do not change with the level. Any
+/// thread (allocates).
+PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model);
+
+// Stevens' power law, magnitude = factor * level^exponent, fitted by least squares of logarithms.
+
+struct MagnitudeTrial {
+    double level = 0.0, magnitude = 0.0; ///< both > 0; the level is linear (g, not dB)
+};
+
+struct PowerLaw {
+    std::string fault; ///< error in one line; if set, the rest is invalid
+    double exponent = 0.0, factor = 1.0;
+    double determination = 0.0; ///< r squared of the regression of logarithms
+};
+
+/// Fits one participant's trials. Average exponents over participants, but not factors, since each
+/// participant chooses the scale. Any thread.
+inline PowerLaw fitPowerLaw(std::span<const MagnitudeTrial> trials) {
+    const auto n = static_cast<double>(trials.size());
+    double meanX = 0.0, meanY = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+    for (const auto& trial : trials) {
+        if (!(trial.level > 0.0) || !(trial.magnitude > 0.0)) return {"expected levels and magnitudes > 0"};
+        meanX += std::log(trial.level) / n;
+        meanY += std::log(trial.magnitude) / n;
+    }
+    for (const auto& trial : trials) {
+        const double x = std::log(trial.level) - meanX, y = std::log(trial.magnitude) - meanY;
+        xx += x * x;
+        xy += x * y;
+        yy += y * y;
+    }
+    if (!(xx > 1e-18)) return {"expected magnitudes of two or more levels"};
+    const double exponent = xy / xx;
+    return {{}, exponent, std::exp(meanY - exponent * meanX), yy > 0.0 ? xy * xy / (xx * yy) : 1.0};
+}
+
+/// A participant's answer at a level: 1 or 0, or a magnitude.
+struct LevelAnswer {
+    std::string participant;
+    double level = 0.0, answer = 0.0;
+    bool isAdaptive = false; ///< earlier answers chose the level, so the answers do not tell the slope
+};
+
+struct ParticipantPsychometric {
+    std::string participant;
+    std::size_t trials = 0;
+    PsychometricFit fit;
+};
+
+struct ParticipantPowerLaw {
+    std::string participant;
+    std::size_t trials = 0;
+    PowerLaw law;
+};
+
+// One result per participant, in the order of first trials. Any thread (allocates).
+std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
+                                                               const PsychometricModel& model);
+std::vector<ParticipantPowerLaw> powerLawByParticipant(const std::vector<LevelAnswer>& trials);
+
+} // namespace physvib

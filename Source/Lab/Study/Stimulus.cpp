@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// Checks a stimulus job against its valid ranges.
+#include "Lab/Study/Stimulus.h"
+#include "Core/Actuators/Exposure.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Study/Experiment.h"
+#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Protocol.h"
+#include "Scene/ActuatorFile.h"
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+namespace words = stimulusWords;
+namespace ranges = stimulusRanges;
+
+JobFault rangeFault(std::string_view word, double number, const StimulusRange& range) {
+    if (range.holds(number)) return {};
+    return {word, numberWord(range.least) + " to " + numberWord(range.most)};
+}
+
+JobFault placeFault(const FieldPlace& place) {
+    if (ranges::share.holds(place.x) && ranges::share.holds(place.y)) return {};
+    return {words::at, "X,Y from 0 to 1"};
+}
+
+JobFault placeFault(const GridPlace& place) {
+    const auto isLine = [](int line, int lines) { return line >= 1 && line <= lines; };
+    constexpr int most = static_cast<int>(mostGridLines);
+    if (!isLine(place.grid.columns, most) || !isLine(place.grid.rows, most))
+        return {words::grid, "COLUMNSxROWS like 7x5"};
+    if (!isLine(place.cell.column, place.grid.columns) || !isLine(place.cell.row, place.grid.rows))
+        return {words::cell, "r,c of the grid (row 1 is the upper one)"};
+    return {};
+}
+
+JobFault faultOfKind(const PatternJob& pattern) {
+    if (!parsePatternLabel(pattern.label))
+        return {{}, "a pattern like ABA-250 (one to three enchanters, then milliseconds)"};
+    return rangeFault(words::gap, pattern.gapSeconds, ranges::gapSeconds);
+}
+
+JobFault faultOfKind(const PhantomJob& phantom) {
+    if (auto fault = std::visit([](const auto& place) { return placeFault(place); }, phantom.at))
+        return fault;
+    if (auto fault = rangeFault(words::exponent, phantom.exponent, ranges::exponent)) return fault;
+    if (auto fault = rangeFault(words::decay, phantom.decayPerSecond, ranges::decayPerSecond)) return fault;
+    return rangeFault(words::seconds, phantom.seconds, ranges::seconds);
+}
+
+/// Integral over the length of the squared weighted samples of a tone that begins at peak 1. Without a
+/// sample rate: by the poles of tone and weighting, so no transform warps frequencies.
+double weightedSquares(double frequencyHz, double decayPerSecond, double seconds) noexcept {
+    using Complex = std::complex<double>;
+    using namespace handWeighting;
+    const auto radians = [](double hz) { return 2.0 * std::numbers::pi * hz; };
+    std::array<Complex, 8> poles{Complex{-decayPerSecond, radians(frequencyHz)}};
+    std::size_t at = 1;
+    for (const auto& [hz, q] :
+         {std::pair{lowHz, bandQ}, std::pair{highHz, bandQ}, std::pair{transitionHz, transitionQ}}) {
+        poles[at] = radians(hz) * Complex{-0.5 / q, std::sqrt(1.0 - 0.25 / (q * q))};
+        ++at;
+    }
+    for (std::size_t k = 0; k < 4; ++k) poles[4 + k] = std::conj(poles[k]);
+    const double high = radians(highHz), transition = radians(transitionHz),
+                 gain = radians(frequencyHz) * high * high * transition;
+    std::array<Complex, 8> residues;
+    for (std::size_t k = 0; k < 8; ++k) {
+        residues[k] = gain * poles[k] * poles[k] * (poles[k] + transition);
+        for (std::size_t j = 0; j < 8; ++j)
+            if (j != k) residues[k] /= poles[k] - poles[j];
+    }
+    Complex squares;
+    for (std::size_t k = 0; k < 8; ++k)
+        for (std::size_t j = 0; j < 8; ++j) {
+            const Complex both = poles[k] + poles[j]; // 0 of a tone that does not decay
+            squares +=
+                residues[k] * residues[j] * (both == 0.0 ? seconds : (std::exp(both * seconds) - 1.0) / both);
+        }
+    return squares.real();
+}
+
+} // namespace
+
+FieldPlace PhantomJob::place() const noexcept {
+    if (const auto* const point = std::get_if<GridPlace>(&at)) return point->grid.place(point->cell);
+    return *std::get_if<FieldPlace>(&at);
+}
+
+double PhantomJob::peakFactor(double frequencyHz) const noexcept {
+    if (levelOf == LevelOf::weighted)
+        return std::sqrt(0.5 * seconds / weightedSquares(frequencyHz, decayPerSecond, seconds));
+    const double twice = 2.0 * decayPerSecond, // integral of the squared envelope, in s:
+        envelopeSeconds = twice > 0.0 ? -std::expm1(-twice * seconds) / twice : seconds;
+    return levelOf == LevelOf::peak ? 1.0
+                                    : std::sqrt((levelOf == LevelOf::rms ? seconds : 1.0) / envelopeSeconds);
+}
+
+JobFault faultOf(const StimulusJob& job) {
+    if (auto fault = std::visit([](const auto& kind) { return faultOfKind(kind); }, job.what)) return fault;
+    if (job.frequencyHz)
+        if (auto fault = rangeFault(words::frequency, *job.frequencyHz, ranges::frequencyHz))
+            return {fault.word, fault.expected + " Hz, or " + words::resonance};
+    return rangeFault(words::levelG, job.levelG, ranges::levelG);
+}
+
+// Converts stimulus jobs to the calls that are stored in the rows of trial files.
+
+namespace {
+
+namespace words = stimulusWords;
+constexpr std::string_view middles = "middles";
+
+class CallWriter {
+public:
+    explicit CallWriter(std::string words)
+        : text{std::move(words)} {}
+    CallWriter& add(std::string_view word, std::string_view value) {
+        text.append(" ").append(word).append(" ").append(value);
+        return *this;
+    }
+    CallWriter& add(std::string_view word, double value) { return add(word, numberWord(value)); }
+    CallWriter& addCarrier(const StimulusJob& job) {
+        return add(words::layout, job.layout)
+            .add(words::frequency, job.frequencyHz ? numberWord(*job.frequencyHz) : words::resonance)
+            .add(words::levelG, job.levelG);
+    }
+    std::string text;
+};
+
+void addPlace(CallWriter& call, const FieldPlace& place) {
+    call.add(words::at, numberWord(place.x) + "," + numberWord(place.y));
+}
+
+void addPlace(CallWriter& call, const GridPlace& place) {
+    call.add(words::grid, std::to_string(place.grid.columns) + "x" + std::to_string(place.grid.rows))
+        .add(words::cell, gridLabel(place.cell));
+    if (place.grid.points == PhantomGrid::Points::middles) call.add(words::points, middles);
+}
+
+/// The value of an option in a call; empty if the call does not have it.
+std::string_view valueOf(std::string_view call, std::string_view word) noexcept {
+    while (!call.empty()) {
+        const std::size_t end = std::min(call.find(' '), call.size());
+        const bool isFound = call.substr(0, end) == word;
+        call.remove_prefix(std::min(end + 1, call.size()));
+        if (isFound) return call.substr(0, call.find(' '));
+    }
+    return {};
+}
+
+std::string textOf(const PatternJob& pattern, const StimulusJob& job) {
+    return CallWriter{"stimulus pattern " + pattern.label}
+        .addCarrier(job)
+        .add(words::gap, pattern.gapSeconds)
+        .text;
+}
+
+std::string textOf(const PhantomJob& phantom, const StimulusJob& job) {
+    CallWriter call{"stimulus phantom"};
+    std::visit([&](const auto& place) { addPlace(call, place); }, phantom.at);
+    call.addCarrier(job).add(words::law, nameOf(phantom.law)).add(words::exponent, phantom.exponent);
+    if (phantom.decayPerSecond != 0.0) call.add(words::decay, phantom.decayPerSecond);
+    if (phantom.levelOf != LevelOf::peak)
+        call.add(words::levelOf, levelOfNames[static_cast<std::size_t>(phantom.levelOf)]);
+    return call.add(words::seconds, phantom.seconds).text;
+}
+
+} // namespace
+
+std::string textOf(const StimulusJob& job) {
+    return std::visit([&](const auto& kind) { return textOf(kind, job); }, job.what);
+}
+
+std::optional<PhantomGrid> gridOf(std::string_view call) noexcept {
+    const std::string_view lines = valueOf(call, words::grid);
+    const std::size_t by = std::min(lines.find('x'), lines.size());
+    const auto columns = parseNumber<int>(lines.substr(0, by)),
+               rows = parseNumber<int>(lines.substr(std::min(by + 1, lines.size())));
+    const auto isCount = [](std::optional<int> n) {
+        return n && *n >= 1 && *n <= static_cast<int>(mostGridLines);
+    };
+    if (!isCount(columns) || !isCount(rows)) return std::nullopt;
+    using Points = PhantomGrid::Points;
+    return PhantomGrid{*columns, *rows,
+                       valueOf(call, words::points) == middles ? Points::middles : Points::corners};
+}
+
+std::string withSounds(const Protocol& protocol, std::string call) {
+    if (call.find("--method SV") == std::string::npos) return call;
+    for (const StudySoundFile& sound : protocol.sounds) {
+        const std::string quote = sound.file.find(' ') == std::string::npos ? "" : "\"";
+        call += " --sound " + quote + numberWord(sound.frequencyHz) + "=" + sound.file + quote;
+    }
+    return call;
+}
+
+std::string callsOf(const Protocol& protocol, const TrialRecord& record) {
+    std::string text;
+    const auto add = [&](const std::string& call) { text.append(text.empty() ? "" : " ; ").append(call); };
+    for (const std::string& session : record.answer.sessions) add("render " + session);
+    if (!text.empty()) return text;
+    for (const TrialJob& job : jobsOf(protocol, record))
+        add(std::visit([](const auto& one) { return textOf(one); }, job));
+    return text;
+}
+
+// Creates the events of a stimulus job; only an actuator resonance comes from the layout.
+
+namespace {
+
+/// Resonance frequency of all actuators. They must agree, because a phantom has one frequency.
+Result<double> resonanceOf(const LayoutDescription& layout) {
+    std::optional<double> found;
+    for (const auto& enchanter : layout.enchanters) {
+        const auto fail = [&](const std::string& why) {
+            return Failure{std::string{stimulusWords::frequency} + " " + stimulusWords::resonance +
+                           ": actuator " + enchanter.label + ": " + why};
+        };
+        if (enchanter.actuator == "none") return fail("expected an actuator, found none");
+        const auto profile = findActuator(enchanter.actuator);
+        if (!profile) return fail(profile.error);
+        const auto hz = profile.value.resonanceHz;
+        if (!hz)
+            return fail(profile.value.name +
+                        ": resonance_hz is not known (measure it with physvib calibrate)");
+        if (*hz < limits::slowestToneHz)
+            return fail("expected at least " + numberText(limits::slowestToneHz) + " Hz, found " +
+                        numberText(*hz) + " Hz");
+        if (found && *found != *hz)
+            return fail("expected the resonance of the others, " + numberText(*found) + " Hz, found " +
+                        numberText(*hz) + " Hz");
+        found = hz;
+    }
+    return *found;
+}
+
+} // namespace
+
+std::string layoutFault(const StimulusJob& job, const LayoutDescription& layout) {
+    const auto* const named = std::get_if<PatternJob>(&job.what);
+    const auto pattern = named != nullptr ? parsePatternLabel(named->label) : std::nullopt;
+    for (int k = 0; pattern && k < pattern->count; ++k)
+        if (pattern->enchanters[static_cast<std::size_t>(k)] >= layout.geometry.count)
+            return "expected actuators among the " + std::to_string(layout.geometry.count) +
+                   " of the layout, found " + inQuotes(named->label);
+    return {};
+}
+
+Result<Stimulus> makeStimulus(const StimulusJob& job, const LayoutDescription& layout) {
+    const auto frequencyHz = job.frequencyHz ? Result<double>{*job.frequencyHz} : resonanceOf(layout);
+    if (!frequencyHz) return Failure{frequencyHz.error};
+    const Carrier carrier{frequencyHz.value, job.levelG};
+    if (const auto* const pattern = std::get_if<PatternJob>(&job.what))
+        return patternStimulus(*parsePatternLabel(pattern->label), layout.geometry.count, carrier,
+                               pattern->gapSeconds);
+    const auto& phantom = *std::get_if<PhantomJob>(&job.what);
+    Stimulus made = phantomStimulus(phantom.place(), layout.geometry, phantom.law, phantom.exponent, carrier,
+                                    phantom.seconds);
+    made.events.front().decayPerSecond = phantom.decayPerSecond;
+    made.events.front().amplitude *= phantom.peakFactor(frequencyHz.value);
+    return made;
+}
+
+} // namespace physvib

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+// Quantiles by bisection; choices and ratings grouped by name; thresholds from reversals or QUEST+, means in
+// dB or in logarithms.
+#include "Lab/Study/Summaries.h"
+#include "Lab/Study/QuestMethod.h"
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <string_view>
+#include <tuple>
+
+namespace physvib {
+namespace {
+
+/// Where a rising function reaches `target`, to the last bit, between 0 and `most` > 0.
+template <class Function>
+double crossing(Function rising, double target, double most) {
+    double least = 0.0;
+    for (double middle = 0.5 * most; middle > least && middle < most; middle = std::midpoint(least, most))
+        (rising(middle) < target ? least : most) = middle;
+    return most;
+}
+
+/// Probability that Student's t lies within -t and t (Abramowitz and Stegun 26.7.3, 26.7.4).
+double studentWithin(double t, std::size_t df) {
+    const double root = std::sqrt(static_cast<double>(df)), reach = std::hypot(root, t);
+    const double sine = t / reach, cosine = root / reach;
+    const bool isOdd = df % 2 == 1;
+    double term = isOdd ? cosine : 1.0, sum = 0.0;
+    for (std::size_t n = isOdd ? 3 : 2; n <= df; n += 2) {
+        sum += term;
+        term *= cosine * cosine * static_cast<double>(n - 1) / static_cast<double>(n);
+    }
+    return isOdd ? 2.0 / std::numbers::pi * (std::atan2(t, root) + sine * sum) : sine * sum;
+}
+
+} // namespace
+
+double studentQuantile(double probability, std::size_t df) {
+    if (probability < 0.5) return -studentQuantile(1.0 - probability, df);
+    return crossing([df](double t) { return studentWithin(t, df); }, 2.0 * probability - 1.0, 1e6);
+}
+
+double normalQuantile(double probability) {
+    const double tail = std::min(probability, 1.0 - probability);
+    const double z =
+        crossing([](double at) { return -std::erfc(at / std::numbers::sqrt2); }, -2.0 * tail, 40.0);
+    return probability < 0.5 ? -z : z;
+}
+
+// Forced choices and ratings.
+
+namespace {
+
+/// The factors in a condition's name: "size=small" of "pair=wood size=small".
+std::vector<std::string> factorsOf(const std::string& condition) {
+    std::vector<std::string> parts;
+    for (std::size_t from = 0; from < condition.size();) {
+        const std::size_t to = std::min(condition.find(' ', from), condition.size());
+        if (std::string part = condition.substr(from, to - from); part.find('=') != std::string::npos)
+            parts.push_back(std::move(part));
+        from = to + 1;
+    }
+    return parts;
+}
+
+ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uint64_t trials,
+                    const std::vector<double>& shares) {
+    const Moments moments{shares};
+    const Proportion pooled = proportion(hits, trials);
+    ChoiceShare share{alternative, hits, moments.mean, pooled.least, pooled.most, median(shares)};
+    if (shares.size() < 2) return share;
+    share.least = std::max(0.0, moments.mean - moments.halfInterval());
+    share.most = std::min(1.0, moments.mean + moments.halfInterval());
+    return share;
+}
+
+ChoiceSummary summarise(const std::string& condition, const std::vector<const ChoiceTrial*>& trials,
+                        const std::set<std::string>& alternatives) {
+    std::map<std::string, std::map<std::string, std::uint64_t>> votes; // by participant and alternative
+    std::map<std::string, std::uint64_t> totals, trialsOf;
+    for (const auto* trial : trials) {
+        ++votes[trial->participant][trial->choice];
+        ++totals[trial->choice];
+        ++trialsOf[trial->participant];
+    }
+    ChoiceSummary summary{condition, votes.size(), trials.size(), {}};
+    for (const auto& alternative : alternatives) {
+        std::vector<double> shares;
+        for (auto& [participant, own] : votes)
+            shares.push_back(static_cast<double>(own[alternative]) /
+                             static_cast<double>(trialsOf[participant]));
+        summary.shares.push_back(shareOf(alternative, totals[alternative], trials.size(), shares));
+    }
+    return summary;
+}
+
+using Chosen = std::vector<const RatingTrial*>;
+
+std::vector<double> participantMeans(const Chosen& trials, std::size_t scale) {
+    std::map<std::string, std::vector<double>> scores;
+    for (const auto* trial : trials) scores[trial->participant].push_back(trial->scores[scale]);
+    std::vector<double> means;
+    for (const auto& [participant, own] : scores) means.push_back(Moments(own).mean);
+    return means;
+}
+
+RatingSummary summarise(const std::string& condition, const Chosen& trials) {
+    RatingSummary summary{condition, trials.size(), 0, {}, {}, {}};
+    for (std::size_t scale = 0; scale < trials.front()->scores.size(); ++scale) {
+        std::vector<double> scores;
+        for (const auto* trial : trials) scores.push_back(trial->scores[scale]);
+        const Moments moments{scores};
+        const auto means = participantMeans(trials, scale);
+        summary.participants = means.size();
+        summary.means.push_back(moments.mean);
+        summary.deviations.push_back(moments.deviation);
+        summary.halfIntervals.push_back(Moments(means.size() > 1 ? means : scores).halfInterval());
+    }
+    return summary;
+}
+
+// The parts of the thesis' method names, e.g. AV-FF-DRV (5.3).
+constexpr std::array<std::array<const char*, 2>, 3> methodParts{{{"AV", "AF"}, {"FV", "FF"}, {"DRV", "DRF"}}};
+
+bool hasPart(const std::string& name, std::string part) {
+    return ("-" + name + "-").find("-" + part + "-") != std::string::npos;
+}
+
+bool isMethod(const std::string& name) {
+    return std::ranges::all_of(
+        methodParts, [&](const auto& parts) { return hasPart(name, parts[0]) != hasPart(name, parts[1]); });
+}
+
+} // namespace
+
+std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials) {
+    std::map<std::string, std::vector<const ChoiceTrial*>> conditions;
+    std::vector<const ChoiceTrial*> all;
+    std::set<std::string> alternatives;
+    for (const auto& trial : trials) {
+        conditions[trial.condition].push_back(&trial);
+        all.push_back(&trial);
+        alternatives.insert(trial.choice);
+    }
+    std::vector<ChoiceSummary> summaries;
+    if (all.empty()) return summaries;
+    summaries.push_back(summarise("all", all, alternatives));
+    if (conditions.size() < 2) return summaries;
+    std::map<std::string, std::vector<const ChoiceTrial*>> factors;
+    for (const auto* trial : all)
+        for (const auto& factor : factorsOf(trial->condition)) factors[factor].push_back(trial);
+    for (const auto& [factor, own] : factors)
+        if (!conditions.contains(factor)) summaries.push_back(summarise(factor, own, alternatives));
+    for (const auto& [condition, own] : conditions)
+        summaries.push_back(summarise(condition, own, alternatives));
+    return summaries;
+}
+
+std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials) {
+    std::map<std::string, Chosen> conditions;
+    for (const auto& trial : trials) conditions[trial.condition].push_back(&trial);
+    std::vector<RatingSummary> summaries;
+    for (const auto& [condition, own] : conditions) summaries.push_back(summarise(condition, own));
+    if (conditions.size() < 2 ||
+        !std::ranges::all_of(conditions, isMethod, [](const auto& c) { return c.first; }))
+        return summaries;
+    for (const auto& parts : methodParts)
+        for (const char* part : parts) {
+            Chosen chosen;
+            for (const auto& trial : trials)
+                if (hasPart(trial.condition, part)) chosen.push_back(&trial);
+            if (!chosen.empty()) summaries.push_back(summarise(part, chosen));
+        }
+    return summaries;
+}
+
+// Levels.
+
+namespace {
+
+/// Levels at which the sequence changes direction.
+std::vector<double> reversalsOf(const std::vector<double>& levels) {
+    std::vector<double> reversals;
+    double last = 0.0;
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+        const double change = levels[i + 1] - levels[i];
+        if (change == 0.0) continue;
+        if (change * last < 0.0) reversals.push_back(levels[i]);
+        last = change;
+    }
+    return reversals;
+}
+
+double meanOf(const std::vector<double>& values, std::size_t from = 0) {
+    double sum = 0.0;
+    for (std::size_t i = from; i < values.size(); ++i) sum += values[i];
+    return sum / static_cast<double>(values.size() - from);
+}
+
+bool isThreshold(LevelTrial::Kind kind) {
+    return kind == LevelTrial::Kind::staircase || kind == LevelTrial::Kind::quest;
+}
+
+bool isSame(const LevelSummary& s, const LevelTrial& t) {
+    return s.kind == t.kind && s.condition == t.condition &&
+           (isThreshold(t.kind) || s.stimulus == t.stimulus);
+}
+
+/// Sort key: numbers by value, then all other labels by their bytes.
+auto labelKey(const std::string& label) {
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), number);
+    const bool isNumber = error == std::errc{} && end == label.data() + label.size() && std::isfinite(number);
+    return std::tuple{!isNumber, isNumber ? number : 0.0, std::string_view{label}};
+}
+
+using Run = std::vector<const LevelTrial*>; // one participant's trials of a session
+
+double staircaseThreshold(const Run& run, LevelSummary& summary) {
+    std::vector<double> levels;
+    for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
+    const auto reversals = reversalsOf(levels);
+    summary.reversals += reversals.size();
+    summary.flatRuns += reversals.size() < 2 ? 1 : 0;
+    return reversals.size() < 2 ? levels.back() : meanOf(reversals, reversals.size() / 2);
+}
+
+double questThreshold(const Run& run, LevelSummary& summary) {
+    QuestPlus quest{*questPlan(run.front()->quest)};
+    for (const LevelTrial* trial : run) quest.answerAt(trial->levelDb, trial->value > 0.5);
+    // variances add up: this becomes the half-interval of the sum of thresholds
+    summary.halfInterval = std::hypot(summary.halfInterval, quest.thresholdHalfInterval(0.95));
+    return quest.estimate().threshold;
+}
+
+using SessionKey = std::pair<std::string, std::string>; // session, plan of QUEST+
+
+std::map<SessionKey, Run> runsOf(const Run& trials) {
+    std::map<SessionKey, Run> runs;
+    for (const LevelTrial* trial : trials) runs[{trial->session, trial->quest}].push_back(trial);
+    return runs;
+}
+
+std::vector<LevelCount> levelCountsOf(const Run& run) {
+    std::map<double, LevelCount> counts;
+    for (const LevelTrial* trial : run) {
+        LevelCount& count = counts.try_emplace(trial->levelDb, LevelCount{trial->levelDb}).first->second;
+        ++count.trials;
+        count.hits += trial->value > 0.5;
+    }
+    std::vector<LevelCount> all;
+    for (const auto& [level, count] : counts) all.push_back(count);
+    return all;
+}
+
+/// Thresholds of several people's runs, in the order of participants and runsOf(). Returns the error that all
+/// share, as a standard deviation.
+double poolThresholds(const std::map<std::string, Run>& participants, std::vector<std::vector<double>>& own) {
+    struct Place {
+        std::size_t participant, run;
+    };
+    std::map<std::string, std::pair<std::vector<std::vector<LevelCount>>, std::vector<Place>>> plans;
+    std::size_t total = 0;
+    for (const auto& [participant, trials] : participants) {
+        auto& thresholds = own.emplace_back();
+        for (const auto& [key, run] : runsOf(trials)) {
+            auto& [counts, places] = plans[key.second];
+            counts.push_back(levelCountsOf(run));
+            places.push_back({own.size() - 1, thresholds.size()});
+            thresholds.push_back(0.0);
+            ++total;
+        }
+    }
+    double deviation = 0.0;
+    for (const auto& [words, runs] : plans) {
+        const PooledThresholds pooled = pooledThresholds(*questPlan(words), runs.first);
+        for (std::size_t r = 0; r < runs.second.size(); ++r)
+            own[runs.second[r].participant][runs.second[r].run] = pooled.thresholds[r];
+        deviation = std::hypot(deviation, pooled.deviation * static_cast<double>(runs.first.size()) /
+                                              static_cast<double>(total));
+    }
+    return deviation;
+}
+
+void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>& participants) {
+    std::vector<std::vector<double>> own;
+    double shared = 0.0;
+    if (summary.kind == LevelTrial::Kind::quest && participants.size() > 1)
+        shared = poolThresholds(participants, own);
+    else
+        for (const auto& [participant, trials] : participants) {
+            auto& thresholds = own.emplace_back();
+            for (const auto& [session, run] : runsOf(trials))
+                thresholds.push_back(summary.kind == LevelTrial::Kind::quest
+                                         ? questThreshold(run, summary)
+                                         : staircaseThreshold(run, summary));
+            summary.halfInterval /= static_cast<double>(thresholds.size());
+        }
+    std::vector<double> thresholds;
+    for (const auto& [participant, trials] : participants) {
+        thresholds.push_back(meanOf(own[thresholds.size()]));
+        summary.thresholds.emplace_back(participant, thresholds.back());
+    }
+    const Moments moments{thresholds};
+    summary.estimate = moments.mean;
+    summary.deviation = moments.deviation;
+    if (thresholds.size() > 1)
+        summary.halfInterval = std::hypot(moments.halfInterval(), normalQuantile(0.975) * shared);
+}
+
+} // namespace
+
+std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials) {
+    std::vector<LevelSummary> summaries;
+    for (const LevelTrial& trial : trials)
+        if (std::ranges::none_of(summaries, [&](const auto& s) { return isSame(s, trial); }))
+            summaries.push_back({trial.kind, trial.condition, isThreshold(trial.kind) ? "" : trial.stimulus});
+    std::ranges::stable_sort(summaries, {}, [](const LevelSummary& s) {
+        return std::tuple{s.kind, std::string_view{s.condition}, labelKey(s.stimulus)};
+    });
+    for (LevelSummary& summary : summaries) {
+        std::map<std::string, Run> byParticipant;
+        std::vector<double> values;
+        for (const LevelTrial& trial : trials) {
+            if (!isSame(summary, trial)) continue;
+            byParticipant[trial.participant].push_back(&trial);
+            values.push_back(trial.kind == LevelTrial::Kind::magnitude ? std::log10(trial.value)
+                                                                       : trial.value);
+        }
+        summary.trials = values.size();
+        summary.participants = byParticipant.size();
+        if (isThreshold(summary.kind)) {
+            summariseThresholds(summary, byParticipant);
+            continue;
+        }
+        std::vector<double> means;
+        for (const auto& [participant, own] : byParticipant) {
+            std::vector<double> adjusted;
+            for (const LevelTrial* trial : own) adjusted.push_back(trial->value);
+            means.push_back(meanOf(adjusted));
+        }
+        if (summary.kind == LevelTrial::Kind::adjustment)
+            summary.halfInterval = Moments(means).halfInterval();
+        summary.deviation = Moments(values).deviation;
+        summary.estimate =
+            summary.kind == LevelTrial::Kind::magnitude ? std::pow(10.0, meanOf(values)) : meanOf(values);
+    }
+    return summaries;
+}
+
+} // namespace physvib

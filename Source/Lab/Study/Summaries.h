@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// What trials say of each condition: means, shares and thresholds, with 95 % intervals. The unit is the
+// participant: trials of one are averaged first, so that many trials of a few people do not look like many
+// people.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+// Quantiles of Student's and the normal distribution. Any thread. Preconditions: 0 < probability < 1; df > 0.
+double studentQuantile(double probability, std::size_t df);
+double normalQuantile(double probability);
+
+/// Median (mean of the two middle values if the count is even); 0 if empty. Any thread.
+inline double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    std::ranges::sort(values);
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+struct Moments {
+    std::size_t n = 0;
+    double mean = 0.0;
+    double deviation = 0.0; ///< sample standard deviation; 0 for fewer than two values
+    /// Any thread.
+    explicit Moments(std::span<const double> values) noexcept
+        : n{values.size()} {
+        for (const double v : values) mean += v / static_cast<double>(n);
+        for (const double v : values) deviation += (v - mean) * (v - mean);
+        deviation = n > 1 ? std::sqrt(deviation / static_cast<double>(n - 1)) : 0.0;
+    }
+    /// Of the mean; 0 for fewer than two values.
+    double standardError() const noexcept {
+        return n > 1 ? deviation / std::sqrt(static_cast<double>(n)) : 0.0;
+    }
+    /// Half of the 95 % interval by Student's t; 0 for fewer than two values.
+    double halfInterval() const { return n > 1 ? studentQuantile(0.975, n - 1) * standardError() : 0.0; }
+    double least() const { return mean - halfInterval(); }
+    double most() const { return mean + halfInterval(); }
+};
+
+/// The trials of each participant, in the order of first trials. Any thread (allocates).
+template <class Trial>
+std::vector<std::pair<std::string, std::vector<Trial>>> byParticipant(const std::vector<Trial>& trials) {
+    std::map<std::string_view, std::size_t> places;
+    std::vector<std::pair<std::string, std::vector<Trial>>> own;
+    for (const Trial& trial : trials) {
+        const auto [at, isNew] = places.try_emplace(trial.participant, own.size());
+        if (isNew) own.emplace_back(trial.participant, std::vector<Trial>{});
+        own[at->second].second.push_back(trial);
+    }
+    return own;
+}
+
+/// Share of trials.
+struct Proportion {
+    std::uint64_t hits = 0, trials = 0;
+    double share = 0.0;             ///< hits / trials; 0 without a trial
+    double least = 0.0, most = 1.0; ///< 95 % confidence interval (Wilson 1927), assuming independent trials
+};
+
+/// `hits` <= `trials`. Any thread.
+inline Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept {
+    Proportion result{hits, trials};
+    if (trials == 0) return result;
+    constexpr double z = 1.959963984540054; // 97.5 % quantile of the normal distribution
+    const auto n = static_cast<double>(trials);
+    const double p = static_cast<double>(hits) / n;
+    const double middle = p + z * z / (2.0 * n),
+                 half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
+    const double scale = 1.0 + z * z / n;
+    result.share = p;
+    result.least = std::max(0.0, (middle - half) / scale);
+    result.most = std::min(1.0, (middle + half) / scale);
+    return result;
+}
+
+// Summaries of forced choices and slider ratings by condition (thesis 5.2, 5.3).
+
+/// One forced choice: alternative, condition and participant (which may be empty).
+struct ChoiceTrial {
+    std::string participant, condition, choice;
+};
+
+/// How often an alternative was chosen. The unit is the participant, whose trials give one share.
+struct ChoiceShare {
+    std::string alternative;
+    std::uint64_t hits = 0;
+    double share = 0.0;             ///< mean of the participants' shares
+    double least = 0.0, most = 1.0; ///< 95 %: t interval over participants, within 0 and 1; for one or
+                                    ///< unknown participants Wilson's over trials
+    double median = 0.0;            ///< of the participants' shares
+};
+
+struct ChoiceSummary {
+    std::string condition; ///< "all": all conditions together
+    std::size_t participants = 0;
+    std::uint64_t trials = 0;
+    std::vector<ChoiceShare> shares; ///< by name of the alternative
+};
+
+/// First all trials together. With several conditions, then each factor of names like "pair=wood size=small"
+/// and each condition, sorted by name. Any thread (allocates).
+std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials);
+
+/// One rating trial: a score per scale.
+struct RatingTrial {
+    std::string participant, condition;
+    std::vector<double> scores;
+};
+
+struct RatingSummary {
+    std::string condition;
+    std::size_t trials = 0, participants = 0;
+    std::vector<double> means, deviations; ///< per scale: over trials; sample standard deviation, 0 for one
+                                           ///< trial
+    std::vector<double> halfIntervals;     ///< 95 %: t interval over participants' means, or over trials if
+                                           ///< participants are unknown; 0 for one value
+};
+
+/// Each condition by name. If every condition's name has the parts AV/AF, FV/FF, DRV/DRF of the thesis'
+/// methods, then also each part. Precondition: every trial has the same number of scores. Any thread
+/// (allocates).
+std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials);
+
+// Results of staircases, adjustments, magnitude estimations and QUEST+: thresholds, levels and magnitudes per
+// condition.
+
+/// One trial of a staircase, an adjustment, a magnitude estimation or QUEST+.
+struct LevelTrial {
+    enum class Kind { staircase, adjustment, magnitude, quest };
+    Kind kind = Kind::staircase;
+    std::string participant, condition, stimulus;
+    double levelDb = 0.0;           ///< staircase, QUEST+: level of the trial
+    double value = 0.0;             ///< adjustment: dB; magnitude: > 0; QUEST+: 1 if correct, else 0
+    std::string session{}, quest{}; ///< QUEST+: the text of its plan (QuestMethod.h)
+};
+
+struct LevelSummary {
+    LevelTrial::Kind kind = LevelTrial::Kind::staircase;
+    std::string condition, stimulus; ///< stimulus is empty for staircases and QUEST+, which pool all stimuli
+    std::size_t trials = 0, participants = 0;
+    std::size_t reversals = 0; ///< staircase: sum over participants
+    std::size_t flatRuns = 0;  ///< staircases with fewer than two reversals
+    double estimate = 0.0;     ///< staircase, QUEST+: mean threshold in dB; adjustment: mean dB; magnitude:
+                               ///< geometric mean
+    double deviation = 0.0; ///< sample standard deviation of participants' thresholds, of dB, or of log10; 0
+                            ///< for one value
+    double halfInterval = 0.0; ///< 95 % half-interval of thresholds and adjustments over participants; for
+                               ///< one QUEST+ participant from the posterior; else 0
+    std::vector<std::pair<std::string, double>> thresholds{}; ///< staircase, QUEST+: of each participant, in
+                                                              ///< dB
+};
+
+/// Sorted by kind, condition and stimulus. A staircase threshold is the mean level of the later half of the
+/// reversals (Levitt 1971), or the last level if there are fewer than two. A QUEST+ threshold is the
+/// posterior mean, recomputed from levels and answers; of several participants with the widths that all tell
+/// together (QuestMethod.h). Several sessions of a participant are averaged. Any thread (allocates).
+std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials);
+
+} // namespace physvib

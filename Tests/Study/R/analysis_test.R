@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: MIT
+# Rscript analysis_test.R ANALYSIS.R: what the script of a report says of designs at the edges, beside what R's own functions say of them.
+script <- normalizePath(commandArgs(TRUE)[1])
+own <- tempfile(); dir.create(own)
+options(warn = -1)
+source(script)
+setwd(own)
+set.seed(7)
+faults <- 0
+fault <- function(...) { faults <<- faults + 1; cat("FAULT:", ..., "\n") }
+same <- function(words, ours, r) {
+  known <- length(ours) == 1 && length(r) == 1 && !is.na(ours) && !is.na(r)
+  if (!known || abs(ours - r) > max(1e-9 * abs(r), 1e-14)) fault(words, "is", format(ours, digits = 12), "for", format(r, digits = 12))
+}
+told <- function(run) { results <<- data.frame(); capture.output(run); results }
+line <- function(lines, effect) lines[lines$effect == effect, ]
+rows <- function(d, name = "trials.csv") { writeLines("# of a test", name); write.table(d, name, append = TRUE, sep = ",", row.names = FALSE, na = "", quote = TRUE) }
+person <- function(n) sprintf("%02d", seq_len(n)) # text that would be numbers
+
+# Repeated measures: F by strata of aov, sphericity by R's multivariate models.
+for (n in c(2, 3, 4, 12, 49, 50)) for (levels in list(2, 3, 6, c(2, 3), c(2, 2, 2), c(3, 4))) {
+  names <- letters[seq_along(levels)]
+  d <- expand.grid(c(lapply(levels, function(k) paste0("l", seq_len(k))), list(person(n)), list(1:2)), stringsAsFactors = FALSE)
+  names(d) <- c(names, "participant", "trial")
+  d$y <- round(rnorm(nrow(d)) + rnorm(n)[as.integer(d$participant)], 3)
+  if (n == 12) { d <- rbind(d, d[1:7, ]); d$y[nrow(d)] <- 9 } # more repeats of some cells
+  lost <- if (n == 12) "03" else ""
+  if (n == 12) d <- d[!(d$participant == lost & d$a == "l1"), ]
+  rows(d[sample(nrow(d)), ])
+  ours <- told(anova.test("t", "trials.csv", "y", names))
+  m <- aggregate(d["y"], d[c(names, "participant")], mean)
+  m <- m[m$participant != lost, ]
+  for (f in c(names, "participant")) m[[f]] <- factor(m[[f]])
+  strata <- summary(aov(as.formula(paste("y ~", paste(names, collapse = "*"), "+ Error(participant/(", paste(names, collapse = "*"), "))")), m))
+  for (stratum in strata) for (effect in trimws(rownames(stratum[[1]]))) if (effect != "Residuals") {
+    row <- stratum[[1]][trimws(rownames(stratum[[1]])) == effect, ]; own <- line(ours, effect); words <- paste("F", effect, "n", n, "of", paste(levels, collapse = "x"))
+    same(words, own$value, row[["F value"]]); same(paste(words, "p"), own$p, row[["Pr(>F)"]]); same(paste(words, "df"), own$df1, row[["Df"]])
+    if (own$n != length(unique(m$participant))) fault(words, "has n", own$n)
+  }
+  if (length(levels) == 1 && levels > 2 && n > levels) {
+    wide <- with(m, tapply(y, list(participant, a), mean)); fit <- lm(wide ~ 1)
+    r <- anova(fit, update(fit, ~ 0), X = ~ 1, M = ~ a, idata = data.frame(a = factor(seq_len(levels))), test = "Spherical")
+    same(paste("G-G p, n", n), line(ours, "a")$p_corrected, r[["G-G Pr"]][2])
+    same(paste("Mauchly p, n", n), line(ours, "a sphericity")$p, mauchly.test(fit, X = ~ 1)$p.value)
+    same(paste("normality, n", n), line(ours, "l1 normality")$p, shapiro.test(wide[, "l1"])$p.value)
+  }
+}
+
+# Ranks and pairs of 2 to 51 people, where R goes from exact to normal p at 50; with ties and zeros, and without.
+for (n in c(2, 3, 6, 49, 50, 51)) for (digits in c(0, 6)) for (k in c(2, 3)) {
+  d <- expand.grid(condition = paste0("pair=c", seq_len(k)), participant = person(n), stringsAsFactors = FALSE)
+  d$y <- round(rnorm(nrow(d), as.integer(factor(d$condition)) / 3), digits)
+  rows(d)
+  wide <- with(d, tapply(y, list(participant, condition), mean)); words <- paste("n", n, "digits", digits, "levels", k)
+  r <- friedman.test(wide); ours <- told(friedman("t", "trials.csv", "y", "pair"))
+  if (is.nan(r$p.value)) { if (ours$note == "") fault("Friedman of ties", words) } else same(paste("Friedman", words), ours$p, r$p.value)
+  for (by in c("t", "ranks")) for (correction in c("holm", "bonferroni")) {
+    ours <- told(pairs.test("t", "trials.csv", "y", "pair", by = by, correction = correction))
+    two <- combn(k, 2)
+    ps <- apply(two, 2, function(i) { a <- wide[, i[1]]; b <- wide[, i[2]]
+      tryCatch(if (by == "t") t.test(a, b, paired = TRUE)$p.value else wilcox.test(a, b, paired = TRUE)$p.value, error = function(e) NaN) })
+    corrected <- p.adjust(ps, correction, length(ps))
+    for (i in seq_along(ps)) { own <- line(ours, paste0("pair: c", two[1, i], " - c", two[2, i]))
+      if (is.nan(ps[i])) { if (own$note == "") fault("pair of ties", words) } else {
+        same(paste(by, words), own$p, ps[i]); same(paste(by, correction, words), own$p_corrected, corrected[i]) } }
+  }
+}
+
+# Choices between two, of 1, 6, 49 and 50 people who had unequal numbers of trials; training and rows without a choice count for nothing.
+for (n in c(1, 6, 49, 50)) {
+  d <- expand.grid(trial = 1:6, stimulus = c("pair=wood size=small", "pair=steel size=small"), participant = person(n), stringsAsFactors = FALSE)
+  d$phase <- "main"; d$task <- "choose"; d$choice <- ifelse(runif(nrow(d)) < 0.6, "B", "A")
+  d <- d[-sample(nrow(d), 3), ]
+  junk <- d[1:4, ]; junk$phase <- "training"; empty <- d[5:6, ]; empty$choice <- ""
+  rows(rbind(junk, empty, d))
+  ours <- told(choices("t", "trials.csv"))
+  share <- function(d) tapply(d$choice == "A", d$participant, function(x) (2 * sum(x) - length(x)) / length(x))
+  if (n == 1) { if (!all(ours$note != "")) fault("one person is tested") } else {
+    same(paste("choices, n", n), line(ours, "all")$p, wilcox.test(share(d))$p.value)
+    same(paste("choices of wood, n", n), line(ours, "pair=wood")$p, wilcox.test(share(d[grepl("wood", d$stimulus), ]))$p.value)
+    same(paste("share, n", n), line(ours, "all")$effect_size, mean((share(d) + 1) / 2))
+    same(paste("Holm, n", n), min(ours$p_corrected), min(p.adjust(ours$p, "holm")))
+    names(d)[names(d) == "choice"] <- "response"; rows(d)
+    same(paste("in a column response, n", n), line(told(choices("t", "trials.csv")), "all")$p, line(ours, "all")$p)
+  }
+}
+# Three alternatives have no one half; their shares are tested by Friedman's test of one of them.
+d <- expand.grid(trial = 1:4, condition = c("c1", "c2"), participant = c("NA", "1", "01", "P"), stringsAsFactors = FALSE)
+d$choice <- sample(c("A", "B", "C"), nrow(d), TRUE)
+rows(d)
+ours <- told(choices("t", "trials.csv"))
+if (!grepl("found 3", ours$note)) fault("three alternatives: ", ours$note)
+ours <- told(pairs.test("t", "trials.csv", "choice=B", "condition"))
+wide <- with(d, tapply(choice == "B", list(participant, condition), mean))
+if (ours$n != 4) fault("NA, 1 and 01 are three people, found", ours$n)
+r <- tryCatch(t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value, error = function(e) NaN)
+if (!is.nan(r)) same("one of three", ours$p, r)
+# What a spreadsheet would take for a formula stands behind an apostrophe in our tables.
+d <- expand.grid(trial = 1:6, condition = c("a", "b"), participant = person(6), stringsAsFactors = FALSE)
+d$choice <- sample(c("'+6 dB", "'-6 dB"), nrow(d), TRUE); rows(d)
+wide <- with(d, tapply(choice == "'+6 dB", list(participant, condition), mean))
+same("+6 dB", told(pairs.test("t", "trials.csv", "choice=+6 dB", "condition"))$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
+# Factors in names: parts of conditions, letters of the thesis' methods, words of stimuli; a filter by one of them.
+d <- expand.grid(condition = c("PHONE-3x3", "PHONE-4x4", "RING-3x3", "RING-4x4"), stimulus = c("AV-FF-DRV", "AF-FF-DRV"), participant = person(5), stringsAsFactors = FALSE)
+d$y <- rnorm(nrow(d)); rows(d)
+ours <- told(anova.test("t", "trials.csv", "y", c("condition.2", "A"), where = "condition.1=RING"))
+ring <- d[startsWith(d$condition, "RING"), ]
+for (f in names(ring)[1:3]) ring[[f]] <- factor(ring[[f]])
+r <- summary(aov(y ~ condition * stimulus + Error(participant / (condition * stimulus)), ring))
+same("condition.2", line(ours, "condition.2")$p, r[["Error: participant:condition"]][[1]][1, "Pr(>F)"])
+same("A of AV", line(ours, "A")$p, r[["Error: participant:stimulus"]][[1]][1, "Pr(>F)"])
+# Nothing to be found is told, and the other lines stand.
+d <- expand.grid(condition = c("x", "y", "z"), participant = person(5), stringsAsFactors = FALSE)
+d$y <- ifelse(d$condition == "z", rnorm(15), 1)
+rows(d)
+ours <- told(pairs.test("t", "trials.csv", "y", "condition"))
+if (line(ours, "condition: x - y")$note == "" || is.na(line(ours, "condition: x - z")$p)) fault("one tied pair withholds the others")
+for (kind in list(anova.test, friedman, pairs.test)) {
+  ours <- told(kind("t", "trials.csv", "y", "condition", where = "condition=nobody"))
+  if (nrow(ours) != 1 || ours$note == "") fault("nothing that fits")
+}
+cat(faults, "faults\n")
+quit(status = if (faults > 0) 1 else 0)
