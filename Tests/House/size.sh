@@ -39,7 +39,7 @@ if [ -n "$bin" ]; then
     if [ -x "$bin/physvib" ] && command -v valgrind >/dev/null; then
         counts=$(mktemp)
         valgrind --tool=callgrind --callgrind-out-file="$counts" "$bin/physvib" --version >/dev/null 2>&1
-        say "physvib --version: instructions" "$(sed -n 's/^summary: //p' "$counts")" 17000000
+        say "physvib --version: instructions" "$(sed -n 's/^summary: //p' "$counts")" 12000000
         rm -f "$counts"
     fi
 fi
