@@ -3,7 +3,7 @@
 // the mean of its neighbours. Vibrations end below 1 kHz: the difference is below -100 dB.
 #pragma once
 #include "Core/Limits.h"
-#include "ParameterPoints.h"
+#include "HostParameter.h"
 #include <algorithm>
 #include <array>
 #include <juce_audio_basics/juce_audio_basics.h>
