@@ -2,7 +2,6 @@
 // Labels, backgrounds and distances common to the parts of the editor.
 #pragma once
 #include "Host/Views/Look.h"
-#include "Host/Views/Palette.h"
 #include <string_view>
 
 namespace physvib {

@@ -17,7 +17,7 @@ public:
     static constexpr std::size_t mostKept = 65536; ///< beyond it the oldest are left out: of a world that
                                                    ///< never stops
 
-    /// What takeLog() gave, in its order; `prepares` counts how often the host has prepared us, as runs are
+    /// What drainLog() gave, in its order; `prepares` counts how often the host has prepared us, as runs are
     /// numbered from 1 each time.
     void add(std::uint64_t prepares, std::span<const TakeEvent> events);
 

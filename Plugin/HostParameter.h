@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An entry of the parameter table as a host parameter; its value is one atomic float.
+// Parameters at a host: an entry of the table as a host parameter, whose value is one atomic float, and the
+// sample-accurate changes of a block.
 #pragma once
 #include "Parameters.h"
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <juce_audio_processors/juce_audio_processors.h>
+#include <limits>
 
 namespace physvib {
 
@@ -21,14 +25,14 @@ public:
     /// In the parameter's unit. Any thread, wait-free.
     double value() const noexcept { return denormalised(row_, normal_); }
 
-    /// By a MIDI controller: acts at once; the host is told when tellHost() is called. R, wait-free.
+    /// By a MIDI controller: acts at once; the host is told when notifyHost() is called. R, wait-free.
     void setByController(float normal) noexcept {
         normal_ = normal;
-        toldToHost_ = false;
+        sentToHost_ = false;
     }
     /// M.
-    void tellHost() {
-        if (!toldToHost_.exchange(true)) sendValueChangedMessageToListeners(normal_);
+    void notifyHost() {
+        if (!sentToHost_.exchange(true)) sendValueChangedMessageToListeners(normal_);
     }
 
     /// The short name where the long one has no room: cut off, those of strikes would be alike.
@@ -75,7 +79,79 @@ private:
     const ParameterRow& row_;
     const juce::NormalisableRange<float> range_;
     std::atomic<float> normal_;
-    std::atomic<bool> toldToHost_{true};
+    std::atomic<bool> sentToHost_{true};
+};
+
+/// A value from 0 to 1 at a frame of the coming block.
+struct ParameterPoint {
+    int frame = 0;
+    double normal = 0.0;
+};
+
+/// The points of a block as a format hands them over. R, wait-free; valid until that block has been rendered.
+class PointSource {
+public:
+    /// The next of that parameter, in frame order; false: there are no more.
+    virtual bool next(std::size_t parameter, ParameterPoint& point) noexcept = 0;
+
+    /// The frame of its last one, if a host of this format may draw lines; -1: each point is a step.
+    virtual int lastOfLine(std::size_t parameter) noexcept = 0;
+
+protected:
+    ~PointSource() = default;
+};
+
+/// The points of all parameters, one block after the other. R only.
+///
+/// A point is a step at its frame: then it does not matter how the host cuts its blocks. A host that tells
+/// a parameter's value at a block's first and last frame, or one frame behind, draws lines (VST3 lets it
+/// leave out what lies on them): between points of such a block that are further than `longestStep` apart,
+/// values on the line are told as well, at multiples of `longestStep` from the start on.
+class ParameterPoints {
+public:
+    static constexpr int none = std::numeric_limits<int>::max();
+    static constexpr int longestStep = 64; ///< frames; level and law move in ramps of 10 ms anyway
+
+    void reset() noexcept { *this = {}; }
+
+    /// A block of so many frames; without a source, or where it says nothing of a parameter, there are no
+    /// points.
+    void begin(PointSource* source, int frames) noexcept;
+
+    /// The frame of the next point, of one parameter or of any; none: there are no more. A point behind the
+    /// block is one at the next block's first frame: Ardour says there where a line leads.
+    int nextOf(Parameter which) const noexcept { return lines_[static_cast<std::size_t>(which)].next(); }
+    int next() const noexcept {
+        int first = none;
+        for (const Line& line : lines_) first = std::min(first, line.next());
+        return first;
+    }
+
+    /// Calls `act(std::size_t parameter, double normal)` for what is told of frames up to `frame`.
+    template <class Act>
+    void takeUntil(int frame, Act act) noexcept {
+        for (std::size_t p = 0; p < lines_.size(); ++p)
+            while (lines_[p].next() <= frame) act(p, take(p));
+    }
+
+    /// After the block, and after `takeUntil` its length.
+    void end() noexcept;
+
+private:
+    struct Line {
+        ParameterPoint from{none, 0.0}, corner{none, 0.0}; // the host's last point, and its next
+        int step = none;                          // a frame between them at which the line's value is told
+        bool isDrawn = false, wasEndTold = false; // the latter: of the block before
+        int next() const noexcept { return std::min(step, corner.frame); }
+    };
+    double take(std::size_t parameter) noexcept;
+    ParameterPoint read(std::size_t parameter) noexcept;
+    void draw(Line& line, int after) const noexcept;
+
+    PointSource* source_ = nullptr;
+    int frames_ = 0;
+    int phase_ = 0; // of the block's first frame, from the last multiple of longestStep on
+    std::array<Line, parameterCount> lines_{};
 };
 
 } // namespace physvib

@@ -5,7 +5,6 @@
 // knows no frame, and has no control ports.
 #ifdef PHYSVIB_LV2_ENTRY
 #include "Entry.h"
-#include "Lv2Controls.h"
 #include "Lv2Defaults.h"
 #include "Lv2Parts.h"
 #include "PluginProcessor.h"

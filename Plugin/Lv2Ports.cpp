@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // physvib-lv2-ports INDEX: a control port for each parameter in LV2's description, the first of that number,
 // in the parameter's own unit. JUCE describes parameters as properties, which many hosts neither list nor
-// automate (decision 173). Lv2Controls.h reads these ports.
+// automate (decision 173). Lv2Parts.h reads these ports.
 #include "Parameters.h"
 #include <algorithm>
 #include <charconv>

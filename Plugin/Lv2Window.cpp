@@ -3,7 +3,6 @@
 // Where the window, a controller or an event moves a parameter, its port is written, so that the host's own
 // slider follows.
 #ifdef PHYSVIB_LV2_ENTRY
-#include "Lv2Controls.h"
 #include "Lv2Parts.h"
 #include <cstring>
 #include <lv2/core/lv2.h>

@@ -1,11 +1,189 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values of parameters: a host's 0 to 1, the parameter's unit, and words.
+// Every parameter once: id, name, unit, range, default, mapping, words. The plug-in, its editor, its saved
+// state and the table in Docs/plugin-reference.md read this table.
 #pragma once
-#include "ParameterTable.h"
+#include "Core/PanningLaws.h"
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace physvib {
+
+/// In the order in which hosts list them. New ones go to the end, before `count`: hosts may number them.
+enum class Parameter {
+    level,
+    law,
+    exponent,
+    gravity,
+    tilt,
+    material,
+    strikeLevel,
+    strikeX,
+    strikeY,
+    bypass,
+    beats,
+    music,
+    musicSides,
+    timing,
+    decay,
+    release,
+    velocityCurve,
+    hold,
+    placement,
+    bendRange,
+    noteMaterial,
+    count
+};
+constexpr auto parameterCount = static_cast<std::size_t>(Parameter::count);
+
+/// How a host's 0 to 1 runs over the range.
+enum class ParameterScale {
+    linear,
+    log,    ///< equal steps are equal ratios; the range is above 0
+    choice, ///< one of `choices`, in equal steps over the range; each keeps its place from 0 to 1 (decision
+            ///< 34)
+    toggle  ///< 0 or 1
+};
+
+struct ParameterRow {
+    Parameter parameter; ///< its number, which is its place in the table
+    std::string_view id; ///< never changes: sessions of hosts hold on to it
+    std::string_view name;
+    std::string_view shortName; ///< 8 letters at most, for small displays; its first four tell it from the
+                                ///< others
+    std::string_view unit;
+    double least = 0.0;
+    double most = 1.0;
+    double initial = 0.0;
+    ParameterScale scale = ParameterScale::linear;
+    std::span<const std::string_view> choices{};
+    int version = 1; ///< of the plug-in that has it first: AU sorts by it
+    std::string_view help{};
+};
+
+/// Parameters that belong together, each in one group, in the order of the table; `level` and `bypass` stand
+/// by themselves, the latter before the groups that came after it.
+struct ParameterGroup {
+    std::string_view id; ///< never changes
+    std::string_view name;
+    std::span<const Parameter> parameters;
+};
+
+namespace parameterTable {
+
+/// The first choices stand where they have always stood, the others half-way between them, and the next ones
+/// at the quarters (decision 34). A place without a choice of its own repeats the one before.
+template <std::size_t first, std::size_t count>
+constexpr auto atTheirPlaces(const std::array<std::string_view, count>& names) {
+    constexpr std::size_t halves = 2 * first - 1, quarters = 2 * halves - 1; // how many places there are
+    static_assert(count <= quarters, "others need a parameter of their own");
+    constexpr std::size_t step = count == first ? 1 : count <= halves ? 2 : 4;
+    std::array<std::string_view, step*(first - 1) + 1> places{};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::size_t rest = i % step, own = rest == 0          ? i / step
+                                                 : 2 * rest == step ? first + i / step
+                                                                    : halves + i / 2;
+        places[i] = own < count ? names[own] : places[i - 1];
+    }
+    return places;
+}
+
+inline constexpr auto lawNames = atTheirPlaces<4>(panningLawNames);
+inline constexpr std::array<std::string_view, 9> materialNames{
+    "as the scene", "1", "2", "3", "4", "5", "6", "7", "8"};
+inline constexpr std::array<std::string_view, 2> switchNames{"off", "on"};
+inline constexpr std::array<std::string_view, 2> sideNames{"summed", "left and right"};
+inline constexpr std::array<std::string_view, 2> timingNames{"safe", "tight"}; // indexed by TakeTiming
+// Of these the first leaves what the preset has.
+inline constexpr std::array<std::string_view, 3> holdNames{"as the preset", "off", "on"};
+inline constexpr std::array<std::string_view, 4> placementNames{"as the preset", "octave", "actuators",
+                                                                "middle"};
+inline constexpr std::array<std::string_view, 9> bendNames{
+    "as the preset", "moves the place", "1 semitone",   "2 semitones", "5 semitones",
+    "7 semitones",   "12 semitones",    "24 semitones", "48 semitones"};
+inline constexpr std::array bendSemitones{0.0, 0.0, 1.0, 2.0, 5.0, 7.0, 12.0, 24.0, 48.0};
+static_assert(bendSemitones.size() == bendNames.size());
+inline constexpr std::array<std::string_view, 9> noteMaterialNames{
+    "as the preset", "1", "2", "3", "4", "5", "6", "7", "8"};
+inline constexpr std::span<const std::string_view> noWords{};
+inline constexpr double silentDb = -60.0; // below it nobody feels anything: full scale is some g
+
+using enum ParameterScale;
+inline constexpr std::array<ParameterRow, parameterCount> rows{{
+    {Parameter::level, "level", "Level", "Level", "dB", silentDb, 0.0, -12.0, linear, noWords, 1,
+     "Master level; the least is silence"},
+    {Parameter::law, "law", "Panning law", "Law", "", 0, 3, 0, choice, lawNames, 1,
+     "How an impact is spread over the actuators"},
+    {Parameter::exponent, "exponent", "Panning exponent", "Exponent", "", 0.25, 4.0, 1.0, log, noWords, 1,
+     "Exponent of the panning law"},
+    {Parameter::gravity, "gravity", "Gravity", "Gravity", "x", 0.0, 4.0, 1.0, linear, noWords, 1,
+     "Gravity, times the scene's"},
+    {Parameter::tilt, "tilt", "Tilt", "Tilt", "deg", -180.0, 180.0, 0.0, linear, noWords, 1,
+     "How the device is held: gravity turns counter-clockwise"},
+    {Parameter::material, "material", "Material", "Material", "", 0, 8, 0, choice, materialNames, 1,
+     "Material of what is felt: the scene's own, or the n-th of its list"},
+    {Parameter::strikeLevel, "strike_level", "Strike level", "Hit lev", "dB", silentDb, 12.0, 6.0, linear,
+     noWords, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
+    {Parameter::strikeX, "strike_x", "Strike shift x", "X shift", "%", -100.0, 100.0, 0.0, linear, noWords, 1,
+     "Shifts MIDI strikes to the right, in parts of the field's width"},
+    {Parameter::strikeY, "strike_y", "Strike shift y", "Y shift", "%", -100.0, 100.0, 0.0, linear, noWords, 1,
+     "Shifts MIDI strikes upwards, in parts of the field's height"},
+    {Parameter::bypass, "bypass", "Bypass", "Bypass", "", 0, 1, 0, toggle, switchNames, 1,
+     "Silence; the world goes on"},
+    {Parameter::beats, "beats", "Beats", "Beats", "%", 0.0, 100.0, 0.0, linear, noWords, 2,
+     "How readily beats of the side chain strike; the least is never"},
+    {Parameter::music, "music", "Music", "Music", "dB", silentDb, 12.0, silentDb, linear, noWords, 3,
+     "Level of the side chain's own low frequencies (20 to 400 Hz) on the actuators; the least is silence"},
+    {Parameter::musicSides, "music_sides", "Music channels", "Sides", "", 0, 1, 0, choice, sideNames, 3,
+     "Where the side chain is played: summed, on all actuators, or its left on the left ones and its right "
+     "on the right ones"},
+    {Parameter::timing, "timing", "Timing", "Timing", "", 0, 1, 0, choice, timingNames, 4,
+     "Output latency of a world. Safe: stepped by a thread of its own. Tight: stepped in the render call, "
+     "which "
+     "needs a computer with time to spare; the output is silent for a moment when this changes"},
+    // Factors from 1/2^n to 2^n: the middle of their scale is 1 exactly, which changes no sample.
+    {Parameter::decay, "decay", "Decay", "Decay", "x", 0.125, 8.0, 1.0, log, noWords, 5,
+     "How long strikes by notes ring, times the preset's"},
+    {Parameter::release, "release", "Release", "Release", "x", 0.0625, 16.0, 1.0, log, noWords, 5,
+     "How long a held note takes to fall after its key, times the preset's"},
+    {Parameter::velocityCurve, "velocity_curve", "Velocity curve", "Velocity", "x", 0.25, 4.0, 1.0, log,
+     noWords, 5, "Exponent of a note's velocity, times the preset's: above 1, soft keys are softer"},
+    {Parameter::hold, "hold", "Hold", "Hold", "", 0, 2, 0, choice, holdNames, 5,
+     "Whether a note without a rule sounds until its key is released"},
+    {Parameter::placement, "placement", "Placement", "Place", "", 0, 3, 0, choice, placementNames, 5,
+     "Where a note without a rule is felt: from left (C) to right (B), on one actuator after the other, or "
+     "in "
+     "the middle"},
+    {Parameter::bendRange, "bend_range", "Bend range", "Bend", "", 0, 8, 0, choice, bendNames, 5,
+     "How far a full pitch bend moves the pitch; or it moves the place"},
+    {Parameter::noteMaterial, "note_material", "Note material", "Note mat", "", 0, 8, 0, choice,
+     noteMaterialNames, 5,
+     "What a note without a rule sounds like: the preset's pitch, or the n-th material of the list, at its "
+     "frequency"},
+}};
+static_assert(std::ranges::all_of(rows, [](const ParameterRow& row) {
+    return &row == &rows[static_cast<std::size_t>(row.parameter)];
+}));
+
+inline constexpr std::array panningGroup{Parameter::law, Parameter::exponent};
+inline constexpr std::array worldGroup{Parameter::gravity, Parameter::tilt, Parameter::material};
+inline constexpr std::array strikeGroup{Parameter::strikeLevel, Parameter::strikeX, Parameter::strikeY};
+inline constexpr std::array beatGroup{Parameter::beats, Parameter::music, Parameter::musicSides};
+inline constexpr std::array timeGroup{Parameter::timing};
+inline constexpr std::array instrumentGroup{
+    Parameter::decay,     Parameter::release,   Parameter::velocityCurve, Parameter::hold,
+    Parameter::placement, Parameter::bendRange, Parameter::noteMaterial};
+inline constexpr std::array<ParameterGroup, 6> groups{{{"panning", "Panning", panningGroup},
+                                                       {"world", "World", worldGroup},
+                                                       {"strikes", "Strikes by notes", strikeGroup},
+                                                       {"side_chain", "Side chain", beatGroup},
+                                                       {"time", "Time", timeGroup},
+                                                       {"instrument", "Instrument", instrumentGroup}}};
+
+} // namespace parameterTable
 
 /// Any thread.
 const ParameterRow& rowOf(Parameter parameter) noexcept;

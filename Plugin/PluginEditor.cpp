@@ -3,8 +3,8 @@
 #include "PluginEditor.h"
 #include "EditorParts.h"
 #include "HostKeys.h"
-#include "PresetFiles.h"
-#include "Presets.h"
+#include "PluginFiles.h"
+#include "PluginSettings.h"
 
 namespace physvib {
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int framesPerSecond = 25; // a software renderer has other things to do
 constexpr int barHeight = 50, groupsHeight = 124, statusHeight = 26, margin = 12;
-constexpr int leastWidth = 960, leastHeight = 540, firstWidth = 1180, firstHeight = 700;
+constexpr int minWidth = 960, minHeight = 540, firstWidth = 1180, firstHeight = 700;
 
 void mute(juce::Label& label) { label.setColour(juce::Label::textColourId, shade(label, Shade::muted)); }
 
@@ -129,11 +129,11 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     fillGroups();
     fillChoices();
     showMidi(false);
-    takeState();
-    setGround(savedGround());
+    stateChanged();
+    setTheme(savedTheme());
     setResizable(true, true);
-    setResizeLimits(leastWidth, leastHeight, 2400, 1600);
-    const bool isKept = state_.editorWidth >= leastWidth && state_.editorHeight >= leastHeight;
+    setResizeLimits(minWidth, minHeight, 2400, 1600);
+    const bool isKept = state_.editorWidth >= minWidth && state_.editorHeight >= minHeight;
     if (isKept)
         setSize(state_.editorWidth, state_.editorHeight);
     else
@@ -207,7 +207,7 @@ void PluginEditor::fillChoices() {
     };
     layout_.onChange = [this] {
         if (const int i = layout_.getSelectedItemIndex(); i >= 0)
-            edit([i](PluginState& s) { takePreset(s, layoutPresetNames[static_cast<std::size_t>(i)]); });
+            edit([i](PluginState& s) { usePreset(s, layoutPresetNames[static_cast<std::size_t>(i)]); });
     };
     steps_.onChange = [this] {
         const int wanted = juce::jlimit(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond,
@@ -273,13 +273,13 @@ void PluginEditor::showMidi(bool on) {
     midi_.setToggleState(on, juce::dontSendNotification);
 }
 
-void PluginEditor::setGround(Ground ground) {
-    look_.setGround(ground);
+void PluginEditor::setTheme(Theme theme) {
+    look_.setTheme(theme);
     sendLookAndFeelChange();
     for (auto* const name : {&seedName_, &stepsName_}) mute(*name);
     seed_.applyColourToAllText(shade(*this, Shade::text));
     mix_.take(state_);
-    takeKnobs();
+    readKnobs();
 }
 
 void PluginEditor::nameMaterials() {
@@ -292,7 +292,7 @@ void PluginEditor::nameMaterials() {
 }
 
 // What shows or hides controls, and what keys are.
-void PluginEditor::takeKnobs() {
+void PluginEditor::readKnobs() {
     knobs_ = plugin_.noteKnobs();
     for (auto& group : groups_)
         for (auto& control : group.controls) control->setVisible(uses(state_, knobs_, control->which()));
@@ -304,7 +304,7 @@ void PluginEditor::takeKnobs() {
     repaint();
 }
 
-void PluginEditor::takeState() {
+void PluginEditor::stateChanged() {
     shown_ = plugin_.stateCount();
     state_ = plugin_.state();
     // a scene or layout of one's own is its name only
@@ -329,14 +329,14 @@ void PluginEditor::takeState() {
                  state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
     mix_.take(state_);
     nameMaterials();
-    takeKnobs(); // places all anew: there may be more or fewer strips
+    readKnobs(); // places all anew: there may be more or fewer strips
 }
 
 void PluginEditor::refresh() {
-    if (plugin_.stateCount() != shown_) takeState();
-    if (plugin_.noteKnobs() != knobs_) takeKnobs();
+    if (plugin_.stateCount() != shown_) stateChanged();
+    if (plugin_.noteKnobs() != knobs_) readKnobs();
     followLearning();
-    const auto hits = plugin_.takeNewEvents();
+    const auto hits = plugin_.drainEvents();
     const auto meters = plugin_.meters();
     const auto status = plugin_.takes().status();
     aheadBefore_ = std::exchange(aheadShown_, status.aheadBlocks);
@@ -450,7 +450,7 @@ void PluginEditor::paint(juce::Graphics& g) {
 }
 
 void PluginEditor::resized() {
-    if (getWidth() >= leastWidth) plugin_.keepEditorSize(getWidth(), getHeight());
+    if (getWidth() >= minWidth) plugin_.keepEditorSize(getWidth(), getHeight());
     auto area = getLocalBounds().reduced(margin, 0);
     auto bar = area.removeFromTop(barHeight).reduced(0, 10);
     auto foot = area.removeFromBottom(statusHeight);

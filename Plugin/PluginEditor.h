@@ -3,8 +3,7 @@
 #pragma once
 #include "Host/Views/EmergencyStop.h"
 #include "Host/Views/WorldView.h"
-#include "KeyboardPanel.h"
-#include "MidiPanel.h"
+#include "MidiPanels.h"
 #include "MixPanel.h"
 #include "PluginProcessor.h"
 #include <memory>
@@ -44,7 +43,7 @@ public:
     /// Plays a file of one's own: a preset, a scene, a layout, or a saved session.
     void open(const juce::File& file);
     void showMidi(bool on);
-    void setGround(Ground ground);
+    void setTheme(Theme theme);
 
     /// The next controller that comes in will move that parameter.
     void learn(Parameter which);
@@ -81,8 +80,8 @@ private:
         std::vector<Column> columns() const;
     };
     void timerCallback() override { refresh(); }
-    void takeState();
-    void takeKnobs();
+    void stateChanged();
+    void readKnobs();
     juce::String steppingText(const TakesStatus& status) const;
     juce::String latencyText() const;
     juce::String outputText(const ChannelMeters& meters) const;

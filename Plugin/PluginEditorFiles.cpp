@@ -2,10 +2,9 @@
 // Menus of the plug-in's window: opening, saving and exporting files, and MIDI learn.
 #include "EditorParts.h"
 #include "Io/Text/NameList.h"
-#include "OpenedFile.h"
 #include "PluginEditor.h"
-#include "PresetFiles.h"
-#include "Presets.h"
+#include "PluginFiles.h"
+#include "PluginSettings.h"
 #include "Scene/SceneCatalogue.h"
 #include <utility>
 
@@ -54,10 +53,10 @@ void PluginEditor::showFiles() {
         report("PhysVib " PHYSVIB_VERSION
                ", GPL-3.0-or-later; JUCE 7, Box2D and others: LICENSES. Help: Docs/plugin.md");
     });
-    const bool isLight = look_.ground() == Ground::light;
+    const bool isLight = look_.theme() == Theme::light;
     menu.addItem("Light window", true, isLight, [this, isLight] {
-        setGround(isLight ? Ground::dark : Ground::light);
-        saveGround(look_.ground());
+        setTheme(isLight ? Theme::dark : Theme::light);
+        saveTheme(look_.theme());
     });
     menu.setLookAndFeel(&look_);
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(files_).withDeletionCheck(*this));
@@ -89,7 +88,7 @@ void PluginEditor::savePresetAs(const juce::File& file) {
 }
 
 void PluginEditor::exportFeltAs(const juce::File& file) {
-    plugin_.takeNewEvents();
+    plugin_.drainEvents();
     const auto state = plugin_.state();
     const auto events = plugin_.felt().events(state.transport == TransportMode::free);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };

@@ -2,7 +2,6 @@
 // The plug-in processor on the message thread: settings, buses, sample rates, latency.
 #include "PluginProcessor.h"
 #include "PluginEditor.h"
-#include "Presets.h"
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -28,7 +27,7 @@ PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
     addParameters();
     const auto state = newPluginState(outputs());
     apply(state);
-    takeParameters(state);
+    setParameters(state);
     followsWidth_ = true;
     startTimer(sleepsMs);
 }
@@ -103,7 +102,7 @@ void PluginProcessor::fitToWidth() {
     const std::lock_guard one{applyMutex_};
     auto fitting = state();
     if (!followsWidth_ || outputs() == enchantersOf(fitting)) return;
-    placeAnew(fitting, outputs());
+    rearrange(fitting, outputs());
     exchangeFor(std::move(fitting), true);
 }
 
@@ -151,7 +150,7 @@ void PluginProcessor::go(Step step) {
     if (!there) return;
     // SILENCE is no edit: only a hand on its button lifts it
     there->touched.reset(static_cast<std::size_t>(Parameter::bypass));
-    if (change(there->state)) takeParameters(there->state, there->touched);
+    if (change(there->state)) setParameters(there->state, there->touched);
 }
 
 bool PluginProcessor::can(Step step) const {
@@ -184,13 +183,13 @@ bool PluginProcessor::change(PluginState state) {
 void PluginProcessor::open(PluginState state) {
     auto before = this->state();
     if (!change(state)) return;
-    takeParameters(state);
+    setParameters(state);
     remember(std::move(before));
 }
 
 PluginState PluginProcessor::withPreset(int preset) const {
     auto changed = state();
-    takePlugInPreset(changed, preset, outputs());
+    useBuiltIn(changed, preset, outputs());
     return changed;
 }
 
@@ -201,7 +200,7 @@ void PluginProcessor::choose(int preset) {
 
 void PluginProcessor::useOutputs() {
     auto changed = state();
-    placeAnew(changed, outputs());
+    rearrange(changed, outputs());
     if (edit(std::move(changed))) followsWidth_ = true;
 }
 
@@ -302,14 +301,14 @@ void PluginProcessor::releaseResources() {
     blockFrames_ = 0;
 }
 
-std::vector<TakeEvent> PluginProcessor::takeNewEvents() {
-    auto fresh = takes_.takeLog();
+std::vector<TakeEvent> PluginProcessor::drainEvents() {
+    auto fresh = takes_.drainLog();
     felt_.add(prepares_, fresh);
     return fresh;
 }
 
 void PluginProcessor::timerCallback() {
-    for (auto* p : parameters_) p->tellHost();
+    for (auto* p : parameters_) p->notifyHost();
     if (const auto now = noteKnobs(); now != tailKnobs_)
         tailSeconds_ = tailSeconds(state(), tailKnobs_ = now);
     publish(); // the timing may have changed
@@ -328,7 +327,7 @@ void PluginProcessor::setCurrentProgram(int index) {
     if (isSameTake(before, changed)) return; // hosts repeat themselves, and the world would start anew
     if (!apply(changed)) return;
     followsWidth_ = true;
-    takeParameters(changed);
+    setParameters(changed);
     remember(std::move(before));
 }
 
@@ -353,19 +352,19 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {
 // session that was opened with an older PhysVib loses nothing.
 void PluginProcessor::setStateInformation(const void* data, int size) {
     const std::string_view text{static_cast<const char*>(data), static_cast<std::size_t>(std::max(0, size))};
-    if (takeChunk(text.substr(0, text.find_last_not_of('\0') + 1))) return; // a host may end it with NULs
+    if (applyChunk(text.substr(0, text.find_last_not_of('\0') + 1))) return; // a host may end it with NULs
     followsWidth_ = false;
     const std::lock_guard lock{mutex_};
     refused_ = juce::MemoryBlock{text.data(), text.size()};
 }
 
-bool PluginProcessor::takeChunk(std::string_view text) {
+bool PluginProcessor::applyChunk(std::string_view text) {
     const auto read = readPluginState(text, "state");
     if (!read) return refuse(asString(read.error));
     if (const auto fault = faultOfParameters(read.value); !fault.empty())
         return refuse(asString("state: " + fault));
     if (!apply(read.value)) return false;
-    takeParameters(read.value);
+    setParameters(read.value);
     const std::lock_guard lock{mutex_};
     history_ = {};
     return true;
@@ -373,7 +372,7 @@ bool PluginProcessor::takeChunk(std::string_view text) {
 
 // Those that the state does not name get their defaults. The host is told of what it does not know: each
 // telling may mark its session as changed.
-void PluginProcessor::takeParameters(const PluginState& state, TouchedParameters which) {
+void PluginProcessor::setParameters(const PluginState& state, TouchedParameters which) {
     std::array<float, parameterCount> normals;
     for (std::size_t i = 0; i < parameterCount; ++i) normals[i] = parameters_[i]->getDefaultValue();
     for (const auto& [id, value] : state.parameters) {

@@ -5,21 +5,17 @@
 // thread but R. What the host calls non-realtime is rendered with RenderMode::offline, so that a bounce is
 // the live take at any speed.
 #pragma once
-#include "BeatInput.h"
 #include "BusPlan.h"
-#include "ControlPace.h"
 #include "Core/Actuators/OutputGuard.h"
 #include "EditHistory.h"
 #include "FeltExport.h"
-#include "HeldNotes.h"
+#include "HostInputs.h"
 #include "HostParameter.h"
 #include "Live/Devices/DeviceMeters.h"
 #include "MidiMap.h"
 #include "MusicInput.h"
-#include "ParameterPoints.h"
 #include "PluginSettings.h"
 #include "Takes.h"
-#include "Transport.h"
 
 namespace physvib {
 
@@ -82,8 +78,8 @@ public:
     static int controllerOf(std::uint32_t last) noexcept { return static_cast<int>(last & 0xff); }
 
     /// What was played since the last call; it is kept for export as well. M.
-    std::vector<TakeEvent> takeNewEvents();
-    const FeltEvents& felt() const noexcept { return felt_; } ///< M, as far as takeNewEvents() was called
+    std::vector<TakeEvent> drainEvents();
+    const FeltEvents& felt() const noexcept { return felt_; } ///< M, as far as drainEvents() was called
 
     /// How many actuators the host has outputs for. Where buses are pairs, no more than there are actuators:
     /// that a host turns all on is no wish. M.
@@ -109,7 +105,7 @@ public:
     using juce::AudioProcessor::processBlock;
     using juce::AudioProcessor::processBlockBypassed;
     /// None for LV2: its wrapper writes `lv2:enabled` over it in every block, and tells the host so from the
-    /// render call. Our entry makes that port bypass' own, by its changes (Lv2Controls.h).
+    /// render call. Our entry makes that port bypass' own, by its changes (Lv2Parts.h).
     juce::AudioProcessorParameter* getBypassParameter() const override {
         return wrapperType == wrapperType_LV2 ? nullptr
                                               : parameters_[static_cast<std::size_t>(Parameter::bypass)];
@@ -141,14 +137,14 @@ private:
     void timerCallback() override;
     void parameterValueChanged(int, float) override {}
     void parameterGestureChanged(int which, bool begins) override;
-    bool takeChunk(std::string_view text);
+    bool applyChunk(std::string_view text);
     bool refuse(const juce::String& why);
     void take(PluginState state);
     bool change(PluginState state);
     bool exchangeFor(PluginState state, bool followsWidth);
     void fitToWidth();
     void publish();
-    void takeParameters(const PluginState& state, TouchedParameters which = TouchedParameters{}.set());
+    void setParameters(const PluginState& state, TouchedParameters which = TouchedParameters{}.set());
     void remember(PluginState before);
     PluginState withPreset(int preset) const;
 
@@ -162,7 +158,7 @@ private:
     NoteKnobs knobs() const noexcept;
     void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
     void readParameters() noexcept;
-    void takePoints(int until) noexcept;
+    void readPoints(int until) noexcept;
     int renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message,
                    const juce::MidiBuffer& midi, int first) noexcept;
     void followTransport(int frames) noexcept;

@@ -3,7 +3,6 @@
 // locks or waits.
 #include "PluginProcessor.h"
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -60,7 +59,7 @@ void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiB
         guard_.process(out.data(), end - first);
         first = end;
     }
-    takePoints(frames); // of the next block's first frame
+    readPoints(frames); // of the next block's first frame
     points_.end();
     measure(buffer);
 }
@@ -72,7 +71,7 @@ void PluginProcessor::readParameters() noexcept {
             normals_[p] = parameters_[p]->getValue();
 }
 
-void PluginProcessor::takePoints(int until) noexcept {
+void PluginProcessor::readPoints(int until) noexcept {
     points_.takeUntil(until, [this](std::size_t p, double normal) {
         normals_[p] = static_cast<float>(normal);
         parameters_[p]->setValue(normals_[p]);
@@ -90,7 +89,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
     int end = std::min(frames, first + blockFrames_);
     if (takes_.begin(mode)) forgetControls();
     for (int at = first; at < end;) {
-        takePoints(at);
+        readPoints(at);
         if (at == first) isShut_ = value(Parameter::bypass) > 0.5, playKeys(0);
         end = std::min(end, points_.nextOf(Parameter::bypass));
         sendControls(at - first);

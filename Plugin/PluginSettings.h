@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Converts the state of a plug-in instance to the settings of its renderer and session, and edits it.
+// The state of a plug-in instance as settings of its renderer and session, edits of it, and the built-in
+// presets.
 #pragma once
 #include "Live/Documents/PluginState.h"
 #include "Live/Session/Session.h"
 #include "MidiMap.h"
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace physvib {
 
@@ -15,11 +17,11 @@ inline int enchantersOf(const PluginState& state) noexcept { return state.layout
 void fitToLayout(PluginState& state);
 
 /// A preset's places for the enchanters that are there, which keep what drives them and their strips. M only.
-void takePreset(PluginState& state, std::string_view name);
+void usePreset(PluginState& state, std::string_view name);
 
 /// Another scene. Note rules hold on to materials and bodies by their names: those that it has not are left
 /// out. Any thread.
-void takeScene(PluginState& state, Scene scene);
+void useScene(PluginState& state, Scene scene);
 
 /// True if what plays by `a` can go on by `b`, another mix at most. Any thread.
 bool isSameTake(const PluginState& a, const PluginState& b);
@@ -49,5 +51,27 @@ std::optional<double> valueOfState(const ParameterRow& row, const ParameterValue
 /// What a state says of parameters that are not there, or by words that they do not know; empty if nothing.
 /// Any thread.
 std::string faultOfParameters(const PluginState& state);
+
+/// Names of the presets: the built-in scenes first, whose places hosts have kept, then the instruments, which
+/// have no bodies. M only.
+const std::vector<std::string>& presetNames();
+
+/// The place of the preset that a state plays; its own are shown as the first. Any thread.
+int presetOf(const PluginState& state);
+
+/// `state` as that preset has it: a scene keeps notes' voice and parameters, and the layout unless it has
+/// more actuators than outputs; an instrument has its own, on as many actuators as there are outputs. 0
+/// outputs: as many actuators as it is made for. M only.
+void useBuiltIn(PluginState& state, int index, int outputs = 0);
+
+/// Other places for as many actuators as there are outputs, by the arrangement of the preset that it plays;
+/// they keep what drives them and their strips. M only.
+void rearrange(PluginState& state, int outputs);
+
+/// The strike level up to which a file of such a preset is no louder than the preset itself. M only.
+double usualStrikeDb(const PluginState& state);
+
+/// What a new instance plays: notes and beats, nothing by itself. M only.
+PluginState newPluginState(int outputs = 4);
 
 } // namespace physvib

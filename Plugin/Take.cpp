@@ -44,7 +44,7 @@ void Take::rewind(TakeTiming timing) {
     logged = 0;
     isEnded = false;
     if (music_) music_->reset();
-    told_ = {};
+    lastSent_ = {};
     levels_.forget();
     panners_.forget();
 }
@@ -98,10 +98,9 @@ void Take::releaseUntil(int frames) noexcept {
     });
 }
 
-bool Take::tell(std::span<const Strip> strips) {
-    return tellStrips(told_, strips, [this](const RenderControl& control) {
-        return session.submit({control}).error.empty();
-    });
+bool Take::send(std::span<const Strip> strips) {
+    return sendStrips(lastSent_, strips,
+                      [this](const RenderControl& control) { return session.submit({control}).error.empty(); });
 }
 
 bool Take::silence(int frame) noexcept {

@@ -5,7 +5,7 @@
 #include "Core/EventQueue.h"
 #include "Live/Session/Session.h"
 #include "MidiMap.h"
-#include "MusicDelay.h"
+#include "MusicInput.h"
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -45,9 +45,9 @@ public:
     /// From its seed again. Any thread but R, while nobody renders or steps it.
     void rewind(TakeTiming timing);
 
-    /// It is to play by these strips from session time on. False: not all of it found room, to be told again.
+    /// It is to play by these strips from session time on. False: not all of it found room, to be sent again.
     /// Any thread but R.
-    bool tell(std::span<const Strip> strips);
+    bool send(std::span<const Strip> strips);
 
     const TakeSettings& settings() const noexcept { return order_->settings; }
     std::uint64_t generation() const noexcept { return order_->generation; }
@@ -73,7 +73,7 @@ public:
     MusicDelay* music() noexcept { return music_.get(); }
 
     /// What happened before that frame of the coming block is not felt any more. False: there is no room, to
-    /// be told again. R, wait-free.
+    /// be sent again. R, wait-free.
     bool silence(int frame) noexcept;
 
     /// Plays what is owed and fades then. R.
@@ -115,7 +115,7 @@ private:
     std::shared_ptr<const TakeOrder> order_;
     int sampleRateHz_, sliceFrames_;
     std::unique_ptr<MusicDelay> music_;
-    std::array<ToldStrip, limits::maxEnchanters> told_{};
+    std::array<SentStrip, limits::maxEnchanters> lastSent_{};
     Held levels_, panners_;
     std::int64_t safeFrames_ = 0, tightFrames_ = 0; // L, by the timing
     std::int64_t owed_ = -1;                        // frames until it fades; -1: it is not ending

@@ -9,7 +9,6 @@
 #include <utility>
 
 namespace physvib {
-
 namespace {
 
 /// One look at the scene; one by one, each of a body's actions would look through all bodies.
@@ -82,14 +81,14 @@ void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<St
 void Takes::mix(std::vector<Strip> strips) {
     const std::lock_guard lock{mutex_};
     strips_ = std::move(strips);
-    tellAll();
+    sendAll();
 }
 
-// The mutex is held. What found no room is told again by the next tick.
-void Takes::tellAll() {
+// The mutex is held. What found no room is sent again by the next tick.
+void Takes::sendAll() {
     for (auto& take : takes_)
         if (take->generation() == order_->generation && !take->isEnded.load(std::memory_order_acquire))
-            take->tell(strips_);
+            take->send(strips_);
 }
 
 std::shared_ptr<const TakeOrder> Takes::order() const {
@@ -103,7 +102,7 @@ void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Tak
     fault_.clear();
     canMake_ = true;
     if (!take) return;
-    take->tell(strips_);
+    take->send(strips_);
     const auto& setup = order_->setup;
     ticksPerSecond_ =
         setup.hasWorld ? TakePace::ticksPerSecond(setup.stepsPerSecond) : TakePace::stillTicksPerSecond;
@@ -178,7 +177,7 @@ void Takes::release() {
 
 void Takes::tick() {
     std::unique_lock lock{mutex_};
-    tellAll();
+    sendAll();
     for (auto& take : takes_) {
         if (take->isEnded.load(std::memory_order_acquire)) continue;
         stepWorld(*take);
@@ -225,13 +224,13 @@ void Takes::tryToMakeReady(std::unique_lock<std::mutex>& lock) noexcept {
 void Takes::makeReady(std::unique_lock<std::mutex>& lock) {
     const auto order = order_;
     const bool isNeeded = isTakeNeeded();
-    auto ended = takeOut();
+    auto ended = collectUnused();
     lock.unlock();
     auto ready = isNeeded ? makeOf(ended, order) : nullptr;
     ended.clear();
     lock.lock();
     if (!ready) return;
-    ready->tell(strips_);
+    ready->send(strips_);
     takes_.push_back(std::move(ready));
     Take* const made = takes_.back().get();
     Take* none = nullptr;
@@ -271,7 +270,7 @@ bool Takes::isWorkToDo() const {
 }
 
 // Those left over, and if one is needed, one that has ended. The mutex is held.
-std::vector<std::unique_ptr<Take>> Takes::takeOut() {
+std::vector<std::unique_ptr<Take>> Takes::collectUnused() {
     std::vector<std::unique_ptr<Take>> out;
     bool isNeeded = isTakeNeeded();
     for (auto& take : takes_) {
@@ -292,7 +291,7 @@ void Takes::drain(Take& take) {
     }
 }
 
-std::vector<TakeEvent> Takes::takeLog() {
+std::vector<TakeEvent> Takes::drainLog() {
     const std::lock_guard lock{mutex_};
     for (auto& take : takes_) drain(*take);
     return std::exchange(log_, {});
@@ -311,6 +310,190 @@ std::int64_t Takes::poses(std::vector<BodyPose>& now) {
             newest = take.get();
     now.clear();
     return newest ? newest->session.world().readPoses(now) : 0;
+}
+
+// The render thread's part of scene runs: nothing here allocates, locks or waits, except where a block needs
+// the world to be stepped in the render call.
+
+template <class Do>
+void Takes::forEachSounding(Do what) const noexcept {
+    if (playing_) what(*playing_);
+    for (std::size_t i = endingCount_; i-- > 0;) what(*ending_[i]);
+}
+
+TransportMode Takes::lookForNew() noexcept {
+    if (next_ && next_->generation() == newest_.load(std::memory_order_acquire))
+        return newSettings_.transport;
+    Take* const fresh = spare_.exchange(nullptr, std::memory_order_acq_rel);
+    if (!fresh) return newSettings_.transport;
+    letGo(next_);
+    next_ = fresh;
+    hasNext_ = true;
+    newSettings_ = next_->settings();
+    if (playing_ && playing_->generation() != next_->generation()) startWanted_ = true;
+    return newSettings_.transport;
+}
+
+bool Takes::begin(RenderMode mode) noexcept {
+    letGoOfThoseOver();
+    lookForNew();
+    if (!startWanted_) return false;
+    if (!next_ && mode == RenderMode::offline) {
+        std::unique_lock lock{mutex_};
+        tryToMakeReady(lock);
+        lookForNew();
+    }
+    if (next_) stop();
+    if (!next_ || playing_) {
+        startWanted_ = true;
+        ++delayedBlocks_;
+        return false;
+    }
+    playing_ = std::exchange(next_, nullptr);
+    hasNext_ = false;
+    playing_->number = ++started_;
+    return true;
+}
+
+void Takes::stop() noexcept {
+    startWanted_ = false;
+    if (!playing_ || endingCount_ == ending_.size()) return;
+    lateBefore_ += playing_->session.status().render.late;
+    slippedBefore_ += playing_->session.world().slippedNs();
+    playing_->end();
+    ending_[endingCount_++] = std::exchange(playing_, nullptr);
+}
+
+bool Takes::silence(int frame) noexcept {
+    bool all = true;
+    forEachSounding([&](Take& take) { all = take.silence(frame) && all; });
+    return all;
+}
+
+void Takes::letGo(Take*& take) noexcept {
+    if (take) take->isEnded.store(true, std::memory_order_release);
+    take = nullptr;
+}
+
+void Takes::letGoOfThoseOver() noexcept {
+    for (std::size_t i = 0; i < endingCount_;) {
+        if (!ending_[i]->isOver()) {
+            ++i;
+            continue;
+        }
+        letGo(ending_[i]);
+        std::copy(ending_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                  ending_.begin() + static_cast<std::ptrdiff_t>(endingCount_),
+                  ending_.begin() + static_cast<std::ptrdiff_t>(i));
+        --endingCount_;
+    }
+}
+
+void Takes::render(int frames, RenderMode mode) noexcept {
+    blocks_.fetch_add(1, std::memory_order_relaxed);
+    forEachSounding([&](Take& take) { take.render(frames, timing(), modeFor(take, frames, mode)); });
+    if (playing_) writeStatus();
+}
+
+// The world is stepped in the render call where it has to be: in tight timing, and where the host asks for
+// frames ahead of the thread that steps it, whatever the host says of itself. A live host whose world is in
+// time never comes here. A world that takes longer than real time holds such a host up, as any plug-in does
+// that is too much for the machine, and the host shows that; the samples are the same.
+RenderMode Takes::modeFor(const Take& take, int frames, RenderMode asked) noexcept {
+    if (asked == RenderMode::offline) return asked;
+    if (timing() == TakeTiming::tight) return RenderMode::offline;
+    if (take.session.framesMissing(frames) <= 0) return asked;
+    ++aheadBlocks_;
+    return RenderMode::offline;
+}
+
+void Takes::writeStatus() noexcept {
+    const auto& now = playing_->session.status();
+    status_.write({now, playing_->number, lateBefore_ + now.render.late,
+                   slippedBefore_ + playing_->session.world().slippedNs(), delayedBlocks_, aheadBlocks_});
+}
+
+int Takes::channels() const noexcept {
+    int most = 0;
+    forEachSounding([&](const Take& take) { most = std::max(most, take.session.channels()); });
+    return most;
+}
+
+void Takes::addTo(float* out, int channel, int frames) const noexcept {
+    forEachSounding([=](const Take& take) {
+        if (channel >= take.session.channels()) return;
+        const float* const in = take.out[static_cast<std::size_t>(channel)].data();
+        std::transform(in, in + frames, out, out, [](float a, float b) { return a + b; });
+    });
+}
+
+// Schedules the worlds by deadline; the thread sleeps until the first one.
+
+// Above all that is not audio, below what is: few users are allowed that.
+Stepper::Stepper()
+    : Thread{"PhysVib worlds"} {
+#if JUCE_MAJOR_VERSION >= 8
+    const auto lowest = RealtimeOptions{}.withPriority(1);
+#else
+    const RealtimeOptions lowest{1, 0};
+#endif
+    if (!startRealtimeThread(lowest)) startThread(Priority::highest);
+}
+
+Stepper::~Stepper() {
+    signalThreadShouldExit();
+    wake();
+    stopThread(-1);
+}
+
+void Stepper::wake() {
+    { const std::lock_guard lock{mutex_}; } // or it would sleep through it
+    changed_.notify_all();
+}
+
+void Stepper::add(Stepped& one) {
+    {
+        const std::lock_guard lock{mutex_};
+        members_.push_back({&one, one.blocks(), Clock::now(), {}});
+    }
+    changed_.notify_all();
+}
+
+void Stepper::remove(Stepped& one) {
+    const std::lock_guard lock{mutex_};
+    std::erase_if(members_, [&](const Member& member) { return member.one == &one; });
+}
+
+// At multiples of its period, so that those of equal ones come in one waking, and none comes in a burst after
+// a stall.
+void Stepper::tick(Member& member, Clock::time_point now) {
+    if (now < member.next) return;
+    member.one->tick();
+    if (const auto blocks = member.one->blocks(); blocks != member.blocks) {
+        member.blocks = blocks;
+        member.lastBlock = now;
+    }
+    const double seconds =
+        now - member.lastBlock > restsAfter ? member.one->idleSeconds() : 1.0 / member.one->ticksPerSecond();
+    const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{seconds});
+    member.next = Clock::time_point{(now.time_since_epoch() / period + 1) * period};
+}
+
+void Stepper::run() {
+    std::unique_lock lock{mutex_};
+    while (!threadShouldExit()) {
+        const auto now = Clock::now();
+        auto next = Clock::time_point::max();
+        for (Member& member : members_) {
+            tick(member, now);
+            next = std::min(next, member.next);
+        }
+        if (members_.empty())
+            changed_.wait(lock);
+        else
+            changed_.wait_until(lock, next);
+        wakeUps_.fetch_add(1, std::memory_order_relaxed);
+    }
 }
 
 } // namespace physvib

@@ -5,7 +5,7 @@
 // Each take is a session of its own that begins at session time 0, so that takes with equal inputs are equal
 // to the bit. Those that are replaced play on for L frames - what happened before is owed to the host, which
 // shifts our output by L - and fade then. One thread of the process steps the worlds of all instances and
-// does nothing else (Stepper.h); another, of each instance, makes takes ready, of ended ones where it can,
+// does nothing else (Stepper); another, of each instance, makes takes ready, of ended ones where it can,
 // and frees what is left over, beside it.
 //
 // Who owns what: `takes_` is under `mutex_` (the threads and M; R only in non-realtime blocks). R holds
@@ -20,25 +20,75 @@
 // clock has a say in that: which steps R makes follows from counts of steps alone, so a busy machine changes
 // no sample, and as soon as the thread is in time again R makes none.
 #pragma once
-#include "Stepper.h"
 #include "Take.h"
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
+#include <cstdint>
+#include <juce_core/juce_core.h>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace physvib {
 
+/// Who wants its world to be stepped.
+class Stepped {
+public:
+    virtual void tick() = 0;                         ///< on the stepping thread
+    virtual int ticksPerSecond() const noexcept = 0; ///< while blocks are rendered. Any thread
+    virtual double idleSeconds() const noexcept = 0; ///< between two ticks while none is: the first block may
+                                                     ///< have to wait so long. Any thread
+    virtual std::uint64_t blocks() const noexcept = 0; ///< rendered so far. Any thread
+
+protected:
+    ~Stepped() = default;
+};
+
+/// The thread that steps the worlds of all instances of the process. Runs while there is anybody to step, and
+/// comes seldom to who renders nothing. A juce::SharedResourcePointer holds it: the last one ends the thread.
+class Stepper final : private juce::Thread {
+public:
+    Stepper();
+    ~Stepper() override;
+
+    /// Any thread but R; remove() returns when that one is not being stepped any more.
+    void add(Stepped& one);
+    void remove(Stepped& one);
+
+    /// How often the thread has woken up. Any thread.
+    std::uint64_t wakeUps() const noexcept { return wakeUps_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::seconds restsAfter{1}; // without a block
+
+    struct Member {
+        Stepped* one;
+        std::uint64_t blocks;
+        Clock::time_point lastBlock, next;
+    };
+    void run() override;
+    void wake();
+    static void tick(Member& member, Clock::time_point now);
+
+    std::mutex mutex_; // held while anybody is stepped
+    std::condition_variable changed_;
+    std::vector<Member> members_;
+    std::atomic<std::uint64_t> wakeUps_{0};
+};
+
 /// How often the worlds are stepped, and what play-out delay that needs.
 struct TakePace {
-    static constexpr int leastTicksPerSecond = 200;  // 5 ms: a quarter of the two steps that are in L anyway
+    static constexpr int minTicksPerSecond = 200;    // 5 ms: a quarter of the two steps that are in L anyway
     static constexpr double headroomSeconds = 0.005; // a DAW's own threads come before ours (measured:
                                                      // Docs/plugin.md)
     static constexpr int stillTicksPerSecond = 20;   // without a world: only the log of events is drained
     static constexpr double stillIdleSeconds = 0.5;
     static int ticksPerSecond(int stepsPerSecond) noexcept {
-        return stepsPerSecond > leastTicksPerSecond ? std::min(stepsPerSecond, 1000) : leastTicksPerSecond;
+        return stepsPerSecond > minTicksPerSecond ? std::min(stepsPerSecond, 1000) : minTicksPerSecond;
     }
     /// While nothing is rendered: late by the gap and the step that may not have begun, the world is still in
     /// time with the first block.
@@ -135,7 +185,7 @@ public:
     void addTo(float* out, int channel, int frames) const noexcept;
 
     /// What was played since the last call, at most the newest `logSize` events. Any thread but R.
-    std::vector<TakeEvent> takeLog();
+    std::vector<TakeEvent> drainLog();
     /// Where the bodies of the playing take are, and the session time of that; none: empty. Any thread but R.
     std::int64_t poses(std::vector<BodyPose>& now);
     TakesStatus status() noexcept { return status_.read(); } ///< one reader
@@ -147,13 +197,13 @@ public:
 private:
     static constexpr std::size_t logSize = 16384; // ten minutes of "shake the box", if nobody looks
     static constexpr std::size_t kept = 3;        // one plays, one is next, one is ending or spare
-    static constexpr std::size_t mostEnding = 8;  // loops as short as an eighth of L
+    static constexpr std::size_t maxEnding = 8;   // loops as short as an eighth of L
     std::shared_ptr<const TakeOrder> order() const;
     void setGaps(TakeOrder& order) const noexcept;
     std::unique_ptr<Take> newTake(std::shared_ptr<const TakeOrder> order, int sampleRateHz,
                                   int blockFrames) const;
     void exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Take> take);
-    void tellAll();
+    void sendAll();
     int ticksPerSecond() const noexcept override { return ticksPerSecond_; }
     double idleSeconds() const noexcept override { return idleSeconds_; }
     void build();
@@ -162,7 +212,7 @@ private:
     bool isLeftOver(const Take& take) const;
     bool isTakeNeeded() const;
     bool isWorkToDo() const;
-    std::vector<std::unique_ptr<Take>> takeOut();
+    std::vector<std::unique_ptr<Take>> collectUnused();
     std::unique_ptr<Take> makeOf(std::vector<std::unique_ptr<Take>>& ended,
                                  std::shared_ptr<const TakeOrder> order);
     void makeReady(std::unique_lock<std::mutex>& lock);
@@ -173,8 +223,8 @@ private:
     void forEachSounding(Do what) const noexcept;
     void letGo(Take*& take) noexcept;
     void letGoOfThoseOver() noexcept;
-    RenderMode modeFor(const Take& take, int frames, RenderMode told) noexcept;
-    void tell() noexcept;
+    RenderMode modeFor(const Take& take, int frames, RenderMode asked) noexcept;
+    void writeStatus() noexcept;
 
     std::mutex setMutex_;      // one `set` at a time; taken first
     mutable std::mutex mutex_; // guards what follows, up to the atomics
@@ -196,14 +246,14 @@ private:
     std::atomic<TakeTiming> timing_{TakeTiming::safe};
     std::atomic<std::uint64_t> made_{0}, blocks_{0};
     std::atomic<double> idleSeconds_{0.0};
-    std::atomic<int> ticksPerSecond_{TakePace::leastTicksPerSecond};
+    std::atomic<int> ticksPerSecond_{TakePace::minTicksPerSecond};
     LatestValue<TakesStatus> status_;
     bool isDrivenByHand_ = false;
 
     // R
     Take* playing_ = nullptr;
     Take* next_ = nullptr;
-    std::array<Take*, mostEnding> ending_{}; // the oldest first
+    std::array<Take*, maxEnding> ending_{}; // the oldest first
     std::size_t endingCount_ = 0;
     TakeSettings newSettings_;
     bool startWanted_ = false;

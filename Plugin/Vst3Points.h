@@ -36,29 +36,29 @@ public:
     Vst3Points& operator=(const Vst3Points&) = delete;
 
     bool next(std::size_t parameter, ParameterPoint& point) noexcept override {
-        auto& told = told_[parameter];
-        while (told.queue && told.at < told.queue->getPointCount())
-            if (read(*told.queue, told.at++, point)) return true;
+        auto& queued = points_[parameter];
+        while (queued.queue && queued.at < queued.queue->getPointCount())
+            if (read(*queued.queue, queued.at++, point)) return true;
         return false;
     }
 
     int lastOfLine(std::size_t parameter) noexcept override {
         ParameterPoint last;
-        auto* const queue = told_[parameter].queue;
+        auto* const queue = points_[parameter].queue;
         return queue && queue->getPointCount() > 0 && read(*queue, queue->getPointCount() - 1, last)
                    ? last.frame
                    : -1;
     }
 
 private:
-    struct Told {
+    struct Queued {
         Steinberg::Vst::IParamValueQueue* queue = nullptr;
         Steinberg::int32 at = 0;
     };
     void take(Steinberg::Vst::IParamValueQueue& queue) noexcept {
         const auto id = queue.getParameterId();
         for (std::size_t p = 0; p < parameterCount; ++p)
-            if (vst3ParameterIds[p] == id) told_[p].queue = &queue;
+            if (vst3ParameterIds[p] == id) points_[p].queue = &queue;
     }
     static bool read(Steinberg::Vst::IParamValueQueue& queue, Steinberg::int32 index,
                      ParameterPoint& point) noexcept {
@@ -67,7 +67,7 @@ private:
         point.frame = frame;
         return true;
     }
-    std::array<Told, parameterCount> told_{};
+    std::array<Queued, parameterCount> points_{};
 };
 
 } // namespace physvib

@@ -57,13 +57,13 @@ std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     return {};
 }
 
-void summarise(Desk& desk) {
-    const auto moment = desk.look();
+void summarise(MixerModel& model) {
+    const auto moment = model.look();
     const auto& r = moment.session.render;
     std::cout << "session of " << number(1e-9 * static_cast<double>(moment.session.sessionNs), 1)
               << " s: " << r.played << " collisions rendered, " << r.late << " late, "
-              << desk.session().world().drops() + r.untold << " dropped, "
-              << number(1e-6 * static_cast<double>(desk.session().world().slippedNs()), 0)
+              << model.session().world().drops() + r.untold << " dropped, "
+              << number(1e-6 * static_cast<double>(model.session().world().slippedNs()), 0)
               << " ms of stalls; worst load " << number(100.0 * moment.device.worstLoad, 1) << " %"
               << std::endl;
 }
@@ -81,13 +81,13 @@ public:
         const auto device = valueOf(arguments, "--device");
         hasSummary_ = arguments.containsOption("--summary");
         window_ = std::make_unique<MixerWindow>(withNoDevice(hostAudioDrivers), device, fileOf(arguments));
-        if (arguments.containsOption("--study")) chooseStudy(window_->view(), studyCallOf(arguments));
+        if (arguments.containsOption("--study")) window_->view().chooseStudy(studyCallOf(arguments));
         heedInterrupts();
         startTimer(milliseconds);
     }
     void shutdown() override {
         stopTimer();
-        if (hasSummary_) summarise(window_->desk());
+        if (hasSummary_) summarise(window_->model());
         window_.reset();
     }
     void systemRequestedQuit() override { window_->requestQuit(); }

@@ -10,8 +10,8 @@ namespace {
 
 using namespace test;
 /// Of the one sink that is wanted; not ready while there is none.
-SinkState beside(Desk& desk) {
-    const auto states = desk.rig().sinkStates();
+SinkState beside(MixerModel& model) {
+    const auto states = model.rig().sinkStates();
     return states.empty() ? SinkState{} : states.front();
 }
 
@@ -39,17 +39,18 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     window.view().question()->setValue("Serial port", board.port());
     connect->triggerClick();
 
-    ASSERT_TRUE(runUntil([&] { return beside(window.desk()).isReady; }));
-    ASSERT_TRUE(runUntil([&] { return beside(window.desk()).sent > 5 && board.last("sound") > 0; }));
+    ASSERT_TRUE(runUntil([&] { return beside(window.model()).isReady; }));
+    ASSERT_TRUE(runUntil([&] { return beside(window.model()).sent > 5 && board.last("sound") > 0; }));
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
-    ASSERT_TRUE(runUntil([&] { return window.desk().trouble().isEmpty(); })) << window.desk().trouble();
+    ASSERT_TRUE(runUntil([&] { return window.model().trouble().isEmpty(); })) << window.model().trouble();
 
     board.stop();
     ASSERT_TRUE(runUntil([&] {
-        return window.desk().trouble().contains(board.port()) && window.desk().trouble().contains("is gone");
-    })) << window.desk().trouble();
+        return window.model().trouble().contains(board.port()) &&
+               window.model().trouble().contains("is gone");
+    })) << window.model().trouble();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("not there"); }));
-    EXPECT_FALSE(beside(window.desk()).isReady);
+    EXPECT_FALSE(beside(window.model()).isReady);
     ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Four-channel board"));
     ASSERT_NE(ports, nullptr);
     EXPECT_TRUE(ports->isShowing()) << "the tab in which it was chosen";
@@ -57,11 +58,11 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
         << "what is wanted, though it is not there: " << ports->getText();
 
     board.start();
-    ASSERT_TRUE(runUntil([&] { return beside(window.desk()).isReady; }));
-    const auto sent = beside(window.desk()).sent;
+    ASSERT_TRUE(runUntil([&] { return beside(window.model()).isReady; }));
+    const auto sent = beside(window.model()).sent;
     ASSERT_TRUE(runUntil([&] {
-        return beside(window.desk()).sent > sent + 3 && window.desk().trouble().isEmpty();
-    })) << window.desk().trouble();
+        return beside(window.model()).sent > sent + 3 && window.model().trouble().isEmpty();
+    })) << window.model().trouble();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
 }
 
@@ -72,28 +73,28 @@ TEST(MixerBoard, IsChosenAtTheFirstStartAndTestedWhenItAnswers) {
     DeviceChoice choice = noDevice;
     choice.sinks = {{"BOARD", board.port()}};
     window.view().setFirstStart(std::make_unique<FirstStart>(
-        window.desk(), std::vector<FeltChoice>{{"Four-channel board", choice, 4, true}}));
+        window.model(), std::vector<FeltChoice>{{"Four-channel board", choice, 4, true}}));
     window.view().firstStart()->onBeside = [&](const DeviceChoice& chosen) {
-        window.desk().device().onSinksWanted(chosen);
+        window.model().device().onSinksWanted(chosen);
     };
     ASSERT_TRUE(window.view().keyPressed(juce::KeyPress{juce::KeyPress::returnKey})) << "one key";
     ASSERT_TRUE(runUntil(
         [&] { return window.view().firstStart() != nullptr && window.view().firstStart()->tested() == 0; }));
-    EXPECT_EQ(window.desk().mix().count(), 4);
-    EXPECT_EQ(window.desk().mix().levelDb, FirstStart::firstDb) << "quiet";
+    EXPECT_EQ(window.model().mix().count(), 4);
+    EXPECT_EQ(window.model().mix().levelDb, FirstStart::firstDb) << "quiet";
     ASSERT_TRUE(runUntil([&] { return board.last("sound") > 0; })) << "the pulse waited for the board";
     window.view().keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
     EXPECT_EQ(window.view().firstStart()->tested(), 1);
 }
 
 TEST(MixerBoard, ThatDoesNotAnswerIsTold) {
-    Desk desk{onlyNoDevice(), {noDevice.name, 48000, 128, {{"BOARD", "/nowhere/port"}}}};
+    MixerModel model{onlyNoDevice(), {noDevice.name, 48000, 128, {{"BOARD", "/nowhere/port"}}}};
     EXPECT_TRUE(runUntil([&] {
-        return desk.look(),
-               desk.trouble().startsWith(
+        return model.look(),
+               model.trouble().startsWith(
                    "The board at /nowhere/port does not answer; it is looked for twice a second (");
-    })) << desk.trouble();
-    EXPECT_TRUE(desk.look().device.isRunning) << "the device plays on";
+    })) << model.trouble();
+    EXPECT_TRUE(model.look().device.isRunning) << "the device plays on";
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of OSC packets: read, and let in by the door.
 #include "Fuzzing.h"
-#include "Host/Osc/OscDoor.h"
+#include "Host/Osc/OscReceiver.h"
 #include "SessionFuzzing.h"
 
 using namespace physvib;
@@ -10,21 +10,21 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::unique_ptr<Session> session = fuzz::makeSession();
     session->prepare(8000, 256);
     MessageRouter messages{*session};
-    OscDoor door{*session,
-                 messages,
-                 {[](const LineInput& input, const OscOrigin&) {
-                      return session
-                          ->take(
-                              {std::get_if<Action>(&input) ? std::get<Action>(input) : Action{TiltAction{}}})
-                          .error;
-                  },
-                  {},
-                  fuzz::anyClip}};
+    OscReceiver door{
+        *session,
+        messages,
+        {[](const LineInput& input, const OscOrigin&) {
+             return session
+                 ->take({std::get_if<Action>(&input) ? std::get<Action>(input) : Action{TiltAction{}}})
+                 .error;
+         },
+         {},
+         fuzz::anyClip}};
     OscClock clock;
     std::vector<std::vector<char>> answers;
     const std::span<const char> bytes{reinterpret_cast<const char*>(data), size};
     const auto read = readOscPacket(bytes);
-    door.take(bytes, clock, answers);
+    door.receive(bytes, clock, answers);
     const OscCounts& counts = door.counts();
     fuzz::demand(counts.messages == read.value.size() && counts.bad == (read ? 0u : 1u),
                  "counted otherwise than read", counts.fault);

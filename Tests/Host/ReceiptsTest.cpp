@@ -162,8 +162,8 @@ TEST(Receipts, AReaderNeverGetsHalfABin) {
 }
 
 /// An output on a fake interface, and what its buffers held at each session time, as it is felt.
-struct Desk {
-    Desk() { setup.channels = 4; }
+struct OneOutput {
+    OneOutput() { setup.channels = 4; }
     void open() { ASSERT_EQ(output.open({"hands", {3, 1, 0, -1}, 0, 0, 0.7f}), ""); }
 
     /// One block; pieces of what the device played without a break.
@@ -210,48 +210,47 @@ struct Desk {
 
 TEST(Receipts, EqualTheBuffersOfADeviceThatStopsAndComesBack) {
     for (const int moment : {1, 350, 601}) {
-        Desk desk;
-        desk.open();
+        OneOutput one;
+        one.open();
         Random random{static_cast<std::uint32_t>(moment)};
         int piece = 0;
         for (int block = 0; block < 900; ++block) {
             if (block == moment) {
-                desk.interface.unplug(moment % 2 == 0);
-                if (moment % 2 != 0) desk.interface.device->close(); // it vanishes without a word
-                desk.interface.isPlugged = true;
-                ASSERT_EQ(desk.output.maintain(), "");
+                one.interface.unplug(moment % 2 == 0);
+                if (moment % 2 != 0) one.interface.device->close(); // it vanishes without a word
+                one.interface.isPlugged = true;
+                ASSERT_EQ(one.output.maintain(), "");
                 ++piece;
             }
-            if (block == moment + 100) desk.output.setSilent(true);
-            if (block == moment + 200) desk.output.setSilent(false);
-            desk.play(1 + random.below(64), piece);
+            if (block == moment + 100) one.output.setSilent(true);
+            if (block == moment + 200) one.output.setSilent(false);
+            one.play(1 + random.below(64), piece);
         }
-        desk.expectAll("moment " + std::to_string(moment));
+        one.expectAll("moment " + std::to_string(moment));
     }
 }
 
 TEST(Receipts, ASpanOverAChangeOfPeriodOrRateIsNotInOnePiece) {
     for (const auto& [hz, block] : {std::pair{48000, 512}, {44100, 64}, {96000, 1024}}) {
-        Desk desk;
-        desk.open();
-        for (int k = 0; k < 500; ++k) desk.play(64, 0);
+        OneOutput one;
+        one.open();
+        for (int k = 0; k < 500; ++k) one.play(64, 0);
         const auto feltNs = [&] {
-            return nsOf(desk.session.timeline().framesRendered() -
-                            desk.session.timeline().outputLatencyFrames(),
-                        desk.output.sampleRateHz());
+            return nsOf(one.session.timeline().framesRendered() - one.session.timeline().outputLatencyFrames(),
+                        one.output.sampleRateHz());
         };
         const std::int64_t changedNs = feltNs();
-        const Receipt before = desk.output.left(changedNs - 200'000'000, changedNs - 50'000'000, 0);
+        const Receipt before = one.output.left(changedNs - 200'000'000, changedNs - 50'000'000, 0);
         EXPECT_TRUE(before.isRunning);
-        desk.interface.unplug(true);
-        desk.interface.isPlugged = true;
-        desk.interface.rate = hz;
-        desk.interface.block = block;
-        desk.output.maintain();
-        for (int k = 0; k < hz / block; ++k) desk.play(block, 1);
+        one.interface.unplug(true);
+        one.interface.isPlugged = true;
+        one.interface.rate = hz;
+        one.interface.block = block;
+        one.output.maintain();
+        for (int k = 0; k < hz / block; ++k) one.play(block, 1);
         const std::int64_t now = feltNs();
-        const Receipt across = desk.output.left(changedNs - 200'000'000, now - 100'000'000, 0),
-                      after = desk.output.left(changedNs + 50'000'000, now - 50'000'000, 0);
+        const Receipt across = one.output.left(changedNs - 200'000'000, now - 100'000'000, 0),
+                      after = one.output.left(changedNs + 50'000'000, now - 50'000'000, 0);
         EXPECT_TRUE(across.isOver && after.isOver);
         EXPECT_FALSE(across.isRunning);
         EXPECT_TRUE(after.isRunning);
@@ -260,46 +259,46 @@ TEST(Receipts, ASpanOverAChangeOfPeriodOrRateIsNotInOnePiece) {
 }
 
 TEST(Receipts, AStallOfTheDeviceIsABreak) {
-    Desk desk;
-    desk.interface.isReal = true;
-    desk.open();
+    OneOutput one;
+    one.interface.isReal = true;
+    one.open();
     // until a second runs through without a pause, however busy the machine is
     for (int tries = 0; tries < 100; ++tries) {
-        const std::int64_t from = desk.session.timeline().framesRendered();
-        for (int k = 0; k < 200; ++k) desk.play(64, 0);
+        const std::int64_t from = one.session.timeline().framesRendered();
+        for (int k = 0; k < 200; ++k) one.play(64, 0);
         const std::int64_t until = from + 100 * 64;
-        if (desk.output.left(nsOf(from), nsOf(until), 0).isRunning) break;
+        if (one.output.left(nsOf(from), nsOf(until), 0).isRunning) break;
         ASSERT_LT(tries, 99);
     }
-    EXPECT_TRUE(desk.output.status().isRunning);
+    EXPECT_TRUE(one.output.status().isRunning);
     std::this_thread::sleep_for(120ms);
-    EXPECT_FALSE(desk.output.isPlaying());
+    EXPECT_FALSE(one.output.isPlaying());
     const std::int64_t stalled =
-        desk.session.timeline().framesRendered() - desk.session.timeline().outputLatencyFrames();
-    for (int k = 0; k < 200; ++k) desk.play(64, 0);
-    const Receipt across = desk.output.left(nsOf(stalled - 480), nsOf(stalled + 480), 0);
+        one.session.timeline().framesRendered() - one.session.timeline().outputLatencyFrames();
+    for (int k = 0; k < 200; ++k) one.play(64, 0);
+    const Receipt across = one.output.left(nsOf(stalled - 480), nsOf(stalled + 480), 0);
     EXPECT_TRUE(across.isOver);
     EXPECT_FALSE(across.isRunning);
     EXPECT_GE(across.frames, 960);
 }
 
 TEST(Receipts, ABorrowedSessionHasItsOwn) {
-    Desk desk;
-    desk.open();
-    for (int k = 0; k < 100; ++k) desk.play(64, 0);
-    Session lent{desk.setup};
-    ASSERT_TRUE(desk.output.playInstead(&lent));
-    const std::uint32_t number = desk.output.playedSession();
+    OneOutput one;
+    one.open();
+    for (int k = 0; k < 100; ++k) one.play(64, 0);
+    Session lent{one.setup};
+    ASSERT_TRUE(one.output.playInstead(&lent));
+    const std::uint32_t number = one.output.playedSession();
     EXPECT_NE(number, 0u);
     for (int k = 0; k < 200; ++k) {
         lent.advance();
-        desk.interface.play(64);
+        one.interface.play(64);
     }
-    EXPECT_TRUE(desk.output.left(0, nsOf(4800), 0).isRunning);
-    ASSERT_TRUE(desk.output.playInstead(nullptr));
-    EXPECT_EQ(desk.output.playedSession(), 0u);
-    EXPECT_TRUE(desk.output.left(0, nsOf(4800), 0, number).isRunning) << "also afterwards, by its number";
-    EXPECT_FALSE(desk.output.left(0, nsOf(4800), 0).isOver) << "of the output's own";
+    EXPECT_TRUE(one.output.left(0, nsOf(4800), 0).isRunning);
+    ASSERT_TRUE(one.output.playInstead(nullptr));
+    EXPECT_EQ(one.output.playedSession(), 0u);
+    EXPECT_TRUE(one.output.left(0, nsOf(4800), 0, number).isRunning) << "also afterwards, by its number";
+    EXPECT_FALSE(one.output.left(0, nsOf(4800), 0).isOver) << "of the output's own";
 }
 
 } // namespace

@@ -28,14 +28,21 @@ set(Pictures_may "Pictures/|Scene/|Io/|Core/|ft2build|png\\.h")
 set(Host_may "Host/|Live/|Pictures/(Palette|ShapeOutline|WaveformEnvelope)\\.h|aubio/|Scene/|Io/|Physics/|Contacts/|Core/|juce_")
 set(Host/Osc_may "Host/Osc/|Live/|Scene/|Io/|Physics/|Core/|lo/")
 set(Plugin_may "Host/|Live/|Scene/|Io/|Physics/|Contacts/|Stimuli/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
-# The mixer's desk is what plays: without studies.
-set(Standalone/Mixer/Desk_may "Mixer/(Desk|Strips)/|Host/|Live/|Stimuli/|Scene/|Io/|Core/|juce_")
+# The mixer, from below: the model, which plays without studies and windows; widgets that all panels share; panels that do not see each other;
+# the window with all of them.
+set(Mixer_may "Host/|Live/|Pictures/|Stimuli/|Scene/|Io/|Core/|juce_")
+set(Standalone/Mixer/Model_may "Mixer/Model/|${Mixer_may}")
+set(Standalone/Mixer/Widgets_may "Mixer/(Model|Widgets)/|Measure/|Lab/Files/Words\\.h|${Mixer_may}")
+foreach(panel World Strips Output Materials Studies)
+    set(Standalone/Mixer/${panel}_may "Mixer/(Model|Widgets|${panel})/|Measure/|Formats/|Contacts/|Lab/|Studies/|${Mixer_may}")
+endforeach()
 # Core also stays free of what a board without an operating system lacks.
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
 foreach(room Core Wire Io Contacts Physics Scene Stimuli Formats Measure Pictures Lab Api Api/Godot Api/JavaScript Api/Live Live/Documents Live/Messages Live/Session Live/Pads Live/Devices Live/Recordings Live/Rig Host Host/Osc Plugin
-             Standalone/Mixer/Desk Standalone/Options Standalone/Render Standalone/Web)
+             Standalone/Mixer/Model Standalone/Mixer/Widgets Standalone/Mixer/World Standalone/Mixer/Strips Standalone/Mixer/Output
+             Standalone/Mixer/Materials Standalone/Mixer/Studies Standalone/Options Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     if(room STREQUAL "Api") # Live: a room of its own, under another licence; JavaScript: with Formats; Engines: headers for engines of the user
         list(FILTER files EXCLUDE REGEX "/Api/(Godot|Live|JavaScript|Engines)/")

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Builds what plays without the laboratory, where the headers of Eigen cannot be seen: both C libraries, the plug-in, the
-# mixer's desk and physvib-render. Prints what each links. Usage, as root (it hides folders from itself alone): no-lab.sh BUILD_FOLDER
+# mixer's model and physvib-render. Prints what each links. Usage, as root (it hides folders from itself alone): no-lab.sh BUILD_FOLDER
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1"
@@ -19,4 +19,4 @@ done
 find "$build/lib" "$build/plugins" -name '*.so*' -type f -o -name physvib-render -type f | sort | while read -r module; do
     echo "${module#"$build"/}: $(readelf -d "$module" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p' | tr '\n' ' ')"
 done
-[ -e "$build/lib/libphysvib-desk.a" ] || { echo "expected lib/libphysvib-desk.a"; exit 1; }
+[ -e "$build/lib/libphysvib-mixer-model.a" ] || { echo "expected lib/libphysvib-mixer-model.a"; exit 1; }

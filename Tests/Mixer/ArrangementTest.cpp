@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The panels at any size: nothing cut, nothing crushed, and what is dragged stays.
+#include "Mixer/Output/OutputTab.h"
+#include "Mixer/Strips/ScopeView.h"
 #include "MixerTesting.h"
 #include <cmath>
 
@@ -8,7 +10,7 @@ namespace {
 
 using namespace test;
 
-constexpr std::array<std::pair<int, int>, 6> sizes{{{MixerView::leastWidth, MixerView::leastHeight},
+constexpr std::array<std::pair<int, int>, 6> sizes{{{MixerView::minWidth, MixerView::minHeight},
                                                     {1024, 700},
                                                     {1280, 720},
                                                     {1440, 900},
@@ -38,12 +40,12 @@ TEST(Arrangement, PanelsFillTheWindowWithoutOverlapAtEverySizeAndDivider) {
                                 << where << " " << i << " " << k;
                     }
                     EXPECT_EQ(covered, area.getWidth() * area.getHeight()) << where;
-                    EXPECT_GE(a.scope.getHeight(), Arrangement::leastLower) << where;
-                    EXPECT_GE(a.world.getHeight(), Arrangement::leastWorldHeight) << where;
-                    EXPECT_GE(a.tabs.getWidth(), Arrangement::leastSide) << where;
-                    EXPECT_GE(a.world.getWidth(), Arrangement::leastSide) << where;
-                    EXPECT_GE(a.strips.getWidth(), Arrangement::leastStrips) << where;
-                    EXPECT_GE(a.scope.getWidth(), Arrangement::leastScope) << where;
+                    EXPECT_GE(a.scope.getHeight(), Arrangement::minLower) << where;
+                    EXPECT_GE(a.world.getHeight(), Arrangement::minWorldHeight) << where;
+                    EXPECT_GE(a.tabs.getWidth(), Arrangement::minSide) << where;
+                    EXPECT_GE(a.world.getWidth(), Arrangement::minSide) << where;
+                    EXPECT_GE(a.strips.getWidth(), Arrangement::minStrips) << where;
+                    EXPECT_GE(a.scope.getWidth(), Arrangement::minScope) << where;
                 }
 }
 
@@ -58,7 +60,7 @@ TEST(Arrangement, TheWorldGetsTheLargestPart) {
 TEST(Arrangement, ManyStripsLeaveTheScopeItsPart) {
     for (const auto& [width, height] : sizes) {
         const auto a = arrange({width, height}, {1.78, 4500, 9000}, {});
-        EXPECT_LE(a.strips.getWidth(), std::max(width * 70 / 100, Arrangement::leastStrips)) << width;
+        EXPECT_LE(a.strips.getWidth(), std::max(width * 70 / 100, Arrangement::minStrips)) << width;
     }
 }
 
@@ -70,12 +72,12 @@ TEST(Arrangement, DividersAreKeptAsTextAndNonsenseIsAutomatic) {
 }
 
 struct Window {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     void attach(int count) {
-        while (desk.mix().count() < count && desk.attach(0.5, 0.5)) {
+        while (model.mix().count() < count && model.attach(0.5, 0.5)) {
         }
-        desk.dispatchPendingMessages();
+        model.dispatchPendingMessages();
     }
 };
 
@@ -174,8 +176,8 @@ TEST(Arrangement, AMessageLiesOverTheWorldAndMovesNothing) {
     w.view.setSize(1440, 900);
     const auto before = w.view.world().getBounds();
     const auto place = w.view.world().view().placeOfEnchanter(0);
-    w.desk.report("a fault");
-    w.desk.dispatchPendingMessages();
+    w.model.report("a fault");
+    w.model.dispatchPendingMessages();
     auto* banner = find(w.view, "Trouble");
     ASSERT_TRUE(banner->isVisible());
     EXPECT_EQ(w.view.world().getBounds(), before);
@@ -197,7 +199,7 @@ TEST(Arrangement, AShowIsTheWorldAndTheButtonThatSilences) {
     for (const char* title : {"Tabs", "Scope", "Mixer", "Tools", "Record", "Drag strength"})
         EXPECT_FALSE(find(w.view, title)->isVisible()) << title;
     w.view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
-    EXPECT_TRUE(w.desk.isSilent());
+    EXPECT_TRUE(w.model.isSilent());
     w.view.setShow(false);
     for (const char* title : {"Tabs", "Scope", "Mixer", "Tools", "Record", "Drag strength"})
         EXPECT_TRUE(find(w.view, title)->isVisible()) << title;
@@ -208,8 +210,8 @@ TEST(Arrangement, APageWithoutRoomScrolls) {
     Window w;
     w.view.setSize(1280, 720);
     w.view.tabs().choose("Output");
-    auto* page = w.view.tabs().find("Output");
-    EXPECT_GE(page->getHeight(), page->leastHeight(page->getWidth()));
+    auto* page = w.view.tabs().find<OutputTab>();
+    EXPECT_GE(page->getHeight(), page->minHeight(page->getWidth()));
     auto* viewport = page->findParentComponentOfClass<juce::Viewport>();
     ASSERT_NE(viewport, nullptr);
     EXPECT_LT(viewport->getHeight(), page->getHeight());
@@ -256,7 +258,7 @@ TEST(Arrangement, TheScopeSaysHowManyItShowsWhereThereIsLittleRoom) {
     w.attach(64);
     for (const auto& [width, height] : sizes) {
         w.view.setSize(width, height);
-        auto* scope = w.view.scope().find("Played now");
+        auto* scope = w.view.scope().find<ScopeView>();
         auto* spectra = find(w.view, "Spectra");
         const int lanes = (spectra->isVisible() ? spectra->getX() - gap : scope->getWidth()) - 26;
         EXPECT_GE(lanes, juce::Font{text::small}.getStringWidth("the first 8 of 64")) << width;

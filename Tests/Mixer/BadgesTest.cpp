@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Badges of actuators can be read and pressed, however many there are and wherever they are.
-#include "Host/Views/Badges.h"
+#include "Host/Views/WorldPictures.h"
 #include "MixerTesting.h"
 #include "Stimuli/SeededRandom.h"
 #include <cmath>
@@ -82,20 +82,20 @@ TEST(Badges, ALongNameGetsWhatItsNeighbourDoesNotNeed) {
 }
 
 TEST(Badges, AreGrippedWhereTheyAreDrawn) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     view.setSize(1024, 700);
-    desk.attach(0.5, 0.5);
-    desk.attach(0.5, 0.5);
-    desk.dispatchPendingMessages();
+    model.attach(0.5, 0.5);
+    model.attach(0.5, 0.5);
+    model.dispatchPendingMessages();
     auto& world = view.world().view();
     EXPECT_FALSE(world.badgeAt(4).intersects(world.badgeAt(5)));
     for (const int j : {4, 5}) EXPECT_EQ(world.targetAt(world.badgeAt(j).getCentre()).enchanter, j);
     const auto before = world.badgeAt(4);
     view.setSize(1920, 1080);
     EXPECT_NE(world.badgeAt(4), before) << "placed again";
-    desk.detach(5);
-    desk.dispatchPendingMessages();
+    model.detach(5);
+    model.dispatchPendingMessages();
     EXPECT_EQ(world.badgeAt(4).getCentre(), world.placeOfEnchanter(4));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A small disc that is copied looks as one that is drawn, wherever it lies.
-#include "Host/Views/BallPictures.h"
+#include "Host/Views/WorldPictures.h"
 #include <cmath>
 #include <gtest/gtest.h>
 

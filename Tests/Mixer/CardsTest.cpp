@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cards that ask for files and values: names are kept, nothing is replaced by one press, Esc cancels.
-#include "Mixer/Window/FileCard.h"
+#include "Mixer/Widgets/Cards.h"
 #include "MixerTesting.h"
 
 namespace physvib {
@@ -30,7 +30,7 @@ TEST(FileCard, ATypedNameStaysInAnotherFolderAndGetsItsEnding) {
     EXPECT_EQ(asked.card->name(), "session");
     asked.card->setName("my hands");
     asked.list().selectRow(0);
-    asked.card->take();
+    asked.card->accept();
     EXPECT_EQ(asked.card->folder(), asked.folder("inner"));
     EXPECT_EQ(asked.card->name(), "my hands");
     asked.card->keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
@@ -38,30 +38,30 @@ TEST(FileCard, ATypedNameStaysInAnotherFolderAndGetsItsEnding) {
 }
 
 TEST(FileCard, WhatIsSaidBeforeItIsShownHasTheColoursOfTheWindow) {
-    Desk desk{onlyNoDevice(), noDevice, Desk::firstMix(), {.isPaused = true}};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
+    MixerView view{model};
     Asked asked{true};
     asked.card->enter(asked.folder("inner"));
     EXPECT_TRUE(asked.card->words().startsWith("No folders")) << asked.card->words();
     const auto& words = *find(*asked.card, "What is wrong");
     view.setCard(std::move(asked.card));
     EXPECT_EQ(words.findColour(juce::Label::textColourId), shade(view, Shade::muted));
-    view.setGround(Ground::light);
+    view.setTheme(Theme::light);
     EXPECT_EQ(words.findColour(juce::Label::textColourId), shade(view, Shade::muted));
 }
 
 TEST(FileCard, AFileIsReplacedAtTheSecondPressOnly) {
     Asked asked{true, "there"};
-    asked.card->take();
+    asked.card->accept();
     EXPECT_EQ(asked.taken, juce::File{});
     EXPECT_TRUE(asked.card->words().contains("there.json exists")) << asked.card->words();
     asked.card->setName("there"); // typed again: asked again
     asked.card->setName("other");
     asked.card->setName("there");
     dynamic_cast<juce::TextEditor&>(*find(*asked.card, "Name of the file")).onTextChange();
-    asked.card->take();
+    asked.card->accept();
     EXPECT_EQ(asked.taken, juce::File{});
-    asked.card->take();
+    asked.card->accept();
     EXPECT_EQ(asked.taken, asked.folder("there.json"));
 }
 
@@ -69,15 +69,15 @@ TEST(FileCard, ListsFoldersAndFilesOfTheEndingAndOpensOnlyWhatIsThere) {
     Asked asked{false};
     EXPECT_EQ(asked.list().getModel()->getNumRows(), 2);
     EXPECT_EQ(asked.list().getModel()->getNameForRow(1), "there.json");
-    asked.card->take();
+    asked.card->accept();
     EXPECT_EQ(asked.card->words(), "Expected a name");
     asked.card->setName("gone");
-    asked.card->take();
+    asked.card->accept();
     EXPECT_TRUE(asked.card->words().contains("gone.json: expected")) << asked.card->words();
     EXPECT_EQ(asked.taken, juce::File{});
     asked.list().selectRow(1);
     EXPECT_EQ(asked.card->name(), "there");
-    asked.card->take();
+    asked.card->accept();
     EXPECT_EQ(asked.taken, asked.folder("there.json"));
     asked.card->keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
     EXPECT_EQ(asked.cancelled, 1);
@@ -86,17 +86,17 @@ TEST(FileCard, ListsFoldersAndFilesOfTheEndingAndOpensOnlyWhatIsThere) {
 TEST(FileCard, SavesInAFolderThatIsThereOnly) {
     Asked asked{true};
     asked.card->setName("missing/mine");
-    asked.card->take();
+    asked.card->accept();
     EXPECT_EQ(asked.taken, juce::File{});
     EXPECT_TRUE(asked.card->words().contains("expected a folder")) << asked.card->words();
     asked.card->setName("inner/mine.json");
-    asked.card->take();
+    asked.card->accept();
     EXPECT_EQ(asked.taken, asked.folder("inner").getChildFile("mine.json"));
 }
 
 TEST(QuestionCard, FieldsAreReadAndEscIsTheAnswerThatHasIt) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     juce::String taken;
     bool isCancelled = false;
     view.setQuestion(std::make_unique<QuestionCard>(
@@ -118,9 +118,9 @@ TEST(QuestionCard, FieldsAreReadAndEscIsTheAnswerThatHasIt) {
 }
 
 TEST(QuestionCard, APictureStandsBesideTheWordsAndFollowsWhatIsTyped) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
-    view.setSize(MixerView::leastWidth, MixerView::leastHeight);
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    view.setSize(MixerView::minWidth, MixerView::minHeight);
     const auto pictureFor = [](QuestionCard& card, const juce::String& words) {
         card.setPicture(juce::Image{juce::Image::RGB, 10 * words.length(), 10 * words.length(), true});
     };

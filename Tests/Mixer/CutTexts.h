@@ -49,7 +49,12 @@ private:
     };
 
     juce::juce_wchar letterOf(int glyph) {
-        auto& letters = letters_[stack->font.getTypefacePtr().get()];
+        // read once in a process: thousands of signs; the typeface is kept, so that no other has its address
+        static auto& known =
+            *new std::map<const void*, std::pair<juce::Typeface::Ptr, std::map<int, juce::juce_wchar>>>;
+        const auto typeface = stack->font.getTypefacePtr();
+        auto& [kept, letters] = known[typeface.get()];
+        kept = typeface;
         if (letters.empty())
             for (juce::juce_wchar sign = 0x21; sign < 0x2300; ++sign) {
                 juce::Array<int> glyphs;
@@ -104,7 +109,6 @@ private:
     static constexpr float leastNarrow = 0.85f; // narrower letters look crushed
 
     const float scale_;
-    std::map<const void*, std::map<int, juce::juce_wchar>> letters_;
     std::vector<Letter> run_;
     std::vector<CutText> cut_;
     bool isEdgeCut_ = false;

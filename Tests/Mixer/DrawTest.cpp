@@ -4,7 +4,7 @@
 #include "Host/FakeAudioDevice.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/PicoDevice.h"
-#include "Mixer/Desk/PaceWatch.h"
+#include "Mixer/Model/MixerWorld.h"
 #include "Mixer/Window/FirstStart.h"
 #include "NewSceneRig.h"
 #include "Scene/SceneCatalogue.h"
@@ -59,15 +59,15 @@ TEST(Drawing, BallsBoxesAndWallsAreDrawnAndUndone) {
     board.key('w');
     board.drag(board.share(0.1, 0.3), board.share(0.4, 0.2));
     ASSERT_EQ(board.drawn().bodies.size(), before + 3);
-    EXPECT_EQ(board.desk.world().drawing().find("ball 1")->type, BodyType::dynamicBody);
-    EXPECT_TRUE(board.desk.world().drawing().find("ball 1")->fixtures[0].isCamera)
+    EXPECT_EQ(board.model.world().drawing().find("ball 1")->type, BodyType::dynamicBody);
+    EXPECT_TRUE(board.model.world().drawing().find("ball 1")->fixtures[0].isCamera)
         << "the first that moves is felt";
-    EXPECT_EQ(board.desk.world().drawing().find("wall 1")->type, BodyType::staticBody);
-    for (int k = 0; k < 3; ++k) board.desk.undoManager().undo();
+    EXPECT_EQ(board.model.world().drawing().find("wall 1")->type, BodyType::staticBody);
+    for (int k = 0; k < 3; ++k) board.model.undoManager().undo();
     EXPECT_EQ(board.drawn().bodies.size(), before);
-    for (int k = 0; k < 3; ++k) board.desk.undoManager().redo();
+    for (int k = 0; k < 3; ++k) board.model.undoManager().redo();
     EXPECT_EQ(board.drawn().bodies.size(), before + 3);
-    EXPECT_EQ(sceneAsLeft(board.desk.saved().log.takes.back()).bodies.size(), before + 3)
+    EXPECT_EQ(sceneAsLeft(board.model.saved().log.takes.back()).bodies.size(), before + 3)
         << "in the session that is saved";
 }
 
@@ -76,7 +76,7 @@ TEST(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
     board.key('b');
     board.key(KeyPress{KeyPress::returnKey});
     ASSERT_EQ(board.pane.chosen(), (std::vector<std::string>{"ball 1"}));
-    const auto ball = [&] { return *board.desk.world().drawing().find("ball 1"); };
+    const auto ball = [&] { return *board.model.world().drawing().find("ball 1"); };
     const auto start = ball();
     board.key(KeyPress{KeyPress::rightKey});
     EXPECT_GT(ball().positionMetres.x, start.positionMetres.x);
@@ -86,8 +86,8 @@ TEST(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
     board.key(KeyPress{'d', juce::ModifierKeys::commandModifier, 0});
     EXPECT_EQ(board.pane.chosen(), (std::vector<std::string>{"ball 2"}));
     board.key(KeyPress{KeyPress::deleteKey});
-    EXPECT_EQ(board.desk.world().drawing().find("ball 2"), nullptr);
-    EXPECT_NE(board.desk.world().drawing().find("ball 1"), nullptr);
+    EXPECT_EQ(board.model.world().drawing().find("ball 2"), nullptr);
+    EXPECT_NE(board.model.world().drawing().find("ball 1"), nullptr);
 }
 
 TEST(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
@@ -98,13 +98,13 @@ TEST(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
     board.drag(board.share(0.2, 0.5), board.share(0.4, 0.7));
     ASSERT_EQ(board.drawn().bodies.size(), before + 10);
     for (int k = 1; k <= 10; ++k)
-        EXPECT_NE(board.desk.world().drawing().find("rain " + std::to_string(k)), nullptr) << k;
+        EXPECT_NE(board.model.world().drawing().find("rain " + std::to_string(k)), nullptr) << k;
     board.pane.eraseAll({"rain 1"});
     board.key('n');
     board.drag(board.share(0.5, 0.5), board.share(0.7, 0.7));
-    EXPECT_EQ(board.drawn().bodies.size(), before + 19) << board.desk.trouble();
-    EXPECT_NE(board.desk.world().drawing().find("rain 20"), nullptr);
-    board.desk.undoManager().undo();
+    EXPECT_EQ(board.drawn().bodies.size(), before + 19) << board.model.trouble();
+    EXPECT_NE(board.model.world().drawing().find("rain 20"), nullptr);
+    board.model.undoManager().undo();
     EXPECT_EQ(board.drawn().bodies.size(), before + 9) << "one rain, one step";
 }
 
@@ -123,7 +123,7 @@ TEST(Drawing, ARainOfAClickIsWithinTheField) {
                       scene.bodies,
                       [&](const BodyDescription& b) { return b.name.starts_with("rain") && isInside(b); }),
                   50)
-            << y << ' ' << board.desk.trouble();
+            << y << ' ' << board.model.trouble();
     }
 }
 
@@ -131,21 +131,21 @@ TEST(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
     Board board;
     const auto before = board.drawn().bodies.size();
     board.pane.setRainCount(10);
-    board.pane.setRainWay({20, true});
+    board.pane.setRainPattern({20, true});
     board.key('n');
     board.drag(board.share(0.4, 0.4), board.share(0.6, 0.6));
     EXPECT_EQ(board.drawn().bodies.size(), before + 1) << "the world stands";
-    const auto* first = board.desk.world().drawing().find("rain 1");
+    const auto* first = board.model.world().drawing().find("rain 1");
     ASSERT_NE(first, nullptr);
     EXPECT_GT(first->velocityMetresPerSecond.y, 0.0) << "a fountain";
-    board.desk.setSlowness(1);
-    const auto from = board.desk.session().world().sceneNs();
+    board.model.setSlowness(1);
+    const auto from = board.model.session().world().sceneNs();
     ASSERT_TRUE(runUntil([&] { return board.view.refresh(), board.drawn().bodies.size() == before + 10; }));
-    const double seconds = 1e-9 * static_cast<double>(board.desk.session().world().sceneNs() - from);
+    const double seconds = 1e-9 * static_cast<double>(board.model.session().world().sceneNs() - from);
     EXPECT_GT(seconds, 0.4) << "20 a second";
     EXPECT_LT(seconds, 1.5);
-    EXPECT_NE(board.desk.world().drawing().find("rain 10"), nullptr);
-    board.desk.undoManager().undo();
+    EXPECT_NE(board.model.world().drawing().find("rain 10"), nullptr);
+    board.model.undoManager().undo();
     EXPECT_EQ(board.drawn().bodies.size(), before);
 }
 
@@ -160,19 +160,19 @@ TEST(Drawing, WhoTakesAnotherToolChoosesNothing) {
     board.pane.use(DrawTool::box);
     EXPECT_TRUE(board.pane.chosen().empty());
     board.pane.setMaterial(2);
-    EXPECT_NE(board.desk.world().drawing().find("ball 1")->fixtures[0].material, 2)
+    EXPECT_NE(board.model.world().drawing().find("ball 1")->fixtures[0].material, 2)
         << "of the next box, not of what was chosen";
 }
 
 TEST(Drawing, ARefusedEditLeavesNoStepAndNoHalf) {
     Board board;
     const auto before = board.drawn().bodies.size();
-    const auto steps = board.desk.undoManager().getUndoDescriptions().size();
+    const auto steps = board.model.undoManager().getUndoDescriptions().size();
     BodyDescription ball = board.drawn().bodies.front();
     ball.name = "twice";
-    EXPECT_NE(board.desk.world().edit("Two", {SpawnAction{ball, {}}, RemoveAction{"nobody"}}), "");
+    EXPECT_NE(board.model.world().edit("Two", {SpawnAction{ball, {}}, RemoveAction{"nobody"}}), "");
     EXPECT_EQ(board.drawn().bodies.size(), before);
-    EXPECT_EQ(board.desk.undoManager().getUndoDescriptions().size(), steps);
+    EXPECT_EQ(board.model.undoManager().getUndoDescriptions().size(), steps);
 }
 
 TEST(Drawing, ASeesawIsPinnedToTheFieldAndStartsAnewAsItWasDrawn) {
@@ -181,9 +181,9 @@ TEST(Drawing, ASeesawIsPinnedToTheFieldAndStartsAnewAsItWasDrawn) {
     board.drag(board.share(0.3, 0.4), board.share(0.7, 0.44));
     board.key('i');
     board.drag(board.share(0.5, 0.42), board.share(0.5, 0.42));
-    ASSERT_EQ(board.drawn().joints.size(), 1u) << board.desk.trouble();
-    board.desk.setSlowness(1);
-    board.desk.restart(board.desk.mix().seed);
+    ASSERT_EQ(board.drawn().joints.size(), 1u) << board.model.trouble();
+    board.model.setSlowness(1);
+    board.model.restart(board.model.mix().seed);
     ASSERT_EQ(board.drawn().joints.size(), 1u);
     runFor(1.0);
     board.settle();
@@ -203,21 +203,21 @@ TEST(Drawing, AHandleSizesWhereTheBodyStays) {
     board.key('s');
     board.pane.choose({"box 1"});
     const auto box = [&] {
-        return std::get<BoxShape>(board.desk.world().drawing().find("box 1")->fixtures[0].shape);
+        return std::get<BoxShape>(board.model.world().drawing().find("box 1")->fixtures[0].shape);
     };
     const auto before = box();
     board.drag(board.share(0.6, 0.6), board.share(0.7, 0.6));
     EXPECT_NEAR(box().widthMetres, 2.0 * before.widthMetres, 0.1 * before.widthMetres);
     EXPECT_NEAR(box().heightMetres, before.heightMetres, 0.1 * before.heightMetres);
-    const auto place = board.desk.world().drawing().find("box 1")->positionMetres;
+    const auto place = board.model.world().drawing().find("box 1")->positionMetres;
     board.drag(board.share(0.5, 0.5), board.share(0.4, 0.7));
-    EXPECT_NEAR(board.desk.world().drawing().find("box 1")->positionMetres.x,
+    EXPECT_NEAR(board.model.world().drawing().find("box 1")->positionMetres.x,
                 place.x - 0.1 * board.drawn().fieldWidthMetres, 0.01 * board.drawn().fieldWidthMetres);
     board.pane.changeChosen("Bounce",
                             [](const Scene&, BodyDescription& body) { body.fixtures[0].restitution = 0.9; });
-    EXPECT_EQ(board.desk.world().drawing().find("box 1")->fixtures[0].restitution, 0.9);
-    board.desk.undoManager().undo();
-    EXPECT_FALSE(board.desk.world().drawing().find("box 1")->fixtures[0].restitution);
+    EXPECT_EQ(board.model.world().drawing().find("box 1")->fixtures[0].restitution, 0.9);
+    board.model.undoManager().undo();
+    EXPECT_FALSE(board.model.world().drawing().find("box 1")->fixtures[0].restitution);
 }
 
 std::vector<CollisionEvent> eventsOf(const Scene& scene, std::uint32_t seed, std::int64_t untilNs) {
@@ -231,20 +231,20 @@ TEST(Script, WhatHandsDidIsTheScenesScriptAndTheSceneGivesTheSameHits) {
     Board board;
     board.key('b');
     board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
-    DeskScript& script = board.desk.script();
+    MixerScript& script = board.model.script();
     script.start();
-    ASSERT_TRUE(runUntil([&] { return board.desk.look(), script.seconds() > 0.05; }))
+    ASSERT_TRUE(runUntil([&] { return board.model.look(), script.seconds() > 0.05; }))
         << "the world goes, though it stood still";
-    EXPECT_EQ(board.desk.world().act(TiltAction{0.4}), "");
-    EXPECT_EQ(board.desk.world().act(ImpulseAction{"ball 1", {300.0, 200.0}, Vector{0.01, 0.0}}), "");
-    ASSERT_TRUE(runUntil([&] { return board.desk.look(), script.seconds() > 0.8; }));
-    EXPECT_EQ(board.desk.world().act(GripAction{"ball 1", Vector{1.0, 1.0}, {}, 0.1}), "");
-    ASSERT_TRUE(runUntil([&] { return board.desk.look(), script.seconds() > 1.5; }));
+    EXPECT_EQ(board.model.world().act(TiltAction{0.4}), "");
+    EXPECT_EQ(board.model.world().act(ImpulseAction{"ball 1", {300.0, 200.0}, Vector{0.01, 0.0}}), "");
+    ASSERT_TRUE(runUntil([&] { return board.model.look(), script.seconds() > 0.8; }));
+    EXPECT_EQ(board.model.world().act(GripAction{"ball 1", Vector{1.0, 1.0}, {}, 0.1}), "");
+    ASSERT_TRUE(runUntil([&] { return board.model.look(), script.seconds() > 1.5; }));
     EXPECT_EQ(script.inputs(), 3U);
-    const std::size_t take = board.desk.saved().log.takes.size() - 1;
+    const std::size_t take = board.model.saved().log.takes.size() - 1;
     script.stop();
     ASSERT_NE(script.hands(), nullptr);
-    const SceneRun& live = board.desk.saved().log.takes[take];
+    const SceneRun& live = board.model.saved().log.takes[take];
     ASSERT_EQ(live.inputs.size(), 3U);
     const auto endNs = static_cast<std::int64_t>(1e9 * script.hands()->lengthSeconds);
     const auto events = eventsOf(board.drawn(), live.seed, endNs);
@@ -254,25 +254,25 @@ TEST(Script, WhatHandsDidIsTheScenesScriptAndTheSceneGivesTheSameHits) {
     script.setTrim({0.5, 1.2, true});
     EXPECT_NEAR(board.drawn().scriptPeriodSeconds, 0.7, 1e-9);
     EXPECT_EQ(script.trim(), (ScriptTrim{0.5, 1.2, true}));
-    board.desk.undoManager().undo();
+    board.model.undoManager().undo();
     EXPECT_EQ(script.trim(), (ScriptTrim{0.0, script.hands()->lengthSeconds, false})) << "untrimmed again";
-    board.desk.undoManager().undo();
+    board.model.undoManager().undo();
     EXPECT_TRUE(board.drawn().script.empty()) << "as before the recording: one edit";
-    EXPECT_NE(board.desk.world().drawing().find("ball 1"), nullptr);
+    EXPECT_NE(board.model.world().drawing().find("ball 1"), nullptr);
     EXPECT_EQ(script.hands(), nullptr);
 }
 
 TEST(Script, AnEditOfTheDrawingEndsTheRecordingAndStays) {
     Board board;
-    DeskScript& script = board.desk.script();
+    MixerScript& script = board.model.script();
     script.start();
-    ASSERT_TRUE(runUntil([&] { return board.desk.look(), script.seconds() > 0.05; }));
-    EXPECT_EQ(board.desk.world().act(TiltAction{0.4}), "");
+    ASSERT_TRUE(runUntil([&] { return board.model.look(), script.seconds() > 0.05; }));
+    EXPECT_EQ(board.model.world().act(TiltAction{0.4}), "");
     board.key('b');
     board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
-    EXPECT_TRUE(runUntil([&] { return board.desk.look(), !script.isRecording(); }));
+    EXPECT_TRUE(runUntil([&] { return board.model.look(), !script.isRecording(); }));
     ASSERT_EQ(board.drawn().script.size(), 1U);
-    EXPECT_NE(board.desk.world().drawing().find("ball 1"), nullptr);
+    EXPECT_NE(board.model.world().drawing().find("ball 1"), nullptr);
 }
 
 TEST(NewScene, ABallThatFallsInANewBoxIsFelt) {
@@ -312,11 +312,11 @@ Scene heap() {
 }
 
 TEST(BigWorld, SaysThatItIsTooMuchAndIsDrawnMeanwhile) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
-    desk.change("Heap", [](Mix& mix) { mix.scene = std::make_shared<const Scene>(heap()); });
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.trouble().contains("of real time"); }));
-    EXPECT_TRUE(desk.trouble().startsWith("2,004 bodies: ")) << desk.trouble();
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    model.change("Heap", [](Mix& mix) { mix.scene = std::make_shared<const Scene>(heap()); });
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), model.trouble().contains("of real time"); }));
+    EXPECT_TRUE(model.trouble().startsWith("2,004 bodies: ")) << model.trouble();
     EXPECT_EQ(view.latest().poses.size(), 2004U);
 }
 
@@ -355,7 +355,7 @@ TEST(FirstStart, APicoComesFirstWithALayoutOfItsOwn) {
 }
 
 TEST(FirstStart, APicoReplacesTheFirstLayoutAndNoChosenOneThatFits) {
-    Mix mix = Desk::firstMix();
+    Mix mix = MixerModel::firstMix();
     keepTo(8, mix, "ALSA:PhysVib pico8");
     EXPECT_EQ(mix.layout.name, "pico8");
     EXPECT_EQ(mix.count(), 8);
@@ -382,24 +382,24 @@ TEST(FirstStart, ADeviceWithoutOutputsIsNoChoiceAndNoDeviceSaysWhatThatMeans) {
               "Headphones: Fake:ears; Fake: ears, 2 outputs: two actuators; No device: seen, not felt");
     const auto none = feltChoices(fakeDrivers({&server}), {});
     EXPECT_EQ(titles(none), "No device: seen, not felt");
-    Desk desk{onlyNoDevice(), noDevice};
-    FirstStart card{desk, none};
+    MixerModel model{onlyNoDevice(), noDevice};
+    FirstStart card{model, none};
     bool hasEnded = false;
     card.onEnd = [&](bool) { hasEnded = true; };
     card.keyPressed(KeyPress{KeyPress::returnKey});
     EXPECT_TRUE(hasEnded);
-    EXPECT_TRUE(desk.trouble().contains("not felt")) << "never without a word";
+    EXPECT_TRUE(model.trouble().contains("not felt")) << "never without a word";
 }
 
 TEST(FirstStart, TestsFromTheLevelOfBeforeIfThatIsLower) {
-    Desk desk{onlyNoDevice(), noDevice};
-    desk.change("Level", [](Mix& mix) { mix.levelDb = -40.0; });
-    desk.setSlowness(0);
-    FirstStart card{desk, {{"four", noDevice, 4}}};
+    MixerModel model{onlyNoDevice(), noDevice};
+    model.change("Level", [](Mix& mix) { mix.levelDb = -40.0; });
+    model.setSlowness(0);
+    FirstStart card{model, {{"four", noDevice, 4}}};
     card.test(4);
-    EXPECT_EQ(desk.mix().levelDb, -40.0);
+    EXPECT_EQ(model.mix().levelDb, -40.0);
     card.end(true);
-    EXPECT_EQ(desk.session().world().slowness(), 0) << "as it was";
+    EXPECT_EQ(model.session().world().slowness(), 0) << "as it was";
 }
 
 TEST(FirstStart, HeadphonesByNameComeBeforeAControllerAndOtherSpeakersBehindIt) {
@@ -445,50 +445,50 @@ TEST(FirstStart, ABoardIsOfferedBeforeControllers) {
 }
 
 TEST(FirstStart, OneClickToTheFirstPulseThenEachActuatorInTurn) {
-    Desk desk{onlyNoDevice(), noDevice};
+    MixerModel model{onlyNoDevice(), noDevice};
     bool hasEnded = false;
-    FirstStart card{desk, {{"no device, four outputs", noDevice, 4}}};
+    FirstStart card{model, {{"no device, four outputs", noDevice, 4}}};
     card.onEnd = [&](bool hasChosen) { hasEnded = hasChosen; };
     card.test(4); // as Play here does when the device is open
     EXPECT_EQ(card.tested(), 0);
-    EXPECT_EQ(desk.mix().levelDb, FirstStart::firstDb) << "from low";
-    EXPECT_TRUE(runUntil([&] { return desk.look().meters.peaks[0] > 0.01f; }));
+    EXPECT_EQ(model.mix().levelDb, FirstStart::firstDb) << "from low";
+    EXPECT_TRUE(runUntil([&] { return model.look().meters.peaks[0] > 0.01f; }));
     card.louder();
-    EXPECT_EQ(desk.mix().levelDb, FirstStart::firstDb + FirstStart::louderDb);
+    EXPECT_EQ(model.mix().levelDb, FirstStart::firstDb + FirstStart::louderDb);
     card.feltAt(0.5, 0.25);
-    EXPECT_NEAR(desk.mix().layout.geometry.places[0].xMetres,
-                0.5 * desk.mix().layout.geometry.extentWidthMetres, 1e-12);
+    EXPECT_NEAR(model.mix().layout.geometry.places[0].xMetres,
+                0.5 * model.mix().layout.geometry.extentWidthMetres, 1e-12);
     card.keyPressed(KeyPress{KeyPress::returnKey});
     EXPECT_EQ(card.tested(), 2);
     card.keyPressed(KeyPress{'N', {}, 'n'});
-    EXPECT_EQ(desk.mix().strips[2].output, -1);
+    EXPECT_EQ(model.mix().strips[2].output, -1);
     EXPECT_FALSE(hasEnded);
     card.felt();
     EXPECT_TRUE(hasEnded);
-    EXPECT_GT(desk.session().world().slowness(), 0) << "the world goes on";
+    EXPECT_GT(model.session().world().slowness(), 0) << "the world goes on";
 }
 
 TEST(FirstStart, TwoOutputsAreTwoActuators) {
-    Desk desk{onlyNoDevice(), noDevice};
-    FirstStart card{desk, {{"two", noDevice, 2}}};
+    MixerModel model{onlyNoDevice(), noDevice};
+    FirstStart card{model, {{"two", noDevice, 2}}};
     card.test(2);
-    EXPECT_EQ(desk.mix().count(), 2);
+    EXPECT_EQ(model.mix().count(), 2);
 }
 
 TEST(FirstStart, HeadphonesHaveTheFirstActuatorLeftAndTheSecondRight) {
-    Desk desk{onlyNoDevice(), noDevice};
+    MixerModel model{onlyNoDevice(), noDevice};
     bool hasEnded = false;
-    FirstStart card{desk, {{"headphones", noDevice, 2, false, true}}};
+    FirstStart card{model, {{"headphones", noDevice, 2, false, true}}};
     card.onEnd = [&](bool hasChosen) { hasEnded = hasChosen; };
     card.playHere();
     EXPECT_TRUE(hasEnded);
-    ASSERT_EQ(desk.mix().count(), 2);
-    EXPECT_EQ(desk.output().channelMap(), (std::vector{0, 1}));
-    EXPECT_EQ(desk.mix().levelDb, safeContactDb) << "no louder than a monitor begins";
-    EXPECT_TRUE(desk.device().listening().settings().contacts.empty());
+    ASSERT_EQ(model.mix().count(), 2);
+    EXPECT_EQ(model.output().channelMap(), (std::vector{0, 1}));
+    EXPECT_EQ(model.mix().levelDb, safeContactDb) << "no louder than a monitor begins";
+    EXPECT_TRUE(model.device().listening().settings().contacts.empty());
     const auto end = juce::Time::getMillisecondCounter() + 2500; // the device is looked at once a second
-    EXPECT_TRUE(runUntil([&] { return desk.look(), juce::Time::getMillisecondCounter() > end; }));
-    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+    EXPECT_TRUE(runUntil([&] { return model.look(), juce::Time::getMillisecondCounter() > end; }));
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
 }
 
 } // namespace

@@ -15,7 +15,7 @@ using namespace test;
 
 /// Nothing is struck but what the test strikes.
 Mix emptyBox() {
-    Mix mix = Desk::firstMix();
+    Mix mix = MixerModel::firstMix();
     Scene scene = *mix.scene;
     scene.bodies.clear();
     scene.joints.clear();
@@ -29,10 +29,10 @@ protected:
     EventsTabTest() { view.scope().choose("Events"); }
 
     void strike(double shareX, double shareY) {
-        const auto sounds = std::ranges::find_if(desk.world().scene().materials,
+        const auto sounds = std::ranges::find_if(model.world().scene().materials,
                                                  [](const Material& m) { return m.frequencyHz > 0.0; });
-        ASSERT_EQ(desk.strikes().audition(static_cast<int>(sounds - desk.world().scene().materials.begin()),
-                                          shareX, shareY),
+        ASSERT_EQ(model.strikes().audition(static_cast<int>(sounds - model.world().scene().materials.begin()),
+                                           shareX, shareY),
                   "");
     }
     /// One after the other, so that each is later than the one before.
@@ -57,7 +57,7 @@ protected:
     }
     /// What Eq. 5.1 says of these rows, from the first of them on.
     double valueAt(const std::vector<int>& rows, std::size_t channel, std::int64_t frame) {
-        const auto& recent = desk.recent().newestFirst();
+        const auto& recent = model.recent().newestFirst();
         const std::int64_t first = recent[static_cast<std::size_t>(rows.back())].event.timeNs; // the oldest
         double sum = 0.0;
         for (const int row : rows) {
@@ -65,7 +65,7 @@ protected:
             const double t =
                 static_cast<double>(frame) / 48000.0 - 1e-9 * static_cast<double>(e.timeNs - first);
             PhantomPanner::Gains gains{};
-            desk.mix().panner().gainsAt(e.x, e.y, gains);
+            model.mix().panner().gainsAt(e.x, e.y, gains);
             const bool rings =
                 t >= 0.0 && (e.durationNs == 0 || t < 1e-9 * static_cast<double>(e.durationNs));
             if (rings)
@@ -86,10 +86,10 @@ protected:
         dynamic_cast<juce::ComboBox&>(*find(view, "Dragged as"))
             .setSelectedItemIndex(hitEndings().indexOf(ending), juce::sendNotificationSync);
     }
-    EventsTab& tab() { return dynamic_cast<EventsTab&>(*view.scope().find("Events")); }
+    EventsTab& tab() { return *view.scope().find<EventsTab>(); }
 
-    Desk desk{onlyNoDevice(), noDevice, emptyBox()};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice, emptyBox()};
+    MixerView view{model};
     juce::ListBox& list = dynamic_cast<juce::ListBox&>(*find(view, "List of played events"));
 };
 
@@ -153,7 +153,7 @@ TEST_F(EventsTabTest, IsSavedInEveryFormatOrRefusedInALine) {
     list.selectRow(0);
     for (const auto& ending : hitEndings()) {
         tab().saveTo(folder("one" + ending));
-        EXPECT_TRUE(desk.isNews()) << desk.trouble();
+        EXPECT_TRUE(model.isNews()) << model.trouble();
         const auto files = folder.folder.findChildFiles(juce::File::findFiles, false, "one*" + ending);
         EXPECT_EQ(files.isEmpty(), false) << ending;
         for (const auto& file : files)
@@ -161,25 +161,25 @@ TEST_F(EventsTabTest, IsSavedInEveryFormatOrRefusedInALine) {
     }
     EXPECT_TRUE(folder("one-A.haptic").existsAsFile()) << "one channel each";
     tab().saveTo(folder("one.haptic"));
-    EXPECT_TRUE(desk.trouble().contains("is there already")) << desk.trouble();
+    EXPECT_TRUE(model.trouble().contains("is there already")) << model.trouble();
     tab().saveTo(folder("one.mp3"));
-    EXPECT_TRUE(desk.trouble().endsWith("expected a name that ends in .wav, .hjif, .haptic, .ahap"))
-        << desk.trouble();
+    EXPECT_TRUE(model.trouble().endsWith("expected a name that ends in .wav, .hjif, .haptic, .ahap"))
+        << model.trouble();
     EXPECT_FALSE(folder("one.mp3").exists());
     chooseFormat(".hjif");
     tab().saveTo(folder("two"));
-    EXPECT_TRUE(folder("two.hjif").existsAsFile()) << desk.trouble();
+    EXPECT_TRUE(folder("two.hjif").existsAsFile()) << model.trouble();
     tab().saveTo(folder("no/such/folder.wav"));
-    EXPECT_FALSE(desk.isNews());
+    EXPECT_FALSE(model.isNews());
 }
 
 TEST(HitFiles, AClipIsNoHitAndNothingIsWritten) {
     TestFolder folder;
     CollisionEvent clip;
     clip.sound = soundOfClip(3);
-    const auto written = writeHits({clip}, Desk::firstMix(), 48000, folder("a.wav"));
+    const auto written = writeHits({clip}, MixerModel::firstMix(), 48000, folder("a.wav"));
     EXPECT_EQ(written.error, "Chosen contacts: expected hits, found a clip, which is a file already");
-    EXPECT_EQ(writeHits({}, Desk::firstMix(), 48000, folder("a.wav")).error,
+    EXPECT_EQ(writeHits({}, MixerModel::firstMix(), 48000, folder("a.wav")).error,
               "Chosen contacts: expected one whose grains are still kept");
     EXPECT_FALSE(folder("a.wav").exists());
 }
@@ -192,7 +192,7 @@ TEST_F(EventsTabTest, NothingChosenAndOtherDragsLeaveNoFiles) {
     bool mayBeMoved = false;
     EXPECT_FALSE(
         view.shouldDropFilesWhenDraggedExternally({WorldView::newEnchanter, &list, {}}, files, mayBeMoved));
-    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
 }
 
 TEST(DraggedFiles, AreThereUntilTheMixerEnds) {

@@ -12,7 +12,7 @@ using namespace test;
 /// A floor that is no haptic source.
 struct DullRig : NewSceneRig {
     DullRig() {
-        desk.change("Dull floor", [&](Mix& mix) {
+        model.change("Dull floor", [&](Mix& mix) {
             auto scene = newScene(*mix.scene, SceneGround::floor);
             for (auto& body : scene.bodies) {
                 for (auto& fixture : body.fixtures) fixture.material = 0;
@@ -40,19 +40,19 @@ TEST(FeltHint, AMaterialThatGivesNothingSaysSoAndIsMadeFelt) {
     ASSERT_NE(chip, nullptr);
     EXPECT_TRUE(chip->getTooltip().contains("not felt at usual impacts")) << chip->getTooltip();
     chip->onClick();
-    rig.desk.dispatchPendingMessages();
-    EXPECT_TRUE(rig.desk.trouble().startsWith(name + " is not felt at usual impacts: "))
-        << rig.desk.trouble();
-    EXPECT_TRUE(rig.desk.trouble().contains("haptic source")) << "the world's own explanation";
+    rig.model.dispatchPendingMessages();
+    EXPECT_TRUE(rig.model.trouble().startsWith(name + " is not felt at usual impacts: "))
+        << rig.model.trouble();
+    EXPECT_TRUE(rig.model.trouble().contains("haptic source")) << "the world's own explanation";
     auto* mend = rig.button("Make it felt");
     ASSERT_TRUE(mend != nullptr && mend->isVisible());
     mend->onClick();
-    rig.desk.dispatchPendingMessages();
-    EXPECT_EQ(rig.desk.trouble(), "") << "it is felt now";
+    rig.model.dispatchPendingMessages();
+    EXPECT_EQ(rig.model.trouble(), "") << "it is felt now";
     EXPECT_GT(rig.drawn().materials[static_cast<std::size_t>(dull)].frequencyHz, 0.0);
     EXPECT_EQ(whyNotFelt(rig.drawn(), dull), "");
     EXPECT_FALSE(rig.button("Material " + name)->getTooltip().contains("not felt"));
-    rig.desk.undoManager().undo();
+    rig.model.undoManager().undo();
     EXPECT_EQ(rig.drawn().materials[static_cast<std::size_t>(dull)].frequencyHz, 0.0) << "one step";
 }
 
@@ -60,17 +60,18 @@ TEST(FeltHint, ABodyThatGivesNothingIsMadeAHapticSourceThatVibrates) {
     DullRig rig;
     rig.pane.setMaterial(rig.soundless());
     rig.pane.addAt(DrawTool::ball, rig.share(0.5, 0.5));
-    rig.desk.dispatchPendingMessages();
-    EXPECT_TRUE(rig.desk.trouble().startsWith("ball 1 is not felt")) << rig.desk.trouble();
+    rig.model.dispatchPendingMessages();
+    EXPECT_TRUE(rig.model.trouble().startsWith("ball 1 is not felt")) << rig.model.trouble();
     rig.button("Make it felt")->onClick();
-    rig.desk.dispatchPendingMessages();
-    EXPECT_EQ(rig.desk.trouble(), "");
-    const auto* ball = rig.desk.world().drawing().find("ball 1");
+    rig.model.dispatchPendingMessages();
+    EXPECT_EQ(rig.model.trouble(), "");
+    const auto* ball = rig.model.world().drawing().find("ball 1");
     EXPECT_TRUE(ball->fixtures[0].isCamera);
     EXPECT_EQ(whyNotFelt(rig.drawn(), *ball), "");
-    rig.desk.setSlowness(1);
-    const auto hits = rig.desk.recent().newestFirst().size();
-    EXPECT_TRUE(runUntil([&] { return rig.desk.look(), rig.desk.recent().newestFirst().size() > hits; }, 5.0))
+    rig.model.setSlowness(1);
+    const auto hits = rig.model.recent().newestFirst().size();
+    EXPECT_TRUE(
+        runUntil([&] { return rig.model.look(), rig.model.recent().newestFirst().size() > hits; }, 5.0))
         << "and it is felt when it falls";
 }
 
@@ -79,14 +80,14 @@ TEST(FeltHint, GoesWhenAFeltMaterialIsChosen) {
     const auto press = [&](int material) {
         rig.button("Material " + utf8(rig.drawn().materials[static_cast<std::size_t>(material)].name))
             ->onClick();
-        rig.desk.dispatchPendingMessages();
+        rig.model.dispatchPendingMessages();
     };
     press(rig.soundless());
-    ASSERT_NE(rig.desk.trouble(), "");
+    ASSERT_NE(rig.model.trouble(), "");
     int felt = 0;
     while (!whyNotFelt(rig.drawn(), felt).empty()) ASSERT_LT(++felt, std::ssize(rig.drawn().materials));
     press(felt);
-    EXPECT_EQ(rig.desk.trouble(), "");
+    EXPECT_EQ(rig.model.trouble(), "");
 }
 
 TEST(FeltHint, WhatMeetsAFeltWallIsFelt) {
@@ -95,18 +96,18 @@ TEST(FeltHint, WhatMeetsAFeltWallIsFelt) {
         EXPECT_EQ(whyNotFelt(rig.drawn(), i), "") << rig.drawn().materials[static_cast<std::size_t>(i)].name;
     rig.pane.addAt(DrawTool::ball, rig.share(0.5, 0.5));
     rig.pane.addAt(DrawTool::wall, rig.share(0.2, 0.5));
-    EXPECT_EQ(rig.desk.trouble(), "");
+    EXPECT_EQ(rig.model.trouble(), "");
 }
 
 TEST(FeltHint, LevelsThatLetNothingBeFeltAreToldOnceAndNoLongerThanTheyDo) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
-    const auto told = [&] { return desk.dispatchPendingMessages(), desk.trouble(); };
-    const auto all = [&](auto change) { desk.change("All", [&](Mix& mix) { change(mix); }); };
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    const auto told = [&] { return model.dispatchPendingMessages(), model.trouble(); };
+    const auto all = [&](auto change) { model.change("All", [&](Mix& mix) { change(mix); }); };
     EXPECT_EQ(told(), "");
     all([](Mix& mix) { mix.levelDb = leastStripDb; });
     EXPECT_EQ(told(), "Nothing is felt: the master is at " + number(-60.0, 0) + " dB, which is silent");
-    desk.report({}); // dismissed
+    model.report({}); // dismissed
     all([](Mix& mix) { mix.strips[0].gainDb = -3.0; });
     EXPECT_EQ(told(), "") << "it was read";
     all([](Mix& mix) { mix.levelDb = -59.9; });
@@ -122,7 +123,7 @@ TEST(FeltHint, LevelsThatLetNothingBeFeltAreToldOnceAndNoLongerThanTheyDo) {
         for (Strip& strip : mix.strips) strip.gainDb = leastStripDb;
     });
     EXPECT_EQ(told(), "Nothing is felt: every strip's fader is at silence");
-    desk.undoManager().undo();
+    model.undoManager().undo();
     EXPECT_EQ(told(), "");
 }
 

@@ -12,8 +12,8 @@ using juce::KeyPress;
 
 class LanesByHand : public ::testing::Test {
 protected:
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     LaneRow* row = nullptr;
     void SetUp() override {
         view.scope().choose("Gain lanes");
@@ -21,14 +21,14 @@ protected:
         row = dynamic_cast<LaneRow*>(find(view, "Gain lane of B"));
         ASSERT_NE(row, nullptr);
     }
-    const GainLane& lane() const { return desk.mix().strips[1].lane; }
+    const GainLane& lane() const { return model.mix().strips[1].lane; }
     juce::Point<float> at(float shareX, float shareY) const {
         return {shareX * static_cast<float>(row->getWidth()), shareY * static_cast<float>(row->getHeight())};
     }
     void press(juce::Point<float> place) { row->mouseDown(mouseAt(*row, place)); }
     void setLane(const GainLane& lane) {
-        desk.change("Lane", [&](Mix& mix) { mix.strips[1].lane = lane; });
-        desk.dispatchPendingMessages();
+        model.change("Lane", [&](Mix& mix) { mix.strips[1].lane = lane; });
+        model.dispatchPendingMessages();
         view.refresh();
     }
     void nudge(int key, int times) {
@@ -58,18 +58,18 @@ TEST_F(LanesByHand, APointIsAddedMovedAndTakenAwayByKeys) {
     EXPECT_EQ(lane().size(), 2u);
     EXPECT_TRUE(row->keyPressed(KeyPress{KeyPress::deleteKey, juce::ModifierKeys::shiftModifier, 0}));
     EXPECT_TRUE(lane().empty());
-    desk.undoManager().undo();
+    model.undoManager().undo();
     EXPECT_EQ(lane().size(), 2u);
 }
 
 TEST_F(LanesByHand, AStripThatGoesTakesItsLaneAlong) {
     press(at(0.5f, 0.5f));
-    desk.detach(1);
+    model.detach(1);
     view.refresh(); // before the window has been told
-    desk.dispatchPendingMessages();
-    for (const Strip& strip : desk.mix().strips) EXPECT_TRUE(strip.lane.empty());
+    model.dispatchPendingMessages();
+    for (const Strip& strip : model.mix().strips) EXPECT_TRUE(strip.lane.empty());
     EXPECT_EQ(find(view, "Gain lane of B"), nullptr);
-    desk.undoManager().undo();
+    model.undoManager().undo();
     EXPECT_EQ(lane().size(), 1u);
 }
 
@@ -79,7 +79,7 @@ TEST_F(LanesByHand, ANewPointIsDraggedFromWhereItWasAddedAndUndoneWithIt) {
     row->mouseUp(mouseAt(*row, at(0.3f, 0.3f)));
     ASSERT_EQ(lane().size(), 1u);
     EXPECT_NEAR(lane()[0].seconds, 3.0, 0.2);
-    desk.undoManager().undo();
+    model.undoManager().undo();
     EXPECT_TRUE(lane().empty());
 }
 
@@ -113,8 +113,8 @@ TEST_F(LanesByHand, APointThatWasUndoneIsNoLongerChosen) {
     press(at(0.3f, 0.5f));
     press(at(0.8f, 0.2f));
     EXPECT_TRUE(row->getDescription().contains(" dB at "));
-    desk.undoManager().undo();
-    desk.dispatchPendingMessages();
+    model.undoManager().undo();
+    model.dispatchPendingMessages();
     EXPECT_EQ(row->getDescription(), "1 point");
 }
 
@@ -133,26 +133,26 @@ TEST_F(LanesByHand, HaveAsManyPointsAsAFileMayHold) {
     setLane(full);
     press(at(0.5f, 0.1f));
     EXPECT_EQ(lane().size(), mostGainPoints);
-    EXPECT_EQ(desk.trouble(), "Gain lane of B: at most 2000 points");
+    EXPECT_EQ(model.trouble(), "Gain lane of B: at most 2000 points");
 }
 
 TEST_F(LanesByHand, OfASecondGroupAreItsOwnAndAllAreSeenToTheirEnds) {
-    desk.change("Groups", [](Mix& mix) {
+    model.change("Groups", [](Mix& mix) {
         addGroup(mix, "Left hand");
         addGroup(mix, "Right hand");
         mix.groups[1].lane = {{12.0, -10.0}};
     });
-    desk.dispatchPendingMessages();
+    model.dispatchPendingMessages();
     for (const auto& [lastSeconds, middleSeconds] : {std::pair{12.0, 10.0}, {25.0, 15.0}, {100.0, 60.0}}) {
-        desk.change("Lane", [last = lastSeconds](Mix& mix) { mix.groups[1].lane = {{last, -10.0}}; });
-        desk.dispatchPendingMessages();
+        model.change("Lane", [last = lastSeconds](Mix& mix) { mix.groups[1].lane = {{last, -10.0}}; });
+        model.dispatchPendingMessages();
         view.refresh();
         row = dynamic_cast<LaneRow*>(find(view, "Gain lane of Right hand"));
         ASSERT_NE(row, nullptr);
         press(at(0.5f, 0.9f));
-        EXPECT_TRUE(desk.mix().groups[0].lane.empty());
-        ASSERT_EQ(desk.mix().groups[1].lane.size(), 2u);
-        EXPECT_NEAR(desk.mix().groups[1].lane[0].seconds, middleSeconds, 0.02 * middleSeconds);
+        EXPECT_TRUE(model.mix().groups[0].lane.empty());
+        ASSERT_EQ(model.mix().groups[1].lane.size(), 2u);
+        EXPECT_NEAR(model.mix().groups[1].lane[0].seconds, middleSeconds, 0.02 * middleSeconds);
     }
 }
 

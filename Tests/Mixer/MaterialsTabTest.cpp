@@ -25,24 +25,24 @@ void write(const juce::File& file, const std::vector<float>& samples) {
 
 struct Materials : testing::Test {
     TestFolder folder;
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     MaterialsTab& tab = open();
 
     MaterialsTab& open() {
         view.tabs().choose("Materials");
-        auto& opened = dynamic_cast<MaterialsTab&>(*view.tabs().find("Materials"));
+        auto& opened = *view.tabs().find<MaterialsTab>();
         opened.choose(wood);
         return opened;
     }
-    const Material& now() const { return desk.world().scene().materials[wood]; }
+    const Material& now() const { return model.world().scene().materials[wood]; }
     juce::Slider& slider(const juce::String& title) { return dynamic_cast<juce::Slider&>(*find(tab, title)); }
-    const std::vector<LiveInput>& inputs() { return desk.saved().log.takes.back().inputs; }
+    const std::vector<LiveInput>& inputs() { return model.saved().log.takes.back().inputs; }
     /// Whether such a hit has been played, whoever has looked: the view does by itself, and what one look
     /// shows the next does not.
     bool isPlayed(const std::function<bool(const CollisionEvent&)>& is) {
-        desk.look();
-        return std::ranges::any_of(desk.recent().newestFirst(), is, &RecentContact::event);
+        model.look();
+        return std::ranges::any_of(model.recent().newestFirst(), is, &RecentContact::event);
     }
 };
 
@@ -57,12 +57,12 @@ TEST_F(Materials, AreSetWhileTheyArePlayedAndTakenBack) {
         return isPlayed(
             [](const CollisionEvent& e) { return e.frequencyHz == 205.0 && e.decayPerSecond == 30.0; });
     })) << "hits of the world sound as it says";
-    desk.undoManager().undo();
+    model.undoManager().undo();
     EXPECT_EQ(now().decayPerSecond, 106.99);
-    desk.undoManager().undo();
+    model.undoManager().undo();
     EXPECT_EQ(now().frequencyHz, 349.0);
-    EXPECT_FALSE(desk.undoManager().canUndo());
-    desk.undoManager().redo();
+    EXPECT_FALSE(model.undoManager().canUndo());
+    model.undoManager().redo();
     EXPECT_EQ(now().frequencyHz, 205.0);
 }
 
@@ -71,14 +71,14 @@ TEST_F(Materials, SurfacesAreMadeRoughAndTakenBack) {
     EXPECT_FALSE(find(tab, "Frequency")->isEnabled()) << "rubber is silent there";
     EXPECT_FALSE(find(tab, "Roughness")->isEnabled()) << "a smooth surface has none";
     slider("Grain").setValue(0.004, juce::sendNotificationSync);
-    desk.dispatchPendingMessages();
+    model.dispatchPendingMessages();
     EXPECT_TRUE(find(tab, "Roughness")->isEnabled()) << "another's camera feels what slides over it";
     slider("Roughness").setValue(2.5, juce::sendNotificationSync);
     slider("Rolling").setValue(0.75, juce::sendNotificationSync);
     dynamic_cast<juce::ComboBox&>(*find(tab, "Pattern")).setSelectedItemIndex(1, juce::sendNotificationSync);
     ASSERT_EQ(inputs().size(), 4u);
     EXPECT_EQ(inputs()[3].action, (Action{TextureAction{0, 0.004, 2.5, GrainPattern::regular, 0.75}}));
-    EXPECT_EQ(desk.world().scene().materials[0].texture().pattern, GrainPattern::regular);
+    EXPECT_EQ(model.world().scene().materials[0].texture().pattern, GrainPattern::regular);
     tab.choose(wood);
     EXPECT_EQ(slider("Grain").getValue(), 0.0) << "of another";
     tab.choose(0);
@@ -88,49 +88,49 @@ TEST_F(Materials, SurfacesAreMadeRoughAndTakenBack) {
     EXPECT_DOUBLE_EQ(slider("Grain").getValueFromText("0,5"), 0.0005);
     EXPECT_DOUBLE_EQ(slider("Grain").getValueFromText("1.5 m"), 1.5);
     EXPECT_EQ(slider("Grain").getTextFromValue(0.0), "smooth");
-    desk.restart(desk.mix().seed);
-    EXPECT_EQ(desk.world().scene().materials[0].roughness, 2.5) << "start anew keeps it";
-    for (int k = 0; k < 4; ++k) desk.undoManager().undo();
-    EXPECT_EQ(desk.world().scene().materials[0].texture().grainMetres, 0.0);
-    EXPECT_EQ(desk.world().scene().materials[0].texture().rolling, 0.2);
-    EXPECT_EQ(desk.world().edit("Grain", TextureAction{0, 11.0}), "grain_m: expected 0 to 10, found 11");
-    EXPECT_EQ(desk.world().edit("Grain", TextureAction{99, 0.1}),
+    model.restart(model.mix().seed);
+    EXPECT_EQ(model.world().scene().materials[0].roughness, 2.5) << "start anew keeps it";
+    for (int k = 0; k < 4; ++k) model.undoManager().undo();
+    EXPECT_EQ(model.world().scene().materials[0].texture().grainMetres, 0.0);
+    EXPECT_EQ(model.world().scene().materials[0].texture().rolling, 0.2);
+    EXPECT_EQ(model.world().edit("Grain", TextureAction{0, 11.0}), "grain_m: expected 0 to 10, found 11");
+    EXPECT_EQ(model.world().edit("Grain", TextureAction{99, 0.1}),
               "material: expected one of the 6 materials of the scene");
 }
 
 TEST_F(Materials, ASurfaceThatIsTurnedIsOneThingToUndo) {
     for (int k = 1; k <= 20; ++k)
-        EXPECT_EQ(desk.world().edit("Grain", TextureAction{wood, 0.001 * k}, k > 1), "");
+        EXPECT_EQ(model.world().edit("Grain", TextureAction{wood, 0.001 * k}, k > 1), "");
     EXPECT_EQ(now().grainMetres, 0.02);
-    desk.undoManager().undo();
+    model.undoManager().undo();
     EXPECT_EQ(now().grainMetres, 0.0);
-    EXPECT_FALSE(desk.undoManager().canUndo());
+    EXPECT_FALSE(model.undoManager().canUndo());
 }
 
 TEST_F(Materials, ASliderThatIsHeldIsOneThingToUndo) {
     for (int k = 1; k <= 20; ++k)
-        EXPECT_EQ(desk.world().edit("Frequency", SoundAction{wood, 100.0 + k, 50.0}, k > 1), "");
+        EXPECT_EQ(model.world().edit("Frequency", SoundAction{wood, 100.0 + k, 50.0}, k > 1), "");
     EXPECT_EQ(now().frequencyHz, 120.0);
-    desk.undoManager().undo();
+    model.undoManager().undo();
     EXPECT_EQ(inputs().size(), 21u) << "one more, not the twenty in turn";
     EXPECT_EQ(now().frequencyHz, 349.0);
-    EXPECT_FALSE(desk.undoManager().canUndo());
-    desk.undoManager().redo();
+    EXPECT_FALSE(model.undoManager().canUndo());
+    model.undoManager().redo();
     EXPECT_EQ(now().frequencyHz, 120.0);
 }
 
 TEST_F(Materials, StayWhenTheSceneStartsAnewAndGoWithAnother) {
-    EXPECT_EQ(desk.world().edit("Frequency", SoundAction{wood, 205.0, 30.0}), "");
-    desk.restart(desk.mix().seed);
+    EXPECT_EQ(model.world().edit("Frequency", SoundAction{wood, 205.0, 30.0}), "");
+    model.restart(model.mix().seed);
     EXPECT_EQ(now().frequencyHz, 205.0);
-    desk.restart(7);
+    model.restart(7);
     EXPECT_EQ(now().frequencyHz, 205.0);
     EXPECT_TRUE(runUntil(
-        [&] { return desk.saved().log.takes.size() > 1 && desk.saved().log.takes.back().seed == 7; }));
-    EXPECT_EQ(desk.saved().log.takes.back().scene->materials[wood].frequencyHz, 205.0)
+        [&] { return model.saved().log.takes.size() > 1 && model.saved().log.takes.back().seed == 7; }));
+    EXPECT_EQ(model.saved().log.takes.back().scene->materials[wood].frequencyHz, 205.0)
         << "it is so from the first hit on";
-    desk.change("Scene",
-                [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*Desk::firstMix().scene); });
+    model.change("Scene",
+                 [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*MixerModel::firstMix().scene); });
     EXPECT_EQ(now().frequencyHz, 349.0);
 }
 
@@ -140,7 +140,7 @@ TEST_F(Materials, ARecordingThatIsDroppedGivesBothNumbers) {
     EXPECT_TRUE(tab.isMeasuring());
     EXPECT_EQ(now().frequencyHz, 349.0) << "measured beside the message thread";
     ASSERT_TRUE(runUntil([&] { return !tab.isMeasuring(); }));
-    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
     EXPECT_NEAR(now().frequencyHz, 352.0, 0.5);
     EXPECT_NEAR(now().decayPerSecond, 98.0, 2.0);
     const auto* recording = tab.recordingOf(wood);
@@ -152,9 +152,9 @@ TEST_F(Materials, ARecordingThatIsDroppedGivesBothNumbers) {
     EXPECT_GT(recording->amplitude, 0.4);
     EXPECT_LE(recording->amplitude, 1.0);
     EXPECT_TRUE(find(tab, "Decay of the material")->getDescription().contains("confidence high"));
-    desk.undoManager().undo();
+    model.undoManager().undo();
     EXPECT_EQ(now().frequencyHz, 349.0);
-    desk.undoManager().redo();
+    model.undoManager().redo();
     EXPECT_NEAR(now().frequencyHz, 352.0, 0.5);
 }
 
@@ -163,7 +163,7 @@ TEST_F(Materials, ARecordingThatIsDroppedOnARowIsOfThatMaterial) {
     auto& list = dynamic_cast<juce::ListBox&>(*find(tab, "List of materials"));
     tab.filesDropped({folder("knock.wav").getFullPathName()}, 20, list.getY() + list.getRowHeight() / 2);
     tab.finishMeasuring();
-    EXPECT_NEAR(desk.world().scene().materials[3].frequencyHz, 352.0, 0.5)
+    EXPECT_NEAR(model.world().scene().materials[3].frequencyHz, 352.0, 0.5)
         << "concrete, the first that sounds";
     EXPECT_EQ(now().frequencyHz, 349.0);
 }
@@ -178,7 +178,7 @@ TEST_F(Materials, FlacAndOggAreReadAsWell) {
         ASSERT_TRUE(test::writeSound(file.getFullPathName().toStdString(), format, knock.value)) << ending;
         tab.measure(file);
         tab.finishMeasuring();
-        EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+        EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
         ASSERT_NE(tab.recordingOf(wood), nullptr) << ending;
         EXPECT_EQ(tab.recordingOf(wood)->name, file.getFileName().toStdString());
         EXPECT_NEAR(now().frequencyHz, 352.0, 1.0) << ending;
@@ -188,8 +188,8 @@ TEST_F(Materials, FlacAndOggAreReadAsWell) {
         file.replaceWithData(bytes.getData(), 40);
         tab.measure(file);
         tab.finishMeasuring();
-        EXPECT_TRUE(desk.trouble().startsWith(file.getFileName() + ": expected")) << desk.trouble();
-        desk.report({});
+        EXPECT_TRUE(model.trouble().startsWith(file.getFileName() + ": expected")) << model.trouble();
+        model.report({});
     }
 }
 
@@ -197,10 +197,10 @@ TEST_F(Materials, WhatIsNoHitIsToldInOneLineAndChangesNothing) {
     const auto expect = [&](const juce::File& file, const juce::String& words) {
         tab.measure(file);
         tab.finishMeasuring();
-        EXPECT_TRUE(desk.trouble().contains(words)) << desk.trouble();
-        EXPECT_TRUE(desk.trouble().contains(file.getFileName())) << desk.trouble();
-        EXPECT_FALSE(desk.trouble().containsAnyOf("/\n")) << "the file by its name, in one line";
-        EXPECT_FALSE(desk.undoManager().canUndo());
+        EXPECT_TRUE(model.trouble().contains(words)) << model.trouble();
+        EXPECT_TRUE(model.trouble().contains(file.getFileName())) << model.trouble();
+        EXPECT_FALSE(model.trouble().containsAnyOf("/\n")) << "the file by its name, in one line";
+        EXPECT_FALSE(model.undoManager().canUndo());
     };
     expect(folder("none.wav"), "cannot be read");
     folder("text.wav").replaceWithText("no sound at all");
@@ -221,53 +221,53 @@ TEST_F(Materials, WhatIsNoHitIsToldInOneLineAndChangesNothing) {
     write(folder("short.wav"), samples);
     expect(folder("short.wav"), "expected at least");
     tab.filesDropped({"a.wav", "b.wav"}, 0, 0);
-    EXPECT_TRUE(desk.trouble().contains("2 files"));
+    EXPECT_TRUE(model.trouble().contains("2 files"));
     EXPECT_EQ(tab.recordingOf(wood), nullptr);
     tab.choose(0);
     tab.measure(folder("knock.wav"));
     EXPECT_FALSE(tab.isMeasuring()) << "rubber is silent there";
-    EXPECT_TRUE(desk.trouble().contains("that sounds"));
+    EXPECT_TRUE(model.trouble().contains("that sounds"));
 }
 
 TEST_F(Materials, AnAuditionIsAHitOfTheMaterialAtTheSpot) {
-    desk.setSlowness(0); // nothing else is to be felt
+    model.setSlowness(0); // nothing else is to be felt
     tab.feelAt({0.25, 0.75});
-    const auto& strikes = desk.saved().log.strikes;
+    const auto& strikes = model.saved().log.strikes;
     ASSERT_EQ(strikes.size(), 1u);
     EXPECT_EQ(strikes[0].frequencyHz, 349.0);
     EXPECT_EQ(strikes[0].decayPerSecond, 106.99);
     EXPECT_LE(strikes[0].amplitude, 0.5) << "hands are attached";
-    EXPECT_EQ(strikes[0].x, 0.25 * desk.world().scene().fieldWidthMetres);
-    EXPECT_EQ(strikes[0].y, 0.75 * desk.world().scene().fieldHeightMetres);
+    EXPECT_EQ(strikes[0].x, 0.25 * model.world().scene().fieldWidthMetres);
+    EXPECT_EQ(strikes[0].y, 0.75 * model.world().scene().fieldHeightMetres);
     EXPECT_TRUE(runUntil([&] {
         return isPlayed(
             [&](const CollisionEvent& e) { return e.frequencyHz == 349.0 && e.x == strikes[0].x; });
     }));
     slider("Spot from the left").setValue(100.0, juce::sendNotificationSync);
     dynamic_cast<juce::Button&>(*find(tab, "Feel the material at the spot")).onClick();
-    EXPECT_EQ(desk.saved().log.strikes.back().x, desk.world().scene().fieldWidthMetres);
+    EXPECT_EQ(model.saved().log.strikes.back().x, model.world().scene().fieldWidthMetres);
     tab.choose(0);
     EXPECT_FALSE(find(tab, "Feel the material at the spot")->isEnabled());
-    EXPECT_NE(desk.strikes().audition(0, 0.5, 0.5), "") << "rubber is silent there";
-    EXPECT_NE(desk.strikes().audition(99, 0.5, 0.5), "");
+    EXPECT_NE(model.strikes().audition(0, 0.5, 0.5), "") << "rubber is silent there";
+    EXPECT_NE(model.strikes().audition(99, 0.5, 0.5), "");
 }
 
 TEST_F(Materials, AClickInTheWorldFeelsItThereWhileTheTabIsShown) {
     auto& world = view.world().view();
     ASSERT_TRUE(world.onSpot != nullptr);
     world.onSpot({0.5, 0.5});
-    EXPECT_EQ(desk.saved().log.strikes.size(), 1u);
+    EXPECT_EQ(model.saved().log.strikes.size(), 1u);
     view.tabs().choose("Output");
     EXPECT_TRUE(world.onSpot == nullptr);
 }
 
 TEST_F(Materials, ASavedSessionHasThemAndRendersTheSameBytes) {
-    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 300'000'000; }));
-    EXPECT_EQ(desk.world().edit("Sound", SoundAction{wood, 205.0, 30.0}), "");
-    EXPECT_EQ(desk.world().edit("Grain", TextureAction{wood, 0.01}), "");
+    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 300'000'000; }));
+    EXPECT_EQ(model.world().edit("Sound", SoundAction{wood, 205.0, 30.0}), "");
+    EXPECT_EQ(model.world().edit("Grain", TextureAction{wood, 0.01}), "");
     tab.feelAt({0.25, 0.75});
-    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 1'500'000'000; }));
-    const auto& saved = desk.saved();
+    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 1'500'000'000; }));
+    const auto& saved = model.saved();
     const auto read = readSession(sessionJson(saved), "again");
     ASSERT_TRUE(read) << read.error;
     EXPECT_EQ(mixOf(read.value).scene->materials[wood].frequencyHz, 205.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The desk and its window in tests: a clock instead of a device, and JUCE's message loop for a while.
+// The model and its window in tests: a clock instead of a device, and JUCE's message loop for a while.
 #pragma once
 #include "Host/MessageManagerForTests.h"
 #include "Mixer/OnlyNoDevice.h"

@@ -34,11 +34,11 @@ void walk(juce::Component& root, const std::function<void(juce::Component&)>& vi
 }
 
 TEST(MixerView, EveryControlIsNamedAndReachedByTheKeyboard) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     int controls = 0;
-    desk.setSlowness(0); // what is disabled cannot be reached
-    desk.dispatchPendingMessages();
+    model.setSlowness(0); // what is disabled cannot be reached
+    model.dispatchPendingMessages();
     for (int k = 0; const auto& tab : view.tabs().names()) {
         view.tabs().choose(tab);
         view.scope().choose(view.scope().names()[k++ % view.scope().names().size()]);
@@ -75,24 +75,24 @@ void expectRings(juce::Component& root) {
 }
 
 TEST(MixerView, WhatComesLaterHasARingAsWell) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
-    desk.change("Scene",
-                [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*findBuiltInScene("marbles")); });
-    desk.dispatchPendingMessages();
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    model.change("Scene",
+                 [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*findBuiltInScene("marbles")); });
+    model.dispatchPendingMessages();
     view.world().drawing().use(DrawTool::choose);
-    view.world().drawing().choose({desk.world().drawing().drawn().bodies.back().name});
+    view.world().drawing().choose({model.world().drawing().drawn().bodies.back().name});
     auto* palette = find(view, "Materials to draw with");
     ASSERT_NE(palette, nullptr);
     EXPECT_GT(palette->getNumChildComponents(), 1) << "materials of the new scene";
     expectRings(view.world());
     view.world().drawing().use(DrawTool::hand);
-    desk.script().start();
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.script().seconds() > 0.0; }));
-    ASSERT_EQ(desk.world().act(TiltAction{0.3}), "");
+    model.script().start();
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), model.script().seconds() > 0.0; }));
+    ASSERT_EQ(model.world().act(TiltAction{0.3}), "");
     expectRings(view.world());
-    desk.script().stop();
-    desk.dispatchPendingMessages();
+    model.script().stop();
+    model.dispatchPendingMessages();
     EXPECT_NE(find(view, "The script begins at"), nullptr);
     EXPECT_TRUE(find(view, "Script of hands")->isVisible());
     expectRings(view.world());
@@ -103,8 +103,8 @@ TEST(MixerView, WhatComesLaterHasARingAsWell) {
 
 TEST(MixerView, ReturnIsTheFirstAnswerAndTheOthersAreButtonsAndKeys) {
     for (const std::string way : {"Return", "button", "key", "disabled"}) {
-        Desk desk{onlyNoDevice(), noDevice};
-        MixerView view{desk};
+        MixerModel model{onlyNoDevice(), noDevice};
+        MixerView view{model};
         std::string answer;
         std::vector<QuestionCard::Answer> answers{
             {"Yes", [&] { answer = "Return"; }, way != "disabled"},
@@ -124,8 +124,8 @@ TEST(MixerView, ReturnIsTheFirstAnswerAndTheOthersAreButtonsAndKeys) {
 }
 
 TEST(MixerView, TheTabKeyComesToEveryControl) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     std::set<juce::Component*> reached;
     const auto traverser = view.createKeyboardFocusTraverser();
     for (auto* c : traverser->getAllComponents(&view)) reached.insert(c);
@@ -136,10 +136,10 @@ TEST(MixerView, TheTabKeyComesToEveryControl) {
 }
 
 TEST(MixerView, EveryTextFitsAndEveryControlHasASizeAtTheSmallestWindow) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     for (const auto& size :
-         {std::pair{MixerView::leastWidth, MixerView::leastHeight}, {1440, 900}, {3000, 1800}}) {
+         {std::pair{MixerView::minWidth, MixerView::minHeight}, {1440, 900}, {3000, 1800}}) {
         view.setSize(size.first, size.second);
         for (int k = 0; const auto& tab : view.tabs().names()) {
             view.tabs().choose(tab);
@@ -167,15 +167,15 @@ double contrast(juce::Colour a, juce::Colour b) {
 
 TEST(MixerView, TextHasEnoughContrastInBothLooks) { // WCAG 2.1, 1.4.3: 4.5 for text, 3 for what is large or
                                                     // drawn
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
-    for (const auto ground : {Ground::dark, Ground::light}) {
-        view.setGround(ground);
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    for (const auto theme : {Theme::dark, Theme::light}) {
+        view.setTheme(theme);
         for (const auto on : {Shade::panel, Shade::ground, Shade::well, Shade::raised})
             for (const auto what : {Shade::text, Shade::muted, Shade::now, Shade::limit, Shade::accent})
                 EXPECT_GE(contrast(shade(view, what), shade(view, on)), 4.5)
                     << static_cast<int>(what) << " on " << static_cast<int>(on)
-                    << (ground == Ground::dark ? " dark" : " light");
+                    << (theme == Theme::dark ? " dark" : " light");
         for (int j = 0; j < 64; ++j)
             EXPECT_GE(contrast(enchanterColour(view, j), shade(view, Shade::panel)), 3.0) << j;
     }
@@ -198,10 +198,10 @@ double drawnContrast(MixerView& view, juce::Component& c) {
 }
 
 TEST(MixerView, WhatIsDisabledCanBeRead) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
-    for (const auto ground : {Ground::dark, Ground::light}) {
-        view.setGround(ground);
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    for (const auto theme : {Theme::dark, Theme::light}) {
+        view.setTheme(theme);
         juce::TextButton button{"NNNNNNNN"};
         juce::ToggleButton toggle{"NNNNNNNN"};
         juce::Label label{{}, "NNNNNNNN"};
@@ -209,8 +209,8 @@ TEST(MixerView, WhatIsDisabledCanBeRead) {
             c->setSize(140, 30);
             c->setEnabled(false);
             EXPECT_GE(drawnContrast(view, *c), 4.0)
-                << typeid(*c).name() << (ground == Ground::dark ? " dark" : " light"); // 4.5 but for the
-                                                                                       // edges of letters
+                << typeid(*c).name() << (theme == Theme::dark ? " dark" : " light"); // 4.5 but for the
+                                                                                     // edges of letters
             view.removeChildComponent(c);
         }
     }
@@ -221,12 +221,12 @@ TEST(MixerView, LettersOfOtherScriptsAreDrawnWhereAFontIsThere) {
     if (!typefaceFor(korean)) GTEST_SKIP() << "no font with Korean letters; on Debian, fonts-nanum";
     const bool wasThere = hasLetters({}, korean);
     {
-        Desk desk{onlyNoDevice(), noDevice};
-        MixerView view{desk};
-        Scene scene = desk.world().drawing().drawn();
+        MixerModel model{onlyNoDevice(), noDevice};
+        MixerView view{model};
+        Scene scene = model.world().drawing().drawn();
         scene.name = korean.toStdString();
-        desk.change("Scene", [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene); });
-        desk.dispatchPendingMessages();
+        model.change("Scene", [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene); });
+        model.dispatchPendingMessages();
         EXPECT_TRUE(hasLetters({}, korean));
         EXPECT_TRUE(hasLetters({}, "Silence"));
     }
@@ -234,10 +234,10 @@ TEST(MixerView, LettersOfOtherScriptsAreDrawnWhereAFontIsThere) {
 }
 
 TEST(MixerView, WhatComesLaterCanBeReadAsWell) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
-    desk.attach(0.5, 0.5);
-    desk.dispatchPendingMessages();
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    model.attach(0.5, 0.5);
+    model.dispatchPendingMessages();
     int labels = 0;
     for (const auto& tab : view.tabs().names()) {
         view.tabs().choose(tab);
@@ -253,40 +253,40 @@ TEST(MixerView, WhatComesLaterCanBeReadAsWell) {
 }
 
 TEST(MixerView, ButtonsDoWhatTheySay) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     const auto press = [&](const juce::String& title) {
         auto* button = dynamic_cast<juce::Button*>(find(view, title));
         ASSERT_NE(button, nullptr) << title;
         button->onClick();
-        desk.dispatchPendingMessages();
+        model.dispatchPendingMessages();
     };
     press("Mute B");
-    EXPECT_TRUE(desk.mix().strips[1].isMuted);
+    EXPECT_TRUE(model.mix().strips[1].isMuted);
     press("Polarity C");
-    EXPECT_TRUE(desk.mix().strips[2].isInverted);
+    EXPECT_TRUE(model.mix().strips[2].isInverted);
     press("Silence");
-    EXPECT_TRUE(desk.isSilent());
+    EXPECT_TRUE(model.isSilent());
     press("Silence");
-    EXPECT_FALSE(desk.isSilent());
+    EXPECT_FALSE(model.isSilent());
     press("Pause the world (Space)");
-    EXPECT_EQ(desk.session().world().slowness(), 0);
+    EXPECT_EQ(model.session().world().slowness(), 0);
     press("Attach an actuator");
-    EXPECT_EQ(desk.mix().count(), 5);
+    EXPECT_EQ(model.mix().count(), 5);
     EXPECT_NE(find(view, "Gain of E"), nullptr);
     for (int k = 0; k < 5; ++k) {
         view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
-        EXPECT_TRUE(desk.isSilent() && desk.output().isSilent()) << "pressed " << k + 1 << " times";
+        EXPECT_TRUE(model.isSilent() && model.output().isSilent()) << "pressed " << k + 1 << " times";
     }
     view.keyPressed(juce::KeyPress{'z', juce::ModifierKeys::commandModifier, 0});
-    EXPECT_EQ(desk.mix().count(), 4);
-    desk.dispatchPendingMessages();
+    EXPECT_EQ(model.mix().count(), 4);
+    model.dispatchPendingMessages();
     EXPECT_TRUE(find(view, "Redo")->isEnabled());
     press("Redo");
-    EXPECT_EQ(desk.mix().count(), 5);
+    EXPECT_EQ(model.mix().count(), 5);
     EXPECT_FALSE(find(view, "Redo")->isEnabled()) << "nothing is left of it";
     press("Undo");
-    EXPECT_EQ(desk.mix().count(), 4);
+    EXPECT_EQ(model.mix().count(), 4);
     EXPECT_TRUE(find(view, "Undo")->isEnabled());
     bool isSaved = false, isOpened = false;
     view.topBar().onSave = [&] { isSaved = true; };
@@ -297,10 +297,10 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
 }
 
 TEST(MixerView, WhatIsSilentStandsStill) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().masterPeak > 0.001f; }));
-    desk.setSilent(true);
+    model.setSilent(true);
     const auto isStill = [&] {
         view.refresh();
         const auto& moment = view.latest();
@@ -308,74 +308,74 @@ TEST(MixerView, WhatIsSilentStandsStill) {
                std::ranges::all_of(moment.meters.peaks, [](float p) { return p == 0.0f; }) &&
                std::ranges::all_of(moment.holds, [](float p) { return p == 0.0f; });
     };
-    const auto played = desk.look().session.render.played;
+    const auto played = model.look().session.render.played;
     EXPECT_TRUE(isStill()) << "at once";
-    EXPECT_TRUE(runUntil([&] { return desk.look().session.render.played > played + 5; }));
+    EXPECT_TRUE(runUntil([&] { return model.look().session.render.played > played + 5; }));
     EXPECT_TRUE(isStill()) << "though the world goes on";
-    desk.setSilent(false);
+    model.setSilent(false);
     EXPECT_TRUE(runUntil([&] { return view.refresh(), view.latest().masterPeak > 0.001f; }));
 }
 
 TEST(MixerView, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     bool hasActed = false;
-    desk.report("one");
-    desk.messages().add({"two", false, {"Heal", [&] { hasActed = true; }}});
-    desk.dispatchPendingMessages();
+    model.report("one");
+    model.messages().add({"two", false, {"Heal", [&] { hasActed = true; }}});
+    model.dispatchPendingMessages();
     auto* label = dynamic_cast<juce::Label*>(find(view, "Trouble"));
     ASSERT_NE(label, nullptr);
     EXPECT_EQ(label->getText(), "one");
     EXPECT_EQ(find(view, "Heal"), nullptr);
     dynamic_cast<juce::Button*>(find(view, "Dismiss the message"))->onClick();
-    desk.dispatchPendingMessages();
+    model.dispatchPendingMessages();
     EXPECT_EQ(label->getText(), "two");
     dynamic_cast<juce::Button*>(find(view, "Heal"))->onClick();
-    desk.dispatchPendingMessages();
+    model.dispatchPendingMessages();
     EXPECT_TRUE(hasActed);
     EXPECT_FALSE(label->isVisible());
-    desk.messages().add({"three", false, {"Heal", [] {}}});
-    desk.report("four");
-    EXPECT_EQ(desk.trouble(), "four");
-    desk.report({});
-    EXPECT_EQ(desk.trouble(), "three") << "nobody has acted on it yet";
-    desk.report("five"); // "three" still waits for its button
-    desk.report({});
-    desk.report({});
-    EXPECT_TRUE(desk.trouble().isEmpty());
+    model.messages().add({"three", false, {"Heal", [] {}}});
+    model.report("four");
+    EXPECT_EQ(model.trouble(), "four");
+    model.report({});
+    EXPECT_EQ(model.trouble(), "three") << "nobody has acted on it yet";
+    model.report("five"); // "three" still waits for its button
+    model.report({});
+    model.report({});
+    EXPECT_TRUE(model.trouble().isEmpty());
 }
 
 TEST(MixerView, AMessageIsFoundByItsLabel) {
-    Desk desk{onlyNoDevice(), noDevice};
-    auto& messages = desk.messages();
+    MixerModel model{onlyNoDevice(), noDevice};
+    auto& messages = model.messages();
     messages.show({"the device is gone", false, {}, "device"});
     messages.show({"the board is gone", false, {}, "board"});
-    EXPECT_EQ(desk.trouble(), "the board is gone");
+    EXPECT_EQ(model.trouble(), "the board is gone");
     messages.show({"the board answers slowly", false, {}, "board"}); // of a label there is one
     messages.add({"the device is gone: searched for", false, {}, "device"});
     messages.withdraw("board");
-    EXPECT_EQ(desk.trouble(), "the device is gone: searched for") << "in place of what waited";
+    EXPECT_EQ(model.trouble(), "the device is gone: searched for") << "in place of what waited";
     messages.add({"saved", true});
     messages.withdraw("board");
-    EXPECT_EQ(desk.trouble(), "the device is gone: searched for");
+    EXPECT_EQ(model.trouble(), "the device is gone: searched for");
     messages.withdraw("device");
-    EXPECT_EQ(desk.trouble(), "saved");
-    EXPECT_EQ(desk.device().trouble(), "") << "whatever is shown";
+    EXPECT_EQ(model.trouble(), "saved");
+    EXPECT_EQ(model.device().trouble(), "") << "whatever is shown";
 }
 
 TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     view.setVisible(true);
     view.setShow(true);
-    desk.messages().add(
+    model.messages().add(
         {juce::String::repeatedString("a long message ", 30), false, {"Do it", [] {}}, "long"});
-    desk.dispatchPendingMessages();
+    model.dispatchPendingMessages();
     view.setHint(true);
     auto* silence = dynamic_cast<juce::Button*>(find(view, "Silence"));
     ASSERT_NE(silence, nullptr);
     for (const auto& [width, height] :
-         {std::pair{MixerView::leastWidth, MixerView::leastHeight}, {1280, 720}, {1440, 900}, {3840, 2160}})
+         {std::pair{MixerView::minWidth, MixerView::minHeight}, {1280, 720}, {1440, 900}, {3840, 2160}})
         for (const bool hasCard : {false, true}) {
             view.setSize(width, height);
             view.setCard(
@@ -393,14 +393,14 @@ TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
     EXPECT_EQ(view.getComponentAt(view.getLocalArea(silence, silence->getLocalBounds()).getCentre()),
               silence);
     silence->onClick();
-    desk.dispatchPendingMessages();
-    EXPECT_TRUE(desk.isSilent());
+    model.dispatchPendingMessages();
+    EXPECT_TRUE(model.isSilent());
     EXPECT_EQ(silence->getButtonText(), "SILENT: press");
 }
 
 TEST(MixerView, NoToolIsChosenWhereNoneIsShown) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     auto& pane = view.world().drawing();
     view.setShow(true);
     view.keyPressed(juce::KeyPress{'B', {}, 'b'});
@@ -415,10 +415,10 @@ TEST(MixerView, NoToolIsChosenWhereNoneIsShown) {
 }
 
 TEST(MixerView, TheStatesOfDeviceAndBoardAreShownAtEverySize) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
-    for (const int width : {MixerView::leastWidth, 1280, 1359, 1360, 1395, 1439, 1440, 1920, 3840}) {
-        view.setSize(width, std::max(MixerView::leastHeight, width * 9 / 16));
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    for (const int width : {MixerView::minWidth, 1280, 1359, 1360, 1395, 1439, 1440, 1920, 3840}) {
+        view.setSize(width, std::max(MixerView::minHeight, width * 9 / 16));
         int right = 0;
         for (const char* title : {"Device state", "Board state", "Load"}) {
             const auto* state = find(view, title);
@@ -431,11 +431,11 @@ TEST(MixerView, TheStatesOfDeviceAndBoardAreShownAtEverySize) {
 }
 
 TEST(MixerView, IsDrawnWhileStripsGo) { // the window is told a moment later; its timer may come first
-    Desk desk{onlyNoDevice(), noDevice};
-    desk.change("Groups", [](Mix& mix) { mix.strips[3].group = addGroup(mix, "Left hand"); });
-    MixerView view{desk};
-    desk.dispatchPendingMessages();
-    desk.change("Fewer", [](Mix& mix) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    model.change("Groups", [](Mix& mix) { mix.strips[3].group = addGroup(mix, "Left hand"); });
+    MixerView view{model};
+    model.dispatchPendingMessages();
+    model.change("Fewer", [](Mix& mix) {
         mix.layout = presetLayout("phone2", mix.layout.enchanters);
         mix.resizeStrips();
         mix.groups.clear();
@@ -445,19 +445,19 @@ TEST(MixerView, IsDrawnWhileStripsGo) { // the window is told a moment later; it
         view.refresh();
         view.createComponentSnapshot(view.getLocalBounds());
     }
-    desk.dispatchPendingMessages();
+    model.dispatchPendingMessages();
     EXPECT_EQ(find(view, "Strip C"), nullptr);
     EXPECT_EQ(find(view, "Group Left hand"), nullptr);
 }
 
 TEST(MixerView, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     auto* ceiling = dynamic_cast<juce::Slider*>(find(view, "Ceiling of B"));
     ASSERT_NE(ceiling, nullptr);
     ceiling->setValue(-20.0, juce::sendNotificationSync);
-    desk.dispatchPendingMessages();
-    EXPECT_EQ(desk.mix().strips[1].ceilingDb, -20.0);
+    model.dispatchPendingMessages();
+    EXPECT_EQ(model.mix().strips[1].ceilingDb, -20.0);
     EXPECT_EQ(ceiling->getTextFromValue(-20.0), "at most " + number(-20.0, 1) + " dB, 0.03 g")
         << "behind a master at -12 dB";
     const auto* shown = dynamic_cast<juce::Label*>(find(view, "Ceiling of B in g"));
@@ -465,44 +465,44 @@ TEST(MixerView, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {
     EXPECT_EQ(shown->getText(), "/ 0.03 g");
     EXPECT_FALSE(ceiling->isDoubleClickReturnEnabled());
     ceiling->mouseWheelMove(mouseAt(*ceiling, {15.0f, 15.0f}), {0.0f, 1.0f, false, false, false});
-    EXPECT_EQ(desk.mix().strips[1].ceilingDb, -20.0);
+    EXPECT_EQ(model.mix().strips[1].ceilingDb, -20.0);
     EXPECT_TRUE(ceiling->keyPressed(juce::KeyPress{juce::KeyPress::downKey}));
-    EXPECT_LT(desk.mix().strips[1].ceilingDb, -20.0);
-    desk.undoManager().undo();
-    EXPECT_EQ(desk.mix().strips[1].ceilingDb, -20.0);
-    desk.attach(0.5, 0.5);
-    desk.dispatchPendingMessages();
+    EXPECT_LT(model.mix().strips[1].ceilingDb, -20.0);
+    model.undoManager().undo();
+    EXPECT_EQ(model.mix().strips[1].ceilingDb, -20.0);
+    model.attach(0.5, 0.5);
+    model.dispatchPendingMessages();
     const auto* next = find(view, "Ceiling of E in g");
     ASSERT_NE(next, nullptr);
     EXPECT_EQ(next->findColour(juce::Label::textColourId), shade(view, Shade::text)) << "as its neighbours";
 }
 
 TEST(MixerView, ADragPushesByItsStrengthWhateverItPulls) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     auto* strength = dynamic_cast<juce::Slider*>(find(view, "Drag strength"));
     ASSERT_NE(strength, nullptr);
     EXPECT_EQ(strength->getValue(), 32'000.0);
     strength->setValue(8'000.0, juce::sendNotificationSync);
-    desk.dispatchPendingMessages();
+    model.dispatchPendingMessages();
     auto& world = view.world().view();
     EXPECT_EQ(world.pullText(0.02), "drag 0.16 " + juce::String::fromUTF8("kN\xc2\xb7s"));
     world.onPull("large rubber ball", {0.02, 0.0}, {});
-    const auto& inputs = desk.saved().log.takes.back().inputs;
+    const auto& inputs = model.saved().log.takes.back().inputs;
     ASSERT_EQ(inputs.size(), 1u);
     EXPECT_EQ(std::get<ImpulseAction>(inputs[0].action).newtonSeconds, (Vector{160.0, 0.0}));
     world.onPull("small rubber ball", {0.0, 0.5}, {});
-    EXPECT_EQ(std::get<ImpulseAction>(desk.saved().log.takes.back().inputs[1].action).newtonSeconds,
+    EXPECT_EQ(std::get<ImpulseAction>(model.saved().log.takes.back().inputs[1].action).newtonSeconds,
               (Vector{0.0, 4000.0}));
-    desk.undoManager().undo();
-    desk.dispatchPendingMessages();
+    model.undoManager().undo();
+    model.dispatchPendingMessages();
     EXPECT_EQ(strength->getValue(), 32'000.0);
 }
 
 TEST(MixerView, AStripIsTestedAndSweptByButtonAndByKey) {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
-    const auto strikes = [&] { return desk.saved().log.strikes.size(); };
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    const auto strikes = [&] { return model.saved().log.strikes.size(); };
     auto *strip = find(view, "Strip C"), *sweep = find(view, "Sweep on C");
     ASSERT_TRUE(strip != nullptr && sweep != nullptr);
     ASSERT_TRUE(strip->keyPressed(juce::KeyPress{'t'}));
@@ -511,20 +511,20 @@ TEST(MixerView, AStripIsTestedAndSweptByButtonAndByKey) {
     EXPECT_EQ(strikes(), 41u);
     dynamic_cast<juce::Button&>(*sweep).onClick();
     EXPECT_EQ(strikes(), 81u);
-    EXPECT_NEAR(desk.saved().log.strikes.back().frequencyHz, 400.0, 1e-6);
+    EXPECT_NEAR(model.saved().log.strikes.back().frequencyHz, 400.0, 1e-6);
 }
 
 TEST(MixerView, APresetIsKnownByItsPlaces) {
-    Mix mix = Desk::firstMix();
+    Mix mix = MixerModel::firstMix();
     mix.layout.name = "own"; // as a session that `physvib play` saved
-    Desk desk{onlyNoDevice(), noDevice, mix};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice, mix};
+    MixerView view{model};
     const auto* preset = dynamic_cast<juce::ComboBox*>(find(view, "Preset"));
     ASSERT_NE(preset, nullptr);
     EXPECT_EQ(preset->getText(), "PHONE4");
-    desk.change("Move A",
-                [](Mix& m) { m.layout.geometry.places[0].xMetres = 0.01, m.layout.name = "phone4"; });
-    desk.dispatchPendingMessages();
+    model.change("Move A",
+                 [](Mix& m) { m.layout.geometry.places[0].xMetres = 0.01, m.layout.name = "phone4"; });
+    model.dispatchPendingMessages();
     EXPECT_EQ(preset->getSelectedItemIndex(), -1);
 }
 

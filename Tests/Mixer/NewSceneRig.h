@@ -7,21 +7,21 @@
 namespace physvib::test {
 
 struct NewSceneRig {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     DrawPane& pane = view.world().drawing();
     WorldView& world = view.world().view();
 
     NewSceneRig() {
         view.setSize(1440, 900);
-        desk.setSlowness(0);
-        desk.change("New scene", [&](Mix& mix) {
+        model.setSlowness(0);
+        model.change("New scene", [&](Mix& mix) {
             mix.scene = std::make_shared<const Scene>(newScene(*mix.scene, SceneGround::floor));
         });
         settle();
     }
     void settle() {
-        desk.dispatchPendingMessages();
+        model.dispatchPendingMessages();
         runFor(0.15); // the view shows the world as it is felt, L later: until then poses of the scene before
         runUntil([&] {
             return view.refresh(), std::ranges::all_of(drawn().bodies, [&](const BodyDescription& b) {
@@ -29,7 +29,7 @@ struct NewSceneRig {
                    });
         });
     }
-    const Scene& drawn() { return desk.world().drawing().drawn(); }
+    const Scene& drawn() { return model.world().drawing().drawn(); }
     Vector share(double x, double y) { return {x * drawn().fieldWidthMetres, y * drawn().fieldHeightMetres}; }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A link holds the world as the page's link.js reads it.
 #include "Mixer/Window/PageLink.h"
-#include "Mixer/Desk/Desk.h"
+#include "Mixer/Model/MixerModel.h"
 #include "MixerTesting.h"
 #include "OnlyScript.h"
 #include "Scene/SceneCatalogue.h"
@@ -23,7 +23,7 @@ std::string unpacked(const juce::String& code) {
 }
 
 TEST(PageLink, ABuiltInSceneIsItsNameAndOnlyWhatDiffersIsSaid) {
-    Mix mix = Desk::firstMix();
+    Mix mix = MixerModel::firstMix();
     EXPECT_EQ(pageLink(mix, *mix.scene).value, "scene=shake-the-box");
     mix.seed = 3;
     mix.law = PanningLaw::energy;
@@ -33,7 +33,7 @@ TEST(PageLink, ABuiltInSceneIsItsNameAndOnlyWhatDiffersIsSaid) {
 }
 
 TEST(PageLink, ASceneOfOnesOwnGoesAlongWhole) {
-    const Mix mix = Desk::firstMix();
+    const Mix mix = MixerModel::firstMix();
     Scene own = *mix.scene;
     own.name = "my scene & more";
     own.materials[0].frequencyHz = 165.0;
@@ -67,7 +67,7 @@ TEST(PageLink, ABrowserGetsTheLinkToTheLetterAndAShellNothing) {
 }
 
 TEST(PageLink, WhatALinkCannotHoldIsSaid) {
-    Mix mix = Desk::firstMix();
+    Mix mix = MixerModel::firstMix();
     mix.exponent = 2.0;
     EXPECT_NE(pageLink(mix, *mix.scene).error.find("exponent"), std::string::npos);
     mix.exponent = 1.0;
@@ -93,7 +93,7 @@ TEST(PageLink, AsAQrCodeItIsReadByOthers) {
     if (juce::ChildProcess reader; !reader.start("zbarimg --version") ||
                                    !reader.waitForProcessToFinish(5000) || reader.getExitCode() != 0)
         GTEST_SKIP() << "needs the package zbar-tools";
-    const Mix mix = Desk::firstMix();
+    const Mix mix = MixerModel::firstMix();
     Scene own = *mix.scene;
     own.name = "mine";
     for (const Scene& scene : {*mix.scene, own}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lists for people: a ball that rolls is one contact, however many grains it passes.
-#include "Mixer/Desk/RecentContacts.h"
+#include "Mixer/Model/MixerRecording.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -54,9 +54,9 @@ TEST(RecentContacts, EachContactHasItsOwnEventsAsFarAsTheyAreKept) {
     EXPECT_EQ(eventsOf(2)[1].amplitude, 0.2) << "each as it was";
     EXPECT_EQ(eventsOf(1).size(), 1U);
     EXPECT_EQ(eventsOf(0)[0].amplitude, 0.7);
-    for (std::size_t i = 0; i < RecentContacts::mostGrains; ++i)
+    for (std::size_t i = 0; i < RecentContacts::maxGrains; ++i)
         recent.add(at(static_cast<std::int64_t>(i) / 100, ContactKind::roll, 0.1, 9));
-    EXPECT_EQ(eventsOf(0).size(), RecentContacts::mostGrains);
+    EXPECT_EQ(eventsOf(0).size(), RecentContacts::maxGrains);
     EXPECT_TRUE(eventsOf(3).empty()) << "grains are the oldest to go";
     EXPECT_EQ(eventsOf(1).size(), 1U) << "a hit never";
 }

@@ -2,7 +2,6 @@
 // Copies of sessions: nothing that was whole goes before what takes its place is whole, whoever is killed
 // when. POSIX: fork, FIFOs.
 #include "Mixer/Window/MixerFiles.h"
-#include "Mixer/Window/RecoveryCopies.h"
 #include "MixerTesting.h"
 #include "Support/FileTesting.h"
 #include "Support/FullDisk.h"

@@ -12,13 +12,13 @@ using namespace test;
 using juce::KeyPress;
 
 struct Played {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
     WorldPanel& panel = view.world();
 
     explicit Played(const std::string& scene) {
         view.setSize(1440, 900);
-        desk.change("Scene", [&scene](Mix& mix) {
+        model.change("Scene", [&scene](Mix& mix) {
             mix.scene = std::make_shared<const Scene>(findScene(scene).value);
         });
     }
@@ -26,11 +26,11 @@ struct Played {
     bool isSeen(const std::function<bool()>& is) { return runUntil(is); }
     void press(int code) {
         panel.keyPressed(KeyPress{code});
-        desk.dispatchPendingMessages();
+        model.dispatchPendingMessages();
     }
     template <class A>
     A last() {
-        const auto& inputs = desk.saved().log.takes.back().inputs;
+        const auto& inputs = model.saved().log.takes.back().inputs;
         return !inputs.empty() && std::holds_alternative<A>(inputs.back().action)
                    ? std::get<A>(inputs.back().action)
                    : A{};
@@ -45,7 +45,7 @@ TEST(ScenePlay, ABasketGoesWhileAKeyIsHeldAndToWhereTheMouseIs) {
         return played.view.refresh(),
                played.last<VelocityAction>().metresPerSecond.x == ScenePlayer::mostMetresPerSecond;
     }));
-    EXPECT_TRUE(std::ranges::none_of(played.desk.mix().scene->script, [](const ScriptInput& input) {
+    EXPECT_TRUE(std::ranges::none_of(played.model.mix().scene->script, [](const ScriptInput& input) {
         return std::holds_alternative<VelocityAction>(input.action);
     }));
     const float start = played.x("basket");
@@ -59,8 +59,8 @@ TEST(ScenePlay, ABasketGoesWhileAKeyIsHeldAndToWhereTheMouseIs) {
         << played.x("basket") << " for " << to.x;
     played.panel.mouseUp(mouseAt(world, to));
     EXPECT_EQ(played.last<VelocityAction>().metresPerSecond.x, 0.0);
-    played.desk.undoManager().undo();
-    EXPECT_TRUE(std::ranges::any_of(played.desk.mix().scene->script, [](const ScriptInput& input) {
+    played.model.undoManager().undo();
+    EXPECT_TRUE(std::ranges::any_of(played.model.mix().scene->script, [](const ScriptInput& input) {
         return std::holds_alternative<VelocityAction>(input.action);
     })) << "the script plays again";
 }

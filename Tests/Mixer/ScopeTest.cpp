@@ -2,7 +2,7 @@
 // Spectra, events and telemetry: what is played is what they show.
 #include "Host/FakeAudioDevice.h"
 #include "Mixer/Output/TelemetryTab.h"
-#include "Mixer/Strips/SpectrumView.h"
+#include "Mixer/Strips/ScopeView.h"
 #include "MixerTesting.h"
 #include <cmath>
 #include <numbers>
@@ -31,11 +31,11 @@ TEST(SpectrumTrace, ASineIsAPeakOfItsLevelInItsChannelAlone) {
                 const float* channels[]{silence.data() + done, sine.data() + done};
                 trace.add(channels, 2, std::min(130, frames - done));
             }
-            EXPECT_NEAR(peakHz(trace.levels(1)), hz, 0.03 * hz) << rate;
-            EXPECT_NEAR(highestOf(trace.levels(1)), -6.0, 0.5) << rate << " Hz, " << hz;
-            EXPECT_LT(trace.levels(1)[static_cast<std::size_t>(hz < 300.0 ? 150 : 40)], -60.0f)
+            EXPECT_NEAR(peakHz(levelsOf(trace, 1)), hz, 0.03 * hz) << rate;
+            EXPECT_NEAR(highestOf(levelsOf(trace, 1)), -6.0, 0.5) << rate << " Hz, " << hz;
+            EXPECT_LT(levelsOf(trace, 1)[static_cast<std::size_t>(hz < 300.0 ? 150 : 40)], -60.0f)
                 << "far from it there is nothing";
-            EXPECT_EQ(highestOf(trace.levels(0)), FrequencyAxis::floorDb);
+            EXPECT_EQ(highestOf(levelsOf(trace, 0)), FrequencyAxis::floorDb);
         }
 }
 
@@ -94,12 +94,12 @@ TEST(ScopeTrace, AnotherRateInTheMiddleOfAColumnBeginsItAnew) {
 }
 
 struct Scope : testing::Test {
-    Desk desk{onlyNoDevice(), noDevice};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
 };
 
 TEST_F(Scope, WhatIsStruckIsAPeakThatFallsCalmly) {
-    desk.setSlowness(0);
+    model.setSlowness(0);
     auto& spectrum = dynamic_cast<SpectrumView&>(*find(view, "Spectra"));
     const auto isQuiet = [&](int channel) {
         return highestOf(spectrum.shown(channel)) == FrequencyAxis::floorDb;
@@ -107,7 +107,7 @@ TEST_F(Scope, WhatIsStruckIsAPeakThatFallsCalmly) {
     ASSERT_TRUE(runUntil([&] {
         return view.refresh(), view.latest().session.render.pending == 0 && isQuiet(0) && isQuiet(2);
     })) << "what was struck before";
-    desk.strikes().testPulse(2);
+    model.strikes().testPulse(2);
     double seenHz = 0.0;
     float highest = FrequencyAxis::floorDb;
     ASSERT_TRUE(runUntil([&] {
@@ -123,14 +123,15 @@ TEST_F(Scope, WhatIsStruckIsAPeakThatFallsCalmly) {
 TEST_F(Scope, PlayedEventsAreListedTheNewestFirst) {
     view.scope().choose("Events");
     auto& list = dynamic_cast<juce::ListBox&>(*find(view, "List of played events"));
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.recent().newestFirst().size() >= 5; }));
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), model.recent().newestFirst().size() >= 5; }));
     ASSERT_TRUE(runUntil([&] { return view.refresh(), list.getModel()->getNumRows() >= 5; }));
-    EXPECT_TRUE(std::ranges::is_sorted(desk.recent().newestFirst(), std::greater{},
+    EXPECT_TRUE(std::ranges::is_sorted(model.recent().newestFirst(), std::greater{},
                                        [](const RecentContact& c) { return c.event.timeNs; }));
     EXPECT_TRUE(list.getModel()->getNameForRow(0).contains("wall at ")) << list.getModel()->getNameForRow(0);
     ASSERT_TRUE(runUntil(
-        [&] { return view.refresh(), desk.look().session.render.played > RecentContacts::most + 20; }, 60.0));
-    EXPECT_EQ(desk.recent().newestFirst().size(), RecentContacts::most);
+        [&] { return view.refresh(), model.look().session.render.played > RecentContacts::most + 20; },
+        60.0));
+    EXPECT_EQ(model.recent().newestFirst().size(), RecentContacts::most);
 }
 
 juce::String valueOf(const std::vector<Fact>& facts, const juce::String& name) {
@@ -142,20 +143,20 @@ TEST_F(Scope, TelemetrySaysWhatTheSessionCounts) {
     view.scope().choose("Telemetry");
     ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().session.render.played > 5; }));
     auto& shown =
-        dynamic_cast<FactList&>(*find(*view.scope().find("Telemetry")->getChildComponent(0), "Telemetry"));
+        dynamic_cast<FactList&>(*find(*view.scope().find<TelemetryTab>()->getChildComponent(0), "Telemetry"));
     EXPECT_TRUE(runUntil([&] {
         return view.refresh(), valueOf(shown.facts(), "Clock").contains("48000 Hz");
     })) << shown.getDescription();
     EXPECT_TRUE(shown.getDescription().contains("Late: ")) << shown.getDescription();
 
-    DeskMoment moment = view.latest();
+    MixerMoment moment = view.latest();
     moment.session.render.late = 3;
     moment.session.render.liveModes = 7;
     moment.session.refused = 2;
     moment.session.leastMarginFrames = -48;
     moment.device.worstLoad = 1.25f;
     moment.device.deviceXruns = 4;
-    const auto facts = telemetryFacts(desk, moment, 0.125f);
+    const auto facts = telemetryFacts(model, moment, 0.125f);
     EXPECT_EQ(valueOf(facts, "Late"), "3 hits");
     EXPECT_TRUE(valueOf(facts, "Modes").startsWith("7 ringing"));
     EXPECT_TRUE(valueOf(facts, "Refused").startsWith("2 without room"));
@@ -169,11 +170,11 @@ TEST_F(Scope, TelemetrySaysWhatTheSessionCounts) {
 
 TEST(Telemetry, ADeviceThatHasGoneIsNoClock) {
     FakeInterface hands;
-    Desk desk{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
-    EXPECT_TRUE(valueOf(telemetryFacts(desk, desk.look(), 0.0f), "Clock").startsWith("Fake:hands"));
+    MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
+    EXPECT_TRUE(valueOf(telemetryFacts(model, model.look(), 0.0f), "Clock").startsWith("Fake:hands"));
     hands.unplug(true);
-    ASSERT_TRUE(runUntil([&] { return !desk.look().device.isRunning; }));
-    EXPECT_TRUE(valueOf(telemetryFacts(desk, desk.look(), 0.0f), "Clock").startsWith("none runs"));
+    ASSERT_TRUE(runUntil([&] { return !model.look().device.isRunning; }));
+    EXPECT_TRUE(valueOf(telemetryFacts(model, model.look(), 0.0f), "Clock").startsWith("none runs"));
 }
 
 } // namespace

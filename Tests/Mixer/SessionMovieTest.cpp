@@ -24,34 +24,34 @@ int picturesIn(const juce::File& webp) {
 class SessionMovie : public testing::Test {
 protected:
     bool play(std::int64_t untilNs) {
-        return runUntil([&] { return desk.look().session.sessionNs >= untilNs; });
+        return runUntil([&] { return model.look().session.sessionNs >= untilNs; });
     }
     /// More than a second of the first scene.
     SavedSession someSecond() {
         EXPECT_TRUE(play(1'200'000'000));
-        return desk.saved();
+        return model.saved();
     }
     std::string path(const char* name) const { return folder(name).getFullPathName().toStdString(); }
     template <class GoesOn>
     std::string write(const SavedSession& session, double seconds, const std::string& to, GoesOn keepGoing) {
-        return writeSessionMovie(session, desk.mix().layout, seconds, to, keepGoing);
+        return writeSessionMovie(session, model.mix().layout, seconds, to, keepGoing);
     }
     int files() const { return folder.folder.getNumberOfChildFiles(juce::File::findFiles); }
 
     static constexpr auto on = [](double) { return true; };
     const TestFolder folder;
-    Desk desk{onlyNoDevice(), noDevice};
+    MixerModel model{onlyNoDevice(), noDevice};
 };
 
 TEST_F(SessionMovie, ShowsTheLastPartOfASessionWithItsPausesAndScenes) {
     ASSERT_TRUE(play(400'000'000));
-    desk.setSlowness(0);
+    model.setSlowness(0);
     ASSERT_TRUE(play(600'000'000));
-    desk.change("Scene",
-                [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*findBuiltInScene("drop")); });
-    desk.setSlowness(1);
+    model.change("Scene",
+                 [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*findBuiltInScene("drop")); });
+    model.setSlowness(1);
     ASSERT_TRUE(play(1'200'000'000));
-    const SavedSession session = desk.saved();
+    const SavedSession session = model.saved();
     double last = 0.0;
     EXPECT_EQ(write(session, 1.0, path("last.webp"),
                     [&](double share) {
@@ -134,7 +134,7 @@ TEST_F(SessionMovie, IsCancelledWhileFfmpegWorks) {
 TEST_F(SessionMovie, ACancelledOneLeavesNothing) {
     ASSERT_TRUE(play(300'000'000));
     for (const double end : {0.0, 0.2, 0.6})
-        EXPECT_EQ(write(desk.saved(), 60.0, path("last.webp"), [end](double share) { return share < end; }),
+        EXPECT_EQ(write(model.saved(), 60.0, path("last.webp"), [end](double share) { return share < end; }),
                   "cancelled");
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFilesAndDirectories), 0);
 }

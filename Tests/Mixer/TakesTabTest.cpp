@@ -2,8 +2,6 @@
 // Recordings are listed, played on the device, copied and deleted in the window.
 #include "Mixer/Output/TakesTab.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Mixer/Output/KeptPart.h"
-#include "Mixer/Output/TakePart.h"
 #include "MixerTesting.h"
 #include "Scene/EventsCsv.h"
 
@@ -28,8 +26,8 @@ void writeTake(const juce::File& file, double seconds) {
 struct Taken {
     TestFolder folder;
     juce::SharedResourcePointer<UserFolder> user;
-    Desk desk{onlyNoDevice(), noDevice, Desk::firstMix(), {.isPaused = true}};
-    MixerView view{desk};
+    MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
+    MixerView view{model};
     TakesTab* takes = nullptr;
 
     Taken() {
@@ -38,7 +36,7 @@ struct Taken {
         folder("hands-take.csv").replaceWithText("time_s");
         folder("no take.wav").replaceWithText("text");
         view.scope().choose("Takes");
-        takes = dynamic_cast<TakesTab*>(view.scope().find("Takes"));
+        takes = view.scope().find<TakesTab>();
     }
     ~Taken() { user->choose({}); }
     juce::ListBox& list() { return dynamic_cast<juce::ListBox&>(*find(view, "List of takes")); }
@@ -66,7 +64,7 @@ TEST(TakesTab, ATakeIsPlayedEachChannelOnItsActuator) {
     EXPECT_TRUE(runUntil([&] {
         taken.view.refresh();
         return taken.view.latest().meters.peaks[2] > 0.01f;
-    })) << taken.desk.trouble();
+    })) << taken.model.trouble();
     EXPECT_EQ(taken.view.latest().meters.peaks[0], 0.0f);
 }
 
@@ -79,7 +77,7 @@ TEST(TakesTab, ATakeIsCopiedAndDeletedWithItsEvents) {
     EXPECT_EQ(card->name(), "hands-take");
     taken.folder("copies").createDirectory();
     card->enter(taken.folder("copies"));
-    card->take();
+    card->accept();
     ASSERT_TRUE(runUntil([&] { return taken.view.card() == nullptr; }));
     EXPECT_TRUE(taken.folder("copies/hands-take.wav").hasIdenticalContentTo(taken.folder("hands-take.wav")));
     EXPECT_TRUE(taken.folder("copies/hands-take.csv").existsAsFile());
@@ -146,7 +144,7 @@ TEST(TakesTab, ATrimLastsBeyondTheProgramAndIsOfThatTakeAlone) {
     trim.onClick();
     ASSERT_TRUE(runUntil([&] { return t.shown().contains("of"); }));
     const auto shownAnew = [&] {
-        MixerView later{t.desk};
+        MixerView later{t.model};
         later.scope().choose("Takes");
         return dynamic_cast<juce::ListBox&>(*find(later, "List of takes")).getModel()->getNameForRow(0);
     };
@@ -206,7 +204,7 @@ TEST(TakesTab, ATrimmedTakePlaysThatPartFromAFileThatStays) {
     EXPECT_TRUE(runUntil([&] {
         t.view.refresh();
         return t.view.latest().meters.peaks[1] > 0.01f;
-    })) << t.desk.trouble();
+    })) << t.model.trouble();
     EXPECT_EQ(t.list().getModel()->getNumRows(), 1) << "the part is not listed";
     trimmer->mouseDrag(mouseAt(*trimmer, {-50.0f, 5.0f}));
     EXPECT_EQ(t.shown(), "hands-take, 0.0 s of 1.5 s") << "not less than nothing";

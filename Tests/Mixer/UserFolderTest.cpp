@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where recordings and documents go, in homes with and without documents.
-#include "Mixer/Desk/UserFolder.h"
+#include "Mixer/Model/MixerRecording.h"
 #include "MixerTesting.h"
 #include <cstdlib>
 

@@ -55,35 +55,35 @@ TEST(WorldMenu, WhatItSaysIsDone) {
     Field f;
     f.add(DrawTool::ball, 0.5, 0.5);
     const auto at = f.share(0.5, 0.5);
-    const int drawn = f.desk.world().drawing().find("ball 1")->fixtures[0].material;
+    const int drawn = f.model.world().drawing().find("ball 1")->fixtures[0].material;
     int other = 0;
     while (other == drawn || f.drawn().materials[static_cast<std::size_t>(other)].frequencyHz <= 0.0) ++other;
     press(f.menuAt(at), utf8(f.drawn().materials[static_cast<std::size_t>(other)].name));
-    EXPECT_EQ(f.desk.world().drawing().find("ball 1")->fixtures[0].material, other) << f.desk.trouble();
+    EXPECT_EQ(f.model.world().drawing().find("ball 1")->fixtures[0].material, other) << f.model.trouble();
     press(f.menuAt(at), "Copy");
     press(f.menuAt(f.share(0.2, 0.8)), "Paste here");
     f.settle();
-    const auto* pasted = f.desk.world().drawing().find("ball 2");
-    ASSERT_NE(pasted, nullptr) << f.desk.trouble();
+    const auto* pasted = f.model.world().drawing().find("ball 2");
+    ASSERT_NE(pasted, nullptr) << f.model.trouble();
     EXPECT_NEAR(pasted->positionMetres.x, f.share(0.2, 0.8).x, 0.01 * f.drawn().fieldWidthMetres);
     EXPECT_NEAR(pasted->positionMetres.y, f.share(0.2, 0.8).y, 0.01 * f.drawn().fieldHeightMetres);
     f.pane.use(DrawTool::hand);
     press(f.menuAt(at), "Delete");
-    EXPECT_EQ(f.desk.world().drawing().find("ball 1"), nullptr);
-    f.desk.undoManager().undo();
-    EXPECT_NE(f.desk.world().drawing().find("ball 1"), nullptr);
+    EXPECT_EQ(f.model.world().drawing().find("ball 1"), nullptr);
+    f.model.undoManager().undo();
+    EXPECT_NE(f.model.world().drawing().find("ball 1"), nullptr);
     f.settle();
     press(f.menuAt(f.share(0.8, 0.8)), "Add box");
-    EXPECT_NE(f.desk.world().drawing().find("box 1"), nullptr);
+    EXPECT_NE(f.model.world().drawing().find("box 1"), nullptr);
     EXPECT_EQ(f.pane.tool(), DrawTool::hand) << "the tool stays";
     press(f.menuAt(f.share(0.6, 0.9)), "Attach an actuator here");
-    EXPECT_EQ(f.desk.mix().count(), 5);
+    EXPECT_EQ(f.model.mix().count(), 5);
     f.settle();
     press(f.panel.menuAt(f.world.placeOfEnchanter(4)), "Detach");
-    EXPECT_EQ(f.desk.mix().count(), 4);
-    const auto strikes = f.desk.saved().log.strikes.size();
+    EXPECT_EQ(f.model.mix().count(), 4);
+    const auto strikes = f.model.saved().log.strikes.size();
     press(f.panel.menuAt(f.world.placeOfEnchanter(1)), "Test pulse");
-    EXPECT_EQ(f.desk.saved().log.strikes.size(), strikes + 1);
+    EXPECT_EQ(f.model.saved().log.strikes.size(), strikes + 1);
 }
 
 TEST(WorldMenu, ARightClickOpensItWithEveryToolAndDrawsNothing) {
@@ -107,7 +107,7 @@ TEST(Motor, SpeedAndTorqueAreChangedInTheInspectorAndUndone) {
     Field f;
     f.add(DrawTool::box, 0.5, 0.5);
     press(f.menuAt(f.share(0.5, 0.5)), "Motor here");
-    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.desk.trouble();
+    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.model.trouble();
     f.settle();
     const auto before = driveOf(f.drawn().joints[0]);
     EXPECT_GT(before.maxTorqueNewtonMetres, 0.0);
@@ -119,17 +119,17 @@ TEST(Motor, SpeedAndTorqueAreChangedInTheInspectorAndUndone) {
     EXPECT_GT(speed->getHeight(), 14);
     speed->setValue(-8.0, juce::sendNotificationSync);
     torque->setValue(5'000.0, juce::sendNotificationSync);
-    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.desk.trouble();
+    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.model.trouble();
     EXPECT_NEAR(driveOf(f.drawn().joints[0]).radiansPerSecond, -8.0, 1e-9);
     EXPECT_NEAR(driveOf(f.drawn().joints[0]).maxTorqueNewtonMetres, 5'000.0, 1e-9);
     f.settle();
-    f.desk.setSlowness(1);
+    f.model.setSlowness(1);
     const double angle = f.world.poseOfBody("box 1")->angleRadians;
     runFor(1.0);
     f.view.refresh();
     EXPECT_LT(f.world.poseOfBody("box 1")->angleRadians, angle - 1.0) << "it turns the other way now";
-    f.desk.undoManager().undo();
-    f.desk.undoManager().undo();
+    f.model.undoManager().undo();
+    f.model.undoManager().undo();
     EXPECT_EQ(driveOf(f.drawn().joints[0]), before);
     f.pane.choose({"box 1"});
     f.add(DrawTool::ball, 0.2, 0.8);
@@ -142,7 +142,7 @@ TEST(Spring, HangsABodyAndItsStiffnessIsChangedInTheInspectorAndUndone) {
     Field f;
     f.add(DrawTool::ball, 0.5, 0.5);
     press(f.menuAt(f.share(0.5, 0.5)), "Spring here");
-    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.desk.trouble();
+    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.model.trouble();
     f.settle();
     const auto spring = std::get<DistanceJoint>(f.drawn().joints[0].joint);
     EXPECT_FALSE(spring.isSlack);
@@ -154,19 +154,19 @@ TEST(Spring, HangsABodyAndItsStiffnessIsChangedInTheInspectorAndUndone) {
     EXPECT_GT(stiffness->getHeight(), 14);
     EXPECT_LE(stiffness->getBottom(), stiffness->getParentComponent()->getHeight());
     stiffness->setValue(0.5, juce::sendNotificationSync);
-    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.desk.trouble();
+    ASSERT_EQ(f.drawn().joints.size(), 1u) << f.model.trouble();
     const auto softer = std::get<DistanceJoint>(f.drawn().joints[0].joint);
     EXPECT_NEAR(softer.springHz, 0.5, 1e-9);
     EXPECT_EQ(softer.anchorAMetres, spring.anchorAMetres);
     EXPECT_EQ(softer.anchorBMetres, spring.anchorBMetres) << "its length stays";
     f.settle();
     const double from = f.world.poseOfBody("ball 1")->yMetres;
-    f.desk.setSlowness(1);
+    f.model.setSlowness(1);
     runFor(0.7);
     f.view.refresh();
     const double y = f.world.poseOfBody("ball 1")->yMetres, high = f.drawn().fieldHeightMetres;
     EXPECT_LT(y, from - 0.02 * high) << "it gives way";
-    f.desk.undoManager().undo();
+    f.model.undoManager().undo();
     EXPECT_EQ(std::get<DistanceJoint>(f.drawn().joints[0].joint), spring);
 }
 
@@ -180,7 +180,7 @@ TEST(Rain, HasTheNumberAndMaterialThatWereChosenAsOneEdit) {
     f.pane.setMaterial(2);
     const auto before = f.drawn().bodies.size();
     f.add(DrawTool::rain, 0.5, 0.7);
-    ASSERT_EQ(f.drawn().bodies.size(), before + 100) << f.desk.trouble();
+    ASSERT_EQ(f.drawn().bodies.size(), before + 100) << f.model.trouble();
     const auto& balls = f.drawn().bodies;
     for (std::size_t i = before; i < balls.size(); ++i) {
         EXPECT_EQ(balls[i].fixtures[0].material, 2);
@@ -191,7 +191,7 @@ TEST(Rain, HasTheNumberAndMaterialThatWereChosenAsOneEdit) {
                       2.0 * radius)
                 << "they do not touch";
     }
-    f.desk.undoManager().undo();
+    f.model.undoManager().undo();
     EXPECT_EQ(f.drawn().bodies.size(), before) << "one edit";
     f.pane.use(DrawTool::ball);
     EXPECT_FALSE(count->isVisible());
@@ -215,7 +215,7 @@ TEST(Inspector, NeverCoversWhatIsSelectedAndNamesItsMaterial) {
         EXPECT_TRUE(f.panel.getLocalBounds().contains(inspector->getBounds())) << x << ", " << y;
     }
     f.pane.setMaterial(3);
-    f.desk.dispatchPendingMessages();
+    f.model.dispatchPendingMessages();
     f.pane.choose({f.drawn().bodies.back().name});
     EXPECT_EQ(f.pane.material(), 3);
     bool isNamed = false;
@@ -237,7 +237,7 @@ TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
     auto* inspector = find(f.panel, "Chosen bodies");
     ASSERT_TRUE(inspector->isVisible());
     const auto place = inspector->getBounds();
-    for (int j = 0; j < f.desk.mix().count(); ++j)
+    for (int j = 0; j < f.model.mix().count(); ++j)
         EXPECT_TRUE(
             place.getIntersection(f.world.badgeAt(j).toNearestInt() + f.world.getPosition()).isEmpty())
             << j;
@@ -247,11 +247,11 @@ TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
 
 TEST(Badges, OfSixtyFourActuatorsEachShowsItsWholeLabel) {
     Field f;
-    while (f.desk.mix().count() < 64 && f.desk.attach(0.5, 0.5)) {
+    while (f.model.mix().count() < 64 && f.model.attach(0.5, 0.5)) {
     }
-    f.desk.dispatchPendingMessages();
+    f.model.dispatchPendingMessages();
     for (int j = 0; j < 64; ++j) {
-        const auto label = utf8(f.desk.mix().layout.enchanters[static_cast<std::size_t>(j)].label);
+        const auto label = utf8(f.model.mix().layout.enchanters[static_cast<std::size_t>(j)].label);
         EXPECT_GE(f.world.badgeAt(j).getWidth(),
                   juce::Font(text::small, juce::Font::bold).getStringWidthFloat(label))
             << label;

@@ -2,7 +2,7 @@
 // Lines and packets for a session's doors, from a grammar that knows every message, control and input and
 // mixes their names, fields, types, addresses, bundles and times. Seeded: the same with every library.
 #pragma once
-#include "Host/Osc/OscDoor.h"
+#include "Host/Osc/OscReceiver.h"
 #include "Io/Json/StrictJson.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/SceneFields.h"

@@ -8,7 +8,7 @@
 namespace physvib {
 namespace {
 
-TEST(OscDoors, KeepWhatTheyPromiseWhateverComes) {
+TEST(OscReceivers, KeepWhatTheyPromiseWhateverComes) {
     test::DoorGrammar grammar{1};
     test::DoorTrial trial;
     for (int k = 0; k < 10'000; ++k) {
@@ -26,7 +26,7 @@ TEST(OscDoors, KeepWhatTheyPromiseWhateverComes) {
 }
 
 // So that the test above can fail: most is understood, and all kinds are among it.
-TEST(OscDoors, AreTriedWithEveryKindOfMessage) {
+TEST(OscReceivers, AreTriedWithEveryKindOfMessage) {
     test::DoorGrammar grammar{2};
     std::array<int, 4> lines{};
     int bad = 0, refused = 0;

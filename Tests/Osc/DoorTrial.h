@@ -3,7 +3,7 @@
 // sockets.
 #pragma once
 #include "../Fuzz/SessionFuzzing.h"
-#include "Host/Osc/OscDoor.h"
+#include "Host/Osc/OscReceiver.h"
 #include "Live/Session/OutputClock.h"
 #include <algorithm>
 #include <stdexcept>
@@ -22,7 +22,7 @@ public:
         const OscCounts counted = door_.counts();
         answers_.clear();
         hasLifted_ = false;
-        door_.take(bytes, clock_, answers_, before);
+        door_.receive(bytes, clock_, answers_, before);
         const auto read = readOscPacket(bytes);
         demand(door_.counts().messages - counted.messages == read.value.size(), "messages counted otherwise");
         demand(silence_.asked(MuteRequester::osc) == before + asked, "silences counted otherwise than done");
@@ -106,7 +106,7 @@ private:
     const std::unique_ptr<Session> session_ = fuzz::makeSession();
     MessageRouter messages_{*session_};
     MuteRequests silence_;
-    OscDoor door_{
+    OscReceiver door_{
         *session_,
         messages_,
         {[this](const LineInput& input, const OscOrigin&) { return act(input, MuteRequester::osc); },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time tags: what they say, and that two of them lie as far apart in the session as with their sender.
-#include "Host/Osc/OscClock.h"
+#include "Host/Osc/OscReceiver.h"
 #include "Support/ClosedForm.h"
 #include <cmath>
 #include <gtest/gtest.h>

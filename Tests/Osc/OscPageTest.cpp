@@ -23,8 +23,8 @@ void expectOnThePage(const std::string& table) {
     EXPECT_NE(page().find(table), std::string::npos) << "expected in Docs/osc.md:\n\n" << table;
 }
 
-// Every message has an address (OscDoors.EveryMessageOfTheTableHasAnAddress), and every address of the page
-// is one.
+// Every message has an address (OscReceivers.EveryMessageOfTheTableHasAnAddress), and every address of the
+// page is one.
 TEST(OscPage, ItsAddressesAreTakenOrSent) {
     std::set<std::string, std::less<>> known{"answer", "error", "hit", "silence"};
     for (const auto& message : messageTable) known.emplace(message.name);
@@ -66,10 +66,10 @@ TEST(OscPage, HasTheFigures) {
     expectOnThePage("at most " + std::to_string(deepestBundle) + " deep");
     expectOnThePage(numberText(PhoneSensors::leastChange) + " m/s²");
     expectOnThePage("by more than " + numberText(1e-6 * static_cast<double>(OscClock::slackNs)) + " ms");
-    expectOnThePage("at most " + std::to_string(OscClock::mostSlewPpm) + " ppm");
+    expectOnThePage("at most " + std::to_string(OscClock::maxSlewPpm) + " ppm");
     expectOnThePage("once per cause and " + std::to_string(OscReplies::refusalEveryNs / 1'000'000) + " ms");
     expectOnThePage(std::to_string(OscReplies::freeBytes) + " bytes a second");
-    expectOnThePage("at most " + std::to_string(OscReplies::mostSenders) + " senders");
+    expectOnThePage("at most " + std::to_string(OscReplies::maxSenders) + " senders");
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is sent back to a sender, by a clock of the test's own.
-#include "Host/Osc/OscReplies.h"
+#include "Host/Osc/OscPort.h"
 #include <deque>
 #include <gtest/gtest.h>
 #include <map>
@@ -97,7 +97,7 @@ TEST(OscRepliesLimits, AddressesThatAreMadeUpGetLittleTogether) {
         for (int answers = 0; answers < 100; ++answers)
             if (replies.mayReply(100)) sent += 100;
     }
-    EXPECT_LE(sent, OscReplies::mostSenders * (OscReplies::freeBytes + 24));
+    EXPECT_LE(sent, OscReplies::maxSenders * (OscReplies::freeBytes + 24));
     replies.begin("192.0.2.1:5", 24, 1000 * ms);
     EXPECT_TRUE(replies.mayReply(100)) << "a second later there is room again";
 }

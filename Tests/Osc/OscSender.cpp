@@ -6,7 +6,7 @@
 //   phone SECONDS PER_SECOND         the accelerometer of an Android phone that is turned slowly, and lies
 //   upright in the end silence COUNT PER_SECOND         strikes as of flood, and meanwhile silence on and
 //   off: how long until each is answered ask NAME                         a query; its answer
-#include "Host/Osc/OscClock.h"
+#include "Host/Osc/OscReceiver.h"
 #include "Host/Osc/OscSocket.h"
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What phones send: which way things fall, and that they fall there after ten minutes as well.
-#include "Host/Osc/PhoneSensors.h"
+#include "Host/Osc/OscReceiver.h"
 #include "Support/ClosedForm.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ std::optional<GravityAction> pullOf(PhoneSensors& phone, const std::string& addr
                                     std::vector<OscValue> values) {
     const auto* format = sensorFormat(address);
     if (format == nullptr) return std::nullopt;
-    const auto read = phone.take(*format, {address, std::move(values), oscNow});
+    const auto read = phone.read(*format, {address, std::move(values), oscNow});
     EXPECT_EQ(read.error, "");
     return read.value;
 }
@@ -61,7 +61,7 @@ TEST(PhoneSensors, OthersAreNoSensors) {
                                {1.0, std::string("a"), 2.0},
                                {1.0, NAN, 2.0},
                                {INFINITY, 1.0, 1.0}})
-        EXPECT_EQ(phone.take(*sensorFormat("/accelerometer"), {"/accelerometer", values, oscNow}).error,
+        EXPECT_EQ(phone.read(*sensorFormat("/accelerometer"), {"/accelerometer", values, oscNow}).error,
                   "/accelerometer: expected 3 numbers");
 }
 

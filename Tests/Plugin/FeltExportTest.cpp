@@ -2,11 +2,10 @@
 // What was felt as files, the window's keyboard, presets as files, and a controller that is learned.
 #include "FeltExport.h"
 #include "Formats/ClipFile.h"
-#include "KeyboardPanel.h"
-#include "OpenedFile.h"
+#include "MidiPanels.h"
 #include "PluginEditor.h"
+#include "PluginFiles.h"
 #include "PluginTesting.h"
-#include "PresetFiles.h"
 #include "Scene/EventsCsv.h"
 
 namespace physvib {
@@ -21,7 +20,7 @@ public:
         auto state = plugin->state();
         const auto found = std::ranges::find(presetNames(), name);
         EXPECT_NE(found, presetNames().end());
-        takePlugInPreset(state, static_cast<int>(found - presetNames().begin()));
+        useBuiltIn(state, static_cast<int>(found - presetNames().begin()));
         plugin->open(state);
         prepare(48000, 480);
         block(480);
@@ -36,7 +35,7 @@ public:
         for (int b = 1; b < blocks; ++b) block(480);
     }
     juce::MidiMessageSequence exported() {
-        plugin->takeNewEvents();
+        plugin->drainEvents();
         const auto state = plugin->state();
         const auto events = plugin->felt().events(true);
         const std::string bytes = midiOf({events, state, pannerOf(state, PanningLaw::linear, 1.0)});
@@ -83,7 +82,7 @@ TEST(FeltExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
     for (int note = 60; note < 68; ++note)
         host.send(juce::MidiMessage::noteOn(1, note, juce::uint8{100}), 10);
     host.rest(50);
-    host.plugin->takeNewEvents();
+    host.plugin->drainEvents();
     const auto state = host.plugin->state();
     const auto events = host.plugin->felt().events(true);
     ASSERT_EQ(events.size(), 8u);

@@ -13,7 +13,7 @@ using Message = juce::MidiMessage;
 PluginState knobPreset(std::string_view name) {
     PluginState state;
     const auto& names = presetNames();
-    takePlugInPreset(state, static_cast<int>(std::ranges::find(names, name) - names.begin()), 4);
+    useBuiltIn(state, static_cast<int>(std::ranges::find(names, name) - names.begin()), 4);
     state.limiterEnabled = false;
     return state;
 }
@@ -34,7 +34,7 @@ struct KnobHost : TestHost {
         block(480, midi);
         for (int b = 480; b < frames; b += 480) block(480);
         std::vector<CollisionEvent> events;
-        for (const auto& event : plugin->takes().takeLog()) events.push_back(event.played.event);
+        for (const auto& event : plugin->takes().drainLog()) events.push_back(event.played.event);
         return events;
     }
 };
@@ -98,7 +98,7 @@ TEST(Knobs, AControllerMovesThemFromItsFrameOn) {
     midi.addEvent(struckAt(62), 30);
     host.block(480, midi);
     for (int b = 0; b < 20; ++b) host.block(480);
-    const auto log = host.plugin->takes().takeLog();
+    const auto log = host.plugin->takes().drainLog();
     ASSERT_EQ(log.size(), 2u);
     EXPECT_NEAR(log[0].played.event.decayPerSecond, 12.0, 1e-5);
     EXPECT_NEAR(log[1].played.event.decayPerSecond, 1.5, 1e-5);

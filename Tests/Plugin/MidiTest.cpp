@@ -31,7 +31,7 @@ struct QuietHost : TestHost {
         play(frames - 480, signal);
         return signal;
     }
-    std::vector<TakeEvent> log() { return plugin->takes().takeLog(); }
+    std::vector<TakeEvent> log() { return plugin->takes().drainLog(); }
     juce::MidiBuffer midi;
     int latency = 0;
 };

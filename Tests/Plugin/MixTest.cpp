@@ -38,8 +38,8 @@ PluginState mixedState() {
 Samples renderedMix(const PluginState& s, std::int64_t frames) {
     const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / 48000 + 1);
     std::vector<RenderControl> controls;
-    std::array<ToldStrip, limits::maxEnchanters> told{};
-    tellStrips(told, s.strips, [&controls](const RenderControl& c) { return controls.push_back(c), true; });
+    std::array<SentStrip, limits::maxEnchanters> told{};
+    sendStrips(told, s.strips, [&controls](const RenderControl& c) { return controls.push_back(c), true; });
     const RendererSettings settings{.sampleRateHz = 48000,
                                     .channels = enchantersOf(s),
                                     .panner = pannerOf(s, PanningLaw::linear, 1.0),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of one's own in the plug-in: a scene, a layout, a mixer's session; what is wrong leaves everything as
 // it was.
-#include "OpenedFile.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/SessionFile.h"
+#include "PluginFiles.h"
 #include "PluginSettings.h"
 #include "PluginTesting.h"
 #include "Scene/SceneCatalogue.h"
@@ -130,7 +130,7 @@ TEST_F(PluginFiles, NoFileMakesAnythingLouder) {
     EXPECT_EQ(host_.plugin->state().strips[0].ceilingDb, -20.0);
     EXPECT_TRUE(host_.plugin->state().strips[1].isMuted);
     state.strips[1].isMuted = false;
-    takePreset(state, "phone2");
+    usePreset(state, "phone2");
     const auto wider = openFile(write("layout.json", layoutJson(presetLayout("phone4"))), state);
     ASSERT_TRUE(wider) << wider.error;
     EXPECT_EQ(wider.value.note,

@@ -75,7 +75,7 @@ PluginState playedWorld() {
 PluginState presetNamed(std::string_view name) {
     PluginState state;
     const auto& names = presetNames();
-    takePlugInPreset(state, static_cast<int>(std::ranges::find(names, name) - names.begin()), 4);
+    useBuiltIn(state, static_cast<int>(std::ranges::find(names, name) - names.begin()), 4);
     return state;
 }
 

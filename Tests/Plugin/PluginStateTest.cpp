@@ -226,7 +226,7 @@ TEST(PluginChunk, TheProgramIsTheSceneThatPlays) {
     EXPECT_EQ(host.plugin->getCurrentProgram(), 3) << "it bears the name";
     host.plugin->setCurrentProgram(3);
     auto builtIn = host.plugin->state(); // on as many actuators
-    takePlugInPreset(builtIn, 3);
+    useBuiltIn(builtIn, 3);
     EXPECT_TRUE(host.plugin->state().scene == builtIn.scene) << "chosen again, it is the built-in one";
     const auto count = host.plugin->stateCount();
     host.plugin->setCurrentProgram(3);
@@ -261,7 +261,7 @@ struct Curious final : juce::AudioProcessorListener {
         std::packaged_task<void()> task{[this] {
             plugin.state();
             plugin.trouble();
-            plugin.takes().takeLog();
+            plugin.takes().drainLog();
             std::vector<BodyPose> poses;
             plugin.takes().poses(poses);
             plugin.apply(plugin.state());

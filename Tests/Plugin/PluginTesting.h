@@ -3,7 +3,7 @@
 #pragma once
 #include "Host/MessageManagerForTests.h"
 #include "PluginProcessor.h"
-#include "Presets.h"
+#include "PluginSettings.h"
 #include "Scene/SceneCatalogue.h"
 #include "Support/ClosedForm.h"
 #include <gtest/gtest.h>

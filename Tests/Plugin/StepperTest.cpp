@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One thread for all: those of equal pace come in one waking, who renders nothing seldom, who has left never.
-#include "Stepper.h"
 #include "PluginTesting.h"
+#include "Takes.h"
 #include <chrono>
 #include <fstream>
 

@@ -125,7 +125,7 @@ TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
     EXPECT_GT(channels.size(), 10u);
     host.plugin->releaseResources();
     int others = 0;
-    for (const auto& e : host.plugin->takes().takeLog())
+    for (const auto& e : host.plugin->takes().drainLog())
         others += e.played.event.frequencyHz !=
                   frequencyOf(channels[static_cast<std::size_t>(e.take)] == 2 ? two : four);
     EXPECT_EQ(others, 0) << "struck by another take's notes";

@@ -33,7 +33,7 @@ struct Player {
         host.block(480, midi);
     }
     void look() {
-        host.plugin->takes().takeLog();
+        host.plugin->takes().drainLog();
         host.plugin->takes().poses(poses);
     }
     TestHost host;

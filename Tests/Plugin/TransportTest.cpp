@@ -104,7 +104,7 @@ bool takesAreEqual(TestHost& host, bool offline, int takes, std::int64_t loopFra
     EXPECT_EQ(peakOf(signal), 0.0f) << "silent while the transport stands";
     signal.clear();
     host.playHead.isPlaying = true;
-    host.plugin->takes().takeLog();
+    host.plugin->takes().drainLog();
     std::vector<TakeEvent> log;
     for (int k = 0; k < takes; ++k) {
         host.playHead.frame = 1000;
@@ -112,10 +112,10 @@ bool takesAreEqual(TestHost& host, bool offline, int takes, std::int64_t loopFra
             host.play(441, signal);
             if (!offline) std::this_thread::sleep_for(std::chrono::milliseconds{10});
         }
-        for (auto& e : host.plugin->takes().takeLog()) log.push_back(e);
+        for (auto& e : host.plugin->takes().drainLog()) log.push_back(e);
     }
     host.plugin->releaseResources();
-    for (auto& e : host.plugin->takes().takeLog()) log.push_back(e);
+    for (auto& e : host.plugin->takes().drainLog()) log.push_back(e);
     const auto status = host.plugin->takes().status();
     if (!offline && (status.late > 0 || status.slippedNs > 0 || status.delayedBlocks > 0)) return false;
     EXPECT_EQ(status.take, takes);

@@ -12,7 +12,7 @@ using namespace test;
 
 std::vector<CollisionEvent> eventsOf(TestHost& host) {
     std::vector<CollisionEvent> events;
-    for (const auto& e : host.plugin->takes().takeLog()) events.push_back(e.played.event);
+    for (const auto& e : host.plugin->takes().drainLog()) events.push_back(e.played.event);
     return events;
 }
 

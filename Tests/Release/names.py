@@ -67,7 +67,7 @@ def rows(kind: str, file: str, pattern: str) -> Iterator[str]:
 names = {*options(), *fields(), *properties(json.loads(output(programs / "physvib", "study", "schema")), "protocol"),
          *rows("column", "Source/Scene/EventColumns.h", r'^    \{"(\w+)", \w+Column'), *rows("message", "Source/Live/Messages/MessageTable.h", r'^    \{"(\w+)",'),
          *rows("argument", "Source/Live/Messages/MessageTable.h", r'MessageArgument(?: \w+)?\{\s*"(\w+)"'),
-         *rows("parameter", "Plugin/ParameterTable.h", r'\{Parameter::\w+,\s*"(\w+)"')}
+         *rows("parameter", "Plugin/Parameters.h", r'\{Parameter::\w+,\s*"(\w+)"')}
 promised = {f"{kind} {name}" for line in listed.read_text().splitlines() for kind, last in [line.split(": ")] for name in last.split()}
 if "--update" in sys.argv:  # a line per command, structure or kind
     lines: dict[str, list[str]] = {}

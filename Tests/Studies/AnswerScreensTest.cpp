@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where answers are: points at their stimuli, a window of their own, letters instead of boxes.
 #include "Core/PhantomPanner.h"
-#include "Mixer/Studies/StudyFont.h"
+#include "Mixer/Widgets/Typefaces.h"
 #include "Participant.h"
 #include "Stimuli/Stimulus.h"
 

@@ -71,8 +71,8 @@ protected:
         folder.createDirectory();
         p = std::make_unique<test::Participant>(withNoDevice(test::fakeDrivers({&hands})), "Fake:hands");
         p->tab().setFolder(folder);
-        p->desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
-        p->desk.change("One", [](Mix& mix) {
+        p->model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+        p->model.change("One", [](Mix& mix) {
             mix.layout = presetLayout("phone1");
             mix.resizeStrips();
             mix.strips[0].output = 0;
@@ -110,7 +110,7 @@ protected:
 
     void fail(Fault fault) {
         using namespace std::chrono_literals;
-        auto& output = p->desk.output();
+        auto& output = p->model.output();
         const auto now = AudioOutput::Clock::now();
         switch (fault) {
         case Fault::kill:
@@ -238,7 +238,7 @@ TEST_F(DeviceFaults, NothingBeginsWithoutAnOutputForEachActuator) {
         R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", "layout": "phone4", "stimuli": "patterns", "enchanters": 4}], "sessions": [{"name": "main", "task": "identify"}]})");
     ASSERT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
     EXPECT_EQ(p->tab().begin(), "phone4: expected 4 actuators in the mixer, found 1");
-    p->desk.change("Four", [](Mix& mix) {
+    p->model.change("Four", [](Mix& mix) {
         mix.layout = presetLayout("phone4");
         mix.resizeStrips();
         for (std::size_t j = 0; j < 4; ++j) mix.strips[j].output = j < 2 ? static_cast<int>(j) : -1;

@@ -29,7 +29,7 @@ class Participant {
 public:
     explicit Participant(AudioDrivers drivers = onlyNoDevice(),
                          const std::string& device = std::string{noDeviceType} + ":" + noDeviceName)
-        : desk{std::move(drivers), {device, 48000, 128}} {
+        : model{std::move(drivers), {device, 48000, 128}} {
         view.setSize(1440, 900);
         view.addToDesktop(juce::ComponentPeer::windowHasTitleBar);
         view.setVisible(true);
@@ -37,8 +37,8 @@ public:
         view.grabKeyboardFocus();
         pump();
     }
-    Desk desk;
-    MixerView view{desk};
+    MixerModel model;
+    MixerView view{model};
 
     /// Those on the screen only; null if there is none.
     juce::Component* find(const juce::String& title) { return findIn(view, title); }

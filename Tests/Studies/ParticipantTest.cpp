@@ -179,12 +179,12 @@ TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) 
 }
 
 TEST_F(ByAParticipant, AClosedWindowPausesSaysSoAndThenLeaves) {
-    EXPECT_FALSE(pauseStudy(p->view)) << "no study: the mixer asks as ever";
+    EXPECT_FALSE(p->view.pauseStudy()) << "no study: the mixer asks as ever";
     begin(R"({"name": "main", "task": "identify", "repetitions": 2})",
           R"("layout": "phone2", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
     passPage();
     p->feel();
-    EXPECT_TRUE(pauseStudy(p->view));
+    EXPECT_TRUE(p->view.pauseStudy());
     p->pump();
     ASSERT_EQ(p->screen()->page(), StudyScreen::Page::paused);
     EXPECT_TRUE(p->screen()->getDescription().contains("The study is paused."));
@@ -193,8 +193,8 @@ TEST_F(ByAParticipant, AClosedWindowPausesSaysSoAndThenLeaves) {
     passPage();
     EXPECT_EQ(p->experiment().trialsTaken(), 0) << "what was not answered begins anew";
     p->feel();
-    EXPECT_TRUE(pauseStudy(p->view));
-    EXPECT_TRUE(pauseStudy(p->view)) << "again";
+    EXPECT_TRUE(p->view.pauseStudy());
+    EXPECT_TRUE(p->view.pauseStudy()) << "again";
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
     EXPECT_EQ(events(), "event start pause go-on pause leave");
 }
@@ -203,7 +203,7 @@ TEST_F(ByAParticipant, AWindowClosedInABreakDoesNotBeginTheBreakAnew) {
     begin(R"({"name": "main", "task": "identify", "break_before_s": 3})",
           R"("layout": "phone2", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
     EXPECT_TRUE(p->screen()->getDescription().contains("A break"));
-    EXPECT_TRUE(pauseStudy(p->view));
+    EXPECT_TRUE(p->view.pauseStudy());
     ASSERT_EQ(p->screen()->page(), StudyScreen::Page::paused);
     test::runFor(3.0);
     p->click("Next");
@@ -384,7 +384,7 @@ TEST_F(ByAParticipant, FeelsRecordingsAgainstTheModelAtTheLevelThatWasMatched) {
         p->enter();
     }
     close();
-    const auto log = p->desk.saved().log;
+    const auto log = p->model.saved().log;
     ASSERT_GE(log.recordings.size(), 4u);
     for (std::size_t i = 0; i < log.recordings.size(); ++i)
         EXPECT_EQ(log.recordings[i].files.size(), (i + 1) % 2)
@@ -468,7 +468,7 @@ TEST_F(ByAParticipant, RowsTellWhatWasReallyFelt) {
     ASSERT_EQ(peaks.size(), 2u);
     double squares = 0.0;
     for (std::size_t n = 0; n < 2; ++n) {
-        const double levelG = std::stod(stimuli[n]) * masterGain(p->desk.mix());
+        const double levelG = std::stod(stimuli[n]) * masterGain(p->model.mix());
         EXPECT_NEAR(std::stod(peaks[n]), levelG, 0.01 * levelG) << "behind the master level";
         EXPECT_NEAR(std::stod(rms[n]), levelG / std::sqrt(2.0), 2e-4 * levelG)
             << "whatever the machine does beside";
@@ -526,7 +526,7 @@ TEST_F(ByAParticipant, DoesNotBeginWhatTheCheckRefuses) {
 }
 
 TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
-    p->desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+    p->model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
     begin(
         R"({"name": "main", "task": "estimate", "repetitions": 20, "question": "How strong?"})",
         R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["1"]}], "call": "stimulus phantom --at 0,0 --seconds 0.8 --frequency 40 --level-g {level_g}")",
@@ -635,9 +635,9 @@ TEST_F(ByAParticipant, AnalysesFilesAsTheProgramDoesAndMarksWhatIsSimulated) {
         EXPECT_TRUE(warned.contains(juce::String::fromUTF8(warning.c_str()))) << warning;
     EXPECT_NE(p->tab().analysis()->picture(), nullptr);
     p->key(juce::KeyPress::escapeKey);
-    EXPECT_TRUE(p->desk.isSilent()) << "the world goes on behind it";
+    EXPECT_TRUE(p->model.isSilent()) << "the world goes on behind it";
     p->click("Silence");
-    EXPECT_FALSE(p->desk.isSilent());
+    EXPECT_FALSE(p->model.isSilent());
     folder.getChildFile("diary.csv").replaceWithText("dear,diary\n1,2\n");
     p->tab().analysis()->analyse({folder.getChildFile("diary.csv")});
     EXPECT_NE(p->tab().analysis()->report().error.find("diary.csv: expected trials of a study"),
@@ -646,23 +646,23 @@ TEST_F(ByAParticipant, AnalysesFilesAsTheProgramDoesAndMarksWhatIsSimulated) {
 }
 
 TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
-    p->desk.change("Mute", [](Mix& mix) { mix.strips[1].isMuted = true; });
+    p->model.change("Mute", [](Mix& mix) { mix.strips[1].isMuted = true; });
     begin(R"({"name": "main", "task": "identify"})",
           R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
-    EXPECT_EQ(p->desk.session().world().slowness(), 0) << "the world stands still";
+    EXPECT_EQ(p->model.session().world().slowness(), 0) << "the world stands still";
     passPage();
     p->key(juce::KeyPress::escapeKey);
-    EXPECT_TRUE(p->desk.isSilent());
+    EXPECT_TRUE(p->model.isSilent());
     p->space();
     EXPECT_EQ(p->screen()->plays(), 0) << "silent: nothing is felt, nothing counts";
     p->click("Silence");
-    EXPECT_FALSE(p->desk.isSilent());
+    EXPECT_FALSE(p->model.isSilent());
     p->feel();
     p->click("Row 1, column 1");
     p->click("Next");
     p->click("Leave the study; what was answered is kept");
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
-    EXPECT_EQ(p->desk.session().world().slowness(), 1);
+    EXPECT_EQ(p->model.session().world().slowness(), 1);
     EXPECT_EQ(column("response", "identify"), Texts{"1,1"});
 }
 
@@ -671,7 +671,7 @@ TEST_F(ByAParticipant, BeginsWithWhatTheCallOfTheProgramChose) {
     const auto file = folder.getChildFile("short.json");
     file.replaceWithText(
         R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05}], "sessions": [{"name": "main", "task": "identify"}]})");
-    chooseStudy(p->view, {file.getFullPathName(), "Q7", 7, folder.getChildFile("rows").getFullPathName()});
+    p->view.chooseStudy({file.getFullPathName(), "Q7", 7, folder.getChildFile("rows").getFullPathName()});
     folder.getChildFile("rows").createDirectory();
     p->pump();
     ASSERT_TRUE(p->tab().isShowing());
@@ -687,14 +687,14 @@ TEST_F(ByAParticipant, HearsPinkNoiseOnTheChosenOutputsForAsLongAsTheStudyGoesOn
     begin(R"({"name": "main", "task": "identify"})",
           R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)",
           R"(, "pink_noise": true, "pink_noise_db": -35)");
-    EXPECT_EQ(p->desk.device().listening().settings().noise, (std::vector<int>{6, 7}));
-    EXPECT_EQ(p->desk.device().listening().settings().noiseDb, -35.0)
+    EXPECT_EQ(p->model.device().listening().settings().noise, (std::vector<int>{6, 7}));
+    EXPECT_EQ(p->model.device().listening().settings().noiseDb, -35.0)
         << "the protocol's level, as it was chosen later";
-    EXPECT_EQ(p->desk.device().listening().hear({{3}, -40.0, {}, 0.0}),
+    EXPECT_EQ(p->model.device().listening().hear({{3}, -40.0, {}, 0.0}),
               "output 4 is an actuator's; expected another one to listen to");
     p->click("Leave the study; what was answered is kept");
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
-    EXPECT_TRUE(p->desk.device().listening().settings().noise.empty());
+    EXPECT_TRUE(p->model.device().listening().settings().noise.empty());
 }
 
 TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
@@ -703,9 +703,9 @@ TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
         ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
     };
     const auto setMaster = [&](double db) {
-        Mix mix = p->desk.mix();
+        Mix mix = p->model.mix();
         mix.levelDb = db;
-        p->desk.edit("Master level", mix);
+        p->model.edit("Master level", mix);
         p->pump();
     };
     setMaster(0.0);
@@ -730,7 +730,7 @@ TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
     p->tab().setNoise(p->tab().noiseChoices().front(), -35.0);
     EXPECT_NE(p->tab().begin().find("expected the pink noise as in the trials before, off, found -35 dB"),
               std::string::npos);
-    EXPECT_TRUE(p->desk.device().listening().settings().noise.empty())
+    EXPECT_TRUE(p->model.device().listening().settings().noise.empty())
         << "nothing is heard of a study that did not begin";
     p->tab().setNoise({}, -35.0);
     goOn();

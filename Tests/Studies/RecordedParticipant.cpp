@@ -14,14 +14,14 @@ public:
     Recorded(const juce::File& folder, const std::string& device)
         : participant_{hostAudioDrivers, device} {
         participant_.tab().setFolder(folder);
-        participant_.desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
-        participant_.desk.setDisplayWidth(1440.0 / 4000.0);
+        participant_.model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+        participant_.model.setDisplayWidth(1440.0 / 4000.0);
     }
 
     /// Empty, or why the study did not come to its end.
     std::string take(const std::string& protocol) {
         auto& p = participant_;
-        if (!test::runUntil([&] { return p.desk.output().sampleRateHz() > 0; }))
+        if (!test::runUntil([&] { return p.model.output().sampleRateHz() > 0; }))
             return "the device did not open";
         if (auto error = p.tab().chooseProtocol(protocol); !error.empty()) return error;
         if (auto error = p.tab().begin(); !error.empty()) return error;

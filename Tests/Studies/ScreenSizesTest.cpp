@@ -66,7 +66,7 @@ protected:
 };
 
 TEST_F(OnASmallDisplay, NothingOfAnyStudyIsCut) {
-    p.desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+    p.model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
     std::vector<std::string> faults;
     for (Protocol protocol : builtInProtocols()) {
         protocol.conditionBreakSeconds = 0.0; // nobody waits here
@@ -114,7 +114,7 @@ TEST_F(OnASmallDisplay, WhatAProtocolAsksForHasALineUntilItIsChosen) {
     p.view.tabs().choose("Studies");
     for (const auto& [width, height] : {std::pair{1440, 900 - titleBar},
                                         {1280, 720 - titleBar},
-                                        {MixerView::leastWidth, MixerView::leastHeight}}) {
+                                        {MixerView::minWidth, MixerView::minHeight}}) {
         p.view.setSize(width, height);
         p.pump();
         ASSERT_FALSE(p.tab().advice().isEmpty());

@@ -54,8 +54,8 @@ protected:
     void SetUp() override {
         folder.createDirectory();
         p.tab().setFolder(folder);
-        p.desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
-        p.desk.setDisplayWidth(1440.0 / 4000.0); // of the test's display: 4 pixels per mm
+        p.model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+        p.model.setDisplayWidth(1440.0 / 4000.0); // of the test's display: 4 pixels per mm
     }
     void TearDown() override { folder.deleteRecursively(); }
 
@@ -334,7 +334,7 @@ TEST_F(AWorldInAStudy, IsSeenAtTheScaleOfTheProtocol) {
     EXPECT_TRUE(p.screen()->getDescription().contains("as the world is 800 x 450 mm at 1:10"))
         << p.screen()->getDescription();
     p.tab().end();
-    p.desk.setDisplayWidth(0.0);
+    p.model.setDisplayWidth(0.0);
     EXPECT_NE(p.tab().begin().find("display_scale: expected the width of the display to be set"),
               std::string::npos);
     EXPECT_EQ(p.screen(), nullptr);

@@ -14,13 +14,13 @@ constexpr unsigned hopsPerWindow = 8;
 constexpr int pickedHopsLater = 2; // aubio's picker needs the hop after the peak, and smooths over one more
 constexpr double earlyHops = 0.35; // the flux peaks this long before the onset reaches the middle of the
                                    // window (measured: Docs/music.md)
-constexpr double leastSecondsBetween = 0.05; // per band: at most twenty onsets a second
+constexpr double minSecondsBetween = 0.05; // per band: at most twenty onsets a second
 // Time constants (decay to 37 %) of the mean flux, the maximum and the masking after an onset.
 constexpr double usualSeconds = 1.0, strongestSeconds = 5.0, maskedSeconds = 0.1;
-constexpr double leastRise = 3.0;          // relative to the mean flux
-constexpr double leastFlux = 1e-3;         // about that of a starting sine at -60 dB
-constexpr double leastShareAtOne = 0.0625; // relative to the strongest onset; raised to the power of the
-                                           // sensitivity
+constexpr double minRise = 3.0;          // relative to the mean flux
+constexpr double minFlux = 1e-3;         // about that of a starting sine at -60 dB
+constexpr double minShareAtOne = 0.0625; // relative to the strongest onset; raised to the power of the
+                                         // sensitivity
 
 unsigned windowOf(int rateHz) noexcept {
     return std::max(16u, std::bit_floor(static_cast<unsigned>(longestWindowSeconds * rateHz)));
@@ -40,7 +40,7 @@ BeatDetector::BeatDetector(int sampleRateHz, double sensitivity)
 }
 
 void BeatDetector::setSensitivity(double sensitivity) noexcept {
-    leastShare_ = std::pow(leastShareAtOne, std::clamp(sensitivity, 0.0, 1.0));
+    minShare_ = std::pow(minShareAtOne, std::clamp(sensitivity, 0.0, 1.0));
 }
 
 void BeatDetector::makeBand(std::size_t index) {
@@ -85,9 +85,9 @@ void BeatDetector::follow(Band& band) noexcept {
 
 bool BeatDetector::isOnset(const Band& band, double height, std::int64_t frame) const noexcept {
     const bool isSoon =
-        band.hasLast && static_cast<double>(frame - band.lastFrame) < leastSecondsBetween * rateHz_;
+        band.hasLast && static_cast<double>(frame - band.lastFrame) < minSecondsBetween * rateHz_;
     return frame >= 0 && !isSoon &&
-           height >= std::max({leastFlux, leastRise * band.usual, leastShare_ * band.strongest, band.masked});
+           height >= std::max({minFlux, minRise * band.usual, minShare_ * band.strongest, band.masked});
 }
 
 void BeatDetector::look(std::size_t index) noexcept {

@@ -2,14 +2,27 @@
 // Real-time onset detection in music, per frequency band, with aubio: phase vocoder, spectral flux, peak
 // picker.
 #pragma once
-#include "Host/Music/AubioPart.h"
-#include "Host/Music/BeatBands.h"
+#define AUBIO_UNSTABLE 1 // aubio declares its peak picker only with this; its version is the distribution's
+#include "Host/Music/BeatStrikes.h"
 #include <array>
+#include <aubio/aubio.h>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace physvib {
+
+/// Owning pointer for objects of the aubio library, which must be freed by aubio's own functions.
+template <auto Free>
+struct GivenBack {
+    template <class T>
+    void operator()(T* part) const {
+        Free(part);
+    }
+};
+template <class T, auto Free>
+using AubioPart = std::unique_ptr<T, GivenBack<Free>>;
 
 /// The result does not depend on how the input is divided into blocks. Created and destroyed on any thread
 /// but R; all else on any thread, one at a time. R may call it: it neither allocates nor waits.
@@ -26,15 +39,15 @@ public:
     /// Returns to the initial state: the next sample is number 0.
     void reset() noexcept;
 
-    /// Processes the next samples. Calls `tell(const BandOnset&)` for each onset detected.
-    template <class Tell>
-    void take(std::span<const float> samples, Tell&& tell) noexcept(noexcept(tell(BandOnset{}))) {
+    /// Processes the next samples. Calls `use(const BandOnset&)` for each onset detected.
+    template <class Use>
+    void take(std::span<const float> samples, Use&& use) noexcept(noexcept(use(BandOnset{}))) {
         for (const float sample : samples) {
             hop_->data[filled_] = sample;
             if (++filled_ < hop_->length) continue;
             filled_ = 0;
             analyse();
-            for (std::size_t i = 0; i < foundCount_; ++i) tell(found_[i]);
+            for (std::size_t i = 0; i < foundCount_; ++i) use(found_[i]);
         }
     }
 
@@ -60,7 +73,7 @@ private:
     void analyse() noexcept;
 
     const int rateHz_;
-    double leastShare_ = 0.0; // relative to the strongest
+    double minShare_ = 0.0; // relative to the strongest
     AubioPart<fvec_t, del_fvec> hop_, flux_, peak_;
     AubioPart<cvec_t, del_cvec> spectrum_;
     AubioPart<aubio_pvoc_t, del_aubio_pvoc> vocoder_;

@@ -161,10 +161,10 @@ std::vector<char> oscBundle(const std::string& address, const PlainMessage& mess
 // Bit i of `reached`: the first i characters of the address match what was read of the pattern. (liblo's own
 // matcher reads beyond the end of an address.)
 bool matchesOscPattern(std::string_view pattern, std::string_view address) {
-    const auto next = [&](std::uint64_t reached, auto takes) {
+    const auto next = [&](std::uint64_t reached, auto matches) {
         std::uint64_t further = 0;
         for (std::size_t i = 0; i < address.size(); ++i)
-            if ((reached >> i & 1U) != 0 && takes(address[i])) further |= std::uint64_t{2} << i;
+            if ((reached >> i & 1U) != 0 && matches(address[i])) further |= std::uint64_t{2} << i;
         return further;
     };
     std::uint64_t reached = 1;

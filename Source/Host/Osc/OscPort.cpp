@@ -17,7 +17,7 @@ OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& m
                  OscHooks hooks)
     : session_{session}
     , device_{device}
-    , door_{session, messages, std::move(hooks), settings.turnRadians} {
+    , input_{session, messages, std::move(hooks), settings.turnRadians} {
     const auto use = [this](OscSocket& socket, Result<OscSocket> opened) {
         if (error_.empty()) error_ = opened.error;
         socket = std::move(opened.value);
@@ -77,26 +77,26 @@ void OscPort::receive() {
     for (std::size_t taken = 0; taken < mostAtOnce; ++taken) {
         const auto packet = packets_.pop();
         if (!packet) break;
-        const std::uint64_t wrong = door_.counts().wrong();
+        const std::uint64_t wrong = input_.counts().wrong();
         answers_.clear();
-        door_.take(packet->bytes, clock_, answers_, packet->silences, packet->from);
-        if (door_.counts().wrong() != wrong) fault_ = packet->from.text() + ": " + door_.counts().fault;
+        input_.receive(packet->bytes, clock_, answers_, packet->silences, packet->from);
+        if (input_.counts().wrong() != wrong) fault_ = packet->from.text() + ": " + input_.counts().fault;
         reply(packet->bytes.size(), packet->from);
     }
-    door_.lose(lost_.exchange(0));
+    input_.lose(lost_.exchange(0));
     const std::lock_guard lock{mutex_};
-    counts_ = door_.counts();
+    counts_ = input_.counts();
     counts_.fault = fault_;
 }
 
 // Replies go first, so that refusals do not use up their byte limit.
 void OscPort::reply(std::size_t packetBytes, const OscSender& to) {
-    if (answers_.empty() && door_.refusals().empty()) return;
+    if (answers_.empty() && input_.refusals().empty()) return;
     replies_.begin(to.text(), packetBytes, steadyNs());
     for (const auto& answer : answers_)
         if (replies_.mayReply(answer.size())) in_.answer(answer, to);
-    for (const OscRefusal& refusal : door_.refusals()) sendRefusal(refusal, to);
-    door_.holdBack(replies_.heldBack());
+    for (const OscRefusal& refusal : input_.refusals()) sendRefusal(refusal, to);
+    input_.holdBack(replies_.heldBack());
 }
 
 void OscPort::sendRefusal(const OscRefusal& refusal, const OscSender& to) {
@@ -124,7 +124,7 @@ void OscPort::refuseLate() {
         replies_.begin(to.text(), 0, steadyNs());
         sendRefusal(refusal, to);
     }
-    door_.holdBack(replies_.heldBack());
+    input_.holdBack(replies_.heldBack());
     const std::lock_guard lock{mutex_};
     counts_.held = replies_.heldBack();
 }
@@ -137,7 +137,7 @@ void OscPort::tellStatus() {
     if (now < nextStatusNs_ || !clock_.isReady()) return;
     nextStatusNs_ = now + statusEveryNs;
     const std::int64_t present = session_.timeline().presentNs();
-    const PlainMessage status = door_.status();
+    const PlainMessage status = input_.status();
     count(out_.send(
         oscBundle(std::string(oscAnswerPrefix) + status.name, status, tagOf(clock_.presentUnixNs(present)))));
 }

@@ -19,7 +19,7 @@ struct Shades {
     juce::Colour ground, panel, raised, well, line, text, muted, now, limit, camera, accent;
 };
 
-const Shades& shadesOf(Ground ground) {
+const Shades& shadesOf(Theme theme) {
     static const Shades dark{palette::ground, palette::panel,       juce::Colour{Argb{0xff272a33}},
                              palette::well,   palette::line,        palette::text,
                              palette::muted,  palette::now,         palette::limit,
@@ -29,7 +29,7 @@ const Shades& shadesOf(Ground ground) {
         juce::Colour{Argb{0xffffffff}}, juce::Colour{Argb{0xffc3c9d6}}, juce::Colour{Argb{0xff1b1e27}},
         juce::Colour{Argb{0xff545c6e}}, juce::Colour{Argb{0xff8a5a00}}, juce::Colour{Argb{0xffb62222}},
         juce::Colour{Argb{0xff8d7a45}}, juce::Colour{Argb{0xff09665d}}};
-    return ground == Ground::dark ? dark : light;
+    return theme == Theme::dark ? dark : light;
 }
 
 bool isTrue(const juce::Component& c, const juce::Identifier& property) {
@@ -58,10 +58,10 @@ double luminanceOf(juce::Colour colour) {
 
 /// Darker or lighter until its letters can be read on a panel; chosen colours of the dark look stay as they
 /// are.
-juce::Colour readableEnchanter(Ground ground, int index) {
+juce::Colour readableEnchanter(Theme theme, int index) {
     constexpr double least = 4.6;
-    const bool isLight = ground == Ground::light;
-    const auto panel = luminanceOf(shadesOf(ground).panel);
+    const bool isLight = theme == Theme::light;
+    const auto panel = luminanceOf(shadesOf(theme).panel);
     auto colour = palette::enchanter(index);
     if (isLight) colour = colour.withMultipliedSaturation(1.6f).withMultipliedBrightness(0.62f);
     const auto contrast = [&] {
@@ -109,21 +109,21 @@ juce::Colour shade(const juce::Component& component, Shade which) {
 
 juce::Colour enchanterColour(const juce::Component& component, int index) {
     using All = std::array<juce::Colour, limits::maxEnchanters>;
-    const auto made = [](Ground ground) {
+    const auto made = [](Theme theme) {
         All all;
         for (int j = 0; j < limits::maxEnchanters; ++j)
-            all[static_cast<std::size_t>(j)] = readableEnchanter(ground, j);
+            all[static_cast<std::size_t>(j)] = readableEnchanter(theme, j);
         return all;
     };
-    static const All dark = made(Ground::dark), light = made(Ground::light);
+    static const All dark = made(Theme::dark), light = made(Theme::light);
     const bool isLight = shade(component, Shade::panel).getPerceivedBrightness() > 0.5f;
     return (isLight ? light : dark)[static_cast<std::size_t>(index) % dark.size()];
 }
 
-void Look::setGround(Ground ground) {
+void Look::setTheme(Theme theme) {
     using namespace juce;
-    ground_ = ground;
-    const Shades& s = shadesOf(ground);
+    theme_ = theme;
+    const Shades& s = shadesOf(theme);
     const std::array all{s.ground, s.panel, s.raised, s.well,   s.line,  s.text,
                          s.muted,  s.now,   s.limit,  s.camera, s.accent};
     for (std::size_t i = 0; i < all.size(); ++i) setColour(firstShadeId + static_cast<int>(i), all[i]);

@@ -2,15 +2,50 @@
 // Look and feel of the windows: colours of a dark and a light theme, three text sizes, and drawing of
 // controls.
 #pragma once
-#include "Host/Views/Palette.h"
+#include "Io/Text/ReadableNumber.h"
+#include "Pictures/Palette.h"
+#include <juce_graphics/juce_graphics.h>
 #include <juce_gui_basics/juce_gui_basics.h>
 
+// The colours of Source/Pictures as JUCE types.
+namespace physvib::palette {
+
+inline juce::Colour juceColour(picture::Colour colour) { return juce::Colour{colour.argb()}; }
+
+inline const juce::Colour ground = juceColour(picture::palette::ground),
+                          panel = juceColour(picture::palette::panel),
+                          well = juceColour(picture::palette::well),
+                          line = juceColour(picture::palette::line),
+                          text = juceColour(picture::palette::text),
+                          muted = juceColour(picture::palette::muted),
+                          now = juceColour(picture::palette::now),
+                          limit = juceColour(picture::palette::limit),
+                          camera = juceColour(picture::palette::camera),
+                          other = juceColour(picture::palette::other);
+
+using Argb = juce::uint32;
+using picture::palette::materialCount;
+
+inline juce::Colour enchanter(int index) { return juceColour(picture::palette::enchanter(index)); }
+inline juce::Colour material(int index) { return juceColour(picture::palette::material(index)); }
+inline juce::Colour ramp(int index) { return juceColour(picture::palette::ramp(index)); }
+
+} // namespace physvib::palette
+
+namespace physvib::readable {
+
+/// number() as a JUCE string. Any thread.
+inline juce::String words(double value, int decimals) {
+    return juce::String::fromUTF8(number(value, decimals).c_str());
+}
+
+} // namespace physvib::readable
 namespace physvib {
 
 /// Colours of all components, except those of actuators and materials. Read them with shade().
 enum class Shade { ground, panel, raised, well, line, text, muted, now, limit, camera, accent };
 
-enum class Ground { dark, light };
+enum class Theme { dark, light };
 
 /// Heights of text in pixels; all text has one of these.
 namespace text {
@@ -36,11 +71,11 @@ inline const juce::Identifier faderProperty{"physvib-fader"};
 
 class Look final : public juce::LookAndFeel_V4 {
 public:
-    explicit Look(Ground ground = Ground::dark) { setGround(ground); }
+    explicit Look(Theme theme = Theme::dark) { setTheme(theme); }
 
     /// M; call sendLookAndFeelChange on the components that use it afterwards.
-    void setGround(Ground ground);
-    Ground ground() const noexcept { return ground_; }
+    void setTheme(Theme theme);
+    Theme theme() const noexcept { return theme_; }
 
     juce::Font getTextButtonFont(juce::TextButton& button, int) override;
     juce::Font getComboBoxFont(juce::ComboBox&) override { return juce::Font{text::medium}; }
@@ -70,7 +105,6 @@ public:
     std::unique_ptr<juce::FocusOutline> createFocusOutlineForComponent(juce::Component&) override;
 
 private:
-    Ground ground_ = Ground::dark;
+    Theme theme_ = Theme::dark;
 };
-
 } // namespace physvib

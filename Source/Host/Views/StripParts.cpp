@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing of meters, faders and ceiling handles, on a common dB scale.
 #include "Host/Views/StripParts.h"
-#include "Host/Views/Palette.h"
 #include "Live/Documents/Mix.h"
 #include <cmath>
 

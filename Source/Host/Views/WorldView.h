@@ -4,14 +4,14 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
-#include "Host/Views/BallPictures.h"
 #include "Host/Views/Look.h"
-#include "Host/Views/MaterialTexture.h"
+#include "Host/Views/WorldPictures.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/Scene.h"
 #include "Scene/World/SceneWorld.h"
 #include <deque>
 #include <functional>
+#include <juce_gui_basics/juce_gui_basics.h>
 #include <optional>
 #include <span>
 
@@ -83,7 +83,7 @@ public:
     std::function<void(juce::Point<float> place)> onMenu; ///< right click; targetAt() says on what
     std::function<void(FieldShare at)> onSpot;            ///< a click without a drag
     /// Whether the dragged files may be dropped.
-    std::function<bool(const juce::StringArray& files)> takesFiles;
+    std::function<bool(const juce::StringArray& files)> acceptsFiles;
     /// Files dropped on that actuator; -1: in the field.
     std::function<void(const juce::StringArray& files, int enchanter, FieldShare at)> onFiles;
 
@@ -98,7 +98,7 @@ public:
     void itemDragExit(const SourceDetails&) override;
     void itemDropped(const SourceDetails& details) override;
     bool isInterestedInFileDrag(const juce::StringArray& files) override {
-        return takesFiles && takesFiles(files);
+        return acceptsFiles && acceptsFiles(files);
     }
     void fileDragMove(const juce::StringArray& files, int x, int y) override;
     void fileDragExit(const juce::StringArray& files) override;
@@ -190,7 +190,7 @@ private:
     bool drawSmall(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour, double angle,
                    const juce::AffineTransform& place, const Map& at);
     void drawHits(juce::Graphics& g, const Map& at) const;
-    void take(const CollisionEvent& event, double nowMs);
+    void addHit(const CollisionEvent& event, double nowMs);
     void drawTraces(juce::Graphics& g, const Map& at) const;
     void drawRays(juce::Graphics& g, const Map& at) const;
     void drawHalos(juce::Graphics& g) const;
@@ -229,5 +229,31 @@ private:
 
 /// Gain of `enchanter` at each place of the field, as opacity of `colour`. M.
 juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour colour, int width, int height);
+
+// Physical size of the display, to convert mouse movements from pixels to metres.
+
+constexpr double minDisplayMetres = 0.03, maxDisplayMetres = 30.0; // a watch, a wall
+
+constexpr bool isDisplayWidth(double metres) noexcept {
+    return metres >= minDisplayMetres && metres <= maxDisplayMetres;
+}
+
+/// The display that shows most of `component`; without a display, the component's window. M.
+inline juce::Rectangle<int> displayOf(const juce::Component& component) {
+    const auto* display =
+        juce::Desktop::getInstance().getDisplays().getDisplayForRect(component.getScreenBounds());
+    return display != nullptr ? display->totalArea : component.getTopLevelComponent()->getLocalBounds();
+}
+
+/// Pixels of `component` per metre on its display, which is `displayMetres` wide; 0: use the resolution that
+/// the system reports. M.
+inline double screenPixelsPerMetre(const juce::Component& component, double displayMetres) {
+    if (displayMetres > 0.0) return displayOf(component).getWidth() / displayMetres;
+    constexpr double usualDpi = 96.0, metresPerInch = 0.0254; // if the system reports none
+    const auto* display =
+        juce::Desktop::getInstance().getDisplays().getDisplayForRect(component.getScreenBounds());
+    return (display != nullptr && display->dpi > 0.0 ? display->dpi / display->scale : usualDpi) /
+           metresPerInch;
+}
 
 } // namespace physvib

@@ -169,31 +169,31 @@ inline float ceilingOf(const Strip& strip) noexcept {
 }
 
 /// The strip values last sent to a session; initially those a session starts with.
-struct ToldStrip {
+struct SentStrip {
     float gain = 1.0f, delaySeconds = 0.0f, ceiling = 1.0f, mute = 0.0f;
 };
 
-/// Sends a session the values of strips that have changed. `told` has one entry per strip. `tell(control)`
+/// Sends a session the values of strips that have changed. `sent` has one entry per strip. `send(control)`
 /// returns false if the queue is full; then this function returns false too, and the next call sends the
 /// value again. Any thread.
-template <class Tell>
-bool tellStrips(std::span<ToldStrip> told, std::span<const Strip> strips, Tell tell) {
+template <class Send>
+bool sendStrips(std::span<SentStrip> sent, std::span<const Strip> strips, Send send) {
     using Kind = RenderControl::Kind;
-    bool isTold = true;
+    bool isSent = true;
     for (std::size_t j = 0; j < strips.size(); ++j) {
         const auto change = [&](Kind kind, float value, float& known) {
             if (value == known) return;
-            if (tell(RenderControl{0, kind, static_cast<int>(j), value, {}}))
+            if (send(RenderControl{0, kind, static_cast<int>(j), value, {}}))
                 known = value;
             else
-                isTold = false;
+                isSent = false;
         };
-        change(Kind::gain, channelGain(strips[j]), told[j].gain);
-        change(Kind::delay, static_cast<float>(1e-3 * strips[j].delayMs), told[j].delaySeconds);
-        change(Kind::ceiling, ceilingOf(strips[j]), told[j].ceiling);
-        change(Kind::mute, isSilent(strips, j) ? 1.0f : 0.0f, told[j].mute);
+        change(Kind::gain, channelGain(strips[j]), sent[j].gain);
+        change(Kind::delay, static_cast<float>(1e-3 * strips[j].delayMs), sent[j].delaySeconds);
+        change(Kind::ceiling, ceilingOf(strips[j]), sent[j].ceiling);
+        change(Kind::mute, isSilent(strips, j) ? 1.0f : 0.0f, sent[j].mute);
     }
-    return isTold;
+    return isSent;
 }
 
 } // namespace physvib

@@ -3,11 +3,8 @@
 // recordings.
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Mixer/Desk/UserFolder.h"
-#include "Mixer/Materials/FeltRange.h"
-#include "Mixer/Materials/MaterialColumns.h"
-#include "Mixer/Window/CardHost.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Model/MixerRecording.h"
+#include "Mixer/Widgets/Cards.h"
 #include "Scene/SceneLimits.h"
 #include <cmath>
 
@@ -51,16 +48,12 @@ bool MaterialsTab::RatioSlider::keyPressed(const juce::KeyPress& key) {
     return true;
 }
 
-MaterialsTab::MaterialsTab(Desk& desk, WorldView& world)
-    : desk_{desk}
+MaterialsTab::MaterialsTab(MixerModel& model, WorldView& world)
+    : model_{model}
     , world_{world} {
     setTitle("Materials");
     list_.setTitle("List of materials");
     list_.setRowHeight(rowPixels);
-    caption(frequencyName_, "Frequency");
-    caption(decayName_, "Decay");
-    caption(spotXName_, "x");
-    caption(spotYName_, "y");
     prepareSlider(frequency_, "Frequency", sceneLimits::minSoundHz, FrequencyAxis::lowHz,
                   FrequencyAxis::highHz, limits::maxFrequencyHz);
     prepareSlider(decay_, "Decay", sceneLimits::minSoundDecayPerSecond, 1.0, 500.0,
@@ -71,10 +64,10 @@ MaterialsTab::MaterialsTab(Desk& desk, WorldView& world)
     decay_.textFromValueFunction = [this](double perSecond) {
         return decay_.isEnabled() ? decayText(perSecond) + " /s" : juce::String{"silent"};
     };
-    onSlide(frequency_, [this](bool goesOn) { setSound(true, goesOn); });
-    onSlide(decay_, [this](bool goesOn) { setSound(false, goesOn); });
-    texture_.onChange = [this](const Texture& texture, const juce::String& what, bool goesOn) {
-        setTexture(texture, what, goesOn);
+    onSlide(frequency_, [this](bool continuesEdit) { setSound(true, continuesEdit); });
+    onSlide(decay_, [this](bool continuesEdit) { setSound(false, continuesEdit); });
+    texture_.onChange = [this](const Texture& texture, const juce::String& what, bool continuesEdit) {
+        setTexture(texture, what, continuesEdit);
     };
     for (auto* slider : {&spotX_, &spotY_}) {
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
@@ -89,20 +82,17 @@ MaterialsTab::MaterialsTab(Desk& desk, WorldView& world)
     }
     spotX_.setTitle("Spot from the left");
     spotY_.setTitle("Spot from below");
-    feel_.setTitle("Feel the material at the spot");
-    feel_.setTooltip(
-        "Plays one hit of the material at the cross in the world; a click in the world plays it there");
+    describe(feel_, "Feel the material at the spot",
+             "Plays one hit of the material at the cross in the world; a click in the world plays it there");
     feel_.onClick = [this] { feelAt(spot_); };
     browse_ = quietButton(
         juce::String::fromUTF8("Recording\xe2\x80\xa6"),
         "Measure frequency and decay from a recording of one hit; it can be dropped here as well");
     browse_->onClick = [this] { browse(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &list_, &frequencyName_, &frequency_, &decayName_, &decay_, &texture_, &feel_, &spotXName_,
-             &spotX_, &spotYName_, &spotY_, browse_.get(), &spectrum_, &course_})
-        addAndMakeVisible(c);
+    addAll(*this, {&list_, &frequencyName_, &frequency_, &decayName_, &decay_, &texture_, &feel_, &spotXName_,
+                   &spotX_, &spotYName_, &spotY_, browse_.get(), &spectrum_, &course_});
     showSpot();
-    takeMix();
+    mixChanged();
 }
 
 MaterialsTab::~MaterialsTab() {
@@ -125,7 +115,7 @@ void MaterialsTab::prepareSlider(RatioSlider& slider, const juce::String& title,
 
 const Material* MaterialsTab::chosen() const {
     const int index = chosenIndex();
-    return index < 0 ? nullptr : &desk_.world().scene().materials[static_cast<std::size_t>(index)];
+    return index < 0 ? nullptr : &model_.world().scene().materials[static_cast<std::size_t>(index)];
 }
 
 int MaterialsTab::chosenIndex() const {
@@ -143,10 +133,10 @@ const RecordedHit* MaterialsTab::recordingOf(int material) const {
     return found == recordings_.end() ? nullptr : &found->second;
 }
 
-void MaterialsTab::takeMix() {
-    const auto& materials = desk_.world().scene().materials;
-    if (scene_ != desk_.mix().scene) {
-        scene_ = desk_.mix().scene;
+void MaterialsTab::mixChanged() {
+    const auto& materials = model_.world().scene().materials;
+    if (scene_ != model_.mix().scene) {
+        scene_ = model_.mix().scene;
         recordings_.clear();
         shown_.reset();
         order_.resize(materials.size());
@@ -157,8 +147,6 @@ void MaterialsTab::takeMix() {
         list_.updateContent();
         list_.selectRow(0);
     }
-    for (auto* label : {&frequencyName_, &decayName_, &spotXName_, &spotYName_})
-        label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     list_.repaint();
     showChosen();
 }
@@ -189,24 +177,24 @@ void MaterialsTab::showChosen() {
     course_.show(shown, course);
 }
 
-void MaterialsTab::setSound(bool isFrequency, bool goesOn) {
+void MaterialsTab::setSound(bool isFrequency, bool continuesEdit) {
     const auto* material = chosen();
     if (material == nullptr || !(material->frequencyHz > 0.0)) return;
     SoundAction sound{chosenIndex(), material->frequencyHz, material->decayPerSecond};
     (isFrequency ? sound.frequencyHz : sound.decayPerSecond) =
         isFrequency ? frequency_.getValue() : decay_.getValue();
     const auto name = (isFrequency ? "Frequency of " : "Decay of ") + utf8(material->name);
-    if (const auto fault = desk_.world().edit(name, sound, goesOn); !fault.empty()) desk_.report(utf8(fault));
+    model_.reportFault(model_.world().edit(name, sound, continuesEdit));
 }
 
-void MaterialsTab::setTexture(const Texture& texture, const juce::String& what, bool goesOn) {
+void MaterialsTab::setTexture(const Texture& texture, const juce::String& what, bool continuesEdit) {
     const auto* material = chosen();
     if (material == nullptr) return;
     const TextureAction surface{chosenIndex(), texture.grainMetres, texture.roughness, texture.pattern,
                                 texture.rolling};
-    if (const auto fault = desk_.world().edit(what + " of " + utf8(material->name), surface, goesOn);
+    if (const auto fault = model_.world().edit(what + " of " + utf8(material->name), surface, continuesEdit);
         !fault.empty())
-        desk_.report(utf8(fault));
+        model_.report(utf8(fault));
 }
 
 void MaterialsTab::typeFrequency() {
@@ -219,8 +207,7 @@ void MaterialsTab::feelAt(FieldShare spot) {
     spot_ = spot;
     showSpot();
     if (chosenIndex() < 0) return;
-    if (const auto fault = desk_.strikes().audition(chosenIndex(), spot.x, spot.y); !fault.empty())
-        desk_.report(utf8(fault));
+    model_.reportFault(model_.strikes().audition(chosenIndex(), spot.x, spot.y));
 }
 
 void MaterialsTab::showSpot() {
@@ -249,7 +236,7 @@ void MaterialsTab::browse() {
 void MaterialsTab::measure(const juce::File& file) {
     const auto* material = chosen();
     if (material == nullptr || !(material->frequencyHz > 0.0))
-        return desk_.report("Choose a material that sounds, then drop the recording");
+        return model_.report("Choose a material that sounds, then drop the recording");
     waiting_.push_back({file, chosenIndex(), scene_});
     if (!isMeasuring()) measureNext();
 }
@@ -271,19 +258,19 @@ void MaterialsTab::handleAsyncUpdate() {
     measuring_->waitForThreadToExit(-1);
     const auto done = std::move(measuring_);
     measureNext();
-    take(done->job, *done->hit);
+    finish(done->job, *done->hit);
 }
 
-void MaterialsTab::take(const Job& job, const Result<RecordedHit>& hit) {
-    if (!hit) return desk_.report(utf8(hit.error));
-    if (job.scene != desk_.mix().scene)
-        return desk_.report(job.file.getFileName() + ": another scene is played now; drop it again");
+void MaterialsTab::finish(const Job& job, const Result<RecordedHit>& hit) {
+    if (!hit) return model_.report(utf8(hit.error));
+    if (job.scene != model_.mix().scene)
+        return model_.report(job.file.getFileName() + ": another scene is played now; drop it again");
     const auto& sound = hit.value.sound;
-    const auto name = utf8(desk_.world().scene().materials[static_cast<std::size_t>(job.material)].name);
-    if (const auto fault = desk_.world().edit(
+    const auto name = utf8(model_.world().scene().materials[static_cast<std::size_t>(job.material)].name);
+    if (const auto fault = model_.world().edit(
             "Recording of " + name, SoundAction{job.material, sound.frequencyHz, sound.decayPerSecond});
         !fault.empty())
-        return desk_.report(job.file.getFileName() + ": " + utf8(fault));
+        return model_.report(job.file.getFileName() + ": " + utf8(fault));
     recordings_.insert_or_assign(job.material, hit.value);
     shown_.reset();
     showChosen();
@@ -305,7 +292,7 @@ void MaterialsTab::filesDropped(const juce::StringArray& files, int x, int y) {
     fileDragMove(files, x, y);
     setDropping(false);
     if (files.size() != 1)
-        return desk_.report("Expected one recording, found " + juce::String{files.size()} + " files");
+        return model_.report("Expected one recording, found " + juce::String{files.size()} + " files");
     measure(juce::File{files[0]});
 }
 
@@ -377,6 +364,60 @@ void MaterialsTab::resized() {
         area.removeFromLeft(6);
     }
     course_.setBounds(area);
+}
+
+// Draws the rows of the list of materials.
+
+namespace {
+
+constexpr double decibelsOfDecay = 60.0;
+
+} // namespace
+
+juce::String MaterialsTab::Rows::getNameForRow(int row) {
+    if (row < 0 || row >= getNumRows()) return {};
+    const auto& m = tab_.model_.world()
+                        .scene()
+                        .materials[static_cast<std::size_t>(tab_.order_[static_cast<std::size_t>(row)])];
+    return utf8(m.name) + (m.frequencyHz > 0.0 ? ", " + frequencyText(m.frequencyHz) + " hertz, decays by " +
+                                                     decayText(m.decayPerSecond) + " per second"
+                                               : juce::String{", silent"});
+}
+
+void MaterialsTab::Rows::listBoxItemClicked(int, const juce::MouseEvent& e) {
+    if (e.mods.isPopupMenu() || !tab_.feel_.isEnabled()) return;
+    if (MaterialColumns{e.eventComponent->getLocalBounds()}.sign.contains(e.getPosition()))
+        tab_.feelAt(tab_.spot_);
+}
+
+void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height,
+                                          bool isSelected) {
+    if (row >= getNumRows()) return;
+    const int index = tab_.order_[static_cast<std::size_t>(row)];
+    const auto& m = tab_.model_.world().scene().materials[static_cast<std::size_t>(index)];
+    if (isSelected) {
+        g.setColour(shade(tab_, Shade::accent).withAlpha(0.16f));
+        g.fillRect(0, 0, width, height);
+    }
+    const MaterialColumns at{{width, height}};
+    const bool sounds = m.frequencyHz > 0.0;
+    g.setColour(palette::material(index).withMultipliedAlpha(sounds ? 1.0f : 0.5f));
+    g.fillEllipse(at.dot.withWidth(14).toFloat().withSizeKeepingCentre(12.0f, 12.0f));
+    g.setFont(juce::Font{text::medium});
+    g.setColour(shade(tab_, sounds ? Shade::text : Shade::muted));
+    g.drawText(utf8(m.name), at.name, juce::Justification::centredLeft, true);
+    if (!sounds)
+        return g.drawText("silent here", at.frequency.getUnion(at.length), juce::Justification::centredRight,
+                          true);
+    g.drawText(frequencyText(m.frequencyHz), at.frequency, juce::Justification::centredRight, true);
+    g.drawText(decayText(m.decayPerSecond), at.decay, juce::Justification::centredRight, true);
+    g.drawText(number(1e3 * decibelsOfDecay / 20.0 * std::log(10.0) / m.decayPerSecond, 0) + " ms", at.length,
+               juce::Justification::centredRight, true);
+    juce::Path sign;
+    sign.addTriangle(-4.0f, -5.5f, -4.0f, 5.5f, 5.5f, 0.0f);
+    g.setColour(shade(tab_, isSelected ? Shade::accent : Shade::muted));
+    g.fillPath(sign,
+               juce::AffineTransform::translation(at.sign.toFloat().getCentre().translated(6.0f, 0.0f)));
 }
 
 } // namespace physvib

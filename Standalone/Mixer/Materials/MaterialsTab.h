@@ -3,9 +3,8 @@
 // recording, and plays the material at a spot of the field.
 #pragma once
 #include "Host/Views/WorldView.h"
-#include "Mixer/Materials/HitPlots.h"
-#include "Mixer/Materials/TextureRow.h"
-#include "Mixer/Window/TabPanel.h"
+#include "Mixer/Materials/MaterialParts.h"
+#include "Mixer/Widgets/Parts.h"
 #include <deque>
 #include <map>
 
@@ -14,7 +13,7 @@ namespace physvib {
 class MaterialsTab final : public Tab, public juce::FileDragAndDropTarget, private juce::AsyncUpdater {
 public:
     /// While the tab is visible, a click in `world` plays the selected material there.
-    MaterialsTab(Desk& desk, WorldView& world);
+    MaterialsTab(MixerModel& model, WorldView& world);
     ~MaterialsTab() override;
 
     /// Sets frequency and decay of the selected material from a recording, asynchronously. Reports errors.
@@ -35,12 +34,12 @@ public:
     void fileDragExit(const juce::StringArray&) override { setDropping(false); }
     void filesDropped(const juce::StringArray& files, int x, int y) override;
 
-    void takeMix() override;
+    void mixChanged() override;
     void visibilityChanged() override;
     void paint(juce::Graphics& g) override;
     void paintOverChildren(juce::Graphics& g) override;
     void resized() override;
-    int leastHeight(int) const override { return 380; } // with the plots of a recording
+    int minHeight(int) const override { return 380; } // with the plots of a recording
 
 private:
     /// One row per material; materials with a frequency first.
@@ -75,8 +74,8 @@ private:
     int chosenIndex() const;
     void prepareSlider(RatioSlider& slider, const juce::String& title, double least, double low, double high,
                        double most);
-    void setSound(bool isFrequency, bool goesOn);
-    void setTexture(const Texture& texture, const juce::String& what, bool goesOn);
+    void setSound(bool isFrequency, bool continuesEdit);
+    void setTexture(const Texture& texture, const juce::String& what, bool continuesEdit);
     void setDropping(bool isDropping);
     void typeFrequency();
     void showChosen();
@@ -84,9 +83,9 @@ private:
     void browse();
     void measureNext();
     void handleAsyncUpdate() override;
-    void take(const Job& job, const Result<RecordedHit>& hit);
+    void finish(const Job& job, const Result<RecordedHit>& hit);
 
-    Desk& desk_;
+    MixerModel& model_;
     WorldView& world_;
     std::shared_ptr<const Scene> scene_; // scene of the recordings
     std::vector<int> order_;
@@ -99,7 +98,7 @@ private:
     RatioSlider frequency_, decay_;
     TextureRow texture_;
     juce::Slider spotX_, spotY_;
-    juce::Label frequencyName_, decayName_, spotXName_, spotYName_;
+    Caption frequencyName_{"Frequency"}, decayName_{"Decay"}, spotXName_{"x"}, spotYName_{"y"};
     juce::TextButton feel_{juce::String::fromUTF8("Feel it \xe2\x96\xb8")};
     std::unique_ptr<juce::TextButton> browse_;
     std::optional<ShownHit> shown_;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // List of actuators, and controls of the panner.
 #include "Mixer/Output/EnchantersTab.h"
-#include "Mixer/Window/CardHost.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Widgets/Cards.h"
 #include "Scene/ActuatorFile.h"
 
 namespace physvib {
@@ -32,13 +31,13 @@ std::array<int, 3> widestOf(const LayoutDescription& layout) {
     constexpr int after = 12;
     const juce::Font font{text::medium};
     std::array<int, 3> widest{};
-    const auto take = [&widest](std::size_t column, const juce::Font& in, const juce::String& words) {
+    const auto widen = [&widest](std::size_t column, const juce::Font& in, const juce::String& words) {
         widest[column] = std::max(widest[column], in.getStringWidth(words) + after);
     };
     for (std::size_t i = 0; i < layout.enchanters.size(); ++i) {
-        take(0, nameFont(), utf8(layout.enchanters[i].label));
-        take(1, font, placeText(layout.geometry.places[i]));
-        take(2, font, profileText(layout.enchanters[i]));
+        widen(0, nameFont(), utf8(layout.enchanters[i].label));
+        widen(1, font, placeText(layout.geometry.places[i]));
+        widen(2, font, profileText(layout.enchanters[i]));
     }
     return widest;
 }
@@ -59,12 +58,6 @@ std::array<int, 3> columnsIn(int width, const std::array<int, 3>& widest) {
 
 } // namespace
 
-EnchantersTab::Module::Module()
-    : juce::Button{"New actuator"} {
-    setTitle("New actuator");
-    setTooltip("Drag it onto the field to attach it there; pressed, it is attached in the middle");
-}
-
 void EnchantersTab::Module::paintButton(juce::Graphics& g, bool isOver, bool) {
     const auto area = getLocalBounds().toFloat().reduced(1.0f);
     g.setColour(shade(*this, isOver ? Shade::raised : Shade::well));
@@ -80,22 +73,15 @@ void EnchantersTab::Module::paintButton(juce::Graphics& g, bool isOver, bool) {
                true);
 }
 
-void EnchantersTab::Module::mouseDrag(const juce::MouseEvent& e) {
-    auto* container = juce::DragAndDropContainer::findParentDragContainerFor(this);
-    if (container == nullptr || container->isDragAndDropActive() || e.getDistanceFromDragStart() < 6) return;
-    setState(buttonNormal);
-    container->startDragging(WorldView::newEnchanter, this);
-}
-
 juce::String EnchantersTab::Rows::getNameForRow(int row) {
     return row < getNumRows()
-               ? "Actuator " + utf8(tab_.desk_.mix().layout.enchanters[static_cast<std::size_t>(row)].label)
+               ? "Actuator " + utf8(tab_.model_.mix().layout.enchanters[static_cast<std::size_t>(row)].label)
                : juce::String{};
 }
 
 void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height,
                                            bool isSelected) {
-    const auto& mix = tab_.desk_.mix();
+    const auto& mix = tab_.model_.mix();
     if (row >= mix.count()) return;
     const auto i = static_cast<std::size_t>(row);
     const auto& e = mix.layout.enchanters[i];
@@ -123,20 +109,19 @@ void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width
     cell(number(e.fullScaleG, 2) + " g", area.getWidth(), Shade::muted, juce::Justification::centredRight);
 }
 
-EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
-    : desk_{desk}
+EnchantersTab::EnchantersTab(MixerModel& model, WorldView& world)
+    : model_{model}
     , world_{world} {
     setTitle("Actuators");
-    module_.onClick = [this] { desk_.attach(0.5, 0.5); };
     preset_.setTitle("Preset");
     for (int id = 1; const auto name : layoutPresetNames)
         preset_.addItem(juce::String{name.data()}.toUpperCase(), id++);
     preset_.setTextWhenNothingSelected("own");
-    preset_.onChange = [this] { takePreset(); };
+    preset_.onChange = [this] { usePreset(); };
     law_.setTitle("Panning law");
     for (int id = 1; const auto name : panningLawNames) law_.addItem(juce::String{name.data()}, id++);
     law_.onChange = [this] {
-        desk_.change("Panning law", [this](Mix& mix) {
+        model_.change("Panning law", [this](Mix& mix) {
             mix.law = panningLaws[static_cast<std::size_t>(law_.getSelectedItemIndex())].law;
         });
     };
@@ -148,9 +133,9 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
     exponent_.setRange(0.25, 4.0, 0.05);
     exponent_.setSkewFactorFromMidPoint(1.0);
     exponent_.setDoubleClickReturnValue(true, 1.0);
-    onSlide(exponent_, [this](bool goesOn) {
-        desk_.change(
-            "Exponent", [this](Mix& mix) { mix.exponent = exponent_.getValue(); }, goesOn);
+    onSlide(exponent_, [this](bool continuesEdit) {
+        model_.change(
+            "Exponent", [this](Mix& mix) { mix.exponent = exponent_.getValue(); }, continuesEdit);
     });
     list_.setTitle("List of actuators");
     list_.setRowHeight(enchanterRowPixels);
@@ -158,39 +143,33 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
     maps_.onClick = [this] { visibilityChanged(); };
     detach_ = quietButton("Detach", "Detach the chosen actuator (Delete)");
     detach_->onClick = [this] {
-        if (chosen_ >= 0) desk_.detach(chosen_);
+        if (chosen_ >= 0) model_.detach(chosen_);
     };
     edit_ = quietButton(juce::String::fromUTF8("Name, profile\xe2\x80\xa6"),
                         "Name, profile and full scale of the chosen actuator (Return)");
     edit_->onClick = [this] {
         if (chosen_ >= 0) editRow(chosen_);
     };
-    caption(presetName_, "Preset");
-    caption(lawName_, "Law");
-    caption(exponentName_, "Exponent");
-    caption(hint_, "Drag a badge to move it; out of the field: detached.");
     hint_.setMinimumHorizontalScale(1.0f); // two lines rather than narrow letters
-    for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &module_, &presetName_, &preset_, &lawName_, &law_, &exponentName_, &exponent_, &list_,
-             edit_.get(), detach_.get(), &maps_, &hint_})
-        addAndMakeVisible(c);
+    addAll(*this, {&module_, &presetName_, &preset_, &lawName_, &law_, &exponentName_, &exponent_, &list_,
+                   edit_.get(), detach_.get(), &maps_, &hint_});
     world_.onSelect = [this](int enchanter) {
         if (enchanter >= 0) list_.selectRow(enchanter);
     };
-    takeMix();
+    mixChanged();
 }
 
 void EnchantersTab::choose(int enchanter) {
     chosen_ = enchanter;
     world_.select(enchanter);
     visibilityChanged();
-    detach_->setEnabled(chosen_ >= 0 && desk_.mix().count() > 1);
+    detach_->setEnabled(chosen_ >= 0 && model_.mix().count() > 1);
     edit_->setEnabled(chosen_ >= 0);
 }
 
 void EnchantersTab::editRow(int enchanter) {
     const auto i = static_cast<std::size_t>(enchanter);
-    const auto& e = desk_.mix().layout.enchanters[i];
+    const auto& e = model_.mix().layout.enchanters[i];
     juce::StringArray profiles{"none"};
     for (const auto& profile : builtInActuators()) profiles.add(utf8(profile.name));
     constexpr const char* fullScale = "Full scale in g";
@@ -205,38 +184,38 @@ void EnchantersTab::editRow(int enchanter) {
                   std::move(actuator),
                   {fullScale, juce::String{e.fullScaleG}, "0123456789.,"}},
                  [this, i](const juce::StringArray& values) {
-                     takeRow(i, values[0].toStdString(), values[1].toStdString(),
-                             values[2].replaceCharacter(',', '.').getDoubleValue());
+                     applyRow(i, values[0].toStdString(), values[1].toStdString(),
+                              values[2].replaceCharacter(',', '.').getDoubleValue());
                  });
 }
 
-void EnchantersTab::takeRow(std::size_t i, const std::string& label, const std::string& profile, double g) {
-    const auto& all = desk_.mix().layout.enchanters;
+void EnchantersTab::applyRow(std::size_t i, const std::string& label, const std::string& profile, double g) {
+    const auto& all = model_.mix().layout.enchanters;
     if (i >= all.size()) return; // it was detached meanwhile
     for (std::size_t k = 0; k < all.size(); ++k)
         if (label.empty() || (k != i && all[k].label == label))
-            return desk_.report("Label: expected one that no other actuator has");
+            return model_.report("Label: expected one that no other actuator has");
     if (!(g > 0.0 && g <= 100.0))
-        return desk_.report("Full scale: expected a number of g above 0, at most 100");
-    desk_.change("Actuator " + utf8(label), [&](Mix& mix) {
+        return model_.report("Full scale: expected a number of g above 0, at most 100");
+    model_.change("Actuator " + utf8(label), [&](Mix& mix) {
         mix.layout.enchanters[i].label = label;
         mix.layout.enchanters[i].actuator = profile;
         mix.layout.enchanters[i].fullScaleG = g;
     });
 }
 
-void EnchantersTab::takePreset() {
+void EnchantersTab::usePreset() {
     const int index = preset_.getSelectedItemIndex();
     if (index < 0) return;
     const auto name = layoutPresetNames[static_cast<std::size_t>(index)];
-    desk_.change("Preset " + juce::String{name.data()}.toUpperCase(), [name](Mix& mix) {
+    model_.change("Preset " + juce::String{name.data()}.toUpperCase(), [name](Mix& mix) {
         mix.layout = presetLayout(name, mix.layout.enchanters);
         mix.resizeStrips();
     });
 }
 
-void EnchantersTab::takeMix() {
-    const auto& mix = desk_.mix();
+void EnchantersTab::mixChanged() {
+    const auto& mix = model_.mix();
     preset_.setSelectedItemIndex(presetOf(mix.layout.geometry), juce::dontSendNotification);
     law_.setSelectedItemIndex(static_cast<int>(mix.law), juce::dontSendNotification);
     if (!exponent_.isMouseButtonDown()) exponent_.setValue(mix.exponent, juce::dontSendNotification);
@@ -245,11 +224,7 @@ void EnchantersTab::takeMix() {
     list_.repaint();
     if (chosen_ >= mix.count()) list_.deselectAllRows();
     choose(list_.getSelectedRow());
-    for (auto* label : {&presetName_, &lawName_, &exponentName_, &hint_})
-        label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
-
-void EnchantersTab::paint(juce::Graphics&) {}
 
 void EnchantersTab::resized() {
     auto area = getLocalBounds();

@@ -3,13 +3,16 @@
 #include "Mixer/Output/EventsTab.h"
 #include "Core/NameNumbers.h"
 #include "Io/Text/NameList.h"
-#include "Mixer/Materials/HitWords.h"
+#include "Live/Recordings/HitExport.h"
+#include "Mixer/Model/MixerMessages.h"
+#include "Mixer/Model/MixerRecording.h"
+#include "Mixer/Widgets/Cards.h"
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <limits>
 
 namespace physvib {
-
 namespace {
 
 constexpr int eventRowPixels = 22, eventHeadPixels = 18, formatPixels = 26, footPixels = formatPixels + 6;
@@ -22,11 +25,11 @@ struct Columns {
     juce::Rectangle<int> time, dot, name, frequency, decay, level, enchanter, place;
     explicit Columns(juce::Rectangle<int> row) {
         row.reduce(10, 0);
-        row.getWidth() < wideRow ? takeNarrow(row) : takeWide(row);
+        row.getWidth() < wideRow ? placeNarrow(row) : placeWide(row);
     }
 
 private:
-    void takeWide(juce::Rectangle<int> row) {
+    void placeWide(juce::Rectangle<int> row) {
         const int each = row.getWidth() / 8;
         time = row.removeFromLeft(each);
         dot = row.removeFromLeft(20);
@@ -38,11 +41,11 @@ private:
         name = row;
     }
     // Numbers as wide as they are; where names would have no room, decay is left out, then the place.
-    void takeNarrow(juce::Rectangle<int> row) {
-        constexpr int number = 50, placeWidth = 92, leastName = 96;
+    void placeNarrow(juce::Rectangle<int> row) {
+        constexpr int number = 50, placeWidth = 92, minName = 96;
         time = row.removeFromLeft(60);
         dot = row.removeFromLeft(20);
-        const auto hasRoom = [&row](int more) { return row.getWidth() - 3 * number - more >= leastName; };
+        const auto hasRoom = [&row](int more) { return row.getWidth() - 3 * number - more >= minName; };
         const bool hasPlace = hasRoom(placeWidth), hasDecay = hasRoom(number + (hasPlace ? placeWidth : 0));
         if (hasPlace) place = row.removeFromRight(placeWidth);
         enchanter = row.removeFromRight(number + 4);
@@ -69,34 +72,29 @@ juce::String placeNumbers(const CollisionEvent& hit) {
 
 } // namespace
 
-EventsTab::EventsTab(Desk& desk)
-    : desk_{desk} {
+EventsTab::EventsTab(MixerModel& model)
+    : model_{model} {
     setTitle("Events");
     list_.setTitle("List of played events");
     list_.setRowHeight(eventRowPixels);
     list_.setMultipleSelectionEnabled(true);
-    caption(choice_, {});
     choice_.setMinimumHorizontalScale(1.0f); // two lines rather than narrow letters
     for (int k = 0; k < hitEndings().size(); ++k) format_.addItem("as " + hitEndings()[k], k + 1);
-    format_.setTitle("Dragged as");
     std::vector<std::string_view> whole, parted;
     for (const ClipFormatRow& row : clipFormats) (row.isMono ? parted : whole).push_back(row.ending);
-    format_.setTooltip(hitEndings()[0] + ": a channel for each actuator. " + utf8(listed(whole)) +
-                       ": channels and places. " + utf8(listed(parted)) + ": a file for each actuator");
+    describe(format_, "Dragged as",
+             hitEndings()[0] + ": a channel for each actuator. " + utf8(listed(whole)) +
+                 ": channels and places. " + utf8(listed(parted)) + ": a file for each actuator");
     format_.setSelectedItemIndex(files_->ending(), juce::dontSendNotification);
     format_.onChange = [this] { files_->setEnding(format_.getSelectedItemIndex()); };
     save_ = quietButton("Save as clip" + dots(), "Save the chosen contacts as a clip (Return)");
     save_->onClick = [this] { saveAs(); };
-    for (juce::Component* c :
-         std::initializer_list<juce::Component*>{&list_, &choice_, &format_, save_.get()})
-        addAndMakeVisible(c);
-    tellChoice();
+    addAll(*this, {&list_, &choice_, &format_, save_.get()});
+    describeChoice();
 }
 
-void EventsTab::takeMix() { choice_.setColour(juce::Label::textColourId, shade(*this, Shade::muted)); }
-
 // What is under a pressed mouse stays there.
-void EventsTab::refresh(const DeskMoment& moment) {
+void EventsTab::refresh(const MixerMoment& moment) {
     const double now = nowMs();
     if (moment.session.render.played == seen_ || now - shownAtMs_ < showMs || list_.isMouseButtonDown(true))
         return;
@@ -108,7 +106,7 @@ void EventsTab::refresh(const DeskMoment& moment) {
 // While something is chosen nothing leaves the list, but what comes to be far below; what is chosen never
 // does.
 void EventsTab::listRecent() {
-    const auto& recent = desk_.recent().newestFirst();
+    const auto& recent = model_.recent().newestFirst();
     std::vector<RecentContact> shown(recent.begin(), recent.end());
     const std::uint64_t oldest = recent.empty() ? 0 : recent.back().number;
     std::ranges::copy_if(shown_, std::back_inserter(shown), [&](const RecentContact& c) {
@@ -124,7 +122,7 @@ void EventsTab::listRecent() {
     if (const int now = rowOf(last_); before >= 0 && now >= 0) // and where it is seen
         list_.getViewport()->setViewPosition(0, list_.getViewport()->getViewPositionY() +
                                                     (now - before) * eventRowPixels);
-    tellChoice();
+    describeChoice();
     list_.repaint();
 }
 
@@ -143,16 +141,16 @@ int EventsTab::rowOf(std::uint64_t number) const {
     return found == shown_.end() ? -1 : static_cast<int>(found - shown_.begin());
 }
 
-void EventsTab::takeChoice(int row) {
+void EventsTab::rowChosen(int row) {
     if (isListing_) return;
     chosen_.clear();
     const auto rows = list_.getSelectedRows();
     for (int k = 0; k < rows.size(); ++k) chosen_.insert(shown_[static_cast<std::size_t>(rows[k])].number);
     last_ = row >= 0 ? shown_[static_cast<std::size_t>(row)].number : 0;
-    tellChoice();
+    describeChoice();
 }
 
-void EventsTab::tellChoice() {
+void EventsTab::describeChoice() {
     save_->setEnabled(!chosen_.empty());
     if (chosen_.empty())
         return choice_.setText(isNarrow() ? "Choose some, then drag them out"
@@ -173,23 +171,23 @@ juce::String EventsTab::Rows::getNameForRow(int row) {
     if (row < 0 || row >= getNumRows()) return {};
     const auto& contact = tab_.shown_[static_cast<std::size_t>(row)];
     const auto& hit = contact.event;
-    const auto& scene = tab_.desk_.world().scene();
+    const auto& scene = tab_.model_.world().scene();
     return nameOf(scene, contact) + " at " + timeText(hit.timeNs) + ", " +
-           number(feltMost(tab_.desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
+           number(strongestOf(tab_.model_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
 }
 
 void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
     if (row >= getNumRows()) return;
     const auto& contact = tab_.shown_[static_cast<std::size_t>(row)];
     const auto& hit = contact.event;
-    const auto& desk = tab_.desk_;
+    const auto& model = tab_.model_;
     if (isSelected) {
         g.setColour(shade(tab_, Shade::accent).withAlpha(0.16f));
         g.fillRect(0, 0, width, height);
     }
     const Columns at{{width, height}};
-    const auto most = feltMost(desk.mix(), hit);
-    const int material = materialOf(desk.world().scene(), hit);
+    const auto most = strongestOf(model.mix(), hit);
+    const int material = materialOf(model.world().scene(), hit);
     g.setColour(material < 0 ? palette::other : palette::material(material));
     g.fillEllipse(at.dot.toFloat().withSizeKeepingCentre(10.0f, 10.0f).translated(-4.0f, 0.0f));
     const auto cell = [&](const juce::String& words, juce::Rectangle<int> area, Shade which, bool isNumber) {
@@ -199,7 +197,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     };
     g.setFont(juce::Font{text::small});
     cell(timeText(hit.timeNs), at.time, Shade::muted, false);
-    cell(nameOf(desk.world().scene(), contact), at.name, Shade::text, false);
+    cell(nameOf(model.world().scene(), contact), at.name, Shade::text, false);
     const bool isMode = !isClip(hit.sound);
     cell(isMode ? number(hit.frequencyHz, 1) : "clip", at.frequency, Shade::text, true);
     cell(isMode ? number(hit.decayPerSecond, 1) : "", at.decay, Shade::text, true);
@@ -207,7 +205,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     cell(placeNumbers(hit), at.place, Shade::muted, true);
     g.setFont(juce::Font{text::small, juce::Font::bold});
     g.setColour(enchanterColour(tab_, most.enchanter));
-    g.drawText(utf8(desk.mix().layout.enchanters[static_cast<std::size_t>(most.enchanter)].label),
+    g.drawText(utf8(model.mix().layout.enchanters[static_cast<std::size_t>(most.enchanter)].label),
                at.enchanter, juce::Justification::centred, true);
 }
 
@@ -238,7 +236,148 @@ void EventsTab::resized() {
     format_.setBounds(foot.removeFromRight(button));
     foot.removeFromRight(between);
     choice_.setBounds(foot.withTrimmedLeft(5));
-    tellChoice();
+    describeChoice();
+}
+
+// Exports the selected contacts of the events list to files.
+
+void EventsTab::showMenu() {
+    juce::PopupMenu menu;
+    menu.addItem("Save as clip" + dots(), [safe = juce::Component::SafePointer<EventsTab>{this}] {
+        if (safe != nullptr) safe->saveAs();
+    });
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withMousePosition());
+}
+
+/// From the scene's name and the time of the first contact.
+juce::String EventsTab::fileName() const {
+    std::int64_t first = std::numeric_limits<std::int64_t>::max();
+    for (const RecentContact& contact : shown_)
+        if (isChosen(contact)) first = std::min(first, contact.event.timeNs);
+    return juce::File::createLegalFileName(utf8(model_.mix().scene->name) + "-" +
+                                           juce::String{1e-9 * static_cast<double>(first), 3} + "s") +
+           hitEndings()[files_->ending()];
+}
+
+void EventsTab::saveAs() {
+    if (chosen_.empty()) return;
+    const auto folder = juce::SharedResourcePointer<UserFolder> {
+        } -> place();
+    const auto name = juce::File::createFileWithoutCheckingPath("/" + fileName());
+    askForFile(*this,
+               {"Save the chosen contacts as a clip", name.getFileExtension(), folder, true,
+                name.getFileNameWithoutExtension(), hitEndings()},
+               [this](const juce::File& file) { saveTo(file); });
+}
+
+std::vector<juce::File> EventsTab::write(const juce::File& file, bool saysHow) {
+    std::vector<CollisionEvent> hits;
+    for (const RecentContact& contact : shown_)
+        if (isChosen(contact)) model_.recent().appendEvents(contact, hits);
+    const auto written =
+        writeHits(std::move(hits), model_.mix(), std::max(8000, model_.output().sampleRateHz()), file);
+    if (!written) return model_.report(utf8(written.error)), std::vector<juce::File>{};
+    std::vector<juce::File> files;
+    for (const auto& path : written.value.paths) files.emplace_back(utf8(path));
+    juce::StringArray words{"Saved " + files.front().getFullPathName() +
+                            (files.size() > 1
+                                 ? " and " + juce::String{static_cast<int>(files.size()) - 1} + " more"
+                                 : juce::String{})};
+    for (const auto& loss : written.value.losses) words.add(utf8(loss));
+    if (saysHow) model_.announce(words.joinIntoString("; "));
+    return files;
+}
+
+void EventsTab::saveTo(const juce::File& file) {
+    write(file.getFileExtension().isEmpty() ? file.withFileExtension(hitEndings()[files_->ending()]) : file,
+          true);
+}
+
+// As escaped URLs, which the drop target receives.
+juce::StringArray EventsTab::filesToDrag() {
+    juce::StringArray addresses;
+    if (chosen_.empty()) return addresses;
+    const auto folder = files_->makeFolder();
+    if (!folder) return model_.report(utf8(folder.error)), addresses;
+    for (const auto& file : write(folder.value.getChildFile(fileName()), false))
+        addresses.add(juce::URL{file}.toString(false));
+    return addresses;
+}
+
+// Hits by the door of `physvib export`, or as samples.
+
+namespace {
+
+/// The first begins the file; distances stay.
+void startAtFirst(std::vector<CollisionEvent>& hits) {
+    std::ranges::stable_sort(hits, {}, &CollisionEvent::timeNs);
+    const std::int64_t first = hits.front().timeNs;
+    for (CollisionEvent& hit : hits) hit.timeNs -= first;
+}
+
+/// A new one: of another's of that name, nobody knows what it is.
+bool isMadeForUsAlone(const std::filesystem::path& folder) {
+    std::error_code fault;
+    if (!std::filesystem::create_directory(folder, fault)) return false;
+    std::filesystem::permissions(folder, std::filesystem::perms::owner_all, fault);
+    return !fault;
+}
+
+Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner, const std::string& path,
+                              ClipFormat format) {
+    StrikeClipSettings drawn;
+    drawn.channels = static_cast<std::size_t>(panner.channels());
+    drawn.gains = [&panner](const CollisionEvent& event, PhantomPanner::Gains& gains) {
+        gains = {};
+        panner.gainsOf(event, event.spread, gains);
+    };
+    const auto clip = clipOfHits(hits, drawn);
+    if (!clip) return Failure{clip.error};
+    const auto parts = partsOf(clip.value, path, format);
+    WrittenHits written;
+    for (const ClipPart& part : parts) {
+        if (parts.size() > 1 && juce::File{part.path}.exists())
+            return Failure{part.path + ": is there already; a file for each actuator replaces none"};
+        written.paths.push_back(part.path);
+    }
+    if (const auto done = writeParts(parts, format); !done) return Failure{done.error};
+    written.losses = lossesOf(parts, format);
+    return written;
+}
+
+} // namespace
+
+Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
+                              const juce::File& path) {
+    if (hits.empty()) return Failure{"Chosen contacts: expected one whose grains are still kept"};
+    if (std::ranges::any_of(hits, [](const CollisionEvent& hit) { return isClip(hit.sound); }))
+        return Failure{"Chosen contacts: expected hits, found a clip, which is a file already"};
+    startAtFirst(hits);
+    const auto panner = mix.panner();
+    const auto name = path.getFullPathName().toStdString();
+    const HitExport made{"Chosen contacts", path.getFileNameWithoutExtension().toStdString(), hits,
+                         mix.layout, mix.layout.name};
+    if (const auto format = clipFormatOf(name)) return writeClip(made, panner, name, *format);
+    if (!path.hasFileExtension(hitEndings()[0]))
+        return Failure{name + ": expected a name that ends in " +
+                       hitEndings().joinIntoString(", ").toStdString()};
+    const std::string error = writeHitsWav(made, panner, sampleRateHz, name, "physvib " PHYSVIB_VERSION);
+    return error.empty() ? Result<WrittenHits>{WrittenHits{{name}, {}}} : Result<WrittenHits>{Failure{error}};
+}
+
+Result<juce::File> DraggedFiles::makeFolder() {
+    const auto everyones = juce::File::getSpecialLocation(juce::File::tempDirectory);
+    if (!folder_.isDirectory()) {
+        const auto own = everyones.getChildFile("physvib-mixer-" + juce::Uuid{}.toString());
+        if (!isMadeForUsAlone(own.getFullPathName().toStdString()))
+            return Failure{everyones.getFullPathName().toStdString() +
+                           ": expected a folder to write what is dragged into"};
+        folder_ = own;
+    }
+    const auto folder = folder_.getChildFile(juce::String{++drags_});
+    if (const auto made = folder.createDirectory(); made.failed())
+        return Failure{folder.getFullPathName().toStdString() + ": " + made.getErrorMessage().toStdString()};
+    return folder;
 }
 
 } // namespace physvib

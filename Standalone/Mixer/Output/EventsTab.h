@@ -1,19 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tab that lists the played contacts, newest first; selected ones can be dragged to another program or saved.
 #pragma once
-#include "Mixer/Output/HitFiles.h"
-#include "Mixer/Window/TabPanel.h"
+#include "Formats/ClipFile.h"
+#include "Io/Result.h"
+#include "Live/Documents/Mix.h"
+#include "Mixer/Widgets/Parts.h"
+#include <juce_core/juce_core.h>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace physvib {
+
+/// Exports selected impacts to files, and keeps temporary files of drags for other programs.
+/// File extensions for impacts: samples, or a clip format.
+inline const juce::StringArray& hitEndings() {
+    static const juce::StringArray all = [] {
+        juce::StringArray endings{".wav"}; // what most programs take
+        for (const auto ending : clipEndings) endings.add(ending.data());
+        return endings;
+    }();
+    return all;
+}
+
+struct WrittenHits {
+    std::vector<std::string> paths;  ///< one, or one per actuator if the format is mono
+    std::vector<std::string> losses; ///< data that the format cannot store
+};
+
+/// Writes the impacts (in any order) from the first one on, panned over the actuators by the law of `mix`, in
+/// the format of the extension of `path`; or one error line. Several files never replace existing ones.
+/// Message thread only.
+Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
+                              const juce::File& path);
+
+/// Files dragged to other programs. Some of these copy them late, so they exist until the mixer ends. Message
+/// thread only.
+class DraggedFiles {
+public:
+    ~DraggedFiles() { folder_.deleteRecursively(); }
+
+    /// Creates an empty folder for the files of one drag; or one error line.
+    Result<juce::File> makeFolder();
+
+    /// Selected format of drags, an index of hitEndings(); kept when another document is opened.
+    int ending() const noexcept { return ending_; }
+    void setEnding(int ending) noexcept { ending_ = ending; }
+
+private:
+    juce::File folder_;
+    int drags_ = 0, ending_ = 0;
+};
 
 class EventsTab final : public Tab {
 public:
     static constexpr const char* dragged = "chosen contacts"; ///< description of a drag
 
-    explicit EventsTab(Desk& desk);
-    void takeMix() override;
-    void refresh(const DeskMoment& moment) override;
+    explicit EventsTab(MixerModel& model);
+    void refresh(const MixerMoment& moment) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
 
@@ -32,7 +76,7 @@ private:
         int getNumRows() override { return static_cast<int>(tab_.shown_.size()); }
         void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
         juce::String getNameForRow(int row) override;
-        void selectedRowsChanged(int row) override { tab_.takeChoice(row); }
+        void selectedRowsChanged(int row) override { tab_.rowChosen(row); }
         void listBoxItemClicked(int, const juce::MouseEvent& e) override {
             if (e.mods.isPopupMenu()) tab_.showMenu();
         }
@@ -43,26 +87,26 @@ private:
     private:
         EventsTab& tab_;
     };
-    void takeChoice(int row);
+    void rowChosen(int row);
     void listRecent();
     void listChosen();
     int rowOf(std::uint64_t number) const;
     bool isChosen(const RecentContact& contact) const { return chosen_.contains(contact.number); }
-    void tellChoice();
+    void describeChoice();
     bool isNarrow() const { return getWidth() < 420; }
     void showMenu();
     void saveAs();
     juce::String fileName() const;
-    std::vector<juce::File> write(const juce::File& file, bool tellsHow);
+    std::vector<juce::File> write(const juce::File& file, bool saysHow);
 
-    Desk& desk_;
+    MixerModel& model_;
     std::vector<RecentContact> shown_;
     std::set<std::uint64_t> chosen_; // selected contacts, regardless of their rows
     std::uint64_t last_ = 0;         // the selected contact that was clicked last
     bool isListing_ = false;
     Rows rows_{*this};
     juce::ListBox list_{"Events", &rows_};
-    juce::Label choice_;
+    Caption choice_;
     juce::ComboBox format_;
     std::unique_ptr<juce::TextButton> save_;
     juce::SharedResourcePointer<DraggedFiles> files_;

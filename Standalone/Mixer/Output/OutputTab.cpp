@@ -2,9 +2,8 @@
 // Controls for the device, and its status text.
 #include "Mixer/Output/OutputTab.h"
 #include "Live/Devices/NoDevice.h"
-#include "Mixer/Desk/DeskRouting.h"
-#include "Mixer/Window/CardHost.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Model/MixerDevice.h"
+#include "Mixer/Widgets/Cards.h"
 
 namespace physvib {
 namespace {
@@ -39,41 +38,32 @@ void placeRow(juce::Rectangle<int>& area, const std::vector<Cell>& cells) {
 struct OutputTab::SinkChoice {
     explicit SinkChoice(const SinkKind& of)
         : kind{of} {
-        caption(name, kind.title.data());
         box.setTitle(kind.title.data());
         box.setTooltip(kind.about.data());
     }
     const SinkKind& kind;
-    juce::Label name{};
+    Caption name{kind.title.data()};
     juce::ComboBox box{};
     std::vector<std::string> places{};
 };
 
 OutputTab::~OutputTab() = default;
 
-OutputTab::OutputTab(Desk& desk)
-    : desk_{desk} {
+OutputTab::OutputTab(MixerModel& model)
+    : model_{model} {
     setTitle("Output");
-    caption(deviceName_, "Device");
-    caption(rateName_, "Rate");
-    caption(blockName_, "Block");
     for (const SinkKind& kind : sinkKinds()) {
         auto& sink = *sinks_.emplace_back(std::make_unique<SinkChoice>(kind));
         sink.box.onChange = [this, &sink] { choose(sink); };
         addAndMakeVisible(sink.name);
         addAndMakeVisible(sink.box);
     }
-    caption(monitorName_, "Monitor: what is felt, on headphones");
-    caption(monitorLevelName_, "Monitor level");
-    caption(marksName_, "Trigger output");
-    monitor_.setTitle("Monitor");
-    monitor_.setTooltip(
-        "Two outputs, left and right: each hit is heard where it is felt, also without actuators");
-    monitorLevel_.setTitle("Level of the monitor");
-    monitorLevel_.setTooltip("What a hit at full scale reaches; the master level leaves it alone. Start low");
-    marks_.setTitle("Marks");
-    marks_.setTooltip(
-        "A pulse at the sample of each onset, for trigger boxes. No actuator and no ear belongs there");
+    describe(monitor_, "Monitor",
+             "Two outputs, left and right: each hit is heard where it is felt, also without actuators");
+    describe(monitorLevel_, "Level of the monitor",
+             "What a hit at full scale reaches; the master level leaves it alone. Start low");
+    describe(marks_, "Marks",
+             "A pulse at the sample of each onset, for trigger boxes. No actuator and no ear belongs there");
     for (const int db : monitorLevels) monitorLevel_.addItem(number(db, 0) + " dBFS", levelId - db);
     for (auto* box : {&monitor_, &monitorLevel_}) box->onChange = [this] { chooseMonitor(); };
     marks_.onChange = [this] { chooseMarks(); };
@@ -88,13 +78,11 @@ OutputTab::OutputTab(Desk& desk)
     scan_ = quietButton("Rescan", "Rescan devices");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &deviceName_, &device_,      scan_.get(), &rateName_,         &rate_,         &blockName_,
-             &block_,      &oscName_,     &osc_,       &hitsName_,         &hits_,         &phoneName_,
-             &phone_,      &monitorName_, &monitor_,   &monitorLevelName_, &monitorLevel_, &marksName_,
-             &marks_,      &facts_})
-        addAndMakeVisible(c);
-    takeMix();
+    addAll(*this, {&deviceName_, &device_,      scan_.get(), &rateName_,         &rate_,         &blockName_,
+                   &block_,      &oscName_,     &osc_,       &hitsName_,         &hits_,         &phoneName_,
+                   &phone_,      &monitorName_, &monitor_,   &monitorLevelName_, &monitorLevel_, &marksName_,
+                   &marks_,      &facts_});
+    mixChanged();
 }
 
 void OutputTab::visibilityChanged() {
@@ -102,15 +90,15 @@ void OutputTab::visibilityChanged() {
 }
 
 void OutputTab::scan() {
-    found_ = listAudioDevices(desk_.device().drivers());
+    found_ = listAudioDevices(model_.device().drivers());
     for (const auto& sink : sinks_) list(*sink);
     isScanned_ = true;
-    takeMix();
+    mixChanged();
 }
 
 // The requested sink is listed even if it is not available.
 void OutputTab::list(SinkChoice& sink) {
-    const auto wanted = desk_.device().choice().placeOf(sink.kind);
+    const auto wanted = model_.device().choice().placeOf(sink.kind);
     sink.places.clear();
     sink.box.clear(juce::dontSendNotification);
     sink.box.addItem("none", noSinkId);
@@ -144,20 +132,20 @@ void OutputTab::choose(SinkChoice& sink) {
                          : id >= firstSinkId ? sink.places[static_cast<std::size_t>(id - firstSinkId)]
                                              : std::string{});
     list(sink); // shows the unchanged choice
-    ask(kind.title.data(), kind.other.data(), utf8(desk_.device().choice().placeOf(kind)),
+    ask(kind.title.data(), kind.other.data(), utf8(model_.device().choice().placeOf(kind)),
         [this, &kind](const juce::String& where) { use(kind, where.toStdString()); });
 }
 
 void OutputTab::use(const SinkKind& kind, const std::string& where) {
-    DeviceChoice choice = desk_.device().choice();
-    if (choice.placeOf(kind) == where || !desk_.device().onSinksWanted) return;
+    DeviceChoice choice = model_.device().choice();
+    if (choice.placeOf(kind) == where || !model_.device().onSinksWanted) return;
     choice.want(kind, where);
-    desk_.device().onSinksWanted(choice);
+    model_.device().onSinksWanted(choice);
 }
 
 void OutputTab::open() {
     const int index = device_.getSelectedId() - 1;
-    DeviceChoice choice = desk_.device().choice();
+    DeviceChoice choice = model_.device().choice();
     if (index >= 0 && index < static_cast<int>(found_.size()))
         choice.name =
             found_[static_cast<std::size_t>(index)].type + ":" + found_[static_cast<std::size_t>(index)].name;
@@ -165,12 +153,12 @@ void OutputTab::open() {
     if (index >= 0) choice.isHeadphones = index == static_cast<int>(found_.size()); // the last item
     choice.sampleRateHz = rate_.getSelectedId() > 1 ? rate_.getSelectedId() : 0;
     choice.blockFrames = block_.getSelectedId() > 1 ? block_.getSelectedId() : 0;
-    choice.isHeadphones && !wereEars ? useHeadphones(desk_, choice) : desk_.open(choice);
-    takeMix();
+    choice.isHeadphones && !wereEars ? useHeadphones(model_, choice) : model_.open(choice);
+    mixChanged();
 }
 
 juce::String OutputTab::ownersOf(int output) const {
-    const auto& mix = desk_.mix();
+    const auto& mix = model_.mix();
     juce::String owners;
     for (std::size_t j = 0; j < mix.strips.size(); ++j)
         if (mix.strips[j].output == output) owners << " " << utf8(mix.layout.enchanters[j].label);
@@ -179,14 +167,14 @@ juce::String OutputTab::ownersOf(int output) const {
 
 // Lists output pairs for headphones, with the labels of actuators that would lose an output.
 void OutputTab::listHeard() {
-    const auto& choice = desk_.device().choice();
+    const auto& choice = model_.device().choice();
     monitor_.clear(juce::dontSendNotification);
     marks_.clear(juce::dontSendNotification);
     monitor_.addItem("none", noneId);
     marks_.addItem("none", noneId);
-    for (int k = 0; k < desk_.device().outputs(); ++k) {
+    for (int k = 0; k < model_.device().outputs(); ++k) {
         if (ownersOf(k).isEmpty()) marks_.addItem("output " + juce::String{k + 1}, noneId + 1 + k);
-        if (k % 2 != 0 || k + 1 >= desk_.device().outputs()) continue;
+        if (k % 2 != 0 || k + 1 >= model_.device().outputs()) continue;
         const auto owners = ownersOf(k) + ownersOf(k + 1);
         monitor_.addItem("outputs " + juce::String{k + 1} + " and " + juce::String{k + 2} +
                              (owners.isEmpty() ? juce::String{} : ", instead of" + owners),
@@ -194,7 +182,7 @@ void OutputTab::listHeard() {
     }
     monitor_.setSelectedId(choice.monitor.empty() ? noneId : noneId + 1 + choice.monitor[0],
                            juce::dontSendNotification);
-    if (choice.monitor.size() == 2 && desk_.device().listening().settings().contacts.empty()) {
+    if (choice.monitor.size() == 2 && model_.device().listening().settings().contacts.empty()) {
         const auto owners = ownersOf(choice.monitor[0]) + ownersOf(choice.monitor[1]);
         monitor_.setText("off: outputs " + juce::String{choice.monitor[0] + 1} + " and " +
                              juce::String{choice.monitor[1] + 1} +
@@ -210,34 +198,34 @@ void OutputTab::listHeard() {
 void OutputTab::chooseMonitor() {
     const int left = monitor_.getSelectedId() - noneId - 1;
     const double db = monitorLevel_.getSelectedId() > 0 ? levelId - monitorLevel_.getSelectedId()
-                                                        : desk_.device().choice().monitorDb;
+                                                        : model_.device().choice().monitorDb;
     const auto error =
-        left < 0 ? desk_.device().listening().monitor({}, db) : desk_.monitorInstead({left, left + 1}, db);
-    if (!error.empty()) desk_.report(utf8(error));
+        left < 0 ? model_.device().listening().monitor({}, db) : model_.monitorInstead({left, left + 1}, db);
+    if (!error.empty()) model_.report(utf8(error));
     listHeard();
 }
 
 void OutputTab::chooseMarks() {
-    if (const auto error = desk_.device().listening().mark(marks_.getSelectedId() - noneId - 1);
+    if (const auto error = model_.device().listening().mark(marks_.getSelectedId() - noneId - 1);
         !error.empty())
-        desk_.report(utf8(error));
+        model_.report(utf8(error));
     listHeard();
 }
 
 juce::String OutputTab::heardWords() const {
-    const auto& heard = desk_.device().listening().settings();
+    const auto& sent = model_.device().listening().settings();
     juce::String words;
-    if (desk_.device().choice().isHeadphones)
+    if (model_.device().choice().isHeadphones)
         for (int ear = 0; ear < DeviceChoice::ears; ++ear)
             words << (ear == 0 ? "left:" : ", right:")
                   << (ownersOf(ear).isEmpty() ? juce::String{" nobody"} : ownersOf(ear));
-    else if (heard.contacts.size() == 2)
-        words << "left on " << heard.contacts[0] + 1 << ", right on " << heard.contacts[1] + 1;
-    else if (!desk_.device().choice().monitor.empty())
+    else if (sent.contacts.size() == 2)
+        words << "left on " << sent.contacts[0] + 1 << ", right on " << sent.contacts[1] + 1;
+    else if (!model_.device().choice().monitor.empty())
         words << "not there: an actuator, or no output";
     else
         words << "by nobody";
-    if (!heard.marks.empty()) words << "; onsets marked on " << heard.marks[0] + 1;
+    if (!sent.marks.empty()) words << "; onsets marked on " << sent.marks[0] + 1;
     return words;
 }
 
@@ -251,8 +239,8 @@ void OutputTab::ask(const juce::String& title, const juce::String& what, const j
 
 std::vector<Fact> OutputTab::sinkFacts() const {
     std::vector<Fact> facts;
-    for (const SinkState& sink : desk_.session().sinks().states()) {
-        const bool isPart = sink.isReady && sink.channels > 0 && desk_.mix().count() > sink.channels;
+    for (const SinkState& sink : model_.session().sinks().states()) {
+        const bool isPart = sink.isReady && sink.channels > 0 && model_.mix().count() > sink.channels;
         const auto rest =
             isPart ? "; the first " + juce::String{sink.channels} + " actuators" : juce::String{};
         facts.push_back(
@@ -261,8 +249,8 @@ std::vector<Fact> OutputTab::sinkFacts() const {
     return facts.empty() ? std::vector<Fact>{{"Board", "none", Shade::muted}} : facts;
 }
 
-void OutputTab::takeMix() {
-    const auto& choice = desk_.device().choice();
+void OutputTab::mixChanged() {
+    const auto& choice = model_.device().choice();
     device_.clear(juce::dontSendNotification);
     int chosen = 0;
     for (int id = 1; const auto& d : found_) {
@@ -284,24 +272,19 @@ void OutputTab::takeMix() {
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
     listHeard();
     showOsc();
-    for (auto* label : {&deviceName_, &rateName_, &blockName_, &oscName_, &hitsName_, &phoneName_,
-                        &monitorName_, &monitorLevelName_, &marksName_})
-        label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
-    for (const auto& sink : sinks_)
-        sink->name.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
-void OutputTab::refresh(const DeskMoment& moment) {
-    const auto& output = desk_.output();
+void OutputTab::refresh(const MixerMoment& moment) {
+    const auto& output = model_.output();
     const double rate = std::max(1, output.sampleRateHz());
     const bool isNone = juce::String{utf8(output.device())}.startsWith(noDeviceType);
     const auto& r = moment.session.render;
-    const int all = desk_.mix().count();
+    const int all = model_.mix().count();
     int connected = 0;
     for (int j = 0; j < all; ++j) connected += output.isPlaced(j) ? 1 : 0;
     Shade oscShade = Shade::muted;
     const auto osc = oscState(oscShade);
-    const double slipped = 1e-6 * static_cast<double>(desk_.session().world().slippedNs());
+    const double slipped = 1e-6 * static_cast<double>(model_.session().world().slippedNs());
     std::vector<Fact> facts{
         {"State",
          !moment.device.isRunning ? juce::String{"not running"}
@@ -312,11 +295,11 @@ void OutputTab::refresh(const DeskMoment& moment) {
                                   : Shade::text},
         {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" +
                         number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
-        {"Felt", number(1e3 * desk_.device().outputLatencySeconds(), 1) +
+        {"Felt", number(1e3 * model_.device().outputLatencySeconds(), 1) +
                      " ms after the contact, and the device's own " +
                      number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
         {"Heard", heardWords(),
-         !desk_.device().choice().monitor.empty() && desk_.device().listening().settings().contacts.empty()
+         !model_.device().choice().monitor.empty() && model_.device().listening().settings().contacts.empty()
              ? Shade::now
              : Shade::text},
         {"Actuators", juce::String{connected} + " of " + juce::String{all} + " have an output there",
@@ -361,6 +344,100 @@ void OutputTab::resized() {
                     {marksName_, marks_, quarter}});
     area.removeFromTop(12);
     facts_.setBounds(area);
+}
+
+// OSC controls of the output tab: accepted senders, receiver of impacts, and orientation of a phone.
+
+namespace {
+
+// in the order of OscUse
+constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer",
+                                             "from any computer, and phones"};
+struct PhoneHold {
+    const char* words;
+    double turnDegrees;
+};
+// direction of its top edge
+constexpr std::array<PhoneHold, 4> phoneHolds{
+    {{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
+constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // item ids of the list of receivers
+
+} // namespace
+
+void OutputTab::prepareOsc() {
+    describe(
+        osc_, "OSC",
+        "Who may strike, tilt and set gains by messages over the network: phones, Pd, Max (Docs/osc.md)");
+    for (int use = 0; use < static_cast<int>(oscUses.size()); ++use)
+        osc_.addItem(oscUses[static_cast<std::size_t>(use)], use + 1);
+    describe(hits_, "Hits by OSC",
+             "HOST:PORT of a program that hears of each hit as it is felt, and of the status once a second");
+    describe(phone_, "Phone", "How a phone is held that tilts the world by OSC: where its top points");
+    for (int k = 0; k < static_cast<int>(phoneHolds.size()); ++k)
+        phone_.addItem(phoneHolds[static_cast<std::size_t>(k)].words, k + 1);
+    for (auto* box : {&osc_, &phone_}) box->onChange = [this] { listen(); };
+    hits_.onChange = [this] { chooseReceiver(); };
+}
+
+void OutputTab::listen() {
+    OscChoice choice = model_.inputs().choice();
+    choice.use = static_cast<OscUse>(osc_.getSelectedItemIndex());
+    if (const int hold = phone_.getSelectedItemIndex(); hold >= 0)
+        choice.turnDegrees = phoneHolds[static_cast<std::size_t>(hold)].turnDegrees;
+    useOsc(choice, "Messages by OSC: ");
+}
+
+void OutputTab::sendHitsTo(const juce::String& receiver) {
+    OscChoice choice = model_.inputs().choice();
+    choice.receiver = receiver.trim().toStdString();
+    useOsc(choice, "Hits by OSC: ");
+}
+
+void OutputTab::useOsc(const OscChoice& choice, const juce::String& what) {
+    if (const auto error = model_.inputs().use(choice); !error.empty()) model_.report(what + utf8(error));
+    showOsc();
+}
+
+void OutputTab::chooseReceiver() {
+    const int id = hits_.getSelectedId();
+    if (id != otherReceiverId) return sendHitsTo(id == knownReceiverId ? hits_.getText() : juce::String{});
+    showOsc();
+    ask("Hits by OSC", "HOST:PORT of the program", hits_.getItemText(hits_.indexOfItemId(knownReceiverId)),
+        [this](const juce::String& receiver) { sendHitsTo(receiver); });
+}
+
+// A receiver stays in the list when it is switched off.
+void OutputTab::showOsc() {
+    const OscChoice& choice = model_.inputs().choice();
+    const auto known = choice.receiver.empty() ? hits_.getItemText(hits_.indexOfItemId(knownReceiverId))
+                                               : utf8(choice.receiver);
+    osc_.setSelectedItemIndex(static_cast<int>(choice.use), juce::dontSendNotification);
+    hits_.clear(juce::dontSendNotification);
+    hits_.addItem("nobody", nobodyId);
+    if (known.isNotEmpty()) hits_.addItem(known, knownReceiverId);
+    hits_.addItem("another program" + dots(), otherReceiverId);
+    hits_.setSelectedId(choice.receiver.empty() ? nobodyId : knownReceiverId, juce::dontSendNotification);
+    const auto hold = std::ranges::find(phoneHolds, choice.turnDegrees, &PhoneHold::turnDegrees);
+    phone_.setSelectedItemIndex(static_cast<int>(hold - phoneHolds.begin()), juce::dontSendNotification);
+}
+
+juce::String OutputTab::oscState(Shade& state) const {
+    const auto osc = model_.inputs().status();
+    state = osc ? Shade::text : Shade::muted;
+    if (!osc) return "none";
+    const OscCounts& c = osc->counts;
+    const auto count = [](std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; };
+    if (c.wrong() + c.lost + c.late + osc->unsent > 0) state = Shade::now;
+    juce::StringArray parts;
+    if (!osc->address.empty())
+        parts.add(utf8(osc->address) + ": " + count(c.messages - c.refused) + " good, " + count(c.wrong()) +
+                  " bad, " + count(c.late) + " late" +
+                  (c.lost > 0 ? ", " + count(c.lost) + " lost" : juce::String{}));
+    if (!model_.inputs().choice().receiver.empty())
+        parts.add("to " + utf8(model_.inputs().choice().receiver) + ": " + count(osc->sent) + " sent" +
+                  (osc->unsent > 0 ? ", " + count(osc->unsent) + " not taken" : juce::String{}));
+    const auto words = parts.joinIntoString("; ");
+    return c.fault.empty() ? words : words + "; " + utf8(c.fault);
 }
 
 } // namespace physvib

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tab for the output: device, sample rate, block size and the resulting latency, and additional sinks.
 #pragma once
-#include "Mixer/Output/FactList.h"
-#include "Mixer/Window/TabPanel.h"
+#include "Mixer/Output/TelemetryTab.h"
+#include "Mixer/Widgets/Parts.h"
 
 namespace physvib {
 
 class OutputTab final : public Tab {
 public:
-    explicit OutputTab(Desk& desk);
+    explicit OutputTab(MixerModel& model);
     ~OutputTab() override;
-    void takeMix() override;
-    void refresh(const DeskMoment& moment) override;
+    void mixChanged() override;
+    void refresh(const MixerMoment& moment) override;
     void resized() override;
-    int leastHeight(int) const override { return 470; } // all of its facts
+    int minHeight(int) const override { return 470; } // all of its facts
     void visibilityChanged() override;
     /// Sets the receiver HOST:PORT as if typed; empty: none.
-    void tellHits(const juce::String& receiver);
+    void sendHitsTo(const juce::String& receiver);
 
 private:
     void scan();
     void open();
 
-    Desk& desk_;
+    MixerModel& model_;
     struct SinkChoice;
     void list(SinkChoice& choice);
     void choose(SinkChoice& choice);
@@ -43,8 +43,10 @@ private:
     juce::String heardWords() const;
 
     juce::ComboBox device_, rate_, block_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;
-    juce::Label deviceName_, rateName_, blockName_, oscName_, hitsName_, phoneName_, monitorName_,
-        monitorLevelName_, marksName_;
+    Caption deviceName_{"Device"}, rateName_{"Rate"}, blockName_{"Block"}, oscName_{"Messages by OSC"},
+        hitsName_{"Hits by OSC to"}, phoneName_{"A phone's top is"},
+        monitorName_{"Monitor: what is felt, on headphones"}, monitorLevelName_{"Monitor level"},
+        marksName_{"Trigger output"};
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;

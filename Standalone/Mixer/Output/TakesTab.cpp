@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lists, plays, copies and removes recordings.
 #include "Mixer/Output/TakesTab.h"
-#include "Mixer/Output/KeptPart.h"
-#include "Mixer/Output/TakePart.h"
-#include "Mixer/Window/CardHost.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Wav/WavSink.h"
+#include "Live/Recordings/ReadRecording.h"
+#include "Mixer/Widgets/Cards.h"
+#include "Scene/EventsCsv.h"
 #include <algorithm>
+#include <cmath>
 #include <juce_audio_formats/juce_audio_formats.h>
+#include <optional>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -28,12 +33,11 @@ juce::String TakesTab::Take::length() const {
     return isTrimmed() ? lengthText(part.getLength()) + " of " + all : all;
 }
 
-TakesTab::TakesTab(Desk& desk)
-    : desk_{desk} {
+TakesTab::TakesTab(MixerModel& model)
+    : model_{model} {
     setTitle("Takes");
     list_.setTitle("List of takes");
     list_.setRowHeight(takeRowPixels);
-    caption(none_, "No recordings yet: Record, or Ctrl+R, makes one");
     const auto button = [this](auto& made, const char* words, const char* name, void (TakesTab::*act)()) {
         made = quietButton(words, name);
         made->onClick = [this, act] { (this->*act)(); };
@@ -45,8 +49,7 @@ TakesTab::TakesTab(Desk& desk)
     button(erase_, "Delete", "Delete the take", &TakesTab::askErase);
     show_ = quietButton("Show", "Show the folder of the takes");
     show_->onClick = [this] { folder_->place().revealToUser(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{show_.get(), &list_})
-        addAndMakeVisible(c);
+    addAll(*this, {show_.get(), &list_});
     addChildComponent(none_);
     addChildComponent(trimmer_);
     trimmer_.onChange = [this](juce::Range<double> part) {
@@ -57,8 +60,7 @@ TakesTab::TakesTab(Desk& desk)
     };
     trimmer_.onEnd = [this] {
         if (!take()) return;
-        if (const auto error = keepPart(take()->file, take()->seconds, take()->part); !error.empty())
-            desk_.report(utf8(error));
+        model_.reportFault(keepPart(take()->file, take()->seconds, take()->part));
     };
     showChosen();
 }
@@ -70,7 +72,7 @@ TakesTab::Take* TakesTab::take() {
 }
 
 // A recording may have ended, or another program changed the folder.
-void TakesTab::refresh(const DeskMoment&) {
+void TakesTab::refresh(const MixerMoment&) {
     if (const double now = nowMs(); now - lookedAtMs_ < takeLookMs)
         return;
     else
@@ -125,7 +127,7 @@ void TakesTab::trim() {
 // A session that plays a part keeps the part's file, so it stays; in a folder beside the takes.
 void TakesTab::play() {
     if (!take()) return;
-    if (!take()->isTrimmed()) return desk_.strikes().playTake(take()->file);
+    if (!take()->isTrimmed()) return model_.strikes().playTake(take()->file);
     const auto part = take()->part;
     const auto file = partsFolder(take()->file)
                           .getChildFile(take()->file.getFileNameWithoutExtension() + " " +
@@ -133,10 +135,9 @@ void TakesTab::play() {
                                         number(1e3 * part.getEnd(), 0) + " ms.wav");
     if (!file.existsAsFile() || file.getLastModificationTime() < take()->at) {
         file.getParentDirectory().createDirectory();
-        if (const auto error = writeTakePart(take()->file, part, file); !error.empty())
-            return desk_.report(utf8(error));
+        if (model_.reportFault(writeTakePart(take()->file, part, file))) return;
     }
-    desk_.strikes().playTake(file);
+    model_.strikes().playTake(file);
 }
 
 void TakesTab::askExport() {
@@ -155,8 +156,8 @@ void TakesTab::exportTo(const juce::File& file) {
     else if (!from.copyFileTo(file) ||
              (eventsOf(from).existsAsFile() && !eventsOf(from).copyFileTo(eventsOf(file))))
         error = file.getFullPathName() + ": cannot be written";
-    if (error.isNotEmpty()) return desk_.report(error);
-    desk_.messages().show(
+    if (error.isNotEmpty()) return model_.report(error);
+    model_.messages().show(
         {"Copied to " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}, "saved"});
 }
 
@@ -176,7 +177,7 @@ void TakesTab::erase() {
     if (isGone)
         (void)keepPart(file, seconds, {0.0, seconds}); // what stays is of no take
     else
-        desk_.report(file.getFullPathName() + ": cannot be deleted");
+        model_.report(file.getFullPathName() + ": cannot be deleted");
     look();
 }
 
@@ -219,6 +220,288 @@ void TakesTab::resized() {
     if (trimmer_.isVisible()) trimmer_.setBounds(area.removeFromBottom(trimPixels).withTrimmedTop(4));
     list_.setBounds(area);
     none_.setBounds(area.withHeight(rowHeight).reduced(10, 0));
+}
+
+// Reads the levels on a thread of its own, and moves start and end by mouse and keys.
+
+namespace {
+
+constexpr int columns = 400;
+constexpr double leastSeconds = 0.02, step = 0.01;
+
+} // namespace
+
+TakeTrim::TakeTrim() {
+    describe(*this, "Start and end of the take",
+             "Drag the start or the end; arrows move the start, with Shift the end; double click: all of it");
+    setWantsKeyboardFocus(true);
+    setMouseCursor(juce::MouseCursor::LeftRightResizeCursor);
+}
+
+TakeTrim::~TakeTrim() {
+    ++reading_;
+    constexpr int untilItHasStopped = -1;
+    reader_.removeAllJobs(true, untilItHasStopped);
+    cancelPendingUpdate();
+}
+
+void TakeTrim::show(const juce::File& take, double seconds, juce::Range<double> part) {
+    part_ = part;
+    seconds_ = seconds;
+    repaint();
+    if (take == take_) return;
+    take_ = take;
+    levels_.clear();
+    isWaiting_ = false;
+    const int number = ++reading_;
+    reader_.addJob([this, take, number] {
+        auto levels = takeLevels(take, columns, [&] { return number == reading_; });
+        const std::lock_guard lock{mutex_};
+        if (number != reading_) return;
+        read_ = std::move(levels);
+        triggerAsyncUpdate();
+    });
+}
+
+void TakeTrim::handleAsyncUpdate() {
+    {
+        const std::lock_guard lock{mutex_};
+        levels_ = std::exchange(read_, {});
+    }
+    if (std::exchange(isWaiting_, false)) trimSilence();
+    repaint();
+}
+
+void TakeTrim::trimSilence() {
+    if (levels_.empty())
+        isWaiting_ = true;
+    else
+        changeAtOnce(soundingPart(levels_, seconds_));
+}
+
+float TakeTrim::pixelOf(double seconds) const {
+    return static_cast<float>(seconds / std::max(seconds_, 1e-9) * getWidth());
+}
+
+void TakeTrim::change(juce::Range<double> part) {
+    part_ = part;
+    repaint();
+    if (onChange) onChange(part_);
+}
+
+void TakeTrim::changeAtOnce(juce::Range<double> part) {
+    change(part);
+    end();
+}
+
+void TakeTrim::end() {
+    if (onEnd) onEnd();
+}
+
+void TakeTrim::mouseUp(const juce::MouseEvent& e) {
+    if (e.mouseWasDraggedSinceMouseDown()) end();
+}
+
+void TakeTrim::moveTo(double seconds) {
+    const double least = std::min(leastSeconds, seconds_);
+    auto part = part_;
+    if (movesEnd_)
+        part.setEnd(
+            juce::jlimit(part.getStart() + least, std::max(part.getStart() + least, seconds_), seconds));
+    else
+        part.setStart(juce::jlimit(0.0, std::max(0.0, part.getEnd() - least), seconds));
+    change(part);
+}
+
+void TakeTrim::mouseDown(const juce::MouseEvent& e) {
+    movesEnd_ = e.position.x > 0.5f * (pixelOf(part_.getStart()) + pixelOf(part_.getEnd()));
+}
+
+bool TakeTrim::keyPressed(const juce::KeyPress& key) {
+    const bool isLeft = key.isKeyCode(juce::KeyPress::leftKey);
+    if (!isLeft && !key.isKeyCode(juce::KeyPress::rightKey)) return false;
+    movesEnd_ = key.getModifiers().isShiftDown();
+    moveTo((movesEnd_ ? part_.getEnd() : part_.getStart()) + (isLeft ? -step : step));
+    end();
+    return true;
+}
+
+void TakeTrim::paint(juce::Graphics& g) {
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(getLocalBounds().toFloat(), 3.0f);
+    const float middle = 0.5f * static_cast<float>(getHeight()), from = pixelOf(part_.getStart()),
+                to = pixelOf(part_.getEnd());
+    for (std::size_t k = 0; k < levels_.size(); ++k) {
+        const float x = static_cast<float>(k) * static_cast<float>(getWidth()) / columns,
+                    half = std::max(0.5f, levels_[k] * (middle - 2.0f));
+        g.setColour(shade(*this, x >= from && x < to ? Shade::accent : Shade::line));
+        g.fillRect(x, middle - half, static_cast<float>(getWidth()) / columns + 0.2f, 2.0f * half);
+    }
+    g.setColour(shade(*this, Shade::now));
+    for (const float x : {from, to})
+        g.fillRect(juce::jlimit(0.0f, static_cast<float>(getWidth()) - 3.0f, x - 1.5f), 0.0f, 3.0f,
+                   2.0f * middle);
+}
+
+// Streams recordings, so that a long one takes no more memory than a short one.
+
+namespace {
+
+constexpr float leastFelt = 0.001f; // -60 dB of full scale
+constexpr double fadeSeconds = 0.005;
+
+class Levels final : public SoundTaker {
+public:
+    Levels(int columns, const std::function<bool()>& keepGoing)
+        : levels(static_cast<std::size_t>(columns))
+        , keepGoing_{keepGoing} {}
+    std::string begin(const SoundShape& shape) override {
+        shape_ = shape;
+        return shape.frames > 0 ? std::string{} : "no samples";
+    }
+    std::string take(const float* const* channels, int frames) override {
+        const auto columns = static_cast<std::int64_t>(levels.size());
+        for (int k = 0; k < frames && at_ < shape_.frames; ++k, ++at_) {
+            float& level = levels[static_cast<std::size_t>(at_ * columns / shape_.frames)];
+            for (int c = 0; c < shape_.channels; ++c) level = std::max(level, std::abs(channels[c][k]));
+        }
+        return keepGoing_() ? std::string{} : "cancelled";
+    }
+    std::vector<float> levels;
+
+private:
+    const std::function<bool()>& keepGoing_;
+    SoundShape shape_;
+    std::int64_t at_ = 0;
+};
+
+class Part final : public SoundTaker {
+public:
+    Part(juce::Range<double> seconds, const juce::File& to, const std::string& comment)
+        : seconds_{seconds}
+        , to_{to}
+        , comment_{comment} {}
+    std::string begin(const SoundShape& shape) override {
+        const auto frameOf = [&](double s) {
+            return std::clamp<std::int64_t>(std::llround(s * static_cast<double>(shape.sampleRateHz)), 0,
+                                            shape.frames);
+        };
+        from_ = frameOf(seconds_.getStart());
+        end_ = frameOf(seconds_.getEnd());
+        frames_ = shape.frames;
+        fade_ = std::max<std::int64_t>(1, frameOf(fadeSeconds));
+        rateHz_ = static_cast<int>(shape.sampleRateHz);
+        block_.resize(static_cast<std::size_t>(shape.channels));
+        sink_.emplace(to_.getFullPathName().toStdString(), static_cast<int>(shape.channels), rateHz_,
+                      comment_);
+        return sink_->error();
+    }
+    std::string take(const float* const* channels, int frames) override {
+        for (auto& samples : block_) samples.clear();
+        for (int k = 0; k < frames; ++k, ++at_)
+            if (at_ >= from_ && at_ < end_)
+                for (std::size_t c = 0; c < block_.size(); ++c)
+                    block_[c].push_back(channels[c][k] * gainAt(at_));
+        std::vector<const float*> pointers;
+        for (const auto& samples : block_) pointers.push_back(samples.data());
+        sink_->write(pointers.data(), static_cast<int>(block_[0].size()));
+        return sink_->error();
+    }
+    std::string finish() { return sink_->finish(); }
+    std::int64_t nsOf(std::int64_t frames) const { return frames * 1'000'000'000 / rateHz_; }
+    std::int64_t fromNs() const { return nsOf(from_); }
+    std::int64_t endNs() const { return nsOf(end_); }
+
+private:
+    float gainAt(std::int64_t frame) const {
+        const auto in = from_ == 0 ? fade_ : frame - from_ + 1, out = end_ == frames_ ? fade_ : end_ - frame;
+        return static_cast<float>(std::min({fade_, in, out})) / static_cast<float>(fade_);
+    }
+    const juce::Range<double> seconds_;
+    const juce::File to_;
+    const std::string comment_;
+    std::optional<WavSink> sink_;
+    std::vector<std::vector<float>> block_;
+    int rateHz_ = 1;
+    std::int64_t from_ = 0, end_ = 0, frames_ = 0, fade_ = 1, at_ = 0;
+};
+
+} // namespace
+
+std::vector<float> takeLevels(const juce::File& take, int columns, const std::function<bool()>& keepGoing) {
+    Levels levels{columns, keepGoing};
+    const auto error = streamRecording(take.getFullPathName().toStdString(), levels);
+    return error.empty() ? std::move(levels.levels) : std::vector<float>{};
+}
+
+juce::Range<double> soundingPart(const std::vector<float>& levels, double seconds) {
+    const auto isFelt = [](float level) { return level >= leastFelt; };
+    const auto first = std::ranges::find_if(levels, isFelt);
+    if (first == levels.end()) return {0.0, seconds};
+    const auto last = std::find_if(levels.rbegin(), levels.rend(), isFelt).base();
+    const auto secondsOf = [&](auto at) {
+        return seconds * static_cast<double>(at - levels.begin()) / static_cast<double>(levels.size());
+    };
+    return {secondsOf(first), secondsOf(last)};
+}
+
+std::string writeTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to) {
+    const Provenance provenance{PHYSVIB_VERSION, {{"part_of", take.getFileName().toStdString()}}};
+    Part part{seconds, to, provenanceLine(provenance)};
+    auto error = streamRecording(take.getFullPathName().toStdString(), part);
+    if (error.empty()) error = part.finish();
+    const auto from = take.withFileExtension("csv");
+    if (!error.empty() || !from.existsAsFile()) return error;
+    auto list = loadEventsCsv(from.getFullPathName().toStdString());
+    if (!list) return {}; // a take without an event has a list that has none
+    auto& events = list.value.events;
+    std::erase_if(events, [&](const CollisionEvent& e) {
+        return e.timeNs < part.fromNs() || e.timeNs >= part.endNs();
+    });
+    for (auto& event : events) event.timeNs -= part.fromNs();
+    return writeFile(to.withFileExtension("csv").getFullPathName().toStdString(),
+                     eventsCsv(events, list.value.field, provenance, list.value.names));
+}
+
+// Beside the parts that were played, so that the recording and its events stay as they are.
+
+namespace {
+
+constexpr const char *fromField = "from_s", *toField = "to_s", *ofField = "of_s";
+constexpr double sameLength = 1e-6; // as written in text
+
+juce::File fileOf(const juce::File& take) {
+    return partsFolder(take).getChildFile(take.getFileNameWithoutExtension() + ".json");
+}
+
+} // namespace
+
+juce::File partsFolder(const juce::File& take) { return take.getSiblingFile("parts"); }
+
+// The length is kept as well, because a later recording may have the name of one that is gone.
+juce::Range<double> keptPart(const juce::File& take, double seconds) {
+    const juce::Range<double> whole{0.0, seconds};
+    const auto kept = juce::JSON::parse(fileOf(take).loadFileAsString());
+    const auto field = [&](const char* name) { return static_cast<double>(kept.getProperty(name, -1.0)); };
+    const double from = field(fromField), to = field(toField);
+    const bool isOfThisTake = std::abs(field(ofField) - seconds) <= sameLength;
+    return isOfThisTake && from >= 0.0 && from < to && to <= seconds ? juce::Range{from, to} : whole;
+}
+
+std::string keepPart(const juce::File& take, double seconds, juce::Range<double> part) {
+    const auto file = fileOf(take);
+    if (part == juce::Range{0.0, seconds})
+        return !file.existsAsFile() || file.deleteFile()
+                   ? std::string{}
+                   : file.getFullPathName().toStdString() + ": cannot be deleted";
+    auto* const fields = new juce::DynamicObject; // owned by the value below
+    const juce::var kept{fields};
+    fields->setProperty(fromField, part.getStart());
+    fields->setProperty(toField, part.getEnd());
+    fields->setProperty(ofField, seconds);
+    file.getParentDirectory().createDirectory();
+    return writeFile(file.getFullPathName().toStdString(),
+                     juce::JSON::toString(kept, true, 15).toStdString() + "\n");
 }
 
 } // namespace physvib

@@ -1,18 +1,66 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The recordings in the user's folder: a list with what can be done with each.
 #pragma once
-#include "Mixer/Desk/UserFolder.h"
-#include "Mixer/Output/TakeTrim.h"
-#include "Mixer/Window/TabPanel.h"
+#include "Mixer/Model/MixerRecording.h"
+#include "Mixer/Widgets/Parts.h"
+#include <atomic>
+#include <functional>
+#include <juce_core/juce_core.h>
+#include <mutex>
+#include <string>
+#include <vector>
 
 namespace physvib {
+
+/// The levels of a take over time, with its start and end to drag.
+/// Message thread only.
+class TakeTrim final : public juce::Component,
+                       public juce::SettableTooltipClient,
+                       private juce::AsyncUpdater {
+public:
+    TakeTrim();
+    ~TakeTrim() override;
+
+    /// Shows a take; its levels come when they have been read.
+    void show(const juce::File& take, double seconds, juce::Range<double> part);
+    /// Cuts the silence at both ends, as soon as the levels are there.
+    void trimSilence();
+    void showAll() { changeAtOnce({0.0, seconds_}); }
+    std::function<void(juce::Range<double> part)> onChange;
+    std::function<void()> onEnd; ///< after one or more changes: no more come
+
+    void paint(juce::Graphics& g) override;
+    void mouseDown(const juce::MouseEvent& e) override;
+    void mouseDrag(const juce::MouseEvent& e) override { moveTo(seconds_ * e.position.x / getWidth()); }
+    void mouseUp(const juce::MouseEvent& e) override;
+    void mouseDoubleClick(const juce::MouseEvent&) override { showAll(); }
+    bool keyPressed(const juce::KeyPress& key) override;
+
+private:
+    void moveTo(double seconds);
+    void change(juce::Range<double> part);
+    void changeAtOnce(juce::Range<double> part);
+    void end();
+    float pixelOf(double seconds) const;
+    void handleAsyncUpdate() override;
+
+    juce::File take_;
+    double seconds_ = 0.0;
+    juce::Range<double> part_;
+    bool movesEnd_ = false, isWaiting_ = false; // for levels, to cut the silence
+    std::vector<float> levels_;                 // empty: not read yet
+    std::mutex mutex_;                          // guards what is read
+    std::vector<float> read_;
+    std::atomic<int> reading_{0}; // number of the take that is to be read
+    juce::ThreadPool reader_{1};  // destroyed first, because its thread uses the other members
+};
 
 /// Message thread only.
 class TakesTab final : public Tab, private juce::ListBoxModel {
 public:
-    explicit TakesTab(Desk& desk);
+    explicit TakesTab(MixerModel& model);
 
-    void refresh(const DeskMoment&) override;
+    void refresh(const MixerMoment&) override;
     void visibilityChanged() override { look(); }
     void resized() override;
 
@@ -49,15 +97,38 @@ private:
     void askExport();
     void askErase();
 
-    Desk& desk_;
+    MixerModel& model_;
     juce::SharedResourcePointer<UserFolder> folder_;
     std::vector<Take> takes_; // the newest first
     juce::Time seenAt_;       // last change of the folder that is listed
     double lookedAtMs_ = 0.0;
     juce::ListBox list_{"Takes", this};
-    juce::Label none_;
+    Caption none_{"No recordings yet: Record, or Ctrl+R, makes one", Shade::text};
     TakeTrim trimmer_;
     std::unique_ptr<juce::TextButton> play_, trim_, export_, show_, erase_;
 };
+
+/// A part of a recording: how loud it is over time, and the part as a recording of its own.
+/// The largest sample in each of so many equal parts of a recording; empty if it cannot be read, or when
+/// `keepGoing` has returned false. Any thread.
+std::vector<float> takeLevels(const juce::File& take, int columns, const std::function<bool()>& keepGoing);
+
+/// From the first part that can be felt to the last, s; all of it if there is none. Any thread.
+juce::Range<double> soundingPart(const std::vector<float>& levels, double seconds);
+
+/// Writes that part, and the events in it, as a recording of its own. An edge within the sound fades in 5 ms.
+/// Empty, or one line. Message thread.
+std::string writeTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to);
+
+/// Which part of a recording was chosen, kept in a small file below it.
+/// The folder below the takes for what belongs to them and is not listed.
+juce::File partsFolder(const juce::File& take);
+
+/// The part that was kept, s; all of the take if none was, or if it was of a take of another length. Message
+/// thread.
+juce::Range<double> keptPart(const juce::File& take, double seconds);
+
+/// All of the take needs no file. Empty, or one line. Message thread.
+std::string keepPart(const juce::File& take, double seconds, juce::Range<double> part);
 
 } // namespace physvib

@@ -3,21 +3,21 @@
 #include "Mixer/Output/TelemetryTab.h"
 #include "Core/Units.h"
 #include "Live/Devices/NoDevice.h"
-#include <cmath>
+#include <algorithm>
+#include <numeric>
 
 namespace physvib {
-
 namespace {
 
-constexpr std::size_t mostLoads = 300;  // ten seconds of updates
+constexpr std::size_t maxLoads = 300;   // ten seconds of updates
 constexpr double showFiguresMs = 500.0; // figures that change faster are illegible
 
 juce::String count(std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; }
 juce::String percent(float share) { return number(100.0 * static_cast<double>(share), 1) + " %"; }
 Shade noneIsGood(std::uint64_t n) { return n > 0 ? Shade::now : Shade::text; }
 
-Fact clockFact(const Desk& desk, const DeskMoment& moment) {
-    const auto& output = desk.output();
+Fact clockFact(const MixerModel& model, const MixerMoment& moment) {
+    const auto& output = model.output();
     if (!moment.device.isRunning) return {"Clock", "none runs: the world waits", Shade::limit};
     const auto name = utf8(output.device());
     const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
@@ -26,7 +26,7 @@ Fact clockFact(const Desk& desk, const DeskMoment& moment) {
             isNone ? Shade::now : Shade::text};
 }
 
-Fact marginFact(const DeskMoment& moment, int rateHz) {
+Fact marginFact(const MixerMoment& moment, int rateHz) {
     const auto frames = moment.session.leastMarginFrames;
     if (frames == noMargin || rateHz == 0) return {"Margin", "no hit yet", Shade::muted};
     return {"Margin", number(1e3 * static_cast<double>(frames) / rateHz, 1) + " ms at least",
@@ -50,10 +50,10 @@ Fact exposureFact(double daily) {
 
 } // namespace
 
-std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, float medianLoad) {
-    const auto& output = desk.output();
+std::vector<Fact> telemetryFacts(const MixerModel& model, const MixerMoment& moment, float medianLoad) {
+    const auto& output = model.output();
     const auto& r = moment.session.render;
-    const auto& session = desk.session();
+    const auto& session = model.session();
     const auto refused = moment.session.refused + r.rejected;
     const double reduction = toDecibels(std::max(static_cast<double>(r.limiterGain), 1e-6));
     std::vector<Fact> facts{
@@ -71,7 +71,7 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
         {"Limiter", number(reduction, 1) + " dB", reduction < -0.05 ? Shade::limit : Shade::text},
         guardFact(moment.device),
         exposureFact(moment.dailyExposure),
-        clockFact(desk, moment),
+        clockFact(model, moment),
         {"Render call", "median " + percent(medianLoad) + ", worst " + percent(moment.device.worstLoad),
          moment.device.worstLoad > 1.0f ? Shade::now : Shade::text},
         {"Blocks", count(moment.device.blocks) + " of " + juce::String{output.blockFrames()} + " frames"},
@@ -79,10 +79,10 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
          moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
                                        : juce::String{moment.device.deviceXruns},
          moment.device.deviceXruns > 0 ? Shade::now : Shade::text},
-        {"Not told", count(r.untold) + " hits, " + count(desk.signals().framesLost()) + " frames",
+        {"Not told", count(r.untold) + " hits, " + count(model.signals().framesLost()) + " frames",
          noneIsGood(r.untold)},
         {"Not finite", count(r.nonFinite) + " samples", noneIsGood(r.nonFinite)}};
-    const auto sinks = desk.session().sinks().states();
+    const auto sinks = model.session().sinks().states();
     if (sinks.empty()) facts.push_back({"Board", "none", Shade::muted});
     for (const SinkState& sink : sinks)
         for (const auto& [name, value, isWrong] : sink.facts)
@@ -90,8 +90,8 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
     return facts;
 }
 
-TelemetryTab::TelemetryTab(Desk& desk)
-    : desk_{desk} {
+TelemetryTab::TelemetryTab(MixerModel& model)
+    : model_{model} {
     setTitle("Telemetry");
     addAndMakeVisible(facts_);
 }
@@ -104,13 +104,88 @@ float TelemetryTab::medianLoad() const {
     return *middle;
 }
 
-void TelemetryTab::refresh(const DeskMoment& moment) {
+void TelemetryTab::refresh(const MixerMoment& moment) {
     if (moment.device.isRunning) loads_.push_back(moment.device.load);
-    if (loads_.size() > mostLoads) loads_.pop_front();
+    if (loads_.size() > maxLoads) loads_.pop_front();
     const double now = juce::Time::getMillisecondCounterHiRes();
     if (now - shownAtMs_ < showFiguresMs) return;
     shownAtMs_ = now;
-    facts_.set(telemetryFacts(desk_, moment, medianLoad()));
+    facts_.set(telemetryFacts(model_, moment, medianLoad()));
+}
+
+// Draws facts column by column from the top.
+
+namespace {
+
+constexpr int lowestRow = 18, highestRow = 26, afterName = 14;
+
+/// That the words need at that width, broken between words.
+int linesOf(const juce::String& words, const juce::Font& font, int width) {
+    if (font.getStringWidth(words) <= width) return 1;
+    juce::AttributedString all;
+    all.append(words, font);
+    juce::TextLayout layout;
+    layout.createLayout(all, static_cast<float>(std::max(1, width)));
+    return std::max(1, layout.getNumLines());
+}
+
+} // namespace
+
+FactList::FactList(const juce::String& title, int maxColumns)
+    : maxColumns_{maxColumns} {
+    setTitle(title);
+}
+
+// As many columns as hold every value in one line; in a single one, a long value has several lines.
+FactList::Places FactList::placesIn(int width) const {
+    const juce::Font font{text::medium};
+    Places p;
+    int widest = 0;
+    for (const auto& fact : facts_) {
+        p.nameWidth = std::max(p.nameWidth, font.getStringWidth(fact.name) + afterName);
+        widest = std::max(widest, font.getStringWidth(fact.value) + 1);
+    }
+    const auto room = [&](int columns) { return (width - (columns - 1) * gap) / columns - p.nameWidth; };
+    for (p.columns = maxColumns_; p.columns > 1 && room(p.columns) < widest;) --p.columns;
+    const int count = static_cast<int>(facts_.size());
+    p.rows = (count + p.columns - 1) / p.columns;
+    for (const auto& fact : facts_)
+        p.linesOf.push_back(p.columns > 1 ? 1 : linesOf(fact.value, font, room(1)));
+    p.lines = p.columns > 1 ? p.rows : std::accumulate(p.linesOf.begin(), p.linesOf.end(), 0);
+    return p;
+}
+
+int FactList::heightFor(int width) const { return placesIn(width).lines * lowestRow; }
+
+void FactList::set(std::vector<Fact> facts) {
+    if (facts == facts_) return;
+    facts_ = std::move(facts);
+    juce::StringArray words;
+    for (const auto& fact : facts_) words.add(fact.name + ": " + fact.value);
+    setDescription(words.joinIntoString("; "));
+    repaint();
+}
+
+void FactList::paint(juce::Graphics& g) {
+    if (facts_.empty()) return;
+    const auto p = placesIn(getWidth());
+    const int line = juce::jlimit(lowestRow, highestRow, getHeight() / p.lines),
+              width = (getWidth() - (p.columns - 1) * gap) / p.columns;
+    const juce::Font font{text::medium};
+    g.setFont(font);
+    int y = 0;
+    for (int i = 0; i < static_cast<int>(facts_.size()); ++i) {
+        const auto& fact = facts_[static_cast<std::size_t>(i)];
+        const int lines = p.linesOf[static_cast<std::size_t>(i)];
+        if (i % p.rows == 0) y = 0;
+        juce::Rectangle<int> row{i / p.rows * (width + gap), y, width, lines * line};
+        y = row.getBottom();
+        g.setColour(shade(*this, Shade::muted));
+        g.drawText(fact.name, row.removeFromLeft(p.nameWidth).withHeight(line),
+                   juce::Justification::centredLeft, true);
+        g.setColour(shade(*this, fact.shade));
+        g.drawFittedText(fact.value, row, juce::Justification::centredLeft, lines, 1.0f);
+    }
 }
 
 } // namespace physvib

@@ -4,37 +4,36 @@
 #include <cmath>
 
 namespace physvib {
-
 namespace {
 
-constexpr int scopeFootHeight = 16, mostLanes = SpectrumView::mostCurves, leastLabel = 26, afterLabel = 6,
+constexpr int scopeFootHeight = 16, maxLanes = SpectrumView::maxCurves, minLabel = 26, afterLabel = 6,
               laneGap = 6;
 
 float shownLevel(float sample) { return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample); }
 
 } // namespace
 
-ScopeView::ScopeView(Desk& desk)
-    : desk_{desk}
-    , spectrum_{desk} {
+ScopeView::ScopeView(MixerModel& model)
+    : model_{model}
+    , spectrum_{model} {
     addAndMakeVisible(spectrum_);
     setTitle("Played now");
     setDescription("Waveforms of the last second, one lane per actuator");
 }
 
 bool ScopeView::isQuiet() const {
-    for (int j = 0; j < desk_.mix().count(); ++j)
+    for (int j = 0; j < model_.mix().count(); ++j)
         for (int i = 0; i < ScopeTrace::columns; i += 8) {
-            const auto range = desk_.signals().scope().at(j, i);
+            const auto range = model_.signals().scope().at(j, i);
             if (range.highest - range.lowest > 1e-5f) return false;
         }
     return true;
 }
 
-void ScopeView::refresh(const DeskMoment&) {
+void ScopeView::refresh(const MixerMoment&) {
     spectrum_.refresh();
-    if (desk_.signals().scope().columnsBegun() == shown_) return;
-    shown_ = desk_.signals().scope().columnsBegun();
+    if (model_.signals().scope().columnsBegun() == shown_) return;
+    shown_ = model_.signals().scope().columnsBegun();
     const bool quiet = isQuiet();
     if (quiet && wasQuiet_) return; // a silent trace does not change
     wasQuiet_ = quiet;
@@ -47,11 +46,11 @@ void ScopeView::drawLane(juce::Graphics& g, juce::Rectangle<int> lane, int chann
     const auto middle = static_cast<float>(lane.getCentreY()),
                reach = 0.5f * static_cast<float>(lane.getHeight()) - 2.0f;
     g.setColour(
-        enchanterColour(*this, channel).withMultipliedAlpha(desk_.mix().isSilent(channel) ? 0.35f : 1.0f));
+        enchanterColour(*this, channel).withMultipliedAlpha(model_.mix().isSilent(channel) ? 0.35f : 1.0f));
     juce::RectangleList<float> columns;
     const int width = lane.getWidth() - 4;
     for (int x = 0; x < width; ++x) {
-        const auto range = desk_.signals().scope().shown(channel, x, width);
+        const auto range = model_.signals().scope().shown(channel, x, width);
         const float top = middle - reach * shownLevel(range.highest),
                     bottom = middle - reach * shownLevel(range.lowest);
         columns.addWithoutMerging(
@@ -61,17 +60,17 @@ void ScopeView::drawLane(juce::Graphics& g, juce::Rectangle<int> lane, int chann
 }
 
 void ScopeView::paint(juce::Graphics& g) {
-    const auto& mix = desk_.mix();
+    const auto& mix = model_.mix();
     auto area = lanes_;
-    const int lanes = std::min(mix.count(), mostLanes);
+    const int lanes = std::min(mix.count(), maxLanes);
     const juce::Font bold{text::medium, juce::Font::bold};
     const auto labelOf = [&](int j) {
         return utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label);
     };
-    int labelWidth = leastLabel;
+    int labelWidth = minLabel;
     for (int j = 0; j < lanes; ++j)
         labelWidth = std::max(labelWidth, bold.getStringWidth(labelOf(j)) + afterLabel);
-    labelWidth = std::min(labelWidth, std::max(leastLabel, area.getWidth() / 5)); // the rest is cut
+    labelWidth = std::min(labelWidth, std::max(minLabel, area.getWidth() / 5)); // the rest is cut
     const auto foot = area.removeFromBottom(scopeFootHeight).withTrimmedLeft(labelWidth);
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
@@ -98,14 +97,79 @@ void ScopeView::paint(juce::Graphics& g) {
 
 void ScopeView::resized() {
     auto area = getLocalBounds();
-    constexpr int leastSpectrum = 180, leastLanes = 130;
-    const int wide = std::max(leastSpectrum, area.getWidth() * 36 / 100);
-    spectrum_.setVisible(area.getWidth() >= wide + gap + leastLanes);
+    constexpr int minSpectrum = 180, minLanes = 130;
+    const int wide = std::max(minSpectrum, area.getWidth() * 36 / 100);
+    spectrum_.setVisible(area.getWidth() >= wide + gap + minLanes);
     if (spectrum_.isVisible()) {
         spectrum_.setBounds(area.removeFromRight(wide));
         area.removeFromRight(gap);
     }
     lanes_ = area;
+}
+
+// Updates the spectra ten times a second, and redraws only visible changes.
+
+namespace {
+
+constexpr float visibleDb = 0.3f;
+constexpr int levelsWidth = 30;
+
+} // namespace
+
+SpectrumView::SpectrumView(MixerModel& model)
+    : model_{model} {
+    setTitle("Spectra");
+    setDescription("Levels of what each actuator plays, 20 to 1000 Hz");
+    for (auto& levels : shown_) levels.fill(FrequencyAxis::floorDb);
+}
+
+void SpectrumView::refresh() {
+    const double now = juce::Time::getMillisecondCounterHiRes();
+    if (now - lookedAtMs_ < 1000.0 / looksPerSecond || model_.signals().scope().columnsBegun() == seen_)
+        return;
+    const auto fall = static_cast<float>(meterFallDbPerSecond * std::min(1.0, 1e-3 * (now - lookedAtMs_)));
+    lookedAtMs_ = now;
+    seen_ = model_.signals().scope().columnsBegun();
+    bool isOther = false;
+    for (int j = 0; j < std::min(model_.mix().count(), maxCurves); ++j) {
+        const auto levels = levelsOf(model_.signals().spectrum(), j);
+        auto& shown = shown_[static_cast<std::size_t>(j)];
+        for (std::size_t k = 0; k < shown.size(); ++k) {
+            const float next = std::max({levels[k], shown[k] - fall, FrequencyAxis::floorDb});
+            isOther = isOther || std::abs(next - shown[k]) > visibleDb;
+            shown[k] = next;
+        }
+    }
+    if (isOther) repaint();
+}
+
+void SpectrumView::paint(juce::Graphics& g) {
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(getLocalBounds().withTrimmedBottom(18).toFloat(), 3.0f);
+    auto area = getLocalBounds().withTrimmedTop(6).withTrimmedRight(6);
+    const auto levels = area.removeFromLeft(levelsWidth);
+    area = drawFrequencyAxis(g, *this, area).withTrimmedBottom(2);
+    g.setFont(juce::Font{text::small});
+    for (const int db : {0, -20, -40, -60, -80}) {
+        const int y = area.getY() + juce::roundToInt(static_cast<float>(area.getHeight() - 1) *
+                                                     static_cast<float>(db) / FrequencyAxis::floorDb);
+        g.setColour(shade(*this, Shade::line).withMultipliedAlpha(0.7f));
+        g.drawHorizontalLine(y, static_cast<float>(area.getX()), static_cast<float>(area.getRight()));
+        g.setColour(shade(*this, Shade::muted));
+        g.drawText(db == 0 ? juce::String{"dB"} : number(db, 0),
+                   juce::Rectangle<int>{levelsWidth - 5, 14}
+                       .withCentre({levels.getCentreX() - 2, y})
+                       .constrainedWithin(getLocalBounds()),
+                   juce::Justification::centredRight, false);
+    }
+    g.reduceClipRegion(area.withTrimmedBottom(2)); // does not draw the floor
+    for (int j = std::min(model_.mix().count(), maxCurves) - 1; j >= 0; --j) {
+        auto heights = shown(j);
+        if (std::ranges::all_of(heights, [](float db) { return db <= FrequencyAxis::floorDb; })) continue;
+        for (float& level : heights) level = 1.0f - level / FrequencyAxis::floorDb;
+        drawSpectrum(g, heights, area.toFloat(),
+                     enchanterColour(*this, j).withMultipliedAlpha(model_.mix().isSilent(j) ? 0.35f : 1.0f));
+    }
 }
 
 } // namespace physvib

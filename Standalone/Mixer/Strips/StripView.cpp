@@ -2,7 +2,7 @@
 // Controls of channel strips and their edits of the mixer state.
 #include "Mixer/Strips/StripView.h"
 #include "Core/Units.h"
-#include "Mixer/Strips/GroupView.h"
+#include "Mixer/Strips/StripsPanel.h"
 #include <cmath>
 
 namespace physvib {
@@ -12,37 +12,37 @@ namespace {
 constexpr int metersTop = 56;
 
 /// Felt level in g of a strip's peak after the master level.
-double gOf(const Desk& desk, std::size_t strip, float peak) {
-    return peak * masterGain(desk.mix()) * desk.mix().layout.enchanters[strip].fullScaleG;
+double gOf(const MixerModel& model, std::size_t strip, float peak) {
+    return peak * masterGain(model.mix()) * model.mix().layout.enchanters[strip].fullScaleG;
 }
 
-double mostG(const Desk& desk, std::size_t strip) {
-    return gOf(desk, strip, ceilingOf(desk.mix().strips[strip]));
+double maxG(const MixerModel& model, std::size_t strip) {
+    return gOf(model, strip, ceilingOf(model.mix().strips[strip]));
 }
 juce::String inG(double g) { return number(g, g < 9.995 ? 2 : 1); }
 
 } // namespace
 
-StripView::StripView(Desk& desk, int strip)
-    : desk_{desk}
+StripView::StripView(MixerModel& model, int strip)
+    : model_{model}
     , index_{static_cast<std::size_t>(strip)}
-    , meter_{"Level of " + utf8(desk.mix().layout.enchanters[index_].label)}
-    , ceiling_{utf8(desk.mix().layout.enchanters[index_].label)}
-    , sweep_{Sign::sweep, "Sweep on " + utf8(desk.mix().layout.enchanters[index_].label)} {
-    const auto label = utf8(desk.mix().layout.enchanters[index_].label);
+    , meter_{"Level of " + utf8(model.mix().layout.enchanters[index_].label)}
+    , ceiling_{utf8(model.mix().layout.enchanters[index_].label)}
+    , sweep_{Sign::sweep, "Sweep on " + utf8(model.mix().layout.enchanters[index_].label)} {
+    const auto label = utf8(model.mix().layout.enchanters[index_].label);
     setTitle("Strip " + label);
     fader_.setUp(leastStripDb, mostStripDb, "Gain of " + label);
-    onSlide(fader_, [this](bool goesOn) {
+    onSlide(fader_, [this](bool continuesEdit) {
         change(
-            "Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, goesOn);
+            "Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, continuesEdit);
     });
     ceiling_.textFromValueFunction = [this](double db) {
         return "at most " + number(db, 1) + " dB, " +
-               inG(gOf(desk_, index_, static_cast<float>(fromDecibels(db)))) + " g";
+               inG(gOf(model_, index_, static_cast<float>(fromDecibels(db)))) + " g";
     };
-    onSlide(ceiling_, [this](bool goesOn) {
+    onSlide(ceiling_, [this](bool continuesEdit) {
         change(
-            "Ceiling", [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }, goesOn);
+            "Ceiling", [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }, continuesEdit);
     });
     const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint,
                             bool Strip::*what) {
@@ -67,44 +67,42 @@ StripView::StripView(Desk& desk, int strip)
     output_.setTitle("Output of " + label);
     output_.setJustificationType(juce::Justification::centred);
     output_.onChange = [this] {
-        desk_.change("Output of " + utf8(desk_.mix().layout.enchanters[index_].label),
-                     [this](Mix& mix) { giveOutput(mix.strips, index_, output_.getSelectedId() - 2); });
+        model_.change("Output of " + utf8(model_.mix().layout.enchanters[index_].label),
+                      [this](Mix& mix) { giveOutput(mix.strips, index_, output_.getSelectedId() - 2); });
     };
     group_ = quietButton("group", "Group of " + label);
-    group_->onClick = [this] { showGroupMenu(desk_, index_, *group_); };
+    group_->onClick = [this] { showGroupMenu(model_, index_, *group_); };
     test_ = quietButton(juce::String::fromUTF8("Test \xe2\x96\xb8"), "Test pulse on " + label);
     test_->setTooltip("A pulse at the actuator's resonance (T)");
-    test_->onClick = [this] { desk_.strikes().testPulse(static_cast<int>(index_)); };
+    test_->onClick = [this] { model_.strikes().testPulse(static_cast<int>(index_)); };
     sweep_.getProperties().set(quietProperty, true);
     sweep_.setTooltip("A sweep from 40 to 400 Hz (Shift+T)");
-    sweep_.onClick = [this] { desk_.strikes().testSweep(static_cast<int>(index_)); };
-    for (juce::Component* c :
-         std::initializer_list<juce::Component*>{&meter_, &fader_, &ceiling_, &delay_, &level_, &most_,
-                                                 &output_, group_.get(), test_.get(), &sweep_})
-        addAndMakeVisible(c);
-    takeMix();
+    sweep_.onClick = [this] { model_.strikes().testSweep(static_cast<int>(index_)); };
+    addAll(*this, {&meter_, &fader_, &ceiling_, &delay_, &level_, &most_, &output_, group_.get(), test_.get(),
+                   &sweep_});
+    mixChanged();
 }
 
 template <class Change>
-void StripView::change(const juce::String& name, Change change, bool goesOn) {
-    const auto label = utf8(desk_.mix().layout.enchanters[index_].label);
-    desk_.change(
-        name + " of " + label, [&](Mix& mix) { change(mix.strips[index_]); }, goesOn);
+void StripView::change(const juce::String& name, Change change, bool continuesEdit) {
+    const auto label = utf8(model_.mix().layout.enchanters[index_].label);
+    model_.change(
+        name + " of " + label, [&](Mix& mix) { change(mix.strips[index_]); }, continuesEdit);
 }
 
 void StripView::fillOutputs() {
     output_.clear(juce::dontSendNotification);
     output_.addItem("none", 1);
     std::vector<juce::String> names;
-    const DeviceChoice& choice = desk_.device().choice();
-    for (int k = 0; k < desk_.device().outputs(); ++k) names.push_back(utf8(choice.nameOf(k)));
-    const Mix& mix = desk_.mix();
+    const DeviceChoice& choice = model_.device().choice();
+    for (int k = 0; k < model_.device().outputs(); ++k) names.push_back(utf8(choice.nameOf(k)));
+    const Mix& mix = model_.mix();
     for (std::size_t j = 0; j < mix.strips.size(); ++j) // who would be exchanged
         if (const auto k = static_cast<std::size_t>(mix.strips[j].output);
             j != index_ && mix.strips[j].output >= 0 && k < names.size())
             names[k] += " of " + utf8(mix.layout.enchanters[j].label);
     const int own = strip().output;
-    isPlaced_ = desk_.output().isPlaced(static_cast<int>(index_));
+    isPlaced_ = model_.output().isPlaced(static_cast<int>(index_));
     const juce::String gone = isPlaced_ ? "" : " (not there)";
     const auto inUse = choice.inUse();
     for (int k = 0; const auto& name : names) {
@@ -113,26 +111,26 @@ void StripView::fillOutputs() {
         output_.addItem(name + (k == own ? gone : by), k + 2);
         output_.setItemEnabled(k++ + 2, !isInUse);
     }
-    if (own >= desk_.device().outputs()) output_.addItem(utf8(choice.nameOf(own)) + gone, own + 2);
+    if (own >= model_.device().outputs()) output_.addItem(utf8(choice.nameOf(own)) + gone, own + 2);
     output_.setSelectedId(strip().output + 2, juce::dontSendNotification);
 }
 
-void StripView::takeMix() {
+void StripView::mixChanged() {
     const Strip& s = strip();
     if (!fader_.isMouseButtonDown()) fader_.setValue(s.gainDb, juce::dontSendNotification);
     mute_.setToggleState(s.isMuted, juce::dontSendNotification);
     solo_.setToggleState(s.isSolo, juce::dontSendNotification);
     polarity_.setToggleState(s.isInverted, juce::dontSendNotification);
     if (!ceiling_.isMouseButtonDown()) ceiling_.setValue(s.ceilingDb, juce::dontSendNotification);
-    most_.setText("/ " + inG(mostG(desk_, index_)) + " g", juce::dontSendNotification);
+    most_.setText("/ " + inG(maxG(model_, index_)) + " g", juce::dontSendNotification);
     most_.setTooltip("Ceiling: " + number(s.ceilingDb, 1) + " dB of full scale");
     most_.setColour(juce::Label::textColourId, shade(*this, s.ceilingDb < 0.0 ? Shade::text : Shade::muted));
     delay_.setButtonText(s.delayMs > 0.0 ? number(s.delayMs, s.delayMs < 1.0 ? 1 : 0) : juce::String{"ms"});
     delay_.setToggleState(s.delayMs > 0.0, juce::dontSendNotification);
     delay_.setTooltip("Delay: " + number(s.delayMs, 1) + " ms");
-    const auto& profile = desk_.mix().layout.enchanters[index_].actuator;
+    const auto& profile = model_.mix().layout.enchanters[index_].actuator;
     group_->setButtonText(s.group < 0 ? juce::String{"group"}
-                                      : utf8(desk_.mix().groups[static_cast<std::size_t>(s.group)].name));
+                                      : utf8(model_.mix().groups[static_cast<std::size_t>(s.group)].name));
     group_->setTooltip("Strips of a group share a fader and a mute (G). Actuator: " +
                        (profile == "none" ? juce::String{"no profile"} : utf8(profile)));
     fillOutputs();
@@ -148,31 +146,31 @@ void StripView::askDelay() {
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_));
 }
 
-void StripView::refresh(const DeskMoment& moment) {
+void StripView::refresh(const MixerMoment& moment) {
     if (!isThere()) return;
-    if (strip().output >= 0 && isPlaced_ != desk_.output().isPlaced(static_cast<int>(index_))) fillOutputs();
+    if (strip().output >= 0 && isPlaced_ != model_.output().isPlaced(static_cast<int>(index_))) fillOutputs();
     meter_.set(moment.meters.peaks[index_], moment.holds[index_]);
-    level_.setText(inG(desk_.isSilent() ? 0.0 : gOf(desk_, index_, moment.holds[index_])),
+    level_.setText(inG(model_.isSilent() ? 0.0 : gOf(model_, index_, moment.holds[index_])),
                    juce::dontSendNotification);
 }
 
 bool StripView::keyPressed(const juce::KeyPress& key) {
     if (!isThere()) return false;
-    if (key == juce::KeyPress{'t'}) return desk_.strikes().testPulse(static_cast<int>(index_)), true;
+    if (key == juce::KeyPress{'t'}) return model_.strikes().testPulse(static_cast<int>(index_)), true;
     if (key == juce::KeyPress{'t', juce::ModifierKeys::shiftModifier, 0})
-        return desk_.strikes().testSweep(static_cast<int>(index_)), true;
-    if (key == juce::KeyPress{'g'}) return showGroupMenu(desk_, index_, *group_), true;
+        return model_.strikes().testSweep(static_cast<int>(index_)), true;
+    if (key == juce::KeyPress{'g'}) return showGroupMenu(model_, index_, *group_), true;
     return false;
 }
 
 void StripView::mouseDown(const juce::MouseEvent& e) {
-    if (e.mods.isPopupMenu() && isThere()) showGroupMenu(desk_, index_, *group_);
+    if (e.mods.isPopupMenu() && isThere()) showGroupMenu(model_, index_, *group_);
 }
 
 void StripView::paint(juce::Graphics& g) {
     if (!isThere()) return;
     auto area = getLocalBounds();
-    const bool isSilent = desk_.mix().isSilent(static_cast<int>(index_));
+    const bool isSilent = model_.mix().isSilent(static_cast<int>(index_));
     g.setColour(
         enchanterColour(*this, static_cast<int>(index_)).withMultipliedAlpha(isSilent ? 0.35f : 1.0f));
     g.fillRoundedRectangle(area.removeFromTop(4).toFloat(), 2.0f);
@@ -192,7 +190,7 @@ void StripView::paint(juce::Graphics& g) {
 
 // With the fader's gain, unless that is 0 dB or the name needs the room.
 void StripView::drawName(juce::Graphics& g, juce::Rectangle<int> row, Shade which) const {
-    const auto name = utf8(desk_.mix().layout.enchanters[index_].label);
+    const auto name = utf8(model_.mix().layout.enchanters[index_].label);
     const juce::Font bold{text::medium, juce::Font::bold}, plain{text::small};
     const double db = strip().gainDb;
     const auto gain = db == 0.0 ? juce::String{} : fader_.textFromValueFunction(db);
@@ -216,7 +214,7 @@ void StripView::setDropping(bool isDropping) {
 
 void StripView::filesDropped(const juce::StringArray& files, int, int) {
     setDropping(false);
-    desk_.strikes().feelOn(files, static_cast<int>(index_));
+    model_.strikes().feelOn(files, static_cast<int>(index_));
 }
 
 void StripView::paintOverChildren(juce::Graphics& g) {
@@ -249,25 +247,25 @@ void StripView::resized() {
     fader_.setBounds(area.withX(left + 24).withWidth(32).expanded(0, 8));
 }
 
-MasterStrip::MasterStrip(Desk& desk)
-    : desk_{desk} {
+MasterStrip::MasterStrip(MixerModel& model)
+    : model_{model} {
     setTitle("Master");
     fader_.setUp(leastStripDb, 0.0, "Master gain", safeStartDecibels);
-    onSlide(fader_, [this](bool goesOn) {
-        desk_.change(
-            "Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, goesOn);
+    onSlide(fader_, [this](bool continuesEdit) {
+        model_.change(
+            "Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, continuesEdit);
     });
     addAndMakeVisible(meter_);
     addAndMakeVisible(fader_);
-    takeMix();
+    mixChanged();
 }
 
-void MasterStrip::takeMix() {
-    if (!fader_.isMouseButtonDown()) fader_.setValue(desk_.mix().levelDb, juce::dontSendNotification);
+void MasterStrip::mixChanged() {
+    if (!fader_.isMouseButtonDown()) fader_.setValue(model_.mix().levelDb, juce::dontSendNotification);
     repaint();
 }
 
-void MasterStrip::refresh(const DeskMoment& moment) {
+void MasterStrip::refresh(const MixerMoment& moment) {
     meter_.set(moment.masterPeak, moment.masterPeak);
     const auto& meters = moment.meters;
     const bool isGuard = meters.guardGain < meters.limiterGain;
@@ -285,7 +283,7 @@ void MasterStrip::paint(juce::Graphics& g) {
                false);
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
-    g.drawText(number(desk_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(28).removeFromTop(18),
+    g.drawText(number(model_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(28).removeFromTop(18),
                juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::well));
     g.fillRoundedRectangle(limiterBar_.toFloat(), 3.0f);
@@ -301,8 +299,8 @@ void MasterStrip::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::muted));
     g.drawText("at most", ceilingName_, juce::Justification::centred, false);
     double most = 0.0;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(desk_.mix().count()); ++j)
-        most = std::max(most, mostG(desk_, j));
+    for (std::size_t j = 0; j < static_cast<std::size_t>(model_.mix().count()); ++j)
+        most = std::max(most, maxG(model_, j));
     g.setColour(shade(*this, Shade::text));
     g.setFont(juce::Font{text::small, juce::Font::bold});
     g.drawText(inG(most) + " g", ceiling_, juce::Justification::centred, false);

@@ -3,8 +3,8 @@
 // g, output, tests.
 #pragma once
 #include "Host/Views/StripParts.h"
-#include "Mixer/Desk/Desk.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Model/MixerModel.h"
+#include "Mixer/Widgets/Parts.h"
 
 namespace physvib {
 
@@ -12,9 +12,9 @@ class StripView final : public juce::Component, public juce::FileDragAndDropTarg
 public:
     static constexpr int width = 78, mostWidth = 132; ///< they share the panel
 
-    StripView(Desk& desk, int strip);
-    void takeMix();
-    void refresh(const DeskMoment& moment);
+    StripView(MixerModel& model, int strip);
+    void mixChanged();
+    void refresh(const MixerMoment& moment);
     void showOutputs() { output_.showPopup(); }
     bool keyPressed(const juce::KeyPress& key) override;
     void mouseDown(const juce::MouseEvent& e) override;
@@ -29,14 +29,14 @@ public:
 private:
     void setDropping(bool isDropping);
     void drawName(juce::Graphics& g, juce::Rectangle<int> row, Shade which) const;
-    bool isThere() const { return index_ < desk_.mix().strips.size(); } // false: its strip was removed
-    const Strip& strip() const { return desk_.mix().strips[index_]; }
+    bool isThere() const { return index_ < model_.mix().strips.size(); } // false: its strip was removed
+    const Strip& strip() const { return model_.mix().strips[index_]; }
     template <class Change>
-    void change(const juce::String& name, Change change, bool goesOn = false);
+    void change(const juce::String& name, Change change, bool continuesEdit = false);
     void fillOutputs();
     void askDelay();
 
-    Desk& desk_;
+    MixerModel& model_;
     const std::size_t index_;
     PeakMeter meter_;
     Fader fader_;
@@ -55,14 +55,14 @@ class MasterStrip final : public juce::Component {
 public:
     static constexpr int width = 90;
 
-    explicit MasterStrip(Desk& desk);
-    void takeMix();
-    void refresh(const DeskMoment& moment);
+    explicit MasterStrip(MixerModel& model);
+    void mixChanged();
+    void refresh(const MixerMoment& moment);
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
-    Desk& desk_;
+    MixerModel& model_;
     PeakMeter meter_{"Master level"};
     Fader fader_;
     float limiterDb_ = 0.0f; // or of the guard

@@ -2,14 +2,11 @@
 // Creates and removes strip views with their actuators.
 #include "Mixer/Strips/StripsPanel.h"
 #include "Host/Views/WorldView.h"
+#include "Io/Disk/FileLimits.h"
+#include "Live/Documents/Mix.h"
+#include <algorithm>
 
 namespace physvib {
-
-StripsPanel::AttachPlace::AttachPlace()
-    : juce::Button{"Attach an actuator"} {
-    setTitle("Attach an actuator");
-    setTooltip("Attach an actuator: press, or drag it onto the field");
-}
 
 void StripsPanel::AttachPlace::paintButton(juce::Graphics& g, bool isOver, bool) {
     const auto area = getLocalBounds().toFloat().reduced(1.0f);
@@ -26,16 +23,9 @@ void StripsPanel::AttachPlace::paintButton(juce::Graphics& g, bool isOver, bool)
     g.drawText("attach", area.withTrimmedTop(24.0f), juce::Justification::centred, false);
 }
 
-void StripsPanel::AttachPlace::mouseDrag(const juce::MouseEvent& e) {
-    auto* container = juce::DragAndDropContainer::findParentDragContainerFor(this);
-    if (container == nullptr || container->isDragAndDropActive() || e.getDistanceFromDragStart() < 6) return;
-    setState(buttonNormal);
-    container->startDragging(WorldView::newEnchanter, this);
-}
-
-StripsPanel::StripsPanel(Desk& desk)
-    : desk_{desk}
-    , master_{desk} {
+StripsPanel::StripsPanel(MixerModel& model)
+    : model_{model}
+    , master_{model} {
     setTitle("Mixer");
     viewport_.setViewedComponent(&row_, false);
     viewport_.setScrollBarsShown(false, true);
@@ -43,33 +33,32 @@ StripsPanel::StripsPanel(Desk& desk)
     addAndMakeVisible(viewport_);
     addAndMakeVisible(master_);
     row_.addAndMakeVisible(attach_);
-    attach_.onClick = [this] { desk_.attach(0.5, 0.5); };
-    takeMix();
+    mixChanged();
 }
 
-void StripsPanel::takeMix() {
+void StripsPanel::mixChanged() {
     juce::StringArray labels, names;
-    for (const auto& e : desk_.mix().layout.enchanters) labels.add(utf8(e.label));
-    for (const auto& group : desk_.mix().groups) names.add(utf8(group.name));
+    for (const auto& e : model_.mix().layout.enchanters) labels.add(utf8(e.label));
+    for (const auto& group : model_.mix().groups) names.add(utf8(group.name));
     const bool areOther = labels != labels_, areOtherGroups = names != groupNames_;
     labels_ = labels;
     groupNames_ = names;
     if (areOther) makeStrips();
     if (areOtherGroups) makeGroups();
-    for (auto& strip : strips_) strip->takeMix();
-    for (auto& group : groups_) group->takeMix();
+    for (auto& strip : strips_) strip->mixChanged();
+    for (auto& group : groups_) group->mixChanged();
     if (areOther || areOtherGroups) {
         attach_.toFront(false); // last in Tab order
         resized();
     }
-    attach_.setVisible(desk_.mix().count() < limits::maxEnchanters);
-    master_.takeMix();
+    attach_.setVisible(model_.mix().count() < limits::maxEnchanters);
+    master_.mixChanged();
 }
 
 void StripsPanel::makeStrips() {
     strips_.clear();
-    for (int j = 0; j < desk_.mix().count(); ++j) {
-        strips_.push_back(std::make_unique<StripView>(desk_, j));
+    for (int j = 0; j < model_.mix().count(); ++j) {
+        strips_.push_back(std::make_unique<StripView>(model_, j));
         row_.addAndMakeVisible(*strips_.back());
     }
     for (auto& strip : strips_) prepareControls(*strip); // colours depend on the parent component
@@ -78,14 +67,14 @@ void StripsPanel::makeStrips() {
 
 void StripsPanel::makeGroups() {
     groups_.clear();
-    for (int k = 0; k < static_cast<int>(desk_.mix().groups.size()); ++k) {
-        groups_.push_back(std::make_unique<GroupView>(desk_, k));
+    for (int k = 0; k < static_cast<int>(model_.mix().groups.size()); ++k) {
+        groups_.push_back(std::make_unique<GroupView>(model_, k));
         row_.addAndMakeVisible(*groups_.back());
     }
     for (auto& group : groups_) prepareControls(*group);
 }
 
-void StripsPanel::refresh(const DeskMoment& moment) {
+void StripsPanel::refresh(const MixerMoment& moment) {
     for (auto& strip : strips_) strip->refresh(moment);
     master_.refresh(moment);
 }
@@ -131,6 +120,136 @@ void StripsPanel::resized() {
     for (auto& group : groups_)
         group->setBounds(places.removeFromLeft(GroupView::width)), places.removeFromLeft(between);
     attach_.setBounds(places.removeFromLeft(attachWidth).withTrimmedTop(2).withTrimmedBottom(2));
+}
+
+// Controls of a strip group and their edits of the mixer state.
+
+GroupView::GroupView(MixerModel& model, int group)
+    : model_{model}
+    , index_{static_cast<std::size_t>(group)} {
+    const auto label = utf8(this->group().name);
+    setTitle("Group " + label);
+    describe(name_, "Name of " + label, "Double click, or Return: another name");
+    name_.setFont(juce::Font{text::medium, juce::Font::bold});
+    name_.setJustificationType(juce::Justification::centred);
+    name_.setMinimumHorizontalScale(0.8f);
+    name_.setBorderSize({0, 0, 0, 0});
+    name_.setEditable(false, true);
+    name_.setWantsKeyboardFocus(true);
+    name_.onTextChange = [this] { rename(); };
+    level_.setFont(juce::Font{text::small});
+    level_.setJustificationType(juce::Justification::centred);
+    level_.setTitle("Gain of the group " + label);
+    fader_.setUp(leastStripDb, mostStripDb, "Gain of the group " + label);
+    onSlide(fader_, [this](bool continuesEdit) {
+        change(
+            "Gain", [this](StripGroup& g) { g.gainDb = fader_.getValue(); }, continuesEdit);
+    });
+    describe(mute_, "Mute the group " + label, "Mute all of the group");
+    mute_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::limit.getARGB()));
+    mute_.onClick = [this] { change("Mute", [](StripGroup& g) { g.isMuted = !g.isMuted; }); };
+    remove_ = quietButton("Ungroup", "Ungroup " + label);
+    remove_->setTooltip("The strips take over what the group does to them");
+    remove_->onClick = [this] {
+        later(*this, [](GroupView& view) { view.remove(); }); // which is deleted with the group
+    };
+    addAll(*this, {&name_, &level_, &fader_, &mute_, remove_.get()});
+    mixChanged();
+}
+
+template <class Change>
+void GroupView::change(const juce::String& name, Change change, bool continuesEdit) {
+    model_.change(
+        name + " of " + utf8(group().name), [&](Mix& mix) { change(mix.groups[index_]); }, continuesEdit);
+}
+
+void GroupView::rename() {
+    const auto name = name_.getText().trim();
+    const bool isFit = name.isNotEmpty() && name.getNumBytesAsUTF8() <= limits::maxNameBytes;
+    if (isFit && name != utf8(group().name))
+        change("Name", [&](StripGroup& g) { g.name = name.toStdString(); });
+    else
+        name_.setText(utf8(group().name), juce::dontSendNotification);
+}
+
+void GroupView::remove() {
+    model_.change("Ungroup " + utf8(group().name),
+                  [this](Mix& mix) { removeGroup(mix, static_cast<int>(index_)); });
+}
+
+void GroupView::mixChanged() {
+    if (!name_.isBeingEdited()) name_.setText(utf8(group().name), juce::dontSendNotification);
+    if (!fader_.isMouseButtonDown()) fader_.setValue(group().gainDb, juce::dontSendNotification);
+    level_.setText(group().gainDb <= leastStripDb ? juce::String{"silent"}
+                                                  : number(group().gainDb, 1) + " dB",
+                   juce::dontSendNotification);
+    level_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    mute_.setToggleState(group().isMuted, juce::dontSendNotification);
+    repaint();
+}
+
+bool GroupView::keyPressed(const juce::KeyPress& key) {
+    if (key != juce::KeyPress::returnKey || !name_.hasKeyboardFocus(false)) return false;
+    name_.showEditor();
+    return true;
+}
+
+void GroupView::paint(juce::Graphics& g) {
+    if (index_ >= model_.mix().groups.size()) return; // the group was removed; the view follows in a moment
+    auto area = getLocalBounds();
+    g.setColour(shade(*this, Shade::raised));
+    g.fillRoundedRectangle(area.toFloat(), 6.0f);
+    auto bar = area.removeFromTop(4).toFloat();
+    std::vector<int> members;
+    for (int j = 0; j < model_.mix().count(); ++j)
+        if (model_.mix().strips[static_cast<std::size_t>(j)].group == static_cast<int>(index_))
+            members.push_back(j);
+    if (members.empty()) g.setColour(shade(*this, Shade::line)), g.fillRoundedRectangle(bar, 2.0f);
+    juce::StringArray labels;
+    const float each = bar.getWidth() / static_cast<float>(std::max<std::size_t>(1, members.size()));
+    for (const int j : members) {
+        g.setColour(enchanterColour(*this, j).withMultipliedAlpha(model_.mix().isSilent(j) ? 0.35f : 1.0f));
+        g.fillRoundedRectangle(bar.removeFromLeft(each).reduced(0.5f, 0.0f), 2.0f);
+        labels.add(utf8(model_.mix().layout.enchanters[static_cast<std::size_t>(j)].label));
+    }
+    g.setColour(shade(*this, Shade::muted));
+    g.setFont(juce::Font{text::small});
+    g.drawText(members.empty() ? juce::String{"no strip yet"} : labels.joinIntoString(" "),
+               getLocalBounds().withTrimmedTop(28).removeFromTop(18).reduced(4, 0),
+               juce::Justification::centred, true);
+}
+
+void GroupView::resized() {
+    auto area = getLocalBounds();
+    name_.setBounds(area.withTrimmedTop(8).removeFromTop(20).reduced(3, 0));
+    area.removeFromTop(56);
+    remove_->setBounds(area.removeFromBottom(22).reduced(2, 0));
+    area.removeFromBottom(26);
+    level_.setBounds(area.removeFromBottom(22));
+    mute_.setBounds(area.removeFromBottom(24).withSizeKeepingCentre(28, 24));
+    area.removeFromBottom(8);
+    fader_.setBounds(area.withSizeKeepingCentre(32, area.getHeight()).expanded(0, 8));
+}
+
+void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& from) {
+    const auto& mix = model.mix();
+    const auto label = utf8(mix.layout.enchanters[strip].label);
+    const auto put = [&model, strip, label](int group) {
+        model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = group; });
+    };
+    juce::PopupMenu menu;
+    menu.addSectionHeader("Group of " + label);
+    menu.addItem("None", true, mix.strips[strip].group < 0, [put] { put(-1); });
+    for (int k = 0; k < static_cast<int>(mix.groups.size()); ++k)
+        menu.addItem(utf8(mix.groups[static_cast<std::size_t>(k)].name), true, mix.strips[strip].group == k,
+                     [put, k] { put(k); });
+    menu.addSeparator();
+    const auto fresh = freeGroupName(mix);
+    menu.addItem("New: " + utf8(fresh), mix.groups.size() < mostGroups, false, [&model, strip, label, fresh] {
+        model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = addGroup(m, fresh); });
+    });
+    menu.setLookAndFeel(&from.getLookAndFeel());
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from));
 }
 
 } // namespace physvib

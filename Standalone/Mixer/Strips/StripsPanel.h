@@ -1,16 +1,47 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panel of the mixer's strips and groups, an empty place for the next strip, and the master strip.
 #pragma once
-#include "Mixer/Strips/GroupView.h"
+#include "Host/Views/StripParts.h"
+#include "Mixer/Model/MixerModel.h"
 #include "Mixer/Strips/StripView.h"
+#include "Mixer/Widgets/Parts.h"
 
 namespace physvib {
 
+/// View of a strip group: name, fader, mute, and members.
+class GroupView final : public juce::Component {
+public:
+    static constexpr int width = 92;
+
+    GroupView(MixerModel& model, int group);
+    void mixChanged();
+    bool keyPressed(const juce::KeyPress& key) override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    const StripGroup& group() const { return model_.mix().groups[index_]; }
+    template <class Change>
+    void change(const juce::String& name, Change change, bool continuesEdit = false);
+    void rename();
+    void remove();
+
+    MixerModel& model_;
+    const std::size_t index_;
+    juce::Label name_, level_;
+    Fader fader_;
+    juce::TextButton mute_{"M"};
+    std::unique_ptr<juce::TextButton> remove_;
+};
+
+/// Menu of groups for a strip, including a new one. Message thread.
+void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& from);
+
 class StripsPanel final : public juce::Component {
 public:
-    explicit StripsPanel(Desk& desk);
-    void takeMix();
-    void refresh(const DeskMoment& moment);
+    explicit StripsPanel(MixerModel& model);
+    void mixChanged();
+    void refresh(const MixerMoment& moment);
     int widthFor(int strip) const; ///< with all strips in sight, each so wide
     /// Opens the list of outputs of a strip.
     void showOutputs(int enchanter);
@@ -19,13 +50,10 @@ public:
     void focusOfChildComponentChanged(FocusChangeType) override; ///< scrolls to the focused strip
 
 private:
-    /// Place of the next strip. A click attaches an actuator in the centre of the field; dragging attaches it
-    /// where it is dropped.
-    class AttachPlace final : public juce::Button {
-    public:
-        AttachPlace();
+    /// The place of the next strip.
+    struct AttachPlace final : AttachButton {
+        using AttachButton::AttachButton;
         void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
-        void mouseDrag(const juce::MouseEvent& e) override;
     };
 
     static constexpr int between = 6, attachWidth = 52;
@@ -33,13 +61,13 @@ private:
     void makeStrips();
     void makeGroups();
 
-    Desk& desk_;
+    MixerModel& model_;
     juce::Viewport viewport_;
     juce::Component row_;
     std::vector<std::unique_ptr<StripView>> strips_;
     std::vector<std::unique_ptr<GroupView>> groups_;
     juce::StringArray labels_, groupNames_;
-    AttachPlace attach_;
+    AttachPlace attach_{model_, "Attach an actuator", "Attach an actuator: press, or drag it onto the field"};
     MasterStrip master_;
 };
 

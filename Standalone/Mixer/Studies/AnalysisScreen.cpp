@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shows results of the same analysis functions as `physvib analyse`.
 #include "Mixer/Studies/AnalysisScreen.h"
-#include "Mixer/Desk/UserFolder.h"
+#include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Studies/StudyParts.h"
-#include "Mixer/Window/CardHost.h"
+#include "Mixer/Widgets/Cards.h"
 
 namespace physvib {
 
@@ -45,21 +45,20 @@ void withoutHatches(juce::XmlElement& svg) {
 
 } // namespace
 
-AnalysisScreen::AnalysisScreen(Desk& desk, const std::vector<juce::File>& files)
-    : AnalysisScreen{desk, "Analysis"} {
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&kind_, choose_.get()})
-        addAndMakeVisible(c);
+AnalysisScreen::AnalysisScreen(MixerModel& model, const std::vector<juce::File>& files)
+    : AnalysisScreen{model, "Analysis"} {
+    addAll(*this, {&kind_, choose_.get()});
     analyse(files);
 }
 
-AnalysisScreen::AnalysisScreen(Desk& desk, const juce::String& title, AnalysisReport report)
-    : AnalysisScreen{desk, title} {
+AnalysisScreen::AnalysisScreen(MixerModel& model, const juce::String& title, AnalysisReport report)
+    : AnalysisScreen{model, title} {
     report_ = std::move(report);
     showWords();
 }
 
-AnalysisScreen::AnalysisScreen(Desk& desk, const juce::String& title)
-    : desk_{desk}
+AnalysisScreen::AnalysisScreen(MixerModel& model, const juce::String& title)
+    : model_{model}
     , title_{title} {
     setTitle(title);
     setOpaque(true);
@@ -76,7 +75,7 @@ AnalysisScreen::AnalysisScreen(Desk& desk, const juce::String& title)
     };
     silence_.setTitle("Silence");
     silence_.getProperties().set(stopProperty, true);
-    silence_.onClick = [this] { desk_.setSilent(!desk_.isSilent()), refresh(); };
+    silence_.onClick = [this] { model_.setSilent(!model_.isSilent()), refresh(); };
     words_.setTitle("Figures");
     words_.setMultiLine(true);
     words_.setReadOnly(true);
@@ -84,15 +83,14 @@ AnalysisScreen::AnalysisScreen(Desk& desk, const juce::String& title)
     words_.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
     words_.setEscapeAndReturnKeysConsumed(false);
     words_.setFont(juce::Font{text::medium});
-    for (juce::Component* c : std::initializer_list<juce::Component*>{close_.get(), &silence_, &words_})
-        addAndMakeVisible(c);
+    addAll(*this, {close_.get(), &silence_, &words_});
     prepareControls(*this);
     refresh();
 }
 
 void AnalysisScreen::refresh() {
-    silence_.setButtonText(desk_.isSilent() ? "SILENT: press to feel" : "SILENCE  Esc");
-    silence_.setToggleState(desk_.isSilent(), juce::dontSendNotification);
+    silence_.setButtonText(model_.isSilent() ? "SILENT: press to feel" : "SILENCE  Esc");
+    silence_.setToggleState(model_.isSilent(), juce::dontSendNotification);
 }
 
 AnalysisScreen::~AnalysisScreen() = default;

@@ -3,16 +3,16 @@
 // and picture.
 #pragma once
 #include "Lab/Analysis/Analysis.h"
-#include "Mixer/Window/TabPanel.h"
+#include "Mixer/Widgets/Parts.h"
 
 namespace physvib {
 
 /// Fills its parent. Message thread.
 class AnalysisScreen final : public juce::Component {
 public:
-    AnalysisScreen(Desk& desk, const std::vector<juce::File>& files);
+    AnalysisScreen(MixerModel& model, const std::vector<juce::File>& files);
     /// Shows this report instead, under that title.
-    AnalysisScreen(Desk& desk, const juce::String& title, AnalysisReport report);
+    AnalysisScreen(MixerModel& model, const juce::String& title, AnalysisReport report);
     ~AnalysisScreen() override;
 
     std::function<void()> onClose;
@@ -32,12 +32,12 @@ public:
     void parentHierarchyChanged() override;
 
 private:
-    AnalysisScreen(Desk& desk, const juce::String& title);
+    AnalysisScreen(MixerModel& model, const juce::String& title);
     void browse();
     void run(const std::string& name);
     void showWords();
 
-    Desk& desk_;
+    MixerModel& model_;
     juce::String title_;
     std::vector<juce::File> files_;
     AnalysisReport report_;

@@ -5,11 +5,9 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Mixer/Desk/UserFolder.h"
-#include "Mixer/Studies/StudyLooks.h"
-#include "Mixer/Window/CardHost.h"
-#include "Mixer/Window/MixerView.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Model/MixerRecording.h"
+#include "Mixer/Studies/StudyParts.h"
+#include "Mixer/Widgets/Cards.h"
 
 namespace physvib {
 namespace {
@@ -43,20 +41,13 @@ juce::String aboutText(const Protocol& protocol) {
 
 } // namespace
 
-StudiesTab::StudiesTab(Desk& desk)
-    : desk_{desk} {
+StudiesTab::StudiesTab(MixerModel& model)
+    : model_{model} {
     setTitle("Studies");
-    caption(choiceName_, "Protocol");
-    caption(codeName_, "Participant's code");
-    caption(numberName_, "Number");
-    caption(folderName_, "Folder of the trial files");
-    caption(noiseName_, "Pink noise on");
-    caption(noiseLevelName_, "At");
     noise_.setTitle("Outputs of the pink noise");
     noise_.onChange = [this] { repaint(); };
     noise_.setTooltip("Headphones on outputs of the same device; louder or softer by their own knob");
-    noiseLevel_.setTitle("Level of the pink noise");
-    noiseLevel_.setTooltip("Root mean square, in dB of full scale: start low");
+    describe(noiseLevel_, "Level of the pink noise", "Root mean square, in dB of full scale: start low");
     for (const int db : noiseLevels) noiseLevel_.addItem(number(db, 0) + " dBFS", -db);
     choice_.setTitle("Protocol");
     for (int id = 1; const Protocol& protocol : knownProtocols())
@@ -64,8 +55,6 @@ StudiesTab::StudiesTab(Desk& desk)
     choice_.addSeparator();
     choice_.addItem(juce::String::fromUTF8("Protocol file\xe2\x80\xa6"), fileId);
     choice_.onChange = [this] { pickProtocol(); };
-    caption(wordsName_, "Participants read");
-    caption(answersName_, "Answers");
     wordsChoice_.setTitle("Language of the participant");
     wordsChoice_.addItem("what the protocol says", protocolWordsId);
     wordsChoice_.addItem("English", englishId);
@@ -80,11 +69,10 @@ StudiesTab::StudiesTab(Desk& desk)
     answersChoice_.addItem("in a second window", answersElsewhereId);
     answersChoice_.setSelectedId(answersHereId, juce::dontSendNotification);
     answersChoice_.setTooltip("A second window opens over another display, if there is one");
-    code_.setTitle("Participant's code");
-    code_.setTooltip("The only personal datum that is kept");
+    describe(code_, "Participant's code", "The only personal datum that is kept");
     code_.setInputRestrictions(32, "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_");
-    number_.setTitle("Participant's number");
-    number_.setTooltip("Decides the orders: 1 for the first participant, 2 for the second");
+    describe(number_, "Participant's number",
+             "Decides the orders: 1 for the first participant, 2 for the second");
     number_.setInputRestrictions(6, "0123456789");
     folder_.setTitle("Folder of the trial files");
     browse_ = quietButton("Choose", "Choose the folder of the trial files");
@@ -101,12 +89,10 @@ StudiesTab::StudiesTab(Desk& desk)
         editor->setEscapeAndReturnKeysConsumed(false); // Esc must reach the silence button from here, too
         editor->onTextChange = [this] { look(); };
     }
-    for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &choiceName_,  &choice_,         &codeName_,   &code_,         &numberName_,
-             &number_,      &folderName_,     &folder_,     browse_.get(),  &noiseName_,
-             &noise_,       &noiseLevelName_, &noiseLevel_, &wordsName_,    &wordsChoice_,
-             &answersName_, &answersChoice_,  &begin_,      analyse_.get(), findings_.get()})
-        addAndMakeVisible(c);
+    addAll(*this, {&choiceName_,  &choice_,         &codeName_,   &code_,         &numberName_,
+                   &number_,      &folderName_,     &folder_,     browse_.get(),  &noiseName_,
+                   &noise_,       &noiseLevelName_, &noiseLevel_, &wordsName_,    &wordsChoice_,
+                   &answersName_, &answersChoice_,  &begin_,      analyse_.get(), findings_.get()});
     setFolder(juce::SharedResourcePointer<UserFolder> {} -> place());
     setParticipant("P01", 1);
     chooseProtocol(knownProtocols().front().name);
@@ -215,8 +201,8 @@ void StudiesTab::setFolder(const juce::File& folder) {
 
 std::vector<std::vector<int>> StudiesTab::noiseChoices() const {
     std::vector<int> free;
-    const auto& strips = desk_.mix().strips;
-    for (int k = 0; k < desk_.device().outputs(); ++k)
+    const auto& strips = model_.mix().strips;
+    for (int k = 0; k < model_.device().outputs(); ++k)
         if (std::ranges::find(strips, k, &Strip::output) == strips.end()) free.push_back(k);
     std::vector<std::vector<int>> all;
     for (std::size_t i = 0; i + 1 < free.size(); ++i)
@@ -272,7 +258,7 @@ StudyRun StudiesTab::run() const {
 void StudiesTab::look() {
     if (!protocol_) return;
     refused_.clear();
-    outputs_ = utf8(outputsFault(*protocol_, desk_));
+    outputs_ = utf8(outputsFault(*protocol_, model_));
     const StudyRun chosen = run();
     const auto path = chosen.trialFile();
     std::error_code none;
@@ -320,17 +306,17 @@ void StudiesTab::updateCheck() {
 }
 
 void StudiesTab::showFindings() {
-    auto* view = findParentComponentOfClass<MixerView>();
-    if (screen_ || analysis_ || !check_ || view == nullptr) return;
+    auto* host = findParentComponentOfClass<CardHost>();
+    if (screen_ || analysis_ || !check_ || host == nullptr) return;
     AnalysisReport report;
     for (const auto* lines : {&check_->facts, &check_->deviations})
         for (const std::string& line : *lines) report.words += line + "\n\n";
     for (const std::string& line : check_->errors) report.warnings.push_back("Refused: " + line);
     report.warnings.insert(report.warnings.end(), check_->warnings.begin(), check_->warnings.end());
     analysis_ =
-        std::make_unique<AnalysisScreen>(desk_, "Check of " + titleOf(protocol_->name), std::move(report));
+        std::make_unique<AnalysisScreen>(model_, "Check of " + titleOf(protocol_->name), std::move(report));
     analysis_->onClose = [this] { end(); };
-    cover(*view, *analysis_);
+    host->setScreen(analysis_.get());
 }
 
 void StudiesTab::say(const juce::String& words, Shade shade) {
@@ -345,13 +331,13 @@ std::string StudiesTab::begin() {
         refused_ = words_;
         return why;
     };
-    auto* view = findParentComponentOfClass<MixerView>();
-    if (screen_ || analysis_ || !protocol_ || view == nullptr) return "expected a mixer without a study";
+    auto* host = findParentComponentOfClass<CardHost>();
+    if (screen_ || analysis_ || !protocol_ || host == nullptr) return "expected a mixer without a study";
     if (code_.isEmpty()) return refuse("expected a participant's code");
     stopCheck(); // one that is not made yet: a program called this, as the button waits for the check
     if (auto fault = faultOf(run()); !fault.empty()) return refuse(fault);
-    if (auto fault = outputsFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
-    if (auto fault = feltFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
+    if (auto fault = outputsFault(*protocol_, model_); !fault.empty()) return refuse(fault);
+    if (auto fault = feltFault(*protocol_, model_); !fault.empty()) return refuse(fault);
     if (auto fault = !check_                  ? studyFault(*protocol_)
                      : check_->errors.empty() ? ""
                                               : check_->errors.front();
@@ -364,44 +350,35 @@ std::string StudiesTab::begin() {
     if (!typeface)
         return refuse("expected a font with the letters of " + words.value.name +
                       ", found none; on Debian, fonts-nanum has Korean ones");
-    if (auto fault = displayScaleFault(*protocol_, desk_.displayWidthMetres()); !fault.empty())
+    if (auto fault = displayScaleFault(*protocol_, model_.displayWidthMetres()); !fault.empty())
         return refuse(fault);
     auto pictures = materialPictures(*protocol_, run().participant.code);
     if (!pictures) return refuse(pictures.error);
     juce::File{folder_.getText()}.createDirectory(); // a failure is reported with the file's name
     auto study = std::make_unique<StudyInProgress>(run());
     if (!study->error().empty()) return refuse(study->error());
-    if (auto fault = desk_.device().listening().hear(listening()); !fault.empty()) return refuse(fault);
-    Apparatus apparatus = apparatusOf(desk_);
+    if (auto fault = model_.device().listening().hear(listening()); !fault.empty()) return refuse(fault);
+    Apparatus apparatus = apparatusOf(model_);
     apparatus.language = words.value.name.empty() ? "en" : words.value.name;
     auto unlike = study->apparatusFault(apparatus);
     if (unlike.empty()) unlike = study->begin(apparatus);
-    if (!unlike.empty()) return desk_.device().listening().endStudy(), refuse(unlike);
-    screen_ = std::make_unique<StudyScreen>(desk_, std::move(study), std::move(words.value),
+    if (!unlike.empty()) return model_.device().listening().endStudy(), refuse(unlike);
+    screen_ = std::make_unique<StudyScreen>(model_, std::move(study), std::move(words.value),
                                             answersChoice_.getSelectedId() == answersElsewhereId,
                                             std::move(pictures.value));
     font_ = std::make_unique<StudyFont>(*typeface);
     screen_->onClose = [this] { end(); };
-    cover(*view, *screen_);
+    host->setScreen(screen_.get());
     return {};
 }
 
-void StudiesTab::cover(MixerView& view, juce::Component& screen) {
-    for (auto* child : view.getChildren())
-        if (child->isVisible()) hidden_.emplace_back(child);
-    screen.setBounds(view.getLocalBounds());
-    view.addAndMakeVisible(screen);
-    for (auto& child : hidden_) child->setVisible(false);
-    if (screen.isShowing()) screen.grabKeyboardFocus();
-}
-
 void StudiesTab::analyse(std::vector<juce::File> files) {
-    auto* view = findParentComponentOfClass<MixerView>();
-    if (screen_ || analysis_ || !protocol_ || view == nullptr) return;
+    auto* host = findParentComponentOfClass<CardHost>();
+    if (screen_ || analysis_ || !protocol_ || host == nullptr) return;
     if (files.empty()) files.emplace_back(run().trialFile().string());
-    analysis_ = std::make_unique<AnalysisScreen>(desk_, files);
+    analysis_ = std::make_unique<AnalysisScreen>(model_, files);
     analysis_->onClose = [this] { end(); };
-    cover(*view, *analysis_);
+    host->setScreen(analysis_.get());
 }
 
 void StudiesTab::end() {
@@ -409,27 +386,22 @@ void StudiesTab::end() {
     screen_.reset();
     font_.reset();
     analysis_.reset();
-    desk_.device().listening().endStudy();
-    for (auto& child : hidden_)
-        if (child) child->setVisible(true);
-    hidden_.clear();
+    model_.device().listening().endStudy();
+    if (auto* host = findParentComponentOfClass<CardHost>()) host->setScreen(nullptr);
     look();
-    desk_.sendChangeMessage();
+    model_.sendChangeMessage();
 }
 
-void StudiesTab::takeMix() {
-    for (auto* label : {&choiceName_, &codeName_, &numberName_, &folderName_, &noiseName_, &noiseLevelName_,
-                        &wordsName_, &answersName_})
-        label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+void StudiesTab::mixChanged() {
     if (noiseOutputs_ != noiseChoices() || noise_.getNumItems() == 0) listNoise();
-    const auto& mix = desk_.mix();
-    const bool isFelt = !hasNoDevice(desk_);
+    const auto& mix = model_.mix();
+    const bool isFelt = !hasNoDevice(model_);
     level_ = mix.levelDb < 0.0
                  ? "Felt " + number(-mix.levelDb, 1) +
                        " dB below the protocol's g: set the master level to 0 dB if those are meant."
                  : juce::String{};
     if (!isFelt) level_ = "There is no device: the study can be seen, and is felt by nobody.";
-    outputs_ = protocol_ ? utf8(outputsFault(*protocol_, desk_)) : juce::String{};
+    outputs_ = protocol_ ? utf8(outputsFault(*protocol_, model_)) : juce::String{};
     if (refused_.isNotEmpty() && refused_ != outputs_) look(); // the cause of a refusal may be gone
     repaint();
 }
@@ -507,23 +479,6 @@ void StudiesTab::resized() {
     begin_.setBounds(row.removeFromLeft(140));
     analyse_->setBounds(row.removeFromRight(80));
     wordsArea_ = row.withTrimmedLeft(gap);
-}
-
-bool pauseStudy(MixerView& view) {
-    auto* const tab = dynamic_cast<StudiesTab*>(view.tabs().find("Studies"));
-    if (tab == nullptr || tab->screen() == nullptr) return false;
-    tab->screen()->closeRequested();
-    return true;
-}
-
-void chooseStudy(MixerView& view, const StudyCall& call) {
-    view.setHint(false);
-    view.tabs().choose("Studies");
-    auto& tab = static_cast<StudiesTab&>(*view.tabs().find("Studies"));
-    if (call.folder.isNotEmpty())
-        tab.setFolder(juce::File::getCurrentWorkingDirectory().getChildFile(call.folder));
-    if (call.participant.isNotEmpty()) tab.setParticipant(call.participant, std::max(1, call.number));
-    tab.chooseProtocol(call.protocol.toStdString());
 }
 
 } // namespace physvib

@@ -3,16 +3,14 @@
 // screen.
 #pragma once
 #include "Mixer/Studies/AnalysisScreen.h"
-#include "Mixer/Studies/StudyFont.h"
 #include "Mixer/Studies/StudyScreen.h"
-#include "Mixer/Window/TabPanel.h"
+#include "Mixer/Widgets/Parts.h"
+#include "Mixer/Widgets/Typefaces.h"
 #include "Studies/StudyCheck.h"
 #include <atomic>
 #include <future>
 
 namespace physvib {
-
-class MixerView;
 
 /// Selections by the command line; empty or 0: unchanged.
 struct StudyCall {
@@ -23,7 +21,7 @@ struct StudyCall {
 
 class StudiesTab final : public Tab {
 public:
-    explicit StudiesTab(Desk& desk);
+    explicit StudiesTab(MixerModel& model);
     ~StudiesTab() override;
 
     /// Selects a built-in protocol or a file; empty, or an error.
@@ -54,17 +52,17 @@ public:
     juce::StringArray advice() const;
     juce::Rectangle<int> adviceArea() const noexcept { return levelArea_; }
 
-    void takeMix() override;
-    int leastHeight(int) const override { return 246; } // the controls without captions, and a line of advice
+    void mixChanged() override;
+    int minHeight(int) const override { return 246; } // the controls without captions, and a line of advice
     /// The check of the protocol; none while it is made. It is made while the tab is seen.
     const std::optional<StudyCheck>& check() const noexcept { return check_; }
 
-    void refresh(const DeskMoment&) override {
+    void refresh(const MixerMoment&) override {
         updateCheck();
         if (screen_) screen_->refresh();
         if (analysis_) analysis_->refresh();
     }
-    void visibilityChanged() override { takeMix(); }
+    void visibilityChanged() override { mixChanged(); }
     void paint(juce::Graphics& g) override;
     void resized() override;
 
@@ -72,7 +70,6 @@ private:
     void pickProtocol();
     void browseProtocol();
     void browseFolder();
-    void cover(MixerView& view, juce::Component& screen);
     void look();
     void listNoise();
     void pickWords();
@@ -84,15 +81,16 @@ private:
     void showFindings();
     StudyRun run() const; ///< the selection; precondition: there is a protocol
 
-    Desk& desk_;
+    MixerModel& model_;
     std::optional<Protocol> protocol_;
     juce::String about_, words_, level_;
     juce::String outputs_, refused_; // what outputs lack, and the last refusal, until something changes
     Shade wordsShade_ = Shade::muted;
     std::string wordsPath_; // selected here; empty: the protocol's
     juce::ComboBox choice_, noise_, noiseLevel_, wordsChoice_, answersChoice_;
-    juce::Label choiceName_, codeName_, numberName_, folderName_, noiseName_, noiseLevelName_, wordsName_,
-        answersName_;
+    Caption choiceName_{"Protocol"}, codeName_{"Participant's code"}, numberName_{"Number"},
+        folderName_{"Folder of the trial files"}, noiseName_{"Pink noise on"}, noiseLevelName_{"At"},
+        wordsName_{"Participants read"}, answersName_{"Answers"};
     std::vector<std::vector<int>> noiseOutputs_; // in the order of the list
     juce::TextEditor code_, number_, folder_;
     std::unique_ptr<juce::TextButton> browse_, analyse_, findings_;
@@ -102,16 +100,8 @@ private:
     std::unique_ptr<StudyFont> font_; // of the study screen
     std::unique_ptr<StudyScreen> screen_;
     std::unique_ptr<AnalysisScreen> analysis_;
-    std::vector<juce::Component::SafePointer<juce::Component>> hidden_; // while the screen covers them
     std::atomic<bool> isCheckWanted_{false};
     std::future<StudyCheck> checking_; // the last member: it is waited for first
 };
-
-/// The window is to be closed: pauses or leaves a study on its screen. False if there is none. Message
-/// thread.
-bool pauseStudy(MixerView& view);
-
-/// Shows the tab with these selections; it displays errors in the protocol. Message thread.
-void chooseStudy(MixerView& view, const StudyCall& call);
 
 } // namespace physvib

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws the common parts of participants' screens, and moves the focus by arrow keys.
 #include "Mixer/Studies/StudyParts.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Files/ProtocolFile.h"
+#include <algorithm>
 #include <cmath>
 
 namespace physvib {
@@ -173,6 +178,124 @@ bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
     }
     if (best != nullptr) best->grabKeyboardFocus();
     return true;
+}
+
+// Composes the texts of tasks.
+
+juce::String
+StudyWords::operator()(const std::string& english,
+                       std::initializer_list<std::pair<const char*, juce::String>> values) const {
+    if (!words_.name.empty() && !words_.texts.contains(english)) missed_.insert(english);
+    auto text = utf8(words_.of(english));
+    for (const auto& [name, value] : values) text = text.replace("{" + juce::String{name} + "}", value);
+    return text;
+}
+
+juce::String StudyWords::lines(const TaskText& text, const ConditionPlan& condition) const {
+    auto own = std::holds_alternative<GridSet>(condition.stimuli)      ? text.onGrid
+               : std::holds_alternative<PatternSet>(condition.stimuli) ? text.ofPatterns
+                                                                       : std::string_view{};
+    if (own.empty()) own = text.usual;
+    juce::StringArray said;
+    while (!own.empty()) said.add((*this)(std::string{takeUntil('\n', own)}));
+    return said.joinIntoString("\n");
+}
+
+juce::String StudyWords::question(const SessionPlan& session, const ConditionPlan& condition) const {
+    return session.question.empty() ? lines(describe(session.task).question, condition)
+                                    : (*this)(session.question);
+}
+
+juce::String StudyWords::feel(const SessionPlan& session) const {
+    const StudyWords& say = *this;
+    if (session.mostPlays == 0) return say("Feel it as often as you like.") + "\n";
+    if (session.mostPlays == 1) return say("Feel it once.") + "\n";
+    return say("Feel it at most {n} times.", {{"n", juce::String{session.mostPlays}}}) + "\n";
+}
+
+juce::String StudyWords::instruction(const SessionPlan& session, const ConditionPlan& condition) const {
+    const StudyWords& say = *this;
+    if (!session.instruction.empty()) return say(session.instruction);
+    if (const auto* world = std::get_if<WorldSet>(&condition.stimuli); world != nullptr && world->hasHands)
+        return say("The numbers show one world each: drag what moves in it, and tilt it with the arrow keys, "
+                   "each about half of the time.") +
+               "\n" +
+               (session.leastSeconds > 0.0
+                    ? say("Play with each for at least {n} s, then pause and answer.",
+                          {{"n", number(session.leastSeconds, session.leastSeconds < 1.0 ? 1 : 0)}})
+                    : say("Play with each, then pause and answer."));
+    if (session.fewestTouches > 0)
+        return say("Touch the field anywhere and feel that place.") + "\n" +
+               say("Go on for as long as you like; Next ends the training.");
+    const bool saysPlays = session.answer() != AnswerKind::wish && session.alternatives.empty();
+    return (saysPlays ? feel(session) : juce::String{}) +
+           lines(describe(session.task).instruction, condition);
+}
+
+juce::String StudyWords::ordinal(int part) const {
+    static constexpr std::array names{"The first",  "The second", "The third",
+                                      "The fourth", "The fifth",  "The sixth"};
+    const auto i = static_cast<std::size_t>(part);
+    return i < names.size() ? (*this)(names[i]) : (*this)("Number {n}", {{"n", juce::String{part + 1}}});
+}
+
+juce::String minutesText(double seconds) {
+    const int whole = static_cast<int>(std::ceil(seconds));
+    return juce::String{whole / 60} + ":" + juce::String{whole % 60}.paddedLeft('0', 2);
+}
+
+// Loads pictures for participants. Picture files are untrusted, so their size is checked before decoding.
+
+namespace {
+
+constexpr std::size_t maxPictureBytes = 16'000'000;
+constexpr unsigned mostPixels = 4096; // maximum width and height
+
+/// Reads a side of a PNG: a big-endian number after its signature.
+unsigned sideAt(const std::string& png, std::size_t at) {
+    unsigned side = 0;
+    for (std::size_t i = at; i < at + 4; ++i) side = 256 * side + static_cast<unsigned char>(png[i]);
+    return side;
+}
+
+bool isSmallPng(const std::string& text) {
+    constexpr std::string_view begin{"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16};
+    if (text.size() < 24 || !text.starts_with(begin)) return false;
+    return std::ranges::all_of(std::initializer_list<unsigned>{sideAt(text, 16), sideAt(text, 20)},
+                               [](unsigned side) { return side > 0 && side <= mostPixels; });
+}
+
+} // namespace
+
+Result<std::vector<MaterialPicture>> materialPictures(const Protocol& protocol,
+                                                      const std::string& participant) {
+    std::vector<MaterialPicture> pictures;
+    for (std::size_t i = 0; i < protocol.pictures.size(); ++i) {
+        const std::string at = "pictures[" + std::to_string(i) + "].file: ",
+                          path = picturePath(protocol.pictures[i], participant);
+        if (auto fault = linkFault(protocol.folder, path); !fault.empty()) return Failure{at + fault};
+        const auto text = readFile(besideProtocol(protocol.folder, path), maxPictureBytes);
+        if (!text) return Failure{at + text.error};
+        auto image = isSmallPng(text.value)
+                         ? juce::ImageFileFormat::loadFrom(text.value.data(), text.value.size())
+                         : juce::Image{};
+        if (image.isNull())
+            return Failure{at + path + ": expected a PNG picture of at most " + std::to_string(mostPixels) +
+                           " x " + std::to_string(mostPixels) + " pixels"};
+        pictures.push_back({protocol.pictures[i].material, std::move(image)});
+    }
+    return pictures;
+}
+
+std::string displayScaleFault(const Protocol& protocol, double displayWidthMetres) {
+    if (displayWidthMetres > 0.0) return {};
+    for (const ConditionPlan& condition : protocol.conditions)
+        if (const auto* const world = std::get_if<WorldSet>(&condition.stimuli);
+            world != nullptr && world->displayScale > 0.0)
+            return "condition " + printable(condition.name) +
+                   ": display_scale: expected the width of the display to be set in the mixer's menu, as 1:" +
+                   numberText(world->displayScale) + " is measured on it";
+    return {};
 }
 
 } // namespace physvib

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Common parts of participants' screens: large buttons, a field with its actuators, arrow keys.
 #pragma once
+#include "Host/Views/WorldPictures.h"
+#include "Io/Result.h"
+#include "Lab/Files/Words.h"
 #include "Lab/Study/PercentCounts.h"
-#include "Mixer/Window/Parts.h"
+#include "Lab/Study/Protocol.h"
+#include "Mixer/Widgets/Parts.h"
 #include "Scene/LayoutFile.h"
+#include <juce_core/juce_core.h>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace physvib {
 
@@ -45,5 +53,44 @@ void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component,
 
 /// Moves the focus to the nearest child of `parent` in the direction of an arrow key; false for other keys.
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key);
+
+/// Texts for participants, translated and with values inserted.
+/// The texts of the screens and of a protocol in the participant's language. Message thread.
+class StudyWords {
+public:
+    explicit StudyWords(Words words = {})
+        : words_{std::move(words)} {}
+
+    /// "trial {n}" with the value of {n}. Texts without a translation stay English and are recorded in
+    /// missed().
+    juce::String operator()(const std::string& english,
+                            std::initializer_list<std::pair<const char*, juce::String>> values = {}) const;
+    const std::set<std::string>& missed() const noexcept { return missed_; }
+
+    /// Question of a trial: the protocol's, or the task's default.
+    juce::String question(const SessionPlan& session, const ConditionPlan& condition) const;
+    /// Course of a session, in a few lines.
+    juce::String instruction(const SessionPlan& session, const ConditionPlan& condition) const;
+    /// "the first", for the parts to choose from.
+    juce::String ordinal(int part) const;
+
+private:
+    juce::String lines(const TaskText& text, const ConditionPlan& condition) const;
+    juce::String feel(const SessionPlan& session) const;
+    Words words_;
+    mutable std::set<std::string> missed_;
+};
+
+/// "1:05". Any thread.
+juce::String minutesText(double seconds);
+
+/// Appearance of a world for a participant: pictures of materials, and display scale.
+/// That participant's pictures, or an error line. Message thread.
+Result<std::vector<MaterialPicture>> materialPictures(const Protocol& protocol,
+                                                      const std::string& participant);
+
+/// Empty, or an error if the protocol has a display scale but the display width (metres) is not set (0). Any
+/// thread (allocates).
+std::string displayScaleFault(const Protocol& protocol, double displayWidthMetres);
 
 } // namespace physvib

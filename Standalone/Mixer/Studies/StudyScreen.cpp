@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pages of the study screen, and its keys.
 #include "Mixer/Studies/StudyScreen.h"
+#include "Core/Units.h"
 #include "Io/Text/NameList.h"
+#include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Live/Devices/NoDevice.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Widgets/Parts.h"
 #include "Scene/LayoutNamed.h"
 #include "Scene/SceneEdits.h"
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -26,42 +31,42 @@ TrialRecord firstRecord(const Protocol& protocol, std::size_t condition, std::si
     return record;
 }
 
-std::string jobFault(Desk& desk, const Protocol& protocol, const ConditionPlan& condition,
+std::string jobFault(MixerModel& model, const Protocol& protocol, const ConditionPlan& condition,
                      const TrialJob& job) {
     if (!std::holds_alternative<WorldSet>(condition.stimuli))
-        return StudySound::make(desk, job, protocol.folder).error;
+        return StudySound::make(model, job, protocol.folder).error;
     const auto world = feltWorld(std::get<WrittenCall>(job), protocol.folder);
-    return world ? StudyWorld::refusal(desk, world.value) : world.error;
+    return world ? StudyWorld::refusal(model, world.value) : world.error;
 }
 
 } // namespace
 
-Apparatus apparatusOf(Desk& desk) {
-    const ListeningSettings& listening = desk.device().listening().settings();
-    Apparatus with{PHYSVIB_VERSION, desk.output().device(), desk.mix().levelDb};
+Apparatus apparatusOf(MixerModel& model) {
+    const ListeningSettings& listening = model.device().listening().settings();
+    Apparatus with{PHYSVIB_VERSION, model.output().device(), model.mix().levelDb};
     if (!listening.noise.empty()) with.noiseDb = listening.noiseDb;
     const auto add = [](std::string& words, int output) {
         words.append(words.empty() ? "" : " ").append(output < 0 ? "-" : std::to_string(output + 1));
     };
-    for (const Strip& strip : desk.mix().strips) add(with.outputs, strip.output);
+    for (const Strip& strip : model.mix().strips) add(with.outputs, strip.output);
     for (const int output : listening.noise) add(with.noiseOutputs, output);
     return with;
 }
 
-bool hasNoDevice(const Desk& desk) { return desk.output().device().starts_with(noDeviceType); }
+bool hasNoDevice(const MixerModel& model) { return model.output().device().starts_with(noDeviceType); }
 
-std::string feltFault(const Protocol& protocol, Desk& desk) {
+std::string feltFault(const Protocol& protocol, MixerModel& model) {
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
             for (const TrialJob& job : jobsOf(protocol, firstRecord(protocol, c, s)))
-                if (auto fault = jobFault(desk, protocol, protocol.conditions[c], job); !fault.empty())
+                if (auto fault = jobFault(model, protocol, protocol.conditions[c], job); !fault.empty())
                     return fault;
     return {};
 }
 
-std::string outputsFault(const Protocol& protocol, const Desk& desk) {
-    const auto& strips = desk.mix().strips;
-    const auto& map = desk.output().channelMap();
+std::string outputsFault(const Protocol& protocol, const MixerModel& model) {
+    const auto& strips = model.mix().strips;
+    const auto& map = model.output().channelMap();
     for (const ConditionPlan& condition : protocol.conditions) {
         const auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
         const std::size_t wanted = layout.value.enchanters.size();
@@ -72,28 +77,28 @@ std::string outputsFault(const Protocol& protocol, const Desk& desk) {
         std::vector<std::string> without;
         for (std::size_t j = 0; j < wanted; ++j)
             if (const int output = j < map.size() ? map[j] : -1;
-                !hasNoDevice(desk) && (output < 0 || output >= desk.device().outputs()))
-                without.push_back(desk.mix().layout.enchanters[j].label);
+                !hasNoDevice(model) && (output < 0 || output >= model.device().outputs()))
+                without.push_back(model.mix().layout.enchanters[j].label);
         if (!without.empty())
             return std::to_string(without.size()) + " of " + std::to_string(wanted) +
                    (without.size() == 1 ? " actuators has no output: " : " actuators have no output: ") +
                    listed(without);
     }
-    return desk.output().isPlaying()
+    return model.output().isPlaying()
                ? std::string{}
                : "expected a device that runs, found none: " +
-                     (desk.output().device().empty() ? "no device is open" : desk.output().device());
+                     (model.output().device().empty() ? "no device is open" : model.output().device());
 }
 
-StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Words words,
+StudyScreen::StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> study, Words words,
                          bool answersElsewhere, std::vector<MaterialPicture> pictures)
-    : desk_{desk}
+    : model_{model}
     , study_{std::move(study)}
     , say_{std::move(words)}
     , pictures_{std::move(pictures)}
-    , sound_{desk}
-    , pane_{desk}
-    , squaresBefore_{squareGSecondsOf(study_->exposureToday()) - desk.exposure().squareGSeconds()}
+    , sound_{model}
+    , pane_{model}
+    , squaresBefore_{squareGSecondsOf(study_->exposureToday()) - model.exposure().squareGSeconds()}
     , answers_{say_}
     , markers_{study_->protocol().name} {
     setTitle("Study");
@@ -105,7 +110,7 @@ StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Wor
     pause_.onClick = [this] { pause(); };
     silence_.setTitle("Silence");
     silence_.getProperties().set(stopProperty, true);
-    silence_.onClick = [this] { desk_.setSilent(!desk_.isSilent()), refresh(); };
+    silence_.onClick = [this] { model_.setSilent(!model_.isSilent()), refresh(); };
     leave_ = quietButton(say_("Leave"), "Leave the study; what was answered is kept");
     leave_->onClick = [this] { leave(); };
     comment_.setTitle("Comment");
@@ -113,12 +118,11 @@ StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Wor
     comment_.setReturnKeyStartsNewLine(true);
     comment_.setEscapeAndReturnKeysConsumed(false);
     pane_.show(pictures_);
-    pane_.onFault = [this](const std::string& fault) { desk_.report(utf8(fault)); };
+    pane_.onFault = [this](const std::string& fault) { model_.report(utf8(fault)); };
     answers_.onConfirm = [this] { confirm(); };
     answers_.onKey = [this](const juce::KeyPress& key) { return keyPressed(key); };
     answers_.setStandsAlone(answersElsewhere);
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&next_, &silence_, leave_.get()})
-        addAndMakeVisible(c);
+    addAll(*this, {&next_, &silence_, leave_.get()});
     for (juce::Component* c : std::initializer_list<juce::Component*>{&pane_, &pause_, &comment_})
         addChildComponent(c);
     if (!answersElsewhere) addChildComponent(answers_);
@@ -226,12 +230,10 @@ void StudyScreen::fail(const std::string& reason) {
     showPage(Page::fault);
 }
 
-void StudyScreen::note(std::string_view event) {
-    if (const auto fault = study_->note(event); !fault.empty()) desk_.report(utf8(fault));
-}
+void StudyScreen::note(std::string_view event) { model_.reportFault(study_->note(event)); }
 
 void StudyScreen::closeRequested() {
-    if (page_ == Page::comment) return takeComment();
+    if (page_ == Page::comment) return submitComment();
     if (page_ != Page::pause && page_ != Page::trial) return leave();
     note(studyEvents::pause);
     sound_.stop();
@@ -255,14 +257,14 @@ void StudyScreen::goOn() {
         return showTrial();
     case Page::paused: return note(studyEvents::goOn), showNext();
     case Page::trial: return;
-    case Page::comment: return takeComment();
+    case Page::comment: return submitComment();
     case Page::done:
     case Page::exposed:
     case Page::fault: return leave();
     }
 }
 
-void StudyScreen::takeComment() {
+void StudyScreen::submitComment() {
     if (const auto words = comment_.getText().trim(); words.isNotEmpty())
         if (const auto fault = study_->keepComment(words.toStdString()); !fault.empty()) return fail(fault);
     showPage(Page::done);
@@ -275,13 +277,13 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
     if (key.isKeyCode(KeyPress::tabKey)) return false; // moves the focus
     const int digit = static_cast<int>(key.getTextCharacter() - '1');
     if (key.isKeyCode(KeyPress::escapeKey))
-        desk_.setSilent(true), refresh();
+        model_.setSilent(true), refresh();
     else if (page_ == Page::comment)
         return false;
-    else if (page_ == Page::trial && pane_.takeKey(key)) {
+    else if (page_ == Page::trial && pane_.handleKey(key)) {
     } else if (page_ == Page::trial && hasHands() && digit >= 0 && digit < static_cast<int>(parts_.size()))
         play(static_cast<std::size_t>(digit));
-    else if (page_ == Page::trial && isAnswerSeen() && answers_->takeKey(key)) {
+    else if (page_ == Page::trial && isAnswerSeen() && answers_->handleKey(key)) {
     } else if (page_ == Page::trial && key.isKeyCode(KeyPress::spaceKey) && pause_.isShowing() &&
                pause_.isEnabled())
         pause();
@@ -292,6 +294,464 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
     else if (key.isKeyCode(KeyPress::returnKey) && next_.isVisible() && next_.isEnabled())
         goOn();
     return true; // no key reaches the mixer below
+}
+
+// Course of a trial: plays its parts, and stores the answer.
+
+namespace {
+
+constexpr int maxUnlike = 3; // plays of a part at another level than planned; then its row is marked
+
+} // namespace
+
+bool StudyScreen::isExploring() const { return experiment().session().answer() == AnswerKind::wish; }
+
+bool StudyScreen::canAnswer() const { return progress_->canAnswer() && !isFeeling(); }
+
+/// An interactive world has the whole screen until the participant leaves it to answer.
+bool StudyScreen::isAnswerSeen() const { return answers_.standsAlone() || !hasHands() || canAnswer(); }
+
+double StudyScreen::restLeft() const { return std::max(0.0, 1e-3 * (restEndsMs_ - nowMs())); }
+
+/// The part after the last played one; at first, the first.
+std::size_t StudyScreen::nextPart() const {
+    if (experiment().session().intervalSeconds > 0.0 && !hasHands()) return 0; // starts the sequence
+    return progress_->plays() == 0 ? 0 : (part_ + 1) % parts_.size();
+}
+
+void StudyScreen::play(std::size_t part) {
+    if (page_ != Page::trial || model_.isSilent() || isWaiting() || !progress_->canPlay(part)) return;
+    if (isFeeling()) {
+        if (!hasHands() || (part == part_ && pane_.world().isMoving())) return;
+        wanted_ = part;
+        return pane_.world().end();
+    }
+    if (const auto fault = begin(part); !fault.empty()) return isWaiting() ? refresh() : fail(fault);
+    isLost_ = false;
+    if (progress_->plays() == 0) firstFeltMs_ = nowMs();
+    progress_->played(part);
+    part_ = part;
+    counted_ = 0.0;
+    isToBeMarked_ = true;
+    markFelt();
+    if (hasHands()) resized();
+    refresh();
+}
+
+std::string StudyScreen::begin(std::size_t part) {
+    const TrialRecord asked{experiment().trial(), exploring_.value_or(answers_->answer())};
+    const auto job = jobsOf(study_->protocol(), asked)[part];
+    if (worldSet() == nullptr) {
+        const auto stimulus = StudySound::make(model_, job, study_->protocol().folder);
+        return stimulus ? sound_.play(stimulus.value) : stimulus.error;
+    }
+    auto world = feltWorld(std::get<WrittenCall>(job), study_->protocol().folder);
+    if (!world) return world.error;
+    const auto number = std::to_string(experiment().trialsTaken() + 1);
+    const auto name = "trial-" + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number + "-" +
+                      std::to_string(sessions_.size() + 1) + ".json";
+    const auto folder = study_->feltFolder();
+    auto fault = pane_.begin(std::move(world.value), worldSet()->hasHands, folder / name);
+    if (fault.empty()) sessions_.push_back((folder.filename() / name).string());
+    return fault;
+}
+
+/// Decides by the receipts whether the play that is over counts.
+void StudyScreen::settle(Course course) {
+    noteFelt();
+    int& unlike = unlike_[part_];
+    unlike = course == Course::left ? 0 : course == Course::unlike ? unlike + 1 : unlike;
+    if (course == Course::left || (course == Course::unlike && unlike >= maxUnlike)) return;
+    markers_.push(markerWords("lost"));
+    isLost_ = true;
+    exploring_.reset();
+    if (worldSet() != nullptr) sessions_.pop_back(); // the next one takes its name
+    const bool isSequence = experiment().session().intervalSeconds > 0.0 && !hasHands();
+    for (std::size_t part = isSequence ? 0 : part_; part <= part_; ++part) progress_->lost(part);
+    counted_ = feltSeconds();
+}
+
+void StudyScreen::playWanted() {
+    if (!wanted_ || isFeeling()) return;
+    const auto part = *wanted_;
+    wanted_.reset();
+    play(part);
+}
+
+/// The parts after the first, each the session's interval after the one before.
+void StudyScreen::playSequence() {
+    const double interval = experiment().session().intervalSeconds;
+    const std::size_t next = part_ + 1;
+    if (interval > 0.0 && !isLost_ && !isFeeling() && !hasHands() && next < parts_.size() &&
+        progress_->plays(next) < progress_->plays(part_) && nowMs() >= endedMs_ + 1e3 * interval)
+        play(next);
+}
+
+void StudyScreen::pause() {
+    if (!hasHands() || !progress_->canAnswer()) return;
+    wanted_.reset();
+    pane_.world().end();
+    refresh();
+}
+
+/// An exploration plays the choice at once; other answers wait for confirmation.
+void StudyScreen::asked() {
+    if (page_ != Page::trial || isFeeling()) return;
+    if (!isExploring()) return refresh(), answers_.focusConfirm(); // it may be enabled only now
+    exploring_ = answers_->answer();
+    play(0);
+}
+
+void StudyScreen::confirm() {
+    if (page_ != Page::trial) return;
+    if (isExploring()) {
+        if (!experiment().mayEnd() || isFeeling()) return;
+        study_->endSession();
+        return showNext();
+    }
+    if (answers_->isComplete() && canAnswer()) submit(answers_->answer());
+}
+
+/// Marker text of the current trial: "felt;condition=PHONE;session=main;trial=3;stimulus=2,2;part=1".
+std::string StudyScreen::markerWords(const char* what) const {
+    const Trial& trial = experiment().trial();
+    return std::string{what} + ";condition=" + experiment().condition().name +
+           ";session=" + experiment().session().name + ";trial=" + std::to_string(trial.number) +
+           ";stimulus=" + trial.stimulus;
+}
+
+// The start time of a stimulus is known when it is posted, that of a world when it is first felt.
+void StudyScreen::markFelt() {
+    if (!isToBeMarked_ || (worldSet() != nullptr && pane_.world().feltSeconds() <= 0.0)) return;
+    isToBeMarked_ = false;
+    const double fromNow = worldSet() != nullptr ? -pane_.world().feltSeconds() : sound_.startsInSeconds();
+    markers_.push(
+        markerWords("felt") + ";part=" +
+            (experiment().trial().parts.empty() ? std::string{"1"} : experiment().trial().parts[part_]),
+        fromNow);
+}
+
+/// Stores the felt level of the part that is over: a device that restarts later knows it no more.
+void StudyScreen::noteFelt() {
+    model_.exposure().update();
+    felt_[part_] =
+        worldSet() != nullptr ? model_.exposure().felt(pane_.world().measuredSeconds()) : sound_.felt();
+}
+
+/// The participant's A(8) from this study's trials of today.
+double StudyScreen::exposure() const {
+    return dailyExposure(std::max(0.0, squaresBefore_ + model_.exposure().squareGSeconds()));
+}
+
+void StudyScreen::submit(Answer answer) {
+    model_.exposure().update();
+    answer.felt = felt_;
+    answer.apparatus = apparatusOf(model_);
+    answer.limiterDb = std::exchange(limiterDb_, 0.0);
+    answer.exposure = exposure();
+    answer.plays = std::max(1, progress_->plays());
+    if (!hasNoDevice(model_))
+        answer.left = std::ranges::all_of(unlike_, [](int plays) { return plays < maxUnlike; });
+    answer.again = progress_->again();
+    answer.seconds = std::round(nowMs() - firstFeltMs_) * 1e-3;
+    answer.sessions = sessions_;
+    const auto session = experiment().sessionNumber();
+    markers_.push(markerWords("answer") + ";response=" + answer.response);
+    const auto right = isCorrect(study_->protocol(), {experiment().trial(), answer});
+    wasRight_ = experiment().session().givesFeedback ? right : std::nullopt;
+    if (!study_->take(std::move(answer))) return fail(study_->error());
+    const bool staysOpen = !experiment().isDone() && isExploring() &&
+                           experiment().sessionNumber() == session &&
+                           experiment().trial().restSeconds <= 0.0 && !isExposed();
+    if (!staysOpen) return showNext();
+    exploring_.reset(); // stays on this screen and marks what was felt
+    progress_.emplace(experiment().session(), experiment().trial());
+    unlike_.assign(1, 0);
+    answers_->mark(experiment().explored());
+    refresh();
+    answers_->repaint();
+}
+
+void StudyScreen::updateTrial() {
+    if (progress_->plays() > 0) { // time felt since the last update
+        const double felt = feltSeconds();
+        progress_->spent(part_, felt - counted_);
+        counted_ = felt;
+    }
+    const bool wasFeeling = isFeeling();
+    if (wasFeeling)
+        limiterDb_ = std::max(
+            limiterDb_,
+            -toDecibels(std::max(1e-6, static_cast<double>(model_.session().status().render.limiterGain))));
+    pane_.refresh();
+    sound_.update();
+    markFelt();
+    if (wasFeeling && !isFeeling()) settle(course()), endedMs_ = nowMs(), resized();
+    if (!pane_.world().fault().empty()) return fail(pane_.world().fault());
+    playWanted();
+    playSequence();
+    if (exploring_ && !isFeeling() && progress_->plays() > 0) return submit(*exploring_);
+    const bool isOpen =
+        !isFeeling() && !model_.isSilent() && (progress_->canAnswer() || answers_->isOpen() || isExploring());
+    answers_.setVisible(isAnswerSeen());
+    if (isOpen != answers_->isEnabled()) answers_->setEnabled(isOpen);
+    if (isOpen && (answers_.standsAlone() ? answers_.hasKeyboardFocus(false) : hasKeyboardFocus(false)))
+        answers_->begin();
+    const bool mayConfirm =
+        isExploring() ? experiment().mayEnd() && !isFeeling() : canAnswer() && answers_->isComplete();
+    answers_.setConfirm(true, mayConfirm, say_(worldSet() != nullptr ? "OK" : "Next"));
+    answers_.setQuestion(headline());
+    updateParts();
+    updatePause();
+}
+
+void StudyScreen::updatePause() {
+    pause_.setEnabled(hasHands() && pane_.world().isMoving() && progress_->canAnswer());
+    pause_.setWords(say_("PAUSE"),
+                    say_(pause_.isEnabled() ? "space bar: answer" : "when each was felt for long enough"));
+}
+
+// Texts and layout of the study screen.
+
+namespace {
+
+constexpr int studyBarHeight = 56, partWidth = 300, partHeight = 84, choiceHeight = 216;
+
+} // namespace
+
+void StudyScreen::refresh() {
+    const bool hasFocus = hasKeyboardFocus(true) || (elsewhere_ && elsewhere_->hasKeyboardFocus(true));
+    if (isShowing() && !hasFocus) grabKeyboardFocus(); // an answer may then take it
+    const bool isSilent = model_.isSilent();
+    silence_.setButtonText(isSilent ? say_("SILENT: press to feel") : say_("SILENCE  Esc"));
+    silence_.setToggleState(isSilent, juce::dontSendNotification);
+    leave_->setEnabled(!isFeeling() || hasHands());
+    if (page_ == Page::trial) updateTrial();
+    if (page_ == Page::pause) {
+        next_.setEnabled(restLeft() <= 0.0);
+        next_.setWords(say_(experiment().trial().number == 1 ? "Begin" : "Go on"), say_("Enter"));
+    }
+    if (page_ == Page::paused) next_.setEnabled(true), next_.setWords(say_("Go on"), say_("Enter"));
+    if (page_ == Page::comment) next_.setEnabled(true), next_.setWords(say_("Next"));
+    if (page_ == Page::done || page_ == Page::exposed || page_ == Page::fault)
+        next_.setEnabled(true), next_.setWords(say_("Close"), say_("Enter"));
+    if (page_ != Page::trial)
+        answers_.setConfirm(false, false, {}), answers_.setQuestion(say_("Look at the other screen."));
+    if (auto words = headline() + "\n" + body() + "\n" + progressWords(); words != shown_) {
+        shown_ = words;
+        setDescription(words);
+        repaint();
+    }
+}
+
+void StudyScreen::updateParts() {
+    const SessionPlan& session = experiment().session();
+    const Trial& trial = experiment().trial();
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        auto& button = *parts_[i];
+        const bool isPlaying = isFeeling() && part_ == i, wasFelt = progress_->plays(i) > 0;
+        juce::String words = parts_.size() == 1 ? say_(wasFelt ? "Feel it again" : "Feel it")
+                                                : juce::String{static_cast<int>(i) + 1};
+        if (!session.objects.empty() && worldSet() == nullptr) words += "   " + say_(trial.parts[i]);
+        if (session.adjustment && session.adjustment->alternative == trial.parts[i])
+            words += "   " + say_("to be matched");
+        if (i == 0 && !session.modulus.empty()) words += "   = " + utf8(numberText(session.modulusNumber));
+        juce::StringArray remarks;
+        if (isPlaying)
+            remarks.add(say_("feel it now"));
+        else if (hasHands())
+            remarks.add(say_("key {n}", {{"n", juce::String{static_cast<int>(i) + 1}}}));
+        else if (i == nextPart())
+            remarks.add(say_("space bar"));
+        if (session.mostPlays > 0)
+            remarks.add(
+                say_("{n} of {most} left", {{"n", juce::String{session.mostPlays - progress_->plays(i)}},
+                                            {"most", juce::String{session.mostPlays}}}));
+        else if (wasFelt && !isPlaying)
+            remarks.add(progress_->plays(i) == 1
+                            ? say_("felt once")
+                            : say_("felt {n} times", {{"n", juce::String{progress_->plays(i)}}}));
+        button.setWords(words, remarks.joinIntoString(",  "));
+        button.setToggleState(isPlaying, juce::dontSendNotification);
+        const bool isInSequence = session.intervalSeconds > 0.0 && !hasHands() &&
+                                  (i > 0 || progress_->plays(0) > progress_->plays(parts_.size() - 1));
+        button.setEnabled((!isFeeling() || hasHands()) && !model_.isSilent() && !isWaiting() &&
+                          progress_->canPlay(i) && !isInSequence);
+        if (session.leastSeconds > 0.0) button.setShare(progress_->seconds(i) / session.leastSeconds);
+    }
+}
+
+// ---- words
+
+juce::String StudyScreen::headline() const {
+    switch (page_) {
+    case Page::trial: return say_.question(experiment().session(), experiment().condition());
+    case Page::comment: return say_(study_->protocol().closingQuestion);
+    case Page::done: return feedback() + say_("Thank you. That was everything.");
+    case Page::exposed: return say_("That is enough vibration for today: the study pauses.");
+    case Page::fault: return say_("The study cannot go on.");
+    case Page::paused: return say_("The study is paused.");
+    case Page::pause: break;
+    }
+    const Trial& trial = experiment().trial();
+    if (restLeft() > 0.0)
+        return feedback() + say_("A break: rest your hands.") + "  " + minutesText(restLeft());
+    if (trial.number > 1) return feedback() + say_("Ready to go on?");
+    return feedback() + say_(experiment().session().isTraining ? "Training" : "The study");
+}
+
+/// On the answer before, for the page that follows it.
+juce::String StudyScreen::feedback() const {
+    return wasRight_ ? say_(*wasRight_ ? "That was right." : "That was wrong.") + "  " : juce::String{};
+}
+
+// News is no reason why a participant feels nothing.
+juce::String StudyScreen::wrong() const {
+    return model_.isNews() ? model_.device().trouble() : model_.trouble();
+}
+
+juce::String StudyScreen::body() const {
+    switch (page_) {
+    case Page::trial:
+        if (model_.isSilent()) return say_("Everything is silent. Press the button to feel again.");
+        if (isWaiting()) return say_("Nothing can be felt now: the study waits for the device.");
+        if (isLost_) return say_("That did not come through whole. Please feel it again.");
+        if (wasRight_ && plays() == 0 && wrong().isEmpty()) return feedback().trimEnd();
+        return wrong().isNotEmpty()
+                   ? wrong()
+                   : say_.instruction(experiment().session(), experiment().condition()).replace("\n", " ");
+    case Page::comment: return say_("In your own words, if you like.");
+    case Page::done: return say_("Your answers are in") + "\n" + utf8(study_->path().string());
+    case Page::exposed:
+        return say_(
+                   "Your hands have taken A(8) = {n} m/s^2 (ISO 5349-1); this study's limit is {most} m/s^2.",
+                   {{"n", number(exposure(), 2)}, {"most", number(study_->protocol().exposureLimit, 2)}}) +
+               "\n" + say_("What you answered is kept, and the study goes on there another day.");
+    case Page::fault:
+        return utf8(fault_) + "\n" + say_("What was answered so far is kept, and the study goes on there.");
+    case Page::paused:
+        return say_("What you answered is kept. Close the window again to leave; the study goes on here.");
+    case Page::pause: return say_.instruction(experiment().session(), experiment().condition());
+    }
+    return {};
+}
+
+juce::String StudyScreen::progressWords() const {
+    if (experiment().isDone()) return say_("{n} trials", {{"n", juce::String{experiment().trialsTaken()}}});
+    const auto& session = experiment().session();
+    const int sessions =
+        static_cast<int>(study_->protocol().conditions.size() * study_->protocol().sessions.size());
+    juce::StringArray words{say_(session.isTraining ? "Training" : "The study")};
+    if (sessions > 1)
+        words.add(say_("part {n} of {most}", {{"n", juce::String{experiment().sessionNumber()}},
+                                              {"most", juce::String{sessions}}}));
+    const juce::String trial{experiment().trial().number};
+    if (experiment().sessionTrials() > 0)
+        words.add(say_("trial {n} of {most}",
+                       {{"n", trial}, {"most", juce::String{experiment().sessionTrials()}}}));
+    else if (!isExploring())
+        words.add(say_("trial {n}", {{"n", trial}}));
+    return words.joinIntoString(juce::String::fromUTF8("   \xc2\xb7   "));
+}
+
+// ---- places
+
+void StudyScreen::paint(juce::Graphics& g) {
+    g.fillAll(shade(*this, Shade::ground));
+    g.setColour(shade(*this, Shade::muted));
+    g.setFont(juce::Font{text::medium});
+    g.drawText(progressWords(), headArea_, juce::Justification::centredLeft, true);
+    if (!experiment().isDone() && experiment().sessionTrials() > 0) {
+        const auto bar =
+            juce::Rectangle<int>{pageInset, studyBarHeight - 2, getWidth() - 2 * pageInset, 4}.toFloat();
+        g.setColour(shade(*this, Shade::line));
+        g.fillRoundedRectangle(bar, 2.0f);
+        g.setColour(shade(*this, Shade::accent));
+        g.fillRoundedRectangle(
+            bar.withWidth(bar.getWidth() * static_cast<float>(experiment().trial().number - 1) /
+                          static_cast<float>(experiment().sessionTrials())),
+            2.0f);
+    }
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(juce::Font{page_ == Page::trial ? text::large : 30.0f, juce::Font::bold});
+    g.drawFittedText(headline(), questionArea_, juce::Justification::centred, 2, 1.0f);
+    const bool isTrouble =
+        page_ == Page::trial && (model_.isSilent() || isWaiting() || isLost_ || wrong().isNotEmpty());
+    g.setColour(shade(*this, isTrouble ? Shade::limit : Shade::muted));
+    g.setFont(juce::Font{page_ == Page::trial ? text::medium : text::large});
+    g.drawFittedText(body(), bodyArea_, juce::Justification::centred, page_ == Page::trial ? 2 : 5, 1.0f);
+    if (page_ == Page::pause) drawMaterials(g);
+}
+
+// On the page before a session: the materials that will be seen, with their names.
+void StudyScreen::drawMaterials(juce::Graphics& g) const {
+    const auto legends = materialsSeen();
+    if (legends.empty()) return;
+    constexpr int swatch = 48, height = 76;
+    const int width = std::min(190, (getWidth() - 2 * pageInset) / static_cast<int>(legends.size()));
+    auto row = juce::Rectangle<int>{pageInset, next_.getBottom() + 24, getWidth() - 2 * pageInset, height}
+                   .withSizeKeepingCentre(width * static_cast<int>(legends.size()), height);
+    if (row.getBottom() > getHeight()) return;
+    g.setFont(juce::Font{text::medium});
+    for (const MaterialLegend& legend : legends) {
+        auto cell = row.removeFromLeft(width);
+        juce::Path shape;
+        shape.addRectangle(-0.5f * swatch, -0.5f * swatch, 1.0f * swatch, 1.0f * swatch);
+        const auto place =
+            juce::AffineTransform::translation(cell.removeFromTop(swatch).getCentre().toFloat());
+        if (const MaterialPicture* const picture = pictureOf(pictures_, legend.stands))
+            fillWithPicture(g, shape, place, picture->image, legend.isHollow);
+        else
+            fillWithMaterial(g, shape, place, legend.look, legend.isHollow);
+        g.setColour(shade(*this, Shade::text));
+        g.drawFittedText(say_(std::string{legend.words}), cell, juce::Justification::centred, 1, 1.0f);
+    }
+}
+
+std::vector<MaterialLegend> StudyScreen::materialsSeen() const {
+    if (experiment().isDone() || !std::holds_alternative<WorldSet>(experiment().condition().stimuli))
+        return {};
+    std::string names;
+    for (const StimulusItem& item : stimuliOf(experiment().condition())) names += item.label + " ";
+    for (const std::string& object : experiment().session().objects) names += object + " ";
+    std::vector<MaterialLegend> seen;
+    for (const MaterialLegend& legend : materialLegends)
+        if (names.find(legend.stands) != std::string::npos) seen.push_back(legend);
+    return seen;
+}
+
+void StudyScreen::resized() {
+    auto area = getLocalBounds().reduced(pageInset, 0);
+    auto head = area.removeFromTop(studyBarHeight - 8);
+    silence_.setBounds(head.removeFromRight(160).withTrimmedTop(8));
+    leave_->setBounds(head.removeFromRight(110).reduced(16, 10));
+    headArea_ = head;
+    area.removeFromTop(20);
+    if (page_ == Page::trial) return placeTrial(area);
+    auto middle = area.withSizeKeepingCentre(std::min(900, area.getWidth()),
+                                             std::min(area.getHeight(), page_ == Page::comment ? 520 : 320));
+    questionArea_ = middle.removeFromTop(60);
+    bodyArea_ = middle.removeFromTop(page_ == Page::comment ? 44 : 150);
+    if (page_ == Page::comment) comment_.setBounds(middle.removeFromTop(middle.getHeight() - 110));
+    next_.setBounds(middle.withSizeKeepingCentre(260, 72));
+}
+
+void StudyScreen::placeTrial(juce::Rectangle<int> area) {
+    questionArea_ = area.removeFromTop(40);
+    bodyArea_ = area.removeFromTop(40);
+    if (!parts_.empty()) {
+        auto row = area.removeFromTop(partHeight);
+        const int count = static_cast<int>(parts_.size()) + (hasHands() ? 1 : 0),
+                  width = std::min(partWidth, row.getWidth() / count);
+        row = row.withSizeKeepingCentre(width * count, partHeight);
+        for (auto& part : parts_) part->setBounds(row.removeFromLeft(width).reduced(8, 4));
+        if (hasHands()) pause_.setBounds(row.reduced(8, 4));
+        area.removeFromTop(16);
+    }
+    if (!answers_.standsAlone())
+        answers_.setBounds(worldSet() != nullptr && !hasHands() ? area.removeFromBottom(choiceHeight) : area);
+    pane_.setBounds(area.withTrimmedBottom(12));
+    pane_.setVisible(worldSet() != nullptr && (!hasHands() || answers_.standsAlone() || !isAnswerSeen()));
 }
 
 } // namespace physvib

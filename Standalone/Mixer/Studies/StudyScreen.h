@@ -2,12 +2,10 @@
 // Screen of a study for the participant: breaks, stimuli, answers, end. It is only the user interface;
 // StudyInProgress selects trials and stores answers.
 #pragma once
-#include "Host/Views/MaterialTexture.h"
+#include "Host/Views/WorldPictures.h"
 #include "Lab/Study/StudyRun.h"
-#include "Mixer/Studies/StudyAnswerPane.h"
-#include "Mixer/Studies/StudyMarkers.h"
-#include "Mixer/Studies/StudySound.h"
-#include "Mixer/Studies/StudyWorldPane.h"
+#include "Mixer/Studies/StudyAnswers.h"
+#include "Mixer/Studies/StudyPlayback.h"
 
 namespace physvib {
 
@@ -15,7 +13,7 @@ namespace physvib {
 class StudyScreen final : public juce::Component {
 public:
     /// With `answersElsewhere`, answers are given in a separate window, on another display if there is one.
-    StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Words words = {},
+    StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> study, Words words = {},
                 bool answersElsewhere = false, std::vector<MaterialPicture> pictures = {});
     ~StudyScreen() override;
 
@@ -59,8 +57,8 @@ private:
     void pause();
     void asked();
     void confirm();
-    void take(Answer answer);
-    void takeComment();
+    void submit(Answer answer);
+    void submitComment();
     void noteFelt();
     void settle(Course course);
     void markFelt();
@@ -76,7 +74,7 @@ private:
     bool isAnswerSeen() const;
     Course course() const { return worldSet() != nullptr ? pane_.world().course() : sound_.course(); }
     /// Nothing is posted while no samples run: it would wait, and be felt at once later.
-    bool isWaiting() const { return !desk_.output().isPlaying(); }
+    bool isWaiting() const { return !model_.output().isPlaying(); }
     /// Duration felt of the current or last part.
     double feltSeconds() const {
         return worldSet() != nullptr ? pane_.world().feltSeconds() : sound_.feltSeconds();
@@ -93,7 +91,7 @@ private:
     juce::String headline() const, body() const, wrong() const, progressWords() const, feedback() const;
     const Experiment& experiment() const noexcept { return study_->experiment(); }
 
-    Desk& desk_;
+    MixerModel& model_;
     std::unique_ptr<StudyInProgress> study_;
     const StudyWords say_;
     const std::vector<MaterialPicture> pictures_;
@@ -133,16 +131,16 @@ private:
 };
 
 /// Settings of the apparatus now. Message thread.
-Apparatus apparatusOf(Desk& desk);
+Apparatus apparatusOf(MixerModel& model);
 
 /// True if samples are discarded, as there is no device: the study can be seen. Message thread.
-bool hasNoDevice(const Desk& desk);
+bool hasNoDevice(const MixerModel& model);
 
 /// Empty, or why the study cannot be played in this mixer, checked with the first stimulus of each condition.
 /// Message thread.
-std::string feltFault(const Protocol& protocol, Desk& desk);
+std::string feltFault(const Protocol& protocol, MixerModel& model);
 
 /// Empty, or why the study's layouts cannot be felt on the outputs that there are now. Fast. Message thread.
-std::string outputsFault(const Protocol& protocol, const Desk& desk);
+std::string outputsFault(const Protocol& protocol, const MixerModel& model);
 
 } // namespace physvib

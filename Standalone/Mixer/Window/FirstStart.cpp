@@ -6,7 +6,7 @@
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
 #include "Live/Devices/PicoDevice.h"
-#include "Mixer/Desk/DeskRouting.h"
+#include "Mixer/Model/MixerDevice.h"
 #include <algorithm>
 #include <optional>
 
@@ -15,8 +15,8 @@ namespace {
 
 constexpr int mostRows = 6;
 constexpr int lookMs = 100,
-              mostLooks = 50; // time for a sink to become ready: greeting and clock of a board need half a
-                              // second, Bluetooth one
+              maxLooks = 50; // time for a sink to become ready: greeting and clock of a board need half a
+                             // second, Bluetooth one
 
 juce::String outputsText(int outputs) {
     return juce::String{outputs} + (outputs == 1 ? " output" : " outputs");
@@ -33,7 +33,7 @@ bool isForEars(const std::string& device) {
 } // namespace
 
 void keepTo(int outputs, Mix& mix, std::string_view device) {
-    const bool isFirst = mix.layout.name == Desk::firstMix().layout.name; // nobody has chosen it
+    const bool isFirst = mix.layout.name == MixerModel::firstMix().layout.name; // nobody has chosen it
     if (mix.count() <= outputs && !(isPico(device) && isFirst)) return;
     mix.layout = presetLayout(layoutFor(outputs, device), mix.layout.enchanters);
     mix.resizeStrips();
@@ -92,8 +92,8 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
     return all;
 }
 
-FirstStart::FirstStart(Desk& desk, std::vector<FeltChoice> choices)
-    : desk_{desk}
+FirstStart::FirstStart(MixerModel& model, std::vector<FeltChoice> choices)
+    : model_{model}
     , choices_{std::move(choices)} {
     setTitle("First start");
     setWantsKeyboardFocus(true);
@@ -134,7 +134,7 @@ void FirstStart::playHere() {
     if (choices_.empty()) return end(false);
     const FeltChoice choice = choices_[static_cast<std::size_t>(chosen_)];
     if (choice.outputs == 0) {
-        desk_.tell("No device: the world is seen, not felt. Output has the devices");
+        model_.announce("No device: the world is seen, not felt. Output has the devices");
         return end(true);
     }
     if (choice.isBeside) {
@@ -142,18 +142,18 @@ void FirstStart::playHere() {
         return;
     }
     if (choice.isHeard) {
-        desk_.change("Headphones", [](Mix& mix) { keepTo(DeviceChoice::ears, mix); });
-        return useHeadphones(desk_, choice.device).empty() ? end(true) : show();
+        model_.change("Headphones", [](Mix& mix) { keepTo(DeviceChoice::ears, mix); });
+        return useHeadphones(model_, choice.device).empty() ? end(true) : show();
     }
-    if (const auto error = desk_.open(choice.device); !error.empty()) return show();
-    test(std::max(1, std::min(choice.outputs, desk_.device().outputs())));
+    if (const auto error = model_.open(choice.device); !error.empty()) return show();
+    test(std::max(1, std::min(choice.outputs, model_.device().outputs())));
 }
 
 void FirstStart::test(int outputs) {
-    if (tested_ < 0) slowness_ = desk_.session().world().slowness();
-    desk_.setSlowness(0); // pause the world, so that only test pulses are felt
-    desk_.change("First start", [&, outputs](Mix& mix) {
-        keepTo(outputs, mix, desk_.device().choice().name);
+    if (tested_ < 0) slowness_ = model_.session().world().slowness();
+    model_.setSlowness(0); // pause the world, so that only test pulses are felt
+    model_.change("First start", [&, outputs](Mix& mix) {
+        keepTo(outputs, mix, model_.device().choice().name);
         for (int j = 0; j < mix.count(); ++j) mix.strips[static_cast<std::size_t>(j)].output = j;
         mix.levelDb = std::min(firstDb, mix.levelDb);
     });
@@ -165,22 +165,22 @@ void FirstStart::test(int outputs) {
 
 // A sink may not be ready yet, and then its first pulse would be lost.
 bool FirstStart::isPlayed() const {
-    return std::ranges::all_of(desk_.session().sinks().states(), &SinkState::isReady);
+    return std::ranges::all_of(model_.session().sinks().states(), &SinkState::isReady);
 }
 
 void FirstStart::timerCallback() {
-    if (!isPlayed() && ++looks_ < mostLooks) return;
+    if (!isPlayed() && ++looks_ < maxLooks) return;
     stopTimer();
     pulse();
     show();
 }
 
 void FirstStart::pulse() {
-    if (tested_ >= 0 && tested_ < desk_.mix().count()) desk_.strikes().testPulse(tested_);
+    if (tested_ >= 0 && tested_ < model_.mix().count()) model_.strikes().testPulse(tested_);
 }
 
 void FirstStart::next() {
-    if (++tested_ >= desk_.mix().count()) return end(true);
+    if (++tested_ >= model_.mix().count()) return end(true);
     pulse();
     show();
 }
@@ -188,11 +188,11 @@ void FirstStart::next() {
 void FirstStart::felt() { next(); }
 
 // The tested actuator may have been detached by a message or in the window behind.
-bool FirstStart::isGone() const { return tested_ >= desk_.mix().count(); }
+bool FirstStart::isGone() const { return tested_ >= model_.mix().count(); }
 
 void FirstStart::feltAt(double shareX, double shareY) {
     if (isGone()) return next();
-    desk_.change("Place of an actuator", [&](Mix& mix) {
+    model_.change("Place of an actuator", [&](Mix& mix) {
         auto& layout = mix.layout.geometry;
         auto& place = layout.places[static_cast<std::size_t>(tested_)]; // depth and part stay
         place.xMetres = juce::jlimit(0.0, 1.0, shareX) * layout.extentWidthMetres;
@@ -204,20 +204,21 @@ void FirstStart::feltAt(double shareX, double shareY) {
 
 void FirstStart::notFelt() {
     if (isGone()) return next();
-    desk_.change("Not felt", [this](Mix& mix) { mix.strips[static_cast<std::size_t>(tested_)].output = -1; });
+    model_.change("Not felt",
+                  [this](Mix& mix) { mix.strips[static_cast<std::size_t>(tested_)].output = -1; });
     next();
 }
 
 void FirstStart::louder() {
     if (isGone()) return next();
-    desk_.change(
+    model_.change(
         "Louder", [](Mix& mix) { mix.levelDb = std::min(mostDb, mix.levelDb + louderDb); }, true);
     pulse();
     show();
 }
 
 void FirstStart::end(bool hasChosen) {
-    if (tested_ >= 0) desk_.setSlowness(slowness_);
+    if (tested_ >= 0) model_.setSlowness(slowness_);
     tested_ = -1;
     if (onEnd) onEnd(hasChosen); // may destroy this object
 }
@@ -250,19 +251,19 @@ void FirstStart::show() {
         words_.setText("Play here tests each of them in turn, quietly at first. Nothing plays before.",
                        juce::dontSendNotification);
     } else {
-        const auto& label = desk_.mix().layout.enchanters[static_cast<std::size_t>(tested_)].label;
-        const int output = desk_.mix().strips[static_cast<std::size_t>(tested_)].output;
+        const auto& label = model_.mix().layout.enchanters[static_cast<std::size_t>(tested_)].label;
+        const int output = model_.mix().strips[static_cast<std::size_t>(tested_)].output;
         title_.setText("Did you feel it? Where?", juce::dontSendNotification);
         if (isTimerRunning())
             words_.setText("It is looked for" + dots(), juce::dontSendNotification);
         else
             words_.setText("Actuator " + utf8(label) +
                                (output >= 0 ? ", output " + juce::String{output + 1} : juce::String{}) +
-                               ", at " + number(desk_.mix().levelDb, 0) +
+                               ", at " + number(model_.mix().levelDb, 0) +
                                " dB. Click the place where you felt it, or Felt if it is where it is drawn. "
                                "Space plays it again.",
                            juce::dontSendNotification);
-        louder_.setEnabled(desk_.mix().levelDb < mostDb);
+        louder_.setEnabled(model_.mix().levelDb < mostDb);
     }
     repaint();
 }
@@ -284,7 +285,7 @@ void FirstStart::paint(juce::Graphics& g) {
     const auto at = field();
     g.setColour(shade(*this, Shade::well));
     g.fillRoundedRectangle(at.toFloat(), 6.0f);
-    const auto& layout = desk_.mix().layout.geometry;
+    const auto& layout = model_.mix().layout.geometry;
     for (int j = 0; j < layout.count; ++j) {
         const auto& place = layout.places[static_cast<std::size_t>(j)];
         const auto centre =
@@ -297,7 +298,7 @@ void FirstStart::paint(juce::Graphics& g) {
         j == tested_ ? g.fillRoundedRectangle(badge, 7.0f) : g.drawRoundedRectangle(badge, 7.0f, 2.0f);
         g.setColour(shade(*this, j == tested_ ? Shade::well : Shade::muted));
         g.setFont(juce::Font{text::medium, juce::Font::bold});
-        g.drawText(utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(j)].label), badge,
+        g.drawText(utf8(model_.mix().layout.enchanters[static_cast<std::size_t>(j)].label), badge,
                    juce::Justification::centred, false);
     }
 }

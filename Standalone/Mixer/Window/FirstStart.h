@@ -2,8 +2,8 @@
 // First-start assistant: chooses the device of the actuators, then tests each actuator: was its pulse felt,
 // and where?
 #pragma once
-#include "Mixer/Desk/Desk.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Model/MixerModel.h"
+#include "Mixer/Widgets/Parts.h"
 #include <functional>
 #include <memory>
 #include <string_view>
@@ -44,7 +44,7 @@ public:
     static constexpr int wide = 600, high = 400;
     static constexpr double firstDb = -24.0, mostDb = -6.0, louderDb = 6.0;
 
-    FirstStart(Desk& desk, std::vector<FeltChoice> choices);
+    FirstStart(MixerModel& model, std::vector<FeltChoice> choices);
 
     std::function<void(bool hasChosen)> onEnd;
     std::function<void(const DeviceChoice&)> onBeside; ///< the window opens the sink, and continues with
@@ -75,7 +75,7 @@ private:
     void show();
     juce::Rectangle<int> field() const;
 
-    Desk& desk_;
+    MixerModel& model_;
     std::vector<FeltChoice> choices_;
     std::vector<std::unique_ptr<juce::TextButton>> rows_;
     juce::Label title_, words_;

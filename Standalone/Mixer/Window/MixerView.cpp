@@ -2,6 +2,7 @@
 // The panels, keyboard handling, and display updates.
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Output/EnchantersTab.h"
 #include "Mixer/Output/EventsTab.h"
 #include "Mixer/Output/OutputTab.h"
@@ -10,53 +11,63 @@
 #include "Mixer/Strips/LanesTab.h"
 #include "Mixer/Strips/ScopeView.h"
 #include "Mixer/Studies/StudiesTab.h"
-#include "Mixer/World/FeltHint.h"
+#include <algorithm>
 #include <utility>
 
 namespace physvib {
-
 namespace {
 
 constexpr int dismissWidth = 90;
 
+/// A tab beside the world, or else below it.
+struct TabEntry {
+    bool isBesideWorld;
+    const char* name;
+    std::unique_ptr<Tab> (*make)(MixerModel& model, WorldView& world);
+};
+
+template <class T>
+std::unique_ptr<Tab> make(MixerModel& model, WorldView& world) {
+    if constexpr (std::is_constructible_v<T, MixerModel&, WorldView&>)
+        return std::make_unique<T>(model, world);
+    else
+        return std::make_unique<T>(model);
+}
+
+// All tabs, in their order.
+constexpr TabEntry tabEntries[]{
+    {true, "Actuators", make<EnchantersTab>}, {true, "Materials", make<MaterialsTab>},
+    {true, "Output", make<OutputTab>},        {true, "Studies", make<StudiesTab>},
+    {false, "Played now", make<ScopeView>},   {false, "Gain lanes", make<LanesTab>},
+    {false, "Events", make<EventsTab>},       {false, "Takes", make<TakesTab>},
+    {false, "Telemetry", make<TelemetryTab>}};
+
 } // namespace
 
-MixerView::MixerView(Desk& desk)
-    : desk_{desk}
-    , bar_{desk}
-    , world_{desk}
-    , strips_{desk} {
+MixerView::MixerView(MixerModel& model)
+    : model_{model}
+    , bar_{model}
+    , world_{model}
+    , strips_{model} {
     setLookAndFeel(&look_);
     setOpaque(true);
     setTitle("PhysVib mixer");
     setWantsKeyboardFocus(true);
-    tabs_.add("Actuators", std::make_unique<EnchantersTab>(desk, world_.view()));
+    for (const TabEntry& tab : tabEntries)
+        (tab.isBesideWorld ? tabs_ : scope_).add(tab.name, tab.make(model, world_.view()));
     world_.onOutput = [this](int enchanter) { strips_.showOutputs(enchanter); };
-    world_.onProfile = [this](int enchanter) {
-        if (auto* actuators = dynamic_cast<EnchantersTab*>(tabs_.find("Actuators")))
-            actuators->editRow(enchanter);
-    };
-    tabs_.add("Materials", std::make_unique<MaterialsTab>(desk, world_.view()));
-    tabs_.add("Output", std::make_unique<OutputTab>(desk));
-    tabs_.add("Studies", std::make_unique<StudiesTab>(desk));
-    scope_.add("Played now", std::make_unique<ScopeView>(desk));
-    scope_.add("Gain lanes", std::make_unique<LanesTab>(desk));
-    scope_.add("Events", std::make_unique<EventsTab>(desk));
-    scope_.add("Takes", std::make_unique<TakesTab>(desk));
-    scope_.add("Telemetry", std::make_unique<TelemetryTab>(desk));
+    world_.onProfile = [this](int enchanter) { tabs_.find<EnchantersTab>()->editRow(enchanter); };
     trouble_.setTitle("Trouble");
     trouble_.setFont(juce::Font{text::medium});
     dismiss_ = quietButton("Dismiss", "Dismiss the message");
-    dismiss_->onClick = [this] { desk_.report({}); };
+    dismiss_->onClick = [this] { model_.report({}); };
     act_ = quietButton({}, "Act on the message");
     act_->onClick = [this] {
-        const auto act = desk_.messages().shown().act.run;
-        desk_.report({});
+        const auto act = model_.messages().shown().act.run;
+        model_.report({});
         if (act) act();
     };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&world_, &tabs_, &scope_, &strips_,
-                                                                      &side_, &lower_, &between_, &bar_})
-        addAndMakeVisible(c);
+    addAll(*this, {&world_, &tabs_, &scope_, &strips_, &side_, &lower_, &between_, &bar_});
     side_.onMove = [this](int by) { moveDivider(&Dividers::side, -by, getWidth(), tabs_.getWidth()); };
     lower_.onMove = [this](int by) { moveDivider(&Dividers::lower, -by, getHeight(), scope_.getHeight()); };
     between_.onMove = [this](int by) { moveDivider(&Dividers::strips, -by, getWidth(), strips_.getWidth()); };
@@ -71,45 +82,45 @@ MixerView::MixerView(Desk& desk)
     addChildComponent(*dismiss_);
     addChildComponent(*act_);
     prepareControls(*this);
-    desk_.addChangeListener(this);
+    model_.addChangeListener(this);
     addMouseListener(this, true);
-    takeMix();
+    mixChanged();
     setSize(1440, 900);
     startTimerHz(framesPerSecond);
 }
 
 MixerView::~MixerView() {
-    desk_.removeChangeListener(this);
+    model_.removeChangeListener(this);
     setLookAndFeel(nullptr);
 }
 
-void MixerView::setGround(Ground ground) {
-    look_.setGround(ground);
+void MixerView::setTheme(Theme theme) {
+    look_.setTheme(theme);
     sendLookAndFeelChange();
-    takeMix();
+    mixChanged();
     repaint();
 }
 
-void MixerView::takeMix() {
+void MixerView::mixChanged() {
     restedLooks_ = 0;
     if (isTimerRunning() && getTimerInterval() > 1000 / framesPerSecond) startTimerHz(framesPerSecond);
-    bar_.takeMix();
+    bar_.mixChanged();
     showLetters();
-    world_.takeMix();
-    tabs_.takeMix();
-    strips_.takeMix();
-    scope_.takeMix();
-    if (const auto why = whySilent(desk_.mix()); why != whySilent_) {
+    world_.mixChanged();
+    tabs_.mixChanged();
+    strips_.mixChanged();
+    scope_.mixChanged();
+    if (const auto why = whySilent(model_.mix()); why != whySilent_) {
         whySilent_ = why;
-        hintOnLevels(desk_, why);
+        hintOnLevels(model_, why);
     }
-    const bool isTrouble = desk_.trouble().isNotEmpty();
-    trouble_.setText(desk_.trouble(), juce::dontSendNotification);
+    const bool isTrouble = model_.trouble().isNotEmpty();
+    trouble_.setText(model_.trouble(), juce::dontSendNotification);
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
-    const auto tint = shade(*this, desk_.isNews() ? Shade::accent : Shade::limit);
+    const auto tint = shade(*this, model_.isNews() ? Shade::accent : Shade::limit);
     trouble_.setColour(juce::Label::backgroundColourId,
                        shade(*this, Shade::panel).interpolatedWith(tint, 0.17f));
-    const auto& act = desk_.messages().shown().act.name;
+    const auto& act = model_.messages().shown().act.name;
     act_->setButtonText(act);
     act_->setTitle(act);
     act_->setTooltip(act);
@@ -145,10 +156,10 @@ void MixerView::setShow(bool isShow) {
 
 // Names in files may be in any script, so a typeface with their letters is selected.
 void MixerView::showLetters() {
-    juce::String words = desk_.trouble() + juce::String::fromUTF8(desk_.output().device().c_str());
-    for (const auto& enchanter : desk_.mix().layout.enchanters) words += utf8(enchanter.label);
-    if (std::exchange(lettersOf_, desk_.world().edits()) != desk_.world().edits()) { // only after changes
-        const Scene& scene = desk_.world().drawing().drawn();
+    juce::String words = model_.trouble() + juce::String::fromUTF8(model_.output().device().c_str());
+    for (const auto& enchanter : model_.mix().layout.enchanters) words += utf8(enchanter.label);
+    if (std::exchange(lettersOf_, model_.world().edits()) != model_.world().edits()) { // only after changes
+        const Scene& scene = model_.world().drawing().drawn();
         words += utf8(scene.name);
         for (const auto& body : scene.bodies) words += utf8(body.name);
         for (const auto& material : scene.materials) words += utf8(material.name);
@@ -159,7 +170,7 @@ void MixerView::showLetters() {
 }
 
 void MixerView::look() {
-    latest_ = desk_.look();
+    latest_ = model_.look();
     for (std::size_t j = 0; j < peaks_.size(); ++j) peaks_[j] = std::max(peaks_[j], latest_.meters.peaks[j]);
     world_.refresh(latest_);
 }
@@ -185,7 +196,7 @@ void MixerView::timerCallback() {
 // Reduces the update rate while nothing moves and nothing plays, or nobody sees it.
 void MixerView::keepPace() {
     const auto& peaks = latest_.meters.peaks;
-    const bool isAtRest = desk_.session().world().slowness() == 0 && latest_.hits.empty() &&
+    const bool isAtRest = model_.session().world().slowness() == 0 && latest_.hits.empty() &&
                           std::ranges::all_of(peaks, [](float p) { return p == 0.0f; });
     restedLooks_ = isAtRest ? restedLooks_ + 1 : 0;
     const auto* peer = getPeer();
@@ -236,10 +247,9 @@ void MixerView::setDropShown(bool isShown) {
 
 bool MixerView::shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details,
                                                      juce::StringArray& files, bool& canMoveFiles) {
-    auto* events = dynamic_cast<EventsTab*>(scope_.find("Events"));
-    if (events == nullptr || details.description != EventsTab::dragged) return false;
+    if (details.description != EventsTab::dragged) return false;
     canMoveFiles = false;
-    files = events->filesToDrag();
+    files = scope_.find<EventsTab>()->filesToDrag();
     return !files.isEmpty();
 }
 
@@ -254,31 +264,55 @@ void MixerView::releaseAtRightClick(const juce::MouseEvent& e) {
     if (button != nullptr && e.mods.isPopupMenu()) button->setState(juce::Button::buttonNormal);
 }
 
-// A screen covers everything. Without a focused component, keys go to the screen before the world.
-bool MixerView::covered(const juce::KeyPress& key) {
-    const auto screen = std::ranges::find_if(getChildren(), [](const auto* child) {
-        return child->isVisible() && child->getWantsKeyboardFocus();
-    });
-    return screen != getChildren().end() && (*screen)->keyPressed(key);
+void MixerView::setScreen(juce::Component* screen) {
+    for (auto& child : hidden_)
+        if (child) child->setVisible(true);
+    hidden_.clear();
+    screen_ = screen;
+    if (screen == nullptr) return;
+    for (auto* child : getChildren())
+        if (child->isVisible()) hidden_.emplace_back(child);
+    screen->setBounds(getLocalBounds());
+    addAndMakeVisible(*screen);
+    for (auto& child : hidden_) child->setVisible(false);
+    if (screen->isShowing()) screen->grabKeyboardFocus();
+}
+
+void MixerView::chooseStudy(const StudyCall& call) {
+    setHint(false);
+    tabs_.choose("Studies");
+    auto& tab = *tabs_.find<StudiesTab>();
+    if (call.folder.isNotEmpty())
+        tab.setFolder(juce::File::getCurrentWorkingDirectory().getChildFile(call.folder));
+    if (call.participant.isNotEmpty()) tab.setParticipant(call.participant, std::max(1, call.number));
+    tab.chooseProtocol(call.protocol.toStdString());
+}
+
+bool MixerView::pauseStudy() {
+    auto* const screen = tabs_.find<StudiesTab>()->screen();
+    if (screen != nullptr) screen->closeRequested();
+    return screen != nullptr;
 }
 
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     if (auto* const open = openCard()) { // regardless of the focus, which Tab moves within it
         if (key.isKeyCode(KeyPress::tabKey)) return false;
-        if (!open->keyPressed(key) && key == KeyPress::escapeKey) desk_.setSilent(true);
+        if (!open->keyPressed(key) && key == KeyPress::escapeKey) model_.setSilent(true);
         return true;
     }
-    if (!world_.isVisible() && covered(key)) return true;
+    // without a focused component, keys go to the screen before the world
+    if (screen_ != nullptr && screen_->keyPressed(key)) return true;
     setHint(false);
-    if (key == KeyPress::escapeKey) return desk_.setSilent(true), true;
+    if (key == KeyPress::escapeKey) return model_.setSilent(true), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
-    if (key == KeyPress{'.'}) return desk_.session().world().stepOnce(), true;
+    if (key == KeyPress{'.'}) return model_.session().world().stepOnce(), true;
     if (key == KeyPress{'a', juce::ModifierKeys::noModifiers, 0}) return world_.compare().toggle(), true;
-    if (key == KeyPress{'z', juce::ModifierKeys::commandModifier, 0}) return desk_.undoManager().undo(), true;
+    if (key == KeyPress{'z', juce::ModifierKeys::commandModifier, 0})
+        return model_.undoManager().undo(), true;
     if (key == KeyPress{'z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier, 0} ||
         key == KeyPress{'y', juce::ModifierKeys::commandModifier, 0})
-        return desk_.undoManager().redo(), true;
+        return model_.undoManager().redo(), true;
     return world_.keyPressed(key);
 }
 
@@ -346,6 +380,63 @@ void MixerView::placeCards() {
     if (progress_ != nullptr)
         progress_->setTopLeftPosition(world_.getRight() - progress_->getWidth() - 8,
                                       world_.getBottom() - 56 - progress_->getHeight());
+}
+
+// Divides the window between world, tabs, scope and strips.
+
+namespace {
+
+constexpr double least = 0.05, most = 0.95;
+
+int between(int lowest, int value, int highest) {
+    return std::max(lowest, std::min(value, highest)); // a small window keeps the lowest
+}
+
+int shareOr(double share, int whole, int automatic) {
+    return share > 0.0 ? juce::roundToInt(share * whole) : automatic;
+}
+
+} // namespace
+
+juce::String Dividers::text() const {
+    return juce::String{side, 4} + " " + juce::String{lower, 4} + " " + juce::String{strips, 4};
+}
+
+Dividers Dividers::of(const juce::String& text) {
+    const auto words = juce::StringArray::fromTokens(text, " ", {});
+    const auto share = [&](int k) {
+        const double value = words[k].getDoubleValue();
+        return value >= least && value <= most ? value : 0.0;
+    };
+    return {share(0), share(1), share(2)};
+}
+
+Arrangement arrange(juce::Rectangle<int> area, const Wanted& wanted, const Dividers& dividers) {
+    using A = Arrangement;
+    Arrangement a;
+    const int width = area.getWidth(), height = area.getHeight();
+    const int side = between(A::minSide, shareOr(dividers.side, width, std::min(640, width * 39 / 100)),
+                             width - A::minSide - gap);
+    // more height than this leaves bars above and below the field
+    const auto useful =
+        juce::roundToInt((width - side - gap - WorldPanel::besideField) / wanted.fieldAspect) +
+        WorldPanel::aboveAndBelowField;
+    const int automatic = between(std::min(292, height * 42 / 100), height - gap - useful, height * 42 / 100);
+    const int lower =
+        between(A::minLower, shareOr(dividers.lower, height, automatic), height - A::minWorldHeight - gap);
+    const int fair = std::min(std::max(wanted.minStrips, width * 45 / 100), wanted.maxStrips);
+    const int strips =
+        between(A::minStrips, shareOr(dividers.strips, width, std::min(fair, width * 70 / 100)),
+                width - A::minScope - gap);
+    auto bottom = area.removeFromBottom(lower);
+    a.lower = area.removeFromBottom(gap);
+    a.tabs = area.removeFromRight(side);
+    a.side = area.removeFromRight(gap);
+    a.world = area;
+    a.strips = bottom.removeFromRight(strips);
+    a.between = bottom.removeFromRight(gap);
+    a.scope = bottom;
+    return a;
 }
 
 } // namespace physvib

@@ -3,18 +3,48 @@
 #pragma once
 #include "Host/Views/EmergencyStop.h"
 #include "Mixer/Strips/StripsPanel.h"
-#include "Mixer/Window/Arrangement.h"
-#include "Mixer/Window/CardFocus.h"
-#include "Mixer/Window/CardHost.h"
-#include "Mixer/Window/Divider.h"
+#include "Mixer/Widgets/Cards.h"
+#include "Mixer/Widgets/Parts.h"
+#include "Mixer/Widgets/Typefaces.h"
 #include "Mixer/Window/FirstStart.h"
-#include "Mixer/Window/QuestionCard.h"
-#include "Mixer/Window/ShownLetters.h"
-#include "Mixer/Window/TabPanel.h"
 #include "Mixer/Window/TopBar.h"
 #include "Mixer/World/WorldPanel.h"
+#include <juce_gui_basics/juce_gui_basics.h>
 
 namespace physvib {
+
+/// Places of the window's panels: pure arithmetic, so that every size can be tested without a window.
+/// Places of the dividers as shares of the width or height that they divide; 0: automatic.
+struct Dividers {
+    double side = 0.0;   ///< width of the tabs beside the world
+    double lower = 0.0;  ///< height of the lower panels
+    double strips = 0.0; ///< width of the strips beside the scope
+    bool operator==(const Dividers&) const = default;
+
+    juce::String text() const; ///< for the settings
+    static Dividers of(const juce::String& text);
+};
+
+/// What the panels would like to have.
+struct Wanted {
+    double fieldAspect = 1.0; ///< width of the world's field by its height
+    int minStrips = 0;        ///< width at which all strips are in sight
+    int maxStrips = 0;        ///< width at which they are as wide as they may be
+};
+
+/// Places in pixels of the window, below the bar.
+struct Arrangement {
+    juce::Rectangle<int> world, tabs, scope, strips;
+    juce::Rectangle<int> side, lower, between; ///< the dividers' handles
+
+    static constexpr int minLower = 248, minWorldHeight = 240, minSide = 400, minStrips = 300, minScope = 360;
+};
+
+/// Divides `area`. The world gets what its field can use; the lower panels get the rest, up to a share of the
+/// height. Any thread.
+Arrangement arrange(juce::Rectangle<int> area, const Wanted& wanted, const Dividers& dividers);
+
+struct StudyCall;
 
 class MixerView final : public juce::Component,
                         public juce::DragAndDropContainer,
@@ -22,17 +52,17 @@ class MixerView final : public juce::Component,
                         private juce::ChangeListener,
                         private juce::Timer {
 public:
-    static constexpr int framesPerSecond = 60, restFramesPerSecond = 5, leastWidth = 1000, leastHeight = 640;
+    static constexpr int framesPerSecond = 60, restFramesPerSecond = 5, minWidth = 1000, minHeight = 640;
     static constexpr int worldsPerPanel = 3; ///< pictures of the world for each of the other panels
 
-    explicit MixerView(Desk& desk);
+    explicit MixerView(MixerModel& model);
     ~MixerView() override;
 
     /// Updates the display; called by the timer.
     void refresh();
-    const DeskMoment& latest() const noexcept { return latest_; } ///< displayed state
-    void setGround(Ground ground);
-    Ground ground() const noexcept { return look_.ground(); }
+    const MixerMoment& latest() const noexcept { return latest_; } ///< displayed state
+    void setTheme(Theme theme);
+    Theme theme() const noexcept { return look_.theme(); }
     const Dividers& dividers() const noexcept { return dividers_; }
     void setDividers(const Dividers& dividers);
     /// Shows the world alone, with the button that silences.
@@ -43,6 +73,10 @@ public:
     WorldPanel& world() noexcept { return world_; }
     TabPanel& tabs() noexcept { return tabs_; }
     TabPanel& scope() noexcept { return scope_; }
+    /// Shows the tab *Studies* with these selections; it displays errors in the protocol.
+    void chooseStudy(const StudyCall& call);
+    /// The window is to be closed: pauses or leaves a study on its screen. False if there is none.
+    bool pauseStudy();
     /// Three lines of help for new users; a click or key closes them.
     void setHint(bool isShown);
     bool isHintShown() const noexcept { return isHintShown_; }
@@ -51,6 +85,7 @@ public:
     FirstStart* firstStart() noexcept { return firstStart_.get(); }
     /// Shows a question or a choice of files in the centre; null: none.
     void setCard(std::unique_ptr<juce::Component> card) override;
+    void setScreen(juce::Component* screen) override;
     juce::Component* card() noexcept { return card_.get(); }
     /// Nothing but that card and the button that silences hears keys and the mouse; null: none is open.
     juce::Component* openCard() noexcept {
@@ -74,19 +109,18 @@ public:
     void resized() override;
 
 private:
-    void changeListenerCallback(juce::ChangeBroadcaster*) override { takeMix(); }
+    void changeListenerCallback(juce::ChangeBroadcaster*) override { mixChanged(); }
     void timerCallback() override;
     void look();
     void moveDivider(double Dividers::*which, int pixels, int whole, int now);
     static void releaseAtRightClick(const juce::MouseEvent& e);
     void raiseCard();
     void placeCards();
-    bool covered(const juce::KeyPress& key);
-    void takeMix();
+    void mixChanged();
     void showLetters();
     void keepPace();
 
-    Desk& desk_;
+    MixerModel& model_;
     Look look_;
     TopBar bar_;
     WorldPanel world_;
@@ -101,16 +135,17 @@ private:
     std::unique_ptr<FirstStart> firstStart_;
     std::unique_ptr<juce::Component> card_;
     CardFocus cardFocus_;
-    juce::Component::SafePointer<juce::Component> progress_;
+    juce::Component::SafePointer<juce::Component> progress_, screen_;
+    std::vector<juce::Component::SafePointer<juce::Component>> hidden_; // behind the screen
     ShownLetters letters_;
     std::uint64_t lettersOf_ = ~std::uint64_t{0}; // edit count of the world at the last check
-    juce::String whySilent_;                      // as told
+    juce::String whySilent_;                      // as shown
     bool isHintShown_ = false, isDropShown_ = false, isShow_ = false;
-    DeskMoment latest_;
+    MixerMoment latest_;
     int restedLooks_ = 0, looks_ = 0;
     std::array<float, limits::maxEnchanters> peaks_{}; // since the strips were updated
     juce::TooltipWindow tooltips_{this, 600};
-    EmergencyStop stop_{*this, [this] { desk_.setSilent(true); }};
+    EmergencyStop stop_{*this, [this] { model_.setSilent(true); }};
 };
 
 } // namespace physvib

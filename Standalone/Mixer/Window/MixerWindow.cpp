@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mixer's window: document, settings, keys and menu.
 #include "Mixer/Window/MixerWindow.h"
+#include "Calls/SessionMovie.h"
 #include "Core/Limits.h"
-#include "Host/Views/DisplayScale.h"
+#include "Host/Views/WorldView.h"
+#include "Io/Disk/AtomicFile.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
+#include "Live/Recordings/Recording.h"
 #include "Mixer/Studies/StudiesTab.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Window/PageLink.h"
+#include "Scene/FileKind.h"
+#include "Scene/SceneFile.h"
+#include "Scene/SceneValidation.h"
 #include <algorithm>
 #include <array>
 
@@ -57,7 +63,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     if (endedBadly) before_ = files_.limits();
     start(file);
     setResizable(true, false);
-    setResizeLimits(MixerView::leastWidth, MixerView::leastHeight, 7680, 4320);
+    setResizeLimits(MixerView::minWidth, MixerView::minHeight, 7680, 4320);
     applyZoom();
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
         const auto room = display->userArea;
@@ -70,75 +76,69 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     const auto& chosen = settings.getValue("device");
     const bool isFirst = device.isEmpty() && !settings.getBoolValue(chosenSetting) &&
                          (chosen.isEmpty() || chosen.startsWith(juce::String{noDeviceType} + ":"));
-    if (isFirst && !endedBadly)
-        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] {
-            if (safe != nullptr) safe->showFirstStart();
-        });
-    tellInstead();
+    if (isFirst && !endedBadly) later(*this, [](MixerWindow& window) { window.showFirstStart(); });
+    reportInstead();
     offerRecovery();
     if (!isFirst && !endedBadly) showHintOnce(); // else after the questions
-    if (!files_.settingsFault().empty()) desk_->messages().add({utf8(files_.settingsFault())});
+    if (!files_.settingsFault().empty()) model_->messages().add({utf8(files_.settingsFault())});
     startTimer(500);
 }
 
 MixerWindow::~MixerWindow() {
     stopTimer();
-    files_.settings().setValue(silentSetting, desk_->isSilent());
+    files_.settings().setValue(silentSetting, model_->isSilent());
     files_.setLimits(limits());
-    files_.setExposureToday(desk_->exposure().squareGSeconds(), true);
+    files_.setExposureToday(model_->exposure().squareGSeconds(), true);
     rendering_.reset();
     clearContentComponent();
     view_.reset();
-    desk_.reset();
+    model_.reset();
 }
 
-// A document gets a new Desk: its session starts at 0, without undo steps.
+// A document gets a new MixerModel: its session starts at 0, without undo steps.
 void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
-    const bool wasSilent = desk_ ? desk_->isSilent() : files_.settings().getBoolValue(silentSetting);
+    const bool wasSilent = model_ ? model_->isSilent() : files_.settings().getBoolValue(silentSetting);
     const bool wasAsked = view_ && view_->question() != nullptr;
-    const double exposure = desk_ ? desk_->exposure().squareGSeconds() : files_.exposureToday();
+    const double exposure = model_ ? model_->exposure().squareGSeconds() : files_.exposureToday();
     asked_.reset();
     clearContentComponent();
     view_.reset();
-    desk_.reset();
-    desk_ = std::make_unique<Desk>(drivers_, device_, std::move(mix), DeskStart{wasSilent, isPaused});
-    desk_->exposure().goOnFrom(exposure);
-    view_ = std::make_unique<MixerView>(*desk_);
+    model_.reset();
+    model_ = std::make_unique<MixerModel>(drivers_, device_, std::move(mix), MixerStart{wasSilent, isPaused});
+    model_->exposure().goOnFrom(exposure);
+    view_ = std::make_unique<MixerView>(*model_);
     view_->setProgress(rendering_.get()); // of another session, which goes on
     setContentNonOwned(view_.get(), getWidth() == 0);
     document_ = document;
-    savedEdits_ = desk_->edits();
+    savedEdits_ = model_->edits();
     view_->topBar().onMenu = [this](juce::Component& from) { showMenu(from); };
     view_->topBar().onRecord = [this] { record(); };
     view_->topBar().onSave = [this] { save(); };
-    desk_->device().onSinksWanted =
-        [safe = juce::Component::SafePointer<MixerWindow>{this}](const DeviceChoice& choice) {
-            juce::MessageManager::callAsync([safe, choice] { // asynchronous, because the calling tab is
-                                                             // destroyed with its Desk
-                if (safe != nullptr) safe->useSinks(choice);
-            });
-        };
+    model_->device().onSinksWanted = [this](const DeviceChoice& choice) {
+        later(*this, [choice](MixerWindow& window) { window.useSinks(choice); }); // the calling tab goes with
+                                                                                  // its model
+    };
     view_->topBar().onOpenScene = [this] { import("Scene"); };
     view_->topBar().setOwnScenes(files_.ownScenes());
     view_->topBar().onOwnScene = [this](const juce::File& own) { openFile(own); };
-    desk_->recording().onEnd = [this](const juce::File& file, const juce::String& error) {
+    model_->recording().onEnd = [this](const juce::File& file, const juce::String& error) {
         lastRecording_ = file;
         view_->topBar().setRecording(false);
         if (error.isEmpty())
-            tellSaved("Recorded, with its events beside it:", file);
+            announceSaved("Recorded, with its events beside it:", file);
         else
             say(file.getFileName() + ": " + error);
     };
     OscChoice osc{oscUseNamed(files_.settings().getValue("osc")),
                   files_.settings().getValue("osc-to").toStdString(),
                   files_.settings().getDoubleValue("osc-turn")};
-    if (const auto error = desk_->inputs().use(osc); !error.empty()) {
+    if (const auto error = model_->inputs().use(osc); !error.empty()) {
         osc.receiver.clear(); // the host name cannot be resolved now
-        desk_->inputs().use(osc);
-        desk_->report("OSC: " + utf8(error));
+        model_->inputs().use(osc);
+        model_->report("OSC: " + utf8(error));
     }
-    desk_->setDisplayWidth(1e-3 * files_.settings().getDoubleValue(displayWidthSetting));
-    view_->setGround(files_.settings().getValue("look") == "light" ? Ground::light : Ground::dark);
+    model_->setDisplayWidth(1e-3 * files_.settings().getDoubleValue(displayWidthSetting));
+    view_->setTheme(files_.settings().getValue("look") == "light" ? Theme::light : Theme::dark);
     view_->setDividers(Dividers::of(files_.settings().getValue("panels")));
     view_->grabKeyboardFocus();
     nameWindow();
@@ -151,7 +151,7 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
         for (const SinkKind& kind : sinkKinds())
             files_.settings().setValue(kind.setting.data(), utf8(choice.placeOf(kind)));
         const bool isFirst = view_->firstStart() != nullptr;
-        play(Mix{desk_->mix()}, document_, desk_->session().world().slowness() == 0);
+        play(Mix{model_->mix()}, document_, model_->session().world().slowness() == 0);
         if (isFirst && !choice.sinks.empty()) return testBeside(kindOf(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // the tab where it was chosen
     });
@@ -162,19 +162,17 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
 void MixerWindow::showFirstStart() { addFirstStart(feltChoices(drivers_, likelySinks())); }
 
 FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
-    auto card = std::make_unique<FirstStart>(*desk_, std::move(choices));
+    auto card = std::make_unique<FirstStart>(*model_, std::move(choices));
     card->onEnd = [this](bool hasChosen) {
         if (hasChosen) files_.settings().setValue(chosenSetting, true);
-        // asynchronous, because its button's click is still being handled
-        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] {
-            if (safe == nullptr) return;
-            safe->view_->setFirstStart(nullptr);
-            safe->showHintOnce();
+        later(*this, [](MixerWindow& window) {
+            window.view_->setFirstStart(nullptr);
+            window.showHintOnce();
         });
     };
     card->onBeside = [this](const DeviceChoice& choice) {
         files_.settings().setValue(chosenSetting, true);
-        if (desk_->device().onSinksWanted) desk_->device().onSinksWanted(choice);
+        if (model_->device().onSinksWanted) model_->device().onSinksWanted(choice);
     };
     FirstStart& shown = *card;
     view_->setFirstStart(std::move(card));
@@ -183,13 +181,13 @@ FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
 
 void MixerWindow::testBeside(int outputs) { addFirstStart({}).test(outputs); }
 
-void MixerWindow::tellInstead() {
+void MixerWindow::reportInstead() {
     const auto& wanted = device_.name;
-    if (desk_->trouble().isEmpty() || wanted.starts_with(std::string{noDeviceType} + ":")) return;
+    if (model_->trouble().isEmpty() || wanted.starts_with(std::string{noDeviceType} + ":")) return;
     for (const auto& there : byLikelihood(listAudioDevices(drivers_)))
         if (there.type != noDeviceType && there.type + ":" + there.name != wanted)
-            return desk_->messages().add({"There is " + utf8(there.type + ": " + there.name) + " (" +
-                                          juce::String{there.channels} + " outputs) instead, under Output"});
+            return model_->messages().add({"There is " + utf8(there.type + ": " + there.name) + " (" +
+                                           juce::String{there.channels} + " outputs) instead, under Output"});
 }
 
 void MixerWindow::showHintOnce() {
@@ -208,11 +206,11 @@ void MixerWindow::nameWindow() {
 
 void MixerWindow::timerCallback() {
     nameWindow();
-    device_ = desk_->device().choice();
+    device_ = model_->device().choice();
     auto& settings = files_.settings();
     settings.setValue("device", utf8(device_.name));
     const auto colon = device_.name.find(':');
-    if (const int all = desk_->device().outputs(); all > 0 && colon != std::string::npos)
+    if (const int all = model_->device().outputs(); all > 0 && colon != std::string::npos)
         settings.setValue("outputs", device_.isHeadphones
                                          ? DeviceChoice::ears
                                          : ownOutputs({device_.name.substr(0, colon),
@@ -220,26 +218,26 @@ void MixerWindow::timerCallback() {
     settings.setValue("headphones", device_.isHeadphones);
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
-    settings.setValue("osc", oscUseNames[static_cast<std::size_t>(desk_->inputs().choice().use)]);
-    settings.setValue("osc-to", utf8(desk_->inputs().choice().receiver));
-    settings.setValue("osc-turn", desk_->inputs().choice().turnDegrees);
+    settings.setValue("osc", oscUseNames[static_cast<std::size_t>(model_->inputs().choice().use)]);
+    settings.setValue("osc-to", utf8(model_->inputs().choice().receiver));
+    settings.setValue("osc-turn", model_->inputs().choice().turnDegrees);
     for (const std::size_t ear : {0u, 1u})
         settings.setValue(ear == 0 ? "monitor-left" : "monitor-right",
                           device_.monitor.size() > ear ? device_.monitor[ear] + 1 : 0);
     settings.setValue("monitor-db", device_.monitorDb);
     settings.setValue("marker", device_.marker + 1);
     settings.setValue("clip-ending", hitEndings()[dragged_->ending()]);
-    settings.setValue(silentSetting, desk_->isSilent());
+    settings.setValue(silentSetting, model_->isSilent());
     settings.setValue("panels", view_->dividers().text());
     files_.setLimits(limits());
-    files_.setExposureToday(desk_->exposure().squareGSeconds());
+    files_.setExposureToday(model_->exposure().squareGSeconds());
     offerMonitor();
-    if (const auto error = files_.keep(*desk_, isChanged()); !error.empty()) say(utf8(error));
+    model_->reportFault(files_.keep(*model_, isChanged()));
 }
 
 Mix MixerWindow::firstMix() {
     const auto& settings = files_.settings();
-    Mix mix = Desk::firstMix();
+    Mix mix = MixerModel::firstMix();
     if (const int outputs = settings.getIntValue("outputs");
         outputs > 0 && settings.getValue("device") == utf8(device_.name))
         keepTo(outputs, mix, device_.name);
@@ -256,11 +254,11 @@ Mix MixerWindow::firstMix() {
 // Shown once, if headphones may be connected in place of actuators.
 void MixerWindow::offerMonitor() {
     auto& settings = files_.settings();
-    if (settings.getBoolValue("monitor-offered") || desk_->device().outputs() != 2 ||
+    if (settings.getBoolValue("monitor-offered") || model_->device().outputs() != 2 ||
         !device_.sinks.empty() || !device_.monitor.empty() || device_.isHeadphones)
         return;
     settings.setValue("monitor-offered", true);
-    desk_->messages().add(
+    model_->messages().add(
         {"This device has two outputs. With headphones there, what is felt can be heard: choose "
          "them under Output",
          true});
@@ -278,20 +276,20 @@ void MixerWindow::filesDropped(const juce::StringArray& files, int, int) {
 }
 
 void MixerWindow::requestQuit() {
-    if (pauseStudy(*view_)) return;
+    if (view_->pauseStudy()) return;
     askThen([this] {
         files_.copies().forget();
         juce::JUCEApplicationBase::quit();
     });
 }
 
-void MixerWindow::setGround(Ground ground) {
-    view_->setGround(ground);
-    files_.settings().setValue("look", ground == Ground::light ? "light" : "dark");
+void MixerWindow::setTheme(Theme theme) {
+    view_->setTheme(theme);
+    files_.settings().setValue("look", theme == Theme::light ? "light" : "dark");
 }
 
 void MixerWindow::setDisplayWidth(double mm) {
-    desk_->setDisplayWidth(1e-3 * mm);
+    model_->setDisplayWidth(1e-3 * mm);
     files_.settings().setValue(displayWidthSetting, mm);
 }
 
@@ -301,27 +299,27 @@ void MixerWindow::chooseFolder() {
                [this](const juce::File& chosen) {
                    folder_->choose(chosen);
                    files_.settings().setValue(folderSetting, chosen.getFullPathName());
-                   if (const auto folder = folder_->make(); folder) tellSaved("Files go to", folder.value);
+                   if (const auto folder = folder_->make(); folder)
+                       announceSaved("Files go to", folder.value);
                });
 }
 
 // Display sizes reported by the system are often wrong.
 void MixerWindow::askDisplayWidth() {
     const double now =
-        1e3 * displayOf(*view_).getWidth() / screenPixelsPerMetre(*view_, desk_->displayWidthMetres());
-    ask("Width of the display",
+        1e3 * displayOf(*view_).getWidth() / screenPixelsPerMetre(*view_, model_->displayWidthMetres());
+    askForValues(
+        view_->topBar(), "Width of the display", "Set", {{"Width in mm", number(now, 0)}},
+        [this](const juce::StringArray& values) {
+            const auto& words = values[0];
+            const double mm = words.isEmpty() ? 0.0 : words.replaceCharacter(',', '.').getDoubleValue();
+            if (words.isEmpty() || isDisplayWidth(1e-3 * mm)) return setDisplayWidth(mm);
+            say("Width of the display: expected " + number(1e3 * minDisplayMetres, 0) + " to " +
+                number(1e3 * maxDisplayMetres, 0) + " mm, found " + words);
+        },
         "Drags in the world are measured in metres of the screen. Measure its picture from left to right, in "
         "mm; "
-        "empty: as the system says.",
-        {{"Set",
-          [this] {
-              const auto words = takeAnswer("Width in mm");
-              const double mm = words.isEmpty() ? 0.0 : words.replaceCharacter(',', '.').getDoubleValue();
-              if (words.isEmpty() || isDisplayWidth(1e-3 * mm)) return setDisplayWidth(mm);
-              say("Width of the display: expected " + number(1e3 * leastDisplayMetres, 0) + " to " +
-                  number(1e3 * mostDisplayMetres, 0) + " mm, found " + words);
-          }}},
-        {{"Width in mm", number(now, 0)}});
+        "empty: as the system says.");
 }
 
 bool MixerWindow::keyPressed(const juce::KeyPress& key) {
@@ -343,7 +341,7 @@ bool MixerWindow::keyPressed(const juce::KeyPress& key) {
 }
 
 void MixerWindow::showMenu(juce::Component& from) {
-    auto& undo = desk_->undoManager();
+    auto& undo = model_->undoManager();
     juce::PopupMenu menu, look, recent;
     const auto item = [&menu](const juce::String& name, const juce::String& keys, std::function<void()> act,
                               bool isEnabled = true) {
@@ -381,20 +379,20 @@ void MixerWindow::showMenu(juce::Component& from) {
     item("Scene" + dots(), {}, [this] { import("Scene"); });
     item("Save as scene" + dots(), {}, [this] { saveScene(false); });
     item("Save as scene, bodies as they are now" + dots(), {}, [this] { saveScene(true); });
-    item(desk_->script().isRecording() ? "End the recording of hands" : "Record hands as the scene's script",
+    item(model_->script().isRecording() ? "End the recording of hands" : "Record hands as the scene's script",
          "Ctrl+Shift+R", [this] { recordScript(); });
     item("Layout" + dots(), {}, [this] { import("Layout of actuators"); });
     item("Save the layout" + dots(), {}, [this] { exportLayout(); });
-    if (asked_) item("Levels of the file", {}, [this] { takeAsked(); });
+    if (asked_) item("Levels of the file", {}, [this] { useAskedLevels(); });
     menu.addSeparator();
-    item(desk_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });
+    item(model_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });
     item("Render" + dots(), "Ctrl+E", [this] { renderOffline(); });
     item("Save movie" + dots(), {}, [this] { saveMovie(); });
     item("Share" + dots(), {}, [this] { share(); });
     menu.addSeparator();
-    const auto isLight = view_->ground() == Ground::light;
-    look.addItem("Dark", true, !isLight, [this] { setGround(Ground::dark); });
-    look.addItem("Light", true, isLight, [this] { setGround(Ground::light); });
+    const auto isLight = view_->theme() == Theme::light;
+    look.addItem("Dark", true, !isLight, [this] { setTheme(Theme::dark); });
+    look.addItem("Light", true, isLight, [this] { setTheme(Theme::light); });
     menu.addSubMenu("Look", look);
     item("Folder of recordings" + dots(), {}, [this] { chooseFolder(); });
     menu.addSubMenu("View", viewMenu());
@@ -405,7 +403,7 @@ void MixerWindow::showMenu(juce::Component& from) {
                     [&ab] { ab.toggle(); });
     compare.addItem("Keep what plays", ab.isOn(), false, [this] {
         view_->world().compare().end();
-        desk_->sendChangeMessage();
+        model_->sendChangeMessage();
     });
     menu.addSubMenu("Compare laws, layouts, mixes", compare);
     item("Width of the display" + dots(), {}, [this] { askDisplayWidth(); });
@@ -413,6 +411,553 @@ void MixerWindow::showMenu(juce::Component& from) {
     item("Quit", "Ctrl+Q", [this] { requestQuit(); });
     menu.setLookAndFeel(&view_->getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from).withMinimumWidth(240));
+}
+
+// Opens and saves sessions, scenes and layouts; records and renders; asks before unsaved changes are lost.
+
+namespace {
+
+constexpr const char* sessionEnding = ".json";
+constexpr double minMovieSeconds = 1.0, usualMovieSeconds = 60.0;
+constexpr double longestRender = 86'400.0; // the limit of `physvib render`
+
+// without thousands separators
+QuestionCard::Field secondsField(double seconds) {
+    return {"Seconds", juce::String{std::ceil(10.0 * seconds) / 10.0, 1}, "0123456789."};
+}
+
+std::string pathOf(const juce::File& file) { return file.getFullPathName().toStdString(); }
+
+/// Copy of `mix` with the scene or the layout of the file.
+Result<Mix> mixWith(Mix mix, const juce::File& file) {
+    const FileKind kind = fileKind(pathOf(file));
+    if (kind == FileKind::scene) {
+        const auto scene = loadScene(pathOf(file));
+        if (!scene) return Failure{scene.error};
+        mix.scene = std::make_shared<const Scene>(scene.value);
+    } else if (kind == FileKind::layout) {
+        const auto layout = loadLayout(pathOf(file));
+        if (!layout) return Failure{layout.error};
+        mix.layout = layout.value;
+        mix.resizeStrips();
+    } else
+        return Failure{pathOf(file) + ": expected a session, a scene or a layout"};
+    return mix;
+}
+
+} // namespace
+
+bool MixerWindow::load(const juce::File& file, const juce::File& document, bool isOwn) {
+    auto session = loadSession(pathOf(file));
+    if (session) {
+        // the copy may lack the last seconds; who has used this run has set other levels since
+        const bool isAsLeft = isOwn && before_ && !isChanged();
+        playLowered(isAsLeft ? *before_ : limits(), mixOf(session.value), document,
+                    endsPaused(session.value));
+        return true;
+    }
+    if (!model_) play(firstMix(), {});
+    say(utf8(session.error));
+    return false;
+}
+
+void MixerWindow::playLowered(const DeskLimits& most, Mix mix, const juce::File& document, bool isPaused) {
+    const Mix asked = mix;
+    const auto lowered = lowerTo(most, mix);
+    play(std::move(mix), document, isPaused);
+    reportLowered(lowered, asked);
+}
+
+void MixerWindow::reportLowered(const std::string& lowered, const Mix& asked) {
+    asked_ = lowered.empty() ? std::nullopt : std::optional{asked};
+    if (asked_)
+        model_->messages().add({"Lowered to this desk: " + utf8(lowered),
+                                false,
+                                {"Levels of the file", [this] { useAskedLevels(); }},
+                                "levels"});
+}
+
+// The user may set levels that a file may not.
+void MixerWindow::useAskedLevels() {
+    if (!asked_) return;
+    model_->change("Levels of the file", [this](Mix& mix) {
+        mix.levelDb = asked_->levelDb;
+        if (asked_->count() == mix.count()) mix.strips = asked_->strips;
+    });
+    asked_.reset();
+}
+
+// A file on the command line is not an edit, so there is nothing to save yet.
+void MixerWindow::start(const juce::File& file) {
+    if (!file.existsAsFile()) return play(firstMix(), file);
+    if (fileKind(pathOf(file)) == FileKind::session) return void(load(file, file));
+    const auto mix = mixWith(firstMix(), file);
+    if (mix) return playLowered(limits(), mix.value, {});
+    play(firstMix(), {});
+    say(utf8(mix.error));
+}
+
+juce::String MixerWindow::documentName() const {
+    return document_ == juce::File{} ? juce::String{"session"} : document_.getFileNameWithoutExtension();
+}
+
+juce::File MixerWindow::folderOfDocuments() const {
+    if (document_ != juce::File{}) return document_.getParentDirectory();
+    const auto folder = folder_->make();
+    return folder ? folder.value : juce::File::getSpecialLocation(juce::File::userHomeDirectory);
+}
+
+void MixerWindow::announceSaved(const juce::String& words, const juce::File& file) {
+    MixerMessage message{
+        words + " " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}, "saved"};
+    model_->isNews() ? model_->messages().show(std::move(message))
+                     : model_->messages().add(std::move(message));
+}
+
+void MixerWindow::chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
+                             std::function<void(const juce::File&)> use, const juce::String& suggested,
+                             const juce::File& in) {
+    const auto setting = "folder" + ending; // the last one, of each kind of file
+    const juce::File last{files_.settings().getValue(setting)};
+    const auto folder = in != juce::File{} ? in : last.isDirectory() ? last : folderOfDocuments();
+    const auto name =
+        suggested.isEmpty()
+            ? juce::String{}
+            : folder.getNonexistentChildFile(suggested, ending, false).getFileNameWithoutExtension();
+    askForFile(view_->topBar(), {title, ending, folder, isSaving, name},
+               [this, setting, use = std::move(use)](const juce::File& file) {
+                   files_.settings().setValue(setting, file.getParentDirectory().getFullPathName());
+                   use(file);
+               });
+}
+
+void MixerWindow::ask(const juce::String& title, const juce::String& words,
+                      std::vector<std::pair<juce::String, std::function<void()>>> answers,
+                      const std::vector<QuestionCard::Field>& fields) {
+    std::vector<QuestionCard::Answer> all;
+    for (auto& [answer, act] : answers) all.push_back({answer, std::move(act)});
+    all.push_back(
+        {"Cancel", [this] { view_->setCard(nullptr); }, true, juce::KeyPress{juce::KeyPress::escapeKey}});
+    view_->setQuestion(std::make_unique<QuestionCard>(title, words, std::move(all), fields));
+}
+
+void MixerWindow::askThen(std::function<void()> goOn) {
+    if (!isChanged()) return goOn();
+    ask("Save the session?", "What was changed since it was saved would be lost.",
+        {{"Save",
+          [this, goOn] {
+              view_->setCard(nullptr);
+              save(goOn);
+          }},
+         {"Do not save", [this, goOn] {
+              view_->setCard(nullptr);
+              goOn();
+          }}});
+}
+
+void MixerWindow::newDocument() {
+    askThen([this] {
+        files_.copies().forget();
+        play(firstMix(), {});
+    });
+}
+
+void MixerWindow::openDocument() {
+    chooseFile("Open a session, a scene or a layout", sessionEnding, false,
+               [this](const juce::File& file) { openFile(file); });
+}
+
+void MixerWindow::openDocument(const juce::File& file) {
+    askThen([this, file] {
+        if (!load(file, file)) return;
+        files_.copies().forget();
+        files_.addRecent(file);
+    });
+}
+
+void MixerWindow::openFile(const juce::File& file) {
+    if (fileKind(pathOf(file)) == FileKind::session) return openDocument(file);
+    auto mix = mixWith(model_->mix(), file);
+    if (!mix) return say(utf8(mix.error));
+    const Mix asked = mix.value;
+    const auto lowered = lowerTo(limits(), mix.value);
+    model_->edit(file.getFileName(), mix.value);
+    reportLowered(lowered, asked);
+}
+
+void MixerWindow::save(std::function<void()> then) {
+    if (document_ == juce::File{}) return saveAs(std::move(then));
+    if (saveTo(document_) && then) then();
+}
+
+void MixerWindow::saveAs(std::function<void()> then) {
+    chooseFile(
+        "Save the session", sessionEnding, true,
+        [this, then = std::move(then)](const juce::File& file) {
+            if (!saveTo(file)) return;
+            if (then) then(); // which may open another session
+            announceSaved("Saved", file);
+        },
+        documentName());
+}
+
+bool MixerWindow::saveTo(const juce::File& file) {
+    const auto edits = model_->edits();
+    if (const auto error = writeFile(
+            pathOf(file), sessionJson(model_->saved(), std::filesystem::path{pathOf(file)}.parent_path()));
+        !error.empty())
+        return say(utf8(error)), false;
+    document_ = file;
+    savedEdits_ = edits;
+    files_.copies().forget();
+    files_.addRecent(file);
+    nameWindow();
+    return true;
+}
+
+void MixerWindow::record() {
+    if (model_->recording().isRunning()) return model_->recording().stop();
+    const auto file = folder_->fresh(documentName() + "-take", {".wav", ".csv"});
+    const auto error = file ? model_->recording().start(file.value) : file.error;
+    view_->topBar().setRecording(error.empty());
+    if (!error.empty()) say(utf8(error));
+}
+
+double MixerWindow::playedSeconds() const { return 1e-9 * static_cast<double>(model_->saved().lengthNs); }
+
+void MixerWindow::askSeconds(const juce::String& title, const juce::String& words, double seconds,
+                             juce::Range<double> limits, const juce::String& what,
+                             std::function<void(double)> use) {
+    askForValues(
+        view_->topBar(), title, "Choose a file" + dots(), {secondsField(seconds)},
+        [this, limits, what, use = std::move(use)](const juce::StringArray& values) {
+            const double wanted = values[0].getDoubleValue();
+            if (wanted >= limits.getStart() && wanted <= limits.getEnd()) return use(wanted);
+            say(what + ": expected " + number(limits.getStart(), limits.getStart() < 1.0 ? 1 : 0) + " to " +
+                number(limits.getEnd(), 0));
+        },
+        "It was played for " + number(playedSeconds(), 1) + " s. " + words);
+}
+
+void MixerWindow::renderOffline() {
+    askSeconds("Render the session", "Beyond that its last scene goes on by itself.", playedSeconds(),
+               {0.1, longestRender}, "Seconds to render", [this](double seconds) {
+                   chooseFile(
+                       "Render the session to", ".wav", true,
+                       [this, seconds](const juce::File& file) { renderTo(file, seconds); }, documentName());
+               });
+}
+
+void MixerWindow::make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work) {
+    if (rendering_) return say(rendering_->file().getFileName() + " is being made: one file at a time");
+    rendering_ = std::make_unique<RenderTask>(
+        file, std::move(work), [this, file, doneWords](const std::string& error, bool isCancelled) {
+            rendering_.reset();
+            if (isCancelled)
+                model_->announce("Cancelled; nothing was written");
+            else if (!error.empty())
+                say(utf8(error));
+            else
+                announceSaved(doneWords, file);
+        });
+    view_->setProgress(rendering_.get());
+}
+
+void MixerWindow::renderTo(const juce::File& file, double seconds) {
+    const int rateHz = std::max(8000, model_->output().sampleRateHz());
+    make(file, "Rendered",
+         [session = model_->saved(), seconds, rateHz, path = pathOf(file)](const auto& progress) {
+             return renderSessionWav(session, {rateHz, seconds, progress}, path, "physvib " PHYSVIB_VERSION);
+         });
+}
+
+void MixerWindow::saveMovie() {
+    const double played = playedSeconds();
+    if (played < minMovieSeconds) return say("Save movie: expected a session of at least a second");
+    askSeconds("Save a movie", "The movie has the last seconds of that.", std::min(usualMovieSeconds, played),
+               {minMovieSeconds, longestMovieSeconds}, "Seconds of the movie", [this](double seconds) {
+                   chooseFile(
+                       "Save the movie", utf8(movieEnding()), true,
+                       [this, seconds](const juce::File& file) { saveMovieTo(file, seconds); },
+                       documentName() + "-movie");
+               });
+}
+
+void MixerWindow::saveMovieTo(const juce::File& file, double seconds) {
+    make(file,
+         file.hasFileExtension("mp4") ? "Saved the movie"
+                                      : "Saved the movie without sound, which needs the program ffmpeg:",
+         [session = model_->saved(), layout = model_->mix().layout, seconds, path = pathOf(file)](
+             const auto& progress) { return writeSessionMovie(session, layout, seconds, path, progress); });
+}
+
+void MixerWindow::exportLayout() {
+    chooseFile(
+        "Save the layout to", sessionEnding, true,
+        [this](const juce::File& file) {
+            if (model_->reportFault(writeFile(pathOf(file), layoutJson(model_->mix().layout)))) return;
+            announceSaved("Saved the layout", file);
+        },
+        "layout");
+}
+
+void MixerWindow::import(const juce::String& title) {
+    chooseFile(title, sessionEnding, false, [this](const juce::File& file) { openFile(file); });
+}
+
+// Offers recovery copies of earlier runs one by one, to be opened or discarded.
+
+namespace {
+
+constexpr std::size_t maxOffered = 20; // as many as a user may look through; each is read when it is shown
+
+juce::String nameOf(const std::filesystem::path& copy) { return utf8(copy.filename().string()); }
+
+/// Time and contents of a copy, or why it cannot be read.
+juce::String describe(const std::filesystem::path& copy, const Result<SavedSession>& session) {
+    const auto time =
+        juce::File{utf8(copy.string())}.getLastModificationTime().toString(true, true, true, true);
+    if (!session) return "Of " + time + ": " + utf8(session.error).replace(utf8(copy.string()), nameOf(copy));
+    const Mix mix = mixOf(session.value);
+    return "Kept at " + time + ": " + titleOf(mix.scene->name) + " on " + juce::String{mix.count()} +
+           " actuators, played for " + number(1e-9 * static_cast<double>(session.value.lengthNs), 1) + " s.";
+}
+
+} // namespace
+
+// Shows the newest readable copy, with a line on the first unreadable one.
+void MixerWindow::offerRecovery() {
+    const auto copies = files_.copies().leftBehind();
+    const std::size_t most = std::min(copies.size(), maxOffered);
+    std::size_t shown = 0;
+    for (; shown < most; ++shown) {
+        const auto session = RecoveryCopies::read(copies[shown]);
+        if (session) break;
+        if (shown == 0) model_->messages().add({utf8(session.error) + "; it stays until it is discarded"});
+    }
+    showCopy(copies, shown == most ? 0 : shown);
+}
+
+void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at) {
+    if (copies.empty()) {
+        if (view_->question() == nullptr) return;
+        view_->setQuestion(nullptr);
+        return showHintOnce();
+    }
+    const std::size_t most = std::min(copies.size(), maxOffered);
+    const auto copy = copies[at];
+    const auto session = RecoveryCopies::read(copy);
+    const auto count = [](std::size_t n) { return juce::String{static_cast<int>(n)}; };
+    juce::String words = "The mixer ended without being closed. " + describe(copy, session);
+    if (most > 1) words += "\nCopy " + count(at + 1) + " of " + count(most) + ", the newest first.";
+    if (most < copies.size())
+        words +=
+            " " + count(copies.size() - most) + " older ones stay in " + utf8(copy.parent_path().string());
+    const auto discard = [this](std::vector<std::filesystem::path> declined) {
+        std::string error;
+        for (const auto& each : declined)
+            if (auto why = RecoveryCopies::remove(each); !why.empty()) error = std::move(why);
+        offerRecovery();
+        if (!error.empty()) say(utf8(error));
+    };
+    std::vector<QuestionCard::Answer> answers{
+        {"Take it up", [this, copy] { recover(copy); }, static_cast<bool>(session)},
+        {"Discard it", [discard, copy] { discard({copy}); }},
+        {"Not now", [this] { view_->setQuestion(nullptr), showHintOnce(); }}};
+    if (most > 1) {
+        answers.push_back({"Newer", [this, copies, at] { showCopy(copies, at - 1); }, at > 0,
+                           juce::KeyPress{juce::KeyPress::leftKey}});
+        answers.push_back({"Older", [this, copies, at] { showCopy(copies, at + 1); }, at + 1 < most,
+                           juce::KeyPress{juce::KeyPress::rightKey}});
+        answers.push_back({"Discard all " + count(most), [discard, copies, most] {
+                               discard({copies.begin(), copies.begin() + static_cast<std::ptrdiff_t>(most)});
+                           }});
+    }
+    view_->setQuestion(std::make_unique<QuestionCard>(
+        most > 1 ? "Take up a session?" : "Take up the last session?", words, std::move(answers)));
+}
+
+// The copy is kept until this run's own copy is on disk.
+void MixerWindow::recover(const std::filesystem::path& copy) {
+    askThen([this, copy] {
+        view_->setQuestion(nullptr);
+        if (!load(juce::File{utf8(copy.string())}, {}, true)) return offerRecovery();
+        savedEdits_ = neverSaved;
+        files_.copies().forget(); // the previous session was saved or discarded by the user
+        files_.copies().goOnFrom(copy);
+        showHintOnce();
+        model_->reportFault(files_.keepNow(*model_));
+    });
+}
+
+// Saves the drawing as a scene file, and creates empty scenes to draw in.
+
+void MixerWindow::saveScene(bool isNow) {
+    files_.scenesFolder().createDirectory();
+    chooseFile(
+        "Save as scene", ".json", true,
+        [this, isNow](const juce::File& file) {
+            if (model_->reportFault(saveSceneTo(file, isNow))) return;
+            announceSaved("Saved the scene", file);
+        },
+        "scene", files_.scenesFolder());
+}
+
+std::string MixerWindow::saveSceneTo(const juce::File& file, bool isNow) {
+    const auto& world = model_->world();
+    Scene scene = world.drawing().drawn();
+    if (isNow) scene = sceneNow(scene, world.posesNow());
+    scene.name = file.getFileNameWithoutExtension().toStdString();
+    scene.variables.clear();
+    if (auto fault = validate(scene); !fault.empty()) return fault;
+    auto error = writeFile(file.getFullPathName().toStdString(), sceneJson(scene));
+    if (error.empty()) view_->topBar().setOwnScenes(files_.ownScenes());
+    return error;
+}
+
+void MixerWindow::recordScript() {
+    auto& script = model_->script();
+    script.isRecording() ? script.stop() : script.start();
+    if (script.isRecording()) view_->world().drawing().use(DrawTool::hand);
+}
+
+void MixerWindow::newScene(SceneGround ground) {
+    model_->change("New scene", [&](Mix& mix) {
+        mix.scene =
+            std::make_shared<const Scene>(physvib::newScene(model_->world().drawing().drawn(), ground));
+    });
+    view_->world().drawing().use(DrawTool::ball);
+}
+
+// Shares the world as a link to the web page.
+
+namespace {
+
+constexpr const char *pageSetting = "page", *pageField = "Address of the page", *linkField = "Link";
+constexpr const char* ownPage = "http://127.0.0.1:8000/"; // where Docs/web.md serves it
+
+} // namespace
+
+void MixerWindow::share() {
+    const auto link = pageLink(model_->mix(), model_->world().drawing().drawn());
+    if (!link) return say(utf8(link.error));
+    const auto page = files_.settings().getValue(pageSetting, ownPage);
+    const auto at = [behind = utf8(link.value)](const juce::String& address) {
+        return address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
+    };
+    const auto whole = [this, at] {
+        const auto address = view_->question()->value(pageField);
+        files_.settings().setValue(pageSetting, address);
+        view_->setCard(nullptr);
+        return at(address);
+    };
+    const auto show = [at](QuestionCard& card, const juce::String& address) {
+        card.setValue(linkField, at(address));
+        card.setPicture(qrPicture(at(address).toStdString()));
+    };
+    ask("Share the world",
+        "Who opens the link in the page gets the same world and samples. It stands behind the #, so no "
+        "server gets it. A phone needs an address that it can reach.",
+        {{"Copy the link",
+          [this, whole] {
+              const auto words = whole();
+              juce::SystemClipboard::copyTextToClipboard(words);
+              model_->announce("Copied a link of " + juce::String{words.length()} + " characters");
+          }},
+         {"Open it", [whole] { openLink(whole()); }}},
+        {{pageField, page, {}, {}, show}, {linkField, {}}});
+    show(*view_->question(), page);
+}
+
+// Zoom and full screen of the window.
+
+namespace {
+
+constexpr std::array<int, 6> zooms{75, 100, 125, 150, 175, 200};
+constexpr const char* zoomSetting = "zoom";
+constexpr juce::Point<int> usualDisplay{1920, 1080}; // at 100 %
+
+/// Room of the display in pixels at 100 %.
+juce::Point<int> displayRoom() {
+    auto& desktop = juce::Desktop::getInstance();
+    const auto* display = desktop.getDisplays().getPrimaryDisplay();
+    if (display == nullptr) return usualDisplay;
+    const auto area = display->userArea.toFloat() * desktop.getGlobalScaleFactor();
+    return {juce::roundToInt(area.getWidth()), juce::roundToInt(area.getHeight())};
+}
+
+bool fits(int percent, juce::Point<int> room) {
+    return 100 * room.x >= percent * MixerView::minWidth && 100 * room.y >= percent * MixerView::minHeight;
+}
+
+/// The largest zoom that leaves the window the room of a usual display.
+int automaticZoom(juce::Point<int> room) {
+    int best = 100;
+    for (const int percent : zooms)
+        if (100 * room.x >= percent * usualDisplay.x && 100 * room.y >= percent * usualDisplay.y)
+            best = std::max(best, percent);
+    return best;
+}
+
+} // namespace
+
+int MixerWindow::zoom() {
+    const int percent = files_.settings().getIntValue(zoomSetting); // which may hold anything
+    return std::ranges::find(zooms, percent) == zooms.end() ? 0 : percent;
+}
+
+void MixerWindow::setZoom(int percent) {
+    files_.settings().setValue(zoomSetting, percent);
+    applyZoom();
+}
+
+void MixerWindow::stepZoom(int by) {
+    const int now = juce::roundToInt(100.0f * juce::Desktop::getInstance().getGlobalScaleFactor());
+    const auto at = std::ranges::lower_bound(zooms, now) - zooms.begin() + by;
+    if (at >= 0 && at < std::ssize(zooms) && fits(zooms[static_cast<std::size_t>(at)], displayRoom()))
+        setZoom(zooms[static_cast<std::size_t>(at)]);
+}
+
+// Plus needs Shift on some keyboards, and has a key of its own beside the digits.
+int MixerWindow::zoomStepOf(const juce::KeyPress& key) {
+    if (!key.getModifiers().isCommandDown()) return 0;
+    const int code = key.getKeyCode();
+    if (code == '+' || code == '=' || code == juce::KeyPress::numberPadAdd) return 1;
+    return code == '-' || code == juce::KeyPress::numberPadSubtract ? -1 : 0;
+}
+
+// The window keeps its size on the screen.
+void MixerWindow::applyZoom() {
+    auto& desktop = juce::Desktop::getInstance();
+    const auto room = displayRoom();
+    int percent = zoom() > 0 ? zoom() : automaticZoom(room);
+    while (percent > zooms.front() && !fits(percent, room)) percent -= 25;
+    const float before = desktop.getGlobalScaleFactor(), after = 0.01f * static_cast<float>(percent);
+    if (juce::approximatelyEqual(before, after)) return;
+    const auto bounds = (getBounds().toFloat() * (before / after)).toNearestInt();
+    desktop.setGlobalScaleFactor(after);
+    if (isOnDesktop()) setBounds(bounds);
+}
+
+void MixerWindow::setShow(bool isShow) {
+    juce::Desktop::getInstance().setKioskModeComponent(isShow ? this : nullptr, false);
+    view_->setShow(isShow);
+    view_->grabKeyboardFocus();
+}
+
+juce::PopupMenu MixerWindow::viewMenu() {
+    juce::PopupMenu menu;
+    menu.addSectionHeader("Zoom: Ctrl++ and Ctrl+-");
+    menu.addItem("Zoom: by the display (Ctrl+0)", true, zoom() == 0, [this] { setZoom(0); });
+    for (const int percent : zooms)
+        menu.addItem("Zoom: " + juce::String{percent} + " %", fits(percent, displayRoom()), zoom() == percent,
+                     [this, percent] { setZoom(percent); });
+    menu.addSeparator();
+    menu.addItem("Full screen for a show (F11)", true, view_->isShow(),
+                 [this] { setShow(!view_->isShow()); });
+    menu.addItem("Automatic panels", view_->dividers() != Dividers{}, false,
+                 [this] { view_->setDividers({}); });
+    return menu;
 }
 
 } // namespace physvib

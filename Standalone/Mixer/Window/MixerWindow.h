@@ -2,13 +2,15 @@
 // The mixer's window with its document: opens, saves, records and renders, and asks before unsaved changes
 // are lost.
 #pragma once
-#include "Mixer/Desk/UserFolder.h"
-#include "Mixer/Output/HitFiles.h"
-#include "Mixer/Window/FileCard.h"
+#include "Mixer/Model/MixerRecording.h"
+#include "Mixer/Output/EventsTab.h"
+#include "Mixer/Widgets/Cards.h"
+#include "Mixer/Widgets/Parts.h"
 #include "Mixer/Window/MixerFiles.h"
 #include "Mixer/Window/MixerView.h"
-#include "Mixer/Window/RenderTask.h"
 #include "Scene/Drawing/BodyEdits.h"
+#include <functional>
+#include <string>
 
 namespace physvib {
 
@@ -52,10 +54,10 @@ public:
     /// Asks if changes would be lost, then quits.
     void requestQuit();
 
-    bool isChanged() const { return desk_->edits() != savedEdits_; }
+    bool isChanged() const { return model_->edits() != savedEdits_; }
     const juce::File& document() const noexcept { return document_; }
     const juce::File& lastRecording() const noexcept { return lastRecording_; }
-    Desk& desk() noexcept { return *desk_; }
+    MixerModel& model() noexcept { return *model_; }
     MixerView& view() noexcept { return *view_; }
 
     void closeButtonPressed() override { requestQuit(); }
@@ -70,16 +72,16 @@ private:
     void showFirstStart();
     FirstStart& addFirstStart(std::vector<FeltChoice> choices);
     void testBeside(int outputs);
-    void tellInstead();
+    void reportInstead();
     void start(const juce::File& file);
     void play(Mix mix, const juce::File& document, bool isPaused = false);
     /// `isOwn`: a copy of the run that crashed is lowered to the levels at its end.
     bool load(const juce::File& file, const juce::File& document, bool isOwn = false);
     /// Plays a file with its levels lowered to `most`. Reports what was lowered; a button restores it.
     void playLowered(const DeskLimits& most, Mix mix, const juce::File& document, bool isPaused = false);
-    void tellLowered(const std::string& lowered, const Mix& asked);
-    void takeAsked();
-    DeskLimits limits() const { return desk_ ? DeskLimits::of(desk_->mix()) : files_.limits(); }
+    void reportLowered(const std::string& lowered, const Mix& asked);
+    void useAskedLevels();
+    DeskLimits limits() const { return model_ ? DeskLimits::of(model_->mix()) : files_.limits(); }
     void useSinks(const DeviceChoice& choice);
     bool saveTo(const juce::File& file);
     void askThen(std::function<void()> goOn);
@@ -87,28 +89,31 @@ private:
     void chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
                     std::function<void(const juce::File&)> use, const juce::String& suggested = {},
                     const juce::File& in = {});
-    /// Asks in the window. An answer that uses a field takes it by takeAnswer(), which closes the card.
+    /// Asks in the window; each answer closes the card.
     void ask(const juce::String& title, const juce::String& words,
              std::vector<std::pair<juce::String, std::function<void()>>> answers,
              const std::vector<QuestionCard::Field>& fields = {});
-    juce::String takeAnswer(const juce::String& field);
+    /// Asks how many seconds; `what` begins the error if they are beyond the limits.
+    void askSeconds(const juce::String& title, const juce::String& words, double seconds,
+                    juce::Range<double> limits, const juce::String& what, std::function<void(double)> use);
     void offerRecovery();
     void showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at);
-    void takeUp(const std::filesystem::path& copy);
+    void recover(const std::filesystem::path& copy);
     void offerMonitor();
     /// With the default levels, but no louder than the loudest actuator was left; on outputs that were in
     /// use, and not on the monitor's.
     Mix firstMix();
     void showMenu(juce::Component& from);
-    void setGround(Ground ground);
+    void setTheme(Theme theme);
     void applyZoom();
     static int zoomStepOf(const juce::KeyPress& key);
     juce::PopupMenu viewMenu();
     void setDisplayWidth(double mm);
     void askDisplayWidth();
     void nameWindow();
-    void say(const juce::String& words) { desk_->report(words); }
-    void tellSaved(const juce::String& words, const juce::File& file); ///< with a button that shows the file
+    void say(const juce::String& words) { model_->report(words); }
+    void announceSaved(const juce::String& words, const juce::File& file); ///< with a button that shows the
+                                                                           ///< file
     void showHintOnce();
     void chooseFolder();
     juce::File folderOfDocuments() const;
@@ -121,7 +126,7 @@ private:
     juce::SharedResourcePointer<DraggedFiles> dragged_;
     juce::SharedResourcePointer<UserFolder> folder_;
     DeviceChoice device_;
-    std::unique_ptr<Desk> desk_;
+    std::unique_ptr<MixerModel> model_;
     std::unique_ptr<MixerView> view_;
     juce::File document_, lastRecording_;
     std::optional<Mix> asked_;         // state of the last file, if its levels were lowered

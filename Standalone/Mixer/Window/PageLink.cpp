@@ -12,7 +12,7 @@
 namespace physvib {
 namespace {
 
-constexpr int mostLinked = 8; // actuators of the page
+constexpr int maxLinked = 8; // actuators of the page
 constexpr int rawDeflate = -15;
 
 /// As URLSearchParams, but for commas and equals signs.
@@ -55,8 +55,8 @@ std::string share(double place, double extent) {
 
 Result<std::string> pageLink(const Mix& mix, const Scene& drawn) {
     const auto& layout = mix.layout.geometry;
-    if (layout.count > mostLinked)
-        return Failure{"A link holds at most " + std::to_string(mostLinked) + " actuators, found " +
+    if (layout.count > maxLinked)
+        return Failure{"A link holds at most " + std::to_string(maxLinked) + " actuators, found " +
                        std::to_string(layout.count)};
     if (mix.exponent != 1.0) return Failure{"A link holds no exponent: expected 1"};
     const Scene* const known = findBuiltInScene(drawn.name);

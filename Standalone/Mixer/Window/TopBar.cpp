@@ -30,11 +30,10 @@ juce::String dotted(const juce::StringArray& parts) {
 
 } // namespace
 
-TopBar::TopBar(Desk& desk)
-    : desk_{desk} {
+TopBar::TopBar(MixerModel& model)
+    : model_{model} {
     setTitle("Transport and device");
-    menu_.setTitle("Menu");
-    menu_.setTooltip("Open, save, record, render (F10)");
+    describe(menu_, "Menu", "Open, save, record, render (F10)");
     menu_.setMouseClickGrabsKeyboardFocus(false); // after its menu the keys are again of who had them
     menu_.onClick = [this] {
         if (onMenu) onMenu(menu_);
@@ -42,61 +41,55 @@ TopBar::TopBar(Desk& desk)
     save_.onClick = [this] {
         if (onSave) onSave();
     };
-    undo_.onClick = [this] { desk_.undoManager().undo(); };
-    redo_.onClick = [this] { desk_.undoManager().redo(); };
+    undo_.onClick = [this] { model_.undoManager().undo(); };
+    redo_.onClick = [this] { model_.undoManager().redo(); };
     scene_.setTitle("Scene");
     listScenes();
     scene_.onChange = [this] { chooseScene(); };
     pause_.onClick = [this] { togglePause(); };
     pause_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::enchanter(0).getARGB()));
-    step_.onClick = [this] { desk_.session().world().stepOnce(); };
-    slow_.setTitle("Slow motion");
-    slow_.setTooltip("Slow motion: each press halves the speed of the world");
+    step_.onClick = [this] { model_.session().world().stepOnce(); };
+    describe(slow_, "Slow motion", "Slow motion: each press halves the speed of the world");
     slow_.onClick = [this] {
-        const auto at = std::ranges::find(paces, std::max(1, desk_.session().world().slowness()));
-        desk_.setSlowness(at + 1 < paces.end() ? at[1] : 1);
+        const auto at = std::ranges::find(paces, std::max(1, model_.session().world().slowness()));
+        model_.setSlowness(at + 1 < paces.end() ? at[1] : 1);
     };
-    restart_.onClick = [this] { desk_.restart(desk_.mix().seed); };
+    restart_.onClick = [this] { model_.restart(model_.mix().seed); };
     seedName_.setText("seed", juce::dontSendNotification);
     seedName_.setFont(juce::Font{text::small});
-    seed_.setTitle("Seed");
-    seed_.setTooltip("Seed of the scene: another seed is another course");
+    describe(seed_, "Seed", "Seed of the scene: another seed is another course");
     seed_.setFont(juce::Font{text::medium});
     seed_.setEditable(true);
     seed_.setWantsKeyboardFocus(true);
     seed_.onTextChange = [this] {
         const auto typed = seed_.getText().retainCharacters("0123456789").getLargeIntValue();
-        desk_.restart(static_cast<std::uint32_t>(juce::jlimit<juce::int64>(0, 0xffffffffll, typed)));
-        takeMix();
+        model_.restart(static_cast<std::uint32_t>(juce::jlimit<juce::int64>(0, 0xffffffffll, typed)));
+        mixChanged();
     };
     time_.setTitle("Time");
     time_.setFont(juce::Font{text::medium, juce::Font::bold});
-    record_.setTitle("Record");
-    record_.setTooltip("Record what is played, and every event (Ctrl+R)");
+    describe(record_, "Record", "Record what is played, and every event (Ctrl+R)");
     record_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::limit.getARGB()));
     record_.onClick = [this] {
         if (onRecord) onRecord();
     };
     silence_.getProperties().set(stopProperty, true);
     silence_.setMouseClickGrabsKeyboardFocus(false); // an open card keeps it
-    silence_.setTitle("Silence");
-    silence_.setTooltip("Silence every actuator at once (Esc); a press lifts the silence");
-    silence_.onClick = [this] { desk_.setSilent(!desk_.isSilent()); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &menu_, &save_, &undo_, &redo_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_, &seed_,
-             &time_, &record_, &device_, &board_, &load_, &silence_})
-        addAndMakeVisible(c);
+    describe(silence_, "Silence", "Silence every actuator at once (Esc); a press lifts the silence");
+    silence_.onClick = [this] { model_.setSilent(!model_.isSilent()); };
+    addAll(*this, {&menu_, &save_, &undo_, &redo_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_,
+                   &seed_, &time_, &record_, &device_, &board_, &load_, &silence_});
     setRecording(false);
-    takeMix();
+    mixChanged();
 }
 
-void TopBar::togglePause() { desk_.setSlowness(desk_.session().world().slowness() == 0 ? 1 : 0); }
+void TopBar::togglePause() { model_.setSlowness(model_.session().world().slowness() == 0 ? 1 : 0); }
 
 void TopBar::setOwnScenes(const juce::Array<juce::File>& files) {
     if (files == own_) return;
     own_ = files;
     listScenes();
-    takeMix();
+    mixChanged();
 }
 
 void TopBar::listScenes() {
@@ -111,32 +104,32 @@ void TopBar::listScenes() {
 void TopBar::chooseScene() {
     const int id = scene_.getSelectedId();
     if (id == sceneFileId) {
-        takeMix();
+        mixChanged();
         if (onOpenScene) onOpenScene();
     } else if (id > sceneFileId) {
         if (onOwnScene) onOwnScene(own_[id - sceneFileId - 1]);
     } else if (id > 0) {
         const auto& scene = builtInScenes()[static_cast<std::size_t>(id - 1)];
-        if (scene == *desk_.mix().scene) return;
-        desk_.change("Scene", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene); });
+        if (scene == *model_.mix().scene) return;
+        model_.change("Scene", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene); });
     }
 }
 
-void TopBar::takeMix() {
-    const auto& mix = desk_.mix();
+void TopBar::mixChanged() {
+    const auto& mix = model_.mix();
     scene_.setText(titleOf(mix.scene->name), juce::dontSendNotification);
     seed_.setText(juce::String{static_cast<juce::int64>(mix.seed)}, juce::dontSendNotification);
-    const int slowness = desk_.session().world().slowness();
+    const int slowness = model_.session().world().slowness();
     pause_.setSign(slowness == 0 ? Sign::play : Sign::pause,
                    slowness == 0 ? "Let the world go on (Space)" : "Pause the world (Space)");
     pause_.setToggleState(slowness == 0, juce::dontSendNotification);
     step_.setEnabled(slowness == 0);
     slow_.setButtonText(slowness < 2 ? juce::String::fromUTF8("1\xc3\x97") : "1/" + juce::String{slowness});
     slow_.setToggleState(slowness > 1, juce::dontSendNotification);
-    silence_.setToggleState(desk_.isSilent(), juce::dontSendNotification);
-    silence_.setButtonText(desk_.isSilent() ? "SILENT: press" : "SILENCE  Esc");
+    silence_.setToggleState(model_.isSilent(), juce::dontSendNotification);
+    silence_.setButtonText(model_.isSilent() ? "SILENT: press" : "SILENCE  Esc");
     seedName_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
-    const auto& history = desk_.undoManager();
+    const auto& history = model_.undoManager();
     undo_.setEnabled(history.canUndo());
     redo_.setEnabled(history.canRedo());
     undo_.setTooltip("Undo: " + history.getUndoDescription() + " (Ctrl+Z)");
@@ -148,29 +141,29 @@ void TopBar::setRecording(bool isRecording) {
     record_.setButtonText(disc + (isRecording ? "Recording" : "Record"));
 }
 
-void TopBar::refresh(const DeskMoment& moment) {
+void TopBar::refresh(const MixerMoment& moment) {
     const int turn = looks_++ % looksPerNumbers; // numbers that change 30 times a second are illegible
     if (turn % looksPerTime == 0) time_.setText(clock(moment.session.sessionNs), juce::dontSendNotification);
     if (turn != 0) return;
-    const auto& output = desk_.output();
+    const auto& output = model_.output();
     const auto name = juce::String::fromUTF8(output.device().c_str());
     const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
     const auto numbers =
         number(output.sampleRateHz() / 1000.0, output.sampleRateHz() % 1000 == 0 ? 0 : 1) + " kHz";
     if (!moment.device.isRunning)
-        device_.set("No sound", desk_.device().trouble(), Shade::limit);
+        device_.set("No sound", model_.device().trouble(), Shade::limit);
     else
         device_.set(
             dotted({isNone ? juce::String{"No device"} : name, numbers, juce::String{output.blockFrames()}}),
-            "felt " + number(1e3 * desk_.device().outputLatencySeconds(), 0) + " ms after the contact",
+            "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) + " ms after the contact",
             isNone ? Shade::now : Shade::text);
     device_.setTooltip(name);
     const auto& r = moment.session.render;
-    const auto lost = desk_.session().world().drops() + r.untold;
+    const auto lost = model_.session().world().drops() + r.untold;
     load_.set("Load " + number(100.0 * moment.device.load, 1) + " %",
               dotted({count(r.late, "late"), count(lost, "dropped")}),
               r.late + lost > 0 ? Shade::now : Shade::text);
-    const auto sinks = desk_.session().sinks().states();
+    const auto sinks = model_.session().sinks().states();
     const bool areReady = std::ranges::all_of(sinks, &SinkState::isReady);
     const auto sink = sinks.empty() ? juce::String{"Board"} : titleOf(sinks.front().name);
     board_.set(

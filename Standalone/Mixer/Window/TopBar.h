@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bar that is always visible: scene and time, device status, and the silence button.
 #pragma once
-#include "Mixer/Desk/Desk.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Model/MixerModel.h"
+#include "Mixer/Widgets/Parts.h"
 #include "Mixer/World/WorldPanel.h"
 
 namespace physvib {
 
 class TopBar final : public juce::Component {
 public:
-    explicit TopBar(Desk& desk);
+    explicit TopBar(MixerModel& model);
 
-    void refresh(const DeskMoment& moment);
-    void takeMix(); ///< the mixer state changed
+    void refresh(const MixerMoment& moment);
+    void mixChanged(); ///< the mixer state changed
     void togglePause();
 
     std::function<void(juce::Component& from)> onMenu;
@@ -25,20 +25,20 @@ public:
 
     static constexpr int lineHeight = 52, showWidth = WorldPanel::silenceWidth;
     /// One line, or two in a narrow window.
-    static int heightFor(int width) { return width >= leastOneLine ? lineHeight : lineHeight + secondLine; }
+    static int heightFor(int width) { return width >= minOneLine ? lineHeight : lineHeight + secondLine; }
 
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
-    static constexpr int leastOneLine = 1400, secondLine = 38; // the states need their room in one line, too
+    static constexpr int minOneLine = 1400, secondLine = 38; // the states need their room in one line, too
     void placeStates(juce::Rectangle<int> area);
     bool isShow_ = false;
     void chooseScene();
     void listScenes();
     juce::Array<juce::File> own_;
 
-    Desk& desk_;
+    MixerModel& model_;
     int looks_ = 0;
     juce::TextButton menu_{"Menu"}, slow_, record_, silence_{"SILENCE  Esc"};
     juce::ComboBox scene_;

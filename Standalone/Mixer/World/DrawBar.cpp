@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Buttons and controls that show and change the selected tool, material and bodies.
 #include "Mixer/World/DrawBar.h"
+#include "Host/Views/Look.h"
+#include "Mixer/Model/MixerMessages.h"
+#include "Scene/Drawing/FeltTrial.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
 namespace physvib {
 
@@ -32,8 +38,7 @@ DrawBar::DrawBar(DrawPane& pane)
         button.setWantsKeyboardFocus(true);
         addAndMakeVisible(button);
     }
-    snap_.setTitle("Snap");
-    snap_.setTooltip("Snap to a grid (G)");
+    describe(snap_, "Snap", "Snap to a grid (G)");
     snap_.onClick = [this] { pane_.setSnapping(!pane_.snaps()); };
     addAndMakeVisible(snap_);
     show();
@@ -72,29 +77,22 @@ void DrawBar::resized() {
     }
 }
 
-BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
-    : desk_{desk}
+BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
+    : model_{model}
     , pane_{pane} {
     setTitle("Chosen bodies");
-    const auto change = [this](const juce::String& name, auto what, bool goesOn = false) {
+    const auto change = [this](const juce::String& name, auto what, bool continuesEdit = false) {
         pane_.changeChosen(
-            name, [what](const Scene& scene, BodyDescription& body) { what(scene, body); }, goesOn);
+            name, [what](const Scene& scene, BodyDescription& body) { what(scene, body); }, continuesEdit);
     };
     name_.setFont(juce::Font{text::small, juce::Font::bold});
-    caption(densityName_, "density");
-    caption(bounceName_, "bounce");
-    caption(speedName_, "motor");
-    caption(torqueName_, "torque");
-    caption(springName_, "spring");
-    moves_.setTitle("Moves");
-    moves_.setTooltip("Moving, or static");
+    describe(moves_, "Moves", "Moving, or static");
     moves_.onClick = [this, change] {
         change("Moves", [moves = moves_.getToggleState()](const Scene& s, BodyDescription& b) {
             setMoving(s, b, moves);
         });
     };
-    source_.setTitle("Haptic source");
-    source_.setTooltip("Its collisions are felt");
+    describe(source_, "Haptic source", "Its collisions are felt");
     source_.onClick = [this, change] {
         change("Haptic source",
                [is = source_.getToggleState()](const Scene& s, BodyDescription& b) { setSource(s, b, is); });
@@ -105,66 +103,62 @@ BodyPanel::BodyPanel(Desk& desk, DrawPane& pane)
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
         slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 62, 20);
     }
-    density_.setTitle("Density");
-    density_.setTooltip("Density, in kg per square metre; the mass follows from it");
+    describe(density_, "Density", "Density, in kg per square metre; the mass follows from it");
     density_.setRange(1.0, 20'000.0, 1.0);
     density_.setSkewFactorFromMidPoint(800.0);
-    onSlide(density_, [this, change](bool goesOn) {
+    onSlide(density_, [this, change](bool continuesEdit) {
         change(
             "Density", [kg = density_.getValue()](const Scene&, BodyDescription& b) { setDensity(b, kg); },
-            goesOn);
+            continuesEdit);
     });
-    bounce_.setTitle("Bounce");
-    bounce_.setTooltip("Coefficient of restitution of this body alone");
+    describe(bounce_, "Bounce", "Coefficient of restitution of this body alone");
     bounce_.setRange(0.0, 1.0, 0.01);
-    onSlide(bounce_, [this, change](bool goesOn) {
+    onSlide(bounce_, [this, change](bool continuesEdit) {
         change(
             "Bounce",
             [bounce = bounce_.getValue()](const Scene&, BodyDescription& b) {
                 for (auto& fixture : b.fixtures) fixture.restitution = bounce;
             },
-            goesOn);
+            continuesEdit);
     });
     constexpr double fastest = 20.0; // rad/s, about three turns a second
-    speed_.setTitle("Motor speed");
-    speed_.setTooltip("Speed of the motor, in rad/s, counter-clockwise; 0 with a torque: a brake");
+    describe(speed_, "Motor speed",
+             "Speed of the motor, in rad/s, counter-clockwise; 0 with a torque: a brake");
     speed_.setRange(-fastest, fastest, 0.1);
     speed_.setDoubleClickReturnValue(true, 0.0);
-    torque_.setTitle("Motor torque");
-    torque_.setTooltip("Most that the motor turns with, in N m; 0: no motor");
+    describe(torque_, "Motor torque", "Most that the motor turns with, in N m; 0: no motor");
     torque_.setRange(0.0, 1e6, 1.0);
     torque_.setSkewFactorFromMidPoint(1e3);
-    for (auto* slider : {&speed_, &torque_}) onSlide(*slider, [this](bool goesOn) { drive(goesOn); });
-    spring_.setTitle("Stiffness of the spring");
-    spring_.setTooltip("How fast the spring lets its bodies swing, in Hz; they return to their start");
+    for (auto* slider : {&speed_, &torque_})
+        onSlide(*slider, [this](bool continuesEdit) { drive(continuesEdit); });
+    describe(spring_, "Stiffness of the spring",
+             "How fast the spring lets its bodies swing, in Hz; they return to their start");
     spring_.setRange(0.1, 20.0, 0.1);
     spring_.setSkewFactorFromMidPoint(2.0);
-    onSlide(spring_, [this](bool goesOn) { stiffen(goesOn); });
-    for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &name_, &moves_, &source_, &densityName_, &density_, &bounceName_, &bounce_, &speedName_,
-             &speed_, &torqueName_, &torque_, &springName_, &spring_})
-        addAndMakeVisible(c);
+    onSlide(spring_, [this](bool continuesEdit) { stiffen(continuesEdit); });
+    addAll(*this, {&name_, &moves_, &source_, &densityName_, &density_, &bounceName_, &bounce_, &speedName_,
+                   &speed_, &torqueName_, &torque_, &springName_, &spring_});
 }
 
-void BodyPanel::drive(bool goesOn) {
-    const auto actions = driven(desk_.world().drawing(), drivenJoint_,
-                                {speed_.getValue(), torque_.getValue()}, desk_.world().posesNow());
-    const auto error = actions ? desk_.world().edit("Motor", actions.value, goesOn) : actions.error;
-    if (!error.empty()) desk_.report(utf8(error));
+void BodyPanel::drive(bool continuesEdit) {
+    const auto actions = driven(model_.world().drawing(), drivenJoint_,
+                                {speed_.getValue(), torque_.getValue()}, model_.world().posesNow());
+    const auto error = actions ? model_.world().edit("Motor", actions.value, continuesEdit) : actions.error;
+    if (!error.empty()) model_.report(utf8(error));
 }
 
-void BodyPanel::stiffen(bool goesOn) {
-    const auto actions = sprung(desk_.world().drawing(), springJoint_, spring_.getValue());
-    const auto error = actions ? desk_.world().edit("Spring", actions.value, goesOn) : actions.error;
-    if (!error.empty()) desk_.report(utf8(error));
+void BodyPanel::stiffen(bool continuesEdit) {
+    const auto actions = sprung(model_.world().drawing(), springJoint_, spring_.getValue());
+    const auto error = actions ? model_.world().edit("Spring", actions.value, continuesEdit) : actions.error;
+    if (!error.empty()) model_.report(utf8(error));
 }
 
 void BodyPanel::show() {
     const auto& chosen = pane_.chosen();
-    const auto* body = chosen.empty() ? nullptr : desk_.world().drawing().find(chosen[0]);
+    const auto* body = chosen.empty() ? nullptr : model_.world().drawing().find(chosen[0]);
     setVisible(body != nullptr && pane_.tool() == DrawTool::choose);
     if (body == nullptr) return;
-    const Scene& scene = desk_.world().drawing().drawn();
+    const Scene& scene = model_.world().drawing().drawn();
     const auto* motor = chosen.size() == 1 ? motorOf(scene, chosen[0]) : nullptr;
     drivenJoint_ = motor ? motor->name : std::string{};
     for (juce::Component* c :
@@ -194,8 +188,6 @@ void BodyPanel::show() {
         bounce_.setValue(fixture.restitution.value_or(
                              scene.materials[static_cast<std::size_t>(fixture.material)].restitution),
                          juce::dontSendNotification);
-    for (auto* label : {&densityName_, &bounceName_, &speedName_, &torqueName_, &springName_})
-        label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
 void BodyPanel::paint(juce::Graphics& g) {
@@ -218,6 +210,183 @@ void BodyPanel::resized() {
         row = area.removeFromTop(rowHigh);
         label->setBounds(row.removeFromLeft(50));
         slider->setBounds(row);
+    }
+}
+
+// Chips of the materials to draw with: each shows its decay, and plays under the mouse.
+
+/// A material's chip: a picture of its decay, or a flat line for a material that does not vibrate.
+class MaterialPalette::Swatch final : public juce::Button {
+public:
+    Swatch(const Material& material, juce::Colour colour)
+        : juce::Button{utf8(material.name)}
+        , material_{material}
+        , colour_{colour} {
+        setTitle("Material " + getName());
+        setWantsKeyboardFocus(true);
+    }
+    /// `why`: it is not felt at usual impacts; empty: it is.
+    void setWhy(const std::string& why) {
+        isFelt_ = why.empty();
+        setTooltip(isFelt_ ? getName() + ": draw with it; with the mouse over it, it is played once"
+                           : getName() + " is not felt at usual impacts: " + utf8(why));
+        repaint();
+    }
+    enum class Show { picture, name, remark }; ///< a remark says in words that it is not felt
+    int wanted(Show show) const {
+        return show == Show::picture ? 32 : 38 + juce::Font{text::small}.getStringWidth(words(show));
+    }
+    void setShow(Show show) {
+        show_ = show;
+        repaint();
+    }
+    std::function<void()> onEnter;
+    void mouseEnter(const juce::MouseEvent& e) override {
+        juce::Button::mouseEnter(e);
+        if (onEnter) onEnter();
+    }
+    void paintButton(juce::Graphics& g, bool isOver, bool) override {
+        g.setColour(shade(*this, getToggleState() ? Shade::raised : Shade::panel)
+                        .brighter(isOver ? 0.1f : 0.0f)
+                        .withAlpha(0.95f));
+        g.fillRoundedRectangle(getLocalBounds().toFloat(), 6.0f);
+        g.setColour(colour_);
+        g.strokePath(decay(), juce::PathStrokeType{1.6f},
+                     juce::AffineTransform::translation(7.0f, 0.5f * static_cast<float>(getHeight())));
+        g.setColour(shade(*this, getToggleState() ? Shade::text : Shade::muted));
+        g.setFont(juce::Font{text::small});
+        g.drawText(words(show_), getLocalBounds().withTrimmedLeft(30), juce::Justification::centredLeft,
+                   true);
+    }
+
+private:
+    juce::String words(Show show) const {
+        return show == Show::picture ? juce::String{}
+                                     : getName() + (show == Show::remark && !isFelt_ ? ": not felt" : "");
+    }
+    /// The first tenth of a second, with fewer waves than it has, so that they can be told apart.
+    juce::Path decay() const {
+        constexpr double wide = 18.0, high = 8.0, seconds = 0.1, wavesPerHertz = 0.012;
+        juce::Path path;
+        path.startNewSubPath(0.0f, 0.0f);
+        for (double x = 0.5; x <= wide; x += 0.5) {
+            const double share = x / wide;
+            const double wave =
+                std::sin(juce::MathConstants<double>::twoPi * wavesPerHertz * material_.frequencyHz * share);
+            path.lineTo(
+                static_cast<float>(x),
+                static_cast<float>(-high * wave * std::exp(-material_.decayPerSecond * seconds * share)));
+        }
+        return path;
+    }
+
+    const Material material_;
+    const juce::Colour colour_;
+    Show show_ = Show::name;
+    bool isFelt_ = true;
+};
+
+namespace {
+
+constexpr std::array<DrawPane::RainPattern, 7> rainPatterns{
+    {{0, false}, {5, false}, {20, false}, {50, false}, {5, true}, {20, true}, {50, true}}};
+
+/// What a trial of materials depends on: which kinds of surfaces the scene has.
+std::set<std::tuple<bool, int, bool>> surfacesOf(const Scene& scene) {
+    std::set<std::tuple<bool, int, bool>> all;
+    for (const BodyDescription& body : scene.bodies)
+        for (const FixtureDescription& f : body.fixtures)
+            all.emplace(body.type == BodyType::dynamicBody, f.material, f.isCamera);
+    return all;
+}
+
+} // namespace
+
+MaterialPalette::MaterialPalette(MixerModel& model, DrawPane& pane)
+    : model_{model}
+    , pane_{pane} {
+    setTitle("Materials to draw with");
+    setInterceptsMouseClicks(false, true);
+    describe(count_, "Balls of a rain", "How many balls a rain has");
+    for (const int count : {10, 20, 50, 100, 200, 500, 1000})
+        count_.addItem(juce::String{count} + " balls", count);
+    count_.onChange = [this] { pane_.setRainCount(count_.getSelectedId()); };
+    describe(way_, "How the rain comes", "All at once, ball by ball, or upwards from one place");
+    for (int id = 1; const auto& way : rainPatterns)
+        way_.addItem(way.perSecond == 0
+                         ? juce::String{"at once"}
+                         : (way.isFountain ? "fountain, " : "") + juce::String{way.perSecond} + " a second",
+                     id++);
+    way_.onChange = [this] {
+        if (const int k = way_.getSelectedItemIndex(); k >= 0)
+            pane_.setRainPattern(rainPatterns[static_cast<std::size_t>(k)]);
+    };
+    addChildComponent(count_);
+    addChildComponent(way_);
+}
+
+MaterialPalette::~MaterialPalette() = default;
+
+void MaterialPalette::show() {
+    const Scene& scene = model_.world().drawing().drawn();
+    const auto& materials = scene.materials;
+    const bool areOther = shown_ != materials;
+    if (areOther) {
+        shown_ = materials;
+        swatches_.clear();
+        for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
+            auto& swatch = *swatches_.emplace_back(
+                std::make_unique<Swatch>(materials[static_cast<std::size_t>(i)], palette::material(i)));
+            swatch.onClick = [this, i] {
+                pane_.setMaterial(i);
+                hintOnMaterial(model_, i);
+            };
+            // a material that makes no sound reports it elsewhere
+            swatch.onEnter = [this, i] { model_.strikes().audition(i, 0.5, 0.5); };
+            addAndMakeVisible(swatch);
+            prepareControls(swatch); // it is created after the other controls
+        }
+    }
+    if (areOther || surfaces_ != surfacesOf(scene)) {
+        surfaces_ = surfacesOf(scene);
+        for (int i = 0; i < static_cast<int>(swatches_.size()); ++i)
+            swatches_[static_cast<std::size_t>(i)]->setWhy(whyNotFelt(scene, i));
+        resized();
+    }
+    count_.setSelectedId(pane_.rainCount(), juce::dontSendNotification);
+    way_.setSelectedItemIndex(
+        static_cast<int>(std::ranges::find(rainPatterns, pane_.rainPattern()) - rainPatterns.begin()),
+        juce::dontSendNotification);
+    if (const bool isRain = pane_.tool() == DrawTool::rain; isRain != count_.isVisible()) {
+        count_.setVisible(isRain);
+        way_.setVisible(isRain);
+        resized();
+    }
+    for (std::size_t i = 0; i < swatches_.size(); ++i)
+        swatches_[i]->setToggleState(static_cast<int>(i) == pane_.material(), juce::dontSendNotification);
+    if (std::exchange(chosen_, pane_.material()) != pane_.material()) resized(); // its name may need room
+}
+
+void MaterialPalette::resized() {
+    constexpr int between = 4;
+    auto area = getLocalBounds();
+    for (auto [list, wide] : {std::pair{&count_, 106}, {&way_, 150}})
+        if (list->isVisible()) list->setBounds(area.removeFromLeft(wide)), area.removeFromLeft(between);
+    using Show = Swatch::Show;
+    const auto showOf = [](const Swatch& swatch, Show others) { // the selected one keeps its name
+        return others == Show::picture && swatch.getToggleState() ? Show::name : others;
+    };
+    Show show = Show::remark;
+    for (; show != Show::picture; show = show == Show::remark ? Show::name : Show::picture) {
+        int wide = -between;
+        for (const auto& swatch : swatches_) wide += swatch->wanted(show) + between;
+        if (wide <= area.getWidth()) break;
+    }
+    for (auto& swatch : swatches_) {
+        const Show its = showOf(*swatch, show);
+        swatch->setShow(its);
+        swatch->setBounds(area.removeFromLeft(std::min(swatch->wanted(its), area.getWidth())));
+        area.removeFromLeft(between);
     }
 }
 

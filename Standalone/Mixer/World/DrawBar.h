@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls beside the world: tools, materials of the scene, and properties of the selected bodies.
 #pragma once
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Widgets/Parts.h"
 #include "Mixer/World/DrawPane.h"
 #include <memory>
 #include <set>
@@ -35,14 +35,14 @@ private:
 /// rain, also its number of balls. Message thread only.
 class MaterialPalette final : public juce::Component {
 public:
-    MaterialPalette(Desk& desk, DrawPane& pane);
+    MaterialPalette(MixerModel& model, DrawPane& pane);
     ~MaterialPalette() override;
     void show();
     void resized() override;
 
 private:
     class Swatch;
-    Desk& desk_;
+    MixerModel& model_;
     DrawPane& pane_;
     std::vector<Material> shown_;
     std::set<std::tuple<bool, int, bool>> surfaces_; // those that the remarks are about
@@ -55,7 +55,7 @@ private:
 /// also speed and torque of its motor, and stiffness of its spring. Message thread only.
 class BodyPanel final : public juce::Component {
 public:
-    BodyPanel(Desk& desk, DrawPane& pane);
+    BodyPanel(MixerModel& model, DrawPane& pane);
     void show();
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -66,13 +66,15 @@ public:
 
 private:
     static constexpr int high = 124, rowHigh = 28;
-    void drive(bool goesOn);
-    void stiffen(bool goesOn);
+    void drive(bool continuesEdit);
+    void stiffen(bool continuesEdit);
 
-    Desk& desk_;
+    MixerModel& model_;
     DrawPane& pane_;
     std::string drivenJoint_, springJoint_; // of the single selected body; empty: none
-    juce::Label name_, densityName_, bounceName_, speedName_, torqueName_, springName_;
+    juce::Label name_;
+    Caption densityName_{"density"}, bounceName_{"bounce"}, speedName_{"motor"}, torqueName_{"torque"},
+        springName_{"spring"};
     juce::ToggleButton moves_{"moves"}, source_{"haptic source"};
     juce::Slider density_, bounce_, speed_, torque_, spring_;
 };

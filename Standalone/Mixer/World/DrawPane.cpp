@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing tools, selection and mouse input.
 #include "Mixer/World/DrawPane.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Model/MixerMessages.h"
+#include "Mixer/Widgets/Parts.h"
+#include "Pictures/JointOutline.h"
+#include "Pictures/ShapeOutline.h"
 #include "Scene/Drawing/DrawnBodies.h"
 #include <algorithm>
+#include <cmath>
 
 namespace physvib {
 
-DrawPane::DrawPane(Desk& desk, WorldView& view)
-    : desk_{desk}
+DrawPane::DrawPane(MixerModel& model, WorldView& view)
+    : model_{model}
     , view_{view} {
     setTitle("Drawing");
     setInterceptsMouseClicks(false, false);
@@ -47,17 +51,16 @@ void DrawPane::setRainCount(int count) {
 void DrawPane::choose(std::vector<std::string> names) {
     chosen_ = std::move(names);
     // the palette shows what the selection is made of
-    if (const auto* body = chosen_.empty() ? nullptr : desk_.world().drawing().find(chosen_[0]))
+    if (const auto* body = chosen_.empty() ? nullptr : drawing().find(chosen_[0]))
         material_ = body->fixtures[0].material;
     if (onChange) onChange();
     repaint();
 }
 
-void DrawPane::takeMix() {
-    const auto& drawing = desk_.world().drawing();
+void DrawPane::mixChanged() {
     const auto before = chosen_.size();
-    std::erase_if(chosen_, [&](const std::string& name) { return drawing.find(name) == nullptr; });
-    const auto& materials = drawing.drawn().materials;
+    std::erase_if(chosen_, [&](const std::string& name) { return drawing().find(name) == nullptr; });
+    const auto& materials = drawing().drawn().materials;
     if (material_ < 0)
         material_ = static_cast<int>(
             std::ranges::find_if(materials, [](const Material& m) { return m.frequencyHz > 0.0; }) -
@@ -68,24 +71,25 @@ void DrawPane::takeMix() {
 }
 
 void DrawPane::changeChosen(const juce::String& name,
-                            const std::function<void(const Scene&, BodyDescription&)>& change, bool goesOn) {
+                            const std::function<void(const Scene&, BodyDescription&)>& change,
+                            bool continuesEdit) {
     std::vector<Action> actions;
     for (const std::string& chosen : chosen_)
-        if (const auto* body = desk_.world().drawing().find(chosen)) {
+        if (const auto* body = drawing().find(chosen)) {
             BodyDescription next = *body;
-            change(desk_.world().drawing().drawn(), next);
+            change(drawing().drawn(), next);
             if (next != *body) actions.push_back(changed(std::move(next)));
         }
-    edit(name, std::move(actions), goesOn);
+    edit(name, std::move(actions), continuesEdit);
 }
 
-void DrawPane::edit(const juce::String& name, std::vector<Action> actions, bool goesOn) {
-    if (const auto fault = desk_.world().edit(name, std::move(actions), goesOn); !fault.empty())
-        desk_.report(name + ": " + utf8(fault));
+void DrawPane::edit(const juce::String& name, std::vector<Action> actions, bool continuesEdit) {
+    if (const auto fault = model_.world().edit(name, std::move(actions), continuesEdit); !fault.empty())
+        model_.report(name + ": " + utf8(fault));
 }
 
 double DrawPane::grid() const {
-    return snaps_ ? desk_.world().scene().fieldHeightMetres / gridsPerField : 0.0;
+    return snaps_ ? model_.world().scene().fieldHeightMetres / gridsPerField : 0.0;
 }
 Vector DrawPane::at(const juce::MouseEvent& e) const { return snapped(view_.metresAt(e.position), grid()); }
 
@@ -135,10 +139,10 @@ void DrawPane::mouseUp(const juce::MouseEvent& e) {
         if (grip_ == Grip::size)
             edit("Size", {changed(sizedNow())});
         else if (grip_ == Grip::move || grip_ == Grip::turn)
-            edit(grip_ == Grip::turn ? "Turn" : "Move", movedTo(desk_.world().drawing(), movedNow()));
+            edit(grip_ == Grip::turn ? "Turn" : "Move", movedTo(drawing(), movedNow()));
         else if (grip_ == Grip::around && !stroke_.empty()) {
             std::vector<std::string> inside = e.mods.isShiftDown() ? chosen_ : std::vector<std::string>{};
-            for (const auto& body : desk_.world().drawing().drawn().bodies)
+            for (const auto& body : drawing().drawn().bodies)
                 if (const auto place = placeNow(body.name);
                     place && (place->metres.x - stroke_[0].x) * (place->metres.x - to_.x) < 0.0 &&
                     (place->metres.y - stroke_[0].y) * (place->metres.y - to_.y) < 0.0)
@@ -153,6 +157,627 @@ void DrawPane::mouseUp(const juce::MouseEvent& e) {
 
 void DrawPane::mouseDoubleClick(const juce::MouseEvent&) {
     if (tool_ == DrawTool::polygon) closePolygon();
+}
+
+// Converts mouse strokes to new bodies, and erases bodies and joints.
+
+namespace {
+
+double between(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
+
+} // namespace
+
+Result<BodyDescription> DrawPane::drawnNow() const {
+    const double height = model_.world().scene().fieldHeightMetres, size = 0.06 * height;
+    const Vector from = stroke_.empty() ? to_ : stroke_[0];
+    const bool isClick = between(from, to_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
+    switch (tool_) {
+    case DrawTool::ball: return drawnBall(from, isClick ? Vector{from.x + size, from.y} : to_);
+    case DrawTool::box:
+        return isClick ? drawnBox({from.x - 1.1 * size, from.y - 0.8 * size},
+                                  {from.x + 1.1 * size, from.y + 0.8 * size})
+                       : drawnBox(from, to_);
+    case DrawTool::line: return drawnLine(stroke_, 0.004 * height);
+    case DrawTool::wall:
+        return drawnWall(isClick ? Vector{from.x - 2.0 * size, from.y} : from,
+                         isClick ? Vector{from.x + 2.0 * size, from.y} : to_, 0.03 * height);
+    default: return drawnPolygon(stroke_);
+    }
+}
+
+// A click gives a rain of the usual size, all of it within the field.
+Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
+    const auto& scene = model_.world().scene();
+    const Vector from = stroke_.empty() ? to_ : stroke_[0];
+    const bool isClick = between(from, to_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
+    const double x = 0.15 * scene.fieldWidthMetres, y = 0.15 * scene.fieldHeightMetres;
+    if (!isClick) return drawnRain(from, to_, rainCount_);
+    const Vector at{std::clamp(from.x, x, scene.fieldWidthMetres - x),
+                    std::clamp(from.y, y, scene.fieldHeightMetres - y)};
+    return drawnRain({at.x - x, at.y - y}, {at.x + x, at.y + y}, rainCount_);
+}
+
+void DrawPane::addStroke() {
+    if (tool_ == DrawTool::rain) return rainPattern_.perSecond > 0 ? beginRain(rainNow()) : add(rainNow());
+    auto body = drawnNow();
+    if (!body) return add(Failure{body.error});
+    add(std::vector{std::move(body.value)});
+}
+
+/// Names, material and whether they are felt; false: there is nothing to draw with.
+bool DrawPane::prepare(std::vector<BodyDescription>& bodies) {
+    if (drawing().drawn().materials.empty())
+        return model_.report("The scene has no materials to draw with"), false;
+    const auto names =
+        drawing().freeNames(juce::String{wordsOf(tool_).name}.toLowerCase().toStdString(), bodies.size());
+    const bool sounds = drawing().drawn().materials[static_cast<std::size_t>(material_)].frequencyHz > 0.0;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        bodies[k].name = names[k];
+        for (auto& fixture : bodies[k].fixtures) fixture.material = material_;
+        if (sounds && startsAsSource(drawing().drawn(), bodies[k]))
+            setSource(drawing().drawn(), bodies[k], true);
+    }
+    return true;
+}
+
+// One edit.
+void DrawPane::add(Result<std::vector<BodyDescription>> bodies) {
+    if (!bodies) return model_.report(utf8(bodies.error));
+    if (!prepare(bodies.value)) return;
+    std::vector<Action> actions;
+    const std::string first = bodies.value.front().name;
+    for (auto& body : bodies.value) actions.push_back(SpawnAction{std::move(body), {}});
+    edit("Draw a " + juce::String{wordsOf(tool_).name}.toLowerCase(), std::move(actions));
+    hintOnBody(model_, first);
+}
+
+void DrawPane::closePolygon() {
+    addStroke();
+    stroke_.clear();
+    isDrawing_ = false;
+    repaint();
+}
+
+void DrawPane::addAt(DrawTool tool, Vector place) {
+    const DrawTool before = tool_;
+    use(tool);
+    to_ = place;
+    stroke_ = {place};
+    addStroke();
+    use(before);
+}
+
+void DrawPane::addInTheMiddle() {
+    const auto& scene = model_.world().scene();
+    const double size = 0.06 * scene.fieldHeightMetres;
+    to_ = {0.5 * scene.fieldWidthMetres, 0.5 * scene.fieldHeightMetres};
+    stroke_ = {to_};
+    if (tool_ == DrawTool::line) stroke_ = {{to_.x - 2.0 * size, to_.y}, to_, {to_.x + 2.0 * size, to_.y}};
+    if (tool_ == DrawTool::polygon)
+        stroke_ = {{to_.x - size, to_.y - size}, {to_.x + size, to_.y - size}, {to_.x, to_.y + size}};
+    const auto names = [&] {
+        std::vector<std::string> all;
+        for (const auto& body : drawing().drawn().bodies) all.push_back(body.name);
+        return all;
+    };
+    const auto before = names().size();
+    addStroke();
+    stroke_.clear();
+    const auto after = names();
+    if (after.size() == before) return;
+    use(DrawTool::choose); // so that arrow keys move it
+    choose({after.back()});
+}
+
+void DrawPane::erase(const juce::MouseEvent& e) {
+    if (const auto joint = jointAt(e.position); !joint.empty())
+        return edit("Erase", {UnjoinAction{joint}}, e.getDistanceFromDragStart() > 2);
+    for (const auto& name : view_.bodiesAt(e.position))
+        if (drawing().find(name) != nullptr)
+            return edit("Erase", erased(drawing(), {name}), e.getDistanceFromDragStart() > 2);
+}
+
+// Rain that comes ball by ball, and fountains.
+
+namespace {
+
+constexpr const char* rainStep = "Let it rain";
+constexpr double rise = 0.5;     // height of a fountain, of the field's
+constexpr double spread = 0.25;  // of its speed, to both sides
+constexpr int differentJets = 7; // balls of one jet would follow each other exactly
+
+/// All from the middle of where they would fall from, upwards.
+void makeFountain(std::vector<BodyDescription>& bodies, const Scene& scene) {
+    Vector middle;
+    for (const BodyDescription& body : bodies) {
+        middle.x += body.positionMetres.x / static_cast<double>(bodies.size());
+        middle.y += body.positionMetres.y / static_cast<double>(bodies.size());
+    }
+    const double gravity = std::hypot(scene.gravityMetresPerSecond2.x, scene.gravityMetresPerSecond2.y),
+                 up = std::sqrt(2.0 * gravity * rise * scene.fieldHeightMetres);
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        const int jet = static_cast<int>(3 * k) % differentJets - differentJets / 2; // neighbours differ
+        bodies[k].positionMetres = middle;
+        bodies[k].velocityMetresPerSecond = {2.0 * spread * up * jet / (differentJets - 1), up};
+    }
+}
+
+} // namespace
+
+void DrawPane::setRainPattern(const RainPattern& way) {
+    rainPattern_ = way;
+    if (onChange) onChange();
+}
+
+void DrawPane::beginRain(Result<std::vector<BodyDescription>> bodies) {
+    if (!bodies) return model_.report(utf8(bodies.error));
+    if (!prepare(bodies.value)) return;
+    if (rainPattern_.isFountain) makeFountain(bodies.value, drawing().drawn());
+    std::ranges::reverse(bodies.value);
+    falling_ = std::move(bodies.value);
+    rainFromNs_ = model_.session().world().sceneNs();
+    spawned_ = 0;
+    model_.undoManager().beginNewTransaction(rainStep);
+    spawnDueBodies();
+}
+
+// By the time of the world: it waits in a pause, and ends when the scene starts anew or the rain is undone.
+void DrawPane::spawnDueBodies() {
+    if (falling_.empty()) return;
+    const auto passed = model_.session().world().sceneNs() - rainFromNs_;
+    const bool isUndone = model_.undoManager().getRedoDescription() == rainStep;
+    if (passed < 0 || isUndone) return falling_.clear();
+    const auto due = 1 + passed * rainPattern_.perSecond / 1'000'000'000;
+    const bool isFirst = spawned_ == 0;
+    std::vector<Action> actions;
+    std::string name;
+    for (; spawned_ < due && !falling_.empty(); ++spawned_) {
+        if (!isFirst) // another rain may have taken its name
+            falling_.back().name = drawing().freeNames("rain", actions.size() + 1).back();
+        name = falling_.back().name;
+        actions.push_back(SpawnAction{std::move(falling_.back()), {}});
+        falling_.pop_back();
+    }
+    if (actions.empty()) return;
+    if (const auto error = model_.world().edit(rainStep, std::move(actions), true); !error.empty()) {
+        falling_.clear();
+        return model_.report(utf8(error));
+    }
+    if (isFirst) hintOnBody(model_, name);
+}
+
+// Creates joints between bodies, or between a body and the field.
+
+// The field itself is not a body. A joint to it uses a static body, or a small disc that is added there.
+std::string DrawPane::fieldBody(std::vector<Action>& actions, const Vector& place) {
+    for (const auto& body : drawing().drawn().bodies)
+        if (body.type == BodyType::staticBody) return body.name;
+    const double size = std::max(0.011, 0.01 * model_.world().scene().fieldHeightMetres);
+    auto disc = drawnBall(place, {place.x + size, place.y}).value;
+    disc.type = BodyType::staticBody;
+    disc.name = drawing().freeName("pin");
+    disc.fixtures[0].material = material_;
+    actions.push_back(SpawnAction{disc, {}});
+    return disc.name;
+}
+
+void DrawPane::joinAt(DrawTool tool, Vector place) {
+    const DrawTool before = tool_;
+    use(tool);
+    to_ = place;
+    if (tool == DrawTool::spring) { // hangs from a place above
+        constexpr double length = 0.2;
+        stroke_ = {place};
+        to_.y += length * model_.world().scene().fieldHeightMetres;
+    }
+    join();
+    stroke_.clear();
+    use(before);
+}
+
+void DrawPane::join() {
+    const Vector from = stroke_.empty() ? to_ : stroke_[0];
+    const bool isPoint = tool_ == DrawTool::pin || tool_ == DrawTool::motor;
+    const auto known = [&](const Vector& place) {
+        auto names = view_.bodiesAt(view_.placeOfMetres(place));
+        std::erase_if(names, [&](const std::string& name) { return drawing().find(name) == nullptr; });
+        return names;
+    };
+    const auto first = known(from), second = isPoint ? first : known(to_);
+    const std::size_t other = isPoint ? 1 : 0;
+    if (first.empty() && (second.empty() || tool_ == DrawTool::slider))
+        return model_.report("A joint: expected a body there");
+    std::vector<Action> actions;
+    std::string b = first.empty() ? std::string{} : first[0],
+                a = second.size() > other && second[other] != b ? second[other] : std::string{};
+    if (tool_ == DrawTool::slider) a.clear(); // its axis is fixed to the field
+    if (b.empty()) b = fieldBody(actions, from);
+    if (a.empty()) a = fieldBody(actions, isPoint ? from : to_);
+    SceneDrawing trial = drawing();
+    for (const Action& action : actions) trial.take(action);
+    const auto place = [&](const std::string& name) {
+        const auto now = placeNow(name);
+        const auto* body = trial.find(name);
+        return std::pair{name, now    ? *now
+                               : body ? BodyPlace{body->positionMetres, body->angleRadians}
+                                      : BodyPlace{}};
+    };
+    const auto kind = tool_ == DrawTool::pin      ? JointKind::pin
+                      : tool_ == DrawTool::motor  ? JointKind::motor
+                      : tool_ == DrawTool::rope   ? JointKind::rope
+                      : tool_ == DrawTool::spring ? JointKind::spring
+                                                  : JointKind::slider;
+    const bool isTurnedRound = tool_ == DrawTool::rope || tool_ == DrawTool::spring; // the stroke begins on b
+    auto made =
+        joined(trial, kind, place(a), place(b), isTurnedRound ? to_ : from, isTurnedRound ? from : to_);
+    if (!made) return model_.report(utf8(made.error));
+    actions.insert(actions.end(), made.value.begin(), made.value.end());
+    edit(wordsOf(tool_).name, std::move(actions));
+}
+
+// Applies mouse gestures on the selected bodies: handles, sizes, places.
+
+namespace {
+
+constexpr float handlePixels = 9.0f;
+
+double angleOf(const Vector& from, const Vector& to) { return std::atan2(to.y - from.y, to.x - from.x); }
+
+} // namespace
+
+std::optional<DrawPane::Handles> DrawPane::handles() const {
+    const auto* body = chosen_.size() == 1 ? drawing().find(chosen_[0]) : nullptr;
+    const auto place = body ? placeNow(chosen_[0]) : std::nullopt;
+    if (!place) return std::nullopt;
+    const Reach reach = reachOf(*body);
+    const auto on = [&](double x, double y) {
+        const double c = std::cos(place->angleRadians), s = std::sin(place->angleRadians);
+        return view_.placeOfMetres({place->metres.x + c * x - s * y, place->metres.y + s * x + c * y});
+    };
+    const double above = reach.most.y + 26.0 / static_cast<double>(view_.pixelsPerMetre());
+    return Handles{{on(reach.least.x, reach.least.y), on(reach.most.x, reach.least.y),
+                    on(reach.most.x, reach.most.y), on(reach.least.x, reach.most.y)},
+                   on(0.5 * (reach.least.x + reach.most.x), above),
+                   on(0.0, 0.0)};
+}
+
+juce::Rectangle<float> DrawPane::chosenArea() const {
+    constexpr float withHandles = 34.0f;
+    juce::Rectangle<float> area;
+    for (const std::string& name : chosen_)
+        if (const auto* body = drawing().find(name); body != nullptr && placeNow(name)) {
+            const Reach reach = reachOf(*body);
+            const auto radius =
+                static_cast<float>(std::max({reach.most.x, reach.most.y, -reach.least.x, -reach.least.y})) *
+                view_.pixelsPerMetre();
+            const auto around = juce::Rectangle<float>{2.0f * radius, 2.0f * radius}.withCentre(
+                view_.placeOfMetres(placeNow(name)->metres));
+            area = area.isEmpty() ? around : area.getUnion(around);
+        }
+    return area.isEmpty() ? area : area.expanded(withHandles);
+}
+
+void DrawPane::grip(const juce::MouseEvent& e) {
+    if (const auto marks = handles()) {
+        if (marks->turn.getDistanceFrom(e.position) < handlePixels) return void(grip_ = Grip::turn);
+        for (const auto& corner : marks->corners)
+            if (corner.getDistanceFrom(e.position) < handlePixels) return void(grip_ = Grip::size);
+    }
+    const auto under = view_.bodiesAt(e.position);
+    const auto known =
+        std::ranges::find_if(under, [&](const std::string& name) { return drawing().find(name) != nullptr; });
+    if (known == under.end()) {
+        if (!e.mods.isShiftDown()) choose({});
+        return void(grip_ = Grip::around);
+    }
+    auto next = chosen_;
+    const auto place = std::ranges::find(next, *known);
+    if (e.mods.isShiftDown())
+        place == next.end() ? next.push_back(*known) : void(next.erase(place));
+    else if (place == next.end())
+        next = {*known};
+    choose(next);
+    grip_ = Grip::move;
+}
+
+BodyDescription DrawPane::sizedNow() const {
+    const auto& body = *drawing().find(chosen_[0]);
+    const auto place = placeNow(chosen_[0]);
+    if (!place || stroke_.empty()) return body;
+    const auto local = [&](const Vector& p) {
+        const double c = std::cos(place->angleRadians), s = std::sin(place->angleRadians),
+                     x = p.x - place->metres.x, y = p.y - place->metres.y;
+        return Vector{std::abs(c * x + s * y), std::abs(-s * x + c * y)};
+    };
+    const Vector before = local(stroke_[0]), now = local(to_);
+    const auto factor = [](double a, double b) { return a > 1e-6 ? std::clamp(b / a, 0.05, 20.0) : 1.0; };
+    return scaledBody(body, factor(before.x, now.x), factor(before.y, now.y));
+}
+
+std::map<std::string, BodyPlace> DrawPane::movedNow() const {
+    std::map<std::string, BodyPlace> places;
+    if (stroke_.empty()) return places;
+    for (const std::string& name : chosen_)
+        if (auto place = placeNow(name)) {
+            if (grip_ == Grip::turn) {
+                const double turned =
+                    place->angleRadians + angleOf(place->metres, to_) - angleOf(place->metres, stroke_[0]);
+                place->angleRadians = snaps_ ? turnStep * std::round(turned / turnStep) : turned;
+            } else
+                place->metres = snapped(
+                    {place->metres.x + to_.x - stroke_[0].x, place->metres.y + to_.y - stroke_[0].y}, grid());
+            places.emplace(name, *place);
+        }
+    return places;
+}
+
+// Keyboard commands for tools and selected bodies.
+
+void DrawPane::nudge(Vector byMetres, double byRadians) {
+    std::map<std::string, BodyPlace> places;
+    for (const std::string& name : chosen_)
+        if (auto place = placeNow(name))
+            places.emplace(name, BodyPlace{{place->metres.x + byMetres.x, place->metres.y + byMetres.y},
+                                           place->angleRadians + byRadians});
+    edit(byRadians != 0.0 ? "Turn" : "Move", movedTo(drawing(), places));
+}
+
+void DrawPane::scaleChosen(double factor) {
+    changeChosen("Size",
+                 [factor](const Scene&, BodyDescription& body) { body = scaledBody(body, factor, factor); });
+}
+
+void DrawPane::paste(const Copied& copy, Vector beside) {
+    std::vector<std::string> names;
+    edit("Paste", pasted(drawing(), copy, beside, names));
+    use(DrawTool::choose);
+    choose(names);
+}
+
+void DrawPane::pasteAt(Vector place) {
+    const Vector& from = copied_.bodies.front().positionMetres;
+    paste(copied_, {place.x - from.x, place.y - from.y});
+}
+
+void DrawPane::copy(const std::vector<std::string>& names) { copied_ = copied(drawing(), names); }
+
+void DrawPane::eraseAll(const std::vector<std::string>& names) { edit("Erase", erased(drawing(), names)); }
+
+bool DrawPane::handleToolKey(const juce::KeyPress& key) {
+    if (key.getModifiers().isAnyModifierKeyDown()) return false;
+    for (const auto& words : drawTools)
+        if (key.getKeyCode() ==
+                juce::CharacterFunctions::toUpperCase(static_cast<juce::juce_wchar>(words.key)) ||
+            key.getTextCharacter() == static_cast<juce::juce_wchar>(words.key))
+            return use(words.tool), true;
+    if (key.getTextCharacter() == 'g') return setSnapping(!snaps_), true;
+    return false;
+}
+
+bool DrawPane::handleKey(const juce::KeyPress& key) {
+    using juce::KeyPress;
+    const auto command = juce::ModifierKeys::commandModifier;
+    if (handleToolKey(key)) return true;
+    if (tool_ == DrawTool::hand) return false;
+    if (key == KeyPress::returnKey && tool_ == DrawTool::polygon && !stroke_.empty())
+        return closePolygon(), true;
+    if (key == KeyPress::returnKey && (isStroke(tool_) || tool_ == DrawTool::polygon))
+        return addInTheMiddle(), true;
+    if (key == KeyPress{'a', command, 0}) {
+        std::vector<std::string> all;
+        for (const auto& body : drawing().drawn().bodies) all.push_back(body.name);
+        return use(DrawTool::choose), choose(all), true;
+    }
+    const double step = model_.world().scene().fieldHeightMetres / gridsPerField;
+    const Vector beside{2.0 * step, 2.0 * step};
+    if (key == KeyPress{'v', command, 0} && hasCopy()) return paste(copied_, beside), true;
+    if (key == KeyPress::tabKey || chosen_.empty()) return false;
+    if (key == KeyPress::deleteKey || key == KeyPress::backspaceKey) return eraseAll(chosen_), true;
+    if (key == KeyPress{'c', command, 0}) return copy(chosen_), true;
+    if (key == KeyPress{'d', command, 0}) return paste(copied(drawing(), chosen_), beside), true;
+    if (key == KeyPress::leftKey) return nudge({-step, 0.0}, 0.0), true;
+    if (key == KeyPress::rightKey) return nudge({step, 0.0}, 0.0), true;
+    if (key == KeyPress::upKey) return nudge({0.0, step}, 0.0), true;
+    if (key == KeyPress::downKey) return nudge({0.0, -step}, 0.0), true;
+    if (key.getModifiers().isCommandDown()) return false; // zoom has Ctrl and the same signs
+    if (key.getTextCharacter() == '[') return nudge({}, turnStep), true;
+    if (key.getTextCharacter() == ']') return nudge({}, -turnStep), true;
+    if (key.getTextCharacter() == '+') return scaleChosen(1.1), true;
+    if (key.getTextCharacter() == '-') return scaleChosen(1.0 / 1.1), true;
+    return false;
+}
+
+// Draws joints, the selection with its handles, and the shape being drawn.
+
+juce::Path signOf(DrawTool tool) {
+    juce::Path p, line;
+    const auto stroke = [&p, &line](float width = 1.8f) {
+        juce::PathStrokeType{width}.createStrokedPath(p, line);
+    };
+    switch (tool) {
+    case DrawTool::hand: // a ball being thrown
+        p.addEllipse(-8.0f, 0.0f, 8.0f, 8.0f);
+        p.addArrow({{0.0f, 0.0f}, {8.0f, -8.0f}}, 1.8f, 7.0f, 6.0f);
+        break;
+    case DrawTool::choose:
+        p.startNewSubPath(-5.0f, -8.0f);
+        for (const auto& [x, y] :
+             {std::pair{-5.0f, 6.0f}, {-1.5f, 2.8f}, {0.8f, 8.0f}, {3.2f, 7.0f}, {1.0f, 2.0f}, {5.5f, 2.0f}})
+            p.lineTo(x, y);
+        p.closeSubPath();
+        break;
+    case DrawTool::ball: p.addEllipse(-7.0f, -7.0f, 14.0f, 14.0f); break;
+    case DrawTool::box: p.addRectangle(-7.0f, -5.5f, 14.0f, 11.0f); break;
+    case DrawTool::polygon: p.addPolygon({}, 5, 8.0f); break;
+    case DrawTool::line:
+        line.startNewSubPath(-8.0f, 4.0f);
+        line.cubicTo(-3.0f, -12.0f, 2.0f, 12.0f, 8.0f, -4.0f);
+        stroke();
+        break;
+    case DrawTool::wall:
+        line.addLineSegment({-7.0f, 5.0f, 7.0f, -5.0f}, 5.0f);
+        p = line;
+        break;
+    case DrawTool::rain:
+        for (const auto& [x, y] : {std::pair{-6.0f, -6.0f},
+                                   {2.0f, -7.0f},
+                                   {-2.0f, 0.0f},
+                                   {5.0f, 0.0f},
+                                   {-6.0f, 5.0f},
+                                   {2.0f, 6.0f}})
+            p.addEllipse(x - 2.0f, y - 2.0f, 4.5f, 4.5f);
+        break;
+    case DrawTool::pin:
+        p.addEllipse(-4.0f, -4.0f, 8.0f, 8.0f);
+        line.addEllipse(-8.0f, -8.0f, 16.0f, 16.0f);
+        stroke(1.4f);
+        break;
+    case DrawTool::rope:
+        p.addEllipse(-9.0f, -7.0f, 5.0f, 5.0f);
+        p.addEllipse(4.0f, -7.0f, 5.0f, 5.0f);
+        line.startNewSubPath(-6.5f, -4.0f);
+        line.quadraticTo(0.0f, 13.0f, 6.5f, -4.0f);
+        stroke(1.4f);
+        break;
+    case DrawTool::spring:
+        line = coilOutline<juce::Path>(juce::Point{-9.0f, 0.0f}, juce::Point{9.0f, 0.0f}, 6.0f, 3);
+        stroke(1.6f);
+        break;
+    case DrawTool::slider:
+        p.addRectangle(-4.0f, -4.0f, 8.0f, 8.0f);
+        line.addLineSegment({-9.0f, 0.0f, 9.0f, 0.0f}, 1.5f);
+        p.addPath(line);
+        break;
+    case DrawTool::motor:
+        line.addCentredArc(0.0f, 0.0f, 6.5f, 6.5f, 0.0f, -2.4f, 2.0f, true);
+        stroke(2.0f);
+        p.addEllipse(-2.5f, -2.5f, 5.0f, 5.0f);
+        p.addTriangle(9.0f, 0.0f, 2.5f, 2.0f, 8.0f, 7.0f);
+        break;
+    case DrawTool::eraser:
+        line.addRoundedRectangle(-8.0f, -4.0f, 16.0f, 8.0f, 2.0f);
+        line.startNewSubPath(-2.0f, -4.0f);
+        line.lineTo(-2.0f, 4.0f);
+        stroke(1.6f);
+        p.applyTransform(juce::AffineTransform::rotation(-0.6f));
+    }
+    return p;
+}
+
+// Rotates and moves the point with the body from its drawn to its current pose.
+Vector DrawPane::carried(const Vector& point, const std::string& name) const {
+    const auto* body = drawing().find(name);
+    const auto place = placeNow(name);
+    if (body == nullptr || !place) return point;
+    const double turned = place->angleRadians - body->angleRadians, c = std::cos(turned),
+                 s = std::sin(turned);
+    const double x = point.x - body->positionMetres.x, y = point.y - body->positionMetres.y;
+    return {place->metres.x + c * x - s * y, place->metres.y + s * x + c * y};
+}
+
+juce::Line<float> DrawPane::lineNow(const JointDescription& joint) const {
+    const auto pose = describedPose(joint);
+    const bool isBetween = std::holds_alternative<DistanceJoint>(joint.joint);
+    return {view_.placeOfMetres(carried(pose.aMetres, joint.bodyA)),
+            view_.placeOfMetres(carried(pose.bMetres, isBetween ? joint.bodyB : joint.bodyA))};
+}
+
+std::string DrawPane::jointAt(juce::Point<float> place) const {
+    constexpr float near = 8.0f;
+    for (const auto& joint : drawing().drawn().joints) {
+        juce::Point<float> on;
+        if (lineNow(joint).getDistanceFromPoint(place, on) < near) return joint.name;
+    }
+    return {};
+}
+
+void DrawPane::drawJoints(juce::Graphics& g) const {
+    g.setColour(shade(*this, Shade::text).withAlpha(tool_ == DrawTool::hand ? 0.45f : 0.9f));
+    for (const auto& joint : drawing().drawn().joints) {
+        if (!placeNow(joint.bodyA) || !placeNow(joint.bodyB)) continue;
+        const auto line = lineNow(joint);
+        g.strokePath(jointOutline<juce::Path>(joint.joint, line.getStart(), line.getEnd()),
+                     juce::PathStrokeType{jointPixels});
+    }
+}
+
+void DrawPane::drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place,
+                           juce::Colour colour, bool isFilled) const {
+    const float scale = view_.pixelsPerMetre();
+    for (const auto& fixture : body.fixtures) {
+        const auto where =
+            juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
+                .translated(static_cast<float>(fixture.offsetMetres.x) * scale,
+                            static_cast<float>(-fixture.offsetMetres.y) * scale)
+                .followedBy(juce::AffineTransform::rotation(static_cast<float>(-place.angleRadians)))
+                .translated(view_.placeOfMetres(place.metres));
+        const auto path = shapeOutline<juce::Path>(fixture.shape, scale);
+        g.setColour(colour.withAlpha(0.3f));
+        if (isFilled && !std::holds_alternative<ChainShape>(fixture.shape)) g.fillPath(path, where);
+        g.setColour(colour);
+        g.strokePath(path, juce::PathStrokeType{1.8f}, where);
+    }
+}
+
+void DrawPane::drawChosen(juce::Graphics& g) const {
+    const auto accent = shade(*this, Shade::accent);
+    const bool goes = isDrawing_ && (grip_ == Grip::move || grip_ == Grip::turn);
+    const auto moved = goes ? movedNow() : std::map<std::string, BodyPlace>{};
+    for (const std::string& name : chosen_) {
+        const auto* body = drawing().find(name);
+        const auto place = placeNow(name);
+        if (body == nullptr || !place) continue;
+        drawOutline(g, *body, *place, accent, false);
+        if (const auto next = moved.find(name); next != moved.end())
+            drawOutline(g, *body, next->second, accent, true);
+    }
+    if (isDrawing_ && grip_ == Grip::size && chosen_.size() == 1)
+        if (const auto place = placeNow(chosen_[0])) drawOutline(g, sizedNow(), *place, accent, true);
+    const auto marks = handles();
+    if (!marks || tool_ != DrawTool::choose) return;
+    const auto handle = [&](juce::Point<float> at, bool isRound) {
+        const auto area = juce::Rectangle<float>{10.0f, 10.0f}.withCentre(at);
+        g.setColour(shade(*this, Shade::well));
+        isRound ? g.fillEllipse(area) : g.fillRect(area);
+        g.setColour(accent);
+        isRound ? g.drawEllipse(area, 1.8f) : g.drawRect(area, 1.8f);
+    };
+    for (const auto& corner : marks->corners) handle(corner, false);
+    handle(marks->turn, true);
+}
+
+void DrawPane::drawStroke(juce::Graphics& g) const {
+    if (!isDrawing_ || stroke_.empty()) return;
+    const auto accent = shade(*this, Shade::accent);
+    const auto from = view_.placeOfMetres(stroke_[0]), to = view_.placeOfMetres(to_);
+    g.setColour(accent);
+    if (tool_ == DrawTool::choose)
+        return grip_ == Grip::around ? g.drawRect(juce::Rectangle<float>{from, to}, 1.2f) : void();
+    if (tool_ == DrawTool::polygon || tool_ == DrawTool::line) {
+        juce::Path path;
+        path.startNewSubPath(from);
+        for (const Vector& place : stroke_) path.lineTo(view_.placeOfMetres(place));
+        path.lineTo(to);
+        return g.strokePath(path, juce::PathStrokeType{2.0f});
+    }
+    if (tool_ == DrawTool::spring)
+        return g.strokePath(coilOutline<juce::Path>(from, to, 6.0f, 6), juce::PathStrokeType{2.0f});
+    if (tool_ == DrawTool::rope || tool_ == DrawTool::slider) return g.drawLine({from, to}, 2.0f);
+    if (tool_ == DrawTool::rain) {
+        if (const auto bodies = rainNow())
+            for (const auto& body : bodies.value)
+                drawOutline(g, body, {body.positionMetres, 0.0}, accent, true);
+        return;
+    }
+    if (const auto body = drawnNow())
+        drawOutline(g, body.value, {body.value.positionMetres, body.value.angleRadians}, accent, true);
+}
+
+void DrawPane::paint(juce::Graphics& g) {
+    drawJoints(g);
+    if (tool_ == DrawTool::hand) return;
+    drawChosen(g);
+    drawStroke(g);
 }
 
 } // namespace physvib

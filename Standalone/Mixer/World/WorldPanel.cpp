@@ -2,16 +2,17 @@
 // What hands do in the world becomes inputs of the session.
 #include "Mixer/World/WorldPanel.h"
 #include "Core/NameNumbers.h"
-#include "Mixer/Materials/HitWords.h"
+#include "Mixer/Model/MixerMessages.h"
 #include "Scene/SceneEdits.h"
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 namespace physvib {
-
 namespace {
 
-constexpr double tellMs = 900.0;     // a sentence stays at least so long, unless a stronger hit comes
+constexpr double shownMs = 900.0;    // a sentence stays at least so long, unless a stronger hit comes
 constexpr double handMs = 10.0;      // between inputs of a hand that holds; mice tell of themselves up to a
                                      // thousand times a second
 constexpr double handSeconds = 0.02; // for each way: the next input comes before it has ended, and the hand
@@ -22,8 +23,8 @@ const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
 
 } // namespace
 
-WorldPanel::WorldPanel(Desk& desk)
-    : desk_{desk} {
+WorldPanel::WorldPanel(MixerModel& model)
+    : model_{model} {
     setTitle("World");
     setWantsKeyboardFocus(true);
     view_.onPull = [this](const std::string& body, Vector screenMetres, Vector point) {
@@ -32,21 +33,21 @@ WorldPanel::WorldPanel(Desk& desk)
     view_.onHold = [this](const std::string& body, Vector point, Vector to) { hold(body, point, to); };
     view_.onLetGo = [this](const std::string& body) { letGo(body); };
     view_.pullText = [this](double screenMetres) {
-        return "drag " + number(1e-3 * desk_.mix().dragNewtonSecondsPerScreenMetre * screenMetres, 2) + " " +
+        return "drag " + number(1e-3 * model_.mix().dragNewtonSecondsPerScreenMetre * screenMetres, 2) + " " +
                kiloNewtonSeconds;
     };
-    view_.onAttach = [this](FieldShare at) { desk_.attach(at.x, at.y); };
-    view_.onDetach = [this](int enchanter) { desk_.detach(enchanter); };
-    view_.takesFiles = isClipDrag;
+    view_.onAttach = [this](FieldShare at) { model_.attach(at.x, at.y); };
+    view_.onDetach = [this](int enchanter) { model_.detach(enchanter); };
+    view_.acceptsFiles = isClipDrag;
     view_.onFiles = [this](const juce::StringArray& files, int enchanter, FieldShare at) {
         if (enchanter >= 0)
-            desk_.strikes().feelOn(files, enchanter);
+            model_.strikes().feelOn(files, enchanter);
         else
-            desk_.strikes().feelAt(files, at.x, at.y);
+            model_.strikes().feelAt(files, at.x, at.y);
     };
     view_.onMove = [this](int enchanter, FieldShare to) {
-        desk_.change(
-            "Move " + utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label),
+        model_.change(
+            "Move " + utf8(model_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label),
             [&](Mix& mix) {
                 auto& layout = mix.layout.geometry;
                 auto& place = layout.places[static_cast<std::size_t>(enchanter)]; // depth and part stay
@@ -67,7 +68,7 @@ WorldPanel::WorldPanel(Desk& desk)
         if (player_ && player_->moves())
             play(player_->tilt(tilt_.angleRadians()));
         else
-            desk_.world().act(TiltAction{tilt_.angleRadians()});
+            model_.world().act(TiltAction{tilt_.angleRadians()});
     };
     drag_.setTitle("Drag strength");
     drag_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
@@ -80,40 +81,39 @@ WorldPanel::WorldPanel(Desk& desk)
     drag_.textFromValueFunction = [](double push) {
         return number(1e-3 * push, 0) + " " + kiloNewtonSeconds + "/m";
     };
-    onSlide(drag_, [this](bool goesOn) {
-        desk_.change(
+    onSlide(drag_, [this](bool continuesEdit) {
+        model_.change(
             "Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); },
-            goesOn);
+            continuesEdit);
     });
     for (auto* name : {&tiltName_, &dragName_}) name->setFont(juce::Font{text::small});
     compare_.setTitle("Compare A and B");
     compare_.onClick = [this] { ab_.toggle(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &view_, &pane_, &bar_, &sentence_, &law_, &compare_, &tilt_, &tiltName_, &drag_, &dragName_})
-        addAndMakeVisible(c);
+    addAll(*this,
+           {&view_, &pane_, &bar_, &sentence_, &law_, &compare_, &tilt_, &tiltName_, &drag_, &dragName_});
     addChildComponent(palette_);
     addChildComponent(body_);
     addChildComponent(script_);
     pane_.onChange = [this] { showTools(); };
-    takeMix();
+    mixChanged();
 }
 
-void WorldPanel::takeMix() {
-    const auto& mix = desk_.mix();
-    const auto& scene = desk_.world().scene();
+void WorldPanel::mixChanged() {
+    const auto& mix = model_.mix();
+    const auto& scene = model_.world().scene();
     if (shown_ != mix.scene) {
         player_.emplace(scene);
         first_.clear();
         if (!player_->isThere()) player_.reset();
         tiltName_.setText(player_ ? "arrows play" : "gravity", juce::dontSendNotification);
     }
-    if (shown_ != mix.scene || shownEdits_ != desk_.world().edits()) view_.show(scene);
+    if (shown_ != mix.scene || shownEdits_ != model_.world().edits()) view_.show(scene);
     shown_ = mix.scene;
-    shownEdits_ = desk_.world().edits();
-    pane_.takeMix();
+    shownEdits_ = model_.world().edits();
+    pane_.mixChanged();
     showTools();
     view_.show(mix.layout, mix.panner());
-    view_.setDisplayWidth(desk_.displayWidthMetres());
+    view_.setDisplayWidth(model_.displayWidthMetres());
     law_.setText(juce::String{nameOf(mix.panner().law()).data()} + " law" + dot + "exponent " +
                      number(mix.exponent, 1),
                  juce::dontSendNotification);
@@ -152,7 +152,7 @@ void WorldPanel::placeInspector() {
                           .withTrimmedBottom(48)
                           .reduced(8, 0);
     std::vector<juce::Rectangle<int>> inTheWay{pane_.chosenArea().toNearestInt() + pane_.getPosition()};
-    for (int j = 0; j < desk_.mix().count(); ++j)
+    for (int j = 0; j < model_.mix().count(); ++j)
         inTheWay.push_back(view_.badgeAt(j).toNearestInt() + view_.getPosition());
     const auto covered = [&](const juce::Rectangle<int>& place) {
         int pixels = 0;
@@ -178,7 +178,7 @@ void WorldPanel::placeInspector() {
 }
 
 double WorldPanel::fieldAspect() const {
-    const auto& scene = desk_.world().scene();
+    const auto& scene = model_.world().scene();
     return scene.fieldWidthMetres / std::max(scene.fieldHeightMetres, 1e-6);
 }
 
@@ -203,12 +203,12 @@ void WorldPanel::setShow(bool isShow) {
 /// Who begins to play takes over from the scene's script: the world begins anew without what that did.
 void WorldPanel::play(const std::vector<Action>& actions) {
     if (actions.empty()) return;
-    if (const Scene& drawn = desk_.world().drawing().drawn(); sceneForHands(drawn) != drawn) {
+    if (const Scene& drawn = model_.world().drawing().drawn(); sceneForHands(drawn) != drawn) {
         auto scene = sceneForHands(drawn);
-        takesBefore_ = desk_.saved().log.takes.size();
-        desk_.change("Play",
-                     [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
-        shown_ = desk_.mix().scene; // the same player goes on
+        runsBefore_ = model_.saved().log.takes.size();
+        model_.change("Play",
+                      [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
+        shown_ = model_.mix().scene; // the same player goes on
         first_ = actions;
         return;
     }
@@ -216,13 +216,12 @@ void WorldPanel::play(const std::vector<Action>& actions) {
         first_ = actions;
         return;
     }
-    for (const Action& action : actions)
-        if (const auto fault = desk_.world().act(action); !fault.empty()) desk_.report(utf8(fault));
+    for (const Action& action : actions) model_.reportFault(model_.world().act(action));
 }
 
 bool WorldPanel::keyPressed(const juce::KeyPress& key) {
-    if (!isShow_ && pane_.takeKey(key)) return true; // no tool where none is shown
-    if (!player_) return tilt_.takeKey(key);
+    if (!isShow_ && pane_.handleKey(key)) return true; // no tool where none is shown
+    if (!player_) return tilt_.handleKey(key);
     if (key == juce::KeyPress::leftKey) return play(player_->steer(-1)), true;
     if (key == juce::KeyPress::rightKey) return play(player_->steer(1)), true;
     if (key == juce::KeyPress::downKey) return play(player_->steer(0)), true;
@@ -241,7 +240,7 @@ bool WorldPanel::keyStateChanged(bool isDown) {
 void WorldPanel::mouseDrag(const juce::MouseEvent& e) {
     const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x;
     if (player_ && player_->moves() && e.eventComponent == &view_ && !view_.isHolding())
-        pointed_ = desk_.world().scene().fieldWidthMetres *
+        pointed_ = model_.world().scene().fieldWidthMetres *
                    static_cast<double>((e.position.x - left) / (right - left));
 }
 
@@ -253,26 +252,26 @@ std::optional<double> WorldPanel::playersPlace() {
     const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x,
                 at = view_.placeOfBody(player_->body()).x;
     return at < -1e3f ? std::nullopt
-                      : std::optional{desk_.world().scene().fieldWidthMetres *
+                      : std::optional{model_.world().scene().fieldWidthMetres *
                                       static_cast<double>((at - left) / (right - left))};
 }
 
 void WorldPanel::lookAfterPlayer() {
     if (!player_) return;
     // the world has begun anew
-    if (!first_.empty() && desk_.saved().log.takes.size() > takesBefore_) play(std::exchange(first_, {}));
+    if (!first_.empty() && model_.saved().log.takes.size() > runsBefore_) play(std::exchange(first_, {}));
     if (!player_->moves()) return;
     const auto place = playersPlace();
     if (!place) return;
     if (pointed_) play(player_->moveTowards(*pointed_, *place));
-    for (const Action& action : player_->keepInside(*place)) desk_.world().act(action);
+    for (const Action& action : player_->keepInside(*place)) model_.world().act(action);
 }
 
 void WorldPanel::pull(const std::string& body, Vector screenMetres, Vector point) {
-    const double push = desk_.mix().dragNewtonSecondsPerScreenMetre;
+    const double push = model_.mix().dragNewtonSecondsPerScreenMetre;
     const auto fault =
-        desk_.world().act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point});
-    if (!fault.empty()) desk_.report(utf8(fault));
+        model_.world().act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point});
+    if (!fault.empty()) model_.report(utf8(fault));
 }
 
 void WorldPanel::hold(const std::string& body, Vector point, Vector to) {
@@ -282,23 +281,22 @@ void WorldPanel::hold(const std::string& body, Vector point, Vector to) {
 
 void WorldPanel::letGo(const std::string& body) {
     hand_.reset();
-    if (const auto fault = desk_.world().act(GripAction{body, {}, {}}); !fault.empty())
-        desk_.report(utf8(fault));
+    if (const auto fault = model_.world().act(GripAction{body, {}, {}}); !fault.empty())
+        model_.report(utf8(fault));
 }
 
 void WorldPanel::moveHand() {
     if (!hand_ || nowMs() - handAtMs_ < handMs) return;
     handAtMs_ = nowMs();
-    if (const auto fault = desk_.world().act(*std::exchange(hand_, {})); !fault.empty())
-        desk_.report(utf8(fault));
+    model_.reportFault(model_.world().act(*std::exchange(hand_, {})));
 }
 
 juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
-    const auto& scene = desk_.world().scene();
+    const auto& scene = model_.world().scene();
     const auto name = materialName(scene, hit), place = placeText(scene, hit);
     if (isClip(hit.sound)) return inLines({name, place});
     const auto hz = number(hit.frequencyHz, 0) + " Hz",
-               felt = number(feltMost(desk_.mix(), hit).levelG, 2) + " g " + place;
+               felt = number(strongestOf(model_.mix(), hit).levelG, 2) + " g " + place;
     const auto tau = juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s";
     for (const auto& parts : {juce::StringArray{name, hz, tau, felt}, {name, hz, felt}})
         if (const auto words = inLines(parts); words.isNotEmpty()) return words;
@@ -320,25 +318,25 @@ juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     return lines.size() <= 2 ? lines.joinIntoString("\n") : juce::String{};
 }
 
-void WorldPanel::refresh(const DeskMoment& moment) {
+void WorldPanel::refresh(const MixerMoment& moment) {
     const double now = juce::Time::getMillisecondCounterHiRes();
     for (const auto& hit : moment.hits)
-        if (now - hitAtMs_ > tellMs || std::abs(hit.amplitude) > std::abs(told_.amplitude)) {
-            told_ = hit;
+        if (now - hitAtMs_ > shownMs || std::abs(hit.amplitude) > std::abs(shownHit_.amplitude)) {
+            shownHit_ = hit;
             hitAtMs_ = now;
             sentence_.setText(sentenceOn(hit), juce::dontSendNotification);
         }
     lookAfterPlayer();
     moveHand();
-    pane_.letItRain();
-    if (desk_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
+    pane_.spawnDueBodies();
+    if (model_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
     placeInspector(); // what is selected moves
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits,
-                  std::span{moment.meters.peaks}.first(static_cast<std::size_t>(desk_.mix().count()))});
+                  std::span{moment.meters.peaks}.first(static_cast<std::size_t>(model_.mix().count()))});
 }
 
 void WorldPanel::edit(const juce::String& name, const Action& action) {
-    if (const auto fault = desk_.world().edit(name, action); !fault.empty()) desk_.report(utf8(fault));
+    model_.reportFault(model_.world().edit(name, action));
 }
 
 void WorldPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
@@ -354,7 +352,7 @@ void WorldPanel::resized() {
     tiltName_.setBounds(row.removeFromRight(58));
     tilt_.setBounds(row.removeFromRight(38));
     sentence_.setBounds(row);
-    if (hitAtMs_ > 0.0) sentence_.setText(sentenceOn(told_), juce::dontSendNotification);
+    if (hitAtMs_ > 0.0) sentence_.setText(sentenceOn(shownHit_), juce::dontSendNotification);
     auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(48);
     const int tools = isShow_ ? 0 : DrawBar::widthFor(top.getHeight());
     bar_.setBounds(top.removeFromLeft(tools));
@@ -367,6 +365,248 @@ void WorldPanel::resized() {
     script_.setBounds(top.withHeight(script_.getHeight()));
     palette_.setBounds(top.removeFromTop(26));
     placeInspector();
+}
+
+// Menus of what lies under the pointer: an actuator, a body, or the empty field.
+
+juce::PopupMenu WorldPanel::menuAt(juce::Point<float> place) {
+    juce::PopupMenu menu;
+    const auto target = view_.targetAt(place);
+    if (target.enchanter >= 0)
+        addActuatorItems(menu, target.enchanter);
+    else if (!target.body.empty())
+        addBodyItems(menu, target.body, view_.metresAt(place));
+    else
+        addEmptyItems(menu, target.at, view_.metresAt(place));
+    menu.setLookAndFeel(&getLookAndFeel());
+    return menu;
+}
+
+void WorldPanel::showMenu(juce::Point<float> place) {
+    menuAt(place).showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
+}
+
+void WorldPanel::addActuatorItems(juce::PopupMenu& menu, int enchanter) {
+    menu.addSectionHeader("Actuator " +
+                          utf8(model_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label));
+    menu.addItem("Test pulse", [this, enchanter] { model_.strikes().testPulse(enchanter); });
+    menu.addItem("Sweep", [this, enchanter] { model_.strikes().testSweep(enchanter); });
+    menu.addItem("Output" + dots(), onOutput != nullptr, false, [this, enchanter] { onOutput(enchanter); });
+    menu.addItem("Name, profile" + dots(), onProfile != nullptr, false,
+                 [this, enchanter] { onProfile(enchanter); });
+    menu.addSeparator();
+    menu.addItem("Detach", model_.mix().count() > 1, false, [this, enchanter] { model_.detach(enchanter); });
+}
+
+// Bodies that a script adds are not part of the drawing: they only change their material.
+void WorldPanel::addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place) {
+    juce::PopupMenu materials;
+    const auto& scene = model_.world().drawing().drawn();
+    const auto* drawn = model_.world().drawing().find(body);
+    const bool isDrawn = drawn != nullptr, moves = isDrawn && drawn->type == BodyType::dynamicBody;
+    for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i)
+        materials.addItem(utf8(scene.materials[static_cast<std::size_t>(i)].name), true,
+                          isDrawn && drawn->fixtures[0].material == i, [this, body, i] {
+                              edit("Material of " + utf8(body), MaterialAction{body, everyFixture, i});
+                          });
+    menu.addSectionHeader(utf8(body));
+    menu.addSubMenu("Material", materials);
+    menu.addItem("Select", isDrawn, false,
+                 [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
+    if (isDrawn && motorOf(scene, body) != nullptr)
+        menu.addItem("Motor: speed and torque",
+                     [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
+    else
+        menu.addItem("Motor here", moves, false, [this, place] { pane_.joinAt(DrawTool::motor, place); });
+    if (isDrawn && springOf(scene, body) != nullptr)
+        menu.addItem("Spring: stiffness",
+                     [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
+    else
+        menu.addItem("Spring here", moves, false, [this, place] { pane_.joinAt(DrawTool::spring, place); });
+    menu.addItem("Pin here", moves, false, [this, place] { pane_.joinAt(DrawTool::pin, place); });
+    menu.addSeparator();
+    menu.addItem("Copy", isDrawn, false, [this, body] { pane_.copy({body}); });
+    menu.addItem("Delete", isDrawn, false, [this, body] { pane_.eraseAll({body}); });
+}
+
+void WorldPanel::addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector place) {
+    for (const DrawTool tool : {DrawTool::ball, DrawTool::box, DrawTool::wall, DrawTool::rain})
+        menu.addItem("Add " + juce::String{wordsOf(tool).name}.toLowerCase(),
+                     [this, tool, place] { pane_.addAt(tool, place); });
+    menu.addItem("Paste here", pane_.hasCopy(), false, [this, place] { pane_.pasteAt(place); });
+    menu.addSeparator();
+    menu.addItem("Attach an actuator here", model_.mix().count() < limits::maxEnchanters, false,
+                 [this, at] { model_.attach(at.x, at.y); });
+}
+
+// Timeline with a mark for each recorded input and the two ends of the kept part.
+
+namespace {
+
+constexpr double stepSeconds = 0.01; // one step of the world; parts start and end at steps
+
+juce::String countOf(std::size_t inputs) {
+    return juce::String{static_cast<int>(inputs)} + (inputs == 1 ? " input" : " inputs");
+}
+
+} // namespace
+
+ScriptStrip::ScriptStrip(MixerModel& model)
+    : model_{model} {
+    setTitle("Script of hands");
+    words_.setFont(juce::Font{text::medium});
+    for (auto* slider : {&from_, &to_}) {
+        slider->setSliderStyle(juce::Slider::LinearBar);
+        slider->setRange(0.0, 1.0, stepSeconds);
+        slider->valueFromTextFunction = [](const juce::String& words) {
+            return words.retainCharacters("0123456789.").getDoubleValue();
+        };
+        slider->onDragEnd = [this] { use(); };
+        slider->onValueChange = [this, slider] {
+            if (!slider->isMouseButtonDown()) use();
+            repaint();
+        };
+    }
+    describe(from_, "The script begins at", "Where the script begins, in seconds of the recording");
+    from_.textFromValueFunction = [](double s) { return "from " + number(s, 2) + " s"; };
+    describe(to_, "The script ends at", "Where the script ends, in seconds of the recording");
+    to_.textFromValueFunction = [](double s) { return "to " + number(s, 2) + " s"; };
+    describe(repeats_, "Repeat the script", "Begins again at its end, for ever");
+    repeats_.onClick = [this] { use(); };
+    describe(end_, "End the recording of hands", "End the recording of hands (Ctrl+Shift+R)");
+    end_.setToggleState(true, juce::dontSendNotification);
+    end_.onClick = [this] { model_.script().stop(); };
+    again_.setTitle("Play the script from the start");
+    again_.onClick = [this] { model_.restart(model_.mix().seed); };
+    describe(close_, "Close the script of hands", "The script stays");
+    close_.onClick = [this] {
+        closed_ = model_.mix().scene;
+        setVisible(false);
+    };
+    for (juce::Component* c :
+         std::initializer_list<juce::Component*>{&words_, &from_, &to_, &repeats_, &end_, &again_, &close_})
+        addChildComponent(c);
+    setSize(400, high);
+}
+
+void ScriptStrip::refresh(bool isHand) {
+    const auto& script = model_.script();
+    const HandScript* hands = script.hands();
+    setVisible(isHand && (script.isRecording() || (hands != nullptr && closed_ != model_.mix().scene)));
+    if (!isVisible()) return;
+    const bool isOther = std::exchange(shown_, model_.mix().scene) != model_.mix().scene,
+               isTurned = std::exchange(wasRecording_, script.isRecording()) != script.isRecording();
+    if (isOther || isTurned) show();
+    const auto dot = "  " + juce::String::charToString(0x00b7) + "  ";
+    if (script.isRecording())
+        words_.setText("Recording hands" + dot + number(script.seconds(), 1) + " s" + dot +
+                           countOf(script.inputs()),
+                       juce::dontSendNotification);
+    else
+        words_.setText("Script of hands" + dot + countOf(hands->inputs.size()) + " in " +
+                           number(hands->lengthSeconds, 2) + " s",
+                       juce::dontSendNotification);
+    words_.setColour(juce::Label::textColourId,
+                     shade(*this, script.isRecording() ? Shade::limit : Shade::text));
+}
+
+void ScriptStrip::show() {
+    const bool isRecording = model_.script().isRecording();
+    setSize(getWidth(), isRecording ? recordingHigh : high);
+    words_.setVisible(true);
+    end_.setVisible(isRecording);
+    for (juce::Component* c :
+         std::initializer_list<juce::Component*>{&from_, &to_, &repeats_, &again_, &close_})
+        c->setVisible(!isRecording);
+    if (const HandScript* hands = model_.script().hands()) {
+        const ScriptTrim trim = model_.script().trim();
+        for (auto* slider : {&from_, &to_})
+            slider->setRange(0.0, std::max(stepSeconds, hands->lengthSeconds), stepSeconds);
+        from_.setValue(trim.fromSeconds, juce::dontSendNotification);
+        to_.setValue(trim.toSeconds, juce::dontSendNotification);
+        repeats_.setToggleState(trim.repeats, juce::dontSendNotification);
+        repeats_.setEnabled(model_.mix().scene->scriptPeriodSeconds == 0.0 ||
+                            trim.repeats); // otherwise the rest of the script has its own period
+    }
+    repaint();
+}
+
+void ScriptStrip::use() {
+    if (model_.script().hands() == nullptr) return;
+    if (to_.getValue() - from_.getValue() < stepSeconds) return show(); // the part would be empty
+    model_.script().setTrim({from_.getValue(), to_.getValue(), repeats_.getToggleState()});
+    repaint();
+}
+
+juce::Rectangle<int> ScriptStrip::lane() const {
+    return getLocalBounds().reduced(12, 8).removeFromBottom(22);
+}
+
+float ScriptStrip::placeOf(double seconds) const {
+    const auto at = lane().toFloat();
+    return at.getX() +
+           static_cast<float>(seconds / std::max(stepSeconds, from_.getMaximum())) * at.getWidth();
+}
+
+void ScriptStrip::paint(juce::Graphics& g) {
+    g.setColour(shade(*this, Shade::raised).withAlpha(0.96f));
+    g.fillRoundedRectangle(getLocalBounds().toFloat(), 8.0f);
+    const HandScript* hands = model_.script().hands();
+    if (hands == nullptr) return;
+    const auto at = lane().toFloat();
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(at, 4.0f);
+    const float from = placeOf(from_.getValue()), to = placeOf(to_.getValue());
+    g.setColour(shade(*this, Shade::accent).withAlpha(0.18f));
+    g.fillRect(at.withLeft(from).withRight(to));
+    for (const LiveInput& input : hands->inputs) {
+        const float x = placeOf(input.timeSeconds);
+        const bool isIn = x >= from && x <= to, isHeld = std::holds_alternative<GripAction>(input.action);
+        g.setColour(shade(*this, isIn ? Shade::text : Shade::muted).withAlpha(isIn ? 0.9f : 0.35f));
+        g.fillRect(juce::Rectangle<float>{1.5f, isHeld ? 7.0f : 16.0f}.withCentre({x, at.getCentreY()}));
+    }
+    g.setColour(shade(*this, Shade::accent));
+    for (const float x : {from, to})
+        g.fillRect(juce::Rectangle<float>{3.0f, at.getHeight()}.withCentre({x, at.getCentreY()}));
+}
+
+// Moves the nearer end.
+void ScriptStrip::mouseDown(const juce::MouseEvent& e) {
+    dragged_ = nullptr;
+    if (model_.script().hands() == nullptr || !lane().expanded(6, 4).contains(e.getPosition())) return;
+    dragged_ =
+        std::abs(e.position.x - placeOf(from_.getValue())) < std::abs(e.position.x - placeOf(to_.getValue()))
+            ? &from_
+            : &to_;
+    mouseDrag(e);
+}
+
+void ScriptStrip::mouseDrag(const juce::MouseEvent& e) {
+    if (dragged_ == nullptr) return;
+    const auto at = lane().toFloat();
+    dragged_->setValue(from_.getMaximum() * static_cast<double>((e.position.x - at.getX()) / at.getWidth()),
+                       juce::dontSendNotification);
+    repaint();
+}
+
+void ScriptStrip::mouseUp(const juce::MouseEvent&) {
+    if (std::exchange(dragged_, nullptr) != nullptr) use();
+}
+
+void ScriptStrip::resized() {
+    auto area = getLocalBounds().reduced(12, 8);
+    auto row = area.removeFromTop(24);
+    for (auto* button : {&close_, &again_})
+        button->setBounds(row.removeFromRight(button == &close_ ? 60 : 110)), row.removeFromRight(6);
+    end_.setBounds(getLocalBounds().reduced(12, 8).removeFromTop(24).removeFromRight(90));
+    words_.setBounds(row);
+    area.removeFromTop(5);
+    row = area.removeFromTop(22);
+    from_.setBounds(row.removeFromLeft(130));
+    row.removeFromLeft(8);
+    to_.setBounds(row.removeFromLeft(130));
+    row.removeFromLeft(12);
+    repeats_.setBounds(row.removeFromLeft(90));
 }
 
 } // namespace physvib

@@ -3,26 +3,56 @@
 // law.
 #pragma once
 #include "Host/Views/WorldView.h"
-#include "Mixer/Desk/Desk.h"
-#include "Mixer/Desk/DeskCompare.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Model/MixerModel.h"
+#include "Mixer/Model/MixerWorld.h"
+#include "Mixer/Widgets/Parts.h"
 #include "Mixer/World/DrawBar.h"
-#include "Mixer/World/ScriptStrip.h"
-#include "Mixer/World/TiltKnob.h"
 #include "Scene/World/ScenePlayer.h"
 #include <optional>
 
 namespace physvib {
 
+/// Strip above the world that shows recorded user input, and trims it as the scene's script.
+/// Visible while input is recorded, and while the scene has the recorded script and the hand tool is active.
+/// Message thread only.
+class ScriptStrip final : public juce::Component {
+public:
+    explicit ScriptStrip(MixerModel& model);
+
+    void refresh(bool isHand); ///< a few times a second; true if the hand is the active tool
+    void paint(juce::Graphics& g) override;
+    void mouseDown(const juce::MouseEvent& e) override;
+    void mouseDrag(const juce::MouseEvent& e) override;
+    void mouseUp(const juce::MouseEvent& e) override;
+    void resized() override;
+
+private:
+    juce::Rectangle<int> lane() const;
+    float placeOf(double seconds) const;
+    void show();
+    void use();
+
+    MixerModel& model_;
+    juce::Label words_;
+    juce::Slider from_, to_;
+    juce::ToggleButton repeats_{"repeat"};
+    juce::TextButton end_{"End"}, again_{"From the start"}, close_{"Close"};
+    static constexpr int high = 92, recordingHigh = 40;
+    std::shared_ptr<const Scene> shown_,
+        closed_; // scene of the displayed script; scene whose strip was closed
+    juce::Slider* dragged_ = nullptr;
+    bool wasRecording_ = false;
+};
+
 class WorldPanel final : public juce::Component {
 public:
-    explicit WorldPanel(Desk& desk);
+    explicit WorldPanel(MixerModel& model);
 
-    void refresh(const DeskMoment& moment);
-    void takeMix();
+    void refresh(const MixerMoment& moment);
+    void mixChanged();
     WorldView& view() noexcept { return view_; }
     DrawPane& drawing() noexcept { return pane_; }
-    DeskCompare& compare() noexcept { return ab_; }
+    MixerCompare& compare() noexcept { return ab_; }
     void tilt(double degrees) { tilt_.turnTo(degrees); } ///< turns gravity to that angle
     /// The field and its actuators alone.
     void setShow(bool isShow);
@@ -65,28 +95,28 @@ private:
     juce::String sentenceOn(const CollisionEvent& hit) const;
     juce::String inLines(const juce::StringArray& parts) const;
 
-    Desk& desk_;
+    MixerModel& model_;
     WorldView view_;
-    DrawPane pane_{desk_, view_};
+    DrawPane pane_{model_, view_};
     DrawBar bar_{pane_};
-    MaterialPalette palette_{desk_, pane_};
-    BodyPanel body_{desk_, pane_};
-    ScriptStrip script_{desk_};
+    MaterialPalette palette_{model_, pane_};
+    BodyPanel body_{model_, pane_};
+    ScriptStrip script_{model_};
     juce::Label sentence_, law_, tiltName_, dragName_;
     juce::TextButton compare_{"A/B"};
-    DeskCompare ab_{desk_};
+    MixerCompare ab_{model_};
     TiltKnob tilt_;
     juce::Slider drag_;
     std::optional<ScenePlayer> player_; // for a scene with a player
     std::optional<double> pointed_;     // place of the held mouse on the field, m
     std::vector<Action> first_;      // input that takes over from the script, until the world has restarted
-    std::size_t takesBefore_ = 0;    // number of scene runs at that time
+    std::size_t runsBefore_ = 0;     // number of scene runs at that time
     std::optional<GripAction> hand_; // position since the last moveHand()
     double handAtMs_ = 0.0;
     bool isMoving_ = false; // a badge is being moved since the mouse was pressed
     bool isShow_ = false;
     double hitAtMs_ = 0.0;
-    CollisionEvent told_;
+    CollisionEvent shownHit_;
     std::shared_ptr<const Scene> shown_;
     std::uint64_t shownEdits_ = 0;
 };

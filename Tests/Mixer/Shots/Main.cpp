@@ -9,8 +9,8 @@
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Shots/StudyShots.h"
+#include "Mixer/Widgets/Parts.h"
 #include "Mixer/Window/MixerView.h"
-#include "Mixer/Window/Parts.h"
 #include "Scene/SceneCatalogue.h"
 #include <cmath>
 #include <functional>
@@ -24,7 +24,7 @@ struct State {
     const char* name;
     int width, height;
     double seconds; // until the picture is taken
-    std::function<void(Desk&, MixerView&)> reach;
+    std::function<void(MixerModel&, MixerView&)> reach;
     std::vector<SinkName> sinks{}; // beside the device
 };
 
@@ -35,25 +35,25 @@ juce::Component* find(juce::Component& root, const juce::String& title) {
     return nullptr;
 }
 
-void showScene(Desk& desk, const char* name) {
-    desk.change("Scene", [name](Mix& m) {
+void showScene(MixerModel& model, const char* name) {
+    model.change("Scene", [name](Mix& m) {
         m.scene = std::make_shared<const Scene>(*findBuiltInScene(name)), m.levelDb = -3.0;
     });
 }
 
-void showSurface(Desk& desk, MixerView& view, const std::string& material) {
-    desk.dispatchPendingMessages();
+void showSurface(MixerModel& model, MixerView& view, const std::string& material) {
+    model.dispatchPendingMessages();
     view.tabs().choose("Materials");
-    const auto& materials = desk.world().scene().materials;
-    if (auto* tab = dynamic_cast<MaterialsTab*>(view.tabs().find("Materials")))
+    const auto& materials = model.world().scene().materials;
+    if (auto* tab = view.tabs().find<MaterialsTab>())
         tab->choose(
             static_cast<int>(std::ranges::find(materials, material, &Material::name) - materials.begin()));
 }
 
 /// One material was measured, from a recording that is made for it.
-void showMaterials(Desk& desk, MixerView& view) {
+void showMaterials(MixerModel& model, MixerView& view) {
     view.tabs().choose("Materials");
-    auto* tab = dynamic_cast<MaterialsTab*>(view.tabs().find("Materials"));
+    auto* tab = view.tabs().find<MaterialsTab>();
     const auto folder = juce::File::createTempFile("physvib-knock");
     const auto file = folder.getChildFile("knock.wav");
     if (tab == nullptr || !folder.createDirectory() || !writeKnock(file)) return;
@@ -61,7 +61,7 @@ void showMaterials(Desk& desk, MixerView& view) {
     tab->measure(file);
     tab->finishMeasuring();
     folder.deleteRecursively();
-    desk.dispatchPendingMessages();
+    model.dispatchPendingMessages();
     tab->feelAt({0.3, 0.62});
 }
 
@@ -87,19 +87,19 @@ void chooseContacts(MixerView& view) {
         for (const int row : {1, 2, 4}) list->selectRow(row, true, false);
 }
 
-void showFirstStart(Desk& desk, MixerView& view) {
+void showFirstStart(MixerModel& model, MixerView& view) {
     const DeviceChoice none{std::string{noDeviceType} + ":" + noDeviceName};
     view.setFirstStart(std::make_unique<FirstStart>(
-        desk, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8},
-                                      {"Headphones: ALSA:USB Headset", none, 2, false, true},
-                                      {"Game controller: DualSense", none, 2, true},
-                                      {"ALSA: USB Headset, 2 outputs: two actuators", none, 2},
-                                      {"No device: seen, not felt", none, 0}}));
+        model, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8},
+                                       {"Headphones: ALSA:USB Headset", none, 2, false, true},
+                                       {"Game controller: DualSense", none, 2, true},
+                                       {"ALSA: USB Headset, 2 outputs: two actuators", none, 2},
+                                       {"No device: seen, not felt", none, 0}}));
 }
 
 // Two hands; one of them and a strip rise and fall.
-void showLanes(Desk& desk, MixerView& view) {
-    desk.change("Groups", [](Mix& m) {
+void showLanes(MixerModel& model, MixerView& view) {
+    model.change("Groups", [](Mix& m) {
         for (const int hand : {0, 1}) {
             const int group = addGroup(m, freeGroupName(m));
             for (const int k : {0, 2}) m.strips[static_cast<std::size_t>(hand + k)].group = group;
@@ -109,13 +109,13 @@ void showLanes(Desk& desk, MixerView& view) {
         m.strips[2].lane = {{0.8, -24.0}, {2.2, 0.0}, {3.6, -9.0}, {4.4, -1.0}, {6.0, -1.0}, {8.5, -60.0}};
         m.levelDb = -3.0;
     });
-    desk.dispatchPendingMessages();
+    model.dispatchPendingMessages();
     view.scope().choose("Gain lanes");
 }
 
 /// So many actuators on a grid, with names as people give them.
-void showActuators(Desk& desk, int count) {
-    desk.change("Many", [count](Mix& m) {
+void showActuators(MixerModel& model, int count) {
+    model.change("Many", [count](Mix& m) {
         EnchanterLayout many = m.layout.geometry;
         const int columns = static_cast<int>(std::ceil(std::sqrt(2.0 * count)));
         const int rows = (count + columns - 1) / columns;
@@ -130,8 +130,8 @@ void showActuators(Desk& desk, int count) {
     });
 }
 
-void showRain(Desk& desk, MixerView& view) {
-    desk.dispatchPendingMessages();
+void showRain(MixerModel& model, MixerView& view) {
+    model.dispatchPendingMessages();
     auto& pane = view.world().drawing();
     pane.use(DrawTool::rain);
     pane.addAt(DrawTool::rain, {3.2, 2.4});
@@ -141,20 +141,20 @@ void showRain(Desk& desk, MixerView& view) {
 
 std::vector<State> sheetStates() {
     return {
-        {"sheet-one", 1440, 900, 3.0, [](Desk& d, MixerView&) { showActuators(d, 1); }},
-        {"sheet-16", 1440, 900, 3.0, [](Desk& d, MixerView&) { showActuators(d, 16); }},
+        {"sheet-one", 1440, 900, 3.0, [](MixerModel& d, MixerView&) { showActuators(d, 1); }},
+        {"sheet-16", 1440, 900, 3.0, [](MixerModel& d, MixerView&) { showActuators(d, 16); }},
         {"sheet-64", 1440, 900, 3.0,
-         [](Desk& d, MixerView& v) { v.setGround(Ground::light), showActuators(d, 64); }},
+         [](MixerModel& d, MixerView& v) { v.setTheme(Theme::light), showActuators(d, 64); }},
         {"sheet-show", 1440, 900, 3.0,
-         [](Desk& d, MixerView& v) {
+         [](MixerModel& d, MixerView& v) {
              v.setShow(true);
              d.messages().add(
                  {"A has no output: another actuator has it", false, {"Give a free output", [] {}}});
          }},
         {"sheet-rain", 1440, 900, 1.0, showRain},
-        {"sheet-takes", 1440, 900, 1.0, [](Desk&, MixerView& v) { v.scope().choose("Takes"); }},
+        {"sheet-takes", 1440, 900, 1.0, [](MixerModel&, MixerView& v) { v.scope().choose("Takes"); }},
         {"sheet-card", 1440, 900, 1.0,
-         [](Desk&, MixerView& v) {
+         [](MixerModel&, MixerView& v) {
              v.setCard(std::make_unique<FileCard>(FileCard::Choice{
                  "Save the session", ".json", juce::File::getSpecialLocation(juce::File::userHomeDirectory),
                  true, "session"}));
@@ -164,24 +164,24 @@ std::vector<State> sheetStates() {
 
 std::vector<State> mixerStates() {
     return {
-        {"first-start", 1440, 900, 2.0, [](Desk& d, MixerView& v) { showFirstStart(d, v); }},
+        {"first-start", 1440, 900, 2.0, [](MixerModel& d, MixerView& v) { showFirstStart(d, v); }},
         {"first-test", 1440, 900, 0.2,
-         [](Desk& d, MixerView& v) {
+         [](MixerModel& d, MixerView& v) {
              showFirstStart(d, v), v.firstStart()->test(4), v.firstStart()->felt();
          }},
         {"four-enchanters", 1440, 900, 4.0,
-         [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
+         [](MixerModel& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
         {"materials", 1440, 900, 0.2, showMaterials},
-        {"materials-small", MixerView::leastWidth, MixerView::leastHeight, 0.2,
-         [](Desk& d, MixerView& v) { v.setGround(Ground::light), showMaterials(d, v); }},
-        {"events", 1440, 900, 0.5, [](Desk&, MixerView& v) { chooseContacts(v); }},
+        {"materials-small", MixerView::minWidth, MixerView::minHeight, 0.2,
+         [](MixerModel& d, MixerView& v) { v.setTheme(Theme::light), showMaterials(d, v); }},
+        {"events", 1440, 900, 0.5, [](MixerModel&, MixerView& v) { chooseContacts(v); }},
         {"marbles", 1440, 900, 4.0,
-         [](Desk& d, MixerView& v) { showScene(d, "marbles"), v.scope().choose("Events"); }},
+         [](MixerModel& d, MixerView& v) { showScene(d, "marbles"), v.scope().choose("Events"); }},
         {"drawing", 1440, 900, 7.2,
-         [](Desk& d, MixerView& v) { showScene(d, "drawing"), showSurface(d, v, "cloth"); }},
-        {"telemetry", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Telemetry"); }},
+         [](MixerModel& d, MixerView& v) { showScene(d, "drawing"), showSurface(d, v, "cloth"); }},
+        {"telemetry", 1440, 900, 3.0, [](MixerModel&, MixerView& v) { v.scope().choose("Telemetry"); }},
         {"output", 1440, 900, 3.0,
-         [](Desk& d, MixerView& v) {
+         [](MixerModel& d, MixerView& v) {
              d.device().listening().monitor({4, 5}, safeContactDb), d.device().listening().mark(7),
                  v.tabs().choose("Output");
          }},
@@ -189,18 +189,18 @@ std::vector<State> mixerStates() {
          1440,
          900,
          4.5,
-         [](Desk&, MixerView& v) { v.tabs().choose("Output"); },
+         [](MixerModel&, MixerView& v) { v.tabs().choose("Output"); },
          {{"BOARD", "/dev/ttyACM0"}}},
-        {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
+        {"small", MixerView::minWidth, MixerView::minHeight, 3.0, [](MixerModel&, MixerView&) {}},
         {"lanes", 1440, 900, 6.0, showLanes},
-        {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},
+        {"light", 1440, 900, 4.0, [](MixerModel&, MixerView& v) { v.setTheme(Theme::light); }},
         {"error", 1440, 900, 2.0,
-         [](Desk& d, MixerView&) {
+         [](MixerModel& d, MixerView&) {
              d.report("session.json: takes[0].scene.bodies[4].fixtures[0].radius_m: expected 0.01 to 100, "
                       "found 0");
          }},
         {"six-enchanters", 1440, 900, 3.0,
-         [](Desk& d, MixerView& v) {
+         [](MixerModel& d, MixerView& v) {
              d.attach(0.5, 0.5);
              d.attach(0.5, 1.0);
              d.change("Mute", [](Mix& m) {
@@ -236,20 +236,20 @@ juce::String takeShot(const juce::File& file, const juce::String& name, const ju
     const int wide = size.upToFirstOccurrenceOf("x", false, true).getIntValue();
     const int high = size.fromFirstOccurrenceOf("x", false, true).getIntValue();
     const auto isSide = [](int side, int least) { return side >= least && side <= largestSide; };
-    if (size.isNotEmpty() && !(isSide(wide, MixerView::leastWidth) && isSide(high, MixerView::leastHeight)))
-        return "expected WIDTHxHEIGHT of at least " + juce::String{MixerView::leastWidth} + "x" +
-               juce::String{MixerView::leastHeight} + ", found \"" + size + "\"";
+    if (size.isNotEmpty() && !(isSide(wide, MixerView::minWidth) && isSide(high, MixerView::minHeight)))
+        return "expected WIDTHxHEIGHT of at least " + juce::String{MixerView::minWidth} + "x" +
+               juce::String{MixerView::minHeight} + ", found \"" + size + "\"";
     const auto state = std::ranges::find_if(states(), [&](const State& s) { return name == s.name; });
     if (state == states().end())
         return "expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
-    Desk desk{test::onlyNoDevice(),
-              {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->sinks}};
-    MixerView view{desk};
+    MixerModel model{test::onlyNoDevice(),
+                     {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->sinks}};
+    MixerView view{model};
     view.setSize(size.isEmpty() ? state->width : wide, size.isEmpty() ? state->height : high);
-    state->reach(desk, view);
-    desk.dispatchPendingMessages();
+    state->reach(model, view);
+    model.dispatchPendingMessages();
     runFor(state->seconds, view);
-    desk.dispatchPendingMessages(); // what has been told meanwhile
+    model.dispatchPendingMessages(); // what has been told meanwhile
     const auto image = view.createComponentSnapshot(view.getLocalBounds(), true, scale);
     juce::MemoryOutputStream png;
     juce::PNGImageFormat{}.writeImageToStream(image, png);

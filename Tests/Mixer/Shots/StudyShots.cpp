@@ -138,43 +138,44 @@ void setScale(MixerView& view, const juce::String& title, double points) {
 
 const std::vector<StudyShot>& studyShots() {
     static const std::vector<StudyShot> shots{
-        {"studies-tab", [](Desk&, MixerView& v) { showChecked(v); }},
-        {"studies-findings", [](Desk&, MixerView& v) { press(showChecked(v), "Findings of the check"); }},
+        {"studies-tab", [](MixerModel&, MixerView& v) { showChecked(v); }},
+        {"studies-findings",
+         [](MixerModel&, MixerView& v) { press(showChecked(v), "Findings of the check"); }},
         {"studies-training",
-         [](Desk&, MixerView& v) { type(show(v, "patterns", StudyTask::explore, 60), 'a'); }},
+         [](MixerModel&, MixerView& v) { type(show(v, "patterns", StudyTask::explore, 60), 'a'); }},
         {"studies-pattern",
-         [](Desk&, MixerView& v) {
+         [](MixerModel&, MixerView& v) {
              auto* screen = show(v, "patterns", StudyTask::identify, 12);
              feel(v, screen, 1.6);
              type(screen, 'b');
          }},
         {"studies-grid",
-         [](Desk&, MixerView& v) { feel(v, show(v, "phantom-grids", StudyTask::identify, 31), 1.8); }},
+         [](MixerModel&, MixerView& v) { feel(v, show(v, "phantom-grids", StudyTask::identify, 31), 1.8); }},
         {"studies-place",
-         [](Desk&, MixerView& v) { feel(v, show(v, "phantom-places", StudyTask::locate, 48), 1.8); }},
+         [](MixerModel&, MixerView& v) { feel(v, show(v, "phantom-places", StudyTask::locate, 48), 1.8); }},
         {"studies-match",
-         [](Desk&, MixerView& v) {
+         [](MixerModel&, MixerView& v) {
              auto* screen = show(v, "model-or-sound", StudyTask::adjust, 2);
              feel(v, screen, 5.0);
              feel(v, screen, 5.0);
          }},
         {"studies-drop",
-         [](Desk&, MixerView& v) { feel(v, show(v, "model-or-sound", StudyTask::choose, 4), 0.6); }},
+         [](MixerModel&, MixerView& v) { feel(v, show(v, "model-or-sound", StudyTask::choose, 4), 0.6); }},
         {"studies-choice",
-         [](Desk&, MixerView& v) {
+         [](MixerModel&, MixerView& v) {
              auto* screen = show(v, "model-or-sound", StudyTask::choose, 5);
              feel(v, screen, 5.0);
              feel(v, screen, 5.0);
              type(screen, '2');
          }},
         {"studies-box",
-         [](Desk&, MixerView& v) {
+         [](MixerModel&, MixerView& v) {
              auto* screen = show(v, shortBox(), StudyTask::rate, 5);
              shake(v, screen, '1');
              shake(v, screen, '2');
          }},
         {"studies-ratings",
-         [](Desk&, MixerView& v) {
+         [](MixerModel&, MixerView& v) {
              auto* screen = show(v, shortBox(), StudyTask::rate, 5);
              for (const char pair : {'1', '2', '3'}) shake(v, screen, pair);
              press(v, "Pause");
@@ -184,7 +185,7 @@ const std::vector<StudyShot>& studyShots() {
              wait(v, 0.1);
          }},
         {"studies-korean",
-         [](Desk&, MixerView& v) {
+         [](MixerModel&, MixerView& v) {
              studies(v).chooseWords("ko");
              auto* screen = show(v, shortBox(), StudyTask::rate, 5);
              for (const char pair : {'1', '2', '3'}) shake(v, screen, pair);
@@ -194,12 +195,13 @@ const std::vector<StudyShot>& studyShots() {
              wait(v, 0.1);
          }},
         {"studies-session",
-         [](Desk&, MixerView& v) { show(v, "model-or-sound", StudyTask::choose, 1, true); }},
+         [](MixerModel&, MixerView& v) { show(v, "model-or-sound", StudyTask::choose, 1, true); }},
         {"studies-number",
-         [](Desk&, MixerView& v) { feel(v, show(v, "magnitudes", StudyTask::estimate, 7), 1.2); }},
+         [](MixerModel&, MixerView& v) { feel(v, show(v, "magnitudes", StudyTask::estimate, 7), 1.2); }},
         {"studies-analysis",
-         [](Desk&, MixerView& v) { studies(v).analyse(simulatedTrials("phantom-places", 2)); }},
-        {"studies-break", [](Desk&, MixerView& v) { show(v, "eight-methods", StudyTask::rate, 9, true); }},
+         [](MixerModel&, MixerView& v) { studies(v).analyse(simulatedTrials("phantom-places", 2)); }},
+        {"studies-break",
+         [](MixerModel&, MixerView& v) { show(v, "eight-methods", StudyTask::rate, 9, true); }},
     };
     return shots;
 }

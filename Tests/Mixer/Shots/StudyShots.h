@@ -8,7 +8,7 @@ namespace physvib {
 
 struct StudyShot {
     const char* name;
-    void (*reach)(Desk&, MixerView&);
+    void (*reach)(MixerModel&, MixerView&);
 };
 
 /// In the order of the documents. Their rows go to a folder that is removed with the program.

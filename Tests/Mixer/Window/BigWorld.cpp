@@ -129,7 +129,7 @@ void measureSpread(int bodies, const juce::File& folder) {
     }
     std::ranges::sort(times);
     std::printf("click to paint: %.0f ms (median of 9), %.0f ms at most\n", 1e3 * times[4], 1e3 * times[8]);
-    window.desk().setSlowness(0);
+    window.model().setSlowness(0);
     painted.setAsking(false); // it would be most of what is measured
     runFor(2.0);
     share("paused", painted);
@@ -175,10 +175,10 @@ void measure(int bodies, const juce::File& folder) {
     std::printf("%d bodies\nfirst picture: %.2f s after it was opened, %.2f s of processor time of the "
                 "window's thread\n",
                 bodies, seconds() - began, threadSeconds() - beganThread);
-    const bool isTold = runUntil([&] { return window->desk().trouble().contains("of real time"); });
+    const bool isTold = runUntil([&] { return window->model().trouble().contains("of real time"); });
     std::printf("message: %.2f s after it was opened, at %.2f s of the session: %s\n", seconds() - began,
                 1e-9 * static_cast<double>(window->view().latest().session.sessionNs),
-                isTold ? window->desk().trouble().toRawUTF8() : "none");
+                isTold ? window->model().trouble().toRawUTF8() : "none");
     painted.count = 0;
     painted.longest = 0.0;
     const double from = seconds(), fromThread = threadSeconds();

@@ -27,17 +27,17 @@ TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
              window = std::make_unique<MixerWindow>(device ? withNoDevice(hostAudioDrivers) : onlyNoDevice(),
                                                     device ? device : "None:no device", juce::File{},
                                                     folder("config"));
-             if (device == nullptr) window->desk().setSlowness(0); // pictures of a world at rest are few
+             if (device == nullptr) window->model().setSlowness(0); // pictures of a world at rest are few
          },
          [&] {
-             if (!window->isChanged()) window->desk().change("Level", [](Mix& mix) { mix.levelDb -= 0.01; });
+             if (!window->isChanged()) window->model().change("Level", [](Mix& mix) { mix.levelDb -= 0.01; });
          },
-         [&] { return window->desk().isSilent() && window->desk().output().isSilent(); },
-         [&] { window->desk().setSilent(false); },
+         [&] { return window->model().isSilent() && window->model().output().isSilent(); },
+         [&] { window->model().setSilent(false); },
          [](const juce::StringArray& steps) { return steps.size() > 2 && steps[1] == "item Quit"; }}};
     if (device != nullptr)
         walk.setMeasure([&](const juce::String& what) {
-            window->desk().inputs().use({OscUse::thisComputer}); // a tone comes there
+            window->model().inputs().use({OscUse::thisComputer}); // a tone comes there
             runFor(0.6);
             std::cout << "stop " << juce::Time::currentTimeMillis() << ' ' << what << std::endl;
         });

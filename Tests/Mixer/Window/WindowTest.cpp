@@ -3,15 +3,15 @@
 // record, save, open again; the recorded file has what the actions say.
 #include "../MixerTesting.h"
 #include "Host/FakeAudioDevice.h"
-#include "Host/Views/DisplayScale.h"
+#include "Host/Views/WorldView.h"
 #include "Live/Session/OfflineRender.h"
 #include "Live/Session/SessionRender.h"
-#include "Mixer/Desk/DeskRouting.h"
 #include "Mixer/Knock.h"
 #include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/Model/MixerDevice.h"
 #include "Mixer/OnlyScript.h"
 #include "Mixer/Window/MixerWindow.h"
-#include "Mixer/World/DrawTool.h"
+#include "Mixer/World/DrawPane.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "Support/FullDisk.h"
@@ -106,17 +106,17 @@ TEST(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindows
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     auto& view = window.view().world().view();
-    window.desk().setSlowness(0);
-    window.desk().setDisplayWidth(displayOf(view).getWidth() / 4000.0); // 40 pixels are 10 mm
-    window.desk().dispatchPendingMessages();
+    window.model().setSlowness(0);
+    window.model().setDisplayWidth(displayOf(view).getWidth() / 4000.0); // 40 pixels are 10 mm
+    window.model().dispatchPendingMessages();
     std::size_t drags = 0;
     for (const auto& size :
-         {juce::Point<int>{1440, 900}, {MixerView::leastWidth, MixerView::leastHeight}, {1200, 880}}) {
+         {juce::Point<int>{1440, 900}, {MixerView::minWidth, MixerView::minHeight}, {1200, 880}}) {
         window.setSize(size.x, size.y);
         runFor(0.2);
         const auto ball = view.placeOfBody("large rubber ball");
         hand.drag(hand.placeOf(view, ball), hand.placeOf(view, ball + juce::Point<float>{32.0f, -24.0f}));
-        const auto& pulls = window.desk().saved().log.takes.back().inputs;
+        const auto& pulls = window.model().saved().log.takes.back().inputs;
         ASSERT_EQ(pulls.size(), ++drags);
         const auto push = std::get<ImpulseAction>(pulls.back().action).newtonSeconds;
         EXPECT_NEAR(push.x, 256.0, 0.01) << size.x; // pixels are floats
@@ -130,22 +130,22 @@ TEST(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
     speakers.outputs = 2;
     {
         MixerWindow window{fakeDrivers({&speakers}), "Fake:hands", folder("hands.json"), folder("config")};
-        EXPECT_TRUE(window.desk().device().choice().monitor.empty());
+        EXPECT_TRUE(window.model().device().choice().monitor.empty());
         ASSERT_TRUE(runUntil([&] {
-            if (window.desk().trouble().contains("no output")) window.desk().report({}); // it waits behind
-            return window.desk().trouble().contains("headphones");
-        })) << window.desk().trouble();
-        ASSERT_EQ(window.desk().monitorInstead({0, 1}, -30.0), "");
+            if (window.model().trouble().contains("no output")) window.model().report({}); // it waits behind
+            return window.model().trouble().contains("headphones");
+        })) << window.model().trouble();
+        ASSERT_EQ(window.model().monitorInstead({0, 1}, -30.0), "");
         window.save(); // or the next one would ask for it
         runFor(0.7);   // the settings are written twice a second
     }
     MixerWindow again{fakeDrivers({&speakers}), "", {}, folder("config")};
-    EXPECT_EQ(again.desk().device().choice().monitor, (std::vector{0, 1}));
-    EXPECT_EQ(again.desk().device().choice().monitorDb, -30.0);
-    EXPECT_EQ(again.desk().device().listening().settings().contacts, (std::vector{0, 1}))
+    EXPECT_EQ(again.model().device().choice().monitor, (std::vector{0, 1}));
+    EXPECT_EQ(again.model().device().choice().monitorDb, -30.0);
+    EXPECT_EQ(again.model().device().listening().settings().contacts, (std::vector{0, 1}))
         << "a new session's enchanters leave them alone";
     runFor(0.7);
-    EXPECT_FALSE(again.desk().trouble().contains("headphones")) << again.desk().trouble();
+    EXPECT_FALSE(again.model().trouble().contains("headphones")) << again.model().trouble();
 }
 
 TEST(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
@@ -153,17 +153,17 @@ TEST(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     auto& view = window.view().world().view();
-    ASSERT_TRUE(runUntil([&] { return window.desk().look().session.sessionNs > 500'000'000; }));
-    window.desk().setSlowness(0);
+    ASSERT_TRUE(runUntil([&] { return window.model().look().session.sessionNs > 500'000'000; }));
+    window.model().setSlowness(0);
     runFor(0.3);
     const auto ball = view.placeOfBody("large rubber ball");
     ASSERT_TRUE(view.getLocalBounds().toFloat().contains(ball));
     const auto to = ball + juce::Point<float>{-80.0f, 30.0f};
     hand.drag(hand.placeOf(view, ball + juce::Point<float>{5.0f, 0.0f}), hand.placeOf(view, to),
               juce::ModifierKeys::shiftModifier);
-    const auto inputs = window.desk().saved().log.takes.back().inputs;
+    const auto inputs = window.model().saved().log.takes.back().inputs;
     ASSERT_GE(inputs.size(), 3u);
-    const Scene& scene = window.desk().world().scene();
+    const Scene& scene = window.model().world().scene();
     const auto left = view.placeOfShare({0.0, 0.0}), right = view.placeOfShare({1.0, 1.0});
     for (std::size_t i = 0; i + 1 < inputs.size(); ++i) {
         const auto& grip = std::get<GripAction>(inputs[i].action);
@@ -182,7 +182,7 @@ TEST(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
                 static_cast<double>((left.y - to.y) / (left.y - right.y)) * scene.fieldHeightMetres, 0.01);
     EXPECT_FALSE(std::get<GripAction>(inputs.back().action).toMetres.has_value()) << "let go";
     EXPECT_FALSE(view.isHolding());
-    EXPECT_TRUE(window.desk().trouble().isEmpty()) << window.desk().trouble();
+    EXPECT_TRUE(window.model().trouble().isEmpty()) << window.model().trouble();
 }
 
 TEST(Window, APersonsWayThroughTheMixer) {
@@ -194,31 +194,31 @@ TEST(Window, APersonsWayThroughTheMixer) {
         ASSERT_NE(window.getPeer(), nullptr);
         Hand hand{window};
         auto& view = window.view().world().view();
-        ASSERT_TRUE(runUntil([&] { return window.desk().look().session.sessionNs > 500'000'000; }));
-        window.desk().setSlowness(0); // a ball that lies still is easier to grasp
+        ASSERT_TRUE(runUntil([&] { return window.model().look().session.sessionNs > 500'000'000; }));
+        window.model().setSlowness(0); // a ball that lies still is easier to grasp
         runFor(0.3);
         const auto ball = view.placeOfBody("large rubber ball");
         ASSERT_TRUE(view.getLocalBounds().toFloat().contains(ball));
         hand.drag(hand.placeOf(view, ball), hand.placeOf(view, ball + juce::Point<float>{60.0f, -40.0f}));
-        const auto& pulls = window.desk().saved().log.takes.back().inputs;
+        const auto& pulls = window.model().saved().log.takes.back().inputs;
         ASSERT_EQ(pulls.size(), 1u);
         const auto& pull = std::get<ImpulseAction>(pulls[0].action);
         EXPECT_EQ(pull.body, "large rubber ball");
         EXPECT_GT(pull.newtonSeconds.x, 0.0);
         EXPECT_GT(pull.newtonSeconds.y, 0.0);
         EXPECT_TRUE(window.isChanged());
-        window.desk().setSlowness(1);
+        window.model().setSlowness(1);
         hand.drag(hand.placeOf(view, view.placeOfBody("large rubber ball")),
                   hand.placeOf(view, view.placeOfShare({0.8, 0.5})), juce::ModifierKeys::shiftModifier);
         EXPECT_TRUE(
-            std::holds_alternative<GripAction>(window.desk().saved().log.takes.back().inputs.back().action))
+            std::holds_alternative<GripAction>(window.model().saved().log.takes.back().inputs.back().action))
             << "what is held renders again to the bit as well";
 
         auto* place = find(window.view(), "Attach an actuator");
         ASSERT_NE(place, nullptr);
         hand.drag(hand.middleOf(*place), hand.placeOf(view, view.getLocalBounds().toFloat().getCentre()));
-        ASSERT_EQ(window.desk().mix().count(), 5);
-        const auto& at = window.desk().mix().layout.geometry.places[4];
+        ASSERT_EQ(window.model().mix().count(), 5);
+        const auto& at = window.model().mix().layout.geometry.places[4];
         EXPECT_NEAR(at.xMetres / 0.12, 0.5, 0.05);
         EXPECT_NEAR(at.yMetres / 0.06, 0.5, 0.08);
 
@@ -226,28 +226,28 @@ TEST(Window, APersonsWayThroughTheMixer) {
         ASSERT_NE(ceiling, nullptr);
         const auto mark = hand.placeOf(*ceiling, {14.0f, 9.0f});
         hand.drag(mark, mark.translated(0.0f, 40.0f));
-        EXPECT_LT(window.desk().mix().strips[0].ceilingDb, -15.0);
-        EXPECT_GT(window.desk().mix().strips[0].ceilingDb, -40.0);
-        const double dragged = window.desk().mix().strips[0].ceilingDb;
+        EXPECT_LT(window.model().mix().strips[0].ceilingDb, -15.0);
+        EXPECT_GT(window.model().mix().strips[0].ceilingDb, -40.0);
+        const double dragged = window.model().mix().strips[0].ceilingDb;
         hand.click(*ceiling);
         hand.click(*ceiling);
-        EXPECT_EQ(window.desk().mix().strips[0].ceilingDb, dragged) << "a click moves nothing";
+        EXPECT_EQ(window.model().mix().strips[0].ceilingDb, dragged) << "a click moves nothing";
 
         auto* mute = find(window.view(), "Mute B");
         ASSERT_NE(mute, nullptr);
         hand.click(*mute);
-        EXPECT_TRUE(window.desk().mix().strips[1].isMuted);
+        EXPECT_TRUE(window.model().mix().strips[1].isMuted);
         runFor(0.3);
 
         hand.key('r', juce::ModifierKeys::commandModifier);
-        ASSERT_TRUE(window.desk().recording().isRunning());
-        runUntil([&] { return window.desk().recording().seconds() > 4.0; });
+        ASSERT_TRUE(window.model().recording().isRunning());
+        runUntil([&] { return window.model().recording().seconds() > 4.0; });
         hand.key('r', juce::ModifierKeys::commandModifier);
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
         wav = window.lastRecording();
-        from = window.desk().recording().from();
-        playOut = window.desk().session().timeline().outputLatencyFrames();
-        EXPECT_EQ(window.desk().look().session.render.late, 0u);
+        from = window.model().recording().from();
+        playOut = window.model().session().timeline().outputLatencyFrames();
+        EXPECT_EQ(window.model().look().session.render.late, 0u);
         hand.key('s', juce::ModifierKeys::commandModifier);
         EXPECT_FALSE(window.isChanged());
     }
@@ -283,9 +283,9 @@ TEST(Window, APersonsWayThroughTheMixer) {
     EXPECT_EQ(wrong, 0) << "samples that are not as they were felt";
 
     MixerWindow again{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
-    EXPECT_EQ(again.desk().mix().count(), 5);
-    EXPECT_TRUE(again.desk().mix().strips[1].isMuted);
-    EXPECT_TRUE(again.desk().trouble().isEmpty()) << again.desk().trouble();
+    EXPECT_EQ(again.model().mix().count(), 5);
+    EXPECT_TRUE(again.model().mix().strips[1].isMuted);
+    EXPECT_TRUE(again.model().trouble().isEmpty()) << again.model().trouble();
     EXPECT_FALSE(again.isChanged());
 }
 
@@ -295,8 +295,8 @@ TEST(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     Hand hand{window};
     auto& view = window.view().world().view();
     auto& pane = window.view().world().drawing();
-    auto& desk = window.desk();
-    desk.setSlowness(0);
+    auto& model = window.model();
+    model.setSlowness(0);
     window.newScene(SceneGround::floor);
     runFor(0.5);
     const auto at = [&](double x, double y) { return hand.placeOf(view, view.placeOfShare({x, y})); };
@@ -313,9 +313,9 @@ TEST(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     for (const auto& corner : {at(0.8, 0.3), at(0.9, 0.3), at(0.85, 0.45)}) hand.drag(corner, corner);
     hand.key(juce::KeyPress::returnKey);
     draw(DrawTool::rope, at(0.85, 0.4), at(0.85, 0.8));
-    const auto& drawn = desk.world().drawing();
-    ASSERT_EQ(drawn.drawn().bodies.size(), 5U) << desk.trouble();
-    ASSERT_EQ(drawn.drawn().joints.size(), 2U) << desk.trouble();
+    const auto& drawn = model.world().drawing();
+    ASSERT_EQ(drawn.drawn().bodies.size(), 5U) << model.trouble();
+    ASSERT_EQ(drawn.drawn().joints.size(), 2U) << model.trouble();
     pane.use(DrawTool::choose);
     pane.choose({"polygon 1"});
     runFor(0.2);
@@ -323,14 +323,14 @@ TEST(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     ASSERT_GT(materials.back().frequencyHz, 0.0) << "a haptic source has to sound";
     ASSERT_NE(drawn.find("polygon 1")->fixtures[0].material, std::ssize(materials) - 1);
     hand.click(*find(window.view(), "Material " + utf8(materials.back().name)));
-    EXPECT_EQ(drawn.find("polygon 1")->fixtures[0].material, std::ssize(materials) - 1) << desk.trouble();
+    EXPECT_EQ(drawn.find("polygon 1")->fixtures[0].material, std::ssize(materials) - 1) << model.trouble();
     runFor(1.0); // its sound is over
 
     pane.use(DrawTool::hand);
     hand.key('r', juce::ModifierKeys::commandModifier);
-    ASSERT_TRUE(desk.recording().isRunning());
+    ASSERT_TRUE(model.recording().isRunning());
     hand.key('r', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier);
-    ASSERT_TRUE(runUntil([&] { return desk.script().seconds() > 0.3; }));
+    ASSERT_TRUE(runUntil([&] { return model.script().seconds() > 0.3; }));
     const auto plank = view.placeOfBody("box 1");
     hand.drag(hand.placeOf(view, plank + juce::Point<float>{40.0f, 0.0f}),
               hand.placeOf(view, plank + juce::Point<float>{40.0f, -60.0f}));
@@ -338,12 +338,12 @@ TEST(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     const auto ball = view.placeOfBody("ball 1");
     hand.drag(hand.placeOf(view, ball), hand.placeOf(view, ball + juce::Point<float>{50.0f, -30.0f}),
               juce::ModifierKeys::shiftModifier);
-    ASSERT_TRUE(runUntil([&] { return desk.script().seconds() > 3.0; }));
-    const std::size_t take = desk.saved().log.takes.size() - 1;
+    ASSERT_TRUE(runUntil([&] { return model.script().seconds() > 3.0; }));
+    const std::size_t take = model.saved().log.takes.size() - 1;
     hand.key('r', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier);
-    ASSERT_NE(desk.script().hands(), nullptr) << desk.trouble();
-    const double length = desk.script().hands()->lengthSeconds;
-    EXPECT_GT(desk.script().hands()->inputs.size(), 5U);
+    ASSERT_NE(model.script().hands(), nullptr) << model.trouble();
+    const double length = model.script().hands()->lengthSeconds;
+    EXPECT_GT(model.script().hands()->inputs.size(), 5U);
     hand.key('r', juce::ModifierKeys::commandModifier);
     ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
     ASSERT_EQ(window.saveSceneTo(folder("own.json"), false), "");
@@ -351,14 +351,14 @@ TEST(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     const auto scene = loadScene(folder("own.json").getFullPathName().toStdString());
     ASSERT_TRUE(scene) << scene.error;
     const auto rendered =
-        runScene(scene.value, {desk.mix().seed, 100}, static_cast<std::int64_t>(1e9 * length)).events;
+        runScene(scene.value, {model.mix().seed, 100}, static_cast<std::int64_t>(1e9 * length)).events;
     const auto live =
         loadEventsCsv(window.lastRecording().withFileExtension("csv").getFullPathName().toStdString());
     ASSERT_TRUE(live) << live.error;
     EXPECT_GT(rendered.size(), 2U);
     const auto& recorded = live.value.events;
     ASSERT_GE(recorded.size(), rendered.size());
-    const bool hasWaited = !desk.saved().log.takes[take].stalls.empty();
+    const bool hasWaited = !model.saved().log.takes[take].stalls.empty();
     std::size_t same = 0;
     for (std::size_t i = 0; i < rendered.size(); ++i) {
         CollisionEvent felt = recorded[i];
@@ -373,14 +373,14 @@ TEST(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
 
 /// Four enchanters as loud as a file can ask for, on outputs 1, 2, 3 and 6.
 juce::File loudSession(const TestFolder& folder) {
-    Desk desk{onlyNoDevice(), {"None:no device", 0, 0}};
-    desk.change("loud", [](Mix& mix) {
+    MixerModel model{onlyNoDevice(), {"None:no device", 0, 0}};
+    model.change("loud", [](Mix& mix) {
         mix.levelDb = 0.0;
         for (Strip& strip : mix.strips) strip.gainDb = mostStripDb;
         mix.strips[3].output = 5;
     });
     const auto file = folder("theirs.json");
-    EXPECT_EQ(writeFile(file.getFullPathName().toStdString(), sessionJson(desk.saved())), "");
+    EXPECT_EQ(writeFile(file.getFullPathName().toStdString(), sessionJson(model.saved())), "");
     return file;
 }
 
@@ -398,47 +398,47 @@ TEST(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
     const auto theirs = loudSession(folder);
     {
         MixerWindow window{onlyNoDevice(), "None:no device", folder("mine.json"), folder("config")};
-        window.desk().change("mine", [](Mix& mix) {
+        window.model().change("mine", [](Mix& mix) {
             mix.levelDb = -30.0;
             mix.strips[0].ceilingDb = -18.0;
             mix.strips[1].isMuted = true;
         });
         window.save(); // nothing to be asked
-        window.desk().setSilent(true);
+        window.model().setSilent(true);
         window.openFile(theirs);
         ASSERT_EQ(window.document(), theirs);
-        expectLowered(window.desk().mix());
-        EXPECT_TRUE(window.desk().isSilent()) << "what was silenced by hand stays so";
-        const auto told = window.desk().trouble();
+        expectLowered(window.model().mix());
+        EXPECT_TRUE(window.model().isSilent()) << "what was silenced by hand stays so";
+        const auto told = window.model().trouble();
         EXPECT_TRUE(told.startsWith(
             "Lowered to this desk: master 0.0 to -30.0 dB; A gain 6.0 to 0.0 dB; A ceiling 0.0 to -18.0 dB"))
             << told;
         EXPECT_TRUE(told.contains("D without output 6")) << told;
     }
     MixerWindow again{onlyNoDevice(), "None:no device", theirs, folder("config")};
-    expectLowered(again.desk().mix());
+    expectLowered(again.model().mix());
 }
 
 TEST(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     TestFolder folder;
     const auto next = [&](double leftDb, double asksDb, bool isSilent) {
         MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-        EXPECT_EQ(window.desk().mix().levelDb, asksDb) << "after " << leftDb;
-        EXPECT_EQ(window.desk().isSilent(), isSilent);
-        EXPECT_EQ(window.desk().output().isSilent(), isSilent);
+        EXPECT_EQ(window.model().mix().levelDb, asksDb) << "after " << leftDb;
+        EXPECT_EQ(window.model().isSilent(), isSilent);
+        EXPECT_EQ(window.model().output().isSilent(), isSilent);
         window.newDocument();
-        EXPECT_EQ(window.desk().mix().levelDb, asksDb) << "new";
-        EXPECT_EQ(window.desk().isSilent(), isSilent) << "new";
-        return window.desk().mix().strips;
+        EXPECT_EQ(window.model().mix().levelDb, asksDb) << "new";
+        EXPECT_EQ(window.model().isSilent(), isSilent) << "new";
+        return window.model().mix().strips;
     };
     const auto leave = [&](double db, bool isSilent) {
         MixerWindow window{onlyNoDevice(), "None:no device", folder("left.json"), folder("config")};
-        window.desk().change("Left", [&](Mix& mix) {
+        window.model().change("Left", [&](Mix& mix) {
             mix.levelDb = db;
             mix.strips[1].gainDb = -20.0;
             mix.strips[2].output = -1; // not felt
         });
-        window.desk().setSilent(isSilent);
+        window.model().setSilent(isSilent);
         window.save(); // nothing to be asked
     };
     leave(-24.0, false); // as the first start does
@@ -446,10 +446,10 @@ TEST(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     EXPECT_EQ(strips[1].gainDb, 0.0) << "levels belong to the session that was left";
     EXPECT_EQ(strips[2].output, -1) << "no new output";
     leave(-6.0, true);
-    next(-6.0, Desk::firstMix().levelDb, true); // the lower of what was left and what is asked
+    next(-6.0, MixerModel::firstMix().levelDb, true); // the lower of what was left and what is asked
     folder("left.json").deleteFile();
     leave(-6.0, false);
-    next(-6.0, Desk::firstMix().levelDb, false);
+    next(-6.0, MixerModel::firstMix().levelDb, false);
 }
 
 TEST(Window, ASessionSavedPausedOpensPaused) {
@@ -457,17 +457,17 @@ TEST(Window, ASessionSavedPausedOpensPaused) {
     for (const int slowness : {0, 8, 1}) {
         {
             MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
-            window.desk().setSlowness(1);
-            ASSERT_TRUE(runUntil([&] { return window.desk().look().session.sessionNs > 500'000'000; }));
-            window.desk().setSlowness(slowness);
+            window.model().setSlowness(1);
+            ASSERT_TRUE(runUntil([&] { return window.model().look().session.sessionNs > 500'000'000; }));
+            window.model().setSlowness(slowness);
             runFor(0.5);
             window.save();
         }
         MixerWindow again{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
-        EXPECT_EQ(again.desk().session().world().slowness(), slowness == 0 ? 0 : 1) << slowness;
-        const auto begun = again.desk().session().world().sceneNs();
+        EXPECT_EQ(again.model().session().world().slowness(), slowness == 0 ? 0 : 1) << slowness;
+        const auto begun = again.model().session().world().sceneNs();
         runFor(0.3);
-        EXPECT_EQ(again.desk().session().world().sceneNs() == begun, slowness == 0) << slowness;
+        EXPECT_EQ(again.model().session().world().sceneNs() == begun, slowness == 0) << slowness;
     }
 }
 
@@ -481,14 +481,14 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
     for (int k = 0; k < 2; ++k) {
         MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
         window.record();
-        ASSERT_TRUE(window.desk().recording().isRunning()) << window.desk().trouble();
-        runUntil([&] { return window.desk().recording().seconds() > 0.2; });
+        ASSERT_TRUE(window.model().recording().isRunning()) << window.model().trouble();
+        runUntil([&] { return window.model().recording().seconds() > 0.2; });
         window.record();
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
         const auto documents = juce::File::getSpecialLocation(juce::File::userDocumentsDirectory);
         EXPECT_EQ(window.lastRecording().getParentDirectory(), documents.getChildFile("PhysVib"));
-        EXPECT_TRUE(window.desk().trouble().contains(window.lastRecording().getFullPathName()));
-        EXPECT_EQ(window.desk().messages().shown().act.name, "Show");
+        EXPECT_TRUE(window.model().trouble().contains(window.lastRecording().getFullPathName()));
+        EXPECT_EQ(window.model().messages().shown().act.name, "Show");
         names.add(window.lastRecording().getFileName());
     }
     EXPECT_NE(names[0], names[1]);
@@ -510,22 +510,22 @@ TEST(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
-    Desk& desk = window.desk();
-    desk.setSlowness(0);
-    desk.change("Levels", [](Mix& mix) { mix.strips[1].gainDb = mix.levelDb = -20.0; });
-    desk.dispatchPendingMessages();
+    MixerModel& model = window.model();
+    model.setSlowness(0);
+    model.change("Levels", [](Mix& mix) { mix.strips[1].gainDb = mix.levelDb = -20.0; });
+    model.dispatchPendingMessages();
     const auto levelOf = [&](const juce::String& fader) {
-        return fader == "Master gain" ? desk.mix().levelDb : desk.mix().strips[1].gainDb;
+        return fader == "Master gain" ? model.mix().levelDb : model.mix().strips[1].gainDb;
     };
     for (const juce::String title : {"Master gain", "Gain of B"}) {
         auto& fader = dynamic_cast<juce::Slider&>(*find(window.view(), title));
         const float middle = 0.5f * static_cast<float>(fader.getWidth());
         const auto high = static_cast<float>(fader.getHeight());
-        const auto edits = desk.edits();
+        const auto edits = model.edits();
         for (const float share : {0.1f, 0.25f, 0.4f, 0.8f, 0.95f})
             hand.click(fader, {middle, share * high}), runFor(0.6); // no double click
         EXPECT_EQ(levelOf(title), -20.0) << title;
-        EXPECT_EQ(desk.edits(), edits) << title;
+        EXPECT_EQ(model.edits(), edits) << title;
         const float handle = fader.getPositionOfValue(-20.0);
         hand.drag(hand.placeOf(fader, {middle, 0.9f * high}),
                   hand.placeOf(fader, {middle, 0.9f * high - 30.0f}));
@@ -540,12 +540,12 @@ TEST(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
-    Desk& desk = window.desk();
+    MixerModel& model = window.model();
     auto& view = window.view();
-    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 200'000'000; }));
-    desk.setSlowness(0);
-    const auto bodies = desk.world().drawing().drawn().bodies.size();
-    const auto edits = desk.edits();
+    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 200'000'000; }));
+    model.setSlowness(0);
+    const auto bodies = model.world().drawing().drawn().bodies.size();
+    const auto edits = model.edits();
     auto& slow = *find(view, "Slow motion");
     const struct {
         const char* name;
@@ -601,22 +601,22 @@ TEST(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
                 hand.click(*behind);
         EXPECT_FALSE(window.isInterestedInFileDrag({folder("scene.json").getFullPathName()}));
         EXPECT_EQ(view.openCard(), opened) << card.name;
-        EXPECT_EQ(desk.edits(), edits) << card.name;
-        EXPECT_EQ(desk.world().drawing().drawn().bodies.size(), bodies) << card.name;
-        EXPECT_EQ(desk.session().world().slowness(), 0) << card.name;
+        EXPECT_EQ(model.edits(), edits) << card.name;
+        EXPECT_EQ(model.world().drawing().drawn().bodies.size(), bodies) << card.name;
+        EXPECT_EQ(model.session().world().slowness(), 0) << card.name;
         EXPECT_EQ(view.world().drawing().tool(), DrawTool::hand) << card.name;
         EXPECT_FALSE(view.isShow()) << card.name;
         EXPECT_EQ(juce::PopupMenu::dismissAllActiveMenus(), false) << card.name;
         auto& silence = *find(view, "Silence");
-        desk.setSilent(false);
+        model.setSilent(false);
         auto* const at = window.getComponentAt(hand.middleOf(silence).roundToInt());
         EXPECT_EQ(at, &silence) << card.name
                                 << (at != nullptr ? at->getTitle() + at->getName() : juce::String{});
         hand.click(silence);
-        EXPECT_TRUE(desk.isSilent()) << card.name;
+        EXPECT_TRUE(model.isSilent()) << card.name;
         runFor(0.1);
         EXPECT_TRUE(opened->hasKeyboardFocus(true)) << card.name << ": silence does not take the keyboard";
-        desk.setSilent(false);
+        model.setSilent(false);
         slow.grabKeyboardFocus(); // as a menu that closes gives it back
         runFor(0.1);
         EXPECT_TRUE(opened->hasKeyboardFocus(true)) << card.name;
@@ -624,7 +624,7 @@ TEST(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
         EXPECT_TRUE(view.hasKeyboardFocus(true)) << card.name;
     }
     hand.click(*find(view, "Mute A"));
-    EXPECT_TRUE(desk.mix().strips[0].isMuted) << "without a card it does";
+    EXPECT_TRUE(model.mix().strips[0].isMuted) << "without a card it does";
 }
 
 TEST(Window, TheRightButtonOfTheMousePressesNoButton) {
@@ -640,12 +640,12 @@ TEST(Window, TheRightButtonOfTheMousePressesNoButton) {
         hand.move(at + juce::Point<float>{1.0f, 0.0f}, juce::ModifierKeys::rightButtonModifier);
         hand.release(at);
     }
-    EXPECT_EQ(window.desk().mix().count(), 4);
-    EXPECT_FALSE(window.desk().mix().strips[0].isMuted);
-    EXPECT_FALSE(window.desk().mix().strips[1].isSolo);
-    EXPECT_FALSE(window.desk().recording().isRunning());
+    EXPECT_EQ(window.model().mix().count(), 4);
+    EXPECT_FALSE(window.model().mix().strips[0].isMuted);
+    EXPECT_FALSE(window.model().mix().strips[1].isSolo);
+    EXPECT_FALSE(window.model().recording().isRunning());
     hand.click(*find(window.view(), "Solo B"));
-    EXPECT_TRUE(window.desk().mix().strips[1].isSolo) << "the left one does";
+    EXPECT_TRUE(window.model().mix().strips[1].isSolo) << "the left one does";
 }
 
 TEST(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
@@ -657,7 +657,7 @@ TEST(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
     };
     const auto leave = [&](auto change) {
         MixerWindow window{onlyNoDevice(), "None:no device", folder("left.json"), folder("config")};
-        window.desk().change("Left", change);
+        window.model().change("Left", change);
         window.save();
         runFor(0.7); // the settings are written twice a second
     };
@@ -667,13 +667,13 @@ TEST(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
     });
     {
         MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-        EXPECT_EQ(levels(window.desk().mix()), (std::vector{-12.0, 0.0, 0.0, 0.0, 0.0}));
+        EXPECT_EQ(levels(window.model().mix()), (std::vector{-12.0, 0.0, 0.0, 0.0, 0.0}));
     }
     leave([](Mix& mix) {
         for (Strip& strip : mix.strips) strip.gainDb = -20.0;
     });
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    EXPECT_EQ(levels(window.desk().mix()), (std::vector{-32.0, 0.0, 0.0, 0.0, 0.0}));
+    EXPECT_EQ(levels(window.model().mix()), (std::vector{-32.0, 0.0, 0.0, 0.0, 0.0}));
 }
 
 TEST(Window, HeadphonesAreKept) {
@@ -681,18 +681,18 @@ TEST(Window, HeadphonesAreKept) {
     FakeInterface hands; // of eight outputs
     {
         MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("ears.json"), folder("config")};
-        ASSERT_EQ(useHeadphones(window.desk(), window.desk().device().choice()), "");
+        ASSERT_EQ(useHeadphones(window.model(), window.model().device().choice()), "");
         window.save();
         runFor(0.7);
     }
     {
         MixerWindow again{fakeDrivers({&hands}), "", {}, folder("config")};
-        EXPECT_TRUE(again.desk().device().choice().isHeadphones);
-        EXPECT_EQ(again.desk().output().channelMap(), (std::vector{0, 1})) << "two actuators";
-        EXPECT_EQ(again.desk().mix().levelDb, safeContactDb);
+        EXPECT_TRUE(again.model().device().choice().isHeadphones);
+        EXPECT_EQ(again.model().output().channelMap(), (std::vector{0, 1})) << "two actuators";
+        EXPECT_EQ(again.model().mix().levelDb, safeContactDb);
     }
     MixerWindow asked{fakeDrivers({&hands}), "Fake:hands", {}, folder("config")};
-    EXPECT_FALSE(asked.desk().device().choice().isHeadphones) << "a device that is asked for has actuators";
+    EXPECT_FALSE(asked.model().device().choice().isHeadphones) << "a device that is asked for has actuators";
 }
 
 TEST(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
@@ -705,12 +705,12 @@ TEST(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
               "");
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     window.openFile(file);
-    const auto& strips = window.desk().mix().strips;
+    const auto& strips = window.model().mix().strips;
     ASSERT_EQ(strips.size(), 8u);
     for (std::size_t j = 0; j < 8; ++j) EXPECT_EQ(strips[j].output, j < 4 ? static_cast<int>(j) : -1);
-    EXPECT_TRUE(window.desk().trouble().contains("E without output 5")) << window.desk().trouble();
-    window.desk().undoManager().undo();
-    EXPECT_EQ(window.desk().mix().strips.size(), 4u);
+    EXPECT_TRUE(window.model().trouble().contains("E without output 5")) << window.model().trouble();
+    window.model().undoManager().undo();
+    EXPECT_EQ(window.model().mix().strips.size(), 4u);
 }
 
 TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
@@ -719,15 +719,15 @@ TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     MixerWindow window{onlyNoDevice(), "None:no device", folder("materials.json"), folder("config")};
     Hand hand{window};
     hand.click(*find(window.view().tabs(), "Materials"));
-    auto& tab = dynamic_cast<MaterialsTab&>(*window.view().tabs().find("Materials"));
+    auto& tab = *window.view().tabs().find<MaterialsTab>();
     ASSERT_TRUE(runUntil([&] { return tab.isShowing(); }));
     auto& plot = *find(tab, "Spectrum of the material");
     const juce::ComponentPeer::DragInfo drop{
         {folder("knock.wav").getFullPathName()}, {}, hand.middleOf(plot).toInt()};
     EXPECT_TRUE(window.getPeer()->handleDragMove(drop));
     window.getPeer()->handleDragDrop(drop);
-    const auto& concrete = window.desk().world().scene().materials[3]; // the first that sounds is chosen
-    ASSERT_TRUE(runUntil([&] { return concrete.frequencyHz != 80.0; })) << window.desk().trouble();
+    const auto& concrete = window.model().world().scene().materials[3]; // the first that sounds is chosen
+    ASSERT_TRUE(runUntil([&] { return concrete.frequencyHz != 80.0; })) << window.model().trouble();
     EXPECT_NEAR(concrete.frequencyHz, 352.0, 0.5);
     EXPECT_NEAR(concrete.decayPerSecond, 98.0, 2.0);
 
@@ -737,12 +737,12 @@ TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     auto& feel = *find(tab, "Feel the material at the spot");
     feel.grabKeyboardFocus();
     hand.key(juce::KeyPress::returnKey);
-    const auto& strikes = window.desk().saved().log.strikes;
+    const auto& strikes = window.model().saved().log.strikes;
     ASSERT_EQ(strikes.size(), 3u);
     EXPECT_EQ(strikes[0].frequencyHz, concrete.frequencyHz);
-    EXPECT_NEAR(strikes[0].x / window.desk().world().scene().fieldWidthMetres, 0.25, 0.01);
-    EXPECT_NEAR(strikes[0].y / window.desk().world().scene().fieldHeightMetres, 0.75, 0.01);
-    EXPECT_NEAR(strikes[1].x / window.desk().world().scene().fieldWidthMetres, 0.75, 0.01)
+    EXPECT_NEAR(strikes[0].x / window.model().world().scene().fieldWidthMetres, 0.25, 0.01);
+    EXPECT_NEAR(strikes[0].y / window.model().world().scene().fieldHeightMetres, 0.75, 0.01);
+    EXPECT_NEAR(strikes[1].x / window.model().world().scene().fieldWidthMetres, 0.75, 0.01)
         << "a long press is a click";
     EXPECT_EQ(strikes[2].x, strikes[1].x);
     hand.key('z', juce::ModifierKeys::commandModifier);
@@ -751,20 +751,20 @@ TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
 
     hand.key('s', juce::ModifierKeys::commandModifier);
     MixerWindow again{onlyNoDevice(), "None:no device", folder("materials.json"), folder("config")};
-    EXPECT_EQ(again.desk().mix().scene->materials[3].frequencyHz, concrete.frequencyHz);
+    EXPECT_EQ(again.model().mix().scene->materials[3].frequencyHz, concrete.frequencyHz);
 }
 
 TEST(Window, ABrokenSessionIsNamedAndNothingIsLost) {
     TestFolder folder;
     folder("broken.json").replaceWithText(R"({"physvib_session": 2, "seconds": -1})");
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    window.desk().change("Law", [](Mix& mix) { mix.law = PanningLaw::energy; });
-    window.desk().undoManager().undo();
+    window.model().change("Law", [](Mix& mix) { mix.law = PanningLaw::energy; });
+    window.model().undoManager().undo();
     MixerWindow broken{onlyNoDevice(), "None:no device", folder("broken.json"), folder("config")};
-    EXPECT_TRUE(broken.desk().trouble().contains("broken.json: seconds: expected a number from 0 to "))
-        << broken.desk().trouble();
+    EXPECT_TRUE(broken.model().trouble().contains("broken.json: seconds: expected a number from 0 to "))
+        << broken.model().trouble();
     EXPECT_EQ(broken.document(), juce::File{}) << "saving would replace the broken file";
-    EXPECT_TRUE(runUntil([&] { return broken.desk().look().session.render.played > 3; }))
+    EXPECT_TRUE(runUntil([&] { return broken.model().look().session.render.played > 3; }))
         << "the mixer plays on";
 }
 
@@ -780,16 +780,16 @@ TEST(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
                                              folder("config"));
     };
     auto window = start("scene.json");
-    EXPECT_EQ(window->desk().mix().scene->name, "mine");
+    EXPECT_EQ(window->model().mix().scene->name, "mine");
     EXPECT_EQ(window->document(), juce::File{}) << "saving would replace the scene";
     EXPECT_FALSE(window->isChanged());
     window = start("layout.json");
-    EXPECT_EQ(window->desk().mix().count(), 3);
-    EXPECT_EQ(window->desk().mix().strips.size(), 3u);
+    EXPECT_EQ(window->model().mix().count(), 3);
+    EXPECT_EQ(window->model().mix().strips.size(), 3u);
     window = start("other.json");
-    EXPECT_TRUE(window->desk().trouble().endsWith("other.json: expected a session, a scene or a layout"))
-        << window->desk().trouble();
-    window->desk().report({});
+    EXPECT_TRUE(window->model().trouble().endsWith("other.json: expected a session, a scene or a layout"))
+        << window->model().trouble();
+    window->model().report({});
 
     const auto drop = [&](const char* name) {
         const juce::StringArray files{folder(name).getFullPathName()};
@@ -800,33 +800,33 @@ TEST(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
     EXPECT_FALSE(window->isInterestedInFileDrag({folder("take.wav").getFullPathName()}))
         << "recordings are for others";
     drop("other.json");
-    EXPECT_TRUE(window->desk().trouble().contains("other.json"));
+    EXPECT_TRUE(window->model().trouble().contains("other.json"));
     drop("scene.json");
-    EXPECT_EQ(window->desk().mix().scene->name, "mine");
+    EXPECT_EQ(window->model().mix().scene->name, "mine");
     drop("layout.json");
-    EXPECT_EQ(window->desk().mix().count(), 3);
-    window->desk().undoManager().undo();
-    window->desk().undoManager().undo();
-    EXPECT_EQ(window->desk().mix().scene->name, "shake-the-box");
-    EXPECT_EQ(window->desk().mix().count(), 4);
+    EXPECT_EQ(window->model().mix().count(), 3);
+    window->model().undoManager().undo();
+    window->model().undoManager().undo();
+    EXPECT_EQ(window->model().mix().scene->name, "shake-the-box");
+    EXPECT_EQ(window->model().mix().count(), 4);
 
-    window->desk().change("Level", [](Mix& mix) { mix.levelDb = -30.0; });
-    folder("session.json").replaceWithText(sessionJson(window->desk().saved()));
+    window->model().change("Level", [](Mix& mix) { mix.levelDb = -30.0; });
+    folder("session.json").replaceWithText(sessionJson(window->model().saved()));
     window = start("session.json");
-    EXPECT_EQ(window->desk().mix().levelDb, -30.0);
+    EXPECT_EQ(window->model().mix().levelDb, -30.0);
     EXPECT_EQ(window->document(), folder("session.json"));
 }
 
 TEST(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesNothing) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    auto& desk = window.desk();
-    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 500'000'000; }));
-    const auto before = desk.look().session.sessionNs;
+    auto& model = window.model();
+    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 500'000'000; }));
+    const auto before = model.look().session.sessionNs;
     window.renderTo(folder("long.wav"), 20.0);
-    ASSERT_TRUE(runUntil([&] { return desk.isNews() && desk.trouble().contains("long.wav"); }, 60.0))
-        << desk.trouble();
-    EXPECT_GT(desk.look().session.sessionNs, before);
+    ASSERT_TRUE(runUntil([&] { return model.isNews() && model.trouble().contains("long.wav"); }, 60.0))
+        << model.trouble();
+    EXPECT_GT(model.look().session.sessionNs, before);
     const auto samples = samplesOf(folder("long.wav"));
     EXPECT_EQ(samples.getNumSamples(), 20 * 48000);
     EXPECT_GT(samples.getMagnitude(18 * 48000, 2 * 48000), 0.0f) << "the box is shaken on";
@@ -837,9 +837,9 @@ TEST(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesN
     EXPECT_EQ(juce::Component::getCurrentlyModalComponent(), nullptr) << "the mixer can be used meanwhile";
     runFor(0.3);
     window.renderTo(folder("second.wav"), 1.0);
-    EXPECT_TRUE(desk.trouble().contains("cancelled.wav")) << "one at a time: " << desk.trouble();
+    EXPECT_TRUE(model.trouble().contains("cancelled.wav")) << "one at a time: " << model.trouble();
     cancel->onClick();
-    EXPECT_TRUE(runUntil([&] { return desk.trouble().contains("nothing was written"); })) << desk.trouble();
+    EXPECT_TRUE(runUntil([&] { return model.trouble().contains("nothing was written"); })) << model.trouble();
     EXPECT_EQ(find(window.view(), "Progress"), nullptr);
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "*cancelled*"), 0);
 }
@@ -847,12 +847,12 @@ TEST(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesN
 TEST(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    auto& desk = window.desk();
+    auto& model = window.model();
     const OnlyScript ffmpeg{
         folder, "ffmpeg", // the pictures become the movie
         "for word; do case $before in -i) [ \"$first\" ] || first=$word;; esac; before=$word; "
         "done\ncat \"$first\" >\"$word\"\n"};
-    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 2'500'000'000; }));
+    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 2'500'000'000; }));
     const auto ask = [&](const char* seconds) {
         window.saveMovie();
         EXPECT_GE(window.view().question()->value("Seconds").getDoubleValue(), 2.5) << "all of it";
@@ -860,17 +860,17 @@ TEST(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
         window.view().question()->answer("Choose a file" + dots());
     };
     ask("601");
-    ASSERT_TRUE(runUntil([&] { return desk.trouble().contains("expected 1 to 600"); })) << desk.trouble();
+    ASSERT_TRUE(runUntil([&] { return model.trouble().contains("expected 1 to 600"); })) << model.trouble();
     EXPECT_EQ(window.view().card(), nullptr);
-    desk.report({}); // news wait behind trouble
+    model.report({}); // news wait behind trouble
     ask("1.0");
     FileCard* card = nullptr;
     ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
     card->enter(folder.folder);
     card->setName("short");
-    card->take();
+    card->accept();
     const auto movie = folder("short.mp4");
-    ASSERT_TRUE(runUntil([&] { return desk.isNews() && desk.trouble().contains("short.mp4"); }, 60.0));
+    ASSERT_TRUE(runUntil([&] { return model.isNews() && model.trouble().contains("short.mp4"); }, 60.0));
     juce::MemoryBlock bytes;
     movie.loadFileAsData(bytes);
     const std::string_view text{static_cast<const char*>(bytes.getData()), bytes.getSize()};
@@ -879,30 +879,30 @@ TEST(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
         ++pictures;
     EXPECT_EQ(pictures, 20) << "a second";
 
-    const auto before = desk.look().session.sessionNs;
+    const auto before = model.look().session.sessionNs;
     {
         const FileSizeLimit full{20'000};
         window.saveMovieTo(folder("full.mp4"), 2.0);
         const auto told = folder("full.mp4").getFullPathName() + ": cannot be written";
-        ASSERT_TRUE(runUntil([&] { return desk.trouble().contains(told); }, 60.0)) << desk.trouble();
-        EXPECT_FALSE(desk.isNews());
+        ASSERT_TRUE(runUntil([&] { return model.trouble().contains(told); }, 60.0)) << model.trouble();
+        EXPECT_FALSE(model.isNews());
     }
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "full*"), 0);
     EXPECT_TRUE(movie.existsAsFile());
     EXPECT_EQ(find(window.view(), "Progress"), nullptr);
-    EXPECT_TRUE(runUntil([&] { return desk.look().session.sessionNs > before + 500'000'000; }));
+    EXPECT_TRUE(runUntil([&] { return model.look().session.sessionNs > before + 500'000'000; }));
 }
 
-/// A folder as a crash leaves it: a copy of a session at -30 dB, settings of a desk that was then turned down
-/// to -40 dB, 12.5 g^2 s felt.
+/// A folder as a crash leaves it: a copy of a session at -30 dB, settings of a model that was then turned
+/// down to -40 dB, 12.5 g^2 s felt.
 struct AfterACrash : TestFolder {
     juce::File copy = folder.getChildFile("after/recovery-99999999.json"); // of a process that is not there
     AfterACrash() {
         MixerWindow window{onlyNoDevice(), "None:no device", folder.getChildFile("mine.json"),
                            folder.getChildFile("config")};
-        window.desk().exposure().goOnFrom(12.5);
+        window.model().exposure().goOnFrom(12.5);
         const auto change = [&](double levelDb) {
-            window.desk().change("Level", [levelDb](Mix& mix) { mix.levelDb = levelDb; });
+            window.model().change("Level", [levelDb](Mix& mix) { mix.levelDb = levelDb; });
         };
         const auto copies = [&] {
             return folder.getChildFile("config").findChildFiles(juce::File::findFiles, false,
@@ -932,13 +932,13 @@ TEST(Window, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
         const auto beside = window.view().getLocalArea(question, question->getLocalBounds()).getCentre() -
                             window.view().getLocalBounds().getCentre();
         EXPECT_LE(std::abs(beside.x), 1) << "in the middle";
-        EXPECT_EQ(window.desk().mix().levelDb, -40.0) << "before it is answered";
-        EXPECT_GE(window.desk().exposure().squareGSeconds(), 12.5) << "hands have felt that today";
+        EXPECT_EQ(window.model().mix().levelDb, -40.0) << "before it is answered";
+        EXPECT_GE(window.model().exposure().squareGSeconds(), 12.5) << "hands have felt that today";
         question->answer(isTakenUp ? "Take it up" : "Discard it");
         ASSERT_TRUE(runUntil([&] { return !again("config/recovery-99999999.json").existsAsFile(); }));
-        EXPECT_EQ(window.desk().mix().levelDb, -40.0)
+        EXPECT_EQ(window.model().mix().levelDb, -40.0)
             << (isTakenUp ? "the copy is older than the desk was" : "discarded");
-        EXPECT_GE(window.desk().exposure().squareGSeconds(), 12.5);
+        EXPECT_GE(window.model().exposure().squareGSeconds(), 12.5);
         EXPECT_EQ(window.view().question(), nullptr);
         EXPECT_EQ(window.isChanged(), isTakenUp);
     }
@@ -950,7 +950,7 @@ TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
         MixerWindow window{onlyNoDevice(), "None:no device", folder("zoom.json"), folder("config")};
         window.setZoom(125);
         EXPECT_NEAR(juce::Desktop::getInstance().getGlobalScaleFactor(), 1.25f, 1e-4f);
-        EXPECT_GE(window.view().getWidth(), MixerView::leastWidth);
+        EXPECT_GE(window.view().getWidth(), MixerView::minWidth);
         window.setZoom(200); // leaves no room on this display
         EXPECT_LT(juce::Desktop::getInstance().getGlobalScaleFactor(), 1.6f);
         window.setZoom(125);
@@ -965,13 +965,13 @@ TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
         window.keyPressed(juce::KeyPress{juce::KeyPress::F11Key});
         EXPECT_TRUE(window.view().isShow());
         window.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
-        EXPECT_TRUE(window.view().isShow() && window.desk().isSilent()) << "Esc only silences";
+        EXPECT_TRUE(window.view().isShow() && window.model().isSilent()) << "Esc only silences";
         window.keyPressed(juce::KeyPress{juce::KeyPress::F11Key});
         EXPECT_FALSE(window.view().isShow());
-        window.desk().setSilent(false);
+        window.model().setSilent(false);
         window.view().setDividers({0.5, 0.4, 0.6});
         runFor(1.2); // the settings are written twice a second
-        window.desk().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
+        window.model().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
         window.newDocument();
         ASSERT_NE(window.view().question(), nullptr);
         EXPECT_EQ(juce::Component::getCurrentlyModalComponent(), nullptr);
@@ -992,29 +992,29 @@ TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
 TEST(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    window.desk().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
+    window.model().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
     window.newDocument();
     ASSERT_NE(window.view().question(), nullptr);
     window.view().question()->answer("Save");
     FileCard* card = nullptr;
     ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
-    EXPECT_EQ(window.desk().mix().levelDb, -18.0) << "not before it is saved";
+    EXPECT_EQ(window.model().mix().levelDb, -18.0) << "not before it is saved";
     card->enter(folder.folder);
     card->setName("kept");
-    card->take();
+    card->accept();
     ASSERT_TRUE(runUntil([&] { return folder("kept.json").existsAsFile() && !window.isChanged(); }));
-    EXPECT_TRUE(runUntil([&] { return !window.desk().undoManager().canUndo(); })) << "a new session";
+    EXPECT_TRUE(runUntil([&] { return !window.model().undoManager().canUndo(); })) << "a new session";
     EXPECT_EQ(window.document(), juce::File{});
-    EXPECT_TRUE(window.desk().trouble().contains("kept.json")) << window.desk().trouble();
-    EXPECT_EQ(window.desk().messages().shown().act.name, "Show");
+    EXPECT_TRUE(window.model().trouble().contains("kept.json")) << window.model().trouble();
+    EXPECT_EQ(window.model().messages().shown().act.name, "Show");
 
-    window.desk().change("Level", [](Mix& mix) { mix.levelDb = -20.0; });
+    window.model().change("Level", [](Mix& mix) { mix.levelDb = -20.0; });
     window.newDocument(); // who gives up at the file stays
     window.view().question()->answer("Save");
     ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
     card->onCancel();
     ASSERT_TRUE(runUntil([&] { return window.view().card() == nullptr; }));
-    EXPECT_EQ(window.desk().mix().levelDb, -20.0);
+    EXPECT_EQ(window.model().mix().levelDb, -20.0);
     EXPECT_TRUE(window.isChanged());
 }
 
@@ -1043,12 +1043,12 @@ TEST(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
     EXPECT_EQ(menu(), nullptr);
     hand.key(juce::KeyPress::spaceKey);
     EXPECT_EQ(menu(), nullptr);
-    EXPECT_EQ(window.desk().session().world().slowness(), 0) << "Space is the world's";
+    EXPECT_EQ(window.model().session().world().slowness(), 0) << "Space is the world's";
     choose(2); // Hint
     EXPECT_TRUE(window.view().isHintShown());
     hand.key(juce::KeyPress::spaceKey);
     EXPECT_EQ(menu(), nullptr);
-    EXPECT_EQ(window.desk().session().world().slowness(), 1) << "without a card as well";
+    EXPECT_EQ(window.model().session().world().slowness(), 1) << "without a card as well";
 }
 
 TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
@@ -1058,7 +1058,7 @@ TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
     };
     {
         MixerWindow window{onlyNoDevice(), "None:no device", folder("kept.json"), folder("config")};
-        window.desk().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
+        window.model().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
         ASSERT_TRUE(runUntil([&] { return !copies().isEmpty(); }));
         const auto copy = loadSession(copies()[0].getFullPathName().toStdString());
         ASSERT_TRUE(copy) << copy.error;
@@ -1071,15 +1071,15 @@ TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
 /// Copies that runs left behind, the first the newest; of each the words of its scene's name.
 struct LeftBehind : TestFolder {
     explicit LeftBehind(int count) {
-        Mix mix = Desk::firstMix();
+        Mix mix = MixerModel::firstMix();
         for (int k = 0; k < count; ++k) {
             Scene scene = *mix.scene;
             scene.name = "s" + std::to_string(k);
             mix.scene = std::make_shared<const Scene>(scene);
-            Desk desk{onlyNoDevice(), noDevice, mix};
+            MixerModel model{onlyNoDevice(), noDevice, mix};
             const auto file = copy(k);
             file.create();
-            file.replaceWithText(utf8(sessionJson(desk.saved())));
+            file.replaceWithText(utf8(sessionJson(model.saved())));
             file.setLastModificationTime(juce::Time::getCurrentTime() -
                                          juce::RelativeTime::seconds(10.0 * k));
         }
@@ -1109,9 +1109,9 @@ TEST(Window, OfSeveralCopiesEachIsShownAndWhatIsNotTakenUpOrDiscardedStays) {
     window.view().question()->keyPressed(juce::KeyPress{juce::KeyPress::rightKey});
     ASSERT_TRUE(runUntil([&] { return words().contains("S2 on"); }));
     answer("Take it up", [&] { return window.view().question() == nullptr; });
-    EXPECT_EQ(window.desk().mix().scene->name, "s2");
+    EXPECT_EQ(window.model().mix().scene->name, "s2");
     EXPECT_TRUE(window.isChanged());
-    window.desk().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
+    window.model().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
     EXPECT_TRUE(window.isChanged()) << "after one edit as well";
     EXPECT_FALSE(left.copy(2).existsAsFile()) << "this run's own is on the disk";
     EXPECT_TRUE(left.copy(0).existsAsFile() && left.copy(3).existsAsFile());
@@ -1122,8 +1122,8 @@ TEST(Window, ANewestCopyThatIsCutIsToldAndTheOlderOneIsOffered) {
     LeftBehind left{2};
     left.copy(0).replaceWithText(left.copy(0).loadFileAsString().dropLastCharacters(500));
     MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
-    EXPECT_TRUE(window.desk().trouble().contains("recovery-90000000.json: ")) << window.desk().trouble();
-    EXPECT_FALSE(window.desk().trouble().containsChar('\n'));
+    EXPECT_TRUE(window.model().trouble().contains("recovery-90000000.json: ")) << window.model().trouble();
+    EXPECT_FALSE(window.model().trouble().containsChar('\n'));
     auto* question = window.view().question();
     ASSERT_NE(question, nullptr);
     EXPECT_TRUE(question->words().contains("S1 on 4 actuators")) << question->words();
@@ -1139,7 +1139,7 @@ TEST(Window, OnAFullDiskWhatWasTakenUpStaysUntilThereIsRoom) {
         const FileSizeLimit full{4000};
         window.view().question()->answer("Take it up");
         ASSERT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
-        EXPECT_TRUE(window.desk().trouble().contains("cannot be written")) << window.desk().trouble();
+        EXPECT_TRUE(window.model().trouble().contains("cannot be written")) << window.model().trouble();
         EXPECT_TRUE(left.copy(0).existsAsFile());
     }
     MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};

@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
             return 1;
         }
         test::runFor(0.005);
-        plugin.takes().takeLog(); // which grows while the plug-in plays
+        plugin.takes().drainLog(); // which grows while the plug-in plays
     }
     const double growth = bytesInUse() - before;
     std::printf("editor: %d openings; %.1f MB in use, and %.0f kB while it is open; %.0f bytes more per "

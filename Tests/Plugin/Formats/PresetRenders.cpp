@@ -6,7 +6,7 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Wav/WavSink.h"
 #include "PluginProcessor.h"
-#include "Presets.h"
+#include "PluginSettings.h"
 #include "Scene/LayoutFile.h"
 #include <cmath>
 #include <cstdio>
@@ -57,7 +57,7 @@ bool render(const std::string& name, int program, const juce::File& folder) {
     layout.inputBuses.getReference(0) = juce::AudioChannelSet::stereo();
     plugin.setBusesLayout(layout);
     auto state = plugin.state();
-    takePlugInPreset(state, program);
+    useBuiltIn(state, program);
     plugin.open(state);
     state = plugin.state();
     plugin.setNonRealtime(true);
@@ -76,7 +76,7 @@ bool render(const std::string& name, int program, const juce::File& folder) {
                                                        buffer.getReadPointer(c),
                                                        buffer.getReadPointer(c) + block);
     }
-    plugin.takeNewEvents();
+    plugin.drainEvents();
     const auto events = plugin.felt().events(false);
     const auto path = [&](const char* ending) {
         return folder.getChildFile(juce::File::createLegalFileName(name).replaceCharacter(' ', '-') + ending)

@@ -12,7 +12,7 @@
 // Usage: physvib-plugin-song BLOCK_FRAMES FOLDER [lv2|vst3]
 #include "Io/Wav/WavSink.h"
 #include "Plugin/Formats/HostStates.h"
-#include "Presets.h"
+#include "PluginSettings.h"
 #include "Support/BeatSong.h"
 #include <algorithm>
 #include <array>
@@ -99,7 +99,7 @@ bool writeAutomation(const std::vector<Point>& all, const juce::File& path) {
 PluginState songState() {
     PluginState state = newPluginState();
     const auto& names = presetNames();
-    takePlugInPreset(state, static_cast<int>(std::ranges::find(names, "MPE pad") - names.begin()));
+    useBuiltIn(state, static_cast<int>(std::ranges::find(names, "MPE pad") - names.begin()));
     state.transport = TransportMode::restartOnPlay;
     return state;
 }

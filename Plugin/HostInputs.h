@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the host sends beside audio, as the render role reads it: held notes, its transport, and controls at a
+// limited pace.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+
+namespace physvib {
+
+/// What a held note sounds like at one moment.
+struct NoteSound {
+    double frequencyHz = 0.0;
+    double amplitude = 0.0;
+    double x = 0.0, y = 0.0; ///< metres of the field
+};
+
+/// A held note is a row of strikes without decay, each a whole number of periods long: where one ends the
+/// next begins, both at the zero of a sine. So pitch, level and place follow bend, pressure and slide a few
+/// times a hundredth of a second, without a click, and all of it is strikes: in the log, on the board, in the
+/// picture. When the key is let go, the last one decays. R only; nothing here allocates.
+class HeldNotes {
+public:
+    static constexpr std::size_t most = 32;           ///< a further one takes the place of the oldest
+    static constexpr double minStrikeSeconds = 0.004; ///< of whole periods, one at least
+
+    struct Note {
+        int channel = 0, number = 0; ///< 1 to 16; 0 to 127
+        double velocity = 0.0;       ///< 0 to 1
+        std::int64_t onsetFrame = 0; ///< of the session
+    };
+
+    void forget() noexcept {
+        for (Voice& voice : voices_) voice.isOn = false;
+        pedal_.fill(false);
+    }
+
+    void start(const Note& note) noexcept {
+        Voice* place = &voices_.front();
+        for (Voice& voice : voices_) {
+            const bool isSame =
+                voice.isOn && voice.note.channel == note.channel && voice.note.number == note.number;
+            if (isSame || !voice.isOn) {
+                place = &voice;
+                break;
+            }
+            if (voice.note.onsetFrame < place->note.onsetFrame) place = &voice;
+        }
+        *place = {note, 0, true, true};
+    }
+
+    void stop(int channel, int number) noexcept {
+        for (Voice& voice : voices_)
+            if (voice.note.channel == channel && voice.note.number == number) voice.isDown = false;
+    }
+    void stopAll() noexcept {
+        for (Voice& voice : voices_) voice.isDown = false;
+        pedal_.fill(false);
+    }
+
+    /// While it is down, notes of that channel sound on. MPE's master, channel 1, holds all.
+    void pedal(int channel, bool isDown) noexcept { pedal_[static_cast<std::size_t>(channel)] = isDown; }
+
+    /// What begins before that frame of the session. `soundOf(const Note&)` gives a NoteSound; `strike(const
+    /// Note&, const NoteSound&, afterNs, durationNs)` is called for each part, so long after the note's
+    /// onset; the duration of the last part is 0: it decays.
+    template <class SoundOf, class Strike>
+    void advance(std::int64_t endFrame, int sampleRateHz, SoundOf soundOf, Strike strike) noexcept {
+        for (Voice& voice : voices_)
+            while (voice.isOn &&
+                   voice.note.onsetFrame + voice.playedNs * sampleRateHz / 1'000'000'000 < endFrame) {
+                const NoteSound sound = soundOf(voice.note);
+                voice.isOn = isHeld(voice) && sound.frequencyHz > 0.0;
+                const std::int64_t lengthNs = voice.isOn ? lengthOf(sound.frequencyHz) : 0;
+                if (sound.frequencyHz > 0.0) strike(voice.note, sound, voice.playedNs, lengthNs);
+                voice.playedNs += lengthNs;
+            }
+    }
+
+private:
+    struct Voice {
+        Note note{};
+        std::int64_t playedNs = 0;
+        bool isDown = false, isOn = false;
+    };
+    bool isHeld(const Voice& voice) const noexcept {
+        return voice.isDown || pedal_[static_cast<std::size_t>(voice.note.channel)] || pedal_[1];
+    }
+    static std::int64_t lengthOf(double frequencyHz) noexcept {
+        return std::llround(std::max(1.0, std::ceil(minStrikeSeconds * frequencyHz)) * 1e9 / frequencyHz);
+    }
+
+    std::array<Voice, most> voices_{};
+    std::array<bool, 17> pedal_{}; // per MIDI channel, from 1
+};
+
+/// Starts, stops and jumps (a stop and a start) of the host's transport since the last block. R only.
+class Transport {
+public:
+    enum class Change { none, started, stopped };
+
+    void reset() noexcept { *this = {}; }
+
+    /// Before each block. A host without a transport (`isPlaying` always empty) plays from its first block
+    /// on; one that says nothing for a block goes on as before (LV2 hosts tell changes only); one that does
+    /// not tell where it is makes no jumps. A place up to two blocks beside the one expected is no jump, and
+    /// what follows is expected from there: tapes run at half and at twice the speed, clocks jitter by a
+    /// block, LV2 hosts tell a change of tempo within one. Where every block jumps, a hand is on the
+    /// transport: that is one start, and another when it has let go.
+    Change follow(std::optional<bool> isPlaying, std::optional<std::int64_t> frame, int frames) noexcept {
+        const bool plays = isPlaying.value_or(!isThere_ || wasPlaying_);
+        // what was assumed counts until the host tells
+        const bool wasPlaying = wasPlaying_ && (isThere_ || !isPlaying);
+        isThere_ = isThere_ || isPlaying;
+        const bool jumped = plays && wasPlaying && frame && expected_ &&
+                            std::abs(*frame - *expected_) >= 2 * std::max(frames, lastFrames_);
+        const auto change = plays ? follow(!wasPlaying, jumped) : wasPlaying ? Change::stopped : Change::none;
+        if (frame) expected_ = frame;
+        if (expected_) *expected_ += plays ? frames : 0;
+        lastFrames_ = frames;
+        wasPlaying_ = plays;
+        return change;
+    }
+
+    bool isPlaying() const noexcept { return wasPlaying_; }
+
+private:
+    Change follow(bool begins, bool jumped) noexcept {
+        const bool starts = begins || (jumped && !justMoved_) || (!jumped && owesStart_);
+        owesStart_ = !begins && jumped && justMoved_;
+        justMoved_ = begins || jumped;
+        return starts ? Change::started : Change::none;
+    }
+
+    bool isThere_ = false, wasPlaying_ = false;
+    bool justMoved_ = false, owesStart_ = false;
+    int lastFrames_ = 0;
+    std::optional<std::int64_t> expected_;
+};
+
+/// Limits one kind of control change, so that automation cannot fill the session's control queue: at most one
+/// control of a kind in so many frames of session time; of what comes faster the value then present goes. The
+/// same whatever the block and L are, so that a bounce in blocks of another size is the same samples. In
+/// frames of the session; R only.
+class ControlPace {
+public:
+    static constexpr int perSecond = 1500; // every 32 frames at 48 kHz: gains move in ramps of 10 ms, worlds
+                                           // in steps of 1 ms at least
+
+    /// The frames between two. Any thread.
+    static constexpr int framesAt(int sampleRateHz) noexcept { return std::max(1, sampleRateHz / perSecond); }
+
+    /// Nothing has gone. M, or R.
+    void reset(int sampleRateHz) noexcept {
+        frames_ = framesAt(sampleRateHz);
+        next_ = 0;
+    }
+
+    /// The first frame from `from` on at which the next may go.
+    std::int64_t nextFrom(std::int64_t from) const noexcept { return std::max(from, next_); }
+    void wentAt(std::int64_t frame) noexcept { next_ = frame + frames_; }
+
+private:
+    int frames_ = 1;
+    std::int64_t next_ = 0;
+};
+
+} // namespace physvib

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Draws the list of MIDI rules, with a form for each kind of rule. The reader of states checks what is
+// entered.
+#include "MidiPanels.h"
+#include "EditorParts.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+constexpr int rowPixels = 30;
+
+juce::String percent(double share) { return number(100.0 * share, 0) + " %"; }
+juce::String noteName(int note) { return juce::MidiMessage::getMidiNoteName(note, true, true, 4); }
+
+template <class List, class Name>
+juce::StringArray namesOf(const List& list, Name name) {
+    juce::StringArray names;
+    for (const auto& item : list) names.add(words(item.*name));
+    return names;
+}
+
+void addChoice(juce::AlertWindow& form, const juce::String& id, const juce::StringArray& choices, int chosen,
+               const juce::String& title) {
+    form.addComboBox(id, choices, title);
+    form.getComboBoxComponent(id)->setSelectedItemIndex(std::max(0, chosen), juce::dontSendNotification);
+}
+
+double numberIn(juce::AlertWindow& form, const juce::String& id) {
+    return form.getTextEditorContents(id).getDoubleValue();
+}
+
+} // namespace
+
+juce::String wordsOf(const NoteRule& rule, const Scene& scene) {
+    const auto at = " at " + percent(rule.x) + ", " + percent(rule.y);
+    const auto vector = number(rule.atFullVelocity.x, 1) + ", " + number(rule.atFullVelocity.y, 1);
+    if (rule.kind == NoteKind::push) return "pushes " + words(rule.object) + " by " + vector + " N s";
+    const auto& material = words(scene.materials[static_cast<std::size_t>(rule.material)].name);
+    if (rule.kind == NoteKind::strike) return "strikes " + material + at;
+    return "spawns a disc of " + material + at + ", radius " + number(rule.radiusMetres, 2) + " m, " +
+           vector + " m/s";
+}
+
+juce::String wordsOf(const ControllerRule& rule) {
+    const int which = parameterOfId(rule.parameter);
+    return "moves " + (which < 0 ? words(rule.parameter) : words(rowOf(static_cast<Parameter>(which)).name)) +
+           " over its whole range";
+}
+
+MidiPanel::MidiPanel(MixHands hands)
+    : hands_{std::move(hands)} {
+    setTitle("Notes and controllers");
+    title_.setText("Notes and controllers", juce::dontSendNotification);
+    title_.setFont(juce::Font{text::medium, juce::Font::bold});
+    hint_.setFont(juce::Font{text::small});
+    list_.setRowHeight(rowPixels);
+    addNote_.onClick = [this] {
+        NoteRule rule;
+        rule.note = 60;
+        askNote(-1, rule);
+    };
+    addController_.onClick = [this] { askController(-1, {1, std::string{rowOf(Parameter::level).id}}); };
+    change_.onClick = [this] { change(list_.getSelectedRow()); };
+    remove_.onClick = [this] { remove(list_.getSelectedRow()); };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &hint_, &list_, &addNote_,
+                                                                      &addController_, &change_, &remove_})
+        addAndMakeVisible(c);
+    showChoice();
+}
+
+void MidiPanel::take(const PluginState& state) {
+    state_ = state;
+    const juce::String sound = state.voice.pitch == NotePitch::material ? "every octave is a material"
+                               : state.voice.isHeld ? "each its own pitch, as long as its key is held"
+                                                    : "each its own pitch";
+    const juce::String place = state.voice.places == NotePlaces::octave ? "from left (C) to right (B)"
+                               : state.voice.places == NotePlaces::actuators
+                                   ? "at one actuator after the other"
+                                   : "in the middle";
+    hint_.setText("Other notes strike: " + sound + ", " + place + ".", juce::dontSendNotification);
+    hint_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    list_.updateContent();
+    list_.repaint();
+    showChoice();
+}
+
+void MidiPanel::showChoice() {
+    const bool isChosen = list_.getSelectedRow() >= 0 && list_.getSelectedRow() < getNumRows();
+    change_.setEnabled(isChosen);
+    remove_.setEnabled(isChosen);
+}
+
+juce::String MidiPanel::getNameForRow(int row) {
+    if (row < 0 || row >= getNumRows()) return {};
+    if (isNote(row))
+        return noteName(state_.notes[static_cast<std::size_t>(row)].note) + " " +
+               wordsOf(state_.notes[static_cast<std::size_t>(row)], state_.scene);
+    const auto& rule = state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()];
+    return "CC " + juce::String{rule.controller} + " " + wordsOf(rule);
+}
+
+void MidiPanel::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
+    if (row >= getNumRows()) return;
+    if (isSelected) {
+        g.setColour(shade(*this, Shade::accent).withAlpha(0.16f));
+        g.fillRect(0, 0, width, height);
+    }
+    auto area = juce::Rectangle<int>{width, height}.reduced(10, 0);
+    const auto i = static_cast<std::size_t>(row);
+    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    g.setColour(shade(*this, Shade::accent));
+    const auto key = isNote(row)
+                         ? noteName(state_.notes[i].note)
+                         : "CC " + juce::String{state_.controllers[i - state_.notes.size()].controller};
+    g.drawText(key, area.removeFromLeft(64), juce::Justification::centredLeft, false);
+    g.setFont(juce::Font{text::medium});
+    g.setColour(shade(*this, Shade::text));
+    g.drawText(isNote(row) ? wordsOf(state_.notes[i], state_.scene)
+                           : wordsOf(state_.controllers[i - state_.notes.size()]),
+               area, juce::Justification::centredLeft, true);
+}
+
+void MidiPanel::change(int row) {
+    if (row < 0 || row >= getNumRows()) return;
+    if (isNote(row))
+        askNote(row, state_.notes[static_cast<std::size_t>(row)]);
+    else
+        askController(row, state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()]);
+}
+
+void MidiPanel::remove(int row) {
+    if (row < 0 || row >= getNumRows()) return;
+    hands_.edit([row](PluginState& state) {
+        const auto notes = static_cast<std::ptrdiff_t>(state.notes.size());
+        if (row < notes)
+            state.notes.erase(state.notes.begin() + row);
+        else
+            state.controllers.erase(state.controllers.begin() + (row - notes));
+    });
+}
+
+// The form is ours: a host may close the window before it is answered.
+juce::AlertWindow& MidiPanel::newForm(const juce::String& title) {
+    form_ =
+        std::make_unique<juce::AlertWindow>(title, juce::String{}, juce::MessageBoxIconType::NoIcon, this);
+    form_->setLookAndFeel(&getLookAndFeel());
+    return *form_;
+}
+
+void MidiPanel::ask(std::function<void(juce::AlertWindow&)> use) {
+    form_->addButton("OK", 1, juce::KeyPress{juce::KeyPress::returnKey});
+    form_->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
+    form_->enterModalState(
+        true, juce::ModalCallbackFunction::create(
+                  [panel = juce::Component::SafePointer<MidiPanel>{this}, use = std::move(use)](int answer) {
+                      if (panel == nullptr || panel->form_ == nullptr) return;
+                      if (answer == 1) use(*panel->form_);
+                      panel->form_->setVisible(false);
+                  }));
+}
+
+void MidiPanel::askNote(int row, NoteRule rule) {
+    const auto bodies = namesOf(state_.scene.bodies, &BodyDescription::name);
+    auto& form = newForm("A note");
+    form.addTextEditor("note", juce::String{rule.note}, "Note, 0 to 127 (60 is C4)");
+    addChoice(form, "do", {"strikes a material at a place", "pushes a body", "spawns a disc at a place"},
+              static_cast<int>(rule.kind), "What it does");
+    addChoice(form, "material", namesOf(state_.scene.materials, &Material::name), rule.material,
+              "Material (strikes, spawns)");
+    addChoice(form, "object", bodies, bodies.indexOf(words(rule.object)), "Body (pushes)");
+    form.addTextEditor("x", juce::String{100.0 * rule.x}, "Place from the left, % (strikes, spawns)");
+    form.addTextEditor("y", juce::String{100.0 * rule.y}, "Place from below, %");
+    form.addTextEditor("vx", juce::String{rule.atFullVelocity.x},
+                       "At full velocity to the right: N s (pushes), m/s (spawns)");
+    form.addTextEditor("vy", juce::String{rule.atFullVelocity.y}, "At full velocity upwards");
+    form.addTextEditor("radius", juce::String{rule.radiusMetres}, "Radius in m (spawns)");
+    ask([this, row, rule](juce::AlertWindow& filled) mutable {
+        rule.note = filled.getTextEditorContents("note").getIntValue();
+        rule.kind = static_cast<NoteKind>(filled.getComboBoxComponent("do")->getSelectedItemIndex());
+        rule.material = std::max(0, filled.getComboBoxComponent("material")->getSelectedItemIndex());
+        if (rule.kind != NoteKind::push && state_.scene.materials.empty())
+            return hands_.report("The scene has no material to strike");
+        rule.object = filled.getComboBoxComponent("object")->getText().toStdString();
+        rule.x = 0.01 * numberIn(filled, "x");
+        rule.y = 0.01 * numberIn(filled, "y");
+        rule.atFullVelocity = {numberIn(filled, "vx"), numberIn(filled, "vy")};
+        rule.radiusMetres = numberIn(filled, "radius");
+        keep(row, rule);
+    });
+}
+
+void MidiPanel::askController(int row, ControllerRule rule) {
+    juce::StringArray names;
+    for (const auto& parameter : allParameters()) names.add(words(parameter.name));
+    auto& form = newForm("A controller");
+    form.addTextEditor("controller", juce::String{rule.controller}, "Controller, 0 to 119");
+    addChoice(form, "parameter", names, parameterOfId(rule.parameter), "Parameter that it moves");
+    ask([this, row, rule](juce::AlertWindow& filled) mutable {
+        rule.controller = filled.getTextEditorContents("controller").getIntValue();
+        rule.parameter =
+            allParameters()[static_cast<std::size_t>(
+                                filled.getComboBoxComponent("parameter")->getSelectedItemIndex())]
+                .id;
+        keep(row, rule);
+    });
+}
+
+// In the place of the one that is changed, and of any other for the same note.
+void MidiPanel::keep(int row, const NoteRule& rule) {
+    hands_.edit([row, &rule](PluginState& state) {
+        if (row >= 0 && row < static_cast<int>(state.notes.size()))
+            state.notes.erase(state.notes.begin() + row);
+        std::erase_if(state.notes, [&rule](const NoteRule& other) { return other.note == rule.note; });
+        const auto place = std::ranges::find_if(
+            state.notes, [&rule](const NoteRule& other) { return other.note > rule.note; });
+        state.notes.insert(place, rule);
+    });
+}
+
+void MidiPanel::keep(int row, const ControllerRule& rule) {
+    hands_.edit([row, &rule](PluginState& state) {
+        const int index = row - static_cast<int>(state.notes.size());
+        if (row >= 0 && index >= 0 && index < static_cast<int>(state.controllers.size()))
+            state.controllers.erase(state.controllers.begin() + index);
+        std::erase_if(state.controllers,
+                      [&rule](const ControllerRule& other) { return other.controller == rule.controller; });
+        state.controllers.push_back(rule);
+    });
+}
+
+void MidiPanel::paint(juce::Graphics& g) { fillPanel(g, *this, getLocalBounds()); }
+
+void MidiPanel::resized() {
+    auto area = getLocalBounds().reduced(panelInset);
+    title_.setBounds(area.removeFromTop(24));
+    auto row = area.removeFromBottom(28);
+    for (auto* button : {&addNote_, &addController_, &change_, &remove_})
+        button->setBounds(row.removeFromLeft(120).reduced(0, 1)), row.removeFromLeft(8);
+    hint_.setBounds(area.removeFromBottom(30));
+    list_.setBounds(area.withTrimmedTop(6));
+}
+
+// Draws the keyboard: keys, their marks and labels.
+
+namespace {
+
+constexpr int captionPixels = 20;
+
+bool isBlackKey(int note) { return juce::MidiMessage::isMidiNoteBlack(note); }
+
+/// How many white keys lie below.
+int whiteKeysBelow(int note) {
+    int count = 0;
+    for (int n = KeyboardPanel::lowest; n < note; ++n) count += isBlackKey(n) ? 0 : 1;
+    return count;
+}
+
+const NoteRule* ruleOf(int note, const PluginState& state) {
+    const auto found = std::ranges::find(state.notes, note, &NoteRule::note);
+    return found == state.notes.end() ? nullptr : &*found;
+}
+
+bool doesNothing(int note, const MidiTable& table, const PluginState& state, const NoteKnobs& knobs) {
+    return table.groupOf(note) < 0 && table.strikeOf(note, knobs, state.layout.geometry).frequencyHz <= 0.0;
+}
+
+} // namespace
+
+juce::String wordsOfKey(int note, const MidiTable& table, const PluginState& state, const NoteKnobs& knobs) {
+    const juce::String name = juce::MidiMessage::getMidiNoteName(note, true, true, 4) + ": ";
+    const NoteRule* const rule = ruleOf(note, state);
+    if (rule && table.groupOf(note) >= 0) return name + wordsOf(*rule, state.scene);
+    if (doesNothing(note, table, state, knobs))
+        return name + "silent, as the scene has no material that vibrates";
+    const CollisionEvent sound = table.strikeOf(note, knobs, state.layout.geometry);
+    const auto percent = [](double part, double whole) { return number(100.0 * part / whole, 0) + " %"; };
+    juce::String text =
+        name +
+        (rule ? words(state.scene.materials[static_cast<std::size_t>(rule->material)].name) + ", "
+              : juce::String{}) +
+        number(sound.frequencyHz, 0) + " Hz, ";
+    text << percent(sound.x, table.fieldWidthMetres()) << " from the left, "
+         << percent(sound.y, table.fieldHeightMetres()) << " from below";
+    return table.isHeld(note, knobs) ? text + ", as long as it is held" : text;
+}
+
+KeyboardPanel::KeyboardPanel(std::function<void(int, int)> play)
+    : play_{std::move(play)} {
+    setTitle("Keyboard");
+}
+
+void KeyboardPanel::take(const PluginState& state, const NoteKnobs& knobs) {
+    state_ = state;
+    knobs_ = knobs;
+    table_ = MidiTable{state};
+    repaint();
+}
+
+juce::Rectangle<float> KeyboardPanel::boundsOf(int note) const {
+    const auto keys = getLocalBounds().reduced(panelInset, 6).withTrimmedTop(captionPixels).toFloat();
+    const float width = keys.getWidth() / static_cast<float>(whiteKeysBelow(highest + 1)),
+                left = keys.getX() + width * static_cast<float>(whiteKeysBelow(note));
+    if (isBlackKey(note)) return {left - 0.3f * width, keys.getY(), 0.6f * width, 0.6f * keys.getHeight()};
+    return {left, keys.getY(), width - 1.0f, keys.getHeight()};
+}
+
+int KeyboardPanel::noteAt(juce::Point<int> place) const {
+    int found = -1;
+    for (int note = lowest; note <= highest; ++note)
+        if ((found < 0 || isBlackKey(note) || !isBlackKey(found)) && boundsOf(note).contains(place.toFloat()))
+            found = note;
+    return found;
+}
+
+int KeyboardPanel::velocityAt(juce::Point<int> place) const {
+    const int note = noteAt(place);
+    if (note < 0) return 0;
+    const auto key = boundsOf(note);
+    return juce::jlimit(
+        1, 127,
+        juce::roundToInt(30.0f + 97.0f * (static_cast<float>(place.y) - key.getY()) / key.getHeight()));
+}
+
+void KeyboardPanel::press(juce::Point<int> place) {
+    const int note = noteAt(place);
+    show(note);
+    if (note == pressed_) return;
+    letGo();
+    if (note < 0) return;
+    pressed_ = note;
+    play_(note, velocityAt(place));
+    repaint();
+}
+
+void KeyboardPanel::letGo() {
+    if (pressed_ < 0) return;
+    play_(pressed_, 0);
+    pressed_ = -1;
+    repaint();
+}
+
+void KeyboardPanel::show(int note) {
+    if (note == shown_) return;
+    shown_ = note;
+    repaint();
+}
+
+void KeyboardPanel::paintKey(juce::Graphics& g, int note) const {
+    const auto key = boundsOf(note);
+    const bool isBlack = isBlackKey(note);
+    auto colour = isBlack ? juce::Colour{0xff24262b} : juce::Colour{0xffe9e9ea};
+    if (note == pressed_) colour = shade(*this, Shade::accent);
+    g.setColour(doesNothing(note, table_, state_, knobs_) ? colour.withMultipliedAlpha(0.35f) : colour);
+    g.fillRoundedRectangle(key, 2.0f);
+    g.setColour(shade(*this, Shade::line)); // white keys on a light ground
+    g.drawRoundedRectangle(key, 2.0f, 1.0f);
+    if (ruleOf(note, state_)) {
+        g.setColour(shade(*this, Shade::accent));
+        g.fillRoundedRectangle(key.withTop(key.getBottom() - 5.0f).reduced(2.0f, 0.0f), 1.5f);
+    }
+    if (note % 12 != 0) return;
+    g.setColour(juce::Colour{0xff5a5d66});
+    g.setFont(juce::Font{10.0f});
+    g.drawText(juce::MidiMessage::getMidiNoteName(note, true, true, 4),
+               key.withTrimmedBottom(6.0f).removeFromBottom(12.0f).expanded(4.0f, 0.0f),
+               juce::Justification::centred, false);
+}
+
+void KeyboardPanel::paint(juce::Graphics& g) {
+    fillPanel(g, *this, getLocalBounds());
+    const juce::String usual = "Keyboard: click a key to feel it, lower on the key is harder. Marked keys "
+                               "have a rule of their own (MIDI).";
+    g.setColour(shade(*this, shown_ < 0 ? Shade::muted : Shade::text));
+    g.setFont(juce::Font{text::small});
+    g.drawText(shown_ < 0 ? usual : wordsOfKey(shown_, table_, state_, knobs_),
+               getLocalBounds().reduced(panelInset, 3).removeFromTop(captionPixels),
+               juce::Justification::centredLeft, true);
+    for (const bool isBlack : {false, true})
+        for (int note = lowest; note <= highest; ++note)
+            if (isBlackKey(note) == isBlack) paintKey(g, note);
+}
+
+} // namespace physvib

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Opens a file by its detected kind; writes and lists presets.
+#include "PluginFiles.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/ReadFile.h"
+#include "Live/Documents/Mix.h"
+#include "Live/Documents/SessionFile.h"
+#include "Parameters.h"
+#include "PluginSettings.h"
+#include "Scene/FileKind.h"
+#include "Scene/SceneFile.h"
+#include "Scene/SceneFileLimits.h"
+#include <algorithm>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+void setParameter(PluginState& state, Parameter which, double value) {
+    const auto& row = rowOf(which);
+    const auto found =
+        std::ranges::find_if(state.parameters, [&row](const auto& p) { return p.first == row.id; });
+    auto& kept =
+        found == state.parameters.end() ? state.parameters.emplace_back(std::string{row.id}, 0.0) : *found;
+    kept.second = std::clamp(value, row.least, row.most);
+}
+
+/// As the person at this instance has left it; enchanter j leaves by channel j.
+DeskLimits limitsOf(const PluginState& state) {
+    const auto level = std::ranges::find(state.parameters, rowOf(Parameter::level).id,
+                                         &std::pair<std::string, ParameterValue>::first);
+    const auto* const set = level == state.parameters.end() ? nullptr : std::get_if<double>(&level->second);
+    DeskLimits limits{set ? *set : rowOf(Parameter::level).initial, state.strips};
+    resizeStrips(limits.strips, state.layout.geometry.count);
+    for (std::size_t j = 0; j < limits.strips.size(); ++j) limits.strips[j].output = static_cast<int>(j);
+    return limits;
+}
+
+/// The same of a file's mix; a channel cannot be left out, so it is muted. What was lowered.
+std::string lowerByChannel(const DeskLimits& limits, Mix& mix) {
+    for (std::size_t j = 0; j < mix.strips.size(); ++j) mix.strips[j].output = static_cast<int>(j);
+    std::string lowered = lowerTo(limits, mix);
+    for (std::size_t j = 0; j < mix.strips.size(); ++j)
+        if (std::exchange(mix.strips[j].output, static_cast<int>(j)) < 0) mix.strips[j].isMuted = true;
+    return lowered;
+}
+
+std::string noteOf(const std::filesystem::path& path, const std::string& lowered) {
+    return lowered.empty() ? lowered : path.filename().string() + ": lowered to this instance: " + lowered;
+}
+
+PluginState leftBy(const SavedSession& session, Mix mix, PluginState state) {
+    useScene(state, *mix.scene);
+    state.seed = mix.seed;
+    state.stepsPerSecond = session.run.stepsPerSecond;
+    state.layout = mix.layout;
+    state.strips = DeskLimits::of(mix).strips; // groups and lanes at their loudest: a host has its own
+    state.equalised = session.equalised;
+    state.limiterEnabled |= session.limiterEnabled;
+    setParameter(state, Parameter::law, valueOf(rowOf(Parameter::law), nameOf(mix.law)));
+    setParameter(state, Parameter::exponent, mix.exponent);
+    setParameter(state, Parameter::level, mix.levelDb);
+    return state;
+}
+
+bool isPlayedOtherwise(const SavedSession& session) {
+    return session.shaping != EventShaping{} || !session.log.recordings.empty() ||
+           !session.log.clips.empty() || session.run.timing != ImpactTiming::onset ||
+           session.run.location != ImpactLocation::contact;
+}
+
+/// In the unit of that parameter, as a state has it or as it comes.
+double valueIn(const PluginState& state, Parameter which) {
+    const auto& row = rowOf(which);
+    const auto found =
+        std::ranges::find(state.parameters, row.id, &std::pair<std::string, ParameterValue>::first);
+    return found == state.parameters.end() ? row.initial
+                                           : valueOfState(row, found->second).value_or(row.initial);
+}
+
+/// A preset sounds as it is meant, up to the level, the strips and the limiter of this instance; strikes and
+/// music up to what they are here or what is usual.
+Result<OpenedFile> openPreset(const std::filesystem::path& path, const PluginState& now) {
+    const auto read = loadText(path, limits::maxSceneFileBytes, readPluginState);
+    if (!read) return Failure{read.error};
+    PluginState state = read.value;
+    if (const auto fault = faultOfParameters(state); !fault.empty())
+        return Failure{path.string() + ": " + fault};
+    fitToLayout(state);
+    Mix mix;
+    mix.layout = state.layout;
+    mix.strips = state.strips;
+    mix.levelDb = valueIn(state, Parameter::level);
+    std::string lowered = lowerByChannel(limitsOf(now), mix);
+    const auto also = [&lowered](const char* what) {
+        lowered += (lowered.empty() ? "" : "; ") + std::string{what};
+    };
+    state.strips = std::move(mix.strips);
+    setParameter(state, Parameter::level, mix.levelDb);
+    for (const auto& [which, usual] :
+         {std::pair{Parameter::strikeLevel, usualStrikeDb(state)}, {Parameter::music, 0.0}}) {
+        const double most = std::max(valueIn(now, which), usual);
+        if (valueIn(state, which) <= most) continue;
+        setParameter(state, which, most);
+        also(which == Parameter::music ? "music" : "the strike level");
+    }
+    if (now.limiterEnabled && !state.limiterEnabled) {
+        state.limiterEnabled = true;
+        also("the limiter stays on");
+    }
+    state.editorWidth = now.editorWidth;
+    state.editorHeight = now.editorHeight;
+    return OpenedFile{std::move(state), noteOf(path, lowered)};
+}
+
+} // namespace
+
+Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state) {
+    switch (fileKind(path)) {
+    case FileKind::scene: {
+        auto scene = loadScene(path);
+        if (!scene) return Failure{scene.error};
+        useScene(state, std::move(scene.value));
+        return OpenedFile{std::move(state), {}};
+    }
+    case FileKind::layout: {
+        auto layout = loadLayout(path);
+        if (!layout) return Failure{layout.error};
+        const DeskLimits limits = limitsOf(state);
+        state.layout = std::move(layout.value);
+        fitToLayout(state);
+        Mix mix;
+        mix.layout = state.layout;
+        mix.strips = state.strips;
+        mix.levelDb = limits.levelDb;
+        const std::string lowered = lowerByChannel(limits, mix);
+        state.strips = std::move(mix.strips);
+        return OpenedFile{std::move(state), noteOf(path, lowered)};
+    }
+    case FileKind::session: {
+        const auto session = loadSession(path);
+        if (!session) return Failure{session.error};
+        Mix mix = mixOf(session.value);
+        std::string lowered = lowerByChannel(limitsOf(state), mix);
+        if (state.limiterEnabled && !session.value.limiterEnabled)
+            lowered += lowered.empty() ? "the limiter stays on" : "; the limiter stays on";
+        std::string note =
+            isPlayedOtherwise(session.value)
+                ? path.filename().string() + ": its method, timing and recordings are not played here"
+                : std::string{};
+        if (!note.empty() && !lowered.empty()) note += "; ";
+        note += noteOf(path, lowered);
+        return OpenedFile{leftBy(session.value, std::move(mix), std::move(state)), note};
+    }
+    case FileKind::pluginState: return openPreset(path, state);
+    case FileKind::unknown: break;
+    }
+    return Failure{path.string() +
+                   ": expected a preset of the plug-in, a scene, a layout or a saved session"};
+}
+
+std::vector<juce::File> presetFiles(const juce::File& folder) {
+    constexpr int mostListed = 500; // a menu
+    auto found = folder.findChildFiles(juce::File::findFiles, false, "*.json");
+    found.sort();
+    std::vector<juce::File> files{found.begin(), found.end()};
+    if (files.size() > mostListed) files.resize(mostListed);
+    return files;
+}
+
+std::string savePreset(PluginState state, const juce::File& file) {
+    state.editorWidth = state.editorHeight = 0;
+    if (const auto made = file.getParentDirectory().createDirectory(); made.failed())
+        return file.getParentDirectory().getFullPathName().toStdString() + ": " +
+               made.getErrorMessage().toStdString();
+    return writeFile(file.getFullPathName().toStdString(), pluginStateJson(state));
+}
+
+namespace {
+
+juce::File lookFile() { return presetFolder().getSiblingFile("look"); }
+
+} // namespace
+
+Theme savedTheme() { return lookFile().loadFileAsString().trim() == "light" ? Theme::light : Theme::dark; }
+
+void saveTheme(Theme theme) {
+    if (lookFile().getParentDirectory().createDirectory().failed()) return; // it lasts as long as the window
+    const std::string word = theme == Theme::light ? "light\n" : "dark\n";
+    (void)writeFile(lookFile().getFullPathName().toStdString(), word);
+}
+
+} // namespace physvib

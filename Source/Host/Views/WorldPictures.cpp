@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Texture tiles and discs are made once, so that they cost as much as plain fills; badges that overlap are
+// moved to the nearest free place.
+#include "Host/Views/WorldPictures.h"
+#include "Host/Views/Look.h"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr int tilePixels = 64;
+constexpr float wallShare = 0.8f; // of a hollow body's size: the thesis' walls are 10 % of the size
+
+struct LookFacts {
+    std::string_view word;
+    juce::uint32 colour;
+    double hollowBelow; ///< kg/m^2; 0: never
+};
+constexpr std::array<LookFacts, 4> looks{{{"rubber", 0xff8c3f35, 600.0},
+                                          {"concrete", 0xff9b9a93, 0.0},
+                                          {"wood", 0xffb8894f, 0.0},
+                                          {"steel", 0xff9db0c2, 4000.0}}};
+
+const LookFacts& factsOf(MaterialLook look) { return looks[static_cast<std::size_t>(look)]; }
+
+/// Brightness offset of a pixel, -1 to 1.
+float grainOf(MaterialLook look, int x, int y, juce::Random& random) {
+    // whole periods, so that tiles join without a seam
+    constexpr float turn = juce::MathConstants<float>::twoPi / tilePixels;
+    const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
+    switch (look) {
+    // knobs
+    case MaterialLook::rubber:
+        return (x % 16 - 8) * (x % 16 - 8) + (y % 16 - 8) * (y % 16 - 8) < 10 ? -0.8f : 0.05f;
+    // specks
+    case MaterialLook::concrete:
+        return random.nextFloat() < 0.08f ? -0.9f : 0.5f * random.nextFloat() - 0.25f;
+    case MaterialLook::wood:
+        return 0.7f * std::sin(5.0f * turn * fy + 1.5f * std::sin(turn * fx)); // rings
+    // a brushed highlight
+    case MaterialLook::steel: return 0.6f * std::sin(turn * (fx + fy)) + ((x + y) % 4 == 0 ? 0.25f : 0.0f);
+    }
+    return 0.0f;
+}
+
+juce::Image tileOf(MaterialLook look) {
+    juce::Image image{juce::Image::RGB, tilePixels, tilePixels, true};
+    juce::Random random{1};
+    const juce::Colour base{factsOf(look).colour};
+    juce::Image::BitmapData pixels{image, juce::Image::BitmapData::writeOnly};
+    for (int y = 0; y < tilePixels; ++y)
+        for (int x = 0; x < tilePixels; ++x) {
+            const float grain = grainOf(look, x, y, random);
+            pixels.setPixelColour(x, y,
+                                  grain < 0.0f ? base.darker(-0.7f * grain) : base.brighter(0.6f * grain));
+        }
+    return image;
+}
+
+const juce::Image& tile(MaterialLook look) {
+    static const std::array tiles{tileOf(MaterialLook::rubber), tileOf(MaterialLook::concrete),
+                                  tileOf(MaterialLook::wood), tileOf(MaterialLook::steel)};
+    return tiles[static_cast<std::size_t>(look)];
+}
+
+/// Draws the edge of a filled body, and the wall of a hollow one.
+void drawEdges(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
+               juce::Colour edge, bool isHollow) {
+    g.setColour(edge);
+    g.strokePath(path, juce::PathStrokeType{1.5f}, place);
+    if (!isHollow) return;
+    const auto inside = juce::AffineTransform::scale(wallShare).followedBy(place);
+    g.setColour(palette::well.withAlpha(0.85f));
+    g.fillPath(path, inside);
+    g.setColour(edge);
+    g.strokePath(path, juce::PathStrokeType{1.0f}, inside);
+}
+
+} // namespace
+
+const MaterialPicture* pictureOf(const std::vector<MaterialPicture>& pictures,
+                                 std::string_view material) noexcept {
+    const auto found = std::ranges::find_if(pictures, [material](const MaterialPicture& picture) {
+        return material.find(picture.word) != std::string_view::npos;
+    });
+    return found == pictures.end() ? nullptr : &*found;
+}
+
+void fillWithPicture(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
+                     const juce::Image& picture, bool isHollow) {
+    const auto bounds = path.getBounds();
+    const float scale =
+        std::max(bounds.getWidth() / static_cast<float>(picture.getWidth()),
+                 bounds.getHeight() / static_cast<float>(picture.getHeight())); // covers without distortion
+    const auto onBody = juce::AffineTransform::translation(-0.5f * static_cast<float>(picture.getWidth()),
+                                                           -0.5f * static_cast<float>(picture.getHeight()))
+                            .scaled(scale)
+                            .translated(bounds.getCentre());
+    g.setFillType(juce::FillType{picture, onBody.followedBy(place)});
+    g.fillPath(path, place);
+    drawEdges(g, path, place, palette::well, isHollow);
+}
+
+std::optional<MaterialLook> materialLookOf(std::string_view name) noexcept {
+    for (std::size_t i = 0; i < looks.size(); ++i)
+        if (name.find(looks[i].word) != std::string_view::npos) return static_cast<MaterialLook>(i);
+    return std::nullopt;
+}
+
+bool looksHollow(MaterialLook look, double densityKgPerSquareMetre) noexcept {
+    return densityKgPerSquareMetre < factsOf(look).hollowBelow;
+}
+
+void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
+                      MaterialLook look, bool isHollow) {
+    g.setFillType(juce::FillType{tile(look), place});
+    g.fillPath(path, place);
+    drawEdges(g, path, place, juce::Colour{factsOf(look).colour}.darker(0.9f), isHollow);
+}
+
+// Keeps a picture per kind of disc, angle and place between pixels.
+
+namespace {
+
+constexpr std::size_t mostKinds = 12; // at most some megabytes
+
+int sideOf(float radius, float scale) {
+    return 2 * static_cast<int>(std::ceil((radius + 0.5f * BallPictures::rimWidth) * scale)) + 3;
+}
+
+} // namespace
+
+BallPictures::Kind& BallPictures::kindOf(const Ball& ball) {
+    const auto known = std::ranges::find(kinds_, ball, &Kind::ball);
+    if (known != kinds_.end()) return *known;
+    if (kinds_.size() >= mostKinds) kinds_.clear(); // sizes change while a window is dragged
+    return kinds_.emplace_back(ball,
+                               std::vector<juce::Image>(static_cast<std::size_t>(turns * phases * phases)));
+}
+
+juce::Image BallPictures::pictureOf(const Ball& ball, int turn, juce::Point<int> phase) const {
+    const int side = sideOf(ball.radius, scale_);
+    juce::Image image{juce::Image::ARGB, side, side, true, juce::SoftwareImageType{}};
+    juce::Graphics g{image};
+    const auto middle = static_cast<float>(side / 2);
+    const auto centre = juce::Point<float>{middle, middle} + phase.toFloat() / static_cast<float>(phases);
+    g.addTransform(juce::AffineTransform::scale(scale_)); // strokes as well
+    const auto place =
+        juce::AffineTransform::rotation(juce::MathConstants<float>::twoPi * static_cast<float>(turn) / turns)
+            .translated(centre / scale_);
+    juce::Path disc, spoke;
+    disc.addEllipse(juce::Rectangle<float>{2.0f * ball.radius, 2.0f * ball.radius}.withCentre({}));
+    spoke.addRectangle(0.0f, -0.5f * spokeWidth, spokeShare * ball.radius, spokeWidth);
+    g.setColour(ball.fill);
+    g.fillPath(disc, place);
+    g.setColour(ball.spoke);
+    if (!ball.spoke.isTransparent()) g.fillPath(spoke, place);
+    g.setColour(ball.rim);
+    if (!ball.rim.isTransparent()) g.strokePath(disc, juce::PathStrokeType{rimWidth}, place);
+    return image;
+}
+
+bool BallPictures::draw(juce::Graphics& g, const Ball& ball, juce::Point<float> centre, float angle) {
+    const float scale = g.getInternalContext().getPhysicalPixelScaleFactor();
+    if (ball.radius * scale > mostPixels) return false;
+    if (std::exchange(scale_, scale) != scale) kinds_.clear();
+    const float share = ball.spoke.isTransparent() ? 0.0f : angle / juce::MathConstants<float>::twoPi;
+    const int turn = juce::roundToInt((share - std::floor(share)) * turns) % turns;
+    // to the nearest quarter of a pixel
+    const auto quarters = (centre * scale * static_cast<float>(phases)).roundToInt();
+    const auto whole = [](int k) { return static_cast<int>(std::floor(static_cast<float>(k) / phases)); };
+    const juce::Point<int> pixel{whole(quarters.x), whole(quarters.y)}, phase = quarters - pixel * phases;
+    auto& picture =
+        kindOf(ball).pictures[static_cast<std::size_t>((turn * phases + phase.y) * phases + phase.x)];
+    if (picture.isNull()) picture = pictureOf(ball, turn, phase);
+    const auto corner = (pixel - juce::Point<int>{1, 1} * (picture.getWidth() / 2)).toFloat();
+    g.setOpacity(1.0f);
+    g.drawImageTransformed(picture, juce::AffineTransform::translation(corner).scaled(1.0f / scale));
+    return true;
+}
+
+// Sizes badges by the nearest neighbour, then moves what still overlaps to a free place.
+
+namespace {
+
+using Badges = std::vector<juce::Rectangle<float>>;
+constexpr float twoLetters = 24.0f;
+
+/// Of places that differ, the least distance along the farther axis.
+float nearestOf(std::span<const juce::Point<float>> places) {
+    float nearest = 2.0f * highestBadge;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) {
+            const auto way = places[k] - places[i];
+            const float apart = std::max(std::abs(way.x), std::abs(way.y));
+            if (apart >= 1.0f) nearest = std::min(nearest, apart);
+        }
+    return nearest;
+}
+
+/// Half of the way to each neighbour in its row, or more of it if that one needs less.
+float widthOf(std::size_t i, std::span<const juce::Point<float>> places, std::span<const float> wanted,
+              float least, float high) {
+    float width = std::min(widestBadge, wanted[i]);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const auto way = places[k] - places[i];
+        if (k == i || std::abs(way.y) >= high) continue;
+        const float both = std::abs(way.x) - betweenBadges;
+        width = std::min(width, 2.0f * both - std::clamp(wanted[k], least, std::max(least, both)));
+    }
+    return std::max(least, width);
+}
+
+bool isFree(const juce::Rectangle<float>& badge, const Badges& placed) {
+    const auto around = badge.expanded(betweenBadges - 0.1f); // rounded
+    return std::ranges::none_of(placed, [&](const auto& other) { return around.intersects(other); });
+}
+
+/// The nearest free place, on rings around its own; its own if there is none.
+juce::Rectangle<float> freePlace(const juce::Rectangle<float>& badge, const Badges& placed,
+                                 juce::Rectangle<float> room) {
+    constexpr float step = 4.0f;
+    for (float far = 0.0f; far < room.getWidth() + room.getHeight(); far += step)
+        for (float turn = 0.0f; turn < juce::MathConstants<float>::twoPi;
+             turn += step / std::max(step, far)) {
+            const auto tried =
+                badge.translated(far * std::cos(turn), far * std::sin(turn)).constrainedWithin(room);
+            if (isFree(tried, placed)) return tried;
+        }
+    return badge;
+}
+
+} // namespace
+
+Badges badgesAround(std::span<const juce::Point<float>> places, std::span<const float> textWidths,
+                    juce::Rectangle<float> room) {
+    const float high = juce::jlimit(lowestBadge, highestBadge, 0.75f * nearestOf(places));
+    Badges own;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const float least = std::max(high, std::min(twoLetters, textWidths[i]));
+        own.push_back(juce::Rectangle<float>{widthOf(i, places, textWidths, least, high), high}
+                          .withCentre(places[i])
+                          .constrainedWithin(room));
+    }
+    // those in nobody's way first, so that none of them has to move
+    std::vector<std::size_t> order(own.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_partition(order, [&](std::size_t i) {
+        return std::ranges::count_if(own, [&](const auto& other) { return own[i].intersects(other); }) == 1;
+    });
+    Badges placed, badges(own.size());
+    for (const std::size_t i : order) placed.push_back(badges[i] = freePlace(own[i], placed, room));
+    return badges;
+}
+
+} // namespace physvib

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Opens the device, checks devices that may disappear and return, and heals mixer states in which two strips
+// have one output, as files may have them.
+#include "Mixer/Model/MixerDevice.h"
+#include "Mixer/Model/MixerMessages.h"
+#include "Mixer/Model/MixerModel.h"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr double maintainMs = 1000.0;
+
+} // namespace
+
+std::string MixerDevice::open(const DeviceChoice& choice) {
+    AudioOutputSettings settings{
+        choice.name,  outputMap(), choice.sampleRateHz,     choice.blockFrames, masterGain(mix_),
+        mix_.count(), true,        listening_.ofStudyOnly()};
+    const auto error = rig_.openDevice(settings);
+    choice_ = choice;
+    listening_.hearWanted();
+    return error;
+}
+
+std::vector<int> MixerDevice::outputMap() const {
+    std::vector<int> map;
+    for (const Strip& strip : mix_.strips) map.push_back(strip.output);
+    return map;
+}
+
+std::string MixerDevice::assign() {
+    rig_.output().hear(listening_.ofStudyOnly()); // remove monitor outputs first, because an actuator may be
+                                                  // assigned to one of them
+    auto error = rig_.output().assign(outputMap(), mix_.count());
+    listening_.hearWanted();
+    return error;
+}
+
+juce::String MixerDevice::withoutClips() const {
+    for (const SinkState& sink : rig_.sinkStates())
+        if (!sink.playsClips) return utf8(sink.name);
+    return {};
+}
+
+void MixerDevice::maintain() {
+    const double now = nowMs();
+    if (now - maintainedAtMs_ <= maintainMs) return;
+    maintainedAtMs_ = now;
+    listening_.hearWanted(); // the device may have disappeared or returned
+    rig_.maintain();
+}
+
+std::vector<RigTrouble> MixerDevice::troubles() const { return rig_.troubles(); }
+
+juce::String MixerDevice::trouble() const {
+    const auto all = troubles();
+    return all.empty() ? juce::String{} : utf8(all.front().words);
+}
+
+bool MixerListening::isFree(int output) const {
+    return output >= 0 && output < output_.deviceOutputs() &&
+           std::ranges::find(mix_.strips, output, &Strip::output) == mix_.strips.end();
+}
+
+// Audio outputs must never prevent the haptic output: outputs that the device lacks are not requested.
+ListeningSettings MixerListening::wanted() const {
+    ListeningSettings wanted = ofStudy_.value_or(ListeningSettings{});
+    if (!ofStudy_ && std::ranges::all_of(choice_.monitor, [this](int output) { return isFree(output); }))
+        wanted.contacts = choice_.monitor;
+    wanted.contactDb = choice_.monitorDb;
+    const auto has = [&](const std::vector<int>& those) {
+        return std::ranges::find(those, choice_.marker) != those.end();
+    };
+    if (isFree(choice_.marker) && !has(wanted.noise) && !has(wanted.contacts))
+        wanted.marks = {choice_.marker};
+    return wanted;
+}
+
+std::string MixerListening::hearWanted() {
+    const auto wanted = this->wanted();
+    if (wanted == sent_) return {};
+    auto error = output_.hear(wanted);
+    if (error.empty()) sent_ = wanted;
+    return error;
+}
+
+std::string MixerListening::hear(const ListeningSettings& ofStudy) {
+    const auto before = std::exchange(ofStudy_, ofStudy);
+    auto error = hearWanted();
+    if (!error.empty()) ofStudy_ = before;
+    return error;
+}
+
+void MixerListening::endStudy() {
+    ofStudy_.reset();
+    hearWanted();
+}
+
+std::string MixerListening::listen(const ListeningSettings& wanted, const DeviceChoice& choice) {
+    if (auto error = output_.hear(wanted); !error.empty()) return error;
+    sent_ = wanted;
+    choice_ = choice;
+    onChange_();
+    return {};
+}
+
+std::string MixerListening::monitor(std::vector<int> outputs, double db) {
+    auto wanted = sent_;
+    auto choice = choice_;
+    wanted.contacts = choice.monitor = std::move(outputs);
+    wanted.contactDb = choice.monitorDb = db;
+    return listen(wanted, choice);
+}
+
+std::string MixerListening::mark(int output) {
+    auto wanted = sent_;
+    auto choice = choice_;
+    choice.marker = output;
+    wanted.marks = output < 0 ? std::vector<int>{} : std::vector{output};
+    return listen(wanted, choice);
+}
+
+namespace {
+
+bool isWithout(const Mix& mix, std::size_t strip) {
+    return strip < mix.strips.size() && mix.strips[strip].output < 0;
+}
+
+juce::String labelsOf(const MixerModel& model, const std::vector<std::size_t>& strips) {
+    juce::StringArray labels;
+    for (const std::size_t j : strips) labels.add(utf8(model.mix().layout.enchanters[j].label));
+    return labels.joinIntoString(", ");
+}
+
+void giveFreeOutputs(MixerModel& model, const std::vector<std::size_t>& strips) {
+    const auto inUse = model.device().choice().inUse();
+    const int outputs = model.device().outputs() > 0 ? model.device().outputs() : mostStripOutputs;
+    model.change("Free outputs", [&](Mix& mix) {
+        for (const std::size_t j : strips)
+            if (isWithout(mix, j)) mix.strips[j].output = freeOutput(mix.strips, inUse, outputs);
+    });
+    if (std::ranges::any_of(strips, [&](std::size_t j) { return isWithout(model.mix(), j); }))
+        model.report("The device has no other free output");
+}
+
+} // namespace
+
+void showPlayedOutputs(const std::vector<int>& played, std::span<Strip> strips) {
+    for (std::size_t j = 0; j < strips.size(); ++j) strips[j].output = j < played.size() ? played[j] : -1;
+}
+
+std::vector<std::size_t> placeNew(const DeviceChoice& choice, std::span<Strip> strips, std::size_t first) {
+    std::vector<std::size_t> without;
+    const auto inUse = choice.inUse();
+    const int outputs = choice.isHeadphones ? DeviceChoice::ears : mostStripOutputs;
+    for (std::size_t j = first; j < strips.size(); ++j) {
+        int& output = strips[j].output;
+        if (output < 0 || (output < outputs && std::ranges::find(inUse, output) == inUse.end())) continue;
+        output = freeOutput(strips, inUse, outputs);
+        if (output < 0) without.push_back(j);
+    }
+    return without;
+}
+
+void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips) {
+    if (strips.empty()) return;
+    model.messages().add({labelsOf(model, strips) +
+                              (strips.size() == 1 ? " has no output: " : " have no output: ") +
+                              "headphones have two, L and R",
+                          false,
+                          {},
+                          "ears"});
+}
+
+std::string useHeadphones(MixerModel& model, DeviceChoice choice) {
+    choice.isHeadphones = true;
+    choice.monitor.clear();
+    if (choice.marker < DeviceChoice::ears) choice.marker = -1;
+    std::vector<std::size_t> others;
+    model.change("Headphones", [&](Mix& mix) {
+        for (std::size_t j = 0; j < mix.strips.size(); ++j) {
+            const bool hasEar = j < DeviceChoice::ears;
+            mix.strips[j].output = hasEar ? static_cast<int>(j) : -1;
+            if (!hasEar) others.push_back(j);
+        }
+        mix.levelDb = std::min(mix.levelDb, safeContactDb);
+    });
+    auto error = model.open(choice);
+    reportNoEar(model, others);
+    return error;
+}
+
+void reportWithout(MixerModel& model, const std::vector<std::size_t>& strips) {
+    if (strips.empty()) return;
+    const bool isOne = strips.size() == 1;
+    model.messages().add({labelsOf(model, strips) + (isOne ? " has no output: another actuator has it"
+                                                           : " have no outputs: other actuators have them"),
+                          false,
+                          {isOne ? "Give a free output" : "Give free outputs",
+                           [&model, strips] { giveFreeOutputs(model, strips); }},
+                          "outputs"});
+}
+
+void MixerExposure::use(const LayoutDescription& layout) {
+    update();
+    fullScaleG_.fill(0.0);
+    std::ranges::transform(layout.enchanters, fullScaleG_.begin(), &EnchanterDescription::fullScaleG);
+}
+
+void MixerExposure::update() {
+    const ExposureSums& now = output_.exposure();
+    for (std::size_t j = 0; j < fullScaleG_.size(); ++j)
+        squareGSeconds_ += (now.weighted[j] - sums_.weighted[j]) * fullScaleG_[j] * fullScaleG_[j];
+    sums_ = now;
+}
+
+FeltLevel MixerExposure::felt(double seconds) const {
+    FeltLevel level;
+    if (sums_.mark != mark_ || seconds <= 0.0) return level;
+    for (std::size_t j = 0; j < fullScaleG_.size(); ++j) {
+        level.peakG = std::max(level.peakG, sums_.peaks[j] * fullScaleG_[j]);
+        level.rmsG = std::max(level.rmsG, std::sqrt(sums_.plain[j] / seconds) * fullScaleG_[j]);
+    }
+    return level;
+}
+
+} // namespace physvib

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What reaches the mixer beside its window's controls: messages by OSC, test events, and clips that are
+// dropped.
+#pragma once
+#include "Host/Osc/OscPort.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Live/Documents/InputLine.h"
+#include "Live/Messages/MessageRouter.h"
+#include "Mixer/Model/MixerWorld.h"
+#include <functional>
+#include <juce_core/juce_core.h>
+#include <juce_events/juce_events.h>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+class MixerModel;
+
+/// Whose messages are accepted.
+enum class OscUse { off, thisComputer, anyComputer };
+
+struct OscChoice {
+    OscUse use = OscUse::off;
+    std::string receiver{};   ///< HOST:PORT that receives impacts and status; empty: none
+    double turnDegrees = 0.0; ///< counter-clockwise rotation of a phone from upright
+    bool operator==(const OscChoice&) const = default;
+};
+
+/// Receives and sends while it exists. Events go to the session at once; changes of strips and world are
+/// applied by the mixer itself. Message thread only.
+class MixerOsc final : private juce::AsyncUpdater, private juce::Timer {
+public:
+    static constexpr int reportMilliseconds = 10;
+
+    /// All references outlive it. `act` is called on the message thread and returns an error or an empty
+    /// string. With a receiver, `collectPlayed` is called often to report played events.
+    MixerOsc(const OscChoice& choice, Session& session, AudioOutput& output,
+             std::function<std::string(const LineInput&)> act, std::function<void()> collectPlayed);
+    ~MixerOsc() override;
+
+    const std::string& error() const noexcept { return port_->error(); }
+    OscStatus status() const;
+
+private:
+    struct Waiting {
+        LineInput input;
+        OscOrigin origin;
+    };
+    std::string receive(const LineInput& input, const OscOrigin& origin);
+    void handleAsyncUpdate() override;
+    void timerCallback() override { collectPlayed_(); }
+
+    AudioOutput& output_;
+    std::function<std::string(const LineInput&)> act_;
+    std::function<void()> collectPlayed_;
+    std::mutex mutex_; // guards the members below
+    std::vector<Waiting> waiting_;
+    // message thread:
+    std::string fault_; // last error of the mixer
+    std::uint64_t refused_ = 0;
+    MessageRouter messages_;
+    std::unique_ptr<OscPort> port_; // destroyed first, because its thread uses the other members
+};
+
+/// The mixer's OSC port. Message thread only.
+class MixerInputs {
+public:
+    /// `model` outlives it.
+    explicit MixerInputs(MixerModel& model)
+        : model_{model} {}
+
+    /// Sets the OSC port. Empty, or an error, and then the old port stays.
+    std::string use(const OscChoice& choice);
+    const OscChoice& choice() const noexcept { return choice_; }
+    std::optional<OscStatus> status() const { return osc_ ? std::optional{osc_->status()} : std::nullopt; }
+
+    bool haveCome(); ///< true if messages have come since the last call
+
+    void close() { osc_.reset(); } ///< stops all input
+
+private:
+    std::string open();
+    std::string apply(const LineInput& input);
+    std::string apply(const RenderControl& control);
+
+    MixerModel& model_;
+    OscChoice choice_;
+    std::uint64_t messages_ = 0; // as of the last haveCome()
+    std::unique_ptr<MixerOsc> osc_;
+};
+
+/// True if the dragged files may be dropped as clips; the window handles documents. Message thread.
+bool isClipDrag(const juce::StringArray& files);
+
+/// Plays clips: a background thread reads them and posts them like messages. Message thread only.
+class MixerClips final : private juce::AsyncUpdater {
+public:
+    /// All references outlive it. `onResult` is called on the message thread for each clip: with a note or an
+    /// empty text if it plays, or with the reason if it was rejected.
+    MixerClips(Session& session, const AudioOutput& output,
+               std::function<void(const Result<std::string>&)> onResult);
+    ~MixerClips() override;
+
+    /// Plays the clip when it has been read: at that place of the field, or only on the actuator there. Clips
+    /// are read one after the other.
+    void feel(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone);
+    /// The same, each channel on the actuator of its number.
+    void play(const juce::File& file);
+
+private:
+    void read(PlainMessage clip);
+    Result<std::string> strike(const PlainMessage& clip);
+    void handleAsyncUpdate() override;
+
+    const AudioOutput& output_;
+    std::function<void(const Result<std::string>&)> onResult_;
+    MessageRouter messages_;
+    std::mutex mutex_; // guards the members below
+    std::vector<Result<std::string>> results_;
+    juce::ThreadPool reader_{1}; // destroyed first, because its thread uses the other members
+};
+
+/// Events that the mixer plays apart from the world: test pulses and sweeps of one actuator, auditions of
+/// materials, and clips. Message thread only.
+class MixerStrikes {
+public:
+    /// All references outlive it. `onStrike` is called for each event; `onClip` when a clip was read (as for
+    /// MixerClips) or failed.
+    MixerStrikes(Session& session, const AudioOutput& output, const Mix& mix, const MixerWorld& world,
+                 std::function<void()> onStrike, std::function<void(const Result<std::string>&)> onClip);
+
+    /// A pulse of one actuator, or a sweep over its range.
+    void testPulse(int enchanter);
+    void testSweep(int enchanter);
+
+    /// An impact of that material of the scene at a place of the field, at the level of a test pulse. Empty,
+    /// or an error.
+    std::string audition(int material, double shareX, double shareY);
+
+    /// Plays a dropped clip at a place of the field, or on one actuator only, when it has been read.
+    void feelAt(const juce::StringArray& files, double shareX, double shareY);
+    void feelOn(const juce::StringArray& files, int enchanter);
+    /// Plays a recording, each channel on the actuator of its number, when it has been read.
+    void playTake(const juce::File& file) { clips_.play(file); }
+
+private:
+    bool strike(std::vector<CollisionEvent> strikes, const EnchanterPlace& at);
+    EnchanterPlace onField(double shareX, double shareY) const;
+    EnchanterPlace placeOf(int enchanter) const;
+    void feel(const juce::StringArray& files, const EnchanterPlace& at, bool isAlone);
+
+    Session& session_;
+    const Mix& mix_;
+    const MixerWorld& world_;
+    std::function<void()> onStrike_;
+    std::function<void(const Result<std::string>&)> onClip_;
+    MixerClips clips_; // destroyed first, because its thread uses the other members
+};
+
+} // namespace physvib

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Texts of the mixer: numbers and names, what an impact is, the line above the world with errors and news,
+// and hints why nothing would be felt.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Io/Text/ReadableNumber.h"
+#include "Live/Documents/Mix.h"
+#include <deque>
+#include <functional>
+#include <juce_core/juce_core.h>
+#include <string>
+#include <utility>
+
+namespace physvib {
+
+class MixerModel;
+
+/// Any thread.
+inline juce::String utf8(const std::string& words) { return juce::String::fromUTF8(words.c_str()); }
+
+/// Displayed names of built-in scenes: "shake-the-box" as "Shake the box". Any thread.
+inline juce::String titleOf(const std::string& name) {
+    const auto words = utf8(name).replaceCharacter('-', ' ');
+    return words.substring(0, 1).toUpperCase() + words.substring(1);
+}
+
+/// Fixed notation with a real minus sign. Any thread.
+inline juce::String number(double value, int decimals) { return utf8(readable::number(value, decimals)); }
+
+/// Clock for display animation; rendered output does not depend on it.
+inline double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
+
+/// A button beside a message; without a name there is none.
+struct MixerAct {
+    juce::String name;
+    std::function<void()> run;
+};
+
+struct MixerMessage {
+    juce::String words;  ///< one line; empty: none
+    bool isNews = false; ///< a success; else an error
+    MixerAct act{};
+    juce::String label{}; ///< what it is about: there is one message of a label; empty: nothing that lasts
+};
+
+/// The line above the world: one message at a time, each with a button for what can be done about it. They
+/// wait for each other, so that none is lost and no two share a line. Message thread only.
+class MixerMessages {
+public:
+    /// `onChange` is called when another message is shown.
+    explicit MixerMessages(std::function<void()> onChange)
+        : onChange_{std::move(onChange)} {}
+
+    const MixerMessage& shown() const noexcept { return shown_; }
+
+    /// Replaces the message. Without words the next one that waits is shown. An error waits if it has a label
+    /// or a button, since it still stands.
+    void show(MixerMessage message);
+
+    /// Shows the message after those that are there, or in the place of the one of its label.
+    void add(MixerMessage message);
+
+    /// Removes the message of this label, since it is no longer true.
+    void withdraw(const juce::String& label);
+
+private:
+    void put(MixerMessage message);
+
+    std::function<void()> onChange_;
+    MixerMessage shown_;
+    std::deque<MixerMessage> waiting_;
+};
+
+/// An impact in words: material, level and place. Any thread.
+/// Index of the material with this frequency and decay; -1: none.
+int materialOf(const Scene& scene, const CollisionEvent& hit);
+/// The material's name, or "hit".
+juce::String materialName(const Scene& scene, const CollisionEvent& hit);
+
+struct StrongestActuator {
+    int enchanter = 0;
+    double levelG = 0.0; ///< at that actuator, by its full scale and the master level; before strip and
+                         ///< limiter
+};
+StrongestActuator strongestOf(const Mix& mix, const CollisionEvent& hit);
+
+/// "at the bottom left"
+juce::String placeText(const Scene& scene, const CollisionEvent& hit);
+
+/// Says of a material or a new body that it would not be felt at usual impacts, with a button that changes
+/// this; takes the message away if it would be. Message thread only.
+void hintOnMaterial(MixerModel& model, int material);
+void hintOnBody(MixerModel& model, const std::string& body);
+
+/// Why these levels let nothing be felt, whatever plays; empty: they do not. Any thread.
+juce::String whySilent(const Mix& mix);
+void hintOnLevels(MixerModel& model, const juce::String& why);
+
+} // namespace physvib

@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Finds the window's host of cards, and closes a card before its answer is used.
+#include "Mixer/Widgets/Cards.h"
+#include <algorithm>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+CardHost* hostOf(juce::Component& from) { return from.findParentComponentOfClass<CardHost>(); }
+
+using From = juce::Component::SafePointer<juce::Component>;
+
+/// Later, because the click of the card's button is still being handled.
+void closeThen(const From& from, std::function<void()> then) {
+    if (from == nullptr) return;
+    later(*from, [then = std::move(then)](juce::Component& asking) {
+        if (auto* host = hostOf(asking)) host->setCard(nullptr);
+        if (then) then();
+    });
+}
+
+} // namespace
+
+void askForFile(juce::Component& from, const FileCard::Choice& choice,
+                std::function<void(const juce::File&)> use, std::function<void()> cancelled) {
+    askForFiles(
+        from, choice, [use = std::move(use)](const juce::Array<juce::File>& files) { use(files[0]); },
+        std::move(cancelled));
+}
+
+void askForFiles(juce::Component& from, const FileCard::Choice& choice,
+                 const std::function<void(const juce::Array<juce::File>&)>& use,
+                 std::function<void()> cancelled) {
+    auto* host = hostOf(from);
+    if (host == nullptr) return;
+    auto card = std::make_unique<FileCard>(choice);
+    card->onCancel = [safe = From{&from}, cancelled = std::move(cancelled)] { closeThen(safe, cancelled); };
+    card->onFile = [safe = From{&from}, use](const juce::File& file) {
+        closeThen(safe, [use, file] { use({file}); });
+    };
+    card->onFiles = [safe = From{&from}, use](const juce::Array<juce::File>& files) {
+        closeThen(safe, [use, files] { use(files); });
+    };
+    host->setCard(std::move(card));
+}
+
+void askForValues(juce::Component& from, const juce::String& title, const juce::String& answer,
+                  const std::vector<QuestionCard::Field>& fields,
+                  std::function<void(const juce::StringArray&)> use, const juce::String& words) {
+    auto* host = hostOf(from);
+    if (host == nullptr) return;
+    const auto card = std::make_shared<juce::Component::SafePointer<QuestionCard>>();
+    std::vector<QuestionCard::Answer> answers{{answer,
+                                               [safe = From{&from}, card, fields, use = std::move(use)] {
+                                                   juce::StringArray values;
+                                                   for (const auto& field : fields)
+                                                       values.add((*card)->value(field.title));
+                                                   closeThen(safe, [use, values] { use(values); });
+                                               }},
+                                              {"Cancel", [safe = From{&from}] { closeThen(safe, {}); }, true,
+                                               juce::KeyPress{juce::KeyPress::escapeKey}}};
+    auto made = std::make_unique<QuestionCard>(title, words, std::move(answers), fields);
+    *card = made.get();
+    host->setCard(std::move(made));
+}
+
+// Lists folders and files, and checks a typed name.
+
+FileCard::FileCard(const Choice& choice)
+    : choice_{choice} {
+    setTitle(choice.title);
+    setWantsKeyboardFocus(true);
+    title_.setText(choice.title, juce::dontSendNotification);
+    title_.setFont(juce::Font{text::large, juce::Font::bold});
+    for (auto* label : {&place_, &words_}) label->setFont(juce::Font{text::small});
+    place_.setTitle("Folder");
+    words_.setTitle("What is wrong");
+    list_.setTitle("Files of the folder");
+    list_.setRowHeight(rowHeight);
+    list_.setMultipleSelectionEnabled(choice.areSeveral);
+    name_.setTitle("Name of the file");
+    name_.setFont(juce::Font{text::medium});
+    name_.setText(choice.name, false);
+    name_.setSelectAllWhenFocused(true);
+    name_.setTextToShowWhenEmpty("name or path", juce::Colours::grey);
+    name_.onReturnKey = [this] { accept(); };
+    name_.onEscapeKey = [this] { onCancel(); };
+    name_.onTextChange = [this] {
+        replaced_ = juce::File{};
+        accept_.setButtonText(acceptWords());
+        showWords({}, Shade::text);
+    };
+    up_.setTitle("Parent folder");
+    up_.onClick = [this] { enter(folder_.getParentDirectory()); };
+    accept_.setTitle(acceptWords());
+    accept_.setButtonText(accept_.getTitle());
+    accept_.setToggleState(true, juce::dontSendNotification); // Return presses it
+    accept_.onClick = [this] { accept(); };
+    cancel_.setTitle("Cancel");
+    cancel_.onClick = [this] { onCancel(); };
+    addAll(*this, {&title_, &place_, &up_, &list_, &name_, &words_, &cancel_, &accept_});
+    prepareControls(*this);
+    setSize(wide, high);
+    enter(choice.folder);
+}
+
+juce::String FileCard::acceptWords() const {
+    return isFolder() ? "Take this folder" : choice_.isSaving ? "Save" : "Open";
+}
+
+bool FileCard::hasEnding(const juce::File& file) const {
+    return !isFolder() && (file.hasFileExtension(choice_.ending) ||
+                           std::ranges::any_of(choice_.endings, [&](const juce::String& ending) {
+                               return file.hasFileExtension(ending);
+                           }));
+}
+
+void FileCard::enter(const juce::File& folder) {
+    folder_ = folder.isDirectory() ? folder : juce::File::getSpecialLocation(juce::File::userHomeDirectory);
+    entries_ = folder_.findChildFiles(juce::File::findDirectories | juce::File::ignoreHiddenFiles, false);
+    entries_.sort();
+    auto files = folder_.findChildFiles(juce::File::findFiles | juce::File::ignoreHiddenFiles, false);
+    files.sort();
+    for (const auto& file : files)
+        if (hasEnding(file)) entries_.add(file);
+    place_.setText(folder_.getFullPathName(), juce::dontSendNotification);
+    list_.deselectAllRows();
+    list_.updateContent();
+    list_.repaint();
+    showWords(!entries_.isEmpty() ? juce::String{}
+              : isFolder()        ? juce::String{"No folders here"}
+                                  : "No folders or " + choice_.ending + " files here",
+              Shade::muted);
+}
+
+void FileCard::selectedRowsChanged(int row) {
+    if (juce::isPositiveAndBelow(row, entries_.size()) && !entries_[row].isDirectory())
+        setName(entries_[row].getFileNameWithoutExtension());
+}
+
+void FileCard::accept() {
+    const int row = list_.getSelectedRow();
+    if (list_.getNumSelectedRows() > 1) {
+        juce::Array<juce::File> files;
+        for (int k = 0; k < entries_.size(); ++k)
+            if (list_.isRowSelected(k) && !entries_[k].isDirectory()) files.add(entries_[k]);
+        if (files.size() > 1) return onFiles(files);
+    }
+    if (juce::isPositiveAndBelow(row, entries_.size()) && entries_[row].isDirectory())
+        return enter(entries_[row]);
+    if (name().isEmpty()) return isFolder() ? onFile(folder_) : showWords("Expected a name", Shade::limit);
+    const auto typed = folder_.getChildFile(name()); // or an absolute path
+    if (typed.isDirectory()) return enter(typed);
+    if (isFolder())
+        return showWords(typed.getFullPathName() + ": expected a folder that is there", Shade::limit);
+    const auto file = hasEnding(typed) ? typed : typed.getSiblingFile(typed.getFileName() + choice_.ending);
+    if (!choice_.isSaving)
+        return file.existsAsFile()
+                   ? onFile(file)
+                   : showWords(file.getFileName() + ": expected a file that is there", Shade::limit);
+    if (!file.getParentDirectory().isDirectory())
+        return showWords(file.getParentDirectory().getFullPathName() + ": expected a folder that is there",
+                         Shade::limit);
+    if (file.existsAsFile() && file != replaced_) {
+        replaced_ = file;
+        accept_.setButtonText("Replace");
+        return showWords(file.getFileName() + " exists. Press again to replace it", Shade::now);
+    }
+    onFile(file);
+}
+
+void FileCard::showWords(const juce::String& words, Shade which) {
+    words_.setText(words, juce::dontSendNotification);
+    wordsShade_ = which;
+    updateColours();
+}
+
+void FileCard::updateColours() { words_.setColour(juce::Label::textColourId, shade(*this, wordsShade_)); }
+
+bool FileCard::keyPressed(const juce::KeyPress& key) {
+    if (key == juce::KeyPress::escapeKey) return onCancel(), true;
+    if (key == juce::KeyPress::returnKey) return accept(), true;
+    if (key == juce::KeyPress::backspaceKey) return enter(folder_.getParentDirectory()), true;
+    return false;
+}
+
+void FileCard::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
+    if (row >= entries_.size()) return;
+    auto area = juce::Rectangle<int>{width, height};
+    if (isSelected) {
+        g.setColour(shade(*this, Shade::accent).withAlpha(0.22f));
+        g.fillRect(area);
+    }
+    const auto& entry = entries_[row];
+    const bool isFolder = entry.isDirectory();
+    area.reduce(12, 0);
+    g.setFont(juce::Font{text::small});
+    g.setColour(shade(*this, Shade::muted));
+    g.drawText(isFolder ? juce::String{"folder"}
+                        : entry.getLastModificationTime().formatted("%Y-%m-%d %H:%M"),
+               area.removeFromRight(120), juce::Justification::centredRight, true);
+    g.setFont(juce::Font{text::medium, isFolder ? juce::Font::bold : juce::Font::plain});
+    g.setColour(shade(*this, Shade::text));
+    g.drawText(entry.getFileName(), area, juce::Justification::centredLeft, true);
+}
+
+void FileCard::paint(juce::Graphics& g) { drawCard(g, *this); }
+
+void FileCard::resized() {
+    auto area = getLocalBounds().reduced(24, 20);
+    title_.setBounds(area.removeFromTop(30));
+    area.removeFromTop(6);
+    auto row = area.removeFromTop(rowHeight);
+    up_.setBounds(row.removeFromRight(70));
+    place_.setBounds(row.withTrimmedRight(gap));
+    row = area.removeFromBottom(rowHeight + 4);
+    accept_.setBounds(row.removeFromRight(120));
+    row.removeFromRight(gap);
+    cancel_.setBounds(row.removeFromRight(120));
+    words_.setBounds(row);
+    area.removeFromBottom(gap);
+    name_.setBounds(area.removeFromBottom(rowHeight));
+    area.removeFromBottom(gap);
+    list_.setBounds(area.withTrimmedTop(8));
+}
+
+// Layout of a question: text, and answer buttons in rows of three.
+
+namespace {
+constexpr int edgeX = 24, edgeY = 20;
+}
+
+/// A field with its title.
+class QuestionCard::Input final : public juce::Component {
+public:
+    explicit Input(const Field& field)
+        : name{field.title} {
+        text.setTitle(name);
+        text.setFont(juce::Font{physvib::text::medium});
+        text.setText(field.value, false);
+        text.setSelectAllWhenFocused(true);
+        if (field.allowed.isNotEmpty()) text.setInputRestrictions(32, field.allowed);
+        list.setTitle(name);
+        list.addItemList(field.choices, 1);
+        list.setText(field.value, juce::dontSendNotification);
+        addAndMakeVisible(control());
+    }
+    juce::Component& control() { return list.getNumItems() > 0 ? static_cast<juce::Component&>(list) : text; }
+    juce::String value() const { return list.getNumItems() > 0 ? list.getText() : text.getText().trim(); }
+    void paint(juce::Graphics& g) override {
+        g.setColour(shade(*this, Shade::muted));
+        g.setFont(juce::Font{physvib::text::small});
+        g.drawText(name, getLocalBounds().withWidth(nameWidth), juce::Justification::centredLeft, true);
+    }
+    void resized() override { control().setBounds(getLocalBounds().withTrimmedLeft(nameWidth)); }
+
+    static constexpr int nameWidth = 130;
+    const juce::String name;
+    juce::TextEditor text;
+    juce::ComboBox list;
+};
+
+QuestionCard::~QuestionCard() = default;
+
+QuestionCard::QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers,
+                           const std::vector<Field>& fields)
+    : answers_{std::move(answers)} {
+    setTitle(title);
+    setDescription(words);
+    setWantsKeyboardFocus(true);
+    title_.setText(title, juce::dontSendNotification);
+    title_.setFont(juce::Font{text::large, juce::Font::bold});
+    words_.setText(words, juce::dontSendNotification);
+    words_.setFont(juce::Font{text::medium});
+    words_.setJustificationType(juce::Justification::topLeft);
+    words_.setMinimumHorizontalScale(1.0f); // it has space for all lines
+    for (juce::Component* c : {&title_, &words_}) addAndMakeVisible(c);
+    answers_.front().key = juce::KeyPress{juce::KeyPress::returnKey};
+    for (std::size_t k = 0; k < answers_.size(); ++k) {
+        const Answer& answer = answers_[k];
+        auto& button = *buttons_.emplace_back(std::make_unique<juce::TextButton>(answer.words));
+        button.setTitle(answer.words);
+        if (answer.key.isValid())
+            button.setTooltip(answer.words + " (" + answer.key.getTextDescription() + ")");
+        button.setEnabled(answer.isEnabled);
+        button.setToggleState(k == 0 && answer.isEnabled, juce::dontSendNotification); // Return selects it
+        button.onClick = [this, k] { act(k); };
+        addAndMakeVisible(button);
+    }
+    for (const Field& field : fields) {
+        auto& added = *inputs_.emplace_back(std::make_unique<Input>(field));
+        addAndMakeVisible(added);
+        if (field.onChange)
+            added.list.onChange =
+                added.text.onTextChange = [this, &added, use = field.onChange] { use(*this, added.value()); };
+        added.text.onReturnKey = [this] { act(0); };
+        added.text.onEscapeKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::escapeKey}); };
+    }
+    prepareControls(*this);
+    fit();
+}
+
+// The title, the words and the rows; beside them a picture.
+void QuestionCard::fit() {
+    const int rows = (static_cast<int>(answers_.size()) + perRow - 1) / perRow;
+    const int high = (words_.getText().isEmpty() ? 110 : 174) + rows * (rowHigh + gap) +
+                     static_cast<int>(inputs_.size()) * (rowHeight + gap);
+    if (picture_.isNull()) return setSize(wide, high);
+    setSize(wide + edgeX + picture_.getWidth(), std::max(high, picture_.getHeight() + 2 * edgeY));
+}
+
+void QuestionCard::setPicture(const juce::Image& picture) {
+    const auto middle = getBounds().getCentre();
+    picture_ = picture;
+    fit();
+    setCentrePosition(middle);
+    repaint();
+}
+
+juce::String QuestionCard::value(const juce::String& field) const {
+    for (const auto& input : inputs_)
+        if (input->name == field) return input->value();
+    return {};
+}
+
+void QuestionCard::setValue(const juce::String& field, const juce::String& value) {
+    for (auto& input : inputs_)
+        if (input->name == field) {
+            input->text.setText(value, false);
+            input->list.setText(value, juce::dontSendNotification);
+        }
+}
+
+void QuestionCard::answer(const juce::String& words) {
+    for (std::size_t k = 0; k < answers_.size(); ++k)
+        if (answers_[k].words == words) return act(k);
+}
+
+// Asynchronous, because the button's click is still being handled and the action may destroy the card.
+void QuestionCard::act(std::size_t which) {
+    if (!answers_[which].isEnabled) return;
+    later(*this, [which](QuestionCard& card) {
+        const auto act = card.answers_[which].act;
+        act();
+    });
+}
+
+bool QuestionCard::keyPressed(const juce::KeyPress& key) {
+    for (std::size_t k = 0; k < answers_.size(); ++k)
+        if (buttons_[k]->hasKeyboardFocus(false) && key == juce::KeyPress::returnKey) return act(k), true;
+    for (std::size_t k = 0; k < answers_.size(); ++k)
+        if (key == answers_[k].key) return act(k), true;
+    return false;
+}
+
+void QuestionCard::paint(juce::Graphics& g) {
+    drawCard(g, *this);
+    g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality); // sharp on finer screens
+    g.drawImageAt(picture_, getWidth() - edgeX - picture_.getWidth(), edgeY);
+}
+
+void QuestionCard::resized() {
+    auto area = getLocalBounds().reduced(edgeX, edgeY);
+    if (!picture_.isNull()) area.removeFromRight(picture_.getWidth() + edgeX);
+    title_.setBounds(area.removeFromTop(30));
+    const int width = (area.getWidth() - (perRow - 1) * gap) / perRow;
+    auto rows = area.removeFromBottom(
+        static_cast<int>(buttons_.size() + perRow - 1) / perRow * (rowHigh + gap) - gap);
+    for (std::size_t k = 0; k < buttons_.size(); ++k) {
+        const auto at = static_cast<int>(k);
+        buttons_[k]->setBounds(rows.getX() + at % perRow * (width + gap),
+                               rows.getY() + at / perRow * (rowHigh + gap), width, rowHigh);
+    }
+    area.removeFromBottom(gap);
+    for (auto input = inputs_.rbegin(); input != inputs_.rend(); ++input) {
+        (*input)->setBounds(area.removeFromBottom(rowHeight));
+        area.removeFromBottom(gap);
+    }
+    words_.setBounds(area.withTrimmedTop(4));
+}
+
+namespace {
+
+constexpr int looksPerSecond = 15;
+
+} // namespace
+
+RenderTask::RenderTask(const juce::File& file, Work work, Done done)
+    : juce::Thread{"PhysVib render"}
+    , file_{file}
+    , work_{std::move(work)}
+    , done_{std::move(done)} {
+    juce::Component::setTitle("Progress");
+    cancel_.setTitle("Cancel the making of the file");
+    cancel_.onClick = [this] {
+        cancel_.setEnabled(false);
+        signalThreadShouldExit();
+    };
+    addAndMakeVisible(cancel_);
+    prepareControls(*this);
+    setSize(wide, high);
+    startThread();
+    startTimerHz(looksPerSecond);
+}
+
+RenderTask::~RenderTask() {
+    constexpr int untilItHasEnded = -1;
+    stopThread(untilItHasEnded);
+}
+
+void RenderTask::run() {
+    error_ = work_([this](double share) {
+        share_ = share;
+        return !threadShouldExit();
+    });
+}
+
+void RenderTask::timerCallback() {
+    repaint();
+    if (isThreadRunning()) return;
+    stopTimer();
+    const auto done = done_; // which may destroy this object and its error
+    const auto error = error_;
+    done(error, threadShouldExit());
+}
+
+void RenderTask::paint(juce::Graphics& g) {
+    drawCard(g, *this);
+    auto area = getLocalBounds().reduced(12, 8).withTrimmedRight(92);
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(juce::Font{text::medium});
+    const double share = juce::jlimit(0.0, 1.0, share_.load());
+    g.drawText(file_.getFileName() + "  " + juce::String{juce::roundToInt(100.0 * share)} + " %",
+               area.removeFromTop(24), juce::Justification::centredLeft, true);
+    const auto bar = area.removeFromBottom(8).toFloat();
+    g.setColour(shade(*this, Shade::line));
+    g.fillRoundedRectangle(bar, 4.0f);
+    g.setColour(shade(*this, Shade::accent));
+    g.fillRoundedRectangle(bar.withWidth(bar.getWidth() * static_cast<float>(share)), 4.0f);
+}
+
+void RenderTask::resized() { cancel_.setBounds(getLocalBounds().reduced(12, 13).removeFromRight(84)); }
+
+} // namespace physvib

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cards over the window: a choice of files, a question, the progress of a file that is made; how panels ask
+// by them, and what keeps the keyboard and the mouse from what is behind.
+#pragma once
+#include "Host/Views/Look.h"
+#include "Mixer/Widgets/Parts.h"
+#include <atomic>
+#include <functional>
+#include <juce_gui_basics/juce_gui_basics.h>
+#include <memory>
+#include <vector>
+
+namespace physvib {
+
+/// Card over the window that asks for a file to open or to save.
+/// Lists a folder. A typed name stays while another folder is entered; a file that exists is replaced only
+/// after a second press. Message thread only.
+class FileCard final : public juce::Component, private juce::ListBoxModel {
+public:
+    struct Choice {
+        juce::String title, ending; ///< with its dot; a name without an ending gets it. Empty: a folder
+        juce::File folder;
+        bool isSaving = false;
+        juce::String name{};         ///< suggested, without its ending
+        juce::StringArray endings{}; ///< others that are taken as well
+        bool areSeveral = false;     ///< several files can be selected, with Shift and Ctrl
+    };
+
+    explicit FileCard(const Choice& choice);
+
+    std::function<void(const juce::File&)> onFile;
+    std::function<void(const juce::Array<juce::File>&)> onFiles; ///< two or more
+    std::function<void()> onCancel;
+
+    void enter(const juce::File& folder);
+    const juce::File& folder() const noexcept { return folder_; }
+    juce::String name() const { return name_.getText().trim(); }
+    void setName(const juce::String& name) { name_.setText(name, true); }
+    juce::String words() const { return words_.getText(); }
+    /// Same as Return: enters a folder, or takes the file.
+    void accept();
+
+    bool keyPressed(const juce::KeyPress& key) override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    void parentHierarchyChanged() override { updateColours(); }
+    void lookAndFeelChanged() override { updateColours(); }
+
+private:
+    static constexpr int wide = 640, high = 470;
+    int getNumRows() override { return entries_.size(); }
+    void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
+    void selectedRowsChanged(int row) override;
+    void listBoxItemDoubleClicked(int, const juce::MouseEvent&) override { accept(); }
+    void returnKeyPressed(int) override { accept(); }
+    juce::String getNameForRow(int row) override { return entries_[row].getFileName(); }
+    void showWords(const juce::String& words, Shade which);
+    void updateColours(); // of the look, which comes with the parent
+    bool isFolder() const { return choice_.ending.isEmpty(); }
+    juce::String acceptWords() const;
+    bool hasEnding(const juce::File& file) const;
+
+    const Choice choice_;
+    juce::File folder_;
+    juce::Array<juce::File> entries_; // folders first
+    juce::File replaced_;             // asked for; the next press takes it
+    juce::Label title_, place_, words_;
+    Shade wordsShade_ = Shade::text;
+    juce::ListBox list_{"Files", this};
+    juce::TextEditor name_;
+    juce::TextButton up_{"Up"}, accept_, cancel_{"Cancel"};
+};
+
+/// Dialogue card over the window, with fields to fill in: Return selects the first answer, buttons and keys
+/// the others.
+/// Message thread only.
+class QuestionCard final : public juce::Component {
+public:
+    static constexpr int wide = 520, perRow = 3, rowHigh = 34;
+
+    struct Answer {
+        juce::String words;
+        std::function<void()> act; ///< may destroy the card
+        bool isEnabled = true;
+        juce::KeyPress key{};
+    };
+
+    /// Asks for a text, or for one of some choices.
+    struct Field {
+        juce::String title, value;
+        juce::String allowed{};                                                   ///< characters; empty: all
+        juce::StringArray choices{};                                              ///< empty: any text
+        std::function<void(QuestionCard&, const juce::String& value)> onChange{}; ///< chosen or typed
+    };
+
+    QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers,
+                 const std::vector<Field>& fields = {});
+    ~QuestionCard() override;
+
+    juce::String value(const juce::String& field) const; ///< as typed
+    void setValue(const juce::String& field, const juce::String& value);
+
+    /// A square beside the words, with sharp pixels; null: none.
+    void setPicture(const juce::Image& picture);
+    const juce::Image& picture() const noexcept { return picture_; }
+
+    /// Same as a click on that button; no effect if it is missing or disabled.
+    void answer(const juce::String& words);
+    juce::String words() const { return words_.getText(); }
+    bool keyPressed(const juce::KeyPress& key) override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    class Input;
+    void act(std::size_t which);
+
+    void fit();
+
+    juce::Label title_, words_;
+    juce::Image picture_;
+    std::vector<Answer> answers_;
+    std::vector<std::unique_ptr<juce::TextButton>> buttons_;
+    std::vector<std::unique_ptr<Input>> inputs_;
+};
+
+/// Creates a file in the background while the session plays: a small card with a progress bar and a cancel
+/// button. It reports the result to `done`. Message thread.
+class RenderTask final : public juce::Component, private juce::Thread, private juce::Timer {
+public:
+    /// Runs on its own thread, reports progress from 0 to 1, and stops when that returns false. Empty, or one
+    /// error line; "cancelled".
+    using Work = std::function<std::string(const std::function<bool(double)>& progress)>;
+    /// May destroy the card.
+    using Done = std::function<void(const std::string& error, bool isCancelled)>;
+
+    RenderTask(const juce::File& file, Work work, Done done);
+    ~RenderTask() override;
+
+    const juce::File& file() const noexcept { return file_; }
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+    static constexpr int wide = 340, high = 58;
+
+private:
+    void run() override;
+    void timerCallback() override;
+
+    const juce::File file_;
+    const Work work_;
+    const Done done_;
+    std::atomic<double> share_{0.0};
+    std::string error_; // read after the thread has ended
+    juce::TextButton cancel_{"Cancel"};
+};
+
+/// A component that shows cards over its panels.
+class CardHost {
+public:
+    virtual ~CardHost() = default;
+    /// Shows a card in the centre, with the keyboard; null: none.
+    virtual void setCard(std::unique_ptr<juce::Component> card) = 0;
+    /// Hides all panels behind a screen, which gets the keys; null: shows them again.
+    virtual void setScreen(juce::Component* screen) = 0;
+};
+
+/// All for the message thread. `use` and `cancelled` are called later, after the card has gone, and not if
+/// `from` has gone as well. Without a host above `from` nothing happens.
+/// Asks for one file or folder.
+void askForFile(juce::Component& from, const FileCard::Choice& choice,
+                std::function<void(const juce::File&)> use, std::function<void()> cancelled = {});
+
+/// Asks for one or several; see FileCard::Choice::areSeveral.
+void askForFiles(juce::Component& from, const FileCard::Choice& choice,
+                 const std::function<void(const juce::Array<juce::File>&)>& use,
+                 std::function<void()> cancelled = {});
+
+/// Asks for values: `use` gets one per field. `answer`: words of the button that accepts them.
+void askForValues(juce::Component& from, const juce::String& title, const juce::String& answer,
+                  const std::vector<QuestionCard::Field>& fields,
+                  std::function<void(const juce::StringArray&)> use, const juce::String& words = {});
+
+/// Keeps the keyboard and the mouse from what is behind an open card.
+/// Gives a card the keyboard, its first text field if it has one, and keeps it there. What would take it
+/// away: a menu that is pressed by the mouse has a window of its own, and when that closes, JUCE gives the
+/// keyboard to what had it before. Message thread.
+class CardFocus final : private juce::FocusChangeListener {
+public:
+    CardFocus() { juce::Desktop::getInstance().addFocusChangeListener(this); }
+    ~CardFocus() override { juce::Desktop::getInstance().removeFocusChangeListener(this); }
+
+    /// The card is shown.
+    void give(juce::Component& card) {
+        card_ = &card;
+        card.setFocusContainerType(juce::Component::FocusContainerType::keyboardFocusContainer); // for Tab
+        auto* const field = fieldOf(card);
+        (field != nullptr ? *field : card).grabKeyboardFocus();
+    }
+
+private:
+    static juce::Component* fieldOf(juce::Component& in) {
+        for (auto* child : in.getChildren()) {
+            if (dynamic_cast<juce::TextEditor*>(child) != nullptr && child->isVisible()) return child;
+            if (auto* const within = fieldOf(*child)) return within;
+        }
+        return nullptr;
+    }
+    void globalFocusChanged(juce::Component* focused) override {
+        if (card_ == nullptr || focused == nullptr || focused == card_ || card_->isParentOf(focused)) return;
+        if (focused->getTopLevelComponent() == card_->getTopLevelComponent()) give(*card_);
+    }
+    juce::Component::SafePointer<juce::Component> card_;
+};
+
+/// Lies between a card and the window: only the button that silences is reached through it. Message thread.
+class Curtain final : public juce::Component {
+public:
+    void paint(juce::Graphics& g) override {
+        if (const auto* stop = stopButton(*getParentComponent()))
+            g.excludeClipRegion(getLocalArea(stop, stop->getLocalBounds()));
+        g.fillAll(shade(*this, Shade::ground).withAlpha(0.45f));
+    }
+    bool hitTest(int x, int y) override {
+        const auto* stop = stopButton(*getParentComponent());
+        return stop == nullptr || !getLocalArea(stop, stop->getLocalBounds()).contains(x, y);
+    }
+
+private:
+    static const juce::Component* stopButton(const juce::Component& in) {
+        if (in.getProperties()[stopProperty] && in.isShowing()) return &in;
+        for (const auto* child : in.getChildren())
+            if (const auto* found = stopButton(*child)) return found;
+        return nullptr;
+    }
+};
+
+} // namespace physvib

@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Draws icons as paths, text on backgrounds, dividers, spectra and the names of tabs.
+#include "Mixer/Widgets/Parts.h"
+#include "Core/Units.h"
+#include "Host/Views/WorldView.h"
+#include "Measure/Spectrum.h"
+#include "Mixer/Model/MixerSignals.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+juce::Path pathOf(Sign sign) {
+    juce::Path p;
+    switch (sign) {
+    case Sign::play: p.addTriangle(-4.0f, -6.0f, -4.0f, 6.0f, 6.0f, 0.0f); break;
+    case Sign::pause:
+        p.addRectangle(-5.0f, -6.0f, 3.5f, 12.0f);
+        p.addRectangle(1.5f, -6.0f, 3.5f, 12.0f);
+        break;
+    case Sign::step:
+        p.addTriangle(-6.0f, -5.5f, -6.0f, 5.5f, 2.0f, 0.0f);
+        p.addRectangle(3.5f, -5.5f, 2.5f, 11.0f);
+        break;
+    case Sign::restart: {
+        juce::Path arc;
+        arc.addCentredArc(0.0f, 0.0f, 5.5f, 5.5f, 0.0f, -2.2f, 2.6f, true);
+        juce::PathStrokeType{2.0f}.createStrokedPath(p, arc);
+        p.addTriangle(-8.2f, -1.0f, -1.6f, -2.2f, -5.6f, -7.0f);
+        break;
+    }
+    case Sign::save: // down into a tray
+        p.addRectangle(-1.0f, -7.0f, 2.0f, 7.0f);
+        p.addTriangle(-4.5f, -1.5f, 4.5f, -1.5f, 0.0f, 3.5f);
+        p.addRectangle(-7.0f, 5.0f, 14.0f, 2.0f);
+        break;
+    case Sign::undo:
+    case Sign::redo: {
+        juce::Path arc;
+        arc.addCentredArc(0.5f, 1.5f, 5.5f, 4.5f, 0.0f, -1.3f, 2.6f, true);
+        juce::PathStrokeType{2.0f}.createStrokedPath(p, arc);
+        p.addTriangle(-8.0f, 0.5f, -1.0f, 1.5f, -6.5f, -5.5f);
+        if (sign == Sign::redo) p.applyTransform(juce::AffineTransform::scale(-1.0f, 1.0f));
+        break;
+    }
+    case Sign::plus:
+        p.addRectangle(-6.0f, -1.0f, 12.0f, 2.0f);
+        p.addRectangle(-1.0f, -6.0f, 2.0f, 12.0f);
+        break;
+    case Sign::sweep: { // a wave of rising frequency
+        juce::Path wave;
+        wave.startNewSubPath(-9.0f, 0.0f);
+        for (int k = 1; k <= 54; ++k) {
+            const float t = static_cast<float>(k) / 54.0f;
+            wave.lineTo(-9.0f + 18.0f * t,
+                        -4.5f * std::sin(juce::MathConstants<float>::twoPi * (0.7f * t + 2.0f * t * t)));
+        }
+        juce::PathStrokeType{1.6f}.createStrokedPath(p, wave);
+    }
+    }
+    return p;
+}
+
+} // namespace
+
+SignButton::SignButton(Sign sign, const juce::String& name)
+    : juce::Button{name}
+    , sign_{sign} {
+    setSign(sign, name);
+}
+
+void SignButton::setSign(Sign sign, const juce::String& name) {
+    if (sign == sign_ && name == getTitle()) return;
+    sign_ = sign;
+    describe(*this, name, name);
+    repaint();
+}
+
+void SignButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
+    getLookAndFeel().drawButtonBackground(g, *this, {}, isOver, isDown);
+    const bool isQuiet = getProperties()[quietProperty];
+    g.setColour(shade(*this, !isEnabled()       ? Shade::muted
+                             : getToggleState() ? Shade::well
+                             : isQuiet          ? Shade::accent
+                                                : Shade::text));
+    g.fillPath(pathOf(sign_), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
+}
+
+void TwoLines::set(const juce::String& first, const juce::String& second, Shade firstShade) {
+    if (first == first_ && second == second_ && firstShade == shade_) return;
+    first_ = first;
+    second_ = second;
+    shade_ = firstShade;
+    setDescription(first + ", " + second);
+    repaint();
+}
+
+void TwoLines::paint(juce::Graphics& g) {
+    auto area = getLocalBounds();
+    const auto line = [&](const juce::String& words, juce::Rectangle<int> row, Shade which) {
+        g.setColour(shade(*this, which));
+        g.setFont(juce::Font{text::small});
+        g.drawText(words, row, juce::Justification::centredLeft, true);
+    };
+    line(first_, area.removeFromTop(getHeight() / 2), shade_);
+    line(second_, area, Shade::muted);
+}
+
+void drawPanel(juce::Graphics& g, const juce::Component& component) {
+    g.setColour(shade(component, Shade::panel));
+    g.fillRoundedRectangle(component.getLocalBounds().toFloat(), 8.0f);
+}
+
+void drawCard(juce::Graphics& g, const juce::Component& component) {
+    const auto area = component.getLocalBounds().toFloat();
+    g.setColour(shade(component, Shade::raised));
+    g.fillRoundedRectangle(area, 12.0f);
+    g.setColour(shade(component, Shade::accent));
+    g.drawRoundedRectangle(area.reduced(0.75f), 12.0f, 1.5f);
+}
+
+std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name) {
+    auto button = std::make_unique<juce::TextButton>(words);
+    button->setTitle(name);
+    button->setTooltip(name);
+    button->getProperties().set(quietProperty, true);
+    return button;
+}
+
+void onSlide(juce::Slider& slider, std::function<void(bool)> use) {
+    const auto isFirst = std::make_shared<bool>(true);
+    slider.onDragStart = [isFirst] { *isFirst = true; };
+    slider.onValueChange = [&slider, isFirst, use = std::move(use)] {
+        use(slider.isMouseButtonDown() && !std::exchange(*isFirst, false));
+    };
+}
+
+void prepareControls(juce::Component& root) {
+    auto* slider = dynamic_cast<juce::Slider*>(&root);
+    if (slider != nullptr) slider->setWantsKeyboardFocus(true);
+    // also controls that are disabled now
+    const bool isBox = dynamic_cast<juce::ComboBox*>(&root) != nullptr;
+    const bool isControl = slider != nullptr || isBox || root.getWantsKeyboardFocus() ||
+                           dynamic_cast<juce::Button*>(&root) != nullptr;
+    if (isControl && root.getParentComponent() != nullptr) root.setHasFocusOutline(true);
+    if (slider == nullptr && !isBox) // these handle their own children
+        for (auto* child : root.getChildren()) prepareControls(*child);
+}
+
+Caption::Caption(const juce::String& words, Shade tone)
+    : tone_{tone} {
+    setText(words, juce::dontSendNotification);
+    setFont(juce::Font{text::small});
+    setBorderSize({0, 0, 0, 0});
+}
+
+void addAll(juce::Component& parent, std::initializer_list<juce::Component*> children) {
+    for (auto* child : children) parent.addAndMakeVisible(child);
+}
+
+AttachButton::AttachButton(MixerModel& model, const juce::String& title, const juce::String& tooltip)
+    : juce::Button{title} {
+    describe(*this, title, tooltip);
+    onClick = [&model] { model.attach(0.5, 0.5); };
+}
+
+void AttachButton::mouseDrag(const juce::MouseEvent& e) {
+    auto* container = juce::DragAndDropContainer::findParentDragContainerFor(this);
+    if (container == nullptr || container->isDragAndDropActive() || e.getDistanceFromDragStart() < 6) return;
+    setState(buttonNormal);
+    container->startDragging(WorldView::newEnchanter, this);
+}
+
+Divider::Divider(const juce::String& title, bool isUpright)
+    : isUpright_{isUpright} {
+    describe(*this, title, title + ": drag it; double click: automatic");
+    setWantsKeyboardFocus(true);
+    setMouseClickGrabsKeyboardFocus(false); // the world keeps its keys
+    setHasFocusOutline(true);
+    setMouseCursor(isUpright ? juce::MouseCursor::LeftRightResizeCursor
+                             : juce::MouseCursor::UpDownResizeCursor);
+}
+
+bool Divider::keyPressed(const juce::KeyPress& key) {
+    using juce::KeyPress;
+    constexpr int step = 16;
+    const auto back = isUpright_ ? KeyPress::leftKey : KeyPress::upKey,
+               forth = isUpright_ ? KeyPress::rightKey : KeyPress::downKey;
+    if (key == back || key == forth) return onMove(key == forth ? step : -step), true;
+    if (key == KeyPress::backspaceKey) return onReset(), true;
+    return false;
+}
+
+void Divider::paint(juce::Graphics& g) {
+    g.setColour(shade(*this, isMouseOverOrDragging() ? Shade::accent : Shade::muted));
+    constexpr float length = 36.0f, thickness = 3.0f;
+    const auto handle = getLocalBounds().toFloat().withSizeKeepingCentre(isUpright_ ? thickness : length,
+                                                                         isUpright_ ? length : thickness);
+    g.fillRoundedRectangle(handle, 1.5f);
+}
+
+// It moves under the mouse, so each distance from the middle is a new one.
+void Divider::mouseDrag(const juce::MouseEvent& e) {
+    const auto from = e.position - e.mouseDownPosition;
+    onMove(juce::roundToInt(isUpright_ ? from.x : from.y));
+}
+
+void Divider::mouseDoubleClick(const juce::MouseEvent&) { onReset(); }
+
+double FrequencyAxis::shareOf(double hz) {
+    return std::log(std::max(hz, 1e-3) / lowHz) / std::log(highHz / lowHz);
+}
+double FrequencyAxis::hzAt(double share) { return lowHz * std::pow(highHz / lowHz, share); }
+
+SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, double fullScale) {
+    SpectrumLevels levels;
+    const double half = 0.5 / (FrequencyAxis::points - 1),
+                 last = static_cast<double>(magnitudes.size()) - 1.0;
+    for (int k = 0; k < FrequencyAxis::points; ++k) {
+        const double share = static_cast<double>(k) / (FrequencyAxis::points - 1);
+        const double from = FrequencyAxis::hzAt(share - half) / binHz,
+                     to = std::min(last, FrequencyAxis::hzAt(share + half) / binHz);
+        const auto between = [&](double bin) { // at low frequencies the points are denser than the bins
+            const auto i = static_cast<std::size_t>(bin);
+            return i + 1 < magnitudes.size()
+                       ? std::lerp(magnitudes[i], magnitudes[i + 1], bin - static_cast<double>(i))
+                       : 0.0;
+        };
+        double highest = std::max(between(from), between(to));
+        for (auto i = static_cast<std::size_t>(std::ceil(from)); i <= static_cast<std::size_t>(to); ++i)
+            highest = std::max(highest, magnitudes[i]);
+        const double db = toDecibels(std::max(highest / fullScale, 1e-9));
+        levels[static_cast<std::size_t>(k)] = std::max(FrequencyAxis::floorDb, static_cast<float>(db));
+    }
+    return levels;
+}
+
+juce::Rectangle<int> drawFrequencyAxis(juce::Graphics& g, const juce::Component& component,
+                                       juce::Rectangle<int> area) {
+    const auto foot = area.removeFromBottom(16);
+    g.setFont(juce::Font{text::small});
+    for (const int hz : {20, 50, 100, 200, 500, 1000}) {
+        const int x = area.getX() + juce::roundToInt(FrequencyAxis::shareOf(hz) * (area.getWidth() - 1));
+        g.setColour(shade(component, Shade::line).withMultipliedAlpha(0.7f));
+        g.drawVerticalLine(x, static_cast<float>(area.getY()), static_cast<float>(area.getBottom()));
+        g.setColour(shade(component, Shade::muted));
+        const auto words = hz == 1000 ? juce::String{"1k"} : juce::String{hz};
+        const auto where = hz == 20     ? juce::Justification::centredLeft
+                           : hz == 1000 ? juce::Justification::centredRight
+                                        : juce::Justification::centred;
+        g.drawText(words,
+                   juce::Rectangle<int>{40, foot.getHeight()}
+                       .withCentre({x, foot.getCentreY()})
+                       .constrainedWithin(foot),
+                   where, false);
+    }
+    return area;
+}
+
+void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::points> heights,
+                  juce::Rectangle<float> area, juce::Colour colour) {
+    juce::Path curve, ground;
+    ground.startNewSubPath(area.getBottomLeft());
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        const juce::Point<float> p{area.getX() + area.getWidth() * static_cast<float>(k) /
+                                                     static_cast<float>(heights.size() - 1),
+                                   area.getBottom() - area.getHeight() * heights[k]};
+        k == 0 ? curve.startNewSubPath(p) : curve.lineTo(p);
+        ground.lineTo(p);
+    }
+    ground.lineTo(area.getBottomRight());
+    ground.closeSubPath();
+    g.setColour(colour.withAlpha(0.14f));
+    g.fillPath(ground);
+    g.setColour(colour);
+    g.strokePath(curve, juce::PathStrokeType{1.5f});
+}
+
+namespace {
+
+/// Hann window (Oppenheim and Schafer 7.2); its sum is half its length.
+const std::vector<double>& hann() {
+    static const std::vector<double> weights = [] {
+        std::vector<double> w(SpectrumTrace::window);
+        for (std::size_t i = 0; i < w.size(); ++i)
+            w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
+                                        static_cast<double>(w.size()));
+        return w;
+    }();
+    return weights;
+}
+
+} // namespace
+
+SpectrumLevels levelsOf(const SpectrumTrace& trace, int channel) {
+    auto x = trace.recent(channel);
+    if (x.empty()) {
+        SpectrumLevels none;
+        none.fill(FrequencyAxis::floorDb);
+        return none;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= hann()[i];
+    const auto heights = magnitudes(x);
+    // half of the weights' sum
+    return spectrumLevels(heights, 0.5 * trace.rateHz() / static_cast<double>(heights.size() - 1),
+                          0.25 * SpectrumTrace::window);
+}
+
+namespace {
+
+constexpr int barRoom = 12;                 // of the scroll bar, and beside it
+constexpr int widestRest = 60, maxCut = 14; // margin beside a name, and what a narrow panel takes from it
+
+int widthOf(const juce::String& name) {
+    return juce::Font{text::medium, juce::Font::bold}.getStringWidth(name) + 6;
+}
+
+} // namespace
+
+class TabPanel::Name final : public juce::Button {
+public:
+    explicit Name(const juce::String& name)
+        : juce::Button{name} {
+        setTitle(name);
+        setRadioGroupId(1);
+        setClickingTogglesState(true);
+    }
+    void paintButton(juce::Graphics& g, bool isOver, bool) override {
+        const bool isChosen = getToggleState();
+        g.setColour(shade(*this, isChosen || isOver ? Shade::text : Shade::muted));
+        g.setFont(juce::Font{text::medium, isChosen ? juce::Font::bold : juce::Font::plain});
+        g.drawText(getName(), getLocalBounds().withTrimmedBottom(4), juce::Justification::centred, false);
+        g.setColour(isChosen ? shade(*this, Shade::accent) : juce::Colours::transparentBlack);
+        g.fillRect(getLocalBounds().removeFromBottom(2));
+    }
+};
+
+TabPanel::TabPanel(const juce::String& title) { setTitle(title); }
+TabPanel::~TabPanel() = default;
+
+void TabPanel::add(const juce::String& name, std::unique_ptr<Tab> tab) {
+    auto button = std::make_unique<Name>(name);
+    button->onClick = [this, name] { choose(name); };
+    addAndMakeVisible(*button);
+    auto view = std::make_unique<juce::Viewport>();
+    view->setViewedComponent(tab.get(), false);
+    view->setScrollBarsShown(true, false);
+    tab->setVisible(false); // tabs tell by their visibility whether they are chosen
+    view->setScrollBarThickness(8);
+    addChildComponent(*view);
+    pages_.push_back({std::move(button), std::move(tab), std::move(view), 0});
+    if (pages_.size() == 1) choose(name);
+}
+
+void TabPanel::choose(const juce::String& name) {
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+        const bool isChosen = pages_[i].name->getName() == name;
+        if (isChosen) chosen_ = i;
+        pages_[i].name->setToggleState(isChosen, juce::dontSendNotification);
+        pages_[i].view->setVisible(isChosen);
+        pages_[i].tab->setVisible(isChosen);
+    }
+    resized();
+}
+
+juce::StringArray TabPanel::names() const {
+    juce::StringArray all;
+    for (const auto& page : pages_) all.add(page.name->getName());
+    return all;
+}
+
+void TabPanel::mixChanged() {
+    for (auto& page : pages_) page.tab->mixChanged();
+}
+
+void TabPanel::refresh(const MixerMoment& moment) {
+    if (chosen_ >= pages_.size()) return;
+    const auto& page = pages_[chosen_];
+    page.tab->refresh(moment);
+    if (page.tab->minHeight(page.view->getWidth()) != page.least) resized(); // it says more, or less
+}
+
+void TabPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
+
+void TabPanel::resized() {
+    auto area = getLocalBounds().reduced(panelInset, 8);
+    auto names = area.removeFromTop(32);
+    if (pages_.empty()) return;
+    int rest = names.getWidth();
+    for (auto& page : pages_) rest -= widthOf(page.name->getName());
+    rest = juce::jlimit(-maxCut, widestRest, rest / static_cast<int>(pages_.size()));
+    for (auto& page : pages_)
+        page.name->setBounds(names.removeFromLeft(widthOf(page.name->getName()) + rest)
+                                 .withTrimmedRight(std::max(0, rest / 3)));
+    area.removeFromTop(10);
+    for (auto& page : pages_) {
+        page.view->setBounds(area);
+        page.least = page.tab->minHeight(area.getWidth());
+        const int room = page.least > area.getHeight() ? barRoom : 0;
+        page.tab->setSize(area.getWidth() - room,
+                          std::max(area.getHeight(), page.tab->minHeight(area.getWidth() - room)));
+    }
+}
+
+} // namespace physvib

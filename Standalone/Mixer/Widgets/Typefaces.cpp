@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Finds typefaces by glyph outlines: a letter whose outline equals that of a non-character is missing. JUCE 8
+// tells.
+#include "Mixer/Widgets/Typefaces.h"
+#include <array>
+#include <set>
+
+namespace physvib {
+namespace {
+
+constexpr std::array preferred{"NanumGothic", "Noto Sans CJK KR", "Noto Sans CJK SC",
+                               "UnDotum"}; // typefaces known to be legible
+
+#if JUCE_MAJOR_VERSION >= 8
+auto lettersIn(juce::Typeface& typeface) {
+    return [&](juce::juce_wchar letter) { return typeface.getNominalGlyphForCodepoint(letter).has_value(); };
+}
+#else
+constexpr juce::juce_wchar nobodys = 0xfffe; // a non-character of Unicode
+
+juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
+    juce::Array<int> glyphs;
+    juce::Array<float> places;
+    juce::Path path;
+    typeface.getGlyphPositions(juce::String::charToString(letter), glyphs, places);
+    for (const int glyph : glyphs) typeface.getOutlineForGlyph(glyph, path);
+    return path.toString();
+}
+
+auto lettersIn(juce::Typeface& typeface) {
+    return [&, box = outlineOf(typeface, nobodys)](juce::juce_wchar letter) {
+        return outlineOf(typeface, letter) != box;
+    };
+}
+#endif
+
+/// The typeface in use for all text; empty: the default.
+juce::String& inUse() {
+    static juce::String name;
+    return name;
+}
+
+juce::String lettersOf(const Words& words) {
+    std::set<juce::juce_wchar> letters;
+    for (const auto& [english, text] : words.texts)
+        for (const auto letter : juce::String::fromUTF8(text.c_str()))
+            if (letter > 0x7f) letters.insert(letter);
+    juce::String all;
+    for (const auto letter : letters) all += letter;
+    return all;
+}
+
+} // namespace
+
+bool hasLetters(const juce::String& typeface, const juce::String& letters) {
+    const juce::Font font =
+        typeface.isEmpty() ? juce::Font{20.0f} : juce::Font{typeface, 20.0f, juce::Font::plain};
+    const auto face = font.getTypefacePtr();
+    if (face == nullptr) return false;
+    const auto has = lettersIn(*face);
+    for (const auto letter : letters)
+        if (!has(letter)) return false;
+    return true;
+}
+
+std::optional<juce::String> typefaceFor(const Words& words) { return typefaceFor(lettersOf(words)); }
+
+std::optional<juce::String> typefaceFor(const juce::String& letters) {
+    if (hasLetters({}, letters)) return juce::String{};
+    const auto installed = juce::Font::findAllTypefaceNames();
+    juce::StringArray names;
+    for (const char* name : preferred)
+        if (installed.contains(name)) names.add(name);
+    names.addArray(installed);
+    for (const auto& name : names)
+        if (hasLetters(name, letters)) return name;
+    return {};
+}
+
+StudyFont::StudyFont(const juce::String& typeface)
+    : before_{inUse()} {
+    use(typeface);
+}
+
+void StudyFont::use(const juce::String& typeface) {
+    inUse() = typeface;
+    juce::LookAndFeel::getDefaultLookAndFeel().setDefaultSansSerifTypefaceName(typeface);
+    juce::Typeface::clearTypefaceCache();
+}
+
+// Searches for a typeface when a new letter is to be displayed.
+
+bool ShownLetters::show(const juce::String& words) {
+    juce::String fresh;
+    for (const auto letter : words)
+        if (letter > 0x7f && !letters_.containsChar(letter) && !fresh.containsChar(letter)) fresh += letter;
+    if (fresh.isEmpty()) return false;
+    letters_ += fresh;
+    if (hasLetters({}, fresh)) return false;
+    const auto typeface = typefaceFor(letters_);
+    if (!typeface) return false; // not installed: JUCE draws boxes
+    font_.reset();               // only one may exist
+    font_ = std::make_unique<StudyFont>(*typeface);
+    return true;
+}
+
+} // namespace physvib

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The model without a window: what is set on it reaches the session, comes back by undo, and is in the saved
+// session.
+#include "Host/FakeAudioDevice.h"
+#include "MixerTesting.h"
+#include "Scene/SceneCatalogue.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using Kind = RenderControl::Kind;
+
+TEST(MixerModel, PlaysAtOnceAndQuietly) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
+    EXPECT_EQ(model.mix().scene->name, "shake-the-box");
+    EXPECT_LE(model.mix().levelDb, -12.0) << "hands are attached";
+    EXPECT_TRUE(runUntil([&] { return model.look().session.render.played > 5; }));
+}
+
+TEST(MixerModel, AFifthEnchanterIsAttachedWhileItPlaysStartsQuietlyAndCanBeTakenBack) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    ASSERT_TRUE(model.attach(0.5, 0.25));
+    EXPECT_EQ(model.mix().count(), 5);
+    EXPECT_EQ(model.mix().layout.enchanters.back().label, "E");
+    EXPECT_LT(model.mix().strips.back().gainDb, -6.0);
+    EXPECT_EQ(model.mix().strips.back().output, 4);
+    EXPECT_EQ(model.saved().log.panners.back().panner.channels(), 5);
+    EXPECT_EQ(model.saved().channels, 5);
+    model.undoManager().undo();
+    EXPECT_EQ(model.mix().count(), 4);
+    EXPECT_EQ(model.saved().log.panners.back().panner.channels(), 4);
+    EXPECT_EQ(model.saved().channels, 5) << "it was there for a while";
+    model.undoManager().redo();
+    model.detach(1);
+    EXPECT_EQ(model.mix().layout.enchanters[1].label, "C");
+    EXPECT_EQ(model.mix().strips[1].output, 2) << "what plays it goes with it";
+}
+
+TEST(MixerModel, TheLastEnchanterStays) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    for (int k = 0; k < 5; ++k) model.detach(0);
+    ASSERT_EQ(model.mix().count(), 1);
+    EXPECT_EQ(model.mix().layout.enchanters[0].label, "D");
+}
+
+TEST(MixerModel, StartsSilentIfItIsAsked) {
+    MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isSilent = true}};
+    EXPECT_TRUE(model.isSilent());
+    EXPECT_TRUE(model.output().isSilent());
+}
+
+TEST(MixerModel, ASavedSessionIsAsLongAsItWasPlayed) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    ASSERT_TRUE(runUntil([&] { return model.look().sessionNs > 200'000'000; }));
+    EXPECT_GT(model.saved().lengthNs, 200'000'000);
+}
+
+TEST(MixerModel, SoloMutesTheOthers) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    model.change("Solo", [](Mix& mix) { mix.strips[2].isSolo = true; });
+    std::vector<int> muted;
+    for (const auto& c : model.saved().log.channels)
+        if (c.kind == Kind::mute && c.value != 0.0f) muted.push_back(c.channel);
+    EXPECT_EQ(muted, (std::vector<int>{0, 1, 3}));
+}
+
+TEST(MixerModel, ATestPulseIsOnItsActuatorAloneInSpaceToo) {
+    for (const char* name : {"ring4", "glove5", "sleeve8", "vest16"}) {
+        MixerModel model{onlyNoDevice(), noDevice};
+        model.change("Layout", [&](Mix& mix) {
+            mix.layout = presetLayout(name);
+            mix.resizeStrips();
+        });
+        for (int j = 0; j < model.mix().count(); ++j) {
+            model.strikes().testPulse(j);
+            ASSERT_TRUE(runUntil(
+                [&] { return model.saved().log.strikes.size() == static_cast<std::size_t>(j) + 1; }));
+            const auto log = model.saved().log;
+            PhantomPanner::Gains gains{};
+            const CollisionEvent& pulse = log.strikes.back();
+            log.panners.back().panner.gainsAt(pulse, gains);
+            for (int k = 0; k < model.mix().count(); ++k)
+                EXPECT_NEAR(gains[static_cast<std::size_t>(k)], j == k ? 1.0 : 0.0, 1e-6) << name << j << k;
+        }
+    }
+}
+
+TEST(MixerModel, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+    model.change("Ceiling of A", [](Mix& mix) { mix.strips[0].ceilingDb = -30.0; });
+    // A session that plays already lowers a ceiling in a ramp of 10 ms.
+    const auto changedNs = model.saved().log.channels.back().timeNs;
+    ASSERT_TRUE(runUntil([&] { return model.look().sessionNs > changedNs + 100'000'000; }));
+    for (int k = 0; k < 4; ++k) model.strikes().testPulse(0); // 2 of full scale together
+    float highest = 0.0f;
+    ASSERT_TRUE(runUntil([&] {
+        highest = std::max(highest, model.look().holds[0]);
+        return highest > 0.9f * ceilingOf(model.mix().strips[0]);
+    }));
+    EXPECT_LE(highest, ceilingOf(model.mix().strips[0]) * 1.0001f);
+    const auto ceilings = [&] {
+        std::vector<float> all;
+        for (const auto& c : model.saved().log.channels)
+            if (c.kind == Kind::ceiling) all.push_back(c.value);
+        return all;
+    };
+    EXPECT_EQ(ceilings(), (std::vector<float>{ceilingOf({.ceilingDb = -30.0})}));
+    model.attach(0.5, 0.5);
+    EXPECT_EQ(model.mix().strips.back().ceilingDb, -30.0) << "not above what the others are held to";
+    model.undoManager().undo();
+    model.undoManager().undo();
+    ASSERT_FALSE(ceilings().empty());
+    EXPECT_EQ(ceilings().back(), 1.0f);
+}
+
+TEST(MixerModel, AHeldFaderIsOneThingToUndo) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    for (int k = 0; k < 20; ++k)
+        model.change(
+            "Gain of A", [k](Mix& mix) { mix.strips[0].gainDb = -0.5 * k; }, k > 0);
+    EXPECT_EQ(model.mix().strips[0].gainDb, -9.5);
+    model.undoManager().undo();
+    EXPECT_EQ(model.mix().strips[0].gainDb, 0.0);
+    EXPECT_FALSE(model.undoManager().canUndo());
+}
+
+TEST(MixerModel, BodiesComeGoAndChangeAndAllOfItCanBeUndone) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    BodyDescription ball;
+    ball.name = "?";
+    ball.positionMetres = {3.0, 2.0};
+    ball.fixtures.push_back({CircleShape{0.15}, {}, 0.0, 0, false, Voice::own});
+    EXPECT_EQ(model.world().edit("Add", SpawnAction{ball, {}}), "");
+    ASSERT_EQ(model.world().scene().inputs.size(), 1u);
+    const auto added = std::get<SpawnAction>(model.world().scene().inputs[0].action).body.name;
+    EXPECT_EQ(model.world().edit("Material", MaterialAction{added, everyFixture, 2}), "");
+    EXPECT_EQ(std::get<SpawnAction>(model.world().scene().inputs[0].action).body.fixtures[0].material, 2);
+    model.undoManager().undo();
+    EXPECT_EQ(std::get<SpawnAction>(model.world().scene().inputs[0].action).body.fixtures[0].material, 0);
+    model.undoManager().undo();
+    ASSERT_TRUE(runUntil([&] {
+        const auto moment = model.look();
+        return !moment.poses.empty() && !moment.poses.back().isPresent;
+    }));
+    EXPECT_NE(model.world().edit("Material", MaterialAction{"floor", everyFixture, 99}), "")
+        << "what cannot be is told, not done";
+    EXPECT_FALSE(model.undoManager().canUndo());
+}
+
+TEST(MixerModel, AThousandEditsLaterEverythingCanBeUndone) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    const Mix first = model.mix();
+    for (int k = 0; k < 30; ++k) {
+        model.attach(0.01 * k, 0.5);
+        model.change("Law", [k](Mix& mix) { mix.law = static_cast<PanningLaw>(k % 4); });
+        model.change("Mute",
+                     [k](Mix& mix) { mix.strips[static_cast<std::size_t>(k % 4)].isMuted = k % 2 == 0; });
+        model.detach(k % model.mix().count());
+    }
+    while (model.undoManager().canUndo()) model.undoManager().undo();
+    EXPECT_EQ(model.mix().strips, first.strips);
+    EXPECT_EQ(model.mix().layout.enchanters, first.layout.enchanters);
+}
+
+TEST(MixerModel, ARecordingHasAChannelPerEnchanterAndTheEventsOfIt) {
+    TestFolder folder;
+    MixerModel model{onlyNoDevice(), noDevice};
+    bool isDone = false;
+    model.recording().onEnd = [&](const juce::File&, const juce::String& error) {
+        isDone = true;
+        EXPECT_TRUE(error.isEmpty()) << error;
+    };
+    ASSERT_EQ(model.recording().start(folder("take.wav")), "");
+    EXPECT_TRUE(runUntil([&] { return model.look(), model.recording().seconds() > 2.0; }));
+    model.recording().stop();
+    EXPECT_TRUE(runUntil([&] { return model.look(), isDone; }));
+    juce::AudioFormatManager formats;
+    formats.registerBasicFormats();
+    const std::unique_ptr<juce::AudioFormatReader> wav{formats.createReaderFor(folder("take.wav"))};
+    ASSERT_NE(wav, nullptr);
+    EXPECT_EQ(wav->numChannels, 4u);
+    EXPECT_GT(wav->lengthInSamples, 2 * 48000 - 4800);
+    const auto events = loadEventsCsv(folder("take.csv").getFullPathName().toStdString());
+    ASSERT_TRUE(events) << events.error;
+    ASSERT_FALSE(events.value.events.empty());
+    EXPECT_EQ(events.value.field.widthMetres, model.world().scene().fieldWidthMetres);
+    EXPECT_LT(events.value.events.back().timeNs,
+              static_cast<std::int64_t>(1e9 * static_cast<double>(wav->lengthInSamples) / 48000.0));
+    EXPECT_NE(model.recording().start(folder("no/such/folder/take.wav")), "");
+}
+
+TEST(MixerModel, ARecordingThatRunsWhenTheMixerIsClosedIsKept) {
+    TestFolder folder;
+    {
+        MixerModel model{onlyNoDevice(), noDevice};
+        ASSERT_EQ(model.recording().start(folder("take.wav")), "");
+        EXPECT_TRUE(runUntil([&] { return model.look(), model.recording().seconds() > 0.1; }));
+    }
+    EXPECT_GT(folder("take.wav").getSize(), 4 * 4 * 4800);
+    EXPECT_TRUE(folder("take.csv").existsAsFile());
+    EXPECT_FALSE(folder("take.wav.physvib.part").exists());
+}
+
+TEST(MixerModel, ADeviceThatVanishesIsToldAndTakenUpAgain) {
+    FakeInterface hands;
+    MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
+    hands.unplug(true);
+    EXPECT_TRUE(runUntil([&] { return model.look(), model.trouble().contains("has stopped"); }))
+        << model.trouble();
+    EXPECT_FALSE(model.look().device.isRunning);
+    hands.isPlugged = true;
+    EXPECT_TRUE(runUntil([&] { return model.look(), model.trouble().isEmpty(); })) << model.trouble();
+    EXPECT_TRUE(model.look().device.isRunning);
+    EXPECT_NE(model.open({"Fake:feet", 0, 0}), "");
+    EXPECT_TRUE(model.trouble().contains("feet")) << "never a silent failure";
+}
+
+TEST(MixerModel, TheMonitorIsHeardWhereNoEnchanterIsAndGivesWayToOne) {
+    FakeInterface hands;
+    MixerModel model{fakeDrivers({&hands}),
+                     {.name = "Fake:hands", .monitor = {2, 3}, .marker = 1},
+                     MixerModel::firstMix(),
+                     {.isPaused = true}};
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble() << ": an enchanter is there, and is felt";
+    EXPECT_TRUE(model.device().listening().settings().contacts.empty());
+    EXPECT_TRUE(model.device().listening().settings().marks.empty());
+    EXPECT_EQ(model.device().listening().monitor({4, 3}, -20.0),
+              "output 4 is an actuator's; expected another one to listen to");
+    EXPECT_EQ(model.device().listening().mark(2),
+              "output 3 is an actuator's; expected another one for marks");
+    ASSERT_EQ(model.device().listening().monitor({4, 5}, -10.0), "");
+    EXPECT_EQ(model.device().listening().mark(5), "output 6 is listened to; expected another one for marks");
+    model.change("Output", [](Mix& mix) { mix.strips[1].output = 6; });
+    EXPECT_EQ(model.device().listening().settings().marks, std::vector{1})
+        << "it was wanted there, and may be now";
+}
+
+TEST(MixerModel, TheMonitorIsChosenHeardSavedWithTheDeviceAndUndoneForHands) {
+    FakeInterface hands;
+    MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
+    ASSERT_EQ(model.device().listening().monitor({4, 5}, 0.0), "");
+    ASSERT_EQ(model.device().listening().mark(7), "");
+    EXPECT_EQ(model.device().choice().monitor, (std::vector{4, 5}));
+    EXPECT_EQ(model.device().choice().marker, 7);
+    float heard = 0.0f, marked = 0.0f;
+    EXPECT_TRUE(runUntil([&] {
+        model.look();
+        const auto out = hands.play(64);
+        for (const float x : out[4]) heard = std::max(heard, std::abs(x));
+        for (const float x : out[7]) marked = std::max(marked, x);
+        return heard > 0.01f && marked == 1.0f;
+    }));
+    model.change("Output", [](Mix& mix) { mix.strips[0].output = 5; });
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
+    EXPECT_TRUE(model.device().listening().settings().contacts.empty()) << "hands first";
+    EXPECT_EQ(model.device().listening().settings().marks, std::vector{7});
+    model.undoManager().undo();
+    EXPECT_EQ(model.device().listening().settings().contacts, (std::vector{4, 5}));
+    ListeningSettings noise;
+    noise.noise = {4, 5};
+    ASSERT_EQ(model.device().listening().hear(noise), "");
+    EXPECT_TRUE(model.device().listening().settings().contacts.empty()) << "a study's ears are told nothing";
+    EXPECT_EQ(model.device().listening().settings().marks, std::vector{7});
+    model.device().listening().endStudy();
+    EXPECT_EQ(model.device().listening().settings().contacts, (std::vector{4, 5}));
+    hands.outputs = 4; // another interface of the same name
+    hands.unplug(true);
+    EXPECT_TRUE(runUntil([&] { return model.look(), model.trouble().contains("has stopped"); }));
+    hands.isPlugged = true;
+    EXPECT_TRUE(runUntil([&] { return model.look(), model.trouble().isEmpty(); })) << model.trouble();
+    EXPECT_TRUE(model.device().listening().settings().contacts.empty());
+    EXPECT_TRUE(model.look().device.isRunning) << "what cannot be heard does not keep hands from feeling";
+}
+
+TEST(MixerModel, OnTwoOutputsOneListensInsteadOfFeeling) {
+    FakeInterface speakers;
+    speakers.outputs = 2;
+    MixerModel model{fakeDrivers({&speakers}), {"Fake:hands", 0, 0}};
+    EXPECT_EQ(model.device().listening().monitor({0, 1}, -20.0),
+              "output 1 is an actuator's; expected another one to listen to");
+    ASSERT_EQ(model.monitorInstead({0, 1}, -20.0), "");
+    EXPECT_EQ(model.mix().strips[0].output, -1);
+    EXPECT_EQ(model.mix().strips[1].output, -1);
+    EXPECT_EQ(model.device().listening().settings().contacts, (std::vector{0, 1}));
+    model.undoManager().undo();
+    EXPECT_EQ(model.mix().strips[1].output, 1);
+    EXPECT_TRUE(model.device().listening().settings().contacts.empty()) << "never where an enchanter is";
+}
+
+TEST(MixerModel, WhatFindsNoRoomInTheSessionIsToldWhenThereIsRoom) {
+    FakeInterface hands;
+    MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}}; // which calls for nothing yet
+    const auto lastGain = [&] {
+        float gain = 1.0f;
+        for (const auto& c : model.saved().log.channels)
+            if (c.kind == Kind::gain && c.channel == 1) gain = c.value;
+        return gain;
+    };
+    for (int k = 1; k <= 400; ++k)
+        model.change("Gain of B", [k](Mix& mix) { mix.strips[1].gainDb = -0.1 * k; });
+    EXPECT_NE(lastGain(), channelGain(model.mix().strips[1]));
+    EXPECT_TRUE(runUntil(
+        [&] { return hands.play(64), model.look(), lastGain() == channelGain(model.mix().strips[1]); }));
+    const auto told = model.saved().log.channels.size();
+    for (int k = 0; k < 10; ++k) model.look();
+    EXPECT_EQ(model.saved().log.channels.size(), told) << "once";
+}
+
+TEST(MixerModel, TwoHundredBodiesForAWhile) {
+    Scene crowd = *findBuiltInScene("shake-the-box");
+    for (int k = 0; k < 200; ++k) {
+        BodyDescription ball;
+        ball.name = "ball " + std::to_string(k);
+        ball.positionMetres = {0.3 + 0.29 * (k % 20), 0.2 + 0.3 * (k / 20)};
+        ball.fixtures.push_back({CircleShape{0.1}, {}, 0.0, k % 3, false, Voice::own});
+        crowd.bodies.push_back(ball);
+    }
+    Mix mix = MixerModel::firstMix();
+    mix.scene = std::make_shared<const Scene>(crowd);
+    MixerModel model{onlyNoDevice(), noDevice, mix};
+    MixerView view{model};
+    EXPECT_TRUE(
+        runUntil([&] { return view.refresh(), model.look().session.sessionNs > 3'000'000'000; }, 60.0));
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
+    EXPECT_EQ(view.createComponentSnapshot(view.getLocalBounds()).getWidth(), view.getWidth());
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the strips say of outputs is what the device plays, whatever is chosen, refused, saved and opened.
+#include "Host/FakeAudioDevice.h"
+#include "Live/Documents/SessionFile.h"
+#include "Mixer/Model/MixerDevice.h"
+#include "MixerTesting.h"
+#include "Stimuli/SeededRandom.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+/// A model of four strips on eight outputs, in a world that stands still.
+struct RoutedModel {
+    explicit RoutedModel(Mix mix = MixerModel::firstMix())
+        : model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}, std::move(mix), {.isPaused = true}} {
+        for (int k = 0; k < 50; ++k) hands.play(64);
+    }
+    /// Where that strip's test is heard: the loudest output, if the others are silent.
+    int heardOf(int strip) {
+        const auto played = model.session().status().render.played;
+        std::vector<float> peaks(static_cast<std::size_t>(hands.outputs));
+        const auto hear = [&] {
+            const auto block = hands.play(64);
+            for (std::size_t o = 0; o < block.size(); ++o)
+                for (const float x : block[o]) peaks[o] = std::max(peaks[o], std::abs(x));
+        };
+        model.strikes().testPulse(strip);
+        EXPECT_TRUE(runUntil([&] { return hear(), model.session().status().render.played > played; }));
+        for (int k = 0; k < 60; ++k) hear();
+        for (int k = 0; k < 400; ++k) hands.play(64); // it rings out
+        if (noise >= 0) peaks[static_cast<std::size_t>(noise)] = 0.0f;
+        const auto loudest = std::ranges::max_element(peaks);
+        if (*loudest < 1e-3f) return -1;
+        const auto sounds = std::ranges::count_if(peaks, [&](float p) { return p > 0.01f * *loudest; });
+        EXPECT_EQ(sounds, 1) << "felt on its own output alone";
+        return static_cast<int>(loudest - peaks.begin());
+    }
+    void give(std::size_t strip, int output) { // as the strip's list does
+        model.change("Output", [&](Mix& mix) { giveOutput(mix.strips, strip, output); });
+    }
+    void expectAsShown(const std::string& after) {
+        for (int j = 0; j < model.mix().count(); ++j) {
+            const int shown = model.mix().strips[static_cast<std::size_t>(j)].output;
+            EXPECT_EQ(heardOf(j), shown < hands.outputs ? shown : -1) << after << ": strip " << j;
+        }
+    }
+    std::vector<int> outputs() const {
+        std::vector<int> all;
+        for (const Strip& strip : model.mix().strips) all.push_back(strip.output);
+        return all;
+    }
+
+    int noise = -1; ///< an output that a study uses
+    FakeInterface hands;
+    MixerModel model;
+};
+
+void setOutputs(Mix& mix, const std::vector<int>& outputs) {
+    for (std::size_t j = 0; j < mix.strips.size(); ++j) mix.strips[j].output = outputs[j];
+}
+
+/// As a file of any program may have it.
+SavedSession opened(SavedSession session, const std::vector<int>& outputs) {
+    setOutputs(*session.mix, outputs);
+    auto read = readSession(sessionJson(session), "session");
+    EXPECT_TRUE(read) << read.error;
+    return std::move(read.value);
+}
+
+TEST(MixerRouting, EveryStripsTestOnEveryOutputIsHeardWhereTheStripSays) {
+    RoutedModel routed;
+    for (std::size_t j = 0; j < 4; ++j)
+        for (int output = 0; output < routed.hands.outputs; ++output) {
+            routed.give(j, output);
+            ASSERT_EQ(routed.model.mix().strips[j].output, output);
+            routed.expectAsShown("strip " + std::to_string(j) + " to output " + std::to_string(output));
+        }
+    EXPECT_TRUE(routed.model.trouble().isEmpty()) << routed.model.trouble();
+}
+
+TEST(MixerRouting, AnOutputThatAnotherHasIsExchanged) {
+    RoutedModel routed;
+    routed.give(1, 0);
+    EXPECT_EQ(routed.outputs(), (std::vector{1, 0, 2, 3}));
+    routed.give(1, 1);
+    routed.give(0, 2); // A, B for C, D
+    routed.give(1, 3);
+    EXPECT_EQ(routed.outputs(), (std::vector{2, 3, 0, 1}));
+    routed.expectAsShown("exchanged");
+    routed.model.undoManager().undo();
+    EXPECT_EQ(routed.outputs(), (std::vector{2, 1, 0, 3})) << "one act, one step back";
+    routed.give(2, -1);
+    EXPECT_EQ(routed.outputs(), (std::vector{2, 1, -1, 3}));
+    routed.give(2, 3);
+    EXPECT_EQ(routed.outputs(), (std::vector{2, 1, 3, -1})) << "who had none gives none";
+    routed.expectAsShown("taken");
+    EXPECT_TRUE(routed.model.trouble().isEmpty()) << routed.model.trouble();
+}
+
+TEST(MixerRouting, ARefusedOutputIsNeitherShownNorSaved) {
+    RoutedModel routed;
+    ListeningSettings ofStudy;
+    ofStudy.noise = {routed.noise = 6};
+    ASSERT_EQ(routed.model.device().listening().hear(ofStudy), "");
+    routed.give(0, 6);
+    EXPECT_TRUE(routed.model.trouble().contains("output 7")) << routed.model.trouble();
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 2, 3}));
+    EXPECT_EQ(routed.model.saved().mix->strips[0].output, 0);
+    EXPECT_FALSE(routed.model.undoManager().canUndo()) << "nothing to take back";
+    EXPECT_EQ(routed.model.edits(), 0U) << "nothing to save";
+    routed.expectAsShown("refused");
+    routed.model.change("Output and level", [](Mix& mix) {
+        giveOutput(mix.strips, 0, 6);
+        mix.levelDb = -30.0;
+    });
+    EXPECT_EQ(routed.model.undoManager().getUndoDescription(), "Output and level") << "half of it was done";
+    EXPECT_EQ(routed.model.mix().levelDb, -30.0);
+    ASSERT_EQ(routed.model.device().listening().hear({}), ""); // the study ends
+    routed.give(0, 6);
+    EXPECT_EQ(routed.outputs(), (std::vector{6, 1, 2, 3}));
+    routed.model.undoManager().undo();
+    ASSERT_EQ(routed.model.device().listening().hear(ofStudy), "");
+    routed.model.undoManager().redo();
+    EXPECT_TRUE(routed.model.undoManager().canUndo()) << "a redo that is refused forgets no step";
+}
+
+TEST(MixerRouting, ASessionWithAConflictPlaysWhatItCanAndHealsByOneClick) {
+    RoutedModel first;
+    const auto session = opened(first.model.saved(), {0, 0, 2, 2});
+    RoutedModel routed{mixOf(session)};
+    EXPECT_TRUE(routed.model.look().device.isRunning);
+    EXPECT_EQ(routed.outputs(), (std::vector{0, -1, 2, -1}));
+    routed.expectAsShown("opened");
+    EXPECT_EQ(routed.model.trouble(), "B, D have no outputs: other actuators have them");
+    MixerView view{routed.model};
+    auto* button = dynamic_cast<juce::Button*>(find(view, "Give free outputs"));
+    ASSERT_NE(button, nullptr);
+    EXPECT_TRUE(button->isVisible());
+    button->onClick();
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 2, 3}));
+    routed.expectAsShown("healed");
+    routed.model.dispatchPendingMessages();
+    EXPECT_TRUE(routed.model.trouble().isEmpty()) << routed.model.trouble();
+    EXPECT_FALSE(button->isVisible());
+}
+
+TEST(MixerRouting, FreeOutputsAreNeitherTheMonitorsNorTheMarkers) {
+    Mix mix = MixerModel::firstMix();
+    setOutputs(mix, {0, 0, 2, 2});
+    FakeInterface hands;
+    MixerModel model{fakeDrivers({&hands}), {.name = "Fake:hands", .monitor = {4}, .marker = 1}, mix};
+    const auto heal = model.messages().shown().act.run;
+    ASSERT_TRUE(heal);
+    heal();
+    EXPECT_EQ(model.mix().strips[1].output, 3);
+    EXPECT_EQ(model.mix().strips[3].output, 5);
+}
+
+TEST(MixerRouting, WhereNoOutputIsFreeItSaysSo) {
+    Mix mix = MixerModel::firstMix();
+    setOutputs(mix, {0, 0, 1, 1});
+    FakeInterface two;
+    two.outputs = 2;
+    MixerModel model{fakeDrivers({&two}), {"Fake:hands", 0, 0}, mix};
+    const auto heal = model.messages().shown().act.run;
+    ASSERT_TRUE(heal);
+    heal();
+    EXPECT_EQ(model.trouble(), "The device has no other free output");
+}
+
+TEST(MixerRouting, NewActuatorsAreNoLouderThanTheQuietest) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    model.change("Gains", [](Mix& mix) {
+        mix.strips[1].gainDb = -30.0;
+        mix.strips[2].gainDb = leastStripDb; // silence is no level
+    });
+    model.change("Preset", [](Mix& mix) {
+        mix.layout = presetLayout("vest16");
+        mix.resizeStrips();
+    });
+    ASSERT_TRUE(model.attach(0.5, 0.5));
+    for (std::size_t j = 4; j < 17; ++j) EXPECT_EQ(model.mix().strips[j].gainDb, -30.0) << j;
+    EXPECT_EQ(model.mix().strips[0].gainDb, 0.0);
+}
+
+TEST(MixerRouting, FortyRandomRoutingsAreSavedAndOpened) {
+    SeededRandom random{59};
+    RoutedModel first;
+    const SavedSession saved = first.model.saved();
+    for (int k = 0; k < 40; ++k) {
+        std::vector<int> wanted(4);
+        for (int& output : wanted) output = static_cast<int>(random.below(10)) - 1; // none, or one of nine
+        RoutedModel routed{mixOf(opened(saved, wanted))};
+        std::vector<int> expected = wanted;
+        for (std::size_t j = 1; j < wanted.size(); ++j)
+            if (std::find(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(j), wanted[j]) !=
+                wanted.begin() + static_cast<std::ptrdiff_t>(j))
+                expected[j] = -1;
+        ASSERT_EQ(routed.outputs(), expected) << k;
+        const auto told = routed.model.trouble();
+        ASSERT_EQ(told.contains(" no output: another") || told.contains(" no outputs: other"),
+                  expected != wanted)
+            << k << told;
+        ASSERT_TRUE(routed.model.look().device.isRunning) << k;
+        const auto again = readSession(sessionJson(routed.model.saved()), "session");
+        ASSERT_TRUE(again) << again.error;
+        ASSERT_EQ(mixOf(again.value).strips, routed.model.mix().strips) << k;
+        if (k % 10 == 0) routed.expectAsShown("routing " + std::to_string(k));
+    }
+}
+
+/// What the strip's list shows.
+juce::String shownOutput(MixerView& view, MixerModel& model, const juce::String& label) {
+    model.dispatchPendingMessages();
+    view.refresh();
+    const auto* list = dynamic_cast<juce::ComboBox*>(find(view, "Output of " + label));
+    return list != nullptr ? list->getText() : juce::String{"no list"};
+}
+
+TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
+    RoutedModel routed{[] {
+        Mix mix = MixerModel::firstMix();
+        mix.layout = presetLayout("phone2");
+        mix.resizeStrips();
+        return mix;
+    }()};
+    MixerModel& model = routed.model;
+    MixerView view{model};
+    ASSERT_EQ(useHeadphones(model, {"Fake:hands", 0, 0}), "");
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1}));
+    EXPECT_EQ(shownOutput(view, model, "A"), "L");
+    EXPECT_EQ(shownOutput(view, model, "B"), "R");
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
+    ASSERT_TRUE(model.attach(0.5, 0.5));
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1})) << "though the device has eight";
+    EXPECT_EQ(model.trouble(), "C has no output: headphones have two, L and R");
+    EXPECT_EQ(shownOutput(view, model, "C"), "none");
+    routed.expectAsShown("attached");
+    model.report({});
+    model.change("Preset", [](Mix& mix) {
+        mix.layout = presetLayout("phone4");
+        mix.resizeStrips();
+    });
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1, -1}));
+    EXPECT_EQ(model.output().channelMap(), (std::vector{0, 1, -1, -1}));
+    EXPECT_EQ(model.trouble(), "D has no output: headphones have two, L and R");
+    routed.give(2, 4); // whoever asks for it gets it
+    EXPECT_EQ(shownOutput(view, model, "C"), "out 5");
+    routed.expectAsShown("asked for");
+}
+
+TEST(Headphones, ThoseOfAFourActuatorMixerAreToldAndTheLevelIsLow) {
+    RoutedModel routed;
+    routed.model.change("Loud", [](Mix& mix) { mix.levelDb = -3.0; });
+    ASSERT_EQ(useHeadphones(routed.model, {.name = "Fake:hands", .monitor = {4, 5}, .marker = 1}), "");
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1, -1}));
+    EXPECT_EQ(routed.model.trouble(), "C, D have no output: headphones have two, L and R");
+    EXPECT_EQ(routed.model.mix().levelDb, safeContactDb);
+    EXPECT_TRUE(routed.model.device().choice().monitor.empty()) << "A and B are heard in its place";
+    EXPECT_EQ(routed.model.device().choice().marker, -1);
+    routed.expectAsShown("headphones");
+}
+
+TEST(MixerRouting, ANewActuatorLeavesTheMonitorAndTheMarkerWhatTheyUse) {
+    FakeInterface hands;
+    Mix mix = MixerModel::firstMix();
+    mix.layout = presetLayout("phone2");
+    mix.resizeStrips();
+    setOutputs(mix, {2, 3});
+    MixerModel model{fakeDrivers({&hands}), {.name = "Fake:hands", .monitor = {0, 1}, .marker = 4}, mix};
+    MixerView view{model};
+    ASSERT_TRUE(model.attach(0.5, 0.5));
+    EXPECT_EQ(model.mix().strips[2].output, 5);
+    EXPECT_EQ(model.device().listening().settings().contacts, (std::vector{0, 1})) << "both ears";
+    EXPECT_EQ(model.device().listening().settings().marks, std::vector{4});
+    model.dispatchPendingMessages();
+    const auto* list = dynamic_cast<juce::ComboBox*>(find(view, "Output of C"));
+    ASSERT_NE(list, nullptr);
+    for (int k = 0; k < 8; ++k)
+        EXPECT_EQ(list->isItemEnabled(k + 2), k != 0 && k != 1 && k != 4) << list->getItemText(k + 1);
+    EXPECT_EQ(list->getItemText(1), "out 1 (monitor)");
+}
+
+TEST(MixerRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
+    FakeInterface hands;
+    MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
+    MixerView view{model};
+    const auto monitor = [&] {
+        model.dispatchPendingMessages();
+        return dynamic_cast<juce::ComboBox&>(*find(view, "Monitor")).getText();
+    };
+    const auto says = [&](const juce::String& words) {
+        view.tabs().choose("Output");
+        view.refresh();
+        const auto facts = find(view, "What follows from it")->getDescription();
+        EXPECT_TRUE(facts.contains(words)) << facts;
+    };
+    says("Actuators: 4 of 4 have an output there");
+    ASSERT_EQ(model.monitorInstead({0, 1}, -20.0), "");
+    EXPECT_EQ(monitor(), "outputs 1 and 2");
+    says("Actuators: 2 of 4 have an output there");
+    says("Heard: left on 1, right on 2");
+    model.undoManager().undo();
+    EXPECT_EQ(monitor(), "off: outputs 1 and 2, which are of A B");
+    says("Heard: not there: an actuator, or no output");
+    model.undoManager().redo();
+    EXPECT_EQ(monitor(), "outputs 1 and 2");
+    ASSERT_EQ(useHeadphones(model, model.device().choice()), "");
+    EXPECT_EQ(monitor(), "none");
+    says("Heard: left: A, right: B");
+    model.change("None", [](Mix& mix) { mix.strips[1].output = -1; });
+    says("Heard: left: A, right: nobody");
+    says("Actuators: 1 of 4 have an output there");
+}
+
+TEST(MixerRouting, AnOutputThatIsDisconnectedIsNeitherCountedNorShownAsThere) {
+    FakeInterface hands;
+    MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
+    MixerView view{model};
+    for (int j = 0; j < 4; ++j) EXPECT_TRUE(model.output().isPlaced(j)) << j;
+    EXPECT_EQ(shownOutput(view, model, "D"), "out 4");
+    hands.outputs = 3;
+    hands.unplug(true);
+    ASSERT_TRUE(runUntil([&] { return model.look(), model.trouble().contains("has stopped"); }));
+    EXPECT_EQ(shownOutput(view, model, "A"), "out 1 (not there)");
+    hands.isPlugged = true;
+    ASSERT_TRUE(runUntil([&] { return model.look(), model.output().isPlaced(0); }));
+    EXPECT_FALSE(model.output().isPlaced(3));
+    EXPECT_EQ(shownOutput(view, model, "A"), "out 1");
+    EXPECT_EQ(shownOutput(view, model, "D"), "out 4 (not there)");
+}
+
+} // namespace
+} // namespace physvib
