@@ -9,7 +9,7 @@ cd "$(dirname "$0")"
 
 programs() {
     # shellcheck disable=SC2086 # a list of words
-    ensure_build_packages $physvib_run_packages
+    ensure_build_packages $physvib_run_packages $(case " $* " in *" physvib-virtual-board "*) echo "$physvib_board_packages" ;; esac)
     build release "$@"
 }
 if [ $# -gt 0 ]; then

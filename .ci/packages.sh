@@ -20,9 +20,11 @@ physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohm
     pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev libsndfile1-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev libqrcodegen-dev"
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
+# Of the four-channel board's image and its virtual board.
+physvib_board_packages="gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool zbar-tools clang libclang-rt-dev clang-format-14 \
     liblo-tools python3-numpy python3-pandas r-base-core luajit doxygen cmark-gfm \
-    gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
+    $physvib_board_packages"
 # Of .ci/pico-sources.sh alone, and of Tests/Firmware/pico.sh.
 physvib_pico_packages="cmake ninja-build gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib python3"
 physvib_pico_test_packages="nodejs npm" # where they are not there from elsewhere

@@ -5,7 +5,7 @@
 #include "PluginEditor.h"
 #include "PluginFiles.h"
 #include "PluginSettings.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include <utility>
 
 namespace physvib {

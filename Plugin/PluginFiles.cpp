@@ -9,7 +9,7 @@
 #include "PluginSettings.h"
 #include "Scene/FileKind.h"
 #include "Scene/SceneFile.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <utility>
 

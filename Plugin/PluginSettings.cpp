@@ -3,7 +3,7 @@
 #include "PluginSettings.h"
 #include "Io/Text/NameList.h"
 #include "Parameters.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include <algorithm>
 #include <array>
 #include <bit>

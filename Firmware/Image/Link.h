@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The board's side of the link: executes messages and sends replies.
 #pragma once
-#include "Clock.h"
+#include "Registers.h"
 #include "Core/BoardRenderer.h"
 #include "Outputs.h"
 #include "SerialPort.h"
 #include "Wire/FrameDecoder.h"
 #include "Wire/SelfTest.h"
-#include "Wire/StrikeOrder.h"
 #include <cstdint>
 
 namespace physvib::board {

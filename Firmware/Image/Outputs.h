@@ -2,12 +2,68 @@
 // Queue of frames between renderer and converters; its count of frames is the board's clock.
 #pragma once
 #include "Core/BoardRenderer.h"
-#include "DacBus.h"
+#include "Registers.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
 namespace physvib::board {
+
+// Drives the two dual converters TLC7528 on port C: eight data lines, one latch select, one write line, two
+// chip selects.
+//
+// Times assumed for the TLC7528 at 5 V (unverified: Docs/board.md): chip and latch select 50 ns before the
+// write, data 25 ns before its end, write pulse 50 ns, data and select held 10 ns after it. One cycle at 72
+// MHz is 13.9 ns. The latches are transparent while the write line is low: a select line that changes then
+// would write the code to the wrong channel.
+
+/// Wiring, port C: PC0-PC7 data, PC8 latch (0: A, 1: B), PC9 /WR, PC10 /CS of converter 1, PC11 /CS of
+/// converter 2.
+class DacBus {
+public:
+    using Frame = std::array<std::uint8_t, 4>; ///< channels 1 A, 1 B, 2 A, 2 B
+    static constexpr std::uint8_t midScale = 128;
+
+    /// Sets the lines inactive, then writes mid-scale.
+    static void start() noexcept {
+        reg(gpio::c + gpio::bsrr) = write | chip1 | chip2;
+        reg(gpio::c + gpio::moder) = (reg(gpio::c + gpio::moder) & 0xFF000000u) | 0x00555555u;
+        reg(gpio::c + gpio::ospeedr) |= 0x00FFFFFFu; // edges of a few ns
+        silence();
+    }
+
+    /// Writes a frame in about 1 us. Timer interrupt only, except for silence().
+    static void put(const Frame& frame) noexcept {
+        put(frame[0], chip1, 0);
+        put(frame[1], chip1, latch);
+        put(frame[2], chip2, 0);
+        put(frame[3], chip2, latch);
+        reg(gpio::c + gpio::bsrr) = chip1 | chip2;
+    }
+
+    /// May be called from anywhere, even a fault handler: needs no memory and no other interrupt.
+    static void silence() noexcept { put({midScale, midScale, midScale, midScale}); }
+
+private:
+    static constexpr std::uint32_t latch = 1u << 8, write = 1u << 9, chip1 = 1u << 10, chip2 = 1u << 11;
+
+    // A read of the port waits for the writes before it and takes two cycles, or one directly after another
+    // read: at least 69 ns in total at 72 MHz.
+    static void settle() noexcept {
+        for (int i = 0; i < 4; ++i) [[maybe_unused]] const std::uint32_t state = reg(gpio::c + gpio::odr);
+    }
+
+    static void put(std::uint8_t code, std::uint32_t chip, std::uint32_t select) noexcept {
+        const std::uint32_t high = code | select | (chip1 ^ chip2 ^ chip);
+        const std::uint32_t all = 0xFFu | latch | chip1 | chip2;
+        reg(gpio::c + gpio::bsrr) = high | (all & ~high) << 16;
+        settle();
+        reg(gpio::c + gpio::bsrr) = write << 16;
+        settle();
+        reg(gpio::c + gpio::bsrr) = write; // the next change of a line comes at least two cycles later: 28 ns
+        [[maybe_unused]] const std::uint32_t state = reg(gpio::c + gpio::odr);
+    }
+};
 
 /// The main loop adds blocks, the timer interrupt removes frames.
 class Outputs {

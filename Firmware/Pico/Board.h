@@ -2,9 +2,11 @@
 // Pins of the Pico, and what the image was built for. All wires are on one side, beside each other.
 #pragma once
 #include "Signal/Player.h"
+#include "hardware/sync.h"
+#include "hardware/timer.h"
+#include "hardware/watchdog.h"
 
 namespace physvib::pico {
-
 constexpr int boardChannels = PHYSVIB_PICO_CHANNELS;
 constexpr int boardLines = boardChannels / 2; // an I2S line carries two channels: left, then right
 
@@ -20,5 +22,23 @@ constexpr unsigned systemClockHz = 76'800'000;
 constexpr unsigned stepsPerFrame = 64; // two per bit
 constexpr unsigned clockDivider = systemClockHz / (stepsPerFrame * sampleRateHz);
 static_assert(clockDivider * stepsPerFrame * sampleRateHz == systemClockHz);
+
+// The only waits of the image that ask in a loop. Each ends: what the chip does within microseconds comes
+// within a millisecond, or the chip is in a state that nobody knows.
+
+/// Through the watchdog, which counts it: pins become inputs, and the amplifiers shut down. Any context.
+[[noreturn]] inline void restart() noexcept {
+    save_and_disable_interrupts(); // one of them feeds the watchdog
+    watchdog_enable(1, false);
+    for (;;) tight_loop_contents();
+}
+
+/// Until `isTrue()`; after a millisecond, restarts. Main loop.
+template <class IsTrue>
+void waitOrRestart(IsTrue&& isTrue) noexcept {
+    constexpr std::uint32_t mostMicroseconds = 1000;
+    for (const std::uint32_t began = time_us_32(); !isTrue();)
+        if (time_us_32() - began > mostMicroseconds) restart();
+}
 
 } // namespace physvib::pico

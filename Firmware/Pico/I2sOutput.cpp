@@ -2,7 +2,7 @@
 // Two tiles per line: while DMA sends one, the interrupt renders the other. The channels of DMA start each
 // other and wrap within their tile, so the processor only writes samples.
 #include "I2sOutput.h"
-#include "BoundedWait.h"
+#include "Board.h"
 #include "hardware/clocks.h"
 #include "hardware/dma.h"
 #include "hardware/gpio.h"

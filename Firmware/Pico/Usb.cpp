@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // TinyUSB's callbacks. It calls all of them from pollUsb, so from the main loop.
 #include "Usb.h"
-#include "BoundedWait.h"
+#include "Board.h"
 #include "Console.h"
 #include "I2sOutput.h"
 #include "Signal/Descriptors.h"
-#include "Signal/MissingPackets.h"
+#include "Signal/FrameBuffer.h"
 #include "hardware/structs/usb.h"
 #include "pico/platform.h"
 #include "pico/unique_id.h"

@@ -6,7 +6,6 @@
 // the watchdog restarts the chip within 4 ms: its pins become inputs, and the amplifiers' shut-down line
 // falls.
 #include "I2sOutput.h"
-#include "Signal/CeilingJumper.h"
 #include "Signal/Indicator.h"
 #include "Usb.h"
 #include "hardware/clocks.h"

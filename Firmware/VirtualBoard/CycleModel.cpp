@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Cycle cost of each instruction, decoded with Capstone.
-#include "CycleModel.h"
+#include "VirtualBoard.h"
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>

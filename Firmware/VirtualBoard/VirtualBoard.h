@@ -5,15 +5,72 @@
 // Known limits: interrupts are taken between instruction blocks (up to about a hundred cycles late); the
 // clock runs at full speed from reset on; analogue behaviour is not modelled.
 #pragma once
-#include "CycleModel.h"
-#include "ElfImage.h"
 #include "Peripherals.h"
+#include <capstone/capstone.h>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
+// Estimates the cycles of an instruction block on a Cortex-M4F, as an optimistic and a pessimistic bound.
+//
+// Both follow the instruction timings of Arm's Cortex-M4 manual (100166, 3.3.1 and 7.2.3): one cycle for
+// most, 1 + n for loads of n registers, 14 for floating-point divide and root, one more if a floating-point
+// result is used at once.
+// - optimistic: consecutive loads and stores take one cycle each; a taken branch one more; flash delivers 8
+//   bytes every 3 cycles in advance, and only its throughput limits.
+// - pessimistic: each load takes two cycles, as does each floating-point store; a taken branch three more;
+//   every 8 bytes of code from flash cost the two wait states, and so does each constant loaded from flash.
+
+namespace physvib::virtualboard {
+enum class CostModel { optimistic, pessimistic };
+
+/// A straight run of instructions, without branches.
+struct BlockCost {
+    std::uint32_t cycles = 0;
+    std::uint32_t takenCycles = 0;          ///< extra cycles if it was reached by a branch
+    std::vector<std::uint32_t> storeCycles; ///< earliest cycle at which each stored word leaves the core
+};
+
+class CycleModel {
+public:
+    explicit CycleModel(CostModel model);
+    ~CycleModel();
+    CycleModel(const CycleModel&) = delete;
+    CycleModel& operator=(const CycleModel&) = delete;
+
+    BlockCost cost(std::span<const std::uint8_t> code, std::uint32_t address) const;
+
+private:
+    CostModel model_;
+    csh disassembler_ = 0;
+};
+} // namespace physvib::virtualboard
+
+// The firmware's ELF file: segments with their flash addresses, and symbols.
+
+namespace physvib::virtualboard {
+struct ElfImage {
+    struct Segment {
+        std::uint32_t address = 0; ///< load address (flash)
+        std::vector<std::uint8_t> bytes;
+    };
+    struct Symbol {
+        std::uint32_t address = 0, size = 0;
+    };
+    std::vector<Segment> segments;
+    std::map<std::string, Symbol> symbols; ///< by mangled name
+
+    /// The symbol whose name contains `part`; throws std::runtime_error if there is none.
+    Symbol symbolLike(const std::string& part) const;
+};
+
+/// Throws std::runtime_error with the file's name and what was expected.
+ElfImage readElf(const std::string& path);
+} // namespace physvib::virtualboard
 typedef struct uc_struct uc_engine;
 
 namespace physvib::virtualboard {

@@ -1,16 +1,148 @@
 // SPDX-License-Identifier: MIT
 // physvib-virtual-board: runs the firmware image in real time, with its serial line on a pseudo-terminal.
-#include "Plug.h"
-#include "SoundLog.h"
+#include "Peripherals.h"
+#include "PseudoTerminal.h"
 #include "VirtualBoard.h"
-#include "WavFile.h"
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
+// Connects and disconnects the virtual board's serial port, like pulling a USB cable.
+
+namespace physvib::virtualboard {
+class Plug {
+public:
+    /// Connects. `link`: a symbolic link that stays the same between connections, or empty. Throws what
+    /// PseudoTerminal and std::filesystem throw.
+    explicit Plug(std::string link)
+        : link_{std::move(link)} {
+        move();
+    }
+    ~Plug() {
+        if (line_) pull();
+    }
+    Plug(const Plug&) = delete;
+    Plug& operator=(const Plug&) = delete;
+
+    /// Disconnects if connected, and vice versa; returns whether it is connected now.
+    bool move() {
+        if (line_)
+            pull();
+        else
+            putIn();
+        return line_.has_value();
+    }
+
+    /// Path of the port.
+    const std::string& path() const { return link_.empty() ? line_->path() : link_; }
+
+    std::vector<std::uint8_t> read() { return line_ ? line_->read() : std::vector<std::uint8_t>{}; }
+    void write(std::span<const std::uint8_t> bytes) {
+        if (line_) line_->write(bytes);
+    }
+
+private:
+    void putIn() {
+        line_.emplace();
+        if (link_.empty()) return;
+        std::filesystem::remove(link_);
+        std::filesystem::create_symlink(line_->path(), link_);
+    }
+    void pull() {
+        if (!link_.empty()) std::filesystem::remove(link_);
+        line_.reset();
+    }
+
+    std::string link_;
+    std::optional<PseudoTerminal> line_;
+};
+} // namespace physvib::virtualboard
+
+// Logs when the converters leave and reach silence, in time of the steady clock. All programs of a machine
+// share that clock, so the log can be compared with devices that play beside the board.
+
+namespace physvib::virtualboard {
+/// A CSV file of `steady_ns,what`, written line by line; `what`: sound, silence (of at least 20 ms), or a
+/// note.
+class SoundLog {
+public:
+    /// With an empty path nothing is written. Throws std::runtime_error.
+    explicit SoundLog(const std::string& path) {
+        if (path.empty()) return;
+        file_.open(path);
+        if (!file_) throw std::runtime_error(path + ": cannot be written");
+        file_ << "steady_ns,what" << std::endl;
+    }
+
+    /// Sets the time 0 of the board.
+    void begin(std::chrono::steady_clock::time_point at) { began_ = at; }
+
+    void note(const char* what, double seconds) {
+        const auto at = began_.time_since_epoch() + std::chrono::nanoseconds(std::llround(seconds * 1e9));
+        if (file_.is_open())
+            file_ << std::chrono::duration_cast<std::chrono::nanoseconds>(at).count() << ',' << what
+                  << std::endl;
+    }
+
+    /// Evaluates the frames since the last call.
+    void follow(const Peripherals& io) {
+        for (; seen_ < io.frames.size(); ++seen_) {
+            const bool isSilent =
+                std::ranges::all_of(io.frames[seen_], [](int code) { return code == midScale; });
+            if (!isSilent && silent_ >= pause) note("sound", secondsOf(io, seen_));
+            silent_ = isSilent ? silent_ + 1 : 0;
+            if (silent_ == pause) note("silence", secondsOf(io, seen_ + 1 - pause));
+        }
+    }
+
+private:
+    static constexpr std::size_t pause = 160; // frames
+    static constexpr int midScale = 128;
+    static double secondsOf(const Peripherals& io, std::size_t frame) {
+        return static_cast<double>(io.frameCycles[frame]) / io.hz();
+    }
+
+    std::ofstream file_;
+    std::chrono::steady_clock::time_point began_;
+    std::size_t seen_ = 0, silent_ = pause;
+};
+} // namespace physvib::virtualboard
+
+// Writes the converter codes as a WAV file: 8 bit, four channels, one sample per frame.
+
+namespace physvib::virtualboard {
+/// False if the file cannot be written. `rate`: frames per second.
+inline bool writeWav(const std::string& path, const std::vector<Converters::Frame>& frames,
+                     std::uint32_t rate) {
+    std::ofstream out(path, std::ios::binary);
+    const auto number = [&out](std::uint32_t value, int bytes) {
+        for (int i = 0; i < bytes; ++i) out.put(static_cast<char>(value >> (8 * i)));
+    };
+    const auto size = static_cast<std::uint32_t>(frames.size() * 4);
+    out << "RIFF";
+    number(36 + size, 4);
+    out << "WAVEfmt ";
+    number(16, 4), number(1, 2), number(4, 2), number(rate, 4), number(rate * 4, 4), number(4, 2),
+        number(8, 2);
+    out << "data";
+    number(size, 4);
+    for (const auto& frame : frames)
+        for (const std::uint8_t code : frame) out.put(static_cast<char>(code));
+    out.flush();
+    return out.good();
+}
+} // namespace physvib::virtualboard
 namespace {
 
 using namespace physvib::virtualboard;

@@ -9,7 +9,6 @@
 #include "Formats/TimeOrder.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
-#include "Io/Json/StrictJson.h"
 #include <cmath>
 #include <vector>
 

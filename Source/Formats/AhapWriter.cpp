@@ -7,7 +7,7 @@
 #include "Formats/AhapFile.h"
 #include "Formats/ClipEnvelope.h"
 #include "Formats/ClipLimits.h"
-#include "Io/Json/JsonLines.h"
+#include "Io/Json/JsonText.h"
 #include <cmath>
 #include <numeric>
 #include <optional>

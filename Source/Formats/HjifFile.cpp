@@ -6,7 +6,6 @@
 #include "Formats/LeftOut.h"
 #include "Formats/TimeOrder.h"
 #include "Io/Json/JsonField.h"
-#include "Io/Json/JsonLines.h"
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include "Formats/ClipLimits.h"
 #include "Formats/TimeOrder.h"
 #include "Io/Json/JsonField.h"
-#include "Io/Json/JsonLines.h"
 #include "Io/Json/JsonText.h"
 #include <cmath>
 

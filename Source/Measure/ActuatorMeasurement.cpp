@@ -4,7 +4,7 @@
 #include "Measure/ActuatorMeasurement.h"
 #include "Core/Units.h"
 #include "Io/Text/NumberText.h"
-#include "Measure/RecordingFaults.h"
+#include "Measure/HitExcerpt.h"
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>

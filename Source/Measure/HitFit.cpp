@@ -2,14 +2,35 @@
 // Model selection for partials: adds one per round while the cost falls, then tries other starts, and the
 // model of Eq. 5.1.
 #include "Measure/HitFit.h"
-#include "Measure/DecayingPhasor.h"
 #include "Measure/HitExcerpt.h"
-#include "Measure/LinearPrediction.h"
+#include "Measure/LeastSquares.h"
+#include "Measure/PartialFit.h"
 #include "Measure/Spectrum.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <unsupported/Eigen/Polynomials>
+#include <vector>
 
 namespace physvib {
+
+// Start values for overlapping partials by linear prediction (Prony 1795).
+
+struct PredictedPartial {
+    double omega = 0.0, tau = 0.0; ///< rad/s, 1/s
+};
+
+/// Frequencies and decays of `partials` decaying sinusoids; exact if the samples are so many sinusoids
+/// without noise. Computed from the means of `blocks` blocks of equal length: the means of a decaying
+/// sinusoid are one of the same frequency and decay. Fewer results if the roots are not conjugate pairs, none
+/// if there are too few samples. `samples` begin after the onset. Message thread (M) only.
+std::vector<PredictedPartial> predictPartials(std::span<const double> samples, double rateHz,
+                                              std::size_t partials, std::size_t blocks);
+
 namespace {
 
 constexpr std::size_t mostPartials = 6;
@@ -158,6 +179,171 @@ void HitFit::restart(std::size_t onset, const std::vector<Partial>& partials) {
     onset_ = onset;
     fit_ = PartialFit{rest(), rateHz_};
     for (const Partial& p : partials) fit_.add(p);
+}
+
+// Least-squares fit of Eq. 5.1. Parameters in the order of the equations: the onset, then omega, tau and
+// amplitude of each partial.
+
+namespace {
+
+constexpr std::size_t numbersEach = 3;
+
+} // namespace
+
+std::size_t StruckFit::firstOf(const State& state) const {
+    return std::min(samples_.size(),
+                    static_cast<std::size_t>(std::max(0.0, std::ceil(state.onset * rateHz_))));
+}
+
+std::vector<double> StruckFit::residual(const State& state) const {
+    std::vector<double> rest(samples_.begin(), samples_.end());
+    const std::size_t first = firstOf(state);
+    for (const StruckPartial& p : state.partials) {
+        DecayingPhasor phasor{p.omega, p.tau, rateHz_, static_cast<double>(first) / rateHz_ - state.onset};
+        for (std::size_t i = first; i < rest.size(); ++i, phasor.next())
+            rest[i] -= p.amplitude * phasor.sine();
+    }
+    return rest;
+}
+
+double StruckFit::energyOf(const State& state) const { return physvib::energyOf(residual(state)); }
+
+NormalEquations StruckFit::equationsOf(const State& state) const {
+    NormalEquations equations(1 + numbersEach * state.partials.size());
+    const std::vector<double> rest = residual(state);
+    const std::size_t first = firstOf(state);
+    const double begin = static_cast<double>(first) / rateHz_ - state.onset;
+    std::vector<DecayingPhasor> phasors;
+    for (const StruckPartial& p : state.partials) phasors.emplace_back(p.omega, p.tau, rateHz_, begin);
+    std::vector<NormalEquations::Column> columns(equations.size());
+    for (std::size_t at = first; at < rest.size(); at += NormalEquations::block) {
+        const std::size_t count = std::min(NormalEquations::block, rest.size() - at);
+        columns[0].fill(0.0);
+        for (std::size_t k = 0; k < state.partials.size(); ++k)
+            for (std::size_t i = 0; i < count; ++i, phasors[k].next()) {
+                const StruckPartial& p = state.partials[k];
+                const double t = begin + static_cast<double>(at - first + i) / rateHz_,
+                             c = phasors[k].cosine(), s = phasors[k].sine();
+                columns[0][i] += p.amplitude * (p.tau * s - p.omega * c);
+                columns[1 + numbersEach * k][i] = t * p.amplitude * c;
+                columns[2 + numbersEach * k][i] = -t * p.amplitude * s;
+                columns[3 + numbersEach * k][i] = s;
+            }
+        equations.add(columns, std::span(rest).subspan(at, count));
+    }
+    return equations;
+}
+
+StruckFit::State StruckFit::solvedAt(double onset, State state) const {
+    state.onset = onset;
+    for (StruckPartial& p : state.partials) p.amplitude = 0.0;
+    const auto amplitudes = equationsOf(state).each(numbersEach, numbersEach, 1).step(1e-12);
+    for (std::size_t k = 0; k < amplitudes.size(); ++k) state.partials[k].amplitude = amplitudes[k];
+    return state;
+}
+
+StruckFit::State StruckFit::moved(const State& from, std::span<const double> step) const {
+    State to = from;
+    to.onset = std::clamp(from.onset + step[0], 0.0, 0.5 * static_cast<double>(samples_.size()) / rateHz_);
+    for (std::size_t k = 0; k < to.partials.size(); ++k) {
+        const auto by = step.subspan(1 + numbersEach * k, numbersEach);
+        StruckPartial& p = to.partials[k];
+        p = {PartialFit::allowedOmega(p.omega + by[0], rateHz_), PartialFit::allowedTau(p.tau + by[1]),
+             p.amplitude + by[2]};
+    }
+    return to;
+}
+
+// A partial is at rest where its phase is a multiple of pi: tries, for each partial, such a moment nearest to
+// the guess.
+StruckFit::StruckFit(std::span<const double> samples, double rateHz, std::size_t onset,
+                     std::span<const Partial> partials)
+    : samples_{samples}
+    , rateHz_{rateHz} {
+    for (const Partial& p : partials) state_.partials.push_back({p.omega, p.tau, 0.0});
+    const double guess = static_cast<double>(onset) / rateHz;
+    state_ = solvedAt(guess, state_);
+    double least = residualEnergy();
+    for (const Partial& p : partials) {
+        const double at = guess - std::remainder(std::atan2(p.cosine, p.sine), std::numbers::pi) / p.omega;
+        State trial = solvedAt(std::max(at, 0.0), state_);
+        if (const double energy = energyOf(trial); energy < least) {
+            least = energy;
+            state_ = std::move(trial);
+        }
+    }
+}
+
+bool StruckFit::refine() {
+    return descend(
+        state_, [this](const State& s) { return energyOf(s); },
+        [this](const State& s) { return equationsOf(s); },
+        [this](const State& s, std::span<const double> step) { return moved(s, step); });
+}
+
+std::vector<Partial> StruckFit::partials() const {
+    std::vector<Partial> all;
+    for (const StruckPartial& p : state_.partials) all.push_back({p.omega, p.tau, 0.0, p.amplitude});
+    return all;
+}
+
+PartialError StruckFit::errorOf(std::size_t partial) const {
+    const NormalEquations equations = equationsOf(state_);
+    if (samples_.size() <= equations.size()) return {HUGE_VAL, HUGE_VAL};
+    const double variance = residualEnergy() / static_cast<double>(samples_.size() - equations.size());
+    return {equations.errorOf(1 + numbersEach * partial, variance),
+            equations.errorOf(2 + numbersEach * partial, variance)};
+}
+
+// Prediction coefficients by least squares; the roots of their polynomial as eigenvalues of its companion
+// matrix (Eigen).
+
+namespace {
+
+/// Roots of z^n + c[0] z^(n-1) + ... + c[n-1]; none if there are no coefficients.
+std::vector<std::complex<double>> rootsOf(std::vector<double> c) {
+    if (c.empty()) return {};
+    c.insert(c.begin(), 1.0);
+    const Eigen::VectorXd rising =
+        Eigen::Map<const Eigen::VectorXd>(c.data(), static_cast<Eigen::Index>(c.size())).reverse();
+    const auto roots = Eigen::PolynomialSolver<double, Eigen::Dynamic>(rising).roots();
+    return {roots.begin(), roots.end()};
+}
+
+std::vector<double> meansOf(std::span<const double> samples, std::size_t blocks) {
+    const std::size_t length = samples.size() / blocks;
+    std::vector<double> means(blocks);
+    for (std::size_t b = 0; b < blocks; ++b)
+        for (std::size_t i = 0; i < length; ++i)
+            means[b] += samples[b * length + i] / static_cast<double>(length);
+    return means;
+}
+
+/// c with x[n] + c[0] x[n-1] + ... = 0 in the least-squares sense; empty if undetermined.
+std::vector<double> predictionOf(const std::vector<double>& x, std::size_t order) {
+    NormalEquations equations(order);
+    std::vector<NormalEquations::Column> columns(order);
+    for (std::size_t n = order; n < x.size(); ++n) {
+        for (std::size_t j = 0; j < order; ++j) columns[j][0] = -x[n - 1 - j];
+        equations.add(columns, std::span(&x[n], 1));
+    }
+    return equations.step(1e-14);
+}
+
+} // namespace
+
+std::vector<PredictedPartial> predictPartials(std::span<const double> samples, double rateHz,
+                                              std::size_t partials, std::size_t blocks) {
+    std::vector<PredictedPartial> found;
+    if (samples.size() < blocks || blocks < 4 * partials) return found;
+    const std::size_t blockFrames = samples.size() / blocks; // whole ones
+    const double blockRateHz = rateHz / static_cast<double>(blockFrames);
+    for (const std::complex<double> root : rootsOf(predictionOf(meansOf(samples, blocks), 2 * partials)))
+        if (root.imag() > 1e-6 && std::isfinite(root.real()))
+            found.push_back(
+                {std::arg(root) * blockRateHz, std::max(-std::log(std::abs(root)) * blockRateHz, 1.0)});
+    std::ranges::sort(found, {}, &PredictedPartial::omega);
+    return found;
 }
 
 } // namespace physvib

@@ -4,8 +4,7 @@
 #include "Io/Text/NumberText.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/HitFit.h"
-#include "Measure/Peaks.h"
-#include "Measure/RecordingFaults.h"
+#include "Measure/Spectrum.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>

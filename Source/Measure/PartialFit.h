@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Least-squares fit of a sum of decaying sinusoids (partials) to samples.
 #pragma once
+#include "Core/Trigonometry.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/LeastSquares.h"
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <vector>
 
 namespace physvib {
-
 /// exp(-tau t) (cosine cos(omega t) + sine sin(omega t)), t = seconds since the first fitted sample.
 struct Partial {
     double omega = 0.0; ///< rad/s
@@ -71,5 +71,26 @@ private:
 /// Frequency in Hz of the highest peak in the magnitude spectrum between `lowHz` and `highHz`, to a
 /// thousandth of a bin.
 double highestPeakHz(std::span<const double> samples, double rateHz, double lowHz, double highHz);
+
+// Recursive generator of exp(-tau t) cos(omega t) and exp(-tau t) sin(omega t), without a library call per
+// sample.
+
+class DecayingPhasor {
+public:
+    /// The first sample lies at `seconds`.
+    DecayingPhasor(double omega, double tau, double rateHz, double seconds = 0.0)
+        : turn_{at(omega, tau, 1.0 / rateHz)}
+        , now_{at(omega, tau, seconds)} {}
+    double cosine() const noexcept { return now_.re; }
+    double sine() const noexcept { return now_.im; }
+    void next() noexcept { now_ = now_ * turn_; }
+
+private:
+    static Complex<double> at(double omega, double tau, double seconds) {
+        const double decay = std::exp(-tau * seconds);
+        return {decay * std::cos(omega * seconds), decay * std::sin(omega * seconds)};
+    }
+    Complex<double> turn_, now_;
+};
 
 } // namespace physvib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // PhysVib's colours: backgrounds, actuators, materials. An actuator has the same colour everywhere.
 #pragma once
-#include "Pictures/Colour.h"
+#include "Pictures/Image.h"
 #include <array>
 #include <cstddef>
 

@@ -1,11 +1,119 @@
 // SPDX-License-Identifier: MIT
 // Outlines of lines and curves, and their affine transforms.
 #pragma once
-#include "Pictures/Rectangle.h"
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace physvib::picture {
+
+// Points and rectangles of a picture, in pixels: x to the right, y downwards.
+
+/// The nearest whole number. Any thread.
+template <class Number>
+int roundToInt(Number value) noexcept {
+    return static_cast<int>(std::lround(value));
+}
+
+struct Spot {
+    float x = 0.0f, y = 0.0f;
+
+    float distanceTo(Spot other) const noexcept { return std::hypot(other.x - x, other.y - y); }
+};
+
+/// Its sides are parallel to those of the picture; a width or a height is never below 0. Any thread, all of
+/// it.
+template <class T>
+struct Rectangle {
+    T x{}, y{}, width{}, height{};
+
+    T right() const noexcept { return x + width; }
+    T bottom() const noexcept { return y + height; }
+    Spot centre() const noexcept {
+        return {static_cast<float>(x) + 0.5f * static_cast<float>(width),
+                static_cast<float>(y) + 0.5f * static_cast<float>(height)};
+    }
+    bool empty() const noexcept { return !(width > T{}) || !(height > T{}); }
+    bool contains(Spot p) const noexcept {
+        return p.x >= static_cast<float>(x) && p.y >= static_cast<float>(y) &&
+               p.x < static_cast<float>(right()) && p.y < static_cast<float>(bottom());
+    }
+
+    Rectangle withY(T value) const noexcept { return {x, value, width, height}; }
+    Rectangle withHeight(T value) const noexcept { return {x, y, width, value}; }
+    Rectangle withLeft(T left) const noexcept { return {left, y, std::max(T{}, right() - left), height}; }
+    Rectangle withRight(T end) const noexcept {
+        return {std::min(x, end), y, std::max(T{}, end - x), height};
+    }
+    Rectangle withTrimmedLeft(T by) const noexcept { return withLeft(x + by); }
+    Rectangle withTrimmedRight(T by) const noexcept { return {x, y, std::max(T{}, width - by), height}; }
+    Rectangle withTrimmedTop(T by) const noexcept { return {x, y + by, width, std::max(T{}, height - by)}; }
+    Rectangle withTrimmedBottom(T by) const noexcept { return {x, y, width, std::max(T{}, height - by)}; }
+    Rectangle expanded(T dx, T dy) const noexcept {
+        return {x - dx, y - dy, std::max(T{}, width + 2 * dx), std::max(T{}, height + 2 * dy)};
+    }
+    Rectangle expanded(T by) const noexcept { return expanded(by, by); }
+    Rectangle reduced(T dx, T dy) const noexcept { return expanded(-dx, -dy); }
+    Rectangle reduced(T by) const noexcept { return expanded(-by, -by); }
+    Rectangle withSizeKeepingCentre(T newWidth, T newHeight) const noexcept {
+        return {x + (width - newWidth) / 2, y + (height - newHeight) / 2, newWidth, newHeight};
+    }
+    Rectangle intersection(const Rectangle& other) const noexcept {
+        const T left = std::max(x, other.x), top = std::max(y, other.y);
+        return {left, top, std::max(T{}, std::min(right(), other.right()) - left),
+                std::max(T{}, std::min(bottom(), other.bottom()) - top)};
+    }
+    /// Moved, and made smaller if need be, so that `whole` holds it.
+    Rectangle constrainedWithin(const Rectangle& whole) const noexcept {
+        const T w = std::min(width, whole.width), h = std::min(height, whole.height);
+        return {std::clamp(x, whole.x, whole.right() - w), std::clamp(y, whole.y, whole.bottom() - h), w, h};
+    }
+
+    /// Cuts a piece off, at most all of it, and returns that.
+    Rectangle removeFromTop(T amount) noexcept {
+        const Rectangle piece{x, y, width, std::min(amount, height)};
+        y += piece.height, height -= piece.height;
+        return piece;
+    }
+    Rectangle removeFromBottom(T amount) noexcept {
+        const T taken = std::min(amount, height);
+        height -= taken;
+        return {x, y + height, width, taken};
+    }
+    Rectangle removeFromLeft(T amount) noexcept {
+        const Rectangle piece{x, y, std::min(amount, width), height};
+        x += piece.width, width -= piece.width;
+        return piece;
+    }
+    Rectangle removeFromRight(T amount) noexcept {
+        const T taken = std::min(amount, width);
+        width -= taken;
+        return {x + width, y, taken, height};
+    }
+
+    Rectangle<float> toFloat() const noexcept {
+        return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(width),
+                static_cast<float>(height)};
+    }
+    /// Edges at the nearest whole pixels.
+    Rectangle<int> rounded() const noexcept {
+        const int left = roundToInt(x), top = roundToInt(y);
+        return {left, top, roundToInt(right()) - left, roundToInt(bottom()) - top};
+    }
+    /// The whole pixels that it touches.
+    Rectangle<int> touched() const noexcept {
+        const auto left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
+        return {left, top, static_cast<int>(std::ceil(right())) - left,
+                static_cast<int>(std::ceil(bottom())) - top};
+    }
+};
+
+using Area = Rectangle<int>;
+using Box = Rectangle<float>;
+
+inline Box boxAround(Spot centre, float width, float height) noexcept {
+    return {centre.x - 0.5f * width, centre.y - 0.5f * height, width, height};
+}
 
 /// How points are moved: x' = xx x + xy y + dx, y' = yx x + yy y + dy. Any thread.
 struct Transform {

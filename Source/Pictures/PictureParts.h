@@ -3,9 +3,10 @@
 #pragma once
 #include "Pictures/PictureCanvas.h"
 #include "Pictures/RenderPicture.h"
+#include <algorithm>
+#include <cmath>
 
 namespace physvib::picture {
-
 /// Or a grain that was passed.
 inline bool isHit(const CollisionEvent& event) noexcept { return event.source.kind == ContactKind::hit; }
 
@@ -79,5 +80,87 @@ void drawZoom(const Canvas& canvas, const PictureInput& input, Area panel);
 
 /// A lane per channel, a lane of hits below them, and the time axis of both.
 void drawSignals(const Canvas& canvas, const PictureInput& input, const HitColours& colours, Area panel);
+
+// Draws many impacts as accumulated light on one background.
+
+/// Light of all hits, summed before it is made visible, so that twenty thousand neither clip nor vanish.
+class Light {
+public:
+    explicit Light(Area area)
+        : area_(area)
+        , rgb_(3 * static_cast<std::size_t>(area.width) * static_cast<std::size_t>(area.height), 0.0f) {}
+
+    void add(Spot centre, float radius, float strength, Colour colour) {
+        if (!area_.toFloat().expanded(radius).contains(centre))
+            return; // also what is too far away for whole numbers
+        const Area seen = boxAround(centre, 2.0f * radius, 2.0f * radius).touched().intersection(area_);
+        for (int y = seen.y; y < seen.bottom(); ++y)
+            for (int x = seen.x; x < seen.right(); ++x) {
+                const float dx = static_cast<float>(x) + 0.5f - centre.x,
+                            dy = static_cast<float>(y) + 0.5f - centre.y;
+                const float inside = 1.0f - (dx * dx + dy * dy) / (radius * radius);
+                if (inside > 0.0f) addPixel(x, y, strength * inside * inside * inside, colour);
+            }
+    }
+
+    // Exposed for the brightest place, then bent like film: 1 - exp(-light).
+    void draw(Painter& g) const {
+        const float brightest = rgb_.empty() ? 0.0f : *std::max_element(rgb_.begin(), rgb_.end());
+        const float exposure = brightest > 2.0f ? 2.0f / brightest : 1.0f;
+        if (area_.empty() || brightest <= 0.0f) return;
+        for (int y = 0; y < area_.height; ++y)
+            for (int x = 0; x < area_.width; ++x) g.blend(area_.x + x, area_.y + y, seen(x, y, exposure));
+    }
+
+private:
+    std::size_t index(int x, int y) const {
+        return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(area_.width) +
+                    static_cast<std::size_t>(x));
+    }
+    void addPixel(int x, int y, float light, Colour colour) {
+        float* pixel = rgb_.data() + index(x - area_.x, y - area_.y);
+        pixel[0] += light * static_cast<float>(colour.red) / 255.0f;
+        pixel[1] += light * static_cast<float>(colour.green) / 255.0f;
+        pixel[2] += light * static_cast<float>(colour.blue) / 255.0f;
+    }
+    Colour seen(int x, int y, float exposure) const {
+        const float* pixel = rgb_.data() + index(x, y);
+        const float most = std::max({pixel[0], pixel[1], pixel[2]});
+        if (most <= 0.0f) return {};
+        return Colour::of(pixel[0] / most, pixel[1] / most, pixel[2] / most,
+                          1.0f - std::exp(-exposure * most));
+    }
+
+    Area area_;
+    std::vector<float> rgb_;
+};
+
+// Parts of the world panel that pictures and movies share.
+
+/// Metres of the field, origin lower left, to pixels.
+struct FieldMap {
+    Box field;
+    double pixelsPerMetre;
+    Spot at(double xMetres, double yMetres) const {
+        return {field.x + length(xMetres), field.bottom() - length(yMetres)};
+    }
+    float length(double metres) const { return static_cast<float>(metres * pixelsPerMetre); }
+};
+
+/// The field to scale, in the middle of `room`.
+FieldMap fitField(const PictureInput& input, Area room);
+
+/// A place of the field. Of a layout in space the view is oblique: what is nearer to the viewer is further
+/// down and to the left.
+Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, double z);
+
+/// Where actuator `channel` stands, the layout being mapped on the field.
+Spot placeOf(const PictureInput& input, const FieldMap& map, int channel);
+
+/// All bodies that are present, and the joints between them, at `input.poses`; nothing without a scene.
+void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map);
+
+/// A badge per actuator, within `panel`.
+void drawEnchanters(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel);
 
 } // namespace physvib::picture

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A render as a movie: the world and its impacts over time, and the signal of each actuator so far.
 #pragma once
+#include "Pictures/Image.h"
 #include "Pictures/RenderPicture.h"
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace physvib {
-
 /// The pictures of one render, in any order of time. One thread at a time; draws the same pixels for the same
 /// input and fonts.
 class RenderMovie {
@@ -34,6 +36,27 @@ public:
 private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
+};
+
+// Encoder of movies as animated WebP, by libwebp.
+
+/// Takes pictures of one size in the order of their times. One thread at a time. What libwebp refuses is
+/// thrown as std::runtime_error.
+class WebpMovie {
+public:
+    WebpMovie(int width, int height);
+    ~WebpMovie();
+    WebpMovie(const WebpMovie&) = delete;
+    WebpMovie& operator=(const WebpMovie&) = delete;
+
+    void add(const picture::Image& image, std::int64_t timeMs); ///< shown from then on
+
+    /// All of the file, once; the last picture is shown until `endMs`. It is played again and again.
+    std::string bytes(std::int64_t endMs);
+
+private:
+    struct Encoder;
+    std::unique_ptr<Encoder> encoder_;
 };
 
 } // namespace physvib

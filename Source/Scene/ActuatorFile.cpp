@@ -6,7 +6,7 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/FieldJson.h"
 #include "Io/Text/NumberText.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include <array>
 
 namespace physvib {

@@ -4,7 +4,7 @@
 #include "Core/CollisionEvent.h"
 #include "Io/Text/DecimalSeconds.h"
 #include "Io/Text/NumberText.h"
-#include "Scene/SoundNames.h"
+#include "Scene/PartNames.h"
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -2,7 +2,7 @@
 // Writes the structs of a scene as JSON, driven by the field table in SceneFields.h; fields with default
 // values are omitted. For .cpp files that write JSON.
 #pragma once
-#include "Io/Json/JsonLines.h"
+#include "Io/Json/JsonText.h"
 #include "Scene/SceneFields.h"
 #include <optional>
 #include <string>

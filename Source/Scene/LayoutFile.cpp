@@ -5,7 +5,7 @@
 #include "Io/Text/NumberText.h"
 #include "Scene/LayoutJson.h"
 #include "Scene/PartNames.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include <algorithm>
 
 namespace physvib {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Ranges and names of materials.
-#include "Scene/MaterialCheck.h"
+#include "Scene/MaterialTable.h"
 #include "Core/NameNumbers.h"
 #include "Scene/SceneRanges.h"
-#include "Scene/UniqueNames.h"
 #include <algorithm>
 
 namespace physvib {

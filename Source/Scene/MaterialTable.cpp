@@ -6,8 +6,7 @@
 #include "Io/Json/JsonText.h"
 #include "Scene/JsonReader.h"
 #include "Scene/JsonWriter.h"
-#include "Scene/MaterialCheck.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include <stdexcept>
 
 namespace physvib {

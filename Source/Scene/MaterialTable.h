@@ -3,13 +3,14 @@
 #pragma once
 #include "Io/Result.h"
 #include "Scene/Scene.h"
+#include "Scene/SceneRanges.h"
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace physvib {
-
 /// The version of the format that is written, and the newest that is read.
 constexpr int materialsFormatVersion = 1;
 
@@ -32,5 +33,28 @@ std::string materialsJson(const MaterialTable& table);
 
 /// Table 5.1 of the thesis, then the other tables. Read on first use; any thread.
 const std::vector<MaterialTable>& builtInMaterials();
+
+// Validates materials alone, for scenes and for material tables, which need no shapes and no Box2D.
+
+/// Empty if all are valid; else one line that names the field, as files spell it, and what was expected:
+/// ranges, and a name of its own for each. Any thread.
+std::string validateMaterials(const std::vector<Material>& materials);
+
+/// The same of the names alone. Events carry the number of a material's name, so two names must not share
+/// one. Any thread.
+std::string checkMaterialNames(const std::vector<Material>& materials);
+
+// Checks that no two items of a list have the same name.
+
+/// Empty, or one line that names the second item of that name. Any thread.
+template <class T>
+std::string checkUnique(const std::string& list, const std::vector<T>& all) {
+    std::set<std::string_view> names;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (!names.insert(all[i].name).second)
+            return detail::itemPath(list, i) + ".name: expected a name of its own, found \"" + all[i].name +
+                   "\" again";
+    return {};
+}
 
 } // namespace physvib

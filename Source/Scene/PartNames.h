@@ -1,13 +1,59 @@
 // SPDX-License-Identifier: MIT
 // Names of the parts of a body that events and actuators carry as numbers, as files write and read them.
 #pragma once
+#include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
 #include "Io/Text/NumberText.h"
-#include "Scene/NumberedNames.h"
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace physvib {
+
+// Names by the numbers that events carry instead of them.
+
+/// Names of sounds, or of parts of a body. One thread at a time.
+class NumberedNames {
+public:
+    /// The name of that number; null if it has none.
+    const std::string* find(int number) const {
+        const auto known = placeOf(number);
+        return isAt(known, number) ? &known->name : nullptr;
+    }
+
+    /// A list has no quotes: a name that would not be read again as it is stays out.
+    void add(int number, std::string_view name) {
+        const auto next = placeOf(number);
+        if (names_.size() < mostNames && !isAt(next, number) && isPlain(name))
+            names_.insert(next, {number, std::string{name}});
+    }
+
+    bool operator==(const NumberedNames&) const = default;
+
+private:
+    static bool isPlain(std::string_view name) {
+        const auto breaks = [](char c) {
+            return c == ',' || c == '"' || static_cast<unsigned char>(c) < ' ';
+        };
+        return !name.empty() && std::ranges::none_of(name, breaks) && name.front() != ' ' &&
+               name.back() != ' ';
+    }
+
+    struct Entry {
+        int number;
+        std::string name;
+        bool operator==(const Entry&) const = default;
+    };
+    using Place = std::vector<Entry>::const_iterator;
+    Place placeOf(int number) const { return std::ranges::lower_bound(names_, number, {}, &Entry::number); }
+    bool isAt(Place place, int number) const { return place != names_.end() && place->number == number; }
+
+    static constexpr std::size_t mostNames = 4096; // so that an untrusted list is still read quickly
+    std::vector<Entry> names_;                     // sorted by number
+};
 
 inline constexpr std::string_view partNamePrefix = "part-"; // and the number of a part without a name
 
@@ -38,6 +84,79 @@ public:
     }
 
     bool operator==(const PartNames&) const = default;
+
+private:
+    NumberedNames names_;
+};
+
+// Names of the sounds that events carry as numbers, as event lists write and read them.
+
+inline constexpr std::string_view clipNamePrefix = "clip-";   // and its number, from 1 on
+inline constexpr std::string_view soundNamePrefix = "sound-"; // and the number of a material without a name
+
+/// The number of the sound that a list calls `name`; 0 if it has none. Any thread.
+inline SoundNumber soundNamed(std::string_view name) noexcept {
+    if (name.empty()) return 0;
+    const auto after = [name](std::string_view prefix) {
+        return name.starts_with(prefix) ? parseNumber<SoundNumber>(name.substr(prefix.size())).value_or(0)
+                                        : SoundNumber{0};
+    };
+    if (const SoundNumber clip = after(clipNamePrefix); isClip(clip)) return clip;
+    if (const SoundNumber material = after(soundNamePrefix); material > mostClips) return material;
+    return soundOfMaterial(name);
+}
+
+/// Before events had numbers, clip `k`, from 0 on, was the frequency (k + 1) / 1024 Hz. Gives an event of an
+/// old file its number. Any thread.
+inline void takeFormerClip(CollisionEvent& event) noexcept {
+    const double number = event.frequencyHz * 1024.0;
+    if (!(number >= 1.0 && number <= mostClips) || number != std::floor(number)) return;
+    event.sound = static_cast<SoundNumber>(number);
+    event.frequencyHz = clipFrequencyHz;
+}
+
+/// The names of materials by their numbers. One thread at a time.
+class SoundNames {
+public:
+    SoundNames() = default;
+
+    /// Those of a scene's materials.
+    template <class Materials>
+    explicit SoundNames(const Materials& materials) {
+        addAll(materials);
+    }
+    template <class Materials>
+    void addAll(const Materials& materials) {
+        for (const auto& material : materials) add(material.name);
+    }
+
+    /// Those of a scene's materials, and of the parts of a body that its fixtures are bound to.
+    template <class Scene>
+    void addScene(const Scene& scene) {
+        addAll(scene.materials);
+        for (const auto& body : scene.bodies)
+            for (const auto& fixture : body.fixtures)
+                if (!fixture.part.empty()) parts.add(fixture.part);
+    }
+
+    /// A material whose name would not be read again as it is stays without one.
+    void add(std::string_view name) {
+        if (const SoundNumber sound = soundOfMaterial(name); soundNamed(name) == sound)
+            names_.add(sound, name);
+    }
+    bool has(SoundNumber sound) const { return names_.find(sound) != nullptr; }
+
+    /// What a list writes: the material's name or else its number (sound-923368111), clip-1 and so on, or
+    /// nothing for 0.
+    std::string of(SoundNumber sound) const {
+        if (sound == 0) return {};
+        if (const std::string* const known = names_.find(sound)) return *known;
+        return std::string{isClip(sound) ? clipNamePrefix : soundNamePrefix} + std::to_string(sound);
+    }
+
+    PartNames parts; ///< names of parts of a body: they travel with those of sounds
+
+    bool operator==(const SoundNames&) const = default;
 
 private:
     NumberedNames names_;

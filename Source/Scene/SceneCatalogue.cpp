@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads the embedded scenes like scene files.
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
 

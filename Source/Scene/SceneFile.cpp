@@ -6,7 +6,7 @@
 #include "Io/Text/NumberText.h"
 #include "Scene/JsonReader.h"
 #include "Scene/JsonWriter.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
 

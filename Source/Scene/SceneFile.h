@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scenes as JSON, read strictly and written back unchanged.
 #pragma once
+#include "Io/Disk/Embedded.h"
 #include "Io/Result.h"
 #include "Scene/Scene.h"
 #include <filesystem>
@@ -10,7 +11,6 @@
 #include <vector>
 
 namespace physvib {
-
 /// The version of the format that is written, and the newest that is read.
 constexpr int sceneFormatVersion = 2; // 2: change, join, unjoin; slider, slack; restitution of a fixture
 
@@ -28,5 +28,20 @@ Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& 
 /// A valid scene as JSON with its present settings; readScene restores everything except the variables, bit
 /// for bit. Any thread.
 std::string sceneJson(const Scene& scene);
+
+// The built-in scenes, and a lookup by name or file.
+
+/// Source/Scene/Scenes/*.json, in the order of their listing. Any thread.
+const std::vector<EmbeddedFile>& embeddedScenes();
+
+/// All built-in scenes, with their variables' defaults, in the order of their listing. Built on first use;
+/// any thread.
+const std::vector<Scene>& builtInScenes();
+
+/// The built-in scene of that name, with its defaults; nullptr if there is none. Any thread.
+const Scene* findBuiltInScene(std::string_view name);
+
+/// A built-in scene by its name, else the scene of the file. M only.
+Result<Scene> findScene(const std::string& nameOrPath, const SceneSettings& settings = {});
 
 } // namespace physvib

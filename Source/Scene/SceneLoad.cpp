@@ -2,7 +2,7 @@
 // Loads a scene from a file; SceneFile.cpp parses the text, also in builds without file access.
 #include "Io/Disk/ReadFile.h"
 #include "Scene/SceneFile.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 
 namespace physvib {
 

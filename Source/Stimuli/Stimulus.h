@@ -4,11 +4,18 @@
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
 #include "Core/PhantomPanner.h"
-#include "Stimuli/FieldPlace.h"
 #include "Stimuli/PulsePattern.h"
 #include <vector>
 
 namespace physvib {
+
+// A place on the response field of a study, as a share of its width and height.
+
+/// A place on the response field: x to the right, y downwards, both from 0 to 1.
+struct FieldPlace {
+    double x = 0.0, y = 0.0;
+    bool operator==(const FieldPlace&) const = default;
+};
 
 /// Frequency and level of all stimuli of a set (thesis 3.2.1, Eq. 4.1).
 struct Carrier {
@@ -37,5 +44,13 @@ Stimulus phantomStimulus(const FieldPlace& place, const EnchanterLayout& layout,
 /// A layout of `count` actuators in which each has gain 1 at its own place and 0 at those of all others:
 /// exactly for up to four, below -250 dB for more. Any thread.
 EnchanterLayout isolatingLayout(int count) noexcept;
+
+// Measured level of a played stimulus.
+
+/// Of the actuator with the highest level, after master level, strips and ceilings.
+struct FeltLevel {
+    double peakG = 0.0, rmsG = 0.0; ///< rmsG: over the stimulus' duration
+    bool operator==(const FeltLevel&) const = default;
+};
 
 } // namespace physvib

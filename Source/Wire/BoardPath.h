@@ -8,11 +8,74 @@
 // up by a small change of frequency.
 #pragma once
 #include "Core/BoardEvent.h"
+#include "Core/ClockLaw.h"
+#include "Core/CollisionEvent.h"
 #include "Wire/BoardStrike.h"
-#include "Wire/PathGains.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 
 namespace physvib {
+
+// Computes the gains of a moving tone at any time exactly as the computer's renderer does, so that a board
+// can use the same.
+//
+// That renderer evaluates the panning law at the ends of each tile of its frames and interpolates linearly
+// (Core/Voices.h).
+
+/// Of one event, in a session rendered at one rate. One thread.
+class PathGains {
+public:
+    using Gains = std::array<double, limits::board::channels>;
+
+    PathGains(const CollisionEvent& moving, std::int64_t lifeNs, int sampleRateHz) noexcept
+        : moving_{moving}
+        , rate_{static_cast<double>(sampleRateHz)}
+        , onset_{FrameClock{sampleRateHz}.at(moving.timeNs)}
+        , endFrame_{FrameClock{sampleRateHz}.at(moving.timeNs + lifeNs).frame - onset_.frame} {}
+
+    /// `seconds` after the onset. `gainsAt(event)` returns the panner's Gains.
+    template <class GainsAt>
+    Gains at(double seconds, GainsAt& gainsAt) noexcept {
+        constexpr std::int64_t tile = limits::tileFrames;
+        // frames here count from the onset's frame
+        const double frame = std::max(0.0, seconds * rate_ - onset_.leadFrames);
+        const std::int64_t before = onset_.frame % tile;
+        const std::int64_t first = (static_cast<std::int64_t>(frame) + before) / tile * tile - before;
+        enter(std::max<std::int64_t>(first, 0), std::min(first + tile, endFrame_), gainsAt);
+        const double share =
+            to_ > from_ ? (frame - static_cast<double>(from_)) / static_cast<double>(to_ - from_) : 0.0;
+        Gains gains;
+        for (std::size_t j = 0; j < gains.size(); ++j)
+            gains[j] = std::lerp(fromGains_[j], toGains_[j], share);
+        return gains;
+    }
+
+private:
+    template <class GainsAt>
+    void enter(std::int64_t from, std::int64_t to, GainsAt& gainsAt) noexcept {
+        if (from == from_) return;
+        from_ = from, to_ = to;
+        fromGains_ = gainsThen(from, gainsAt);
+        toGains_ = gainsThen(to, gainsAt);
+    }
+
+    template <class GainsAt>
+    Gains gainsThen(std::int64_t frame, GainsAt& gainsAt) const noexcept {
+        const double ageNs = (static_cast<double>(frame) + onset_.leadFrames) / rate_ * 1e9;
+        const double share = std::min(1.0, ageNs / static_cast<double>(moving_.course.travelNs));
+        return gainsAt(movedAlong(moving_, share));
+    }
+
+    CollisionEvent moving_;
+    double rate_;
+    FramePosition onset_;
+    std::int64_t endFrame_;
+    std::int64_t from_ = -1, to_ = 0; // of the current tile
+    Gains fromGains_{}, toGains_{};
+};
 
 /// Estimated position of an event's time on the board's frames.
 struct BoardTime {
@@ -159,6 +222,51 @@ private:
     Joint after_, following_;
     // gains of the frames that the next segment may have
     std::array<Gains, static_cast<std::size_t>(mostFrames)> samples_{};
+};
+
+// Splits a moving tone into a series of short stationary events for a board of protocol 1, whose events have
+// one amplitude per channel. Newer boards play segments (BoardPath).
+
+/// In time order. Each lasts whole milliseconds, as the link counts them, and nearly whole periods, because
+/// each begins at phase 0 on the board. Any thread.
+class BoardSteps {
+public:
+    static constexpr int leastMs = 20, mostMs = 60; ///< fewer than 50 per second, of the 720 that the line
+                                                    ///< transmits
+
+    explicit BoardSteps(const CollisionEvent& moving) noexcept
+        : moving_{moving}
+        , stepNs_{lengthMs(moving.frequencyHz) * 1'000'000LL}
+        , endNs_{boardLifeNs(moving)} {}
+
+    bool isOver() const noexcept { return doneNs_ >= endNs_; }
+    std::int64_t nextNs() const noexcept { return moving_.timeNs + doneNs_; }
+
+    /// The next event, at the place where the tone is in the middle of it. Not if isOver().
+    CollisionEvent take() noexcept {
+        const std::int64_t lengthNs = std::min(stepNs_, endNs_ - doneNs_);
+        const double middle = static_cast<double>(doneNs_) + 0.5 * static_cast<double>(lengthNs);
+        CollisionEvent step =
+            movedAlong(moving_, std::min(1.0, middle / static_cast<double>(moving_.course.travelNs)));
+        step.timeNs = nextNs();
+        step.durationNs = lengthNs;
+        step.course = {.sinceNs = moving_.course.sinceNs + doneNs_};
+        doneNs_ += step.durationNs;
+        return step;
+    }
+
+    /// The length that is closest to whole periods.
+    static int lengthMs(double frequencyHz) noexcept {
+        const auto off = [=](int ms) { return std::abs(std::remainder(frequencyHz * ms * 1e-3, 1.0)); };
+        int best = leastMs;
+        for (int ms = leastMs + 1; ms <= mostMs; ++ms)
+            if (off(ms) < off(best)) best = ms;
+        return best;
+    }
+
+private:
+    CollisionEvent moving_;
+    std::int64_t stepNs_, endNs_, doneNs_ = 0;
 };
 
 } // namespace physvib

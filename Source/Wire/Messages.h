@@ -6,8 +6,7 @@
 // know.
 #pragma once
 #include "Core/BoardEvent.h"
-#include "Wire/Cobs.h"
-#include "Wire/Crc16.h"
+#include "Wire/Frames.h"
 #include <algorithm>
 #include <array>
 #include <concepts>

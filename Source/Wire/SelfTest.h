@@ -3,7 +3,7 @@
 // then counts the cycles of one block and hashes its bits.
 #pragma once
 #include "Core/BoardRenderer.h"
-#include "Wire/Crc16.h"
+#include "Wire/Frames.h"
 #include "Wire/Messages.h"
 #include <cstdint>
 

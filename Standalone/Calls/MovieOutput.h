@@ -3,7 +3,6 @@
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Pictures/RenderMovie.h"
-#include "Pictures/WebpMovie.h"
 #include "Scene/World/RunSettings.h"
 #include "System/Process.h"
 #include <functional>

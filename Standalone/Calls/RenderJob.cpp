@@ -2,7 +2,7 @@
 // Validates a render job before any file is read.
 #include "Calls/RenderJob.h"
 #include "Calls/SessionMovie.h"
-#include "Io/Disk/NameEnding.h"
+#include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <concepts>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Declares and parses the options of `physvib stimulus`.
 #include "Calls/StimulusOptions.h"
-#include "Calls/RenderWords.h"
+#include "Calls/RenderOptions.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/PercentCounts.h"

@@ -5,7 +5,7 @@
 #include "Io/Text/NumberText.h"
 #include "Live/Session/SerialLine.h"
 #include "Scene/ActuatorFile.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 
 namespace physvib {
 namespace {

@@ -2,7 +2,7 @@
 // Creates option entries with defaults from the type of their target, or from a usage text.
 #include "Options/OptionTable.h"
 #include "Io/Text/NameList.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include <algorithm>
 #include <regex>
 #include <type_traits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Declares a table's options in CLI11 and copies the results back.
 #include "Options/Parser.h"
-#include "Io/Disk/NameEnding.h"
+#include "Io/Disk/FileClash.h"
 #include "Io/Text/NameList.h"
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -6,7 +6,6 @@
 #include <string>
 
 namespace physvib {
-
 /// Option that requests the reference, followed by a folder. It is undocumented, because only the build uses
 /// it.
 inline constexpr const char* referenceWord = "--reference";
@@ -14,5 +13,22 @@ inline constexpr const char* referenceWord = "--reference";
 /// Writes man1/, md/ (Docs/commands.md), bash/, zsh/ and fish/ into the folder. Empty, or one error line.
 /// Message thread.
 std::string writeReference(const OptionTable& program, const std::filesystem::path& folder);
+
+// Manual pages, generated from the option table.
+
+/// A manual page in roff, with the options of the command and its subcommands. `pages` are listed at the end.
+/// Message thread.
+std::string manPage(const OptionTable& command, const std::vector<std::string>& pages);
+
+/// "physvib render" as "physvib-render", the name of its page. Message thread.
+std::string pageName(const OptionTable& command);
+
+// Shell completion scripts, generated from the option table.
+
+/// A script for that shell, to be installed under the program's name. Values without a list complete to
+/// files. Message thread.
+std::string bashCompletion(const OptionTable& program);
+std::string zshCompletion(const OptionTable& program);
+std::string fishCompletion(const OptionTable& program);
 
 } // namespace physvib

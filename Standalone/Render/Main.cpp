@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Main program of `physvib-render`: renders a scene or an event list on any system, with the library only.
 #include "Core/CollisionEvent.h"
-#include "InRange.h"
 #include "Io/Disk/FileClash.h"
-#include "Io/Disk/NameEnding.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
 #include "Io/Wav/WavSink.h"
 #include "Live/Session/OfflineRender.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/LayoutFile.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/SilentWords.h"
 #include "Scene/World/RunSettings.h"
 #include <CLI/CLI.hpp>
@@ -20,11 +18,29 @@
 #include <iostream>
 #include <optional>
 #include <physvib/Version.h>
-
+#include <string>
 #if PHYSVIB_PICTURES
 #include "RenderedPicture.h"
 #endif
 
+// Range check for numeric options that rejects "nan", which CLI11's own checks accept, and whose message has
+// the expected range.
+
+namespace physvib {
+/// Inclusive range; `unit` starts with a space.
+template <class T>
+CLI::Validator inRange(T low, T high, const std::string& unit = "") {
+    const std::string range = CLI::detail::to_string(low) + " to " + CLI::detail::to_string(high) + unit;
+    return {[=](std::string& text) {
+                T value{};
+                const bool isNumber = CLI::detail::lexical_cast(text, value);
+                return isNumber && value >= low && value <= high
+                           ? std::string{}
+                           : "expected " + range + ", found \"" + text + "\"";
+            },
+            range};
+}
+} // namespace physvib
 using namespace physvib;
 
 namespace {

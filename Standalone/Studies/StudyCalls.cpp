@@ -11,7 +11,7 @@
 #include "Live/Session/StimulusRender.h"
 #include "Options/Parser.h"
 #include "Scene/EventsCsv.h"
-#include "Scene/LayoutNamed.h"
+#include "Scene/LayoutFile.h"
 #include <algorithm>
 #include <functional>
 #include <set>

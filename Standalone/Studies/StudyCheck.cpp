@@ -17,7 +17,7 @@
 #include "Lab/Study/StudyPlan.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
-#include "Scene/LayoutNamed.h"
+#include "Scene/LayoutFile.h"
 #include "Studies/StudyCalls.h"
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/StudyPlan.h"
-#include "Scene/LayoutNamed.h"
+#include "Scene/LayoutFile.h"
 #include "Studies/StudyCheck.h"
 #include <algorithm>
 #include <map>

@@ -4,7 +4,7 @@
 #include "Api/JavaScript/Exports.h"
 #include "Io/Text/QrCode.h"
 #include "PageWorld.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/SceneEdits.h"
 #include <array>
 #include <optional>
@@ -52,7 +52,7 @@ const char* PHYSVIB_PAGE(lawList)() {
 /// Sets a variable of the scene that is opened next.
 void PHYSVIB_PAGE(choose)(const char* name, const char* value) { chosen.emplace_back(name, value); }
 
-/// Opens a file (PageFile.h) or, if `bytes` < 0, the built-in scene `name`. `byHand` disables scripted user
+/// Opens a file or, if `bytes` < 0, the built-in scene `name`. `byHand` disables scripted user
 /// input. An event list without a field gets a field of the given size, m.
 void PHYSVIB_PAGE(open)(const char* name, const char* text, int bytes, bool byHand, unsigned seed,
                         int sampleRateHz, int outputs, double fieldWidth, double fieldHeight) {

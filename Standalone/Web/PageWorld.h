@@ -2,10 +2,12 @@
 // A running scene and its haptic output, on the thread that renders the audio.
 #pragma once
 #include "Core/ClockLaw.h"
+#include "Core/CollisionEvent.h"
 #include "Core/ControlQueue.h"
 #include "Core/HapticRenderer.h"
 #include "Core/PanningLaws.h"
-#include "PageFile.h"
+#include "Io/Result.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/ScenePlayer.h"
 #include "Scene/World/Simulation.h"
@@ -14,9 +16,26 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
+
+// File that a page opens: a scene, an event list or a clip, selected by its name.
+
+/// A world and the events played in it: none for a scene, its events for a list, and one event that stands
+/// for the samples of a clip.
+struct PageFile {
+
+    Scene scene;
+    std::vector<CollisionEvent> strikes; ///< sorted by time
+    std::vector<float> samples;          ///< at the renderer's rate
+};
+
+/// `name` ends in .csv, .haptic or .ahap; otherwise it is a scene. A list without a field gets one of the
+/// given size, m. A clip plays in the centre of all actuators, as in `physvib render`.
+Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings,
+                              Vector fieldMetres, int sampleRateHz);
 
 /// The output equals the rendered file, delayed by outputLatencyFrames(). One thread has all roles of
 /// Live/Session/Session.h, and steps the world in the block that needs it.

@@ -3,7 +3,7 @@
 // `times_real_time` is the figure.
 #include "Io/Wav/WavSink.h"
 #include "Live/Session/OfflineRender.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/RunSettings.h"
 #include <benchmark/benchmark.h>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lines of `play --listen`, however they arrive.
-#include "CommandLine/Play/LineCutter.h"
+#include "CommandLine/Play/InputListener.h"
 #include <gtest/gtest.h>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/SessionFile.h"
 #include "Scene/LayoutFile.h"
-#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "Support/FileTesting.h"
 #include <gtest/gtest.h>

@@ -3,7 +3,6 @@
 // readable.
 #include "Live/Documents/PluginState.h"
 #include "Io/Disk/ReadFile.h"
-#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "TestPlaces.h"
 #include <gtest/gtest.h>

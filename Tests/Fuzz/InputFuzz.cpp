@@ -2,7 +2,7 @@
 // Fuzz target of live input lines; what is accepted acts on a small world.
 #include "Fuzzing.h"
 #include "Live/Documents/InputLine.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/Simulation.h"
 

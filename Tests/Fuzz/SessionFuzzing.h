@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What messages are fuzzed against: a small session without a log, and clips by any name.
 #pragma once
-#include "Live/Messages/ClipSource.h"
+#include "Live/Messages/MessageRouter.h"
 #include "Live/Session/Session.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include <array>
 #include <memory>
 

@@ -19,10 +19,10 @@ set(Live/Session_may "Live/(Documents|Messages|Session)/|Stimuli/|Scene/|Io/|Phy
 set(Live/Messages_may "${Live/Session_may}")
 set(Live/Pads_may "Live/|SDL2/|Scene/|Io/|Core/")
 set(Live/Devices_may "Live/|Stimuli/|Scene/|Io/|Core/|jack/|alsa/")
-set(Live/Recordings_may "Live/|Wire/|Stimuli/|Formats/|Measure/(HitExcerpt|LoudestChannel|RecordingFaults|SlowPart)\\.h|Scene/|Io/|Core/|sndfile\\.h")
+set(Live/Recordings_may "Live/|Wire/|Stimuli/|Formats/|Measure/HitExcerpt\\.h|Scene/|Io/|Core/|sndfile\\.h")
 set(Live/Rig_may "Live/|Core/")
 set(Standalone/Web_may "Page(File|World)\\.h|Api/JavaScript/Exports\\.h|Formats/|Measure/|box2d/|Scene/|Io/|Physics/|Contacts/|Core/")
-set(Standalone/Render_may "InRange\\.h|RenderedPicture\\.h|Pictures/|Live/Session/OfflineRender\\.h|Scene/|Io/|Physics/|Contacts/|Core/")
+set(Standalone/Render_may "RenderedPicture\\.h|Pictures/|Live/Session/OfflineRender\\.h|Scene/|Io/|Physics/|Contacts/|Core/")
 set(Standalone/Options_may "Options/|Scene/|Io/")
 set(Pictures_may "Pictures/|Scene/|Io/|Core/|ft2build|png\\.h")
 set(Host_may "Host/|Live/|Pictures/(Palette|ShapeOutline|WaveformEnvelope)\\.h|aubio/|Scene/|Io/|Physics/|Contacts/|Core/|juce_")
@@ -75,7 +75,7 @@ endfunction()
 
 # One file per program knows the parser; all others fill its table.
 file(GLOB_RECURSE files ${ROOT}/Standalone/*.h ${ROOT}/Standalone/*.cpp)
-list(FILTER files EXCLUDE REGEX "/Standalone/(Options/Parser\\.cpp|Render/(Main\\.cpp|InRange\\.h))$")
+list(FILTER files EXCLUDE REGEX "/Standalone/(Options/Parser\\.cpp|Render/Main\\.cpp)$")
 refuse("^ *# *include *<CLI/" "only in Options/Parser.cpp, see OptionTable.h" ${files})
 # A window makes jobs as a call does, and needs no command: what both need is beside them.
 file(GLOB_RECURSE files ${ROOT}/Standalone/*.h ${ROOT}/Standalone/*.cpp)

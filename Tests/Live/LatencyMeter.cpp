@@ -6,7 +6,7 @@
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/SimulationDriver.h"
 #include "MeterClient.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/RunSettings.h"
 #include <chrono>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is taken away of samples that are to be felt, and what is left as it is.
-#include "Measure/SlowPart.h"
+#include "Measure/HitExcerpt.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>

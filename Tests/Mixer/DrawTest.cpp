@@ -7,7 +7,7 @@
 #include "Mixer/Model/MixerWorld.h"
 #include "Mixer/Window/FirstStart.h"
 #include "NewSceneRig.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/World/Simulation.h"
 

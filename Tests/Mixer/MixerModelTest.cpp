@@ -3,7 +3,7 @@
 // session.
 #include "Host/FakeAudioDevice.h"
 #include "MixerTesting.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 
 namespace physvib {
 namespace {

@@ -3,7 +3,7 @@
 // clicks do.
 #include "Live/Documents/Mix.h"
 #include "MixerTesting.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/BodyMass.h"
 #include <cmath>
 #include <set>

@@ -2,7 +2,7 @@
 // A mixer's view with a new scene, to draw in.
 #pragma once
 #include "MixerTesting.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 
 namespace physvib::test {
 

@@ -4,7 +4,6 @@
 #include "Mixer/Model/MixerModel.h"
 #include "MixerTesting.h"
 #include "OnlyScript.h"
-#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Scenes that are played in the mixer: a basket is moved by keys, mouse and tilt, a car is driven by keys,
 // and the scene's script leaves it to them.
 #include "MixerTesting.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include <algorithm>
 
 namespace physvib {

@@ -3,7 +3,7 @@
 #include "Calls/SessionMovie.h"
 #include "MixerTesting.h"
 #include "OnlyScript.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Support/FullDisk.h"
 
 namespace physvib {

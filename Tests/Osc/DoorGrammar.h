@@ -3,7 +3,7 @@
 // mixes their names, fields, types, addresses, bundles and times. Seeded: the same with every library.
 #pragma once
 #include "Host/Osc/OscReceiver.h"
-#include "Io/Json/StrictJson.h"
+#include "Io/Json/JsonField.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/SceneFields.h"
 #include "Support/ClosedForm.h"

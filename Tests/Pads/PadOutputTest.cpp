@@ -2,7 +2,7 @@
 // A session on controllers that SDL makes up: what their motors are told is the model, to the command.
 #include "Live/Pads/PadOutput.h"
 #include "Pads/VirtualPad.h"
-#include "Scene/PadCommands.h"
+#include "Scene/PadFile.h"
 #include <cmath>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Packets that are missing, dropped or cut: what follows fades in, where a step would be a click.
-#include "Signal/MissingPackets.h"
+#include "Signal/FrameBuffer.h"
 #include "Streams.h"
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The Pico's signal path: what passes unchanged, and how it starts, stops and misses packets.
-#include "Signal/CeilingJumper.h"
+#include "Signal/Indicator.h"
 #include "Streams.h"
 #include <gtest/gtest.h>
 

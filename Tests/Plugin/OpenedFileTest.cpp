@@ -6,7 +6,6 @@
 #include "PluginFiles.h"
 #include "PluginSettings.h"
 #include "PluginTesting.h"
-#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 
 namespace physvib {

@@ -4,7 +4,7 @@
 #include "PluginEditor.h"
 #include "Host/Views/Look.h"
 #include "PluginTesting.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 
 namespace physvib {
 namespace {

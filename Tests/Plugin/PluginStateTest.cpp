@@ -2,7 +2,7 @@
 // State in the host's chunk: round trips, broken ones, any thread, presets, what the host is told.
 #include "Io/Text/NameList.h"
 #include "PluginTesting.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include <atomic>
 #include <chrono>
 #include <cstdio>

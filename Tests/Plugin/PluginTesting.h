@@ -4,7 +4,7 @@
 #include "Host/MessageManagerForTests.h"
 #include "PluginProcessor.h"
 #include "PluginSettings.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Support/ClosedForm.h"
 #include <gtest/gtest.h>
 #include <thread>

@@ -2,7 +2,7 @@
 // What automation and notes do to the world: gravity, tilt, materials, pushes, spawned discs; each felt, each
 // repeatable.
 #include "PluginTesting.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include <set>
 
 namespace physvib {

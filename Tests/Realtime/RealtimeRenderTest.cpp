@@ -4,7 +4,7 @@
 #include "Live/Documents/InputLine.h"
 #include "Live/Session/Session.h"
 #include "Realtime/RealtimeGuard.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Support/ClosedForm.h"
 #include <atomic>
 #include <gtest/gtest.h>

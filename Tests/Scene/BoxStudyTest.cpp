@@ -2,7 +2,7 @@
 // The second study's box is lively, well levelled, felt at every enchanter, and keeps its objects.
 #include "PhoneFourPeaks.h"
 #include "Scene/DropScene.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/BodyMass.h"
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // At the wheel one feels how fast one drove, and into what.
 #include "Scene/DropScene.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/World/BodyMass.h"
 #include "Scene/World/ScenePlayer.h"

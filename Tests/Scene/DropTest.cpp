@@ -2,7 +2,7 @@
 // The first study's falls against pencil and paper: free fall, restitution, Eq. 5.4 and Eq. 5.7, with
 // Table 5.1.
 #include "Scene/DropScene.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/BodyMass.h"
 #include <algorithm>
 #include <array>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What hands did becomes a script: the scene that is saved gives the events of the take, to the bit.
 #include "Scene/Drawing/HandScript.h"
-#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"

@@ -2,7 +2,7 @@
 // Layouts survive writing and reading to the bit, and a bad one is named by its field.
 #include "Scene/LayoutFile.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include "Support/FileTesting.h"
 #include <algorithm>
 #include <set>

@@ -2,7 +2,7 @@
 // The fruit basket and the driven car are lively, well levelled, felt at every enchanter, and lose nothing.
 #include "PhoneFourPeaks.h"
 #include "Scene/DropScene.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "SceneHits.h"
 #include <algorithm>
 #include <array>

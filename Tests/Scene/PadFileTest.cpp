@@ -2,7 +2,6 @@
 // Profiles of game controllers survive writing and reading, and a bad one is named by its field; a render's
 // commands as a table.
 #include "Scene/PadFile.h"
-#include "Scene/PadCommands.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a scene's contacts is counted while it runs.
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/RunSettings.h"
 #include <gtest/gtest.h>
 

@@ -2,8 +2,7 @@
 // Scenes survive writing and reading to the byte, and a bad one is named by its field.
 #include "Scene/SceneFile.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Scene/SceneCatalogue.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include "Scene/World/Simulation.h"
 #include "Support/FileTesting.h"
 #include "TestPlaces.h"

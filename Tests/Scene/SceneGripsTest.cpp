@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A hand that holds a body: where it pulls it, how evenly, how hard at most, and what ends it.
-#include "Scene/World/SceneGrips.h"
+#include "Scene/World/SceneWorld.h"
 #include "DropScene.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the bodies of a scene are, moment by moment: the same as if each moment were asked for alone.
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/RunSettings.h"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which action happens in which step.
-#include "Scene/SceneScript.h"
+#include "Scene/World/SceneWorld.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

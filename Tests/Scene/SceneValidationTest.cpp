@@ -2,7 +2,7 @@
 // Every fault of a scene is named with its place.
 #include "Scene/SceneValidation.h"
 #include "DropScene.h"
-#include "Scene/MaterialCheck.h"
+#include "Scene/MaterialTable.h"
 #include "Scene/SceneLimits.h"
 #include <functional>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The shaken box is lively, well levelled, and keeps its objects.
 #include "Scene/DropScene.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/BodyMass.h"
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Moments and insets of outlines with numbers known by hand.
-#include "Scene/World/ShapeGeometry.h"
+#include "Scene/World/BodyMass.h"
 #include <gtest/gtest.h>
 #include <numbers>
 

@@ -2,7 +2,7 @@
 // A ball dropped on a plate against the formulas of free fall, and the promises of the event stream.
 #include "Scene/World/Simulation.h"
 #include "DropScene.h"
-#include "Scene/SoundNames.h"
+#include "Scene/PartNames.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Step times are exact integers at any rate and any length of run.
-#include "Scene/World/StepClock.h"
+#include "Scene/World/SceneWorld.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // A host in virtual time: blocks of random size, and a driver that comes after random gaps.
 #pragma once
 #include "Live/Session/Session.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Support/ClosedForm.h"
 #include <algorithm>
 #include <vector>

@@ -6,7 +6,7 @@
 #include "Live/Documents/InputLine.h"
 #include "Live/Documents/SessionFile.h"
 #include "Live/Messages/MessageRouter.h"
-#include "Live/Messages/MessageStrikes.h"
+#include "Live/Messages/MessageValues.h"
 #include "Live/Session/SessionRender.h"
 #include <atomic>
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // OfflineRender: frame n is time n/rate, pieces do not matter, and the shipped scene has its level.
 #include "Live/Session/OfflineRender.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/RunSettings.h"
 #include <algorithm>
 #include <cmath>

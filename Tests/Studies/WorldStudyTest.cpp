@@ -6,7 +6,6 @@
 #include "Live/Documents/SessionFile.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Participant.h"
-#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "TestPlaces.h"
 #include <cmath>

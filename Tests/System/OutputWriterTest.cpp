@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Who says something never waits for who reads it.
-#include "System/OutputWriter.h"
+#include "System/StandardStreams.h"
 #include <algorithm>
 #include <array>
 #include <cerrno>

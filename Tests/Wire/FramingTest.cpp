@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // CRC-16 and COBS: published check values, round trips, broken frames.
-#include "Wire/Cobs.h"
-#include "Wire/Crc16.h"
+#include "Wire/Frames.h"
 #include <array>
 #include <gtest/gtest.h>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What comes again is not played again; what was lost is counted, and what comes after is played.
-#include "Wire/StrikeOrder.h"
+#include "Wire/FrameDecoder.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,13 +1,53 @@
 // SPDX-License-Identifier: MIT
 // Frames between USB and the output. One writer (main loop) and one reader (interrupt of the output); neither
-// waits. What does not fit is dropped and counted; what is missing is marked, and fades (DroppedFrames.h).
+// waits. What does not fit is dropped and counted; what is missing is marked, and fades.
 // Its level also says how fast the host should send.
 #pragma once
-#include "DroppedFrames.h"
+#include "FixedGuard.h"
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 
 namespace physvib::pico {
+
+// What follows missing frames joins what was before: from the last frame that was sent to the stream that
+// goes on, within a millisecond. A step would be a click. Each sample lies between those two, so nothing
+// becomes stronger than what the host sent.
+
+/// Interrupt of the output only.
+template <int channels>
+class DroppedFrames {
+public:
+    static constexpr std::int32_t fadeFrames = 4 * tileFrames; // 1.3 ms; a power of two, for a chip that
+                                                               // divides slowly
+
+    /// Frames are missing behind the last one that joined.
+    void miss() noexcept {
+        held_ = last_;
+        left_ = fadeFrames;
+    }
+    /// Nothing is to be joined: the output is silent.
+    void forget() noexcept { left_ = 0; }
+
+    bool isJoining() const noexcept { return left_ > 0; }
+    /// In the place of join() while nothing is to be joined.
+    void keep(const Frame<channels>& frame) noexcept { last_ = frame; }
+    void join(Frame<channels>& frame) noexcept {
+        if (left_ > 0) {
+            for (std::size_t j = 0; j < frame.size(); ++j) {
+                const std::int32_t y = held_[j] * left_ + frame[j] * (fadeFrames - left_);
+                frame[j] = static_cast<std::int16_t>(y / fadeFrames);
+            }
+            --left_;
+        }
+        last_ = frame;
+    }
+    const Frame<channels>& last() const noexcept { return last_; } ///< the last one that joined
+
+private:
+    Frame<channels> held_{}, last_{};
+    std::int32_t left_ = 0;
+};
 
 template <int channels>
 class FrameBuffer {
@@ -106,6 +146,28 @@ public:
 private:
     std::int32_t mean_ = 0;
     bool hasMean_ = false;
+};
+
+// Packets that did not come. A host sends one in each millisecond of the bus; those are numbered, so a number
+// that is left out is a packet that was lost on the way.
+
+/// Main loop only.
+class MissingPackets {
+public:
+    /// `number`: the bus' count of milliseconds, 11 bits, at a packet. True: packets are missing before it.
+    bool see(std::uint32_t number, bool isPlaying) noexcept {
+        const std::uint32_t between = (number - last_ - 1) & numbers;
+        last_ = number;
+        // The same number again: the packet before was looked at late. A stream that begins misses nothing.
+        if (!isPlaying || between == 0 || between > numbers / 2) return false;
+        count_ += between;
+        return true;
+    }
+    std::uint32_t count() const noexcept { return count_; }
+
+private:
+    static constexpr std::uint32_t numbers = 0x7ff;
+    std::uint32_t last_ = 0, count_ = 0;
 };
 
 } // namespace physvib::pico

@@ -2,10 +2,9 @@
 // What the LED shows. Waiting: a short flash every two seconds. Playing: on. Limiting (guard or ceiling act):
 // eight flashes a second. Fault: three flashes, then a pause, for five seconds after it happened.
 #pragma once
-#include "Fixed.h"
+#include "FixedGuard.h"
 
 namespace physvib::pico {
-
 enum class Light { waiting, playing, limiting, fault };
 
 /// Main loop only. Times are counts of tiles since power-on.
@@ -38,6 +37,28 @@ public:
 private:
     std::uint32_t limited_ = 0, faults_ = 0, limitedAt_ = 0, faultAt_ = 0;
     bool wasLimited_ = false, wasFault_ = false;
+};
+
+// The wire from GP9 to ground that allows full scale. Without it, as when it falls out, the ceiling is a
+// quarter; so it has to lie still for a while before it counts, and is gone at the first look that misses it.
+
+/// Main loop only. Times are counts of tiles since power-on.
+class CeilingJumper {
+public:
+    static constexpr std::uint32_t stillTiles = tilesPerSecond / 10; // a contact bounces for some 10 ms
+
+    /// True: full scale is allowed.
+    bool see(std::uint32_t tiles, bool isTied) noexcept {
+        if (!isTied || !wasTied_) tiedAt_ = tiles;
+        if (!isTied) isFull_ = false;
+        wasTied_ = isTied;
+        isFull_ = isFull_ || (isTied && tiles - tiedAt_ >= stillTiles);
+        return isFull_;
+    }
+
+private:
+    std::uint32_t tiedAt_ = 0;
+    bool wasTied_ = false, isFull_ = false;
 };
 
 } // namespace physvib::pico

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Checks C structures and converts them to the engine's types.
-#include "Api/C/Convert.h"
+#include "Api/C/Calls.h"
 #include <algorithm>
 
 namespace physvib::api {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // C functions that say why nothing is felt.
-#include "Api/C/Convert.h"
+#include "Api/C/Calls.h"
 #include "Api/C/Objects.h"
 #include "Contacts/ContactCounts.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // C functions for version, errors, defaults of structures, layouts, event lists, WAV files and offline
 // rendering.
-#include "Api/C/Convert.h"
+#include "Api/C/Calls.h"
 #include "Contacts/Grains.h"
 #include "Core/HapticRenderer.h"
 #include "Io/Disk/AtomicFile.h"

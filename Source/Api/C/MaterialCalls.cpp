@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // C functions of materials by name, and of single impacts, which need no world.
-#include "Api/C/Convert.h"
+#include "Api/C/Calls.h"
 #include "Api/C/Objects.h"
 #include "Io/Text/NameList.h"
 #include "Scene/MaterialTable.h"
-#include "Scene/SoundNames.h"
+#include "Scene/PartNames.h"
 
 using namespace physvib;
 using namespace physvib::api;

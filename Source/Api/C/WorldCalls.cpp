@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // C functions of a world: report contacts, take events.
-#include "Api/C/Convert.h"
+#include "Api/C/Calls.h"
 #include "Api/C/Objects.h"
 #include <algorithm>
 #include <cmath>

@@ -2,16 +2,26 @@
 // Where a world's events are felt: controllers and phones through Godot, other devices through
 // libphysvib-live. For Godot's main thread.
 #pragma once
-
-#include "Api/Godot/Osc.h"
-
-#include <physvib/physvib.h>
-
+#include "Api/Godot/Binding.h"
 #include <memory>
+#include <physvib/physvib.h>
 #include <string>
 #include <vector>
 
 namespace physvib::godot {
+
+// Sends events to a program that speaks Open Sound Control. For Godot's main thread.
+
+class Osc {
+public:
+    /// `address`: such as 127.0.0.1:9000. Returns the error; empty: it will send. Waits for a host's address.
+    std::string open(const std::string& address);
+    /// As /physvib/strike of Docs/messages.md: now, at its place in metres of the field.
+    void play(const physvib_event& event) const;
+
+private:
+    Value peer; ///< Godot's PacketPeerUDP
+};
 
 class Live;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // JavaScript exports for haptic clips: read a file to samples, write events as a file.
-#include "Api/C/Convert.h"
+#include "Api/C/Calls.h"
 #include "Api/JavaScript/Exports.h"
 #include "Formats/ClipFile.h"
 #include "Formats/ClipLimits.h"

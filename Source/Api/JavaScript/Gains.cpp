@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // JavaScript export of the panner: gain of each actuator for an impact at a place.
-#include "Api/C/Convert.h"
+#include "Api/C/Calls.h"
 #include "Api/JavaScript/Exports.h"
 #include <algorithm>
 

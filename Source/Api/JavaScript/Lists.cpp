@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // JavaScript exports for event lists as CSV text, and for the header of a WAV file.
-#include "Api/C/Convert.h"
+#include "Api/C/Calls.h"
 #include "Api/JavaScript/Exports.h"
 #include "Io/Wav/WavHead.h"
 #include "Scene/EventsCsv.h"

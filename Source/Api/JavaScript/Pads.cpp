@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // JavaScript exports for the two motors of a game controller, with the computation of the native sink.
-#include "Api/C/Convert.h"
-#include "Api/C/Pad.h"
+#include "Api/C/Calls.h"
+#include "Api/C/Objects.h"
 #include "Api/JavaScript/Exports.h"
 #include <array>
 #include <limits>

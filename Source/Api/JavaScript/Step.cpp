@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What an attachment observes in a step, told in one call: package/journal.js writes it. Thousands of entries
 // a step are usual, so they go to the feed without the C functions' structures.
-#include "Api/C/Convert.h"
+#include "Api/C/Calls.h"
 #include "Api/C/Objects.h"
 #include "Api/JavaScript/Exports.h"
 #include <optional>

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The functions of physvib-live.h that act on an open device: events, levels, silence and status.
+#include "Api/C/Calls.h"
 #include "Api/Live/Lives.h"
+#include "Api/Live/physvib-live.h"
+#include "Live/Devices/AudioDevice.h"
+#include "Live/Devices/SinkTable.h"
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <iterator>
 #include <span>
+#include <string>
 
 using namespace physvib;
 using namespace physvib::api;
@@ -224,5 +229,126 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
         told.trouble[length] = '\0';
         std::memcpy(status, &told, told.size);
         return PHYSVIB_OK;
+    });
+}
+
+// The functions of physvib-live.h that play one hit at once.
+
+using namespace physvib::api;
+
+int physvib_live_impact(physvib_live live, double x, double y, double strength) {
+    return physvib_live_impact_of(live, nullptr, x, y, strength);
+}
+
+int physvib_live_impact_of(physvib_live live, const char* material, double x, double y, double strength) {
+    return guarded([&] {
+        physvib_event event;
+        if (const int code = physvib_event_of(material, x, y, strength, &event); code != PHYSVIB_OK)
+            return fail(code, std::string{physvib_error()}); // the other library's text
+        event.time_ns = physvib_live_now_ns(live);
+        if (event.time_ns < 0) return static_cast<int>(event.time_ns); // an error
+        return physvib_live_strike(live, &event, 1);
+    });
+}
+
+// physvib_live_devices: what can be opened.
+
+using namespace physvib;
+using namespace physvib::api;
+
+namespace {
+
+template <std::size_t Size>
+void copy(std::string_view text, char (&to)[Size]) {
+    const std::size_t length = std::min(text.size(), Size - 1);
+    std::copy_n(text.data(), length, to);
+    to[length] = '\0';
+}
+
+physvib_device deviceOf(std::string_view name, std::string_view about, int kind, int channels) {
+    auto device = zeroed<physvib_device>();
+    copy(name, device.name);
+    copy(about, device.about);
+    device.kind = kind;
+    device.channels = channels;
+    return device;
+}
+
+std::vector<physvib_device> allDevices() {
+    std::vector<physvib_device> all;
+    for (const AudioDeviceName& one : listAudioDevices(systemAudioDrivers))
+        all.push_back(deviceOf(one.type + ":" + one.name, {}, PHYSVIB_DEVICE_SOUND, one.channels));
+    for (const SinkKind& kind : sinkKinds())
+        for (const SinkPlace& place : kind.places())
+            all.push_back(deviceOf(std::string{kind.name} + ":" + place.where, place.about,
+                                   kind.name == "PAD" ? PHYSVIB_DEVICE_PAD : PHYSVIB_DEVICE_BOARD,
+                                   kind.actuators));
+    return all;
+}
+
+} // namespace
+
+int physvib_live_devices(physvib_device* devices, int capacity, size_t size) {
+    return guarded([&] {
+        constexpr std::size_t least = offsetof(physvib_device, channels) + sizeof(int), most = 1 << 16;
+        if (capacity < 0 || (capacity > 0 && (devices == nullptr || size < least || size > most)))
+            return nothingThere("devices: expected a place for them, and the size of one");
+        const auto all = allDevices();
+        const std::size_t written = std::min(size, sizeof(physvib_device));
+        auto* at = reinterpret_cast<std::byte*>(devices); // the caller's structures may be longer
+        for (std::size_t i = 0; i < std::min(all.size(), static_cast<std::size_t>(capacity));
+             ++i, at += size) {
+            std::memcpy(at, &all[i], written);
+            std::memcpy(at, &size, sizeof size);
+        }
+        return static_cast<int>(all.size());
+    });
+}
+
+// physvib_live_explain: why nothing is felt of a world on an open device.
+
+using namespace physvib;
+using namespace physvib::api;
+
+namespace {
+
+const char* holderOf(const MuteRequests& silence) noexcept {
+    if (silence.isHeldBy(MuteRequester::osc)) return "OSC (/physvib/silence)";
+    if (silence.isHeldBy(MuteRequester::standardInput)) return "a line of standard input";
+    return "physvib_live_silence";
+}
+
+physvib_renderer_settings settingsOf(const PhantomPanner& panner) {
+    physvib_renderer_settings settings;
+    physvib_renderer_settings_init(&settings, sizeof settings);
+    settings.law = static_cast<int>(panner.partLaw());
+    settings.exponent = panner.exponent();
+    settings.field_width_m = panner.fieldWidthMetres();
+    settings.field_height_m = panner.fieldHeightMetres();
+    settings.layout = layoutOf(panner.layout());
+    return settings;
+}
+
+} // namespace
+
+int physvib_live_explain(physvib_live name, physvib_world world, char* text, size_t size) {
+    return in(name, [&](Live& live) {
+        const LiveStatus now = live.status();
+        const physvib_renderer_settings settings = settingsOf(live.session().panner());
+        physvib_output_facts facts;
+        physvib_output_facts_init(&facts, sizeof facts);
+        facts.is_missing = live.output().isPlaying() ? 0 : 1;
+        facts.is_silent = live.output().isSilent() ? 1 : 0;
+        facts.silent_by = holderOf(live.output().silence());
+        const std::string dropped = droppedWords(live.session().pulse().dropped());
+        facts.trouble = now.trouble.empty() ? dropped.c_str() : now.trouble.c_str();
+        facts.level = static_cast<double>(live.output().level());
+        facts.muted_channels = static_cast<physvib_int64>(live.session().rendered().mutedChannels());
+        facts.late = static_cast<physvib_int64>(now.render.late);
+        facts.rejected = static_cast<physvib_int64>(now.render.rejected);
+        facts.without_part = static_cast<physvib_int64>(now.render.withoutPart);
+        facts.renderer = &settings;
+        const int length = physvib_world_explain_output(world, &facts, text, size);
+        return length < 0 ? fail(length, physvib_error()) : length;
     });
 }

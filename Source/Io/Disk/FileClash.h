@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Checks whether two paths are the same file, and whether a path leaves its folder, whatever their spelling.
 #pragma once
+#include "Io/Text/NameList.h"
+#include "Io/Text/NumberText.h"
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace physvib {
-
 /// The parent folder; "." for a name alone. Any thread.
 std::filesystem::path folderOf(const std::filesystem::path& file);
 
@@ -23,5 +27,17 @@ bool isWithin(const std::filesystem::path& folder, const std::filesystem::path& 
 /// Empty, or one line on the first of `outputs` that equals an input or another output. Empty names are
 /// skipped. Any thread.
 std::string fileClash(std::span<const std::string> outputs, std::span<const std::string> inputs);
+
+// Checks the file name ending of an output, with a common error message.
+
+/// Empty, or `expected a name that ends in .webp, .gif or .mp4, found "a.avi"`. Any thread (allocates).
+inline std::string endingFault(std::string_view path, std::span<const std::string_view> endings) {
+    const auto has = [path](std::string_view ending) { return path.ends_with(ending); };
+    if (std::ranges::any_of(endings, has)) return {};
+    return "expected a name that ends in " + listed(endings, " or ") + ", found " + inQuotes(path);
+}
+inline std::string endingFault(std::string_view path, std::initializer_list<std::string_view> endings) {
+    return endingFault(path, std::span{endings.begin(), endings.size()});
+}
 
 } // namespace physvib

@@ -6,7 +6,6 @@
 #pragma once
 #include "Io/Json/FieldTable.h"
 #include "Io/Json/JsonField.h"
-#include "Io/Json/JsonLines.h"
 #include "Io/Json/JsonText.h"
 #include <string>
 #include <string_view>

@@ -1,18 +1,39 @@
 // SPDX-License-Identifier: MIT
 // Typed access to a JSON value, with errors that name its path. For .cpp files that read JSON.
 #pragma once
-#include "Io/Disk/FileLimits.h"
-#include "Io/Json/StrictJson.h"
+#include "Io/Disk/ReadFile.h"
 #include <cstddef>
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+// Strict JSON parsing: no repeated fields, no deep nesting, and errors that name the field. For .cpp files
+// that read JSON.
+
+// Instantiated once, in JsonField.cpp, because it dominates the compile time of every file that uses it.
+extern template class nlohmann::basic_json<>;
+
 namespace physvib {
 
+using Json = nlohmann::json;
+
+/// An error in a JSON text and its place. Not thrown out of the modules that read JSON.
+struct JsonError : std::runtime_error {
+    /// Long paths are shortened to their ends, because their names come from the file.
+    JsonError(const std::string& path, const std::string& message);
+};
+
+/// The parsed value. Throws JsonError.
+Json parseStrictly(std::string_view text);
+
+} // namespace physvib
+
+namespace physvib {
 /// A value and its path. Missing or wrong values are thrown as JsonError.
 class JsonField {
 public:
@@ -61,5 +82,4 @@ private:
     const Json& value_;
     std::string path_;
 };
-
 } // namespace physvib

@@ -5,12 +5,12 @@
 #include "Io/Json/JsonField.h"
 #include "Io/Result.h"
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace physvib {
-
 /// The result of `read` for the parsed value, or a one-line error that begins with `name`. `read` takes a
 /// Json& and throws JsonError. Any thread.
 template <class Read>
@@ -36,5 +36,23 @@ inline void checkVersion(const JsonField& root, std::string_view name, int newes
         field.fail("made for a newer PhysVib: expected a version up to " + std::to_string(newest) +
                    ", found " + std::to_string(version));
 }
+} // namespace physvib
+
+// Human-readable JSON output: short values on one line, numbers with the fewest digits that read back.
+
+extern template class nlohmann::basic_json<nlohmann::ordered_map>; // compiled once, in JsonText.cpp
+
+namespace physvib {
+
+using OrderedJson = nlohmann::ordered_json; // fields stay in the order they were added
+
+/// The shortest text that JSON reads back as the same bits: "-0" would be read as an integer. Any thread.
+std::string jsonNumber(double number);
+
+/// The value on one line, without a newline. Any thread.
+std::string jsonLine(const OrderedJson& value);
+
+/// The value in lines of up to 140 characters, where its parts allow it; a newline at the end. Any thread.
+std::string jsonLines(const OrderedJson& value);
 
 } // namespace physvib

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Strict CSV parser: splits lines into cells, and reports errors by line.
 #include "Io/Text/CsvTable.h"
-#include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Checks a sound against the limits of recordings, and collects its samples.
 #include "Io/Wav/SampledSound.h"
-#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
 
 namespace physvib {
 namespace {

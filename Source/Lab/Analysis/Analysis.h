@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The analyses of study trials: options, results, and how they read files and write tables.
 #pragma once
-#include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
 #include "Io/Text/CsvTable.h"

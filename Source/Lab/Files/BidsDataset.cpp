@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Converts trial files to BIDS tables: one row per trial, with times under the column names of BIDS.
 #include "Lab/Files/BidsDataset.h"
-#include "Io/Json/JsonLines.h"
+#include "Io/Json/JsonText.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
 #include "Lab/Files/TrialLog.h"

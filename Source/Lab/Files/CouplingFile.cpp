@@ -4,11 +4,10 @@
 #include "Core/Limits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/JsonField.h"
-#include "Io/Json/JsonLines.h"
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/StudyTables.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include <cmath>
 #include <numbers>
 

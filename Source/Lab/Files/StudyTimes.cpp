@@ -2,7 +2,6 @@
 // Reads and writes the times of a participant's study as a table.
 #include "Lab/Files/StudyTimes.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Lab/Files/StudyTables.h"
 #include <chrono>

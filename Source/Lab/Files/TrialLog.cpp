@@ -2,7 +2,6 @@
 // Writes and reads the rows of trial files.
 #include "Lab/Files/TrialLog.h"
 #include "Io/Disk/FileClash.h"
-#include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NameList.h"

@@ -3,7 +3,6 @@
 #include "Lab/Report/AnalysisScript.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/Embedded.h"
-#include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"

@@ -8,7 +8,7 @@
 #include "Lab/Files/ProtocolFields.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Scene/ActuatorFile.h"
-#include "Scene/LayoutNamed.h"
+#include "Scene/LayoutFile.h"
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -2,7 +2,6 @@
 // Composes a report from the sections that fit its trials; a plan is the report of simulated people.
 #include "Lab/Report/StudyReport.h"
 #include "Io/Disk/ContentHash.h"
-#include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
 #include "Io/Text/CsvText.h"

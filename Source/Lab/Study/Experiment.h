@@ -7,7 +7,7 @@
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/Stimulus.h"
 #include "Lab/Study/StudyOrder.h"
-#include "Stimuli/FeltLevel.h"
+#include "Stimuli/Stimulus.h"
 #include "Stimuli/SeededRandom.h"
 #include <map>
 #include <optional>

@@ -3,7 +3,7 @@
 // merging neighbouring rows and columns (thesis 4.1, 4.2, Fig. 4.9).
 #pragma once
 #include "Lab/Study/Identification.h"
-#include "Stimuli/FieldPlace.h"
+#include "Stimuli/Stimulus.h"
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -4,7 +4,7 @@
 #include "Live/Documents/DocumentJson.h"
 #include "Core/Limits.h"
 #include "Scene/LayoutJson.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <string>
 #include <vector>

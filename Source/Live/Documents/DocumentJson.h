@@ -5,7 +5,7 @@
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Io/Json/FieldTable.h"
 #include "Io/Json/JsonField.h"
-#include "Io/Json/JsonLines.h"
+#include "Io/Json/JsonText.h"
 #include "Io/Text/NameList.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Documents/Mix.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parses an input line: determines its kind, and reads the fields with the readers of the file formats.
 #include "Live/Documents/InputLine.h"
-#include "Io/Json/JsonLines.h"
+#include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/JsonReader.h"

@@ -4,7 +4,6 @@
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/SceneFile.h"
-#include "Scene/SceneFileLimits.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "Scene/JsonReader.h"
 #include "Scene/JsonWriter.h"
 #include "Scene/SceneEdits.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 
 namespace physvib {

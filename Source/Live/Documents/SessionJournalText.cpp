@@ -3,7 +3,7 @@
 #include "Live/Documents/DocumentJson.h"
 #include "Live/Documents/SessionFile.h"
 #include "Scene/JsonReader.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
 #include <utility>

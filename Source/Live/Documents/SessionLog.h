@@ -5,7 +5,7 @@
 #include "Core/RenderControl.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Json/FieldTable.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include "Scene/SceneRun.h"
 #include <algorithm>
 #include <charconv>

@@ -2,10 +2,9 @@
 // Routes messages: looks up the name, checks values and time, acts, and answers queries.
 #include "Live/Messages/MessageRouter.h"
 #include "Core/NameNumbers.h"
-#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Messages/MessageStrikes.h"
 #include "Live/Messages/MessageValues.h"
 #include <algorithm>
 #include <cmath>

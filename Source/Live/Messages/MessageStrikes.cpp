@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Computes the events of the messages strike, pattern, phantom, path and clip.
-#include "Live/Messages/MessageStrikes.h"
+#include "Live/Messages/MessageValues.h"
 #include "Core/ActuatorCells.h"
 #include "Core/Samples.h"
 #include "Io/Text/NumberText.h"

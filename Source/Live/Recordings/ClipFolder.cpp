@@ -5,7 +5,6 @@
 #include "Formats/ClipLimits.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/FileClash.h"
-#include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Recordings/ReadRecording.h"

@@ -2,7 +2,7 @@
 // Loads clips by name from one folder, so that a message can only read files below it.
 #pragma once
 #include "Live/Documents/SessionLog.h"
-#include "Live/Messages/ClipSource.h"
+#include "Live/Messages/MessageRouter.h"
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -9,7 +9,7 @@
 #include "Io/Wav/WavSink.h"
 #include "Live/Session/OfflineRender.h"
 #include "Scene/ActuatorFile.h"
-#include "Wire/BoardSteps.h"
+#include "Wire/BoardPath.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -2,15 +2,11 @@
 // Loads each recording of a saved session once, and checks the limits on samples.
 #include "Live/Recordings/LoadRecordings.h"
 #include "Core/Samples.h"
-#include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Live/Recordings/ClipFolder.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Measure/HitExcerpt.h"
-#include "Measure/LoudestChannel.h"
-#include "Measure/RecordingFaults.h"
-#include "Measure/SlowPart.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <cmath>

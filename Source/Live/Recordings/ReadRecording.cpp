@@ -4,10 +4,8 @@
 #include "Live/Recordings/ReadRecording.h"
 #include "Formats/ClipFile.h"
 #include "Formats/ClipSound.h"
-#include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
-#include "Measure/RecordingFaults.h"
-#include "Measure/SlowPart.h"
+#include "Measure/HitExcerpt.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -25,7 +25,7 @@ Result<SampledSound> readRecording(const std::filesystem::path& path);
 /// Samples of a clip that was read from that file. Any thread.
 Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path);
 
-/// Removes content below 5 Hz from a recording for an actuator (Measure/SlowPart.h). Returns a note that
+/// Removes content below 5 Hz from a recording for an actuator (Measure/HitExcerpt.h). Returns a note that
 /// names the file, or empty. `fullScale`: the sample value that is played as full scale. Any thread but R.
 std::string takeSlowPart(SampledSound& sound, const std::filesystem::path& path, double fullScale = 1.0);
 

@@ -14,7 +14,6 @@
 #include "Live/Session/OutputClock.h"
 #include "Live/Session/Sink.h"
 #include "Wire/BoardPath.h"
-#include "Wire/BoardSteps.h"
 #include <array>
 #include <functional>
 #include <optional>

@@ -3,7 +3,7 @@
 // logs them.
 #include "Live/Session/Scheduler.h"
 #include "Core/NameNumbers.h"
-#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
 #include "Live/Documents/Mix.h"
 #include <algorithm>
 #include <iterator>

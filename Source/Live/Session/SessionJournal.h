@@ -10,7 +10,7 @@
 #include "Live/Documents/SessionFile.h"
 #include "Live/Session/Session.h"
 #include "Scene/EventsCsv.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
 #include <condition_variable>
 #include <cstddef>
 #include <filesystem>

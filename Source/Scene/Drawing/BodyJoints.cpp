@@ -3,7 +3,6 @@
 #include "Scene/Drawing/BodyMotion.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/World/BodyMass.h"
-#include "Scene/World/ShapeGeometry.h"
 #include <algorithm>
 #include <map>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Creates bodies from drawn points: convex hulls, and simplified polylines.
-#include "Scene/Drawing/DrawnBodies.h"
+#include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "Scene/Drawing/FeltTrial.h"
 #include "Contacts/ContactCounts.h"
 #include "Scene/Drawing/BodyEdits.h"
-#include "Scene/Drawing/DrawnBodies.h"
 #include "Scene/MaterialTable.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/Simulation.h"

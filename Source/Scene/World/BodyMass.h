@@ -2,9 +2,9 @@
 // Mass, centre and inertia of a scene's bodies.
 #pragma once
 #include "Scene/Scene.h"
+#include <vector>
 
 namespace physvib {
-
 struct BodyMoments {
     double massKg = 0.0;
     Vector centreMetres;                ///< from the body's origin
@@ -17,5 +17,27 @@ BodyMoments bodyMoments(const BodyDescription& body, const Scene& scene) noexcep
 
 /// Mass for Eq. 5.4, kg: of a body that is not dynamic, the one it states. Any thread.
 double massKg(const BodyDescription& body, const Scene& scene) noexcept;
+
+// Area, centroid, inertia and extents of shapes.
+
+/// Of a shape of constant thickness, in its own coordinates. Area 0: it has no mass (chains).
+struct ShapeMoments {
+    double areaSquareMetres = 0.0;
+    Vector centroidMetres;
+    double inertiaPerKg = 0.0; ///< about the centroid, m^2
+};
+
+/// Any thread. A polygon must be convex and counter-clockwise.
+ShapeMoments momentsOf(const Shape& shape) noexcept;
+
+/// Smallest and largest width over all directions.
+double thicknessMetres(const Shape& shape) noexcept;
+double lengthMetres(const Shape& shape) noexcept;
+
+/// True if the vertices go round a strictly convex outline once, counter-clockwise.
+bool isConvexCounterClockwise(const std::vector<Vector>& vertices) noexcept;
+
+/// The part of a convex, counter-clockwise outline that is at least `margin` inside; empty if nothing is.
+std::vector<Vector> inset(const std::vector<Vector>& outline, double margin);
 
 } // namespace physvib

@@ -3,7 +3,6 @@
 #include "Scene/World/SceneBodies.h"
 #include "Contacts/ImpactSettings.h"
 #include "Scene/World/BodyMass.h"
-#include "Scene/World/ShapeGeometry.h"
 #include <algorithm>
 #include <array>
 #include <limits>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Finds the fixtures that may become haptic sources, and checks that they have mass and sound.
-#include "Scene/SceneReferences.h"
-#include "Scene/World/PlacedBodies.h"
+#include "Scene/SceneValidation.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <compare>

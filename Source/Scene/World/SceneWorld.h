@@ -2,12 +2,11 @@
 // The Box2D world of a scene, and the effects of scripted and live actions on it.
 #pragma once
 #include "Scene/Scene.h"
-#include "Scene/SceneScript.h"
-#include "Scene/World/BodyStart.h"
-#include "Scene/World/ContactBound.h"
-#include "Scene/World/SceneGrips.h"
-#include "Scene/World/StepClock.h"
+#include "Scene/SceneLimits.h"
+#include "Scene/World/SceneBodies.h"
+#include <algorithm>
 #include <box2d/box2d.h>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -19,6 +18,184 @@
 #include <vector>
 
 namespace physvib {
+
+// World time as a step count, so that no rounding accumulates.
+
+/// Times of the steps of a world that runs at `stepsPerSecond` (> 0).
+struct StepClock {
+    int stepsPerSecond = 100;
+
+    double stepSeconds() const noexcept { return 1.0 / stepsPerSecond; }
+
+    /// Nanoseconds at which step `step` (>= 0) begins, rounded down. Any thread.
+    std::int64_t timeNs(std::int64_t step) const noexcept {
+        constexpr std::int64_t nsPerSecond = 1'000'000'000;
+        // Whole seconds separately: step * 10^9 alone would overflow within 107 days at 1,000 steps per
+        // second.
+        return step / stepsPerSecond * nsPerSecond + step % stepsPerSecond * nsPerSecond / stepsPerSecond;
+    }
+
+    /// The first step that begins at or after `seconds` (>= 0). Any thread.
+    std::int64_t firstStepAt(double seconds) const noexcept {
+        constexpr double rounding = 1.0e-6; // 0.07 s * 100 is 7.000000000000001, which belongs to step 7
+        return static_cast<std::int64_t>(std::ceil(seconds * stepsPerSecond - rounding));
+    }
+};
+
+// A scene's script by step index: the same inputs act in the same steps, whatever the speed of the
+// simulation.
+
+/// An action that is due; `repetition` counts an input's repetitions from 0.
+struct DueAction {
+    const Action* action = nullptr; ///< of the scene
+    int repetition = 0;
+    int times = 1;
+};
+
+/// The script of a valid scene at a fixed step rate. An input acts in the first step that begins at or after
+/// its time, those of one step in their order in the scene. Allocates in its constructor only. M only.
+class SceneScript {
+public:
+    /// `scene` outlives the script.
+    SceneScript(const Scene& scene, const StepClock& clock)
+        : periodSteps_(clock.firstStepAt(scene.scriptPeriodSeconds)) {
+        for (const ScriptInput& input : scene.script)
+            for (int i = 0; i < input.times; ++i) {
+                const double seconds = input.timeSeconds + i * input.everySeconds;
+                entries_.push_back({clock.firstStepAt(seconds), {&input.action, i, input.times}});
+            }
+        const auto isEarlier = [](const Entry& a, const Entry& b) { return a.step < b.step; };
+        std::stable_sort(entries_.begin(), entries_.end(), isEarlier);
+    }
+
+    /// The next action that is due in step `step` or before, each once; nullptr `action` if there is none.
+    /// Steps are asked for in ascending order.
+    DueAction next(std::int64_t step) noexcept {
+        if (next_ == entries_.size() && periodSteps_ > 0 && !entries_.empty()) {
+            periodStart_ += periodSteps_;
+            next_ = 0;
+        }
+        const bool isDue = next_ < entries_.size() && periodStart_ + entries_[next_].step <= step;
+        return isDue ? entries_[next_++].due : DueAction{};
+    }
+
+private:
+    struct Entry {
+        std::int64_t step;
+        DueAction due;
+    };
+    std::int64_t periodSteps_;   // 0: does not repeat
+    std::vector<Entry> entries_; // by step
+    std::int64_t periodStart_ = 0;
+    std::size_t next_ = 0;
+};
+
+// Limits the number of simultaneous contacts in a world, to bound time and memory per step.
+
+/// Bodies in one place touch pairwise, and pairs grow with the square of the bodies: two thousand would need
+/// a gigabyte and minutes. Beyond maxContacts, pairs pass through each other and are counted. Message thread
+/// (M) only.
+class ContactBound final : public b2ContactFilter {
+public:
+    explicit ContactBound(const b2World& world)
+        : world_{world} {}
+
+    bool ShouldCollide(b2Fixture* a, b2Fixture* b) override {
+        if (!b2ContactFilter::ShouldCollide(a, b)) return false;
+        if (world_.GetContactCount() < sceneLimits::maxContacts) return true;
+        ++refused_;
+        return false;
+    }
+
+    std::uint64_t refused() const noexcept { return refused_; }
+
+private:
+    const b2World& world_;
+    std::uint64_t refused_ = 0;
+};
+
+// Grips of hands on bodies: each is a spring of limited force from a point of a body to the hand.
+
+/// The grips of one world, one per body. A hand moves straight at constant speed, so that a dragged body does
+/// not move in jumps. Release a body before it is disabled or destroyed. Message thread (M) only.
+class SceneGrips {
+public:
+    static constexpr float springHz = 5.0F; ///< Box2D's own value for mouse joints: firm, and stable at 100
+                                            ///< steps a second
+    static constexpr float dampingRatio = 0.7F;
+
+    /// Both outlive the grips.
+    SceneGrips(b2World& world, const StepClock& clock) noexcept
+        : world_(world)
+        , clock_(clock) {}
+
+    /// From `step` on. Allocates when a grip begins.
+    void act(b2Body& body, const GripAction& action, std::int64_t step) {
+        if (!action.toMetres) return letGo(body);
+        if (body.GetType() != b2_dynamicBody || !body.IsEnabled()) return;
+        Grip& grip = hold(body, action.pointMetres);
+        grip.from = grip.joint->GetTarget();
+        grip.to = box2dVector(*action.toMetres);
+        grip.start = step;
+        grip.end = step + clock_.firstStepAt(action.overSeconds);
+    }
+    void letGo(b2Body& body) {
+        const auto grip = std::ranges::find(grips_, &body, &Grip::body);
+        if (grip == grips_.end()) return;
+        world_.DestroyJoint(grip->joint);
+        grips_.erase(grip);
+    }
+
+    /// Moves all hands to their places at the beginning of `step`.
+    void move(std::int64_t step) {
+        for (Grip& grip : grips_) grip.joint->SetTarget(grip.at(step));
+    }
+
+private:
+    struct Grip {
+        b2Body* body;
+        b2MouseJoint* joint;
+        b2Vec2 from, to;
+        std::int64_t start, end; // steps
+        b2Vec2 at(std::int64_t step) const noexcept {
+            if (step >= end) return to;
+            const auto share =
+                static_cast<float>(static_cast<double>(step - start) / static_cast<double>(end - start));
+            return from + share * (to - from);
+        }
+    };
+    Grip& hold(b2Body& body, const std::optional<Vector>& point) {
+        auto grip = std::ranges::find(grips_, &body, &Grip::body);
+        if (grip == grips_.end()) {
+            b2MouseJointDef def;
+            def.bodyA = &ground();
+            def.bodyB = &body;
+            def.target = point ? body.GetWorldPoint(box2dVector(*point)) : body.GetWorldCenter();
+            grip = grips_.insert(grips_.end(),
+                                 {&body, static_cast<b2MouseJoint*>(world_.CreateJoint(&def)), {}, {}, 0, 0});
+        }
+        float stiffness = 0.0F, damping = 0.0F; // recomputed each time, because the mass may have changed
+        b2LinearStiffness(stiffness, damping, springHz, dampingRatio, &ground(), &body);
+        grip->joint->SetStiffness(stiffness);
+        grip->joint->SetDamping(damping);
+        grip->joint->SetMaxForce(static_cast<float>(sceneLimits::maxGripMetresPerSecond2) * body.GetMass());
+        return *grip;
+    }
+    // Without fixtures, so it has no contacts. Created by the first grip, so that worlds without grips are
+    // unchanged.
+    b2Body& ground() {
+        if (ground_ == nullptr) {
+            const b2BodyDef def;
+            ground_ = world_.CreateBody(&def);
+        }
+        return *ground_;
+    }
+
+    b2World& world_;
+    const StepClock& clock_;
+    std::vector<Grip> grips_;  // in the order in which they began
+    b2Body* ground_ = nullptr; // the other body of all mouse joints
+};
 
 /// Where a body is, in metres of the field.
 struct BodyPose {

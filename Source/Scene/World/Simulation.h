@@ -6,7 +6,6 @@
 #include "Physics/Attachment.h"
 #include "Scene/Scene.h"
 #include "Scene/World/SceneWorld.h"
-#include "Scene/World/StepClock.h"
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib attenuation`: isolation of layers from levels of recordings, by axis and condition.
 #include "CommandLine/Command.h"
-#include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Text/NumberText.h"

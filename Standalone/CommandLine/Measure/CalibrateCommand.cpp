@@ -2,7 +2,7 @@
 // The command `physvib calibrate`: measures an actuator with a device, or from two files, and writes its
 // profile.
 #include "CommandLine/Command.h"
-#include "CommandLine/Measure/BandText.h"
+#include "CommandLine/Measure/RecordingList.h"
 #include "Core/Units.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
@@ -14,7 +14,7 @@
 #include "Live/Recordings/ReadRecording.h"
 #include "Measure/ActuatorMeasurement.h"
 #include "Scene/ActuatorFile.h"
-#include "Scene/LayoutNamed.h"
+#include "Scene/LayoutFile.h"
 #include <cmath>
 #include <optional>
 #include <string>

@@ -2,12 +2,11 @@
 // The command `physvib coupling`: measures the coupling matrix from recordings that drive one actuator at a
 // time. Each gives a column; repetitions are averaged.
 #include "CommandLine/Command.h"
-#include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/CouplingFile.h"
-#include "Scene/LayoutNamed.h"
+#include "Scene/LayoutFile.h"
 #include <map>
 #include <string>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib material`: measures frequency and decay of a recorded contact, and their confidence.
 #include "CommandLine/Command.h"
-#include "CommandLine/Measure/BandText.h"
+#include "CommandLine/Measure/RecordingList.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Measure/LoudestChannel.h"
+#include "Measure/HitExcerpt.h"
 #include "Measure/MaterialExtractor.h"
 #include "Measure/TextureExtractor.h"
 #include "Scene/MaterialTable.h"

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A folder of recordings with a table of their conditions.
 #pragma once
+#include "Core/Actuators/ActuatorEqualiser.h"
 #include "Core/Limits.h"
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
-#include "Scene/SceneFileLimits.h"
+#include "Scene/SceneLimits.h"
+#include <complex>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
-
 /// Message thread only.
 class RecordingList {
 public:
@@ -55,5 +58,25 @@ private:
     std::filesystem::path folder_;
     CsvTable table_;
 };
+
+// Measures steady vibrations in accelerometer recordings with one channel per axis or actuator.
+
+/// Root mean square of each channel without its mean; or one error line with the file's name. Message thread.
+Result<std::vector<double>> axisLevels(const std::string& path);
+
+/// Complex amplitude of each channel at that frequency; or one error line. Message thread.
+Result<std::vector<std::complex<double>>> channelTones(const std::string& path, double frequencyHz);
+
+// Parses frequency bands such as "90-1000".
+
+/// LO-HI in Hz, LO < HI, above 0.
+inline std::optional<FrequencyBand> parseBand(std::string_view text) {
+    const std::size_t dash = text.find('-');
+    if (dash == std::string_view::npos) return std::nullopt;
+    const auto low = parseNumber<double>(text.substr(0, dash)),
+               high = parseNumber<double>(text.substr(dash + 1));
+    if (!low || !high || !FrequencyBand{*low, *high}.isKnown()) return std::nullopt;
+    return FrequencyBand{*low, *high};
+}
 
 } // namespace physvib

@@ -2,7 +2,7 @@
 // The command `physvib beats`: processes a music file in blocks, into events or a low-passed signal. Output
 // files are complete or not written.
 #include "CommandLine/Command.h"
-#include "CommandLine/Measure/BandText.h"
+#include "CommandLine/Measure/RecordingList.h"
 #include "CommandLine/Music/BeatOptions.h"
 #include "Host/Music/BandPass.h"
 #include "Io/Disk/AtomicFile.h"
@@ -11,7 +11,7 @@
 #include "Live/Recordings/ReadRecording.h"
 #include "Live/Session/OfflineRender.h"
 #include "Scene/EventsCsv.h"
-#include "Scene/LayoutNamed.h"
+#include "Scene/LayoutFile.h"
 #include <algorithm>
 #include <filesystem>
 #include <iostream>

@@ -3,27 +3,49 @@
 #include "CommandLine/Play/LivePlay.h"
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/Play/LiveBeats.h"
-#include "CommandLine/Play/OscReport.h"
-#include "CommandLine/Play/SoundPlay.h"
 #include "CommandLine/Render/MarkWords.h"
+#include "Core/Samples.h"
+#include "Core/Units.h"
+#include "Host/Osc/OscPort.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
 #include "Live/Devices/SimulationDriver.h"
 #include "Live/Recordings/ClipFolder.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "System/ExitCode.h"
 #include "System/Interrupt.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <utility>
 
 namespace physvib {
+
+// Prints the activity of an OSC port.
+
+/// Prints the listening address on stderr, and if the requested port is in use. Any thread.
+void tellPort(const OscSettings& wanted, const std::string& address);
+
+/// Prints a summary on stdout at the end. Any thread.
+void summariseOsc(const OscStatus& osc);
+
+/// One thread at a time.
+class OscReport {
+public:
+    /// Prints new errors since the last call on stderr.
+    void tellWrong(const OscCounts& counts);
+
+private:
+    std::uint64_t told_ = 0;
+};
 
 namespace {
 
@@ -239,6 +261,105 @@ std::string playLive(LivePlay wanted) {
     rig.close();
     if (!lost.empty()) return lost;
     return !unsaved.empty() ? unsaved : trouble;
+}
+
+// Formats OSC counters and the last error.
+
+namespace {
+
+std::string summary(const OscCounts& c) {
+    std::ostringstream words;
+    words << c.packets << " packets, " << c.bad << " bad, " << c.lost << " lost; " << c.messages
+          << " messages, " << c.refused << " refused, " << c.late << " late, " << c.held
+          << " replies held back";
+    return words.str();
+}
+
+} // namespace
+
+void tellPort(const OscSettings& wanted, const std::string& address) {
+    const std::string port = std::to_string(*wanted.port);
+    const bool isWanted = *wanted.port == 0 || address.substr(address.rfind(':') + 1) == port;
+    tell(std::string("OSC: listening at ")
+             .append(address)
+             .append(isWanted ? "" : "; " + port + " is another program's"));
+}
+
+void summariseOsc(const OscStatus& osc) {
+    if (!osc.address.empty()) std::cout << "OSC at " << osc.address << ": " << summary(osc.counts) << '\n';
+    if (osc.sent + osc.unsent > 0)
+        std::cout << "OSC out: " << osc.sent << " sent, " << osc.unsent << " not taken\n";
+}
+
+void OscReport::tellWrong(const OscCounts& counts) {
+    const std::uint64_t wrong = counts.wrong() + counts.late + counts.lost + counts.held;
+    if (std::exchange(told_, wrong) == wrong) return;
+    tell(std::string("OSC: ")
+             .append(summary(counts))
+             .append(counts.fault.empty() ? "" : "; the last error: ")
+             .append(counts.fault));
+}
+
+// Plays a sound file as a `clip` message, with each channel on its own actuator.
+
+namespace {
+
+std::string channelsOf(const LoadedClip& sound) {
+    return std::to_string(sound.channels.size()) + " channels";
+}
+
+/// True if channel j belongs to actuator j; otherwise there is one channel, or the file gives places.
+bool hasOneEach(const LoadedClip& sound) { return sound.channels.size() > 1 && sound.shares.empty(); }
+
+} // namespace
+
+bool namesSound(std::string_view file) {
+    std::string small{file};
+    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto ends = [&](std::string_view ending) { return small.ends_with(ending); };
+    return clipFormatOf(file) || std::ranges::any_of(soundEndings, ends);
+}
+
+Result<LoadedClip> takeSound(RenderJob& options, std::string_view device, LoadedRender& job) {
+    auto sound = loadWholeClip(options.scene);
+    if (!sound) return sound;
+    const auto count = static_cast<int>(sound.value.channels.size());
+    const ContactRecording& first = sound.value.channels.front();
+    if (!options.given.contains("--layout") && hasOneEach(sound.value)) {
+        ActuatorLayout layout;
+        options.layout = layoutFor(count, device);
+        if (layoutPreset(options.layout, layout) && layout.count != count)
+            return Failure{options.scene + ": " + channelsOf(sound.value) +
+                           ": expected --layout with a file of as many actuators (Docs/render.md)"};
+    }
+    if (!options.given.contains("--seconds"))
+        options.seconds = static_cast<double>(first.samples.size()) / first.sampleRateHz;
+    Scene& scene = job.scene.emplace();
+    scene.name = std::filesystem::path{options.scene}.filename().string();
+    scene.fieldWidthMetres = scene.fieldHeightMetres = 1.0;
+    if (!first.note.empty()) tell(first.note);
+    float peak = 0.0f;
+    for (const ContactRecording& channel : sound.value.channels)
+        peak = std::max(peak, peakOf(channel.samples));
+    if (const double db = toDecibels(peak); db >= 0.1)
+        tell(options.scene + ": exceeds full scale by " + fixedNumber(db, 1) +
+             " dB, by which its peaks are limited at level 0 dB");
+    return sound;
+}
+
+std::string soundFault(const LoadedClip& sound, const LoadedRender& job) {
+    if (!hasOneEach(sound) || std::ssize(sound.channels) == job.channels()) return {};
+    return job.options.scene + ": expected a channel for each of " + std::to_string(job.channels()) +
+           " actuators (--layout), or one channel, found " + channelsOf(sound);
+}
+
+std::string beginSound(LivePlay& wanted, const Session& session, MessageRouter& messages) {
+    PlainMessage message{"clip", {{"file", wanted.rig.setup.scene.name}}};
+    if (hasOneEach(*wanted.sound)) message.values.push_back({"law", "alone"});
+    const auto read = [&](const std::string&) { return Result<LoadedClip>{std::move(*wanted.sound)}; };
+    const auto begun = messages.take(message, nullptr, read);
+    wanted.seconds += session.timeline().outputLatencySeconds();
+    return begun.error;
 }
 
 } // namespace physvib

@@ -9,7 +9,6 @@
 #include "CommandLine/Pads/DualSenseDevice.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/LivePlay.h"
-#include "CommandLine/Play/SoundPlay.h"
 #include "CommandLine/Study/NumberList.h"
 #include "Core/Units.h"
 #include "Host/Osc/OscPort.h"

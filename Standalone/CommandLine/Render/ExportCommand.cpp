@@ -2,10 +2,8 @@
 // Events by the door of `render`, panned and drawn as curves, then as bytes.
 #include "Calls/RenderOptions.h"
 #include "CommandLine/Command.h"
-#include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "Io/Disk/FileClash.h"
-#include "Io/Disk/NameEnding.h"
 #include "Live/Recordings/HitExport.h"
 #include <algorithm>
 #include <filesystem>

@@ -3,7 +3,6 @@
 // and only when everything is written do the files take their places.
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Command.h"
-#include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/RenderOutputs.h"
 #include "Contacts/ContactCounts.h"

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files first, then simulation, then what the options make of each collision.
 #include "CommandLine/Render/RenderInputs.h"
-#include "CommandLine/Render/ClipInput.h"
+#include "Formats/ClipSound.h"
+#include "Live/Recordings/ReadRecording.h"
 #include "Live/Session/SessionRender.h"
+#include "Scene/ActuatorFile.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/FileKind.h"
 #include <functional>
@@ -73,6 +75,100 @@ Result<std::vector<std::string>> makeEvents(LoadedRender& job) {
     auto warnings = remapWarnings(job.shaping().remap, job.made.events, job.layout, job.options);
     std::ranges::transform(job.made.events, job.made.events.begin(), EventShaper{job.shaping()});
     return warnings;
+}
+
+// A channel with a place is felt there; channels without, if they are as many as the enchanters, one on each;
+// a single one in the middle of all.
+
+namespace {
+
+bool hasPlaces(const Clip& clip) {
+    return std::ranges::all_of(clip.channels,
+                               [](const ClipChannel& channel) { return channel.place.has_value(); });
+}
+
+LayoutDescription layoutOf(const Clip& clip) {
+    EnchanterLayout geometry{
+        clip.extentWidthMetres, clip.extentHeightMetres, static_cast<int>(clip.channels.size()), {}};
+    for (std::size_t j = 0; j < clip.channels.size(); ++j) geometry.places[j] = *clip.channels[j].place;
+    return describeLayout("clip", geometry);
+}
+
+/// In metres of the job's field.
+EnchanterPlace placeOf(const LoadedRender& job, std::size_t channel) {
+    const Clip& clip = *job.clip;
+    const EnchanterLayout& layout = job.layout.geometry;
+    const auto onField = [&](double x, double y) {
+        return EnchanterPlace{x * job.fieldWidthMetres(), y * job.fieldHeightMetres()};
+    };
+    if (hasPlaces(clip))
+        return onField(clip.channels[channel].place->xMetres / clip.extentWidthMetres,
+                       clip.channels[channel].place->yMetres / clip.extentHeightMetres);
+    if (static_cast<int>(clip.channels.size()) != layout.count) return onField(0.5, 0.5);
+    return onField(layout.places[channel].xMetres / layout.extentWidthMetres,
+                   layout.places[channel].yMetres / layout.extentHeightMetres);
+}
+
+std::string faultOf(const LoadedRender& job) {
+    const Clip& clip = *job.clip;
+    const auto channels = clip.channels.size();
+    if (!hasPlaces(clip) && channels != 1 && static_cast<int>(channels) != job.layout.geometry.count)
+        return "expected one channel, places, or as many channels as the layout has actuators, " +
+               std::to_string(job.layout.geometry.count) + ", found " + std::to_string(channels);
+    return soundFault({job.options.sampleRateHz, static_cast<std::int64_t>(channels),
+                       static_cast<std::int64_t>(clip.seconds() * job.options.sampleRateHz)});
+}
+
+} // namespace
+
+ClipVoices::ClipVoices(const LoadedRender& job)
+    : sound_{clipSound(*job.clip, job.options.sampleRateHz)} {
+    if (const std::string note = takeSlowPart(sound_, job.options.scene); !note.empty()) tell(note);
+    for (std::size_t j = 0; j < sound_.channels.size(); ++j) {
+        const EnchanterPlace place = placeOf(job, j);
+        const SoundNumber sound = soundOfClip(static_cast<int>(j));
+        events_.push_back({0, clipFrequencyHz, 1.0, job.gain(), place.xMetres, place.yMetres, 0, {}});
+        events_.back().sound = sound;
+        contacts_.push_back({clipFrequencyHz, sound_.channels[j], sound});
+    }
+}
+
+Result<FrequencyScale> frequencyScaleOf(const RenderJob& options) {
+    if (options.actuator == "none" || options.actuator == "layout") return FrequencyScale{};
+    const auto profile = findActuator(options.actuator);
+    if (!profile) return Failure{"--actuator: " + profile.error};
+    return profile.value.band ? FrequencyScale{profile.value.band->lowHz, profile.value.band->highHz}
+                              : FrequencyScale{};
+}
+
+int takeClip(LoadedRender& job) {
+    const RenderJob& o = job.options;
+    for (const char* other :
+         {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--method", "--sound",
+          "--perceived-level", "--remap", "--contact-sound", "--marker", "--events", "--coupling"})
+        if (o.given.contains(other))
+            return leave(exitUsage, std::string{other} + ": a clip has no collisions");
+    const auto scale = frequencyScaleOf(o);
+    if (!scale) return leave(exitFailed, scale.error);
+    auto clip = loadClip(o.scene, *clipFormatOf(o.scene), scale.value);
+    if (!clip) return leave(exitFailed, clip.error);
+    if (!clip.value.leftOut.empty()) tell("warning: " + o.scene + ": " + clip.value.leftOut);
+    job.clip = std::move(clip.value);
+    if (!o.given.contains("--layout") && hasPlaces(*job.clip)) {
+        job.layout = layoutOf(*job.clip);
+    } else {
+        auto layout = layoutNamed(o.layout);
+        if (!layout) return leave(exitFailed, layout.error);
+        job.layout = std::move(layout.value);
+    }
+    auto calibrated = calibratedLayout(o, std::move(job.layout));
+    if (!calibrated) return leave(exitFailed, calibrated.error);
+    job.layout = std::move(calibrated.value);
+    auto actuators = chooseActuators(o, job.layout);
+    if (!actuators) return leave(exitFailed, actuators.error);
+    job.actuators = std::move(actuators.value);
+    const std::string fault = faultOf(job);
+    return fault.empty() ? exitDone : leave(exitFailed, o.scene + ": " + fault);
 }
 
 } // namespace physvib

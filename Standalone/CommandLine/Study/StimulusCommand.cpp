@@ -10,7 +10,7 @@
 #include "Live/Recordings/ReadRecording.h"
 #include "Live/Session/StimulusRender.h"
 #include "Pictures/RenderPicture.h"
-#include "Scene/LayoutNamed.h"
+#include "Scene/LayoutFile.h"
 #include <filesystem>
 #include <optional>
 

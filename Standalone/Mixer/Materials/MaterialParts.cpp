@@ -2,7 +2,7 @@
 // Draws recordings in the material's colour, and the fitted mode in the accent colour.
 #include "Mixer/Materials/MaterialParts.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Measure/LoudestChannel.h"
+#include "Measure/HitExcerpt.h"
 #include "Measure/PartialFit.h"
 #include "Measure/Spectrum.h"
 #include "Scene/SceneFields.h"

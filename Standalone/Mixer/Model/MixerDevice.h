@@ -8,7 +8,7 @@
 #include "Live/Rig/Rig.h"
 #include "Mixer/Model/MixerSignals.h"
 #include "Scene/LayoutFile.h"
-#include "Stimuli/FeltLevel.h"
+#include "Stimuli/Stimulus.h"
 #include <cstddef>
 #include <functional>
 #include <juce_core/juce_core.h>

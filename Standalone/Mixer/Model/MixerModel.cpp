@@ -2,7 +2,7 @@
 // The mixer's state, the session that plays it, and its output device.
 #include "Mixer/Model/MixerModel.h"
 #include "Live/Documents/Mix.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -2,7 +2,7 @@
 // Creates and removes strip views with their actuators.
 #include "Mixer/Strips/StripsPanel.h"
 #include "Host/Views/WorldView.h"
-#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
 #include "Live/Documents/Mix.h"
 #include <algorithm>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mixer tab that selects and checks a study, and opens its screens.
 #include "Mixer/Studies/StudiesTab.h"
-#include "Io/Disk/FileLimits.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"

@@ -7,7 +7,7 @@
 #include "Lab/Files/ProtocolFile.h"
 #include "Live/Devices/NoDevice.h"
 #include "Mixer/Widgets/Parts.h"
-#include "Scene/LayoutNamed.h"
+#include "Scene/LayoutFile.h"
 #include "Scene/SceneEdits.h"
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "Mixer/Window/PageLink.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Text/QrCode.h"
-#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include <cmath>
 #include <juce_core/juce_core.h>

@@ -2,7 +2,7 @@
 // Controls and status text of the top bar.
 #include "Mixer/Window/TopBar.h"
 #include "Live/Devices/NoDevice.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 
 namespace physvib {
 

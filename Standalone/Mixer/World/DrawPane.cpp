@@ -3,9 +3,8 @@
 #include "Mixer/World/DrawPane.h"
 #include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Widgets/Parts.h"
-#include "Pictures/JointOutline.h"
 #include "Pictures/ShapeOutline.h"
-#include "Scene/Drawing/DrawnBodies.h"
+#include "Scene/Drawing/BodyEdits.h"
 #include <algorithm>
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // The board's renderer over a fixed random list, and a hash of all its codes and of its last state: built for
 // this computer and for QEMU's Cortex-M4F, it must print the same two numbers.
 #include "Core/BoardRenderer.h"
-#include "Wire/Crc16.h"
+#include "Wire/Frames.h"
 #include <new>
 
 namespace {

@@ -11,7 +11,7 @@
 #include "Mixer/Shots/StudyShots.h"
 #include "Mixer/Widgets/Parts.h"
 #include "Mixer/Window/MixerView.h"
-#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include <cmath>
 #include <functional>
 #include <iostream>

@@ -12,7 +12,6 @@
 #include "Mixer/OnlyScript.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Mixer/World/DrawPane.h"
-#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "Support/FullDisk.h"
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks the channels of a recording, and measures their level or tone.
-#include "CommandLine/Measure/AxisRecording.h"
+#include "CommandLine/Measure/RecordingList.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Measure/RecordingFaults.h"
+#include "Measure/HitExcerpt.h"
 #include <cmath>
 #include <numbers>
 

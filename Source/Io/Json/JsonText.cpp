@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Formats JSON with readable line breaks: a list of objects item by item, a short list on one line.
-#include "Io/Json/JsonLines.h"
+#include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Consistent overhead byte stuffing (Cheshire and Baker, 1999): encodes frames without zero bytes, so that a
-// zero marks the end of a frame.
+// Frames of the board link: their checksum, and their encoding without zero bytes.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace physvib {
+
+// CRC-16/CCITT-FALSE (polynomial 0x1021, start 0xFFFF).
+
+/// Byte by byte without a table: the eight division steps by x^16 + x^12 + x^5 + 1 reduce to a few shifts,
+/// because only the first term reaches the byte that is divided out. Any thread.
+constexpr std::uint16_t crc16(std::span<const std::uint8_t> bytes) noexcept {
+    unsigned crc = 0xFFFF;
+    for (const std::uint8_t byte : bytes) {
+        unsigned x = (crc >> 8 ^ byte) & 0xFF;
+        x ^= x >> 4;
+        crc = (crc << 8 ^ x << 12 ^ x << 5 ^ x) & 0xFFFF;
+    }
+    return static_cast<std::uint16_t>(crc);
+}
+
+// Consistent overhead byte stuffing (Cheshire and Baker, 1999): encodes frames without zero bytes, so that a
+// zero marks the end of a frame.
 
 /// Maximum encoded size of `payload` bytes, without the final zero.
 constexpr std::size_t cobsMaxEncoded(std::size_t payload) noexcept { return payload + payload / 254 + 1; }
