@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // When and how fast two surfaces met in Godot, from what it has at the look, against a fall on paper.
-#include "Api/Godot/Touching.h"
+#include "Api/Godot/Meeting.h"
 
 #include <gtest/gtest.h>
 

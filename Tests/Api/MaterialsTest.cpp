@@ -87,7 +87,7 @@ TEST(Materials, ASoundHasTheNumberOfItsName) {
 }
 
 TEST(Impact, IsAnEventOfThatStrengthAndMaterial) {
-    physvib_event event;
+    physvib_event event{};
     ASSERT_EQ(physvib_event_of(nullptr, 0.3, 0.5, 0.8, &event), PHYSVIB_OK) << physvib_error();
     EXPECT_EQ(event.frequency_hz, 200.0);
     EXPECT_EQ(event.decay_per_s, 30.0);
@@ -172,7 +172,8 @@ TEST(Gain, AWorldOfTheCLibraryLearnsItsLevel) {
         }
         physvib_world_end_step(world);
     }
-    std::array<physvib_event, 10> events;
+    std::array<physvib_event, 10> events{};
+    events.front().size = sizeof events.front();
     ASSERT_EQ(physvib_world_take(world, events.data(), 10, 1), 1); // the first one settled
     EXPECT_NEAR(events[0].amplitude, 0.5, 1.0e-9);
     physvib_world_free(world);

@@ -15,7 +15,8 @@ namespace physvib {
 namespace {
 
 physvib_event tapAt(double x, double y, double z, const char* part = nullptr) {
-    physvib_event event{};
+    physvib_event event;
+    physvib_event_init(&event, sizeof event);
     event.frequency_hz = 1000.0;
     event.duration_ns = 2'000'000;
     event.amplitude = 0.5;
@@ -51,7 +52,7 @@ TEST(SpaceCalls, APartHasTheNumberOfItsName) {
 }
 
 TEST(SpaceCalls, AnEventIsFeltAtItsDepthOrOnItsPart) {
-    physvib_layout vest;
+    physvib_layout vest{};
     ASSERT_EQ(physvib_layout_preset("vest16", &vest), PHYSVIB_OK);
     EXPECT_EQ(vest.part[0], physvib_part("chest"));
     const auto back = gainsOf(vest, tapAt(vest.x_m[9], vest.y_m[9], vest.z_m[9]), PHYSVIB_LAW_AUTO);
@@ -68,7 +69,7 @@ TEST(SpaceCalls, LayoutsAndListsKeepDepthAndPart) {
     const std::string folder = std::filesystem::temp_directory_path().string();
     const std::string layoutPath = folder + "/physvib-space-calls.json",
                       listPath = folder + "/physvib-space-calls.csv";
-    physvib_layout vest, again;
+    physvib_layout vest{}, again{};
     ASSERT_EQ(physvib_layout_preset("vest16", &vest), PHYSVIB_OK);
     vest.part[3] = physvib_part("left elbow");
     ASSERT_EQ(physvib_layout_save(layoutPath.c_str(), "mine", &vest), PHYSVIB_OK) << physvib_error();
@@ -79,6 +80,7 @@ TEST(SpaceCalls, LayoutsAndListsKeepDepthAndPart) {
     const physvib_event events[]{tapAt(0.1, 0.2, -0.125), tapAt(0.1, 0.2, 0.0, "left elbow")};
     ASSERT_EQ(physvib_events_save(listPath.c_str(), events, 2), PHYSVIB_OK) << physvib_error();
     std::array<physvib_event, 2> read{};
+    read.front().size = sizeof read.front();
     ASSERT_EQ(physvib_events_load(listPath.c_str(), read.data(), 2), 2) << physvib_error();
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(read[i].z_m, events[i].z_m);

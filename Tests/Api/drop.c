@@ -55,6 +55,7 @@ int main(void) {
         physvib_world_end_step(world);
         height -= speed * dt;
     }
+    physvib_event_init(&events[0], sizeof events[0]);
     count = physvib_world_take(world, events, 100, 1);
     physvib_world_free(world);
 

@@ -12,7 +12,7 @@ cd "$folder"
 PATH=/usr/bin:/usr/games:$PATH # what Debian installs
 mkdir build
 ln -s "$build" build/library
-ln -s "$root/Source" "$root/Tests" .
+ln -s "$root/Source" "$root/Tests" "$root/VERSION.txt" .
 awk -f "$root/Tests/Api/page.awk" "$root/Docs/$page"
 for program in "$@"; do cmp "$program" "$root/Tests/Api/$program"; done
 paste() { # on a display of its own if it wants one

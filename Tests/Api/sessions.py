@@ -133,7 +133,7 @@ class Sessions(unittest.TestCase):
             for j in range(4):
                 live.set_mute(j, False)
             live.set_level(-80.0)
-            self.assertIn("low, -80 dB", explained())
+            self.assertIn("level of the output is -80 dB", explained())
             live.set_level(-12.0)
             live.set_layout("phone4")
             self.assertIn("which is not set and so the layout's", explained())

@@ -36,7 +36,7 @@ class Wheel(unittest.TestCase):
 
     def test_it_works_where_it_is_unpacked(self) -> None:
         made = wheel.make(library, self.folder)
-        self.assertRegex(made.name, r"^physvib-[0-9.]+-py3-none-manylinux_2_[0-9]+_[a-z0-9_]+\.whl$")
+        self.assertRegex(made.name, r"^physvib-[0-9.]+(rc[0-9]+)?-py3-none-manylinux_2_[0-9]+_[a-z0-9_]+\.whl$")
         with zipfile.ZipFile(made) as archive:
             names = archive.namelist()
             archive.extractall(self.folder / "here")

@@ -58,6 +58,7 @@ struct Engine {
     virtual Motion motion(int body) const = 0;
     virtual std::vector<physvib_event> take() { ///< all of them
         std::vector<physvib_event> events(4096);
+        events.front().size = sizeof events.front();
         events.resize(static_cast<std::size_t>(physvib_world_take(world, events.data(), 4096, 1)));
         return events;
     }

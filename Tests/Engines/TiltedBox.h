@@ -148,6 +148,7 @@ inline std::vector<Hit> play(Engine& engine, const Box& box) {
 inline bool judge(const char* name, Engine& engine, int index, const Box& box) {
     const std::vector<Hit> hits = play(engine, box);
     std::vector<physvib_event> events(256);
+    events.front().size = sizeof events.front();
     events.resize(static_cast<std::size_t>(physvib_world_take(engine.world, events.data(), 256, 1)));
     physvib_world_free(engine.world);
     Worst own, paper;

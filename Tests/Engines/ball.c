@@ -51,6 +51,7 @@ int main(void) {
         if (physvib_chipmunk_step(space, world, dt) != PHYSVIB_OK) return puts(physvib_chipmunk_error), 1;
 
     /* 4. The impacts, and their samples: one channel per actuator. */
+    physvib_event_init(&events[0], sizeof events[0]); /* the first one's size is that of all */
     count = physvib_world_take(world, events, 100, 1);
     physvib_renderer_settings_init(&settings, sizeof settings); /* 48 kHz, four actuators: layout phone4 */
     settings.field_width_m = settings.field_height_m = 1.0; /* the same field: without it, nothing is felt */

@@ -74,6 +74,7 @@ struct Played {
     }
     physvib_box2d3 haptics{};
     physvib_event events[8]{};
+    events[0].size = sizeof events[0];
     int count = 0;
 };
 

@@ -50,6 +50,7 @@ int main(void) {
             puts(haptics.error); /* and the game goes on */
 
     /* 4. The impacts, and their samples: one channel per actuator. */
+    physvib_event_init(&events[0], sizeof events[0]); /* the first one's size is that of all */
     physvib_int64 count = physvib_world_take(haptics.world, events, 100, 1);
     physvib_renderer_settings_init(&settings, sizeof settings); /* 48 kHz, four actuators: layout phone4 */
     settings.field_width_m = settings.field_height_m = 1.0;

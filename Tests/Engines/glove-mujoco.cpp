@@ -123,6 +123,7 @@ HandMeetings play(Hand& hand, physvib_world world) {
 
 std::vector<physvib_event> take(physvib_world world) {
     std::vector<physvib_event> events(1024);
+    events.front().size = sizeof events.front();
     events.resize(static_cast<std::size_t>(physvib_world_take(world, events.data(), 1024, 1)));
     return events;
 }

@@ -80,7 +80,8 @@ struct Fall {
     std::vector<double> felt(double seconds) {
         for (int i = 0; i * dt < seconds; ++i) step();
         std::vector<double> impulses;
-        physvib_event events[64];
+        physvib_event events[64]{};
+        events[0].size = sizeof events[0];
         const auto count = physvib_world_take(haptics->world, events, 64, 1);
         for (auto i = count - count; i < count; ++i) impulses.push_back(events[i].impulse_n_s);
         return impulses;

@@ -14,6 +14,7 @@ set(Api_may "Api/C/|Scene/|Io/|Contacts/|Core/")
 set(Api/Live_may "Api/|Live/|Scene/|Io/|Contacts/|Core/")
 set(Api/Godot_may "Api/Godot/") # and the public headers
 set(Api/JavaScript_may "Api/(C|JavaScript)/|Members\\.inc|Formats/|Scene/|Io/|Core/")
+set(Live/Sockets_may "Live/Sockets/|Io/")
 set(Live/Documents_may "Live/Documents/|Scene/|Io/|Core/|nlohmann/")
 set(Live/Session_may "Live/(Documents|Messages|Session)/|Stimuli/|Scene/|Io/|Physics/|Contacts/|Wire/|Core/")
 set(Live/Messages_may "${Live/Session_may}")
@@ -40,7 +41,7 @@ endforeach()
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Io Contacts Physics Scene Stimuli Formats Measure Pictures Lab Api Api/Godot Api/JavaScript Api/Live Live/Documents Live/Messages Live/Session Live/Pads Live/Devices Live/Recordings Live/Rig Host Host/Osc Plugin
+foreach(room Core Wire Io Contacts Physics Scene Stimuli Formats Measure Pictures Lab Api Api/Godot Api/JavaScript Api/Live Live/Documents Live/Sockets Live/Messages Live/Session Live/Pads Live/Devices Live/Recordings Live/Rig Host Host/Osc Plugin
              Standalone/Mixer/Model Standalone/Mixer/Widgets Standalone/Mixer/World Standalone/Mixer/Strips Standalone/Mixer/Output
              Standalone/Mixer/Materials Standalone/Mixer/Studies Standalone/Options Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)

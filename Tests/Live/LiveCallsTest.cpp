@@ -2,6 +2,7 @@
 // The library with devices and sessions as a program in another language sees it, without a device.
 #include "Support/BegunStructs.h"
 #include "Support/RandomLiveCalls.h"
+#include "Support/SizedEvents.h"
 #include <array>
 #include <chrono>
 #include <limits>
@@ -178,7 +179,7 @@ TEST(LiveCalls, WhatLeftIsKnownALatencyLater) {
     settings.level_db = 0.0;
     ASSERT_EQ(physvib_live_open("None:no device", nullptr, &settings, &live), PHYSVIB_OK)
         << physvib_live_error();
-    physvib_event event;
+    physvib_event event{};
     ASSERT_EQ(physvib_event_of(nullptr, 0.0, 0.0, 0.5, &event), PHYSVIB_OK) << physvib_error();
     physvib_live_receipt receipt;
     physvib_live_receipt_init(&receipt, sizeof receipt);
@@ -204,6 +205,71 @@ TEST(LiveCalls, WhatLeftIsKnownALatencyLater) {
     EXPECT_EQ(physvib_live_left(live, 0, 1, 0, nullptr), PHYSVIB_ERROR_ARGUMENT);
     EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
     EXPECT_EQ(physvib_live_left(live, 0, 1, 0, &receipt), PHYSVIB_ERROR_HANDLE);
+}
+
+// Of programs that were built with an older header: see Tests/Api/SizesTest.cpp.
+TEST(LiveCalls, EventsOfAnySizeAreStruckAndRendered) {
+    std::array<physvib_event, 3> list{};
+    for (int i = 0; i < 3; ++i) {
+        physvib_event& event = list[static_cast<std::size_t>(i)];
+        ASSERT_EQ(physvib_event_of(nullptr, 0.01 * i, 0.02 * i, 0.2 + 0.1 * i, &event), PHYSVIB_OK);
+        event.time_ns = 1'000'000 * i;
+        event.fixture = 5 + i;
+    }
+    std::vector<float> whole;
+    physvib_int64 played = 0;
+    physvib_live live = nullptr;
+    ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK)
+        << physvib_live_error();
+    for (const test::EventSize size : test::eventSizes) {
+        test::SizedEvents given{size, list};
+        physvib_session session = nullptr;
+        ASSERT_EQ(physvib_session_create(nullptr, given.data(), 3, 100'000'000, &session), PHYSVIB_OK)
+            << physvib_live_error();
+        test::SizedEvents told{size, 2};
+        ASSERT_EQ(physvib_session_events(session, 100'000'000, told.data(), 2), 3) << physvib_live_error();
+        for (std::size_t i = 0; i < 2; ++i) {
+            EXPECT_EQ(told[i].time_ns, list[i].time_ns);
+            EXPECT_EQ(told[i].y_m, list[i].y_m);
+            EXPECT_EQ(told[i].fixture, list[i].fixture);
+        }
+        EXPECT_TRUE(told.isKeptBehind(2)) << size.said;
+        std::vector<float> samples(4 * 4800);
+        ASSERT_EQ(physvib_session_render(session, 48000, 4800, samples.data()), PHYSVIB_OK);
+        if (whole.empty()) whole = samples;
+        EXPECT_EQ(samples, whole) << size.said;
+        EXPECT_EQ(physvib_session_free(session), PHYSVIB_OK);
+        ASSERT_EQ(physvib_live_strike(live, given.data(), 3), PHYSVIB_OK) << physvib_live_error();
+        played += 3;
+    }
+    physvib_live_status status;
+    physvib_live_status_init(&status, sizeof status);
+    do {
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        ASSERT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
+    } while (status.played + status.rejected + status.dropped < played);
+    EXPECT_EQ(status.rejected, 0);
+    const test::EventSize longer{sizeof(physvib_event) + 8, sizeof(physvib_event) + 8};
+    test::SizedEvents refused{longer, list};
+    physvib_session none = nullptr;
+    EXPECT_EQ(physvib_live_strike(live, refused.data(), 3), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(physvib_session_create(nullptr, refused.data(), 3, 0, &none), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
+}
+
+TEST(LiveCalls, ASessionsLayoutIsToldAsFarAsItGoes) {
+    physvib_session session = nullptr;
+    physvib_renderer_settings settings;
+    ASSERT_EQ(physvib_session_create(nullptr, nullptr, 0, 0, &session), PHYSVIB_OK) << physvib_live_error();
+    const std::size_t size = sizeof settings - sizeof settings.layout.part; // of a program that knows no
+                                                                            // parts
+    std::memset(&settings, 0xAB, sizeof settings);
+    ASSERT_EQ(physvib_renderer_settings_init(&settings, size), PHYSVIB_OK);
+    ASSERT_EQ(physvib_session_get_renderer(session, &settings), PHYSVIB_OK) << physvib_live_error();
+    EXPECT_EQ(settings.layout.size, offsetof(physvib_layout, part)) << "what it may hand on";
+    EXPECT_EQ(settings.layout.count, 4);
+    EXPECT_EQ(settings.layout.part[0], static_cast<int>(0xABABABABu));
+    EXPECT_EQ(physvib_session_free(session), PHYSVIB_OK);
 }
 
 TEST(LiveCalls, DevicesAreListedInTheCallersStructures) {

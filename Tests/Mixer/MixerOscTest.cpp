@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Messages by OSC at the model: from nobody unless told; they strike, tilt, and move what is shown.
-#include "Host/Osc/OscSocket.h"
+#include "Live/Sockets/UdpSocket.h"
 #include "Mixer/Output/OutputTab.h"
 #include "MixerTesting.h"
 
@@ -10,7 +10,7 @@ namespace {
 using namespace test;
 
 void send(MixerModel& model, const std::string& address, std::vector<NamedValue> values) {
-    auto socket = OscSocket::connected(model.inputs().status()->address);
+    auto socket = UdpSocket::connected(model.inputs().status()->address);
     ASSERT_EQ(socket.error, "");
     EXPECT_TRUE(socket.value.send(oscPacket(address, {"", std::move(values)})));
 }
@@ -92,7 +92,7 @@ TEST(MixerOsc, SilenceNeitherWaitsForTheWindowNorNeedsRoom) {
             std::this_thread::sleep_for(std::chrono::milliseconds{10});
         return isTrue();
     };
-    auto socket = OscSocket::connected(model.inputs().status()->address);
+    auto socket = UdpSocket::connected(model.inputs().status()->address);
     const auto mute = oscPacket("/physvib/mute", {"", {{"channel", 1.0}, {"on", 1.0}}});
     for (std::uint64_t k = 0; k < 1200; k += 100) { // the system's buffer is small
         for (int one = 0; one < 100; ++one) socket.value.send(mute);
@@ -113,7 +113,7 @@ TEST(MixerOsc, SilenceNeitherWaitsForTheWindowNorNeedsRoom) {
 TEST(MixerOsc, WhatTheMixerRefusesIsReportedToItsSender) {
     MixerModel model{onlyNoDevice(), noDevice};
     ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), "");
-    auto socket = OscSocket::connected(model.inputs().status()->address);
+    auto socket = UdpSocket::connected(model.inputs().status()->address);
     using namespace std::string_literals;
     ASSERT_TRUE(socket.value.send(
         oscPacket("/physvib/impulse", {"", {{"body", "nobody"s}, {"impulse_ns", std::vector{0.0, 1.0}}}})));
@@ -153,7 +153,7 @@ TEST(MixerOsc, WhatAPersonSilencedIsLiftedAtTheMachineAlone) {
 TEST(MixerOsc, APhoneTiltsTheWorld) {
     MixerModel model{onlyNoDevice(), noDevice};
     ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), "");
-    auto socket = OscSocket::connected(model.inputs().status()->address);
+    auto socket = UdpSocket::connected(model.inputs().status()->address);
     using namespace std::string_literals;
     const auto upsideDown = "/accelerometer\0\0,fff\0\0\0\0\0\0\0\0\xc1\x1c\xf5\xc3\0\0\0\0"s; // y: -9.81
     EXPECT_TRUE(socket.value.send({upsideDown.data(), upsideDown.size()}));
@@ -169,7 +169,7 @@ TEST(MixerOsc, APhoneTiltsTheWorld) {
 
 TEST(MixerOsc, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
     MixerModel model{onlyNoDevice(), noDevice};
-    auto receiver = OscSocket::listening("127.0.0.1", 0);
+    auto receiver = UdpSocket::listening("127.0.0.1", 0);
     ASSERT_EQ(receiver.error, "");
     OutputTab tab{model};
     auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "Hits by OSC"));
@@ -221,7 +221,7 @@ TEST(MixerOsc, APhoneMayBeHeldOnItsSide) {
     dynamic_cast<juce::ComboBox&>(*find(tab, "OSC")).setSelectedItemIndex(1, juce::sendNotificationSync);
     dynamic_cast<juce::ComboBox&>(*find(tab, "Phone")).setSelectedItemIndex(1, juce::sendNotificationSync);
     EXPECT_EQ(model.inputs().choice(), (OscChoice{OscUse::thisComputer, {}, 90.0}));
-    auto socket = OscSocket::connected(model.inputs().status()->address);
+    auto socket = UdpSocket::connected(model.inputs().status()->address);
     using namespace std::string_literals;
     const auto topToTheLeft = "/accelerometer\0\0,fff\0\0\0\0\x41\x1c\xf5\xc3\0\0\0\0\0\0\0\0"s; // x: 9.81
     EXPECT_TRUE(socket.value.send({topToTheLeft.data(), topToTheLeft.size()}));

@@ -46,9 +46,9 @@ bool comes(const std::function<bool()>& isTrue) {
     return false;
 }
 
-OscSocket senderTo(const OscPort& port) {
+UdpSocket senderTo(const OscPort& port) {
     return std::move(
-        OscSocket::connected(std::string(oscThisComputer) + ":" + std::to_string(port.port())).value);
+        UdpSocket::connected(std::string(oscThisComputer) + ":" + std::to_string(port.port())).value);
 }
 
 TEST(OscPorts, EightAtOnceHaveAPortEach) {
@@ -127,7 +127,7 @@ struct HeldUp : Played {
         EXPECT_TRUE(sender->send(oscPacket("/physvib/silence", {"", {{"on", isOn ? 1.0 : 0.0}}})));
     }
 
-    std::optional<OscSocket> sender;
+    std::optional<UdpSocket> sender;
     std::atomic<bool> isHeldUp{false}, keepGoing{false};
 };
 
@@ -232,7 +232,7 @@ TEST(OscPorts, NobodyGetsMuchMoreThanHeSends) {
 
 TEST(OscPorts, HitsLeaveWithTheTimeAtWhichTheyAreFelt) {
     Played played;
-    auto in = std::move(OscSocket::listening(oscThisComputer, 0).value);
+    auto in = std::move(UdpSocket::listening(oscThisComputer, 0).value);
     OscSettings out;
     out.receiver = std::string(oscThisComputer) + ":" + std::to_string(in.port());
     const auto port = played.open(out);

@@ -7,7 +7,7 @@
 //   upright in the end silence COUNT PER_SECOND         strikes as of flood, and meanwhile silence on and
 //   off: how long until each is answered ask NAME                         a query; its answer
 #include "Host/Osc/OscReceiver.h"
-#include "Host/Osc/OscSocket.h"
+#include "Live/Sockets/UdpSocket.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -63,7 +63,7 @@ void flood(lo_address to, int count, double perSecond, double aheadSeconds) {
     });
 }
 
-void sendRandom(OscSocket& to, int count, double perSecond) {
+void sendRandom(UdpSocket& to, int count, double perSecond) {
     std::mt19937 random{11};
     std::string bytes;
     paced(count, perSecond, [&](int k) {
@@ -100,7 +100,7 @@ void sendPhone(lo_address to, double seconds, double perSecond) {
 }
 
 /// An answer comes when silence has acted. Fails if one took longer than `mostMs`.
-int timeSilence(lo_address to, OscSocket& socket, int count, double perSecond) {
+int timeSilence(lo_address to, UdpSocket& socket, int count, double perSecond) {
     constexpr double mostMs = 20.0;
     std::jthread flooding{[=] { flood(to, count, perSecond, 0.1); }};
     const auto end = Clock::now() + std::chrono::duration<double>(count / perSecond);
@@ -118,7 +118,7 @@ int timeSilence(lo_address to, OscSocket& socket, int count, double perSecond) {
     return ms.back() <= mostMs ? 0 : 1;
 }
 
-int ask(OscSocket& to, const std::string& name) {
+int ask(UdpSocket& to, const std::string& name) {
     const auto query = oscPacket("/physvib/" + name, {});
     for (int tries = 0; tries < 20; ++tries) {
         to.send(query);
@@ -142,7 +142,7 @@ int main(int argc, char** argv) {
     if (argc < 4) return 2;
     const std::string command = argv[2];
     const lo_address to = lo_address_new("127.0.0.1", argv[1]);
-    auto socket = OscSocket::connected(std::string("127.0.0.1:") + argv[1]);
+    auto socket = UdpSocket::connected(std::string("127.0.0.1:") + argv[1]);
     if (!socket) return 2;
     const int count = static_cast<int>(number(3));
     if (command == "flood")

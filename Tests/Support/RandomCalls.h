@@ -47,6 +47,8 @@ private:
     physvib_int64 ns() {
         return byte() % 16 == 0 ? std::numeric_limits<physvib_int64>::min() + byte() : 1000000LL * byte();
     }
+    /// Of an event, rarely another one than ours.
+    std::size_t size() { return isRare() ? byte() : std::size_t{0}; }
     bool isRare() { return byte() % 32 == 0; }
     double number() {
         constexpr double inf = std::numeric_limits<double>::infinity();
@@ -123,6 +125,7 @@ private:
     }
     physvib_event* event() {
         event_ = {};
+        event_.size = size();
         event_.time_ns = ns();
         event_.frequency_hz = 100.0 * number();
         event_.decay_per_s = 10.0 * number();
@@ -189,7 +192,9 @@ private:
         case 26: return physvib_world_push(world(), contact());
         case 27: return physvib_world_end(world(), small(), small());
         case 28: return physvib_world_end_step(world());
-        case 29: return physvib_world_take(world(), isRare() ? nullptr : events_.data(), small(), byte() % 2);
+        case 29:
+            events_[0].size = size();
+            return physvib_world_take(world(), isRare() ? nullptr : events_.data(), small(), byte() % 2);
         case 30: return physvib_world_send(world(), renderer(), ns(), byte() % 2);
         default:
             return physvib_world_time_ns(world()) < 0

@@ -86,8 +86,10 @@ private:
         return &values;
     }
     const physvib_event* events() {
+        const std::size_t size = isRare() ? byte() : std::size_t{0};
         for (physvib_event& event : events_) {
             event = {};
+            event.size = isRare() ? byte() : size;
             event.time_ns = ns();
             event.frequency_hz = 100.0 * number();
             event.decay_per_s = 10.0 * number();

@@ -83,6 +83,7 @@ int main(int count, char** words) {
             }
         }
         physvib_world_end_step(world);
+        physvib_event_init(&event, sizeof event);
         for (; physvib_world_take(world, &event, 1, 1) == 1; ++hits[event.fixture])
             physvib_pads_strike(pads, event.fixture, &event);
         physvib_pads_pull(pads, physvib_world_time_ns(world), motors, 2);

@@ -15,6 +15,7 @@
 #include <span>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 namespace physvib::api {
 /// Error text of this thread; see physvib_error().
@@ -68,6 +69,14 @@ Struct zeroed() noexcept {
     return values;
 }
 
+/// As physvib_event_init has it.
+inline physvib_event noEvent() noexcept {
+    auto event = zeroed<physvib_event>();
+    event.size = sizeof event;
+    event.fixture = event.other = -1;
+    return event;
+}
+
 /// Copies `values` as far as the caller's version of the structure extends.
 template <class Struct>
 int begin(Struct* filled, std::size_t size, const Struct& values) noexcept {
@@ -94,6 +103,31 @@ bool take(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noe
     return true;
 }
 
+/// Bytes of a structure in version 1.0, which is what its size 0 means: up to the end of its last member
+/// then.
+template <class Struct>
+inline constexpr std::size_t firstBytes = 0;
+template <class Struct>
+constexpr std::size_t padded(std::size_t end) {
+    return (end + alignof(Struct) - 1) / alignof(Struct) * alignof(Struct);
+}
+template <>
+inline constexpr std::size_t firstBytes<physvib_event> =
+    padded<physvib_event>(offsetof(physvib_event, unused) + sizeof(physvib_event::unused));
+template <>
+inline constexpr std::size_t firstBytes<physvib_layout> =
+    padded<physvib_layout>(offsetof(physvib_layout, part) + sizeof(physvib_layout::part));
+
+/// Of a caller's event or layout: its bytes in memory, or 0 if it says a size that this library does not
+/// know.
+template <class Struct>
+std::size_t bytesOf(const void* given) noexcept {
+    std::size_t size = 0;
+    std::memcpy(&size, given, sizeof size);
+    if (size == 0) return firstBytes<Struct>;
+    return size >= sizeof size && size <= sizeof(Struct) ? size : 0;
+}
+
 // Conversions between the structures of physvib.h and the types of the engine.
 
 inline CollisionEvent eventOf(const physvib_event& e) noexcept {
@@ -118,22 +152,23 @@ static_assert(PHYSVIB_HIT == static_cast<int>(ContactKind::hit) &&
               PHYSVIB_SLIDE == static_cast<int>(ContactKind::slide));
 
 inline physvib_event eventOf(const CollisionEvent& e) noexcept {
-    return {e.timeNs,
-            e.durationNs,
-            e.frequencyHz,
-            e.decayPerSecond,
-            e.amplitude,
-            e.x,
-            e.y,
-            e.source.impulseNewtonSeconds,
-            e.source.massKg,
-            e.source.fixture,
-            e.source.other,
-            static_cast<int>(e.source.kind),
-            e.sound,
-            e.z,
-            e.source.part,
-            0};
+    physvib_event to = noEvent();
+    to.time_ns = e.timeNs;
+    to.duration_ns = e.durationNs;
+    to.frequency_hz = e.frequencyHz;
+    to.decay_per_s = e.decayPerSecond;
+    to.amplitude = e.amplitude;
+    to.x_m = e.x;
+    to.y_m = e.y;
+    to.impulse_n_s = e.source.impulseNewtonSeconds;
+    to.mass_kg = e.source.massKg;
+    to.fixture = e.source.fixture;
+    to.other = e.source.other;
+    to.kind = static_cast<int>(e.source.kind);
+    to.sound = e.sound;
+    to.z_m = e.z;
+    to.part = e.source.part;
+    return to;
 }
 
 inline std::optional<double> optional(double value) noexcept {
@@ -143,9 +178,22 @@ inline std::optional<double> optional(double value) noexcept {
 /// Converts and checks settings; returns empty, or what is wrong and what was expected.
 std::string_view convert(const physvib_renderer_settings& from, RendererSettings& to) noexcept;
 std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexcept;
-physvib_layout layoutOf(const EnchanterLayout& from) noexcept;
 
-/// Empty if all events are playable and in time order; otherwise the reason.
-std::string_view faultOf(std::span<const physvib_event> events) noexcept;
+/// Writes as much of a layout as the caller's `to` has; returns PHYSVIB_OK, or sets the error.
+int writeLayout(const EnchanterLayout& from, physvib_layout& to) noexcept;
+
+// A caller's events are read and written by the functions below alone, as large as the caller says they are.
+
+/// Converts an event; returns empty, or why it cannot be played.
+std::string_view readEvent(const physvib_event& from, CollisionEvent& to) noexcept;
+/// The same of a list; `to` is then all of them, or none.
+std::string_view readEvents(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to);
+/// The same of a list that has to be in time order.
+std::string_view readSorted(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to);
+
+/// Writes the first `capacity` events of a list; returns how many these are, or sets the error and returns
+/// it.
+std::int64_t writeEvents(std::span<const CollisionEvent> from, physvib_event* to,
+                         std::int64_t capacity) noexcept;
 
 } // namespace physvib::api

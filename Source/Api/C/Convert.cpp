@@ -5,7 +5,27 @@
 
 namespace physvib::api {
 
-std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexcept {
+namespace {
+
+constexpr std::string_view wrongSize =
+    "size: expected that of the structure, or 0 (version 1.0), and a library that is as new as the header";
+
+std::string_view faultOf(const physvib_event& event) noexcept {
+    if (!isPlayable(eventOf(event)))
+        return "event: expected 0 to 20000 Hz, a decay of 0 to 2000 per second or a duration, below 5 Hz a "
+               "decay of at least 1 per second, numbers, a time from 0 on";
+    if (event.kind < PHYSVIB_HIT || event.kind > PHYSVIB_SLIDE)
+        return "kind: expected PHYSVIB_HIT, PHYSVIB_ROLL or PHYSVIB_SLIDE";
+    return event.part < 0 ? "part: expected 0, or a number of physvib_part()" : std::string_view{};
+}
+
+} // namespace
+
+std::string_view convert(const physvib_layout& given, EnchanterLayout& to) noexcept {
+    const std::size_t bytes = bytesOf<physvib_layout>(&given);
+    if (bytes == 0) return wrongSize;
+    auto from = zeroed<physvib_layout>();
+    std::memcpy(&from, &given, bytes);
     if (from.count < 1 || from.count > limits::maxEnchanters) return "layout: expected 1 to 64 enchanters";
     EnchanterLayout layout;
     layout.extentWidthMetres = from.extent_width_m;
@@ -19,8 +39,11 @@ std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexce
     return {};
 }
 
-physvib_layout layoutOf(const EnchanterLayout& from) noexcept {
+int writeLayout(const EnchanterLayout& from, physvib_layout& given) noexcept {
+    const std::size_t bytes = bytesOf<physvib_layout>(&given);
+    if (bytes == 0) return nothingThere(wrongSize);
     auto to = zeroed<physvib_layout>();
+    to.size = given.size;
     to.extent_width_m = from.extentWidthMetres;
     to.extent_height_m = from.extentHeightMetres;
     to.count = from.count;
@@ -30,7 +53,8 @@ physvib_layout layoutOf(const EnchanterLayout& from) noexcept {
         to.z_m[j] = from.places[static_cast<std::size_t>(j)].zMetres;
         to.part[j] = from.places[static_cast<std::size_t>(j)].part;
     }
-    return to;
+    std::memcpy(&given, &to, bytes);
+    return PHYSVIB_OK;
 }
 
 std::string_view convert(const physvib_renderer_settings& from, RendererSettings& to) noexcept {
@@ -55,21 +79,54 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
     return {};
 }
 
-std::string_view faultOf(std::span<const physvib_event> events) noexcept {
-    const auto isOut = [](const physvib_event& e) { return !isPlayable(eventOf(e)); };
-    if (std::ranges::any_of(events, isOut))
-        return "event: expected 0 to 20000 Hz, a decay of 0 to 2000 per second or a duration, below 5 Hz a "
-               "decay of at least 1 per second, numbers, a time from 0 on";
-    if (std::ranges::any_of(
-            events, [](int kind) { return kind < PHYSVIB_HIT || kind > PHYSVIB_SLIDE; },
-            &physvib_event::kind))
-        return "kind: expected PHYSVIB_HIT, PHYSVIB_ROLL or PHYSVIB_SLIDE";
-    if (std::ranges::any_of(
-            events, [](int part) { return part < 0; }, &physvib_event::part))
-        return "part: expected 0, or a number of physvib_part()";
-    if (!std::ranges::is_sorted(events, {}, &physvib_event::time_ns))
-        return "events: expected in the order of their times";
+std::string_view readEvent(const physvib_event& from, CollisionEvent& to) noexcept {
+    const std::size_t bytes = bytesOf<physvib_event>(&from);
+    if (bytes == 0) return wrongSize;
+    physvib_event whole = noEvent(); // what an older program's event lacks is as its init has it
+    std::memcpy(&whole, &from, bytes);
+    const std::string_view fault = faultOf(whole);
+    if (fault.empty()) to = eventOf(whole);
+    return fault;
+}
+
+std::string_view readEvents(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to) {
+    std::vector<CollisionEvent> all(static_cast<std::size_t>(count));
+    const std::size_t bytes = count > 0 ? bytesOf<physvib_event>(from) : 0;
+    const auto* at = reinterpret_cast<const std::byte*>(from);
+    for (CollisionEvent& event : all) {
+        if (bytesOf<physvib_event>(at) != bytes) return "events: expected all of one size";
+        if (const auto fault = readEvent(*reinterpret_cast<const physvib_event*>(at), event); !fault.empty())
+            return fault;
+        at += bytes;
+    }
+    to = std::move(all);
     return {};
+}
+
+std::string_view readSorted(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to) {
+    std::vector<CollisionEvent> all;
+    if (const auto fault = readEvents(from, count, all); !fault.empty()) return fault;
+    if (!std::ranges::is_sorted(all, {}, &CollisionEvent::timeNs))
+        return "events: expected in the order of their times";
+    to = std::move(all);
+    return {};
+}
+
+std::int64_t writeEvents(std::span<const CollisionEvent> from, physvib_event* to,
+                         std::int64_t capacity) noexcept {
+    if (capacity == 0) return 0;
+    const std::size_t bytes = bytesOf<physvib_event>(to);
+    if (bytes == 0) return nothingThere(wrongSize);
+    const std::size_t said = to->size; // 0 stays 0
+    const auto count = std::min<std::int64_t>(capacity, std::ssize(from));
+    auto* at = reinterpret_cast<std::byte*>(to);
+    for (const CollisionEvent& event : from.first(static_cast<std::size_t>(count))) {
+        physvib_event whole = eventOf(event);
+        whole.size = said;
+        std::memcpy(at, &whole, bytes);
+        at += bytes;
+    }
+    return count;
 }
 
 } // namespace physvib::api

@@ -26,23 +26,21 @@ namespace {
 
 int written(const std::string& error) noexcept { return resultOf(error, PHYSVIB_ERROR_FILE); }
 
-/// Adapts the caller's event list to the renderer's source interface.
+/// A list as the renderer's source.
 struct ListSource {
-    std::span<const physvib_event> events;
+    std::span<const CollisionEvent> events;
     bool pop(CollisionEvent& event) noexcept {
         if (events.empty()) return false;
-        event = eventOf(events.front());
+        event = events.front();
         events = events.subspan(1);
         return true;
     }
 };
 
-/// Copies as many events as fit; returns the number there are.
+/// Writes as many events as fit; returns the number there are.
 physvib_int64 listTo(physvib_event* events, physvib_int64 capacity, const std::vector<CollisionEvent>& list) {
-    const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(list));
-    std::transform(list.begin(), list.begin() + count, events,
-                   [](const CollisionEvent& e) { return eventOf(e); });
-    return std::ssize(list);
+    const physvib_int64 written = writeEvents(list, events, capacity);
+    return written < 0 ? written : std::ssize(list);
 }
 
 int fieldTo(const char* from, auto read, int code, double* width, double* height) {
@@ -72,6 +70,10 @@ int physvib_renderer_settings_init(physvib_renderer_settings* settings, size_t s
     values.limiter = 1;
     values.exponent = 1.0;
     physvib_layout_preset("phone4", &values.layout);
+    // as much of the layout as the caller's structure has room for, which is at its end
+    constexpr std::size_t before = offsetof(physvib_renderer_settings, layout);
+    static_assert(before + sizeof values.layout == sizeof values);
+    values.layout.size = std::min(std::max(size, before) - before, sizeof values.layout);
     return begin(settings, size, values);
 }
 
@@ -112,6 +114,12 @@ int physvib_world_counts_init(physvib_world_counts* counts, size_t size) {
     return begin(counts, size, zeroed<physvib_world_counts>());
 }
 
+int physvib_event_init(physvib_event* event, size_t size) { return begin(event, size, noEvent()); }
+
+int physvib_layout_init(physvib_layout* layout, size_t size) {
+    return begin(layout, size, zeroed<physvib_layout>());
+}
+
 int physvib_layout_preset(const char* name, physvib_layout* layout) {
     EnchanterLayout preset;
     if (name == nullptr || layout == nullptr)
@@ -120,8 +128,7 @@ int physvib_layout_preset(const char* name, physvib_layout* layout) {
         if (!layoutPreset(name, preset))
             return fail(PHYSVIB_ERROR_ARGUMENT,
                         "layout: expected " + listedByNumber(layoutPresetNames, " to ", " or "));
-        *layout = layoutOf(preset);
-        return PHYSVIB_OK;
+        return writeLayout(preset, *layout);
     });
 }
 
@@ -136,8 +143,7 @@ int physvib_layout_load(const char* path, physvib_layout* layout) {
             return nothingThere("layout: expected a path and a place for it, found NULL");
         const auto loaded = loadLayout(path);
         if (!loaded) return fail(PHYSVIB_ERROR_FILE, loaded.error);
-        *layout = layoutOf(loaded.value.geometry);
-        return PHYSVIB_OK;
+        return writeLayout(loaded.value.geometry, *layout);
     });
 }
 
@@ -147,8 +153,7 @@ int physvib_layout_parse(const char* text, physvib_layout* layout) {
             return nothingThere("layout: expected a text and a place for it, found NULL");
         const auto read = readLayout(text, "layout");
         if (!read) return fail(PHYSVIB_ERROR_ARGUMENT, read.error);
-        *layout = layoutOf(read.value.geometry);
-        return PHYSVIB_OK;
+        return writeLayout(read.value.geometry, *layout);
     });
 }
 
@@ -208,10 +213,9 @@ int physvib_events_save_field(const char* path, const physvib_event* events, phy
         const FieldSize field{width, height};
         if (!(field == FieldSize{}) && !isField(field))
             return fail(PHYSVIB_ERROR_ARGUMENT, "field: expected 0.001 to 1e6 m, or 0 and 0");
-        const std::span list{events, static_cast<std::size_t>(count)};
-        if (const auto fault = faultOf(list); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         std::vector<CollisionEvent> own;
-        for (const physvib_event& event : list) own.push_back(eventOf(event));
+        if (const auto fault = readSorted(events, count, own); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         return written(writeFile(path, eventsCsv(own, field, {PHYSVIB_VERSION, {}})));
     });
 }
@@ -253,9 +257,10 @@ int physvib_render(const physvib_renderer_settings* settings, const physvib_even
             return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         if (count < 0 || (count > 0 && events == nullptr) || frames < 0 || (frames > 0 && samples == nullptr))
             return nothingThere("render: expected events and a place for samples");
-        ListSource source{{events, static_cast<std::size_t>(count)}};
-        if (const auto fault = faultOf(source.events); !fault.empty())
+        std::vector<CollisionEvent> own;
+        if (const auto fault = readSorted(events, count, own); !fault.empty())
             return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        ListSource source{own};
         const auto renderer = std::make_unique<HapticRenderer>();
         if (!renderer->prepare(wanted))
             return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");

@@ -103,17 +103,16 @@ int physvib_event_of(const char* material, double x, double y, double strength, 
     body.decay_per_s = 30.0;
     if (material != nullptr)
         if (const int code = physvib_material(material, &body); code != PHYSVIB_OK) return code;
-    auto made = zeroed<physvib_event>();
+    physvib_event made = noEvent();
     made.frequency_hz = body.frequency_hz;
     made.decay_per_s = body.decay_per_s;
     made.amplitude = strength;
     made.x_m = x;
     made.y_m = y;
-    made.fixture = made.other = -1;
     if (material != nullptr) made.sound = physvib_sound(material);
-    if (const auto fault = faultOf({&made, 1}); !fault.empty()) return nothingThere(fault);
-    *event = made;
-    return PHYSVIB_OK;
+    CollisionEvent played;
+    if (const auto fault = readEvent(made, played); !fault.empty()) return nothingThere(fault);
+    return writeEvents({&played, 1}, event, 1) < 0 ? PHYSVIB_ERROR_ARGUMENT : PHYSVIB_OK;
 }
 
 int physvib_renderer_impact(physvib_renderer renderer, double x, double y, double strength) {
@@ -122,7 +121,7 @@ int physvib_renderer_impact(physvib_renderer renderer, double x, double y, doubl
 
 int physvib_renderer_impact_of(physvib_renderer name, const char* material, double x, double y,
                                double strength) {
-    physvib_event event;
+    physvib_event event = noEvent();
     if (const int code = physvib_event_of(material, x, y, strength, &event); code != PHYSVIB_OK) return code;
     const auto renderer = use(name);
     if (!renderer) return unknownHandle();

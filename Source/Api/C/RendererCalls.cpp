@@ -103,9 +103,10 @@ int physvib_renderer_strike(physvib_renderer name, const physvib_event* event) {
     const auto renderer = use(name);
     if (!renderer) return unknownHandle();
     if (event == nullptr) return nothingThere("event: expected one, found NULL");
-    if (const auto fault = faultOf({event, 1}); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+    CollisionEvent own;
+    if (const auto fault = readEvent(*event, own); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
     const std::lock_guard lock{renderer->producers};
-    return renderer->source.events.push(eventOf(*event))
+    return renderer->source.events.push(own)
                ? PHYSVIB_OK
                : fail(PHYSVIB_ERROR_FULL, "events: expected at most 8192 that wait");
 }
@@ -271,8 +272,9 @@ int physvib_pads_strike(physvib_pads name, int pad, const physvib_event* event) 
     return withPads(name, [&](Pads& pads) {
         if (!pads.has(pad)) return noSuchPad();
         if (event == nullptr) return nothingThere("event: expected one, found NULL");
-        if (const auto fault = faultOf({event, 1}); !fault.empty()) return nothingThere(fault);
-        return pads.at(pad).strike(eventOf(*event))
+        CollisionEvent own;
+        if (const auto fault = readEvent(*event, own); !fault.empty()) return nothingThere(fault);
+        return pads.at(pad).strike(own)
                    ? PHYSVIB_OK
                    : fail(PHYSVIB_ERROR_FULL, "events: expected at most 256 that wait for a pad");
     });
@@ -284,7 +286,8 @@ physvib_int64 physvib_pads_send(physvib_pads name, int pad, physvib_world world,
         if (!pads.has(pad)) return noSuchPad();
         if (laterNs < -limits::maxTimeNs / 4 || laterNs > limits::maxTimeNs / 4)
             return nothingThere("delay: expected at most 2.5 * 10^16 ns from 0");
-        std::array<physvib_event, 128> part;
+        std::array<physvib_event, 128> part{};
+        part.front().size = sizeof part.front();
         for (physvib_int64 sent = 0;;) {
             const physvib_int64 count = physvib_world_take(world, part.data(), part.size(), atOnce);
             if (count < 0) return count; // its text is that of physvib_world_take

@@ -249,10 +249,8 @@ physvib_int64 physvib_world_take(physvib_world name, physvib_event* events, phys
         if (capacity < 0 || (capacity > 0 && events == nullptr))
             return nothingThere("events: expected a place for them");
         collect(world, atOnce != 0);
-        const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(world.taken));
-        std::transform(world.taken.begin(), world.taken.begin() + count, events,
-                       [](const CollisionEvent& e) { return eventOf(e); });
-        world.taken.erase(world.taken.begin(), world.taken.begin() + count);
+        const std::int64_t count = writeEvents(world.taken, events, capacity);
+        if (count > 0) world.taken.erase(world.taken.begin(), world.taken.begin() + count);
         return count;
     });
 }

@@ -82,8 +82,16 @@ typedef struct physvib_pads_name* physvib_pads;         /**< events in, motor co
 #define PHYSVIB_ROLL 1  /**< a body rolled over a grain of a surface */
 #define PHYSVIB_SLIDE 2 /**< a body slid over a grain of a surface */
 
+/* Structures that may grow begin with their size in bytes, as the program knows them, and grow at their end
+ * only: of a program that was built with a shorter one, only that part is read and written. Fill one with its
+ * ..._init(&it, sizeof it), then change what you like. Of events and layouts 0 is the size of version 1.0, so
+ * that all 0 is one; who leaves it 0 in a list steps wrongly when compiled with a later header, whose events
+ * are longer. Functions step through a list of events by its first one's size: all that are read must have
+ * that size; of those that are written, only the first one's counts, and all get it. */
+
 /** An event: amplitude * sin(2 pi frequency_hz t) * exp(-decay_per_s t), t = time since time_ns. */
 typedef struct physvib_event {
+    size_t size;               /**< set by init; 0: that of version 1.0 */
     physvib_int64 time_ns;     /**< onset, from 0 on */
     physvib_int64 duration_ns; /**< 0: until it has decayed; a decay of 0 needs a duration, and 5 Hz or more;
                                   below, it is at least 1 */
@@ -100,12 +108,13 @@ typedef struct physvib_event {
     int sound;          /**< number of its sound's name, 0: none; lists give it the number of a material */
     double z_m;         /**< place across the plane of x and y, towards the viewer; 0 in a plane */
     int part;   /**< physvib_part() of the part of the body on whose actuators it is felt; 0: on all */
-    int unused; /**< 0 */
+    int unused; /**< 0; so that no byte of an array of them is padding, which numpy does not copy */
 } physvib_event;
 
 /** Places of the actuators: channel j at x_m[j], y_m[j] from the lower left corner of the extent, onto which
- * the field is mapped. z is scaled as x is. In C, begin with all 0. */
+ * the field is mapped. z is scaled as x is. */
 typedef struct physvib_layout {
+    size_t size;                        /**< set by init; 0: that of version 1.0 */
     double extent_width_m;              /**< above 0 */
     double extent_height_m;             /**< above 0 */
     double x_m[PHYSVIB_MAX_ENCHANTERS]; /**< of each actuator */
@@ -123,10 +132,6 @@ typedef struct physvib_layout {
 #define PHYSVIB_LAW_AUTO 5       /**< by the layout's shape: NEIGHBOURS, LINEAR, TRIANGLES or DISTANCE */
 #define PHYSVIB_LAW_DISTANCE 6   /**< of panning: all actuators, by their distance in space */
 #define PHYSVIB_LAW_TRIANGLES 7  /**< of panning: three actuators of a layout in space, around the place */
-
-/* Fill a structure that has a `size` with its ..._init(&it, sizeof it), then change what you like. Structures
- * grow at their end only: of a program that was built with a shorter one, only that part is read and written.
- */
 
 /** Settings of a renderer; defaults in brackets. */
 typedef struct physvib_renderer_settings {
@@ -214,7 +219,6 @@ typedef struct physvib_body {
     int device; /**< number of the device on which it is felt, see physvib_live_send_each (0: the first) */
     int part;   /**< number of the part of a body (a palm, a chest) on whose actuators it is felt as a haptic
                    source; 0: on all, by place (0) */
-    int unused; /**< 0 */
 } physvib_body;
 
 #define PHYSVIB_POINT_NONE (-1) /**< of point_id: the points of a pair are not distinguished */
@@ -253,7 +257,6 @@ typedef struct physvib_contact {
     int is_soft;  /**< PHYSVIB_SOFT or PHYSVIB_SOFT_WHOLE: the impulse of one step is no measure of an impact,
                      which follows from speed and restitution;  the impulse is the load of a pair that keeps
                      touching (0) */
-    int unused;   /**< 0 */
     int point_id; /**< identifies the point within its pair: a number from 0 on, or PHYSVIB_POINT_BY_PLACE. A
                      point that was not there in the step before and approaches fast is an impact even while
                      its pair touches (PHYSVIB_POINT_NONE: the pair is reported as a whole) */
@@ -287,7 +290,6 @@ typedef struct physvib_output_facts {
     int is_missing;               /**< 1: no device asks for samples (0) */
     int is_silent;                /**< 1: silence is held (0) */
     int channels;                 /**< that the device has; 0: as many as the layout has actuators (0) */
-    int unused;                   /**< 0 */
     double level;                 /**< gain of all channels (1) */
     physvib_int64 muted_channels; /**< bit j: channel j is muted, or its gain is 0 (0) */
     physvib_int64 late;           /**< events played after their time, so far (0) */
@@ -329,6 +331,11 @@ PHYSVIB_API int physvib_contact_init(physvib_contact* contact, size_t size);
 PHYSVIB_API int physvib_world_counts_init(physvib_world_counts* counts, size_t size);
 /** The defaults; `size`: sizeof *facts. */
 PHYSVIB_API int physvib_output_facts_init(physvib_output_facts* facts, size_t size);
+
+/** No event yet: fixture and other are -1, the rest is 0; `size`: sizeof *event. Any thread. */
+PHYSVIB_API int physvib_event_init(physvib_event* event, size_t size);
+/** All 0; `size`: sizeof *layout. Any thread. */
+PHYSVIB_API int physvib_layout_init(physvib_layout* layout, size_t size);
 
 /* ---- Layouts and files. Any thread; they allocate, and read or write files. ---- */
 

@@ -9,22 +9,22 @@ namespace PhysVib {
 public enum Kind { Hit, Roll, Slide }
 
 /// <summary>A collision as it is felt; see physvib_event.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct Event {
-    public long TimeNs, DurationNs;
-    public double FrequencyHz, DecayPerS, Amplitude, X_m, Y_m, Impulse_Ns, MassKg;
-    public int Fixture, Other;
-    public Kind Kind;
-    public int Sound;
-    public double Z_m;
-    public int Part;
-    int unused;
-
+public partial struct Event {
     /// <summary>One impact at time 0; strength: 0 to 1 of full scale. Of a built-in material, or else of 200 Hz.</summary>
     public static Event Impact(double x_m, double y_m, double strength, string material = null) {
-        Event made;
-        Native.Check(Native.physvib_event_of(Native.Utf8OrNull(material), x_m, y_m, strength, out made));
+        var made = new Event().Sized();
+        Native.Check(Native.physvib_event_of(Native.Utf8OrNull(material), x_m, y_m, strength, ref made));
         return made;
+    }
+    /// <summary>The same; it says its size.</summary>
+    internal Event Sized() {
+        size = Native.SizeOf(this);
+        return this;
+    }
+    /// <summary>The same events; each says its size, as a list has to.</summary>
+    internal static Event[] Sized(Event[] events) {
+        for (var i = 0; events != null && i < events.Length; ++i) events[i] = events[i].Sized();
+        return events;
     }
     /// <summary>The number that events of a sound of that name have.</summary>
     public static int SoundOf(string name) { return (int)Native.Check(Native.physvib_sound(Native.Utf8(name))); }
@@ -33,29 +33,27 @@ public struct Event {
 }
 
 /// <summary>Where the enchanters sit; see physvib_layout.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct Layout {
-    public double ExtentWidth_m, ExtentHeight_m;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] X_m;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] Y_m;
-    public int Count;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] Z_m;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public int[] Part;
+public partial struct Layout {
+    static Layout Create() {
+        var made = new Layout();
+        Native.Check(Native.physvib_layout_init(ref made, Native.SizeOf(made)));
+        return made;
+    }
 
     /// <summary>By its name, "phone4": they stand in Docs/panning.md.</summary>
     public static Layout Preset(string name) {
-        var layout = new Layout();
+        var layout = Create();
         Native.Check(Native.physvib_layout_preset(Native.Utf8(name), ref layout));
         return layout;
     }
     public static Layout Load(string path) {
-        var layout = new Layout();
+        var layout = Create();
         Native.Check(Native.physvib_layout_load(Native.Utf8(path), ref layout));
         return layout;
     }
     /// <summary>The same from text in memory.</summary>
     public static Layout Parse(string text) {
-        var layout = new Layout();
+        var layout = Create();
         Native.Check(Native.physvib_layout_parse(Native.Utf8(text), ref layout));
         return layout;
     }
@@ -63,12 +61,7 @@ public struct Layout {
 }
 
 /// <summary>Begin with Create(), and change what you like.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct RendererSettings {
-    UIntPtr size;
-    public int RateHz, Channels, Law, Limiter;
-    public double Exponent, FieldWidth_m, FieldHeight_m;
-    public Layout Layout;
+public partial struct RendererSettings {
     public static RendererSettings Create() {
         var made = new RendererSettings();
         Native.Check(Native.physvib_renderer_settings_init(ref made, Native.SizeOf(made)));
@@ -76,11 +69,7 @@ public struct RendererSettings {
     }
 }
 
-[StructLayout(LayoutKind.Sequential)]
-public struct RendererStatus {
-    UIntPtr size;
-    public int LiveModes, Pending;
-    public long Frames, Played, Late, Rejected, Refused;
+public partial struct RendererStatus {
     internal static RendererStatus Create() {
         var made = new RendererStatus();
         Native.Check(Native.physvib_renderer_status_init(ref made, Native.SizeOf(made)));
@@ -89,11 +78,7 @@ public struct RendererStatus {
 }
 
 /// <summary>Begin with Create(), and change what you like.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct WorldSettings {
-    UIntPtr size;
-    public int IsMuted, HitsPerStep, AtBody, DropsHitsOfRemoved;
-    public double FieldWidth_m, FieldX_m, FieldY_m, FieldRadians, NormalisationSPerM, HandMassKg, DriveGain, ThresholdMPerS, FullScaleImpulse_Ns, SettlingS;
+public partial struct WorldSettings {
     /// <summary>Of FullScaleImpulse_Ns: learned from the world's hits, see Docs/actuators.md.</summary>
     public const double Automatic = -1;
     public static WorldSettings Create() {
@@ -104,17 +89,7 @@ public struct WorldSettings {
 }
 
 /// <summary>Begin with Create(), and change what you like.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct Body {
-    UIntPtr size;
-    public int IsCamera, Voice, Surface;
-    public double MassKg, InertiaKgM2, GravityScale, FrequencyHz, DecayPerS, StaticMassKg, Gain, HandMassKg;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneHz;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneDecayPerS;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneAmplitude;
-    public double Grain_m, Roughness, Rolling;
-    public int IsRidged, Device, Part;
-    int unused;
+public partial struct Body {
     /// <summary>The names of the built-in materials that vibrate.</summary>
     public static string[] Materials {
         get {
@@ -135,17 +110,9 @@ public struct Body {
 }
 
 /// <summary>Two bodies touch. Begin with Create(a, b), and tell the impulse, or the approach and the restitution.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct Contact {
-    UIntPtr size;
-    public int A, B;
-    public double X_m, Y_m, NormalX, NormalY, Impulse_Ns, Tangential_Ns, ApproachMPerS, Restitution, EffectiveMassKg, Fraction, Gap_m, GapFraction, AlongAMPerS, AlongBMPerS;
-    public int IsSoft;
-    int unused;
+public partial struct Contact {
     /// <summary>A number of yours, ByPlace, or -1: the pair is told as a whole.</summary>
-    public int PointId, IsImpulseOfPair;
     /// <summary>In space: across the plane of the field. Friction acts on b, instead of Tangential_Ns.</summary>
-    public double Z_m, NormalZ, FrictionX_Ns, FrictionY_Ns, FrictionZ_Ns;
     public const int ByPlace = -2;
     public static Contact Create(int a, int b) {
         var made = new Contact();
@@ -157,11 +124,7 @@ public struct Contact {
 }
 
 /// <summary>What became of contacts, since the world was made; see physvib_world_counts.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct WorldCounts {
-    UIntPtr size;
-    public long Contacts, BelowThreshold, NoSource, Unplayable, Muted, Dropped, Events;
-    public double ThresholdMPerS;
+public partial struct WorldCounts {
     internal static WorldCounts Create() {
         var made = new WorldCounts();
         Native.Check(Native.physvib_world_counts_init(ref made, Native.SizeOf(made)));
@@ -234,7 +197,7 @@ public sealed class World : IDisposable {
     /// <summary>What the engine says of a body now; call it before Explain, which forgets it.</summary>
     public void Note(int body, Note note) { Native.Check(Native.physvib_world_note(name, body, (int)note)); }
     /// <summary>Into an array of yours, so that nothing is allocated in a frame; how many.</summary>
-    public int Take(Event[] events, bool atOnce = false) { return (int)Native.Check(Native.physvib_world_take(name, events, events.Length, atOnce ? 1 : 0)); }
+    public int Take(Event[] events, bool atOnce = false) { return (int)Native.Check(Native.physvib_world_take(name, Event.Sized(events), events.Length, atOnce ? 1 : 0)); }
     public int Send(Renderer renderer, long laterNs, bool atOnce = false) {
         return (int)Native.Check(Native.physvib_world_send(name, renderer.name, laterNs, atOnce ? 1 : 0));
     }
@@ -244,15 +207,7 @@ public sealed class World : IDisposable {
 public enum Note { Sensor, Filtered, Disabled, Asleep }
 
 /// <summary>What plays a world's events. Begin with Create(), and change what you like.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct OutputFacts {
-    UIntPtr size;
-    public int IsMissing, IsSilent, Channels;
-    int unused;
-    public double Level;
-    public long MutedChannels, Late, Dropped, Rejected;
-    IntPtr silentBy, trouble, renderer;
-    public long WithoutPart;
+public partial struct OutputFacts {
     public static OutputFacts Create() {
         var made = new OutputFacts();
         Native.Check(Native.physvib_output_facts_init(ref made, Native.SizeOf(made)));
@@ -287,7 +242,10 @@ public sealed class Renderer : IDisposable {
         name = IntPtr.Zero;
         GC.SuppressFinalize(this);
     }
-    public void Strike(Event what) { Native.Check(Native.physvib_renderer_strike(name, ref what)); }
+    public void Strike(Event what) {
+        what = what.Sized();
+        Native.Check(Native.physvib_renderer_strike(name, ref what));
+    }
     /// <summary>One impact at the next pull; strength: 0 to 1 of full scale. Of a built-in material, or else of 200 Hz.</summary>
     public void Impact(double x_m, double y_m, double strength, string material = null) {
         Native.Check(material == null ? Native.physvib_renderer_impact(name, x_m, y_m, strength) : Native.physvib_renderer_impact_of(name, Native.Utf8(material), x_m, y_m, strength));
@@ -309,12 +267,6 @@ public sealed class Renderer : IDisposable {
     }
 }
 
-/// <summary>Commands of a controller's motors, 0 to 1: the heavy one in the left grip, the light one in the right grip.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct Motors {
-    public double Low, High;
-}
-
 /// <summary>Game controllers, for an engine that has a rumble call of its own: events in, motor commands out. One thread at a time.</summary>
 public sealed class Pads : IDisposable {
     IntPtr name;
@@ -329,7 +281,10 @@ public sealed class Pads : IDisposable {
         GC.SuppressFinalize(this);
     }
     /// <summary>An event at the time at which it is to be felt; one that is over, at the next pull.</summary>
-    public void Strike(int pad, Event what) { Native.Check(Native.physvib_pads_strike(name, pad, ref what)); }
+    public void Strike(int pad, Event what) {
+        what = what.Sized();
+        Native.Check(Native.physvib_pads_strike(name, pad, ref what));
+    }
     /// <summary>A world's events for one controller. How many.</summary>
     public int Send(int pad, World world, long laterNs, bool atOnce = false) {
         return (int)Native.Check(Native.physvib_pads_send(name, pad, world.name, laterNs, atOnce ? 1 : 0));
@@ -351,7 +306,7 @@ public static class Haptics {
     public static float[] Render(RendererSettings settings, Event[] events, int count, long frames) {
         if (count < 0 || count > events.Length) throw new ArgumentOutOfRangeException("count");
         var samples = new float[checked(Math.Max(settings.Channels, settings.Layout.Count) * frames)];
-        Native.Check(Native.physvib_render(ref settings, events, count, frames, samples));
+        Native.Check(Native.physvib_render(ref settings, Event.Sized(events), count, frames, samples));
         return samples;
     }
     public static void SaveWav(string path, float[] samples, int channels, int rateHz) {
@@ -359,21 +314,21 @@ public static class Haptics {
     }
     public static Event[] LoadEvents(string path) {
         var events = new Event[Native.Check(Native.physvib_events_load(Native.Utf8(path), null, 0))];
-        var count = Native.Check(Native.physvib_events_load(Native.Utf8(path), events, events.Length));
+        var count = Native.Check(Native.physvib_events_load(Native.Utf8(path), Event.Sized(events), events.Length));
         if (count != events.Length) Array.Resize(ref events, (int)Math.Min(count, events.Length)); // another file by now
         return events;
     }
     /// <summary>The same from text in memory.</summary>
     public static Event[] ParseEvents(string text) {
         var events = new Event[Native.Check(Native.physvib_events_parse(Native.Utf8(text), null, 0))];
-        Native.Check(Native.physvib_events_parse(Native.Utf8(text), events, events.Length));
+        Native.Check(Native.physvib_events_parse(Native.Utf8(text), Event.Sized(events), events.Length));
         return events;
     }
     /// <summary>Of a law of panning, as they are counted from 0.</summary>
     public static string LawName(int law) { return Marshal.PtrToStringAnsi(Native.physvib_law_name(law)); }
-    public static void SaveEvents(string path, Event[] events) { Native.Check(Native.physvib_events_save(Native.Utf8(path), events, events.Length)); }
+    public static void SaveEvents(string path, Event[] events) { Native.Check(Native.physvib_events_save(Native.Utf8(path), Event.Sized(events), events.Length)); }
     /// <summary>The same, with the field that its places span, in metres.</summary>
-    public static void SaveEvents(string path, Event[] events, double widthM, double heightM) { Native.Check(Native.physvib_events_save_field(Native.Utf8(path), events, events.Length, widthM, heightM)); }
+    public static void SaveEvents(string path, Event[] events, double widthM, double heightM) { Native.Check(Native.physvib_events_save_field(Native.Utf8(path), Event.Sized(events), events.Length, widthM, heightM)); }
     /// <summary>The field that a list says, in metres, for a renderer's settings; 0 and 0: none.</summary>
     public static void LoadField(string path, out double widthM, out double heightM) { Native.Check(Native.physvib_events_load_field(Native.Utf8(path), out widthM, out heightM)); }
     /// <summary>The same from text in memory.</summary>
@@ -419,7 +374,7 @@ public static class LibraryNames {
     }
 }
 
-static class Native {
+static partial class Native {
 #if UNITY_5_3_OR_NEWER
     const string Library = "physvib";
 #else
@@ -435,7 +390,105 @@ static class Native {
     internal static byte[] Utf8OrNull(string text) { return text == null ? null : Utf8(text); }
     internal static byte[] Utf8(string text) { return System.Text.Encoding.UTF8.GetBytes(text + "\0"); }
 
+    internal static double[] Numbers(double[] found, int expected) { // an array without them is for the library to refuse
+        if (found != null && found.Length != expected) throw new ArgumentException("expected " + expected + " numbers");
+        return found;
+    }
+}
+
+// Written by Source/Api/bindings.py: change the header, not this.
+[StructLayout(LayoutKind.Sequential)]
+public partial struct Event {
+    UIntPtr size;
+    public long TimeNs, DurationNs;
+    public double FrequencyHz, DecayPerS, Amplitude, X_m, Y_m, Impulse_Ns, MassKg;
+    public int Fixture, Other;
+    public Kind Kind;
+    public int Sound;
+    public double Z_m;
+    public int Part;
+    int unused;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct Layout {
+    UIntPtr size;
+    public double ExtentWidth_m, ExtentHeight_m;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] X_m;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] Y_m;
+    public int Count;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] Z_m;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public int[] Part;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct RendererSettings {
+    UIntPtr size;
+    public int RateHz, Channels, Law, Limiter;
+    public double Exponent, FieldWidth_m, FieldHeight_m;
+    public Layout Layout;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct RendererStatus {
+    UIntPtr size;
+    public int LiveModes, Pending;
+    public long Frames, Played, Late, Rejected, Refused;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct WorldSettings {
+    UIntPtr size;
+    public int IsMuted, HitsPerStep, AtBody, DropsHitsOfRemoved;
+    public double FieldWidth_m, FieldX_m, FieldY_m, FieldRadians, NormalisationSPerM, HandMassKg, DriveGain, ThresholdMPerS, FullScaleImpulse_Ns, SettlingS;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct Body {
+    UIntPtr size;
+    public int IsCamera, Voice, Surface;
+    public double MassKg, InertiaKgM2, GravityScale, FrequencyHz, DecayPerS, StaticMassKg, Gain, HandMassKg;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneHz;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneDecayPerS;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneAmplitude;
+    public double Grain_m, Roughness, Rolling;
+    public int IsRidged, Device, Part;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct Contact {
+    UIntPtr size;
+    public int A, B;
+    public double X_m, Y_m, NormalX, NormalY, Impulse_Ns, Tangential_Ns, ApproachMPerS, Restitution, EffectiveMassKg, Fraction, Gap_m, GapFraction, AlongAMPerS, AlongBMPerS;
+    public int IsSoft, PointId, IsImpulseOfPair;
+    public double Z_m, NormalZ, FrictionX_Ns, FrictionY_Ns, FrictionZ_Ns;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct WorldCounts {
+    UIntPtr size;
+    public long Contacts, BelowThreshold, NoSource, Unplayable, Muted, Dropped, Events;
+    public double ThresholdMPerS;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct OutputFacts {
+    UIntPtr size;
+    public int IsMissing, IsSilent, Channels;
+    public double Level;
+    public long MutedChannels, Late, Dropped, Rejected;
+    IntPtr silentBy, trouble, renderer;
+    public long WithoutPart;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct Motors {
+    public double Low, High;
+}
+
+static partial class Native {
     [DllImport(Library)] internal static extern IntPtr physvib_version();
+    [DllImport(Library)] internal static extern IntPtr physvib_law_name(int law);
     [DllImport(Library)] internal static extern IntPtr physvib_error();
     [DllImport(Library)] internal static extern int physvib_renderer_settings_init(ref RendererSettings settings, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_renderer_status_init(ref RendererStatus status, UIntPtr size);
@@ -443,31 +496,34 @@ static class Native {
     [DllImport(Library)] internal static extern int physvib_body_init(ref Body body, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_contact_init(ref Contact contact, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_world_counts_init(ref WorldCounts counts, UIntPtr size);
-    [DllImport(Library)] internal static extern int physvib_layout_parse(byte[] text, ref Layout layout);
-    [DllImport(Library)] internal static extern long physvib_events_parse(byte[] text, [Out] Event[] events, long capacity);
-    [DllImport(Library)] internal static extern IntPtr physvib_law_name(int law);
+    [DllImport(Library)] internal static extern int physvib_output_facts_init(ref OutputFacts facts, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_event_init(ref Event what, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_layout_init(ref Layout layout, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_layout_preset(byte[] name, ref Layout layout);
     [DllImport(Library)] internal static extern int physvib_layout_load(byte[] path, ref Layout layout);
+    [DllImport(Library)] internal static extern int physvib_layout_parse(byte[] text, ref Layout layout);
     [DllImport(Library)] internal static extern int physvib_layout_save(byte[] path, byte[] name, ref Layout layout);
-    [DllImport(Library)] internal static extern long physvib_events_load(byte[] path, [Out] Event[] events, long capacity);
-    [DllImport(Library)] internal static extern int physvib_events_save(byte[] path, Event[] events, long count);
-    [DllImport(Library)] internal static extern int physvib_events_save_field(byte[] path, Event[] events, long count, double widthM, double heightM);
+    [DllImport(Library)] internal static extern int physvib_part(byte[] name);
+    [DllImport(Library)] internal static extern long physvib_events_load(byte[] path, [In, Out] Event[] events, long capacity);
+    [DllImport(Library)] internal static extern long physvib_events_parse(byte[] text, [In, Out] Event[] events, long capacity);
     [DllImport(Library)] internal static extern int physvib_events_load_field(byte[] path, out double widthM, out double heightM);
     [DllImport(Library)] internal static extern int physvib_events_parse_field(byte[] text, out double widthM, out double heightM);
+    [DllImport(Library)] internal static extern int physvib_events_save(byte[] path, Event[] events, long count);
+    [DllImport(Library)] internal static extern int physvib_events_save_field(byte[] path, Event[] events, long count, double widthM, double heightM);
     [DllImport(Library)] internal static extern int physvib_wav_save(byte[] path, float[] samples, int channels, long frames, int rateHz);
-    [DllImport(Library)] internal static extern int physvib_render(ref RendererSettings settings, Event[] events, long count, long frames, [Out] float[] samples);
-    [DllImport(Library)] internal static extern int physvib_renderer_create(ref RendererSettings settings, out IntPtr renderer);
-    [DllImport(Library)] internal static extern int physvib_renderer_free(IntPtr renderer);
-    [DllImport(Library)] internal static extern int physvib_renderer_strike(IntPtr renderer, ref Event what);
+    [DllImport(Library)] internal static extern int physvib_render(ref RendererSettings settings, Event[] events, long count, long frames, [In, Out] float[] samples);
     [DllImport(Library)] internal static extern IntPtr physvib_material_name(int index);
     [DllImport(Library)] internal static extern int physvib_material(byte[] name, ref Body body);
     [DllImport(Library)] internal static extern int physvib_material_load(byte[] path, byte[] name, ref Body body);
     [DllImport(Library)] internal static extern int physvib_sound(byte[] name);
-    [DllImport(Library)] internal static extern int physvib_part(byte[] name);
-    [DllImport(Library)] internal static extern int physvib_event_of(byte[] material, double x, double y, double strength, out Event made);
-    [DllImport(Library)] internal static extern int physvib_renderer_impact(IntPtr renderer, double x, double y, double strength);
-    [DllImport(Library)] internal static extern int physvib_renderer_impact_of(IntPtr renderer, byte[] material, double x, double y, double strength);
-    [DllImport(Library)] internal static extern int physvib_renderer_pull_interleaved(IntPtr renderer, [Out] float[] samples, int channels, int frames);
+    [DllImport(Library)] internal static extern int physvib_event_of(byte[] material, double xM, double yM, double strength, ref Event what);
+    [DllImport(Library)] internal static extern int physvib_renderer_create(ref RendererSettings settings, out IntPtr renderer);
+    [DllImport(Library)] internal static extern int physvib_renderer_free(IntPtr renderer);
+    [DllImport(Library)] internal static extern int physvib_renderer_strike(IntPtr renderer, ref Event what);
+    [DllImport(Library)] internal static extern int physvib_renderer_impact(IntPtr renderer, double xM, double yM, double strength);
+    [DllImport(Library)] internal static extern int physvib_renderer_impact_of(IntPtr renderer, byte[] material, double xM, double yM, double strength);
+    [DllImport(Library)] internal static extern int physvib_renderer_pull(IntPtr renderer, IntPtr[] channels, int channelCount, int frames);
+    [DllImport(Library)] internal static extern int physvib_renderer_pull_interleaved(IntPtr renderer, [In, Out] float[] samples, int channelCount, int frames);
     [DllImport(Library)] internal static extern int physvib_renderer_set_gain(IntPtr renderer, long timeNs, int channel, double gain);
     [DllImport(Library)] internal static extern int physvib_renderer_set_mute(IntPtr renderer, long timeNs, int channel, int isMuted);
     [DllImport(Library)] internal static extern int physvib_renderer_set_level(IntPtr renderer, long timeNs, double gain);
@@ -480,41 +536,37 @@ static class Native {
     [DllImport(Library)] internal static extern int physvib_world_free(IntPtr world);
     [DllImport(Library)] internal static extern int physvib_world_configure(IntPtr world, ref WorldSettings settings);
     [DllImport(Library)] internal static extern int physvib_world_set_body(IntPtr world, int body, ref Body values);
+    [DllImport(Library)] internal static extern int physvib_world_device(IntPtr world, int body);
     [DllImport(Library)] internal static extern int physvib_world_remove_body(IntPtr world, int body);
-    [DllImport(Library)] internal static extern int physvib_world_move(IntPtr world, int body, double x, double y, double vx, double vy, double spin);
-    [DllImport(Library)] internal static extern int physvib_world_moved(IntPtr world, int body, double vx, double vy, double spin);
-    [DllImport(Library)] internal static extern int physvib_world_move_in_space(IntPtr world, int body, double[] centre, double[] velocity, double[] spin, double[] inverseInertia);
-    [DllImport(Library)] internal static extern int physvib_world_moved_in_space(IntPtr world, int body, double[] velocity, double[] spin);
-    internal static double[] Numbers(double[] found, int expected) { // an array without them is for the library to refuse
-        if (found != null && found.Length != expected) throw new ArgumentException("expected " + expected + " numbers");
-        return found;
-    }
+    [DllImport(Library)] internal static extern int physvib_world_move(IntPtr world, int body, double xM, double yM, double vxMPerS, double vyMPerS, double spinRadPerS);
+    [DllImport(Library)] internal static extern int physvib_world_moved(IntPtr world, int body, double vxMPerS, double vyMPerS, double spinRadPerS);
+    [DllImport(Library)] internal static extern int physvib_world_move_in_space(IntPtr world, int body, double[] centreM, double[] velocityMPerS, double[] spinRadPerS, double[] inverseInertiaPerKgM2);
+    [DllImport(Library)] internal static extern int physvib_world_moved_in_space(IntPtr world, int body, double[] velocityMPerS, double[] spinRadPerS);
     [DllImport(Library)] internal static extern int physvib_world_pair(IntPtr world, int surface, int other, double frequencyHz, double decayPerS, double gain);
-    [DllImport(Library)] internal static extern int physvib_world_begin_step(IntPtr world, double seconds, double gravity);
+    [DllImport(Library)] internal static extern int physvib_world_begin_step(IntPtr world, double seconds, double gravityMPerS2);
     [DllImport(Library)] internal static extern int physvib_world_touch(IntPtr world, ref Contact contact);
     [DllImport(Library)] internal static extern int physvib_world_begin(IntPtr world, ref Contact contact);
     [DllImport(Library)] internal static extern int physvib_world_push(IntPtr world, ref Contact contact);
     [DllImport(Library)] internal static extern int physvib_world_end(IntPtr world, int a, int b);
     [DllImport(Library)] internal static extern int physvib_world_end_step(IntPtr world);
     [DllImport(Library)] internal static extern long physvib_world_time_ns(IntPtr world);
-    [DllImport(Library)] internal static extern long physvib_world_take(IntPtr world, [Out] Event[] events, long capacity, int atOnce);
+    [DllImport(Library)] internal static extern long physvib_world_take(IntPtr world, [In, Out] Event[] events, long capacity, int atOnce);
     [DllImport(Library)] internal static extern long physvib_world_send(IntPtr world, IntPtr renderer, long laterNs, int atOnce);
     [DllImport(Library)] internal static extern long physvib_world_drops(IntPtr world);
-    [DllImport(Library)] internal static extern long physvib_world_thinned(IntPtr world);
     [DllImport(Library)] internal static extern int physvib_world_get_counts(IntPtr world, ref WorldCounts counts);
-    [DllImport(Library)] internal static extern int physvib_world_device(IntPtr world, int body);
     [DllImport(Library)] internal static extern int physvib_world_explain(IntPtr world, [Out] byte[] text, UIntPtr size);
-    [DllImport(Library)] internal static extern int physvib_renderer_explain(IntPtr renderer, IntPtr world, [Out] byte[] text, UIntPtr size);
-    [DllImport(Library)] internal static extern int physvib_output_facts_init(ref OutputFacts facts, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_world_explain_output(IntPtr world, ref OutputFacts facts, [Out] byte[] text, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_renderer_explain(IntPtr renderer, IntPtr world, [Out] byte[] text, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_world_note(IntPtr world, int body, int note);
-    [DllImport(Library)] internal static extern int physvib_pads_create(int count, double fieldWidth, double fieldHeight, byte[] profile, out IntPtr pads);
+    [DllImport(Library)] internal static extern long physvib_world_thinned(IntPtr world);
+    [DllImport(Library)] internal static extern int physvib_pads_create(int count, double fieldWidthM, double fieldHeightM, byte[] profile, out IntPtr pads);
     [DllImport(Library)] internal static extern int physvib_pads_free(IntPtr pads);
     [DllImport(Library)] internal static extern int physvib_pads_strike(IntPtr pads, int pad, ref Event what);
     [DllImport(Library)] internal static extern long physvib_pads_send(IntPtr pads, int pad, IntPtr world, long laterNs, int atOnce);
-    [DllImport(Library)] internal static extern int physvib_pads_pull(IntPtr pads, long untilNs, [Out] Motors[] motors, int capacity);
+    [DllImport(Library)] internal static extern int physvib_pads_pull(IntPtr pads, long untilNs, [In, Out] Motors[] motors, int capacity);
     [DllImport(Library)] internal static extern int physvib_pads_stop(IntPtr pads);
     [DllImport(Library)] internal static extern int physvib_pads_set_level(IntPtr pads, double gain);
 }
+// End of what bindings.py has written.
 
 }

@@ -6,14 +6,7 @@ using System.Runtime.InteropServices;
 namespace PhysVib {
 
 /// <summary>Begin with Create(), and change what you like; see physvib_live_settings.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct LiveSettings {
-    UIntPtr size;
-    public int RateHz, BlockFrames, StepsPerS;
-    public double LongestGapS, LevelDb;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 1024)] byte[] save;
-    public int FirstOutput;
-    int unused;
+public partial struct LiveSettings {
     /// <summary>A session file (.json) of all that is struck, written while it plays; "": none.</summary>
     public string Save {
         get { return System.Text.Encoding.UTF8.GetString(save, 0, Math.Max(0, Array.IndexOf(save, (byte)0))); }
@@ -32,16 +25,7 @@ public struct LiveSettings {
 }
 
 /// <summary>What it does, and what is wrong; see physvib_live_status.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct LiveStatus {
-    UIntPtr size;
-    public int IsRunning, IsSilent, RateHz, BlockFrames, LiveModes, Losses, Xruns;
-    public double Load, WorstLoad;
-    public long Played, Late, Rejected;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] byte[] trouble;
-    public int Board;
-    int unused;
-    public long BoardSent, BoardLost, Dropped;
+public partial struct LiveStatus {
     /// <summary>What is missing, one line; "": nothing.</summary>
     public string Trouble { get { return System.Text.Encoding.UTF8.GetString(trouble, 0, Math.Max(0, Array.IndexOf(trouble, (byte)0))); } }
     internal static LiveStatus Create() {
@@ -52,12 +36,7 @@ public struct LiveStatus {
 }
 
 /// <summary>What left for an actuator in a span of session time; see physvib_live_receipt.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct LiveReceipt {
-    UIntPtr size;
-    public long Frames;
-    public double Peak, MeanSquare;
-    public int Running, Opening, Over, Kept;
+public partial struct LiveReceipt {
     internal static LiveReceipt Create() {
         var made = new LiveReceipt();
         LiveNative.Check(LiveNative.physvib_live_receipt_init(ref made, Native.SizeOf(made)));
@@ -66,12 +45,7 @@ public struct LiveReceipt {
 }
 
 /// <summary>Something that can be opened; see physvib_device.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public struct Device {
-    UIntPtr size;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] byte[] name;
-    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] byte[] about;
-    public int Kind, Channels;
+public partial struct Device {
     public string Name { get { return Text(name); } }
     public string About { get { return Text(about); } }
     static string Text(byte[] from) { return System.Text.Encoding.UTF8.GetString(from, 0, Math.Max(0, Array.IndexOf(from, (byte)0))); }
@@ -101,7 +75,7 @@ public sealed class Live : IDisposable {
     /// <summary>The output latency L: what is struck at session time t leaves for the device at t + L.</summary>
     public long LatencyNs { get { return LiveNative.Check(LiveNative.physvib_live_latency_ns(name)); } }
     /// <summary>Events at session times; those that are over, at once.</summary>
-    public void Strike(params Event[] events) { LiveNative.Check(LiveNative.physvib_live_strike(name, events, events.Length)); }
+    public void Strike(params Event[] events) { LiveNative.Check(LiveNative.physvib_live_strike(name, Event.Sized(events), events.Length)); }
     /// <summary>One impact now; strength: 0 to 1 of full scale. Of a built-in material, or else of 200 Hz.</summary>
     public void Impact(double x_m, double y_m, double strength, string material = null) {
         LiveNative.Check(material == null ? LiveNative.physvib_live_impact(name, x_m, y_m, strength) : LiveNative.physvib_live_impact_of(name, Native.Utf8(material), x_m, y_m, strength));
@@ -156,7 +130,7 @@ public sealed class Live : IDisposable {
     }
 }
 
-static class LiveNative {
+static partial class LiveNative {
 #if UNITY_5_3_OR_NEWER
     const string Library = "physvib-live";
 #else
@@ -169,29 +143,78 @@ static class LiveNative {
         return result;
     }
 
+}
+
+// Written by Source/Api/bindings.py: change the header, not this.
+[StructLayout(LayoutKind.Sequential)]
+public partial struct LiveSettings {
+    UIntPtr size;
+    public int RateHz, BlockFrames, StepsPerS;
+    public double LongestGapS, LevelDb;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 1024)] byte[] save;
+    public int FirstOutput;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct LiveStatus {
+    UIntPtr size;
+    public int IsRunning, IsSilent, RateHz, BlockFrames, LiveModes, Losses, Xruns;
+    public double Load, WorstLoad;
+    public long Played, Late, Rejected;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] byte[] trouble;
+    public int Board;
+    public long BoardSent, BoardLost, Dropped;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct LiveReceipt {
+    UIntPtr size;
+    public long Frames;
+    public double Peak, MeanSquare;
+    public int Running, Opening, Over, Kept;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public partial struct Device {
+    UIntPtr size;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] byte[] name;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] byte[] about;
+    public int Kind, Channels;
+}
+
+static partial class LiveNative {
     [DllImport(Library)] internal static extern IntPtr physvib_live_error();
     [DllImport(Library)] internal static extern int physvib_live_settings_init(ref LiveSettings settings, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_live_status_init(ref LiveStatus status, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_live_receipt_init(ref LiveReceipt receipt, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_live_devices([In, Out] Device[] devices, int capacity, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_live_open(byte[] device, ref RendererSettings renderer, ref LiveSettings settings, out IntPtr live);
     [DllImport(Library)] internal static extern int physvib_live_close(IntPtr live);
     [DllImport(Library)] internal static extern long physvib_live_now_ns(IntPtr live);
     [DllImport(Library)] internal static extern long physvib_live_latency_ns(IntPtr live);
     [DllImport(Library)] internal static extern int physvib_live_strike(IntPtr live, Event[] events, long count);
-    [DllImport(Library)] internal static extern int physvib_live_impact(IntPtr live, double x, double y, double strength);
-    [DllImport(Library)] internal static extern int physvib_live_impact_of(IntPtr live, byte[] material, double x, double y, double strength);
+    [DllImport(Library)] internal static extern int physvib_live_impact(IntPtr live, double xM, double yM, double strength);
+    [DllImport(Library)] internal static extern int physvib_live_impact_of(IntPtr live, byte[] material, double xM, double yM, double strength);
     [DllImport(Library)] internal static extern int physvib_live_align(IntPtr live, IntPtr world, ref long startNs);
     [DllImport(Library)] internal static extern long physvib_live_send(IntPtr live, IntPtr world, long startNs, int atOnce);
     [DllImport(Library)] internal static extern long physvib_live_send_each(IntPtr[] lives, int count, IntPtr world, [In, Out] long[] startsNs);
-    [DllImport(Library)] internal static extern int physvib_live_devices([In, Out] Device[] devices, int capacity, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_live_set_gain(IntPtr live, int channel, double gain);
     [DllImport(Library)] internal static extern int physvib_live_set_mute(IntPtr live, int channel, int isMuted);
     [DllImport(Library)] internal static extern int physvib_live_set_layout(IntPtr live, ref RendererSettings renderer);
     [DllImport(Library)] internal static extern int physvib_live_set_level(IntPtr live, double levelDb);
     [DllImport(Library)] internal static extern int physvib_live_silence(IntPtr live, int isSilent);
     [DllImport(Library)] internal static extern int physvib_live_get_status(IntPtr live, ref LiveStatus status);
-    [DllImport(Library)] internal static extern int physvib_live_receipt_init(ref LiveReceipt receipt, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_live_left(IntPtr live, long fromNs, long toNs, int actuator, ref LiveReceipt receipt);
     [DllImport(Library)] internal static extern int physvib_live_explain(IntPtr live, IntPtr world, [Out] byte[] text, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_session_load(byte[] path, out IntPtr session);
+    [DllImport(Library)] internal static extern int physvib_session_create(ref RendererSettings renderer, Event[] events, long count, long lengthNs, out IntPtr session);
+    [DllImport(Library)] internal static extern int physvib_session_free(IntPtr session);
+    [DllImport(Library)] internal static extern int physvib_session_save(IntPtr session, byte[] path);
+    [DllImport(Library)] internal static extern long physvib_session_length_ns(IntPtr session);
+    [DllImport(Library)] internal static extern int physvib_session_get_renderer(IntPtr session, ref RendererSettings renderer);
+    [DllImport(Library)] internal static extern long physvib_session_events(IntPtr session, long endNs, [In, Out] Event[] events, long capacity);
+    [DllImport(Library)] internal static extern int physvib_session_render(IntPtr session, int rateHz, long frames, [In, Out] float[] samples);
 }
+// End of what bindings.py has written.
 
 }

@@ -263,6 +263,7 @@ Value HapticWorld::actuatorPlaces() {
 // What the signal calls may free the world: it is looked for before each event.
 void HapticWorld::emitAll() {
     std::vector<physvib_event> events(64);
+    events.front().size = sizeof events.front();
     std::vector<Value> hits;
     physvib_int64 count = 0;
     do {
@@ -410,7 +411,7 @@ void HapticWorld::forget() {
     if (world == nullptr) return;
     if (isOpen) checkWorld(physvib_world_end_step(world));
     isOpen = false;
-    physvib_event ignored;
+    physvib_event ignored{};
     while (physvib_world_take(world, &ignored, 1, 1) > 0) {
     }
     for (const auto& [id, each] : watched) physvib_world_remove_body(world, each.number);

@@ -61,15 +61,13 @@ double PHYSVIB_JS(clip_place)(int channel, int axis) {
 /// JavaScript.
 int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_renderer_settings* settings,
                         double error) {
-    const std::span list{events, static_cast<std::size_t>(count)};
+    std::vector<CollisionEvent> own;
     RendererSettings wanted;
     if (const auto fault = api::convert(*settings, wanted); !fault.empty()) refuse(fault);
-    if (const auto fault = api::faultOf(list); !fault.empty()) refuse(fault);
-    if (list.size() > limits::maxClipStrikes)
+    if (const auto fault = api::readSorted(events, count, own); !fault.empty()) refuse(fault);
+    if (own.size() > limits::maxClipStrikes)
         refuse("events: expected at most " + std::to_string(limits::maxClipStrikes));
     if (!(error > 0.0 && error <= 0.5)) refuse("error: expected more than 0, to 0.5");
-    std::vector<CollisionEvent> own;
-    for (const physvib_event& event : list) own.push_back(api::eventOf(event));
     const PhantomPanner& panner = wanted.panner;
     clip = clipOfStrikes(own, {error, static_cast<std::size_t>(panner.channels()),
                                [&](const CollisionEvent& e, PhantomPanner::Gains& gains) {

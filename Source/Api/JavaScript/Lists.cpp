@@ -12,12 +12,9 @@ extern "C" {
 
 /// Writes an event list with its field, if given, to text(); errors as in physvib.h.
 int PHYSVIB_JS(events_text)(const physvib_event* events, int count, double width, double height) {
-    const std::span list{events, static_cast<std::size_t>(count)};
-    if (const auto fault = api::faultOf(list); !fault.empty())
-        return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
     std::vector<CollisionEvent> own;
-    own.reserve(list.size());
-    for (const physvib_event& event : list) own.push_back(api::eventOf(event));
+    if (const auto fault = api::readSorted(events, count, own); !fault.empty())
+        return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
     text() = eventsCsv(own, {width, height}, {PHYSVIB_VERSION, {}});
     return PHYSVIB_OK;
 }

@@ -45,9 +45,10 @@ void PHYSVIB_JS(pad_free)(ScriptPad* pad) { delete pad; }
 
 /// Queues an event at the time at which it is to be felt. Returns 0, or an error.
 int PHYSVIB_JS(pad_strike)(ScriptPad* pad, const physvib_event* event) {
-    if (const auto fault = api::faultOf({event, 1}); !fault.empty())
+    CollisionEvent own;
+    if (const auto fault = api::readEvent(*event, own); !fault.empty())
         return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
-    pad->strike(api::eventOf(*event));
+    pad->strike(own);
     return PHYSVIB_OK;
 }
 

@@ -32,17 +32,11 @@ int change(physvib_live name, RenderControl::Kind kind, int channel, double valu
     });
 }
 
-int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs) {
+int strike(Live& live, const physvib_event* given, std::int64_t count, std::int64_t startNs) {
     std::vector<CollisionEvent> events;
-    events.reserve(told.size());
-    for (const physvib_event& event : told) {
-        events.push_back(eventOf(event));
-        // events before the session's start are late and play at once
-        if (startNs != 0) events.back().timeNs = std::max<std::int64_t>(0, events.back().timeNs + startNs);
-    }
-    if (!std::ranges::all_of(events, [](const CollisionEvent& e) { return isPlayable(e); }))
-        return nothingThere("event: expected 0 to 20000 Hz, a decay or a duration, below 5 Hz a decay of at "
-                            "least 1 per second, numbers, a time from 0 on");
+    if (const auto fault = readEvents(given, count, events); !fault.empty()) return nothingThere(fault);
+    for (CollisionEvent& event : events) // those before the session's start are late and play at once
+        event.timeNs = std::clamp<std::int64_t>(event.timeNs + startNs, 0, limits::maxTimeNs);
     if (live.session().pulse().dropsNow(events.size())) return PHYSVIB_OK; // told by the status
     return live.session().submit({Strikes{events, true}, 0})
                ? PHYSVIB_OK
@@ -52,7 +46,8 @@ int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs
 /// Takes all events of a world, in parts; returns their number, or the first error.
 template <class Play>
 physvib_int64 takeAll(physvib_world world, int atOnce, Play play) {
-    std::array<physvib_event, 128> part;
+    std::array<physvib_event, 128> part{};
+    part.front().size = sizeof part.front(); // the other library may know a longer one
     for (physvib_int64 sent = 0;;) {
         const physvib_int64 count = physvib_world_take(world, part.data(), part.size(), atOnce);
         if (count < 0) return fail(static_cast<int>(count), physvib_error());
@@ -112,7 +107,7 @@ int physvib_live_strike(physvib_live name, const physvib_event* events, physvib_
     return in(name, [&](Live& live) {
         if (count < 0 || (events == nullptr && count > 0))
             return nothingThere("events: expected some, found NULL");
-        return strike(live, {events, static_cast<std::size_t>(count)}, 0);
+        return strike(live, events, count, 0);
     });
 }
 
@@ -132,8 +127,9 @@ physvib_int64 physvib_live_send(physvib_live name, physvib_world world, physvib_
     return in(name, [&](Live& live) -> physvib_int64 {
         if (startNs < -limits::maxTimeNs / 4 || startNs > limits::maxTimeNs / 4)
             return nothingThere("start: expected at most 2.5 * 10^16 ns from 0");
-        return takeAll(world, atOnce,
-                       [&](std::span<const physvib_event> part) { return strike(live, part, startNs); });
+        return takeAll(world, atOnce, [&](std::span<const physvib_event> part) {
+            return strike(live, part.data(), std::ssize(part), startNs);
+        });
     });
 }
 
@@ -155,7 +151,9 @@ physvib_int64 physvib_live_send_each(const physvib_live* names, int count, physv
                     return (device < count ? device : 0) == k;
                 });
                 if (!own.empty())
-                    code = in(names[k], [&](Live& live) { return strike(live, own, startsNs[k]); });
+                    code = in(names[k], [&](Live& live) {
+                        return strike(live, own.data(), std::ssize(own), startsNs[k]);
+                    });
             }
             return code;
         });
@@ -242,7 +240,7 @@ int physvib_live_impact(physvib_live live, double x, double y, double strength) 
 
 int physvib_live_impact_of(physvib_live live, const char* material, double x, double y, double strength) {
     return guarded([&] {
-        physvib_event event;
+        physvib_event event = noEvent();
         if (const int code = physvib_event_of(material, x, y, strength, &event); code != PHYSVIB_OK)
             return fail(code, std::string{physvib_error()}); // the other library's text
         event.time_ns = physvib_live_now_ns(live);
@@ -325,7 +323,7 @@ physvib_renderer_settings settingsOf(const PhantomPanner& panner) {
     settings.exponent = panner.exponent();
     settings.field_width_m = panner.fieldWidthMetres();
     settings.field_height_m = panner.fieldHeightMetres();
-    settings.layout = layoutOf(panner.layout());
+    writeLayout(panner.layout(), settings.layout);
     return settings;
 }
 

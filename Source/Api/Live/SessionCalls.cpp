@@ -68,8 +68,8 @@ int physvib_session_create(const physvib_renderer_settings* renderer, const phys
         *session = nullptr;
         RendererSettings wanted;
         if (!takeRenderer(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-        const std::span list{events, static_cast<std::size_t>(count)};
-        if (const auto fault = faultOf(list); !fault.empty()) return nothingThere(fault);
+        std::vector<CollisionEvent> own;
+        if (const auto fault = readSorted(events, count, own); !fault.empty()) return nothingThere(fault);
         if (!isWithinADay(lengthNs)) return nothingThere("length: expected nothing to a day");
         SavedSession made;
         made.panner = wanted.panner;
@@ -77,7 +77,7 @@ int physvib_session_create(const physvib_renderer_settings* renderer, const phys
         made.limiterEnabled = wanted.limiterEnabled;
         made.lengthNs = lengthNs;
         made.log.takes.push_back(emptyTake());
-        for (const physvib_event& event : list) made.log.strikes.push_back(eventOf(event));
+        made.log.strikes.assign(own.begin(), own.end());
         return keep(std::move(made), session);
     });
 }
@@ -113,7 +113,8 @@ int physvib_session_get_renderer(physvib_session name, physvib_renderer_settings
         told.exponent = session.panner.exponent();
         told.field_width_m = session.panner.fieldWidthMetres();
         told.field_height_m = session.panner.fieldHeightMetres();
-        told.layout = layoutOf(session.panner.layout());
+        if (const int code = writeLayout(session.panner.layout(), told.layout); code != PHYSVIB_OK)
+            return code;
         std::memcpy(renderer, &told, told.size);
         return PHYSVIB_OK;
     });
@@ -127,10 +128,8 @@ physvib_int64 physvib_session_events(physvib_session name, physvib_int64 endNs, 
         if (!isWithinADay(endNs)) return nothingThere("end: expected nothing to a day");
         auto all = sessionEvents(session, endNs).events;
         std::ranges::transform(all, all.begin(), EventShaper{session.shaping});
-        const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(all));
-        std::transform(all.begin(), all.begin() + count, events,
-                       [](const CollisionEvent& e) { return eventOf(e); });
-        return std::ssize(all);
+        const std::int64_t written = writeEvents(all, events, capacity);
+        return written < 0 ? written : std::ssize(all);
     });
 }
 

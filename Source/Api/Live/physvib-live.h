@@ -37,7 +37,6 @@ typedef struct physvib_live_settings {
     char save[1024];  /**< a session file (.json, UTF-8) of all events, written while it plays, a list of its
                          events beside it; "": none ("") */
     int first_output; /**< actuator j is output first_output + j of the device, from 0 (0) */
-    int unused;       /**< 0 */
 } physvib_live_settings;
 
 #define PHYSVIB_BOARD_NONE 0   /**< no board was opened */
@@ -61,7 +60,6 @@ typedef struct physvib_live_status {
     physvib_int64 rejected;   /**< could not be played */
     char trouble[256];        /**< one-line error; "": none */
     int board;                /**< PHYSVIB_BOARD_NONE and so on */
-    int unused;               /**< 0 */
     physvib_int64 board_sent; /**< events sent to the board so far */
     physvib_int64 board_lost; /**< of these: dropped, because the line was full, they were late or the board
                                  cannot play them */

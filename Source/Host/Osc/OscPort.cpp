@@ -18,12 +18,12 @@ OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& m
     : session_{session}
     , device_{device}
     , input_{session, messages, std::move(hooks), settings.turnRadians} {
-    const auto use = [this](OscSocket& socket, Result<OscSocket> opened) {
+    const auto use = [this](UdpSocket& socket, Result<UdpSocket> opened) {
         if (error_.empty()) error_ = opened.error;
         socket = std::move(opened.value);
     };
-    if (settings.port) use(in_, OscSocket::listening(settings.address, *settings.port));
-    if (!settings.receiver.empty()) use(out_, OscSocket::connected(settings.receiver));
+    if (settings.port) use(in_, UdpSocket::listening(settings.address, *settings.port));
+    if (!settings.receiver.empty()) use(out_, UdpSocket::connected(settings.receiver));
     if (!error_.empty()) return;
     if (in_.isOpen()) address_ = settings.address + ":" + std::to_string(in_.port());
     if (in_.isOpen()) reader_ = std::thread{[this] { read(); }};
@@ -90,7 +90,7 @@ void OscPort::receive() {
 }
 
 // Replies go first, so that refusals do not use up their byte limit.
-void OscPort::reply(std::size_t packetBytes, const OscSender& to) {
+void OscPort::reply(std::size_t packetBytes, const UdpSender& to) {
     if (answers_.empty() && input_.refusals().empty()) return;
     replies_.begin(to.text(), packetBytes, steadyNs());
     for (const auto& answer : answers_)
@@ -99,7 +99,7 @@ void OscPort::reply(std::size_t packetBytes, const OscSender& to) {
     input_.holdBack(replies_.heldBack());
 }
 
-void OscPort::sendRefusal(const OscRefusal& refusal, const OscSender& to) {
+void OscPort::sendRefusal(const OscRefusal& refusal, const UdpSender& to) {
     if (!replies_.mayRefuse(refusal.reason)) return;
     const auto bytes = oscWords(std::string(oscErrorAddress), {refusal.address, refusal.reason});
     if (replies_.mayReply(bytes.size())) in_.answer(bytes, to);
@@ -114,7 +114,7 @@ void OscPort::refuse(const OscOrigin& origin, const std::string& reason) {
 }
 
 void OscPort::refuseLate() {
-    std::vector<std::pair<OscRefusal, OscSender>> late;
+    std::vector<std::pair<OscRefusal, UdpSender>> late;
     {
         const std::lock_guard lock{mutex_};
         late.swap(late_);

@@ -3,11 +3,11 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Host/Osc/OscReceiver.h"
-#include "Host/Osc/OscSocket.h"
 #include "Live/Messages/ErrorRateLimit.h"
 #include "Live/Session/Input.h"
 #include "Live/Session/OutputClock.h"
 #include "Live/Session/Sink.h"
+#include "Live/Sockets/UdpSocket.h"
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -146,16 +146,16 @@ private:
     /// A packet that was read but not yet executed.
     struct Packet {
         std::vector<char> bytes;
-        OscSender from;
+        UdpSender from;
         std::uint64_t silences = 0; // requests before this packet
     };
     void read();
     void readAll();
     void run();
     void receive();
-    void reply(std::size_t packetBytes, const OscSender& to);
+    void reply(std::size_t packetBytes, const UdpSender& to);
     void refuseLate();
-    void sendRefusal(const OscRefusal& refusal, const OscSender& to);
+    void sendRefusal(const OscRefusal& refusal, const UdpSender& to);
     void followClock();
     void tellStatus();
     void count(bool left) noexcept;
@@ -163,7 +163,7 @@ private:
     Session& session_;
     OutputClock& device_;
     OscReceiver input_;
-    OscSocket in_, out_;
+    UdpSocket in_, out_;
     std::string error_;
     std::string address_, fault_;
     std::vector<std::vector<char>> answers_;
@@ -172,7 +172,7 @@ private:
     mutable std::mutex mutex_; // guards the members below; only the port's thread changes the clock
     OscClock clock_;
     OscCounts counts_;
-    std::vector<std::pair<OscRefusal, OscSender>> late_; // the port's thread sends them
+    std::vector<std::pair<OscRefusal, UdpSender>> late_; // the port's thread sends them
     std::uint64_t lateHeld_ = 0;                         // refusals that found `late_` full
     std::atomic<std::uint64_t> sent_{0}, unsent_{0};
     std::atomic<bool> stop_{false};

@@ -61,7 +61,7 @@ OscReceiver::OscReceiver(Session& session, MessageRouter& messages, OscHooks hoo
 
 void OscReceiver::receive(std::span<const char> bytes, const OscClock& clock,
                           std::vector<std::vector<char>>& answers, std::uint64_t silences,
-                          const OscSender& from) {
+                          const UdpSender& from) {
     silences_ = silences;
     origin_.from = from;
     ++counts_.packets;

@@ -4,11 +4,11 @@
 #pragma once
 #include "Core/Units.h"
 #include "Host/Osc/OscPacket.h"
-#include "Host/Osc/OscSocket.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Live/Session/OutputClock.h"
 #include "Live/Session/Session.h"
+#include "Live/Sockets/UdpSocket.h"
 #include "Scene/Scene.h"
 #include <array>
 #include <cstdint>
@@ -116,7 +116,7 @@ inline constexpr std::string_view oscPrefix = "/physvib/", oscAnswerPrefix = "/p
 
 /// Sender of a message, to which a refusal is sent.
 struct OscOrigin {
-    OscSender from;
+    UdpSender from;
     std::string address; ///< of the message
 };
 
@@ -161,7 +161,7 @@ public:
     /// Executes a packet. Replies to queries and to silence, one packet each, are appended to `answers`.
     /// `silences`: number of silence requests before this packet.
     void receive(std::span<const char> bytes, const OscClock& clock, std::vector<std::vector<char>>& answers,
-                 std::uint64_t silences = 0, const OscSender& from = {});
+                 std::uint64_t silences = 0, const UdpSender& from = {});
 
     /// Messages of the last packet that were refused, except replies: two programs that refuse each other's
     /// refusals would never stop.

@@ -19,6 +19,7 @@ const textOf = module => module.bytes(module.run('js_text'), module.run('js_text
 const bytesOf = data => (typeof data === 'string' ? new TextEncoder().encode(data) : data instanceof ArrayBuffer ? new Uint8Array(data) : data);
 
 export const parseLayout = (compiled, text) => apart(compiled, 'layout', module => module.withText(text, from => module.borrow(module.sizeOf('layout'), to => {
+    module.begin('layout', to);
     module.call('layout_parse', from, to);
     return layoutAt(module, to);
 })));
@@ -26,6 +27,7 @@ export const parseLayout = (compiled, text) => apart(compiled, 'layout', module 
 export const parseEvents = (compiled, text) => apart(compiled, 'events', module => module.withText(text, from => {
     const count = Number(module.call('events_parse', from, 0, 0n));
     return module.borrow(count * module.sizeOf('event'), to => {
+        if (count > 0) module.begin('event', to);
         module.call('events_parse', from, to, BigInt(count));
         return Object.assign(module.eventsAt(to, count), fieldSaid(module, from));
     });

@@ -176,6 +176,13 @@ export class Module {
         });
     }
 
+    /** Structures of zeros that say their size. */
+    begin(structure, at, count = 1) {
+        const size = this.sizeOf(structure);
+        this.bytes(at, count * size).fill(0);
+        for (let i = 0; i < count; ++i) this.view.setUint32(at + i * size, size, true);
+    }
+
     handleOf(create) {
         return this.borrow(4, at => {
             create(at);
@@ -186,7 +193,7 @@ export class Module {
     withEvents(events, use) {
         const size = this.sizeOf('event');
         return this.borrow(events.length * size, at => {
-            this.bytes(at, events.length * size).fill(0);
+            this.begin('event', at, events.length);
             for (let i = 0; i < events.length; ++i) {
                 this.put('event', at + i * size, events[i]);
                 if (events[i].fixture === undefined) this.put('event', at + i * size, { fixture: -1 });

@@ -66,6 +66,7 @@ export class PhysVib {
     layout(name) {
         const module = this.#module;
         return module.borrow(module.sizeOf('layout'), at => {
+            module.begin('layout', at);
             module.withText(name, text => module.call('layout_preset', text, at));
             return layoutAt(module, at);
         });

@@ -96,6 +96,7 @@ export class World {
     take(atOnce = false) {
         const all = [];
         for (;;) {
+            this.#module.begin('event', this.#room);
             const count = Number(this.#module.call('world_take', this.#name, this.#room, BigInt(eventsAtOnce), atOnce ? 1 : 0));
             all.push(...this.#module.eventsAt(this.#room, count));
             if (count < eventsAtOnce) return all;

@@ -6,7 +6,8 @@
 >>> samples = physvib.render(hit, seconds=1.0, layout="phone4")  # float32, shape (4, 48000)
 >>> physvib.save_wav("hit.wav", samples)
 """
-from ._library import AUTOMATIC, EVENT, HIT, ROLL, SLIDE, PhysVibError, version
+from ._header import AUTOMATIC, EVENT, HIT, ROLL, SLIDE
+from ._library import PhysVibError, version
 from .files import EventList, events, events_of, frame, load_events, parse_events, render, save_events, save_wav
 from .layout import Layout
 from .live import Device, Live, LiveStatus, Receipt, devices, follow_each

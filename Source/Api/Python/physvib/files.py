@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._library import EVENT, HIT, PhysVibError, call, encoded
+from ._header import EVENT, HIT
+from ._library import PhysVibError, blank_events, call, encoded
 from .layout import Layout, settings
 from .material_table import part
 
@@ -25,7 +26,7 @@ class EventList(np.ndarray):
 
 
 def _listed(count: int, name: str, source: bytes) -> EventList:
-    made, width, height = np.zeros(count, dtype=EVENT).view(EventList), ctypes.c_double(), ctypes.c_double()
+    made, width, height = blank_events(count).view(EventList), ctypes.c_double(), ctypes.c_double()
     call(name, source, ctypes.byref(width), ctypes.byref(height))
     made.field_m = (width.value, height.value) if width.value > 0 else None
     return made
@@ -48,7 +49,7 @@ def events(time_s: ArrayLike, *, frequency_hz: ArrayLike, decay_per_s: ArrayLike
     shape = np.broadcast(seconds, frequency_hz, decay_per_s, amplitude, x_m, y_m, durations, kind, z_m, part).shape or (1,)
     if len(shape) > 1:
         raise PhysVibError(f"events: expected one number, or n of them, for each, found an array of shape {shape}", -2)
-    made = np.zeros(shape, dtype=EVENT)
+    made = blank_events(shape)
     made["time_ns"], made["duration_ns"] = np.rint(seconds * 1e9), np.rint(durations * 1e9)
     for name, values in (("frequency_hz", frequency_hz), ("decay_per_s", decay_per_s), ("amplitude", amplitude), ("x_m", x_m), ("y_m", y_m), ("kind", kind), ("z_m", z_m), ("part", _parts(part))):
         made[name] = values
@@ -110,10 +111,11 @@ def events_of(table: Any) -> NDArray[np.void]:
 
 
 def checked(list_of: ArrayLike) -> NDArray[np.void]:
-    """Events that the library can read where they are."""
-    array = np.ascontiguousarray(events_of(list_of) if hasattr(list_of, "columns") else list_of)
+    """A copy of events, as the library reads it."""
+    array = np.array(events_of(list_of) if hasattr(list_of, "columns") else list_of, order="C")
     if array.dtype != EVENT:
         raise PhysVibError("events: expected an array of physvib.EVENT, or a DataFrame with the columns of event lists", -2)
+    array["size"] = EVENT.itemsize
     return array.reshape(-1)
 
 

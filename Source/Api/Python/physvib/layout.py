@@ -7,7 +7,8 @@ import itertools
 import os
 from typing import Sequence
 
-from ._library import MAX_ENCHANTERS, CLayout, CRendererSettings, PhysVibError, call, encoded, filled, library
+from ._header import MAX_ENCHANTERS, CLayout, CRendererSettings
+from ._library import PhysVibError, call, encoded, filled, library
 from .material_table import part
 
 LAWS = tuple(name.decode() for name in itertools.takewhile(bool, map(library.physvib_law_name, itertools.count())))
@@ -30,21 +31,21 @@ class Layout:
     @classmethod
     def preset(cls, name: str) -> Layout:
         """By its name, "phone4": they stand in Docs/panning.md."""
-        c = CLayout()
+        c = filled(CLayout, "layout_init")
         call("layout_preset", name.encode(), ctypes.byref(c))
         return cls._of(c)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Layout:
         """A layout file (JSON)."""
-        c = CLayout()
+        c = filled(CLayout, "layout_init")
         call("layout_load", encoded(path), ctypes.byref(c))
         return cls._of(c)
 
     @classmethod
     def parse(cls, text: str) -> Layout:
         """The text of a layout file (JSON)."""
-        c = CLayout()
+        c = filled(CLayout, "layout_init")
         call("layout_parse", text.encode(), ctypes.byref(c))
         return cls._of(c)
 
@@ -68,7 +69,7 @@ class Layout:
         return cls(places, (c.extent_width_m, c.extent_height_m), c.part[:c.count])
 
     def _c(self) -> CLayout:
-        c = CLayout(extent_width_m=self.extent_m[0], extent_height_m=self.extent_m[1], count=len(self))
+        c = CLayout(size=ctypes.sizeof(CLayout), extent_width_m=self.extent_m[0], extent_height_m=self.extent_m[1], count=len(self))
         for j, (place, part_of_it) in enumerate(zip(self.places_m, self.parts)):
             c.x_m[j], c.y_m[j], c.z_m[j] = (*place, 0.0)[:3]
             c.part[j] = part_of_it

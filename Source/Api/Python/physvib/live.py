@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._library import PhysVibError, encoded, explained
-from ._live_library import CDevice, CLiveReceipt, CLiveSettings, CLiveStatus, live_call
+from ._live_header import CDevice, CLiveReceipt, CLiveSettings, CLiveStatus
+from ._live_library import live_call
 from .files import checked
 from .layout import Layout, settings
 from .world import World

@@ -9,7 +9,8 @@ from typing import TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import EVENT, CBody, call, encoded, filled, library
+from ._header import CBody
+from ._library import blank_events, call, encoded, filled, library
 
 
 class Material(TypedDict):
@@ -53,6 +54,6 @@ def part(name: str) -> int:
 
 def impact(x_m: float, y_m: float, strength: float, *, material: str | None = None) -> NDArray[np.void]:
     """One impact at time 0, dtype EVENT, shape (1,): 0 to 1 of full scale; of a built-in material, else of 200 Hz."""
-    made = np.zeros(1, dtype=EVENT)
+    made = blank_events(1)
     call("event_of", None if material is None else material.encode(), x_m, y_m, strength, made.ctypes.data)
     return made

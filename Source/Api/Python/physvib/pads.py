@@ -9,7 +9,8 @@ from ctypes import c_void_p
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import CMotors, Owned, call, encoded
+from ._header import CMotors
+from ._library import Owned, call, encoded
 from .files import checked
 from .world import World
 

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import CRendererStatus, Owned, PhysVibError, call, filled, library
+from ._header import CRendererStatus
+from ._library import Owned, PhysVibError, call, filled, library
 from .files import checked
 from .layout import Layout, settings
 

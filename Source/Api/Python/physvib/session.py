@@ -9,7 +9,8 @@ from ctypes import c_void_p
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import EVENT, CRendererSettings, Owned, PhysVibError, encoded, filled
+from ._header import CRendererSettings
+from ._library import Owned, PhysVibError, blank_events, encoded, filled
 from ._live_library import live_call
 from .files import checked, field_of
 from .layout import LAWS, Layout, settings
@@ -74,7 +75,7 @@ class Session(Owned):
     def events(self, seconds: float | None = None) -> NDArray[np.void]:
         """What was felt, dtype EVENT, shape (n,), by simulating its worlds again: of its first seconds, or of all of it."""
         end = live_call("session_length_ns", self._handle) if seconds is None else _ns(seconds)
-        made = np.zeros(live_call("session_events", self._handle, end, None, 0), dtype=EVENT)
+        made = blank_events(live_call("session_events", self._handle, end, None, 0))
         live_call("session_events", self._handle, end, made.ctypes.data, len(made))
         return made
 

@@ -12,16 +12,15 @@ from typing import Iterator, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import EVENT, CBody, CContact, COutputFacts, CWorldCounts, CWorldSettings, Owned, PhysVibError, call, explained, filled
+from ._header import POINT_BY_PLACE, SOFT_WHOLE, CBody, CContact, COutputFacts, CWorldCounts, CWorldSettings
+from ._library import Owned, PhysVibError, blank_events, call, explained, filled
 from .renderer import Renderer
 
 VOICES = ("own", "other", "both")
 NOTES = ("sensor", "filtered", "disabled", "asleep")
 
 #: Of `point_id`: the points of a pair are told apart by their places.
-POINT_BY_PLACE = -2
 #: Of `is_soft`: the impulse is all that the bodies were given in the step. True, or 1, is a load that is no measure of an impact.
-SOFT_WHOLE = 2
 
 
 class Counts(NamedTuple):
@@ -156,7 +155,7 @@ class World(Owned):
         """Events that are final: a step late and in order, or all of them at once. dtype EVENT, shape (n,)."""
         parts, room = [], 1024
         while True:
-            part = np.zeros(room, dtype=EVENT)
+            part = blank_events(room)
             count = call("world_take", self._handle, part.ctypes.data, room, int(at_once))
             parts.append(part[:count])
             if count < room:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Datagrams within this computer, on every system.
-#include "Host/Osc/OscSocket.h"
+#include "Live/Sockets/UdpSocket.h"
 #include <gtest/gtest.h>
 #include <string>
 #include <utility>
@@ -15,12 +15,12 @@ std::string textOf(const std::optional<std::span<const char>>& packet) {
     return packet ? std::string{packet->begin(), packet->end()} : std::string{"nothing"};
 }
 
-TEST(OscSockets, APacketArrivesWholeAndItsAnswerComesBack) {
-    auto in = OscSocket::listening(here, 0);
+TEST(UdpSockets, APacketArrivesWholeAndItsAnswerComesBack) {
+    auto in = UdpSocket::listening(here, 0);
     ASSERT_TRUE(in) << in.error;
     EXPECT_GT(in.value.port(), 0);
     EXPECT_GT(in.value.bufferBytes(), 0);
-    auto out = OscSocket::connected(here + ":" + std::to_string(in.value.port()));
+    auto out = UdpSocket::connected(here + ":" + std::to_string(in.value.port()));
     ASSERT_TRUE(out) << out.error;
     EXPECT_FALSE(in.value.wait(atOnce));
     EXPECT_EQ(textOf(in.value.receive()), "nothing") << "and nobody waits for it";
@@ -35,10 +35,10 @@ TEST(OscSockets, APacketArrivesWholeAndItsAnswerComesBack) {
     EXPECT_EQ(textOf(out.value.receive()), "yes");
 }
 
-TEST(OscSockets, APortHasOneOwner) {
-    auto first = OscSocket::listening(here, 0);
+TEST(UdpSockets, APortHasOneOwner) {
+    auto first = UdpSocket::listening(here, 0);
     ASSERT_TRUE(first) << first.error;
-    auto second = OscSocket::listening(here, first.value.port());
+    auto second = UdpSocket::listening(here, first.value.port());
     ASSERT_TRUE(second) << second.error;
     EXPECT_NE(second.value.port(), first.value.port());
     auto moved = std::move(first.value);
@@ -46,14 +46,14 @@ TEST(OscSockets, APortHasOneOwner) {
     EXPECT_TRUE(moved.isOpen());
 }
 
-TEST(OscSockets, WhatCannotBeIsToldInALine) {
-    EXPECT_FALSE(OscSocket::listening("not an address", 9000));
+TEST(UdpSockets, WhatCannotBeIsToldInALine) {
+    EXPECT_FALSE(UdpSocket::listening("not an address", 9000));
     for (const char* many : {"255.255.255.255", "224.0.0.1", "239.1.2.3", "ff02::1"})
-        EXPECT_FALSE(OscSocket::listening(many, 0)) << many;
-    EXPECT_TRUE(OscSocket::listening("localhost", 0));
-    EXPECT_EQ(OscSocket::connected("nowhere").error, "expected HOST:PORT, found \"nowhere\"");
-    EXPECT_FALSE(OscSocket::connected(here + ":70000"));
-    EXPECT_FALSE(OscSocket{}.wait(1)) << "where none is open, nothing comes";
+        EXPECT_FALSE(UdpSocket::listening(many, 0)) << many;
+    EXPECT_TRUE(UdpSocket::listening("localhost", 0));
+    EXPECT_EQ(UdpSocket::connected("nowhere").error, "expected HOST:PORT, found \"nowhere\"");
+    EXPECT_FALSE(UdpSocket::connected(here + ":70000"));
+    EXPECT_FALSE(UdpSocket{}.wait(1)) << "where none is open, nothing comes";
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// Datagram sockets on POSIX, behind the interface that SocketsWindows.h has too. For OscSocket.cpp only.
+// SPDX-License-Identifier: MIT
+// Datagram sockets on POSIX, behind the interface that SocketsWindows.h has too. For UdpSocket.cpp only.
 #pragma once
 #include <cerrno>
 #include <cstddef>

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // UDP socket, bound to one address and a port of its own, or connected to one receiver.
 #pragma once
 #include "Io/Result.h"
@@ -12,29 +12,29 @@
 namespace physvib {
 
 /// Address that a packet came from.
-struct OscSender {
+struct UdpSender {
     alignas(8) std::array<std::byte, 128> address{}; ///< a sockaddr_storage
     std::size_t size = 0;
     std::string text() const; ///< HOST:PORT
 };
 
 /// One thread per direction.
-class OscSocket {
+class UdpSocket {
 public:
     static constexpr int triedPorts = 100;
     static constexpr int wantedBufferBytes = 4 << 20; ///< the system may give less (net.core.rmem_max)
 
-    OscSocket() = default;
-    OscSocket(OscSocket&& other) noexcept;
-    OscSocket& operator=(OscSocket&& other) noexcept;
-    ~OscSocket();
+    UdpSocket() = default;
+    UdpSocket(UdpSocket&& other) noexcept;
+    UdpSocket& operator=(UdpSocket&& other) noexcept;
+    ~UdpSocket();
 
     /// Binds to that local address and port, or to the next port that is free; 0: any. The port is never
     /// shared. Or one line.
-    static Result<OscSocket> listening(const std::string& address, int port);
+    static Result<UdpSocket> listening(const std::string& address, int port);
 
     /// Connects to `HOST:PORT` or `[ADDRESS]:PORT`. Or one line.
-    static Result<OscSocket> connected(const std::string& receiver);
+    static Result<UdpSocket> connected(const std::string& receiver);
 
     bool isOpen() const noexcept { return handle_ != none; }
     int port() const noexcept { return port_; }
@@ -45,22 +45,22 @@ public:
     /// The next packet, if there is one; valid until the next call.
     std::optional<std::span<const char>> receive();
     /// Sender of that packet.
-    const OscSender& sender() const noexcept { return sender_; }
+    const UdpSender& sender() const noexcept { return sender_; }
     /// Packets dropped by the system for lack of buffer space, since the last call.
     std::uint32_t takeLost() noexcept;
     /// answer() sends to a sender, send() to the connected receiver; false: not sent.
-    bool answer(std::span<const char> bytes, const OscSender& to) noexcept;
+    bool answer(std::span<const char> bytes, const UdpSender& to) noexcept;
     bool send(std::span<const char> bytes) noexcept;
 
 private:
     using Handle = std::intptr_t; // as the system defines it
     static constexpr Handle none = -1;
-    explicit OscSocket(Handle handle) noexcept
+    explicit UdpSocket(Handle handle) noexcept
         : handle_{handle} {}
     Handle handle_ = none;
     int port_ = 0;
     std::string bytes_;
-    OscSender sender_;
+    UdpSender sender_;
     std::uint32_t lost_ = 0, toldLost_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// Datagram sockets on Windows, behind the interface that SocketsPosix.h has too. For OscSocket.cpp only.
+// SPDX-License-Identifier: MIT
+// Datagram sockets on Windows, behind the interface that SocketsPosix.h has too. For UdpSocket.cpp only.
 #pragma once
 #include "Io/Disk/SystemWindows.h"
 #include <cstddef>

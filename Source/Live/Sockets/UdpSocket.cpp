@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // UDP socket on POSIX and Windows: name resolution, ports and datagrams.
-#include "Host/Osc/OscSocket.h"
+#include "Live/Sockets/UdpSocket.h"
 #include "Io/Text/NumberText.h"
 #include <chrono>
 #include <cstring>
@@ -8,9 +8,9 @@
 #include <thread>
 #include <utility>
 #if defined(_WIN32)
-#include "Host/Osc/SocketsWindows.h"
+#include "Live/Sockets/SocketsWindows.h"
 #else
-#include "Host/Osc/SocketsPosix.h"
+#include "Live/Sockets/SocketsPosix.h"
 #endif
 
 namespace physvib {
@@ -61,27 +61,27 @@ socklen_t lengthOf(const addrinfo& address) noexcept { return static_cast<sockle
 
 } // namespace
 
-OscSocket::OscSocket(OscSocket&& other) noexcept { *this = std::move(other); }
+UdpSocket::UdpSocket(UdpSocket&& other) noexcept { *this = std::move(other); }
 
-OscSocket& OscSocket::operator=(OscSocket&& other) noexcept {
+UdpSocket& UdpSocket::operator=(UdpSocket&& other) noexcept {
     std::swap(handle_, other.handle_);
     std::swap(port_, other.port_);
     bytes_.swap(other.bytes_);
     return *this;
 }
 
-OscSocket::~OscSocket() {
+UdpSocket::~UdpSocket() {
     if (isOpen()) sockets::close(systems(handle_));
 }
 
-Result<OscSocket> OscSocket::listening(const std::string& address, int port) {
+Result<UdpSocket> UdpSocket::listening(const std::string& address, int port) {
     for (int tried = port; tried < port + triedPorts && tried <= 65'535; ++tried) {
         const auto found =
             lookUp(address == "localhost" ? "127.0.0.1" : address, tried, AI_PASSIVE | AI_NUMERICHOST);
         if (!found) return Failure{found.error};
         if (isOfMany(*found.value))
             return Failure{address + ": expected an address of this computer alone, or 0.0.0.0"};
-        OscSocket own{openedFor(*found.value)};
+        UdpSocket own{openedFor(*found.value)};
         if (own.isOpen() &&
             sockets::takePort(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value))) {
             setsockopt(systems(own.handle_), SOL_SOCKET, SO_RCVBUF,
@@ -98,7 +98,7 @@ Result<OscSocket> OscSocket::listening(const std::string& address, int port) {
     return Failure{address + ": expected a free port from " + std::to_string(port) + " on, found none"};
 }
 
-Result<OscSocket> OscSocket::connected(const std::string& receiver) {
+Result<UdpSocket> UdpSocket::connected(const std::string& receiver) {
     const auto colon = receiver.rfind(':');
     const auto port = colon == std::string::npos
                           ? std::nullopt
@@ -109,27 +109,27 @@ Result<OscSocket> OscSocket::connected(const std::string& receiver) {
     if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
     const auto found = lookUp(host, *port, 0);
     if (!found) return Failure{found.error};
-    OscSocket own{openedFor(*found.value)};
+    UdpSocket own{openedFor(*found.value)};
     own.bytes_.resize(longestPacket);
     if (!own.isOpen() || connect(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value)) != 0)
         return Failure{receiver + ": " + sockets::fault()};
     return own;
 }
 
-int OscSocket::bufferBytes() const {
+int UdpSocket::bufferBytes() const {
     int bytes = 0;
     socklen_t size = sizeof bytes;
     getsockopt(systems(handle_), SOL_SOCKET, SO_RCVBUF, reinterpret_cast<char*>(&bytes), &size);
     return bytes;
 }
 
-bool OscSocket::wait(int milliseconds) const noexcept {
+bool UdpSocket::wait(int milliseconds) const noexcept {
     if (isOpen()) return sockets::wait(systems(handle_), milliseconds);
     std::this_thread::sleep_for(std::chrono::milliseconds{milliseconds});
     return false;
 }
 
-std::optional<std::span<const char>> OscSocket::receive() {
+std::optional<std::span<const char>> UdpSocket::receive() {
     sockaddr_storage sender{};
     socklen_t senderSize = 0;
     const auto size = sockets::receive(systems(handle_), bytes_, sender, senderSize, lost_);
@@ -140,7 +140,7 @@ std::optional<std::span<const char>> OscSocket::receive() {
     return std::span<const char>{bytes_.data(), static_cast<std::size_t>(size)};
 }
 
-std::string OscSender::text() const {
+std::string UdpSender::text() const {
     char host[NI_MAXHOST], port[NI_MAXSERV];
     if (getnameinfo(reinterpret_cast<const sockaddr*>(address.data()), static_cast<socklen_t>(size), host,
                     sizeof host, port, sizeof port, NI_NUMERICHOST | NI_NUMERICSERV) != 0)
@@ -148,16 +148,16 @@ std::string OscSender::text() const {
     return std::string(host) + ":" + port;
 }
 
-std::uint32_t OscSocket::takeLost() noexcept { return lost_ - std::exchange(toldLost_, lost_); }
+std::uint32_t UdpSocket::takeLost() noexcept { return lost_ - std::exchange(toldLost_, lost_); }
 
-bool OscSocket::answer(std::span<const char> bytes, const OscSender& to) noexcept {
+bool UdpSocket::answer(std::span<const char> bytes, const UdpSender& to) noexcept {
     const auto* address = reinterpret_cast<const sockaddr*>(to.address.data());
     return std::cmp_equal(sendto(systems(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags, address,
                                  static_cast<socklen_t>(to.size)),
                           bytes.size());
 }
 
-bool OscSocket::send(std::span<const char> bytes) noexcept {
+bool UdpSocket::send(std::span<const char> bytes) noexcept {
     return std::cmp_equal(::send(systems(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags),
                           bytes.size());
 }
