@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+// Grains that pass are how much two surfaces turn against each other, whichever of them turns and which way;
+// a load that falls gives no more than it did; and what takes a destroyed body's address or slot has nothing
+// of it.
+#include "AttachedWorld.h"
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr double spacing = 0.002;
+
+HapticFixture ridged() {
+    HapticFixture values = camera;
+    values.texture.grainMetres = spacing;
+    values.texture.pattern = GrainPattern::regular;
+    return values;
+}
+
+class Turns : public AttachedWorld {
+protected:
+    Turns() { world.SetAllowSleeping(false); }
+    b2Fixture& disc(float radius, b2Vec2 at, b2BodyType type) {
+        b2BodyDef def;
+        def.type = type;
+        def.position = at;
+        b2CircleShape circle;
+        circle.m_radius = radius;
+        b2Fixture& fixture = *world.CreateBody(&def)->CreateFixture(&circle, 10.0F);
+        fixture.SetFriction(0.0F);
+        return fixture;
+    }
+    /// A vector of the start, turned by that angle.
+    static b2Vec2 turned(b2Vec2 v, float angle) { return b2Mul(b2Rot(angle), v); }
+
+    /// Grains of 50 steps in which `upper` goes round the origin with `turn` (rad/s), pressed against what is
+    /// there, turns by itself with `ownTurn`, and what is there with `lowerTurn`.
+    double grainsOf(b2Body& upper, b2Vec2 start, float turn, float ownTurn, b2Body& lower, float lowerTurn) {
+        std::vector<CollisionEvent> events;
+        for (int i = 0; i < 51; ++i) {
+            const float angle = turn * 0.01F * static_cast<float>(i);
+            const b2Vec2 at = turned(start, angle);
+            upper.SetTransform(at, ownTurn * 0.01F * static_cast<float>(i));
+            upper.SetLinearVelocity(b2Cross(turn, at));
+            upper.SetAngularVelocity(ownTurn);
+            lower.SetTransform(lower.GetPosition(), lowerTurn * 0.01F * static_cast<float>(i));
+            lower.SetAngularVelocity(lowerTurn);
+            world.SetGravity(-10.0F / at.Length() * at);
+            attachment.step(0.01F);
+        }
+        attachment.flush(events);
+        return static_cast<double>(std::ranges::count_if(
+            events, [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; }));
+    }
+};
+
+/// On a face that turns about the point where the disc stands: r |own turn - turn of the face|.
+TEST_F(Turns, ADiscPassesItsGrainsAsItTurnsAgainstAFace) {
+    for (const float face : {-1.0F, 0.0F, 1.0F})
+        for (const float own : {-2.0F, -1.0F, 0.0F, 1.0F, 2.0F}) {
+            b2BodyDef def;
+            def.type = b2_kinematicBody;
+            b2EdgeShape shape;
+            shape.SetTwoSided({-5.0F, 0.0F}, {5.0F, 0.0F});
+            shape.m_radius = 0.0F;
+            b2Fixture& floor = *world.CreateBody(&def)->CreateFixture(&shape, 0.0F);
+            b2Fixture& stands = disc(0.25F, {0.0F, 0.25F}, b2_dynamicBody);
+            (void)attachment.set(stands, ridged());
+            const double grains =
+                grainsOf(*stands.GetBody(), {0.0F, 0.25F}, face, own, *floor.GetBody(), face);
+            const double expected = 0.25 * std::abs(static_cast<double>(own - face)) * 0.5 / spacing;
+            EXPECT_NEAR(grains, expected, 2.0 + 0.04 * expected) << "face " << face << ", disc " << own;
+            world.DestroyBody(stands.GetBody());
+            world.DestroyBody(floor.GetBody());
+        }
+}
+
+/// Round another disc: each passes r |its turn - turn of the line between the centres|.
+TEST_F(Turns, TwoDiscsPassTheirGrainsEachByItsOwnTurn) {
+    for (const bool isUpperRough : {true, false})
+        for (const float line : {-1.0F, 0.0F, 1.0F})
+            for (const float own : {-1.5F, -1.0F, 0.0F, 1.0F, 1.5F}) {
+                b2Fixture& lower = disc(0.5F, {0.0F, 0.0F}, b2_kinematicBody);
+                b2Fixture& upper = disc(0.25F, {0.0F, 0.749F}, b2_dynamicBody);
+                (void)attachment.set(isUpperRough ? upper : lower, ridged());
+                const double grains =
+                    isUpperRough
+                        ? grainsOf(*upper.GetBody(), {0.0F, 0.749F}, line, own, *lower.GetBody(), 0.3F)
+                        : grainsOf(*upper.GetBody(), {0.0F, 0.749F}, line, 0.3F, *lower.GetBody(), own);
+                const double radius = isUpperRough ? 0.25 : 0.5;
+                const double expected = radius * std::abs(static_cast<double>(own - line)) * 0.5 / spacing;
+                EXPECT_NEAR(grains, expected, 2.0 + 0.04 * expected)
+                    << (isUpperRough ? "upper" : "lower") << " turns " << own << ", line " << line;
+                world.DestroyBody(upper.GetBody());
+                world.DestroyBody(lower.GetBody());
+            }
+}
+
+class Loads : public AttachedWorld {
+protected:
+    /// Amplitudes of the grains under a ball that slides, of the steps before and after gravity changes.
+    std::pair<double, double> strongest(float before, float after) {
+        b2Fixture& plane = floor();
+        plane.SetFriction(0.0F);
+        (void)attachment.set(plane, ridged());
+        b2Fixture& slides = ball(0.0F, 0.25F, 0.5F, 0.0F, 0.0F);
+        world.SetGravity({0.0F, -before});
+        run(10);
+        double first = 0.0, second = 0.0;
+        for (const CollisionEvent& e : run(10)) first = std::max(first, e.amplitude);
+        std::vector<CollisionEvent> events;
+        attachment.flush(events); // of before
+        world.SetGravity({0.0F, -after});
+        for (const CollisionEvent& e : run(8)) second = std::max(second, e.amplitude);
+        attachment.remove(plane);
+        world.DestroyBody(slides.GetBody());
+        world.DestroyBody(plane.GetBody());
+        return {first, second};
+    }
+};
+
+TEST_F(Loads, GrainsAreAtMostAsStrongAsTheLoadWhenItFallsOrRises) {
+    for (const float least : {1.0F, 2.0F, 9.0F}) {
+        const auto [heavy, falling] = strongest(10.0F, least);
+        const auto [light, rising] = strongest(least, 10.0F);
+        ASSERT_GT(heavy, light);
+        ASSERT_GT(light, 0.0);
+        EXPECT_NEAR(falling, light, 0.01 * light) << least; // the step of the change itself included
+        EXPECT_NEAR(rising, heavy, 0.01 * heavy) << least;
+    }
+}
+
+/// A fixture that nobody said goodbye to: what comes to its address on another body is as unknown as any.
+TEST_F(AttachedWorld, AnAddressThatIsUsedAgainHasNoSoundOfBefore) {
+    world.SetGravity({0.0F, -10.0F});
+    for (int round = 0; round < 3; ++round) {
+        b2Fixture& plane = floor();
+        b2Fixture* const first = &ball(0.0F, 9.0F, 0.0F, 0.0F);
+        b2Body& body = *first->GetBody();
+        const std::int32_t id = attachment.set(*first, camera).id;
+        run(2);
+        body.DestroyFixture(first);
+        b2Fixture& heir = ball(5.0F, 0.4F, 0.0F, -1.0F);
+        ASSERT_EQ(&heir, first) << "of this test: the address is used again";
+        EXPECT_EQ(attachment.find(heir), nullptr);
+        const std::vector<CollisionEvent> events = run(80);
+        EXPECT_TRUE(events.empty()) << events.size();
+        EXPECT_NE(attachment.set(heir, camera).id, id);
+        heir.GetBody()->SetTransform({5.0F, 0.4F}, 0.0F);
+        heir.GetBody()->SetLinearVelocity({0.0F, -1.0F});
+        EXPECT_FALSE(run(80).empty());
+        world.DestroyBody(heir.GetBody());
+        world.DestroyBody(plane.GetBody());
+        world.DestroyBody(&body);
+        run(2);
+    }
+}
+
+/// A partner that goes while its hit is pending, and another that takes its slot at once: the hit is of
+/// nobody, or of the one that was, and sounds as it did.
+class Slots : public testing::TestWithParam<std::tuple<ImpactTiming, Voice>> {
+protected:
+    struct Result {
+        std::vector<CollisionEvent> events;
+        std::int32_t partner = -1, heir = -1;
+    };
+    /// A ball falls on `below` others that lie on each other on a camera; then the lowest ball goes.
+    static Result hit(int below, bool isTakenAgain) {
+        b2World world{{0.0F, -10.0F}};
+        ImpactSettings settings = unity();
+        settings.timing = std::get<0>(GetParam());
+        Attachment attachment{world, settings};
+        b2BodyDef def;
+        b2EdgeShape edge;
+        edge.SetTwoSided({-9.0F, 0.0F}, {9.0F, 0.0F});
+        b2Fixture& plane = *world.CreateBody(&def)->CreateFixture(&edge, 0.0F);
+        HapticFixture felt = camera;
+        felt.voice = std::get<1>(GetParam());
+        (void)attachment.set(plane, felt);
+        const auto add = [&](float x, float y) -> b2Fixture& {
+            b2BodyDef falls;
+            falls.type = b2_dynamicBody;
+            falls.position = {x, y};
+            b2CircleShape circle;
+            circle.m_radius = 0.25F;
+            return *world.CreateBody(&falls)->CreateFixture(&circle, 10.0F);
+        };
+        Result result;
+        b2Fixture* lowest = nullptr;
+        for (int i = 0; i < below; ++i) {
+            b2Fixture& lies = add(0.0F, 0.25F + 0.5F * static_cast<float>(i));
+            const std::int32_t id = attachment.set(lies, object).id;
+            if (i == 0) lowest = &lies, result.partner = id;
+        }
+        for (int i = 0; i < 100; ++i) attachment.step(0.01F);
+        b2Fixture& falls = add(0.0F, 0.35F + 0.5F * static_cast<float>(below));
+        const std::int32_t falling = attachment.set(falls, object).id;
+        if (lowest == nullptr) lowest = &falls, result.partner = falling;
+        const auto touches = [&] {
+            for (const b2ContactEdge* c = falls.GetBody()->GetContactList(); c != nullptr; c = c->next)
+                if (c->contact->IsTouching()) return true;
+            return false;
+        };
+        for (int i = 0; i < 100 && !touches(); ++i) attachment.step(0.01F);
+        EXPECT_TRUE(touches());
+        world.DestroyBody(lowest->GetBody());
+        if (isTakenAgain) {
+            HapticFixture other = object;
+            other.frequencyHz = 444.0;
+            other.decayPerSecond = 44.0;
+            b2Fixture& heir = add(5.0F, 50.0F);
+            result.heir = attachment.set(heir, other).id;
+        }
+        for (int i = 0; i < 10; ++i) attachment.step(0.01F);
+        attachment.flush(result.events);
+        return result;
+    }
+};
+
+TEST_P(Slots, AHitIsNotOfWhoTookItsPartnersPlace) {
+    for (const int below : {0, 1, 2, 3}) {
+        const Result alone = hit(below, false), taken = hit(below, true);
+        ASSERT_FALSE(alone.events.empty());
+        ASSERT_EQ(taken.events.size(), alone.events.size()) << below;
+        for (std::size_t i = 0; i < alone.events.size(); ++i) {
+            EXPECT_NE(taken.events[i].source.other, taken.heir) << below;
+            EXPECT_EQ(taken.events[i].frequencyHz, alone.events[i].frequencyHz) << below;
+            EXPECT_EQ(taken.events[i].decayPerSecond, alone.events[i].decayPerSecond) << below;
+            EXPECT_EQ(taken.events[i].amplitude, alone.events[i].amplitude) << below;
+        }
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Timings, Slots,
+                         testing::Combine(testing::Values(ImpactTiming::onset, ImpactTiming::release),
+                                          testing::Values(Voice::own, Voice::other, Voice::both)));
+
+} // namespace
+} // namespace physvib
