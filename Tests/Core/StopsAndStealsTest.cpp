@@ -73,7 +73,8 @@ TEST(StopsOfMotors, EndWhatRingsWithTheNextCommand) {
 
 /// A store of 64 that do not merge; who is left is heard by how long it goes on.
 TEST(FullMotors, LoseTheWeakestWhicheverThatIs) {
-    for (const double amplitude : {0.1, 0.3, 0.9}) { // of one more: weaker than, and stronger than the weakest
+    for (const double amplitude : {0.1, 0.3, 0.9}) { // of one more: weaker than, and stronger than the
+                                                     // weakest
         PadMotors motors{PadLaw{}};
         const auto strike = [&](double a, std::int64_t endMs) {
             motors.strike(tone(100 * ms, a, (endMs - 100) * ms, 0.0), grips());
@@ -93,7 +94,7 @@ TEST(FullMotors, LoseTheWeakestWhicheverThatIs) {
 /// Who is quietest is a question of now: what was struck hard may have decayed below what was struck softly.
 TEST(FullBank, StealsTheModeThatIsQuietestNow) {
     constexpr int modes = 2;
-    for (const double decayed : {0.9, 0.5, 0.3, 0.1, 0.02})   // what is left of a strike of 1
+    for (const double decayed : {0.9, 0.5, 0.3, 0.1, 0.02})      // what is left of a strike of 1
         for (const double other : {0.7, 0.4, 0.2, 0.05, 0.01}) { // the second one, which does not decay
             auto bank = std::make_unique<ModeBank>();
             ASSERT_TRUE(bank->prepare(rate, 1, InstructionSet::scalar, modes, 8));
@@ -171,8 +172,8 @@ TEST(ControlsOutOfRange, ChangeNothingAndTheirNeighboursDo) {
     using Kind = RenderControl::Kind;
     constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
     const auto plain = renderedWith({});
-    for (const auto& [kind, value] : {std::pair{Kind::gain, 0.25f}, {Kind::mute, 1.0f}, {Kind::delay, 0.01f},
-                                      {Kind::ceiling, 0.125f}}) {
+    for (const auto& [kind, value] :
+         {std::pair{Kind::gain, 0.25f}, {Kind::mute, 1.0f}, {Kind::delay, 0.01f}, {Kind::ceiling, 0.125f}}) {
         for (const int channel : {-1, 4, 5, 1'000'000, std::numeric_limits<int>::min()})
             EXPECT_EQ(renderedWith({control(kind, channel, value)}), plain) << "channel " << channel;
         for (const int channel : {0, 3}) {

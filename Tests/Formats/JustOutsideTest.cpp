@@ -64,7 +64,8 @@ TEST(JustOutside, IsRefusedInMetasFiles) {
 }
 
 TEST(JustOutside, IsRefusedInMpegsFiles) {
-    const json file = json::parse(R"({"timescale": 1000, "perceptions": [{"perception_modality": "Vibrotactile",
+    const json file =
+        json::parse(R"({"timescale": 1000, "perceptions": [{"perception_modality": "Vibrotactile",
         "channels": [{"id": 0, "gain": 0.5, "bands": [
             {"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "position": 0, "phase": 0.5,
                 "base_signal": "Sine", "keyframes": [
@@ -73,17 +74,18 @@ TEST(JustOutside, IsRefusedInMpegsFiles) {
     const std::string channel = "/perceptions/0/channels/0/", effect = channel + "bands/0/effects/0/",
                       frame = effect + "keyframes/1/";
     constexpr double twoPi = 2.0 * std::numbers::pi;
-    expectLimits(file,
-                 {{"/timescale", {1, 1000}, {0, -1}},
-                  {channel + "gain", {1e-3, limits::maxClipAmplitude}, {-1e-9, limits::maxClipAmplitude + 1e-6}},
-                  {effect + "position", {0, 1000.0 * longest - 100.0}, {-1e-9, 1000.0 * longest + 0.1}},
-                  {effect + "phase", {0.0, twoPi}, {-1e-9, twoPi + 1e-9}},
-                  {frame + "amplitude_modulation", {-1.0, 0.0, 1.0}, {-1.0 - 1e-9, 1.0 + 1e-9}},
-                  {frame + "frequency_modulation",
-                   {0.0, limits::maxClipFrequencyHz},
-                   {-1e-9, limits::maxClipFrequencyHz + 1e-6}},
-                  {frame + "relative_position", {1, 1000.0 * longest}, {-1e-9, 1000.0 * longest + 0.1}}},
-                 [](const json& changed) { return readHjif(changed.dump(), "f"); });
+    expectLimits(
+        file,
+        {{"/timescale", {1, 1000}, {0, -1}},
+         {channel + "gain", {1e-3, limits::maxClipAmplitude}, {-1e-9, limits::maxClipAmplitude + 1e-6}},
+         {effect + "position", {0, 1000.0 * longest - 100.0}, {-1e-9, 1000.0 * longest + 0.1}},
+         {effect + "phase", {0.0, twoPi}, {-1e-9, twoPi + 1e-9}},
+         {frame + "amplitude_modulation", {-1.0, 0.0, 1.0}, {-1.0 - 1e-9, 1.0 + 1e-9}},
+         {frame + "frequency_modulation",
+          {0.0, limits::maxClipFrequencyHz},
+          {-1e-9, limits::maxClipFrequencyHz + 1e-6}},
+         {frame + "relative_position", {1, 1000.0 * longest}, {-1e-9, 1000.0 * longest + 0.1}}},
+        [](const json& changed) { return readHjif(changed.dump(), "f"); });
 }
 
 json apple() {

@@ -14,7 +14,10 @@ class FailingDisks : public FolderTest {};
 TEST_F(FailingDisks, AreToldByAFileThatIsNewOrReplaced) {
     for (const bool isThere : {false, true})
         expectToldByEachFault(
-            folder, [&] { if (isThere) put(folder / "a.csv", "old"); },
+            folder,
+            [&] {
+                if (isThere) put(folder / "a.csv", "old");
+            },
             [&] { return writeFile(folder / "a.csv", "new and longer"); });
 }
 
@@ -45,9 +48,9 @@ TEST_F(FailingDisks, AreToldByAFileThatIsSeenWhileItGrows) {
 /// Whatever stands in a cell, and wherever: it is read again, in the first column as well.
 TEST(CsvCells, WithEachSpecialCharacterAtEachPlaceAreReadAgain) {
     for (const char special : std::string("#,\"' =+-@;|"))
-        for (const std::string words : {std::string{special}, special + std::string("a"),
-                                        "a" + std::string{special} + "b", "a" + std::string{special},
-                                        std::string(2, special) + "1", special + std::string("1")})
+        for (const std::string words :
+             {std::string{special}, special + std::string("a"), "a" + std::string{special} + "b",
+              "a" + std::string{special}, std::string(2, special) + "1", special + std::string("1")})
             for (const bool isFirst : {true, false}) {
                 std::string line;
                 if (!isFirst) line = "x,";

@@ -20,7 +20,8 @@ TEST(BoundedInputs, NoPhonePullsBeyondTheWorldsLimitOnAnyAxis) {
                 const double angle = std::numbers::pi / 4 * k, x = size * most * std::cos(angle),
                              y = size * most * std::sin(angle);
                 PhoneSensors phone{turn};
-                const auto pull = phone.take(*sensorFormat("/accelerometer"), {"/accelerometer", {x, y, 0.0}, oscNow});
+                const auto pull =
+                    phone.take(*sensorFormat("/accelerometer"), {"/accelerometer", {x, y, 0.0}, oscNow});
                 ASSERT_TRUE(pull.value.has_value()) << pull.error;
                 // a phone tells what holds it: the pull is the other way
                 const double wantedX = -(std::cos(turn) * x - std::sin(turn) * y),
@@ -34,7 +35,8 @@ TEST(BoundedInputs, NoPhonePullsBeyondTheWorldsLimitOnAnyAxis) {
 TEST(BoundedInputs, TheClockNeverGoesFasterThanItMay) {
     constexpr std::int64_t blockNs = 10'000'000, second = 1'000'000'000;
     for (const double ppm : {0.0, 50.0, -50.0, 150.0, -150.0, 400.0, -400.0}) {
-        for (const std::int64_t stepNs : {std::int64_t{0}, std::int64_t{3'000'000}, std::int64_t{-3'000'000}}) {
+        for (const std::int64_t stepNs :
+             {std::int64_t{0}, std::int64_t{3'000'000}, std::int64_t{-3'000'000}}) {
             OscClock clock;
             std::int64_t before = 0, last = 0;
             for (std::int64_t block = 1; block * blockNs < 30 * second; ++block) {

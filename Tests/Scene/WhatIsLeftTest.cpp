@@ -157,7 +157,8 @@ TEST(PadCommands, ControlsActFromTheirOwnNanosecond) {
     const auto told = [&](const PhantomPanner& first, std::vector<RenderControl> controls) {
         std::string words;
         for (const PadCommand& c : padCommands(law, {&hit, 1}, controls, first, 900'000'000))
-            words += std::to_string(c.timeNs) + " " + std::to_string(c.low) + " " + std::to_string(c.high) + "\n";
+            words +=
+                std::to_string(c.timeNs) + " " + std::to_string(c.low) + " " + std::to_string(c.high) + "\n";
         return words;
     };
     const std::string nearWords = told(near, {}), farWords = told(far, {});

@@ -83,7 +83,9 @@ TEST_F(FailingDisks, AreToldByAFileThatGrows) {
         },
         [&] {
             std::string error;
-            const auto note = [&] { if (error.empty()) error = file.error(); };
+            const auto note = [&] {
+                if (error.empty()) error = file.error();
+            };
             file.append("one\n"), note();
             file.append("two\n"), note();
             file.sync(), note();
@@ -110,8 +112,10 @@ TEST_F(FailingDisks, ThatRecoverLoseNoLine) {
 }
 
 TEST_F(FailingDisks, AListOfEventsThatCameInAnyOrderIsReadAgainWhole) {
-    for (const std::vector<std::int64_t>& times :
-         {std::vector<std::int64_t>{0, 1, 2}, {5'000'000, 4'999'999, 6'000'000}, {3, 2, 1, 0}, {0, 9, 0, 9, 8, 9}}) {
+    for (const std::vector<std::int64_t>& times : {std::vector<std::int64_t>{0, 1, 2},
+                                                   {5'000'000, 4'999'999, 6'000'000},
+                                                   {3, 2, 1, 0},
+                                                   {0, 9, 0, 9, 8, 9}}) {
         std::vector<CollisionEvent> events;
         for (const std::int64_t time : times) {
             CollisionEvent event{.timeNs = time, .frequencyHz = 200, .decayPerSecond = 30, .amplitude = 0.5};

@@ -97,7 +97,8 @@ TEST(Boundaries, AlternativesStandInEveryOrder) {
         for (int i = 0; i < 48; ++i) calls.factors[0].values.push_back(std::to_string(i));
         p.conditions = {{"A", "", "phone4", 205.0, 1.0, calls}};
         SessionPlan main{.name = "main", .task = StudyTask::choose, .repetitions = 5};
-        for (std::size_t k = 0; k < count; ++k) main.alternatives.push_back({std::string(1, static_cast<char>('a' + k))});
+        for (std::size_t k = 0; k < count; ++k)
+            main.alternatives.push_back({std::string(1, static_cast<char>('a' + k))});
         p.sessions = {main};
         ASSERT_EQ(validate(p), "");
         std::map<std::vector<std::string>, int> seen;

@@ -99,9 +99,10 @@ TEST_F(FailingStudies, AreToldByTheFileOfTimesAndTheComment) {
     };
     // moments differ: the files are not the same from run to run
     expectToldByEachFault(folder, prepare,
-                          afterwards([](StudyInProgress& study) { return study.note(studyEvents::rest); }), true);
-    expectToldByEachFault(folder, prepare,
-                          afterwards([](StudyInProgress& study) { return study.keepComment("words"); }), true);
+                          afterwards([](StudyInProgress& study) { return study.note(studyEvents::rest); }),
+                          true);
+    expectToldByEachFault(
+        folder, prepare, afterwards([](StudyInProgress& study) { return study.keepComment("words"); }), true);
 }
 
 TEST_F(FailingStudies, AreToldByATrialAndKeepThoseBefore) {
