@@ -166,51 +166,48 @@ protected:
         std::vector<CollisionEvent> events;
         std::int32_t partner = -1, heir = -1;
     };
-    /// A ball falls on `below` others that lie on each other on a camera; then the lowest ball goes.
-    static Result hit(int below, bool isTakenAgain) {
-        b2World world{{0.0F, -10.0F}};
+    /// A ball strikes a row of `between` others, at whose end is a camera; then the camera's neighbour goes.
+    static Result hit(int between, bool isTakenAgain) {
+        b2World world{{0.0F, 0.0F}};
         ImpactSettings settings = unity();
         settings.timing = std::get<0>(GetParam());
         Attachment attachment{world, settings};
-        b2BodyDef def;
-        b2EdgeShape edge;
-        edge.SetTwoSided({-9.0F, 0.0F}, {9.0F, 0.0F});
-        b2Fixture& plane = *world.CreateBody(&def)->CreateFixture(&edge, 0.0F);
-        HapticFixture felt = camera;
-        felt.voice = std::get<1>(GetParam());
-        (void)attachment.set(plane, felt);
-        const auto add = [&](float x, float y) -> b2Fixture& {
-            b2BodyDef falls;
-            falls.type = b2_dynamicBody;
-            falls.position = {x, y};
+        const auto add = [&](float x, float y, float speed) -> b2Fixture& {
+            b2BodyDef def;
+            def.type = b2_dynamicBody;
+            def.position = {x, y};
+            def.linearVelocity = {speed, 0.0F};
             b2CircleShape circle;
             circle.m_radius = 0.25F;
-            return *world.CreateBody(&falls)->CreateFixture(&circle, 10.0F);
+            return *world.CreateBody(&def)->CreateFixture(&circle, 10.0F);
         };
+        HapticFixture felt = camera;
+        felt.voice = std::get<1>(GetParam());
+        (void)attachment.set(add(0.0F, 0.0F, 0.0F), felt);
         Result result;
-        b2Fixture* lowest = nullptr;
-        for (int i = 0; i < below; ++i) {
-            b2Fixture& lies = add(0.0F, 0.25F + 0.5F * static_cast<float>(i));
+        b2Fixture* neighbour = nullptr;
+        for (int i = 1; i <= between; ++i) {
+            b2Fixture& lies = add(0.499F * static_cast<float>(i), 0.0F, 0.0F);
             const std::int32_t id = attachment.set(lies, object).id;
-            if (i == 0) lowest = &lies, result.partner = id;
+            if (i == 1) neighbour = &lies, result.partner = id;
         }
-        for (int i = 0; i < 100; ++i) attachment.step(0.01F);
-        b2Fixture& falls = add(0.0F, 0.35F + 0.5F * static_cast<float>(below));
-        const std::int32_t falling = attachment.set(falls, object).id;
-        if (lowest == nullptr) lowest = &falls, result.partner = falling;
+        b2Fixture& strikes = add(0.499F * static_cast<float>(between) + 0.6F, 0.0F, -2.0F);
+        const std::int32_t striking = attachment.set(strikes, object).id;
+        if (neighbour == nullptr) neighbour = &strikes, result.partner = striking;
         const auto touches = [&] {
-            for (const b2ContactEdge* c = falls.GetBody()->GetContactList(); c != nullptr; c = c->next)
+            for (const b2ContactEdge* c = strikes.GetBody()->GetContactList(); c != nullptr; c = c->next)
                 if (c->contact->IsTouching()) return true;
             return false;
         };
         for (int i = 0; i < 100 && !touches(); ++i) attachment.step(0.01F);
         EXPECT_TRUE(touches());
-        world.DestroyBody(lowest->GetBody());
+        attachment.step(0.01F);
+        world.DestroyBody(neighbour->GetBody());
         if (isTakenAgain) {
             HapticFixture other = object;
             other.frequencyHz = 444.0;
             other.decayPerSecond = 44.0;
-            b2Fixture& heir = add(5.0F, 50.0F);
+            b2Fixture& heir = add(5.0F, 50.0F, 0.0F);
             result.heir = attachment.set(heir, other).id;
         }
         for (int i = 0; i < 10; ++i) attachment.step(0.01F);
@@ -220,15 +217,15 @@ protected:
 };
 
 TEST_P(Slots, AHitIsNotOfWhoTookItsPartnersPlace) {
-    for (const int below : {0, 1, 2, 3}) {
-        const Result alone = hit(below, false), taken = hit(below, true);
-        if (below == 0) ASSERT_FALSE(alone.events.empty());
-        ASSERT_EQ(taken.events.size(), alone.events.size()) << below;
+    for (const int between : {0, 1, 2, 3}) {
+        const Result alone = hit(between, false), taken = hit(between, true);
+        ASSERT_FALSE(alone.events.empty()) << between;
+        ASSERT_EQ(taken.events.size(), alone.events.size()) << between;
         for (std::size_t i = 0; i < alone.events.size(); ++i) {
-            EXPECT_NE(taken.events[i].source.other, taken.heir) << below;
-            EXPECT_EQ(taken.events[i].frequencyHz, alone.events[i].frequencyHz) << below;
-            EXPECT_EQ(taken.events[i].decayPerSecond, alone.events[i].decayPerSecond) << below;
-            EXPECT_EQ(taken.events[i].amplitude, alone.events[i].amplitude) << below;
+            EXPECT_NE(taken.events[i].source.other, taken.heir) << between;
+            EXPECT_EQ(taken.events[i].frequencyHz, alone.events[i].frequencyHz) << between;
+            EXPECT_EQ(taken.events[i].decayPerSecond, alone.events[i].decayPerSecond) << between;
+            EXPECT_EQ(taken.events[i].amplitude, alone.events[i].amplitude) << between;
         }
     }
 }
