@@ -117,9 +117,7 @@ TEST(PluginEditor, ShowsTheWorldMoving) {
         const auto corner = pictureOf(*editor).getPixelAt(4, 4);
         EXPECT_EQ(corner.getPerceivedBrightness() > 0.5f, ground == Ground::light);
         show(pictureOf(*editor), name);
-        const auto twice = pictureOf(*editor, 2.0f);
-        EXPECT_EQ(twice.getWidth(), 2 * editor->getWidth());
-        show(twice, name + "-2x");
+        show(pictureOf(*editor, 2.0f), name + "-2x");
     }
     editor->showMidi(true);
     editor->setSize(960, 540);
