@@ -81,18 +81,18 @@ TEST(SilentOutputs, AreSilentWithinABlockFromEveryState) {
         const char* name;
         std::function<void(Played&)> begin;
     };
-    const std::vector<State> states{{"the world alone", [](Played& p) { p.play(1500); }},
-                                    {"a tone", [](Played& p) { p.submit(tone(false)), p.play(300); }},
-                                    {"what moves", [](Played& p) { p.submit(tone(true)), p.play(300); }},
+    const std::vector<State> states{{"the world alone", [](Played& p) { p.play(500); }},
+                                    {"a tone", [](Played& p) { p.submit(tone(false)), p.play(80); }},
+                                    {"what moves", [](Played& p) { p.submit(tone(true)), p.play(80); }},
                                     {"many tones",
                                      [](Played& p) {
                                          for (int i = 0; i < 40; ++i)
                                              p.submit(tone(i % 2 == 0, 60.0 + 10.0 * i));
-                                         p.play(300);
+                                         p.play(80);
                                      }},
                                     {"the first block", [](Played& p) { p.submit(tone(false)), p.play(1); }},
                                     {"a fade that goes on", [](Played& p) {
-                                         p.submit(tone(false)), p.play(300);
+                                         p.submit(tone(false)), p.play(80);
                                          EXPECT_EQ(p.output.assign({3, 2, 1, 0}, 0), "");
                                          p.play(1);
                                      }}};
@@ -102,7 +102,7 @@ TEST(SilentOutputs, AreSilentWithinABlockFromEveryState) {
             state.begin(played);
             way.silence(played);
             played.play(way.isForEars ? 1 : 8); // the level moves in a ramp of 5 ms
-            const Blocks out = played.play(200);
+            const Blocks out = played.play(60);
             for (std::size_t k = 0; k < out.size(); ++k)
                 EXPECT_TRUE((k >= 5 && !way.isForEars) || peakOf(out[k]) == 0.0f)
                     << state.name << ", " << way.name << ", output " << k;

@@ -7,7 +7,7 @@
 #include <functional>
 #include <map>
 
-namespace physvib {
+namespace physvib::stops { // these files are compiled together, and some names are short
 namespace {
 
 using namespace test;
@@ -167,4 +167,4 @@ TEST(DelayedMusic, IsSilentWhereNoneCame) {
 }
 
 } // namespace
-} // namespace physvib
+} // namespace physvib::stops

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every number and every truth in a scene's file counts for itself alone: changed a little, something moves or
-// is felt otherwise. What does not is named here.
+// Every number and every truth in a scene's file counts for itself alone: changed a little, something moves
+// or is felt otherwise. What does not is named here.
 #include "DropScene.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneValidation.h"
@@ -48,7 +48,8 @@ Scene richScene() {
     wedge.fixtures[0].offsetMetres = {0.03, 0.02};
     wedge.fixtures[0].angleRadians = 0.2;
     wedge.massKg = 7.0;
-    BodyDescription ground = body("ground", ChainShape{{{8.0, 0.7}, {7.4, 0.4}, {6.6, 0.45}}, false}, {0.1, 0.1}, 2);
+    BodyDescription ground =
+        body("ground", ChainShape{{{8.0, 0.7}, {7.4, 0.4}, {6.6, 0.45}}, false}, {0.1, 0.1}, 2);
     ground.type = BodyType::staticBody;
     ground.massKg = 300.0;
     scene.bodies = {floor, ball, wedge, ground};
@@ -92,8 +93,9 @@ std::string playedOf(const Scene& scene) {
         }
     }
     for (const CollisionEvent& e : events) {
-        for (const double value : {static_cast<double>(e.timeNs), e.frequencyHz, e.decayPerSecond, 1e3 * e.amplitude,
-                                   e.x, e.y, e.source.impulseNewtonSeconds, e.source.massKg})
+        for (const double value :
+             {static_cast<double>(e.timeNs), e.frequencyHz, e.decayPerSecond, 1e3 * e.amplitude, e.x, e.y,
+              e.source.impulseNewtonSeconds, e.source.massKg})
             add(value);
         add(e.source.fixture), add(e.source.other), add(static_cast<double>(e.source.kind));
     }

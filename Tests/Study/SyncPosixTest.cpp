@@ -14,17 +14,16 @@ namespace physvib {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace test;
 
 class SyncTest : public FolderTest {
 protected:
     void TearDown() override {
-        syncWatcher = nullptr;
+        test::syncWatcher = nullptr;
         FolderTest::TearDown();
     }
     /// From now on: "folder" or "N bytes", and what `path` was then.
     void watch(const fs::path& path) {
-        syncWatcher = [this, path](int descriptor) {
+        test::syncWatcher = [this, path](int descriptor) {
             struct stat synced {
             }, there{};
             EXPECT_EQ(fstat(descriptor, &synced), 0);
@@ -49,7 +48,7 @@ TEST_F(SyncTest, AFileIsOnTheDiskBeforeItHasItsNameAndThenTheNameIs) {
 
 TEST_F(SyncTest, WhatCannotReachTheDiskDoesNotGetItsName) {
     put(folder / "out.csv", "old");
-    syncWatcher = [](int) { return errno = EIO, -1; };
+    test::syncWatcher = [](int) { return errno = EIO, -1; };
     EXPECT_EQ(writeFile(folder / "out.csv", "new"),
               (folder / "out.csv").string() + ": cannot be written: Input/output error");
     EXPECT_EQ(contentOf(folder / "out.csv"), "old");
@@ -81,7 +80,7 @@ TEST_F(SyncTest, ATrialsRowIsOnTheDiskBeforeItCounts) {
     EXPECT_TRUE(seen.empty()) << "who answers the same again";
     EXPECT_TRUE(simulated.sync());
     EXPECT_EQ(seen.size(), 1u);
-    syncWatcher = [](int) { return errno = EIO, -1; };
+    test::syncWatcher = [](int) { return errno = EIO, -1; };
     EXPECT_FALSE(log.append(experiment.take(observer.answer(experiment))));
     EXPECT_EQ(log.error(), path.string() + ": cannot be written: Input/output error");
 }
@@ -98,17 +97,17 @@ TEST_F(FailingStudies, AreToldByTheFileOfTimesAndTheComment) {
         };
     };
     // moments differ: the files are not the same from run to run
-    expectToldByEachFault(folder, prepare,
-                          afterwards([](StudyInProgress& study) { return study.note(studyEvents::rest); }),
-                          true);
-    expectToldByEachFault(
+    test::expectToldByEachFault(
+        folder, prepare, afterwards([](StudyInProgress& study) { return study.note(studyEvents::rest); }),
+        true);
+    test::expectToldByEachFault(
         folder, prepare, afterwards([](StudyInProgress& study) { return study.keepComment("words"); }), true);
 }
 
 TEST_F(FailingStudies, AreToldByATrialAndKeepThoseBefore) {
     const StudyRun run{findProtocol("magnitudes").value, {"P01", 1}, folder};
     const SimulatedObserver observer{*observerNamed("simulated"), run.protocol, run.participant};
-    expectToldByEachFault(
+    test::expectToldByEachFault(
         folder,
         [&] {
             StudyInProgress study{run};
@@ -121,7 +120,7 @@ TEST_F(FailingStudies, AreToldByATrialAndKeepThoseBefore) {
                 if (study.error().empty()) study.take(observer.answer(study.experiment()));
                 error = study.error();
             }
-            disk.call = {};
+            test::disk.call = {};
             EXPECT_GE(StudyInProgress{run}.trialsBefore(), 1);
             return error;
         },
