@@ -131,14 +131,14 @@ TEST(Arguments, OfImpactsCountEachForItselfAlone) {
     };
     const physvib_renderer_settings s = plainSettings();
     const double x = 0.25 * s.field_width_m, y = 0.25 * s.field_height_m;
-    const std::vector<const char*> materials{nullptr, "steel", "rubber"};
+    const std::vector<const char*> materials{nullptr, "steel plate", "wooden board"};
     for (const char* material : materials) {
         const Channels plain = impact(x, y, 0.5, material);
         EXPECT_NE(plain, impact(2.0 * x, y, 0.5, material));
         EXPECT_NE(plain, impact(x, 2.0 * y, 0.5, material));
         EXPECT_NE(plain, impact(x, y, 0.75, material));
     }
-    EXPECT_NE(impact(x, y, 0.5, "steel"), impact(x, y, 0.5, "rubber"));
+    EXPECT_NE(impact(x, y, 0.5, "steel plate"), impact(x, y, 0.5, "wooden board"));
 }
 
 /// What a world gives of a ball that falls on a floor, by motions alone.
