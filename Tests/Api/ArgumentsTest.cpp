@@ -23,6 +23,8 @@ physvib_renderer_settings plainSettings() {
     settings.rate_hz = rate;
     settings.channels = channels;
     settings.limiter = 0;
+    settings.field_width_m = 1.0;
+    settings.field_height_m = 0.5;
     return settings;
 }
 
