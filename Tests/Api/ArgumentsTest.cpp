@@ -294,5 +294,41 @@ TEST(Arguments, OfPadsCountEachForItselfAlone) {
     EXPECT_NE(plain, heard({.at = 400 * ms}));
 }
 
+/// What a controller has no room for is lost, and is not told as sent.
+TEST(Arguments, OnlyWhatFitsIsToldAsSentToAPad) {
+    physvib_pads pads = nullptr;
+    ASSERT_EQ(physvib_pads_create(1, 1.0, 1.0, nullptr, &pads), PHYSVIB_OK);
+    const physvib_event waits = tone(900 * ms, 0.5, 0.5);
+    int room = 0;
+    while (physvib_pads_strike(pads, 0, &waits) == PHYSVIB_OK) ++room;
+    EXPECT_EQ(room, 256);
+    physvib_world world = nullptr;
+    ASSERT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
+    for (const int i : {0, 1}) {
+        physvib_body body;
+        physvib_body_init(&body, sizeof body);
+        body.frequency_hz = 150.0, body.decay_per_s = 20.0;
+        body.is_camera = i, body.mass_kg = i;
+        ASSERT_EQ(physvib_world_set_body(world, i, &body), PHYSVIB_OK);
+    }
+    const auto hits = [&] {
+        physvib_contact contact;
+        physvib_contact_init(&contact, sizeof contact);
+        contact.a = 0, contact.b = 1, contact.impulse_n_s = 1.0;
+        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 0.0), PHYSVIB_OK);
+        EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK);
+        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 0.0), PHYSVIB_OK);
+        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    };
+    hits();
+    EXPECT_EQ(physvib_pads_send(pads, 0, world, 500 * ms, 1), 0) << "there is no room";
+    EXPECT_EQ(physvib_pads_stop(pads), PHYSVIB_OK);
+    hits();
+    EXPECT_EQ(physvib_pads_send(pads, 0, world, 500 * ms, 1), 1);
+    physvib_world_free(world);
+    physvib_pads_free(pads);
+}
+
 } // namespace
 } // namespace physvib

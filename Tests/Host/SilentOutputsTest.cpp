@@ -145,6 +145,25 @@ TEST(RefusedRoutings, LeaveWhatIsPlayedWhereItWas) {
               std::string::npos);
 }
 
+/// Also when the device goes and comes back.
+TEST(RefusedRoutings, AreNotPlayedWhenTheDeviceIsOpenedAnew) {
+    Played played;
+    ListeningSettings wrong;
+    wrong.noise = {4};
+    wrong.marks = {7}; // the session makes none
+    EXPECT_NE(played.output.hear(wrong), "");
+    played.interface.unplug(true);
+    auto now = AudioOutput::Clock::now();
+    using namespace std::chrono_literals;
+    EXPECT_NE(played.output.maintain(now += 1s), "");
+    played.interface.isPlugged = true;
+    for (int i = 0; i < 3; ++i) played.output.maintain(now += 2s);
+    ASSERT_TRUE(played.output.status().isRunning);
+    const Blocks out = played.play(300);
+    EXPECT_EQ(peakOf(out[4]), 0.0f);
+    EXPECT_GT(peakOf(out[5]), 0.0f) << "the noise is where it was";
+}
+
 TEST(Levels, BoundWhatLeavesWhateverComes) {
     for (const bool isLimited : {true, false})
         for (const float level : {1.0f, 0.25f}) {

@@ -23,7 +23,7 @@ public:
     Device() { setLevel(1.0f); }
     std::int64_t sessionNs() const { return now() - beganNs; }
     void block() { tell({sessionNs(), now(), 10 * ms, 48000}); }
-    const std::int64_t beganNs = now();
+    std::int64_t beganNs = now();
 };
 
 class PadStops : public FolderTest {
@@ -66,6 +66,34 @@ TEST_F(PadStops, SilenceAndLevelZeroDoNotWaitForTheNextCommand) {
         EXPECT_LT(quickest, 100 * ms) << (isLevel ? "level" : "silence");
         output.follow(nullptr);
     }
+}
+
+/// A session that begins anew is felt from its own beginning, although the one before went further.
+TEST_F(PadStops, ASessionThatBeginsAnewIsFelt) {
+    VirtualPad pad{"again"};
+    PadOutput output{"again", phone()};
+    ASSERT_EQ(output.awaitReady([] { return true; }), "");
+    Device device;
+    device.beganNs = now() - 100'000 * ms; // it has played for long
+    device.block();
+    output.follow(&device);
+    for (const bool isAnew : {false, true}) {
+        if (isAnew) device.beganNs = now();
+        for (int i = 0; i < (isAnew ? 140 : 20); ++i) { // the clock looks back for half a second
+            device.block();
+            std::this_thread::sleep_for(std::chrono::milliseconds{5});
+        }
+        CollisionEvent hit;
+        hit.timeNs = device.sessionNs();
+        hit.frequencyHz = 60.0;
+        hit.decayPerSecond = 20.0;
+        hit.amplitude = 1.0;
+        hit.x = hit.y = 0.5;
+        output.made(hit);
+        EXPECT_TRUE(soon([&] { return device.block(), !pad.isAtRest(); })) << (isAnew ? "anew" : "before");
+        EXPECT_TRUE(soon([&] { return device.block(), pad.isAtRest(); }));
+    }
+    output.follow(nullptr);
 }
 
 } // namespace

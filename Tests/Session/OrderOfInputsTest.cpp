@@ -209,5 +209,33 @@ TEST(MessageArguments, EachCountsForItselfAlone) {
                 << message.name << ' ' << argument.name << ": in no row of this test";
 }
 
+/// A level is a share of full scale, whatever a scene's gain is; a scene's own hits have it.
+TEST(MessageArguments, ALevelIsThatOfTheStrikeWhateverTheScenesGain) {
+    for (const double gain : {0.25, 1.0, 4.0})
+        for (const double level : {0.125, 0.5}) {
+            SessionSetup setup = inSpace();
+            setup.channels = 6;
+            setup.shaping.gain = gain;
+            Session session{setup};
+            session.prepare(hostRate, 480);
+            MessageRouter router{session};
+            const auto read = readInputLine(
+                R"({"message": "phantom", "seconds": 0.1, "level": )" + std::to_string(level) + "}", {}, 6);
+            ASSERT_EQ(read.error, "");
+            EXPECT_EQ(router.take(std::get<PlainMessage>(read.value)).error, "");
+            std::vector<std::vector<float>> samples(6, std::vector<float>(480));
+            std::vector<float*> at;
+            for (auto& channel : samples) at.push_back(channel.data());
+            std::vector<CollisionEvent> felt;
+            for (int i = 0; i < 30; ++i) {
+                session.advance();
+                session.render(at.data(), 480, RenderMode::realtime);
+                for (const CollisionEvent& event : drain(session)) felt.push_back(event);
+            }
+            ASSERT_EQ(felt.size(), 1U);
+            EXPECT_NEAR(felt[0].amplitude, level, 1e-9) << "gain " << gain;
+        }
+}
+
 } // namespace
 } // namespace physvib
