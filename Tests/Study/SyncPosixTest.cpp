@@ -127,5 +127,20 @@ TEST_F(FailingStudies, AreToldByATrialAndKeepThoseBefore) {
         true);
 }
 
+/// Rows of who is simulated are not each on the disk, but the end is.
+TEST_F(FailingStudies, AreToldAtTheEndOfASimulatedOne) {
+    const StudyRun run{findProtocol("magnitudes").value, {"P01", 1, "simulated"}, folder};
+    const SimulatedObserver observer{*observerNamed("simulated"), run.protocol, run.participant};
+    StudyInProgress study{run};
+    test::syncWatcher = [](int) { return errno = EIO, -1; };
+    bool isTaken = true;
+    while (isTaken && !study.experiment().isDone()) {
+        isTaken = study.take(observer.answer(study.experiment()));
+        EXPECT_EQ(isTaken, !study.experiment().isDone());
+    }
+    test::syncWatcher = nullptr;
+    EXPECT_NE(study.error(), "");
+}
+
 } // namespace
 } // namespace physvib
