@@ -118,6 +118,27 @@ TEST(Boundaries, AlternativesStandInEveryOrder) {
     }
 }
 
+/// And so do the objects that are rated side by side.
+TEST(Boundaries, ObjectsStandInEveryOrder) {
+    Protocol p;
+    p.name = "test";
+    CallSet calls{{{"size", {}}}, "render drop {size} {object}"};
+    for (int i = 0; i < 60; ++i) calls.factors[0].values.push_back(std::to_string(i));
+    p.conditions = {{"A", "", "phone4", 205.0, 1.0, calls}};
+    p.sessions = {{.name = "main", .task = StudyTask::rate, .objects = {"x", "y", "z"}, .scales = {"rough"}}};
+    ASSERT_EQ(validate(p), "");
+    std::map<std::vector<std::string>, int> seen;
+    Experiment experiment{p, {"P01", 1}};
+    while (!experiment.isDone()) {
+        ++seen[experiment.trial().parts];
+        const Answer answer{.scores = {50.0}};
+        ASSERT_EQ(experiment.refusal(answer), "");
+        experiment.take(answer);
+    }
+    EXPECT_EQ(seen.size(), 6U);
+    for (const auto& [order, times] : seen) EXPECT_LT(times, 30);
+}
+
 class ExposureOfADay : public FolderTest {};
 
 TEST_F(ExposureOfADay, IsTodaysOnlyIfItWasWrittenToday) {
