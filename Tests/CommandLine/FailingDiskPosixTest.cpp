@@ -4,12 +4,24 @@
 #include "Calls.h"
 #include <algorithm>
 #include <map>
+#include <string_view>
 
 namespace physvib::test {
 namespace {
 
 class FailingDisk : public CommandLine {
 protected:
+    /// Of `physvib`, or, where the words begin with "physvib-render ", of the small program.
+    Outcome call(const std::string& arguments, const std::string& before = {}) const {
+        constexpr std::string_view small = "physvib-render ";
+        if (!arguments.starts_with(small)) return CommandLine::call(arguments, before);
+        const std::string command = before + "cd '" + folder_.string() +
+                                    "' && '" PHYSVIB_RENDER_PROGRAM "' " + arguments.substr(small.size()) +
+                                    " >.out 2>.err";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
+    }
+
     /// The call with its nth `system` call failing; false in `hasFailed` if it has not so many.
     Outcome callWith(const std::string& arguments, const std::string& system, int nth,
                      bool& hasFailed) const {
@@ -79,6 +91,12 @@ TEST_F(FailingDisk, IsToldByEveryFileOfARender) {
     failsAtEach("render shake-the-box --seconds 0.3 --out a.wav --events a.csv",
                 {{"a.wav", "old"}, {"a.csv", "older"}});
     failsAtEach("render shake-the-box --seconds 0.3 --pad pad-generic --out motors.csv");
+}
+
+TEST_F(FailingDisk, IsToldByTheSmallProgram) {
+    failsAtEach("physvib-render shake-the-box --seconds 0.3 --out a.wav");
+    failsAtEach("physvib-render shake-the-box --seconds 0.3 --out a.wav --events a.csv");
+    failsAtEach("physvib-render shake-the-box --seconds 0.3 --events a.csv");
 }
 
 TEST_F(FailingDisk, IsToldByHapticFilesAndStimuli) {
