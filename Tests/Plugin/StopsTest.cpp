@@ -166,5 +166,29 @@ TEST(DelayedMusic, IsSilentWhereNoneCame) {
     }
 }
 
+/// A silence of music lasts until its end, or as long as a pause that is felt, and no longer.
+TEST(DelayedMusic, IsSilentForAPauseThatIsFelt) {
+    constexpr auto shortest = static_cast<std::int64_t>(MusicDelay::shortestPauseSeconds * rate);
+    constexpr auto ramp = static_cast<std::int64_t>(limits::channelRampSeconds * rate) + 2;
+    const std::vector<float> music(12'000, 0.5f);
+    for (const std::int64_t length :
+         {std::int64_t{0}, std::int64_t{1}, shortest - 1, shortest, std::int64_t{6000}}) {
+        MusicDelay delay{presetLayout("phone1").geometry, 1, rate, 12'000};
+        delay.write(0, music.data(), music.data(), 12'000);
+        constexpr std::int64_t from = 1000;
+        delay.silence(from, from + length);
+        const std::int64_t until = from + std::max(length, shortest);
+        for (std::int64_t frame = 0; frame < 12'000; frame += limits::tileFrames) {
+            const int part = static_cast<int>(std::min<std::int64_t>(limits::tileFrames, 12'000 - frame));
+            const float* const* out = delay.at(frame, part);
+            for (std::int64_t n = frame; n < frame + part; ++n) {
+                const float sample = out ? out[0][n - frame] : 0.0f;
+                if (n < from || n >= until + ramp) ASSERT_FLOAT_EQ(sample, 0.5f) << length << " at " << n;
+                if (n >= from + ramp && n < until) ASSERT_EQ(sample, 0.0f) << length << " at " << n;
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace physvib::stops

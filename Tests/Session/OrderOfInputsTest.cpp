@@ -34,7 +34,10 @@ TEST(OrderOfInputs, ControlsAndStopsAreInTimeOrderHoweverTheyCame) {
                 if (random.below(2) == 0) {
                     Input stop{Stop{}};
                     stop.timeNs = session.status().sessionNs + (random.below(220) - 20) * 1'000'000LL;
-                    submit(session, std::move(stop));
+                    const auto at = submit(session, std::move(stop));
+                    const Timeline& time = session.timeline();
+                    EXPECT_GE(at.value, std::max<std::int64_t>(0, time.presentNs() - time.toldAheadNs()))
+                        << "not in what was felt";
                 } else {
                     RenderControl gain;
                     gain.kind = Kind::gain;
