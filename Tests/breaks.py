@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 """Breaks the code in the ways that breaks.txt lists, one after the other, and says which of them its tests catch.
 usage: breaks.py --check | BUILD FOLDER [WORD...]
 --check: only whether each break has its place in the code, in a second. BUILD: a build in which all test programs are; it stays as it is. FOLDER: for the sources with their
