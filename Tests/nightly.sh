@@ -40,7 +40,7 @@ step() {
         apply) ensure_packages $physvib_apply_packages && Tests/Plugin/Formats/apply.sh "$PWD/build/release" ;;
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh && ensure_packages openbox && Tests/Mixer/headphones.sh $bin ;;
-        breaks) Tests/Mixer/breaks.py build/nightly/breaks ;;
+        breaks) Tests/breaks.py build/release build/nightly/breaks ;;
         studies) Tests/Studies/recorded.sh $bin && Tests/Studies/faults.sh $bin ;;
         coverage) $bin/physvib-study-coverage ;;
         hours) Tests/ten-hours.sh ;;

@@ -5,6 +5,7 @@
 #include "Live/Devices/AudioDevice.h"
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <utility>
 
@@ -33,6 +34,9 @@ struct FakeInterface {
         hangsIn.notify_all();
     }
     void hang(Call call) { hangsIn.wait(call); }
+
+    /// What happens while somebody waits for blocks, and asks after each pause: no second thread, no time.
+    std::function<void()> whenAsked;
 
     /// One block of what comes out, a vector per connected output; those nobody writes keep `untouched`.
     static constexpr float untouched = 7.0f;
@@ -84,7 +88,10 @@ public:
         return active;
     }
     int deviceLatencyFrames() override { return thing_.block; }
-    int xruns() const override { return -1; }
+    int xruns() const override {
+        if (thing_.whenAsked) thing_.whenAsked();
+        return -1;
+    }
     bool isReal() const override { return thing_.isReal; }
     DeviceUser* user() const { return user_; }
 

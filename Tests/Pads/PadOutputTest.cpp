@@ -70,7 +70,9 @@ protected:
     GamePads pads{}; // before any virtual one
 };
 
-TEST_F(Pads, WhatTheMotorsAreToldIsTheModelToTheCommand) {
+class PadsInRealTime : public Pads {};
+
+TEST_F(PadsInRealTime, WhatTheMotorsAreToldIsTheModelToTheCommand) {
     VirtualPad pad{"first"};
     Following following{"first@pad-generic"};
     ASSERT_EQ(following.fault, "");
@@ -194,8 +196,9 @@ TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
               0u);
 }
 
-TEST_F(Pads, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // a command is over after 200 ms unless it is sent
-                                                          // again
+TEST_F(PadsInRealTime, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // a command is over after 200 ms unless
+                                                                    // it is sent
+                                                                    // again
     VirtualPad pad{"long"};
     Following following{"long"};
     ASSERT_EQ(following.fault, "");

@@ -6,22 +6,9 @@
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/SimulatedObserver.h"
-#include "Support/FileTesting.h"
-#include <cerrno>
-#include <functional>
+#include "Lab/Study/StudyRun.h"
+#include "Support/FailingDisk.h"
 #include <sys/stat.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
-namespace {
-
-std::function<int(int descriptor)> watcher; // of one test
-
-} // namespace
-
-extern "C" int fsync(int descriptor) {
-    return watcher ? watcher(descriptor) : static_cast<int>(syscall(SYS_fsync, descriptor));
-}
 
 namespace physvib {
 namespace {
@@ -31,12 +18,12 @@ namespace fs = std::filesystem;
 class SyncTest : public FolderTest {
 protected:
     void TearDown() override {
-        watcher = nullptr;
+        test::syncWatcher = nullptr;
         FolderTest::TearDown();
     }
     /// From now on: "folder" or "N bytes", and what `path` was then.
     void watch(const fs::path& path) {
-        watcher = [this, path](int descriptor) {
+        test::syncWatcher = [this, path](int descriptor) {
             struct stat synced {
             }, there{};
             EXPECT_EQ(fstat(descriptor, &synced), 0);
@@ -61,7 +48,7 @@ TEST_F(SyncTest, AFileIsOnTheDiskBeforeItHasItsNameAndThenTheNameIs) {
 
 TEST_F(SyncTest, WhatCannotReachTheDiskDoesNotGetItsName) {
     put(folder / "out.csv", "old");
-    watcher = [](int) { return errno = EIO, -1; };
+    test::syncWatcher = [](int) { return errno = EIO, -1; };
     EXPECT_EQ(writeFile(folder / "out.csv", "new"),
               (folder / "out.csv").string() + ": cannot be written: Input/output error");
     EXPECT_EQ(contentOf(folder / "out.csv"), "old");
@@ -93,9 +80,66 @@ TEST_F(SyncTest, ATrialsRowIsOnTheDiskBeforeItCounts) {
     EXPECT_TRUE(seen.empty()) << "who answers the same again";
     EXPECT_TRUE(simulated.sync());
     EXPECT_EQ(seen.size(), 1u);
-    watcher = [](int) { return errno = EIO, -1; };
+    test::syncWatcher = [](int) { return errno = EIO, -1; };
     EXPECT_FALSE(log.append(experiment.take(observer.answer(experiment))));
     EXPECT_EQ(log.error(), path.string() + ": cannot be written: Input/output error");
+}
+
+class FailingStudies : public FolderTest {};
+
+TEST_F(FailingStudies, AreToldByTheFileOfTimesAndTheComment) {
+    const StudyRun run{findProtocol("magnitudes").value, {"P01", 1}, folder};
+    const auto prepare = [&] { ASSERT_EQ(StudyInProgress{run}.begin({}), ""); };
+    const auto afterwards = [&](auto act) {
+        return [&run, act] {
+            StudyInProgress study{run};
+            return study.error().empty() ? act(study) : study.error();
+        };
+    };
+    // moments differ: the files are not the same from run to run
+    test::expectToldByEachFault(
+        folder, prepare, afterwards([](StudyInProgress& study) { return study.note(studyEvents::rest); }),
+        true);
+    test::expectToldByEachFault(
+        folder, prepare, afterwards([](StudyInProgress& study) { return study.keepComment("words"); }), true);
+}
+
+TEST_F(FailingStudies, AreToldByATrialAndKeepThoseBefore) {
+    const StudyRun run{findProtocol("magnitudes").value, {"P01", 1}, folder};
+    const SimulatedObserver observer{*observerNamed("simulated"), run.protocol, run.participant};
+    test::expectToldByEachFault(
+        folder,
+        [&] {
+            StudyInProgress study{run};
+            ASSERT_TRUE(study.take(observer.answer(study.experiment())));
+        },
+        [&] {
+            std::string error;
+            {
+                StudyInProgress study{run};
+                if (study.error().empty()) study.take(observer.answer(study.experiment()));
+                error = study.error();
+            }
+            test::disk.call = {};
+            EXPECT_GE(StudyInProgress{run}.trialsBefore(), 1);
+            return error;
+        },
+        true);
+}
+
+/// Rows of who is simulated are not each on the disk, but the end is.
+TEST_F(FailingStudies, AreToldAtTheEndOfASimulatedOne) {
+    const StudyRun run{findProtocol("magnitudes").value, {"P01", 1, "simulated"}, folder};
+    const SimulatedObserver observer{*observerNamed("simulated"), run.protocol, run.participant};
+    StudyInProgress study{run};
+    test::syncWatcher = [](int) { return errno = EIO, -1; };
+    bool isTaken = true;
+    while (isTaken && !study.experiment().isDone()) {
+        isTaken = study.take(observer.answer(study.experiment()));
+        EXPECT_EQ(isTaken, !study.experiment().isDone());
+    }
+    test::syncWatcher = nullptr;
+    EXPECT_NE(study.error(), "");
 }
 
 } // namespace

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// What a stop ends and what it leaves, who goes where a store is full, and controls that change nothing
+// because they are outside their range: on both sides of each moment, level and limit.
+#include "Core/Modes/ModeBank.h"
+#include "Core/Pads/PadMotors.h"
+#include "Support/Rendering.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <memory>
+#include <string>
+#include <tuple>
+
+namespace physvib {
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+constexpr int rate = 8000;
+
+CollisionEvent tone(std::int64_t timeNs, double amplitude, std::int64_t durationNs = 0,
+                    double decayPerSecond = 30.0, double frequencyHz = 60.0) {
+    CollisionEvent event;
+    event.timeNs = timeNs;
+    event.frequencyHz = frequencyHz;
+    event.decayPerSecond = decayPerSecond;
+    event.amplitude = amplitude;
+    event.durationNs = durationNs;
+    event.x = event.y = 0.5;
+    return event;
+}
+
+PhantomPanner grips() {
+    EnchanterLayout phone;
+    layoutPreset("phone4", phone);
+    return PadMotors::gripsOf({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
+}
+
+double strongestUntil(PadMotors& motors, std::int64_t ns) {
+    double strongest = 0.0;
+    while (motors.dueNs() <= ns) {
+        const PadCommand command = motors.next(1.0);
+        strongest = std::max({strongest, command.low, command.high});
+    }
+    return strongest;
+}
+
+/// A stop is at the moment at which it is felt; so is an event, although its command leaves earlier.
+TEST(StopsOfMotors, EndWhatIsBeforeThemAndNothingLater) {
+    for (const double lead : {0.0, 0.03, 0.1})
+        for (const int offsetMs : {-150, -100, -99, -31, -30, -29, -1, 0, 1, 29, 30, 100}) {
+            PadLaw law;
+            law.leadSeconds = lead;
+            PadMotors motors{law};
+            const std::int64_t stopNs = 500 * ms;
+            motors.strike(tone(stopNs + offsetMs * ms, 1.0), grips());
+            motors.stop(stopNs);
+            EXPECT_EQ(strongestUntil(motors, 2000 * ms) > 0.0, offsetMs >= 0)
+                << offsetMs << " ms after the stop, lead " << lead;
+            EXPECT_EQ(motors.dueNs(), PadMotors::never);
+        }
+}
+
+TEST(StopsOfMotors, EndWhatRingsWithTheNextCommand) {
+    for (const double decay : {0.0, 1.0, 30.0})
+        for (const std::int64_t afterMs : {1, 10, 79, 81, 150}) {
+            PadMotors motors{PadLaw{}};
+            motors.strike(tone(100 * ms, 1.0, 5000 * ms, decay), grips());
+            EXPECT_GT(strongestUntil(motors, (100 + afterMs) * ms), 0.0);
+            motors.stop((100 + afterMs) * ms);
+            EXPECT_EQ(strongestUntil(motors, 6000 * ms), 0.0) << afterMs << " ms, decay " << decay;
+        }
+}
+
+/// A store of 64 that do not merge; who is left is heard by how long it goes on.
+TEST(FullMotors, LoseTheWeakestWhicheverThatIs) {
+    for (const double amplitude : {0.1, 0.3, 0.9}) { // of one more: weaker than, and stronger than the
+                                                     // weakest
+        PadMotors motors{PadLaw{}};
+        const auto strike = [&](double a, std::int64_t endMs) {
+            motors.strike(tone(100 * ms, a, (endMs - 100) * ms, 0.0), grips());
+        };
+        for (int i = 0; i < 63; ++i) strike(0.5, 200);
+        strike(0.2, 1000);
+        strike(amplitude, 2000);
+        EXPECT_GT(strongestUntil(motors, 150 * ms), 0.0);
+        EXPECT_EQ(motors.lost(), 1U);
+        strongestUntil(motors, 500 * ms);
+        EXPECT_GT(strongestUntil(motors, 900 * ms), 0.0) << amplitude;
+        strongestUntil(motors, 1300 * ms);
+        EXPECT_EQ(strongestUntil(motors, 1900 * ms) > 0.0, amplitude > 0.2) << amplitude;
+    }
+}
+
+/// Who is quietest is a question of now: what was struck hard may have decayed below what was struck softly.
+TEST(FullBank, StealsTheModeThatIsQuietestNow) {
+    constexpr int modes = 2;
+    for (const double decayed : {0.9, 0.5, 0.3, 0.1, 0.02})      // what is left of a strike of 1
+        for (const double other : {0.7, 0.4, 0.2, 0.05, 0.01}) { // the second one, which does not decay
+            auto bank = std::make_unique<ModeBank>();
+            ASSERT_TRUE(bank->prepare(rate, 1, InstructionSet::scalar, modes, 8));
+            const double gain = 1.0;
+            const std::int64_t now = 10 * limits::tileFrames;
+            const double perSecond = -std::log(decayed) * rate / static_cast<double>(now);
+            std::vector<float> block(limits::tileFrames);
+            float* at = block.data();
+            bank->strike({200.0, perSecond, 1.0, {0, 0.0}, Strike::never}, &gain);
+            bank->strike({500.0, 0.01, other, {0, 0.0}, Strike::never}, &gain);
+            for (std::int64_t frame = 0; frame < now; frame += limits::tileFrames)
+                bank->render(&at, frame, limits::tileFrames);
+            bank->strike({1000.0, 0.01, 1.0e-9, {now, 0.0}, Strike::never}, &gain);
+            EXPECT_EQ(bank->stolenModes(), 1U);
+            for (std::int64_t frame = now; frame < now + rate / 10; frame += limits::tileFrames)
+                bank->render(&at, frame, limits::tileFrames);
+            double left = 0.0;
+            for (const float sample : block) left = std::max(left, std::abs(static_cast<double>(sample)));
+            const double kept = decayed < other ? other : decayed * std::exp(-perSecond * 0.1);
+            EXPECT_NEAR(left, kept, 0.15 * kept + 1.0e-4) << decayed << " and " << other;
+        }
+}
+
+struct ListsSource {
+    test::ListSource events;
+    std::vector<RenderControl> controls;
+    bool pop(CollisionEvent& event) noexcept { return events.pop(event); }
+    bool pop(RenderControl& control) noexcept {
+        if (controls.empty()) return false;
+        control = controls.front();
+        controls.erase(controls.begin());
+        return true;
+    }
+};
+
+/// Of four actuators, which those controls change.
+test::Channels rendered(const std::vector<CollisionEvent>& events, const std::vector<RenderControl>& controls,
+                        int frames) {
+    const RendererSettings settings{.sampleRateHz = rate,
+                                    .channels = 4,
+                                    .panner = {test::gridLayout(2, 2), PanningLaw::linear, 1.0, 1.0, 1.0}};
+    auto renderer = std::make_unique<HapticRenderer>();
+    EXPECT_TRUE(renderer->prepare(settings));
+    ListsSource source{{events}, controls};
+    test::Channels all(4, std::vector<float>(static_cast<std::size_t>(frames)));
+    for (int done = 0; done < frames; done += 80) {
+        std::vector<float*> at;
+        for (auto& channel : all) at.push_back(channel.data() + done);
+        renderer->render(source, at.data(), 80);
+    }
+    return all;
+}
+
+test::Channels renderedWith(const std::vector<RenderControl>& controls) {
+    return rendered({tone(0, 3.0), tone(60 * ms, 0.7, 0, 30.0, 200.0)}, controls, 1200);
+}
+
+double peak(const test::Channels& channels, int from, int to) {
+    float most = 0.0f;
+    for (const auto& channel : channels)
+        for (int n = from; n < to; ++n) most = std::max(most, std::abs(channel[static_cast<std::size_t>(n)]));
+    return static_cast<double>(most);
+}
+
+RenderControl control(RenderControl::Kind kind, int channel, float value) {
+    RenderControl one;
+    one.timeNs = 10 * ms;
+    one.kind = kind;
+    one.channel = channel;
+    one.value = value;
+    return one;
+}
+
+TEST(ControlsOutOfRange, ChangeNothingAndTheirNeighboursDo) {
+    using Kind = RenderControl::Kind;
+    constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+    const auto plain = renderedWith({});
+    for (const auto& [kind, value] :
+         {std::pair{Kind::gain, 0.25f}, {Kind::mute, 1.0f}, {Kind::delay, 0.01f}, {Kind::ceiling, 0.125f}}) {
+        for (const int channel : {-1, 4, 5, 1'000'000, std::numeric_limits<int>::min()})
+            EXPECT_EQ(renderedWith({control(kind, channel, value)}), plain) << "channel " << channel;
+        for (const int channel : {0, 3}) {
+            const auto changed = renderedWith({control(kind, channel, value)});
+            EXPECT_NE(changed[static_cast<std::size_t>(channel)], plain[static_cast<std::size_t>(channel)])
+                << static_cast<int>(kind) << " of channel " << channel;
+        }
+    }
+    for (const float ceiling : {0.0f, -0.5f, infinity, -infinity, nan})
+        EXPECT_EQ(renderedWith({control(Kind::ceiling, 1, ceiling)}), plain) << ceiling;
+}
+
+TEST(ControlsOutOfRange, ALayoutOfMoreActuatorsThanOutputsIsNotTaken) {
+    const auto plain = renderedWith({});
+    for (const int count : {1, 2, 3, 4, 5, 6, 9, limits::maxEnchanters}) {
+        RenderControl layout = control(RenderControl::Kind::panner, 0, 0.0f);
+        layout.panner = {test::gridLayout(count, 1), PanningLaw::linear, 1.0, 1.0, 1.0};
+        EXPECT_EQ(renderedWith({layout}) == plain, count > 4) << count << " actuators on 4 outputs";
+    }
+}
+
+/// From every state: what sounds is over within a tenth of a second, at the latest, of its stop or silence.
+TEST(StopsOfSound, EndWhateverSoundsWithinATenthOfASecond) {
+    using Kind = RenderControl::Kind;
+    std::vector<CollisionEvent> states;
+    for (const std::int64_t duration : {std::int64_t{0}, 5000 * ms})
+        for (const double decay : {0.0, 0.5}) {
+            if (decay == 0.0 && duration == 0) continue;
+            states.push_back(tone(0, 0.5, duration, decay, 200.0));
+            states.push_back(tone(0, 0.5, duration, decay, 200.0));
+            states.back().course.travelNs = 3000 * ms;
+            states.back().course.toX = 1.0;
+        }
+    for (const Kind kind : {Kind::stopAll, Kind::silence})
+        for (std::size_t i = 0; i < states.size(); ++i) {
+            RenderControl stop = control(kind, 0, 0.0f);
+            stop.timeNs = stop.untilNs = 100 * ms;
+            const auto all = rendered({states[i]}, {stop}, rate);
+            EXPECT_GT(peak(all, 0, rate / 10), 0.01) << i;
+            EXPECT_LT(peak(all, rate / 5, rate), 1.0e-4)
+                << "state " << i << ", kind " << static_cast<int>(kind);
+        }
+}
+
+} // namespace
+} // namespace physvib

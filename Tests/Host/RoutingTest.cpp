@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// No output has two masters: of any random wishes, those are refused in which an actuator would get noise,
+// contact sounds or marks, and after all others each source plays where it was asked to and nowhere else.
+#include "Live/Devices/DeviceSession.h"
+#include "Live/Devices/OutputMap.h"
+#include "Live/Documents/Strip.h"
+#include "Live/Recordings/HitExport.h"
+#include "Stimuli/SeededRandom.h"
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace physvib {
+namespace {
+
+bool has(const std::vector<int>& list, int value) { return std::ranges::find(list, value) != list.end(); }
+
+/// What a map may not be; apart from counts.
+bool isAllowed(const std::vector<int>& felt, const HeardOutputs& heard) {
+    for (std::size_t i = 0; i < felt.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (felt[i] >= 0 && felt[i] == felt[j]) return false;
+    for (const auto& source : heard) {
+        if (source.size() > static_cast<std::size_t>(OutputMap::mostHeard)) return false;
+        for (const int output : source)
+            if (output >= 0 && has(felt, output)) return false;
+    }
+    for (const int output : heard[static_cast<std::size_t>(Heard::marks)])
+        if (has(heard[static_cast<std::size_t>(Heard::noise)], output) ||
+            has(heard[static_cast<std::size_t>(Heard::contacts)], output))
+            return false;
+    return true;
+}
+
+TEST(Routing, NoActuatorGetsWhatIsMeantForEarsOrMeters) {
+    SeededRandom random{115};
+    int taken = 0, refused = 0;
+    std::array<int, heardKinds> refusedFor{};
+    for (int round = 0; round < 20'000; ++round) {
+        const int actuators = 1 + static_cast<int>(random.below(6)), outputs = 16;
+        std::vector<int> felt(static_cast<std::size_t>(actuators));
+        for (int& output : felt) output = static_cast<int>(random.below(outputs + 1)) - 1;
+        HeardOutputs heard;
+        for (auto& source : heard) {
+            const std::size_t most = random.chance(0.05) ? 11 : 3;
+            for (std::size_t n = random.below(most); n > 0; --n)
+                source.push_back(static_cast<int>(random.below(outputs)));
+        }
+        OutputMap map;
+        ASSERT_EQ(map.want(actuators, {}, 0), ""); // before: each on its own
+        const bool isTaken = map.want(actuators, felt, 0, heard).empty();
+        ASSERT_EQ(isTaken, isAllowed(felt, heard)) << "round " << round;
+        (isTaken ? taken : refused)++;
+        for (std::size_t kind = 0; kind < heardKinds && !isTaken; ++kind) {
+            HeardOutputs alone;
+            alone[kind] = heard[kind];
+            refusedFor[kind] += !isAllowed(felt, alone);
+        }
+        ChannelSet active;
+        const int offered = 1 + static_cast<int>(random.below(outputs));
+        for (int k = 0; k < offered; ++k) active.insert(k);
+        map.place(active);
+        map.settle(48000);
+        std::set<int> driven;
+        for (int j = 0; j < actuators; ++j) {
+            float sample = 1.0f;
+            const int wanted = isTaken ? felt[static_cast<std::size_t>(j)] : j;
+            const int at = map.play(j, &sample, 1);
+            ASSERT_EQ(at, wanted < offered ? wanted : -1) << "round " << round << ", actuator " << j;
+            if (at >= 0) ASSERT_TRUE(driven.insert(at).second);
+        }
+        for (const Heard source : {Heard::noise, Heard::contacts, Heard::marks})
+            for (int i = 0; i < OutputMap::mostHeard; ++i) {
+                const auto& wanted = heard[static_cast<std::size_t>(source)];
+                const int at = map.heardAt(source, i);
+                ASSERT_FALSE(driven.contains(at)) << "round " << round;
+                const bool isWanted = isTaken && i < std::ssize(wanted);
+                ASSERT_EQ(at, isWanted && wanted[static_cast<std::size_t>(i)] < offered
+                                  ? wanted[static_cast<std::size_t>(i)]
+                                  : -1);
+            }
+    }
+    EXPECT_GT(taken, 1000);
+    EXPECT_GT(refused, 1000);
+    for (const int count : refusedFor) EXPECT_GT(count, 100) << "each kind is refused for itself";
+}
+
+TEST(Routing, AFreeOutputIsTheLowestThatNobodyHas) {
+    SeededRandom random{68};
+    for (int round = 0; round < 5000; ++round) {
+        std::vector<Strip> strips(random.below(6));
+        for (Strip& strip : strips) strip.output = static_cast<int>(random.below(7)) - 1;
+        std::vector<int> inUse(random.below(4));
+        for (int& output : inUse) output = static_cast<int>(random.below(7)) - 1;
+        const int outputs = static_cast<int>(random.below(8));
+        int expected = -1;
+        for (int k = outputs - 1; k >= 0; --k)
+            if (!has(inUse, k) && std::ranges::find(strips, k, &Strip::output) == strips.end()) expected = k;
+        ASSERT_EQ(freeOutput(strips, inUse, outputs), expected);
+        if (strips.empty()) continue;
+        const auto before = strips;
+        const std::size_t strip = random.below(strips.size());
+        const int wanted = static_cast<int>(random.below(7)) - 1;
+        settleOutputs(strips);
+        for (std::size_t i = 0; i < strips.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                ASSERT_TRUE(strips[i].output < 0 || strips[i].output != strips[j].output);
+        giveOutput(strips, strip, wanted);
+        ASSERT_EQ(strips[strip].output, wanted);
+        for (std::size_t i = 0; i < strips.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                ASSERT_TRUE(strips[i].output < 0 || strips[i].output != strips[j].output);
+    }
+}
+
+/// A device that has so many inputs and outputs, and does nothing.
+class CountedDevice final : public AudioDevice {
+public:
+    CountedDevice(int inputs, int outputs)
+        : inputs_{inputs}
+        , outputs_{outputs} {}
+    std::string name() const override { return "thing"; }
+    int outputs() override { return outputs_; }
+    int inputs() override { return inputs_; }
+    int defaultBlockFrames() override { return 64; }
+    std::string open(const ChannelSet&, const ChannelSet&, int, int) override { return {}; }
+    void close() override {}
+    bool isOpen() override { return false; }
+    void start(DeviceUser&) override {}
+    void stop() override {}
+    int sampleRateHz() override { return 48000; }
+    int blockFrames() override { return 64; }
+    ChannelSet activeOutputs() const override { return {}; }
+    int outputLatencyFrames() override { return 0; }
+    int xruns() const override { return -1; }
+
+private:
+    int inputs_, outputs_;
+};
+
+TEST(Routing, ADeviceLacksWhatItDoesNotHave) {
+    for (const int has : {0, 1, 2, 8})
+        for (const int wanted : {-1, 0, 1, 2, 7, 8, 9}) {
+            CountedDevice device{has, has};
+            DeviceRequest inputs{.name = "thing"}, outputs{.name = "thing"};
+            if (wanted >= 0) inputs.inputs = {wanted};
+            outputs.highestHeard = wanted;
+            EXPECT_EQ(inputs.fault(device).empty(), wanted < has || wanted < 0) << wanted << " of " << has;
+            EXPECT_EQ(outputs.fault(device).empty(), wanted < has) << wanted << " of " << has;
+        }
+}
+
+/// One file for each channel in which something is, under names that differ, and no other.
+TEST(ExportedParts, AreOfTheChannelsThatAreNotEmpty) {
+    for (const ClipFormat format : {ClipFormat::ahap, ClipFormat::haptic})
+        for (unsigned mask = 0; mask < 16; ++mask) {
+            Clip clip;
+            clip.channels.resize(4);
+            std::size_t filled = 0;
+            for (std::size_t j = 0; j < 4; ++j) {
+                clip.channels[j].label = std::string(1, static_cast<char>('A' + j));
+                if ((mask >> j & 1U) == 0) continue;
+                clip.channels[j].transients = {{0.1, 0.5, 100.0}};
+                ++filled;
+            }
+            const auto parts = partsOf(clip, "/tmp/hits.x", format);
+            EXPECT_EQ(parts.size(), filled) << mask;
+            std::set<std::string> paths;
+            for (const ClipPart& part : parts) {
+                EXPECT_NE(part.path, "/tmp/hits.x");
+                EXPECT_GT(part.clip.seconds(), 0.0);
+                EXPECT_EQ(part.clip.channels.size(), 1U);
+                EXPECT_NE(part.path.find("-" + part.clip.channels[0].label + "."), std::string::npos);
+                paths.insert(part.path);
+            }
+            EXPECT_EQ(paths.size(), parts.size());
+        }
+}
+
+} // namespace
+} // namespace physvib

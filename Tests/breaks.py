@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Breaks the code in the ways that breaks.txt lists, one after the other, and says which of them its tests catch.
+usage: breaks.py --check | BUILD FOLDER [WORD...]
+--check: only whether each break has its place in the code, in a second. BUILD: a build in which all test programs are; it stays as it is. FOLDER: for the sources with their
+breaks, and what is compiled of them. All breaks are compiled at once, and PHYSVIB_BREAK says which one a program has. WORD: only rows with that word. A row is
+`file|what stands there|what is put there|what a user loses|program:filter`; BROKEN in the third is true in the broken program, ¦ stands for |, \\n for a new line; without BROKEN the
+third stands for the second, a statement if that ends in a semicolon. A break is caught if that test fails with it and passes without. Exit code 1 if a place is missing, or fewer
+than nine of ten are caught."""
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+SWITCH = """#pragma once
+#ifdef __cplusplus
+#include <cstdlib>
+inline bool isBroken(int number) {
+    static const char* const chosen = std::getenv("PHYSVIB_BREAK");
+    return chosen != nullptr && std::atoi(chosen) == number;
+}
+#endif
+"""
+SECONDS = 300
+
+
+class Break:
+    def __init__(self, number: int, line: str):
+        self.number = number
+        self.file, self.old, self.new, self.what, self.test = (part.replace("¦", "|").replace("\\n", "\n") for part in line.split("|"))
+
+    def put_into(self, text: str) -> str:
+        if "BROKEN" in self.new:
+            new = self.new.replace("BROKEN", f"isBroken({self.number})")
+        elif self.old.endswith(";"):
+            new = f"{{ if (isBroken({self.number})) {{ {self.new} }} else {{ {self.old} }} }}"
+        else:
+            new = f"(isBroken({self.number}) ? ({self.new}) : ({self.old}))"
+        return text.replace(self.old, new)
+
+
+def breaks() -> list[Break]:
+    lines = (ROOT / "Tests/breaks.txt").read_text().splitlines()
+    rows = [Break(number, line) for number, line in enumerate((line for line in lines if line and line[0] != "#"), 1)]
+    texts = {str(path.relative_to(ROOT)): path.read_text() for folder in ("Source", "Plugin", "Standalone", "Firmware") for path in (ROOT / folder).rglob("*") if path.suffix in (".cpp", ".h")}
+    for row in rows:  # code moves
+        if texts.get(row.file, "").count(row.old) != 1:
+            places = [file for file, text in texts.items() if text.count(row.old) == 1]
+            row.file = places[0] if len(places) == 1 else row.file
+    return rows
+
+
+def without_a_place(rows: list[Break]) -> list[str]:
+    def count(row: Break) -> int:
+        path = ROOT / row.file
+        return path.read_text().count(row.old) if path.exists() else 0
+
+    return [f"{row.file}: {row.old}: {count(row)} places" for row in rows if count(row) != 1]
+
+
+class Overlay:
+    """What the breaks change of a build, compiled and linked anew in a folder: the build's own commands, of what depends on a broken file."""
+
+    def __init__(self, build: pathlib.Path, folder: pathlib.Path, rows: list[Break]):
+        self.build, self.folder = build, folder
+        self.source = pathlib.Path(re.search(r"CMAKE_HOME_DIRECTORY:INTERNAL=(.*)", (build / "CMakeCache.txt").read_text())[1])
+        self.files: dict[str, pathlib.Path] = {}  # of the build's sources: with its breaks
+        self.outputs: dict[str, str] = {}  # of the build, relative to it: made anew
+        texts: dict[str, str] = {}
+        for row in rows:
+            texts[row.file] = row.put_into(texts.get(row.file) or (ROOT / row.file).read_text())
+        for file, text in texts.items():
+            self.write(str(self.source / file), text)
+        places = build / "Tests/Places/TestPlaces.h"  # which programs the tests call
+        self.write(str(places), places.read_text().replace(f"{build}/bin", f"{folder}/bin"))
+        (folder / "Switch.h").write_text(SWITCH)
+        self.deps = self.read_deps()
+
+    def write(self, name: str, text: str) -> None:
+        path = self.folder / "sources" / pathlib.Path(name).relative_to("/")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.exists() or path.read_text() != text:
+            path.write_text(text)
+        self.files[name] = path
+
+    def read_deps(self) -> dict[str, set[str]]:
+        found: dict[str, set[str]] = {}
+        for line in subprocess.run(["ninja", "-t", "deps"], cwd=self.build, capture_output=True, text=True, check=True).stdout.splitlines():
+            if line.startswith(" "):
+                found[output].add(os.path.normpath(self.build / line.strip()))
+            elif line:
+                output = line.split(":")[0]
+                found[output] = set()
+        return found
+
+    def compile(self, words: list[str]) -> None:
+        at = words.index("-o")
+        output, source = words[at + 1], words[words.index("-c") + 1]
+        if not self.deps.get(output, set()) & self.files.keys() and source not in self.files:
+            return
+        if "/Unity/" in source:  # names the files that are compiled together
+            text = pathlib.Path(source).read_text()
+            for name, path in self.files.items():
+                text = text.replace(f'"{name}"', f'"{path}"')
+            self.write(source, text)
+        new = self.folder / output
+        new.parent.mkdir(parents=True, exist_ok=True)
+        self.outputs[output] = str(new)
+        roots = [word[2:] for word in words if word.startswith("-I/")]
+        shadows = [f"-I{shadow}" for root in roots if (shadow := self.folder / "sources" / root[1:]).exists()]
+        flags = [word for word in words[:at] if word != "-Werror" and not word.startswith("-W")]
+        beside = f"-iquote{pathlib.Path(source).parent}"
+        if "/Unity/" in source:
+            beside = "-DPHYSVIB_BREAKS"
+        if not new.exists() or any(path.stat().st_mtime > new.stat().st_mtime for name, path in self.files.items() if name in self.deps.get(output, set()) or name == source):
+            call = [*flags[:1], *shadows, *flags[1:], "-O0", "-w", beside, "-include", str(self.folder / "Switch.h"), "-o", str(new), "-c", str(self.files.get(source, source))]
+            self.calls.append((call, output))
+
+    def link(self, words: list[str]) -> None:
+        output = words[words.index("-o") + 1] if "-o" in words else words[words.index("qc") + 1]
+        if not any(word in self.outputs for word in words if word != output):
+            return
+        new = self.folder / output
+        new.parent.mkdir(parents=True, exist_ok=True)
+        inputs = [self.outputs.get(word, word) for word in words]
+        self.outputs[output] = str(new)
+        self.links.append(([str(new) if word == output else word for word in inputs] + (["-Wl,--enable-new-dtags"] if "-o" in words else []), output))
+
+    def make(self, programs: list[str]) -> None:
+        self.calls, self.links = [], []
+        said = subprocess.run(["ninja", "-t", "commands", *programs], cwd=self.build, capture_output=True, text=True, check=True).stdout
+        for line in said.splitlines():
+            for part in line.split(" && "):
+                words = shlex.split(part)
+                if "-c" in words and "-o" in words and words[words.index("-o") + 1].endswith(".o"):
+                    while words[0].endswith(("cmake", "ccache")) or words[0] in ("-E", "env") or "=" in words[0]:
+                        words.pop(0)
+                    self.compile(words)
+                elif words and (words[0].endswith("/ar") or (words[0].endswith("c++") and "-o" in words)):
+                    self.link(words)
+        running: list[tuple[subprocess.Popen, str]] = []
+        for call, output in [*self.calls, ([], "")]:
+            while len(running) >= (os.cpu_count() or 2) or (not call and running):
+                process, name = running.pop(0)
+                if process.wait():
+                    sys.exit(f"{name}: does not compile with its breaks")
+            if call:
+                print(f"compiles {output}", flush=True)
+                running.append((subprocess.Popen(call, cwd=self.build), output))
+        for call, output in self.links:
+            new = pathlib.Path(self.outputs[output])
+            new.unlink(missing_ok=True)
+            if subprocess.run(call, cwd=self.build).returncode:
+                sys.exit(f"{output}: does not link with its breaks")
+            if ".so." in output:  # by its shorter names as well
+                for end in range(2):
+                    short = new.with_name(".".join(new.name.split(".")[: 2 + end]))
+                    if short != new:
+                        short.unlink(missing_ok=True)
+                        short.symlink_to(new)
+                        self.outputs[str(pathlib.Path(output).with_name(short.name))] = str(short)
+
+
+def fails(folder: pathlib.Path, build: pathlib.Path, test: str, number: int) -> str:
+    """How that test ends with that break: "" if it passes."""
+    program, _, only = test.partition(":")
+    at = folder / "bin" / program
+    environment = {**os.environ, "PHYSVIB_BREAK": str(number), "LD_LIBRARY_PATH": f"{folder}/lib", "LOCPATH": str(build / "Tests/locale")}
+    try:
+        done = subprocess.run([at if at.exists() else build / "bin" / program, f"--gtest_filter={only}"], capture_output=True, text=True, timeout=SECONDS, env=environment, errors="replace")
+    except subprocess.TimeoutExpired:
+        return "time"
+    if "0 tests ran" in done.stdout or "[==========] Running 0 tests" in done.stdout:
+        return "no such test" if number == 0 else ""
+    return (re.findall(r"\[  FAILED  \] ([\w./]+)", done.stdout) or ["ended"])[0] if done.returncode else ""
+
+
+def main() -> None:
+    rows = breaks()
+    if missing := without_a_place(rows):
+        sys.exit("\n".join(missing) + f"\n{len(missing)} of {len(rows)} breaks have no place of their own in the code")
+    if sys.argv[1] == "--check":
+        return print(f"{len(rows)} breaks have their places")
+    build, folder = (pathlib.Path(name).resolve() for name in sys.argv[2 - 1 : 3])
+    chosen = [row for row in rows if not sys.argv[3:] or any(word in f"{row.number}|{row.file}|{row.test}|{row.what}" for word in sys.argv[3:])]
+    programs = sorted({row.test.split(":")[0] for row in chosen})
+    called = ["physvib", "physvib-render"] if "physvib-commandline-tests" in programs else []
+    Overlay(build, folder, rows).make([f"bin/{name}" for name in programs + called])
+    caught = 0
+    passes: dict[str, str] = {}
+    for row in chosen:
+        if row.test not in passes:
+            passes[row.test] = fails(folder, build, row.test, 0)
+        if passes[row.test]:
+            print(f"{row.number:3} UNBROKEN   {row.test} does not pass as it is: {passes[row.test]}", flush=True)
+            continue
+        by = fails(folder, build, row.test, row.number)
+        caught += by != ""
+        print(f"{row.number:3} {'caught' if by else 'NOT CAUGHT':10} {row.file}: {row.what} ({by})", flush=True)
+    print(f"{caught} of {len(chosen)} caught")
+    sys.exit(caught * 10 < len(chosen) * 9)
+
+
+if __name__ == "__main__":
+    main()
