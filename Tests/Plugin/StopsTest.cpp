@@ -2,7 +2,7 @@
 // After a stop nothing sounds, whatever was sounding or held and however full the queues are; what the knobs
 // make of a note can always be played; and where no music came in, none is felt.
 #include "MidiMap.h"
-#include "MusicDelay.h"
+#include "MusicInput.h"
 #include "PluginTesting.h"
 #include <functional>
 #include <map>

@@ -3,8 +3,8 @@
 // not hold who was removed, nor his heir; what was lost is counted; a new layout keeps who plays it.
 #include "DropScene.h"
 #include "Scene/LayoutFile.h"
-#include "Scene/LayoutNamed.h"
-#include "Scene/PadCommands.h"
+#include "Scene/LayoutFile.h"
+#include "Scene/PadFile.h"
 #include "Scene/PadFile.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneFields.h"

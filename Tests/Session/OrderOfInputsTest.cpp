@@ -4,7 +4,7 @@
 #include "FakeHost.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Messages/MessageRouter.h"
-#include "Live/Messages/MessageStrikes.h"
+#include "Live/Messages/MessageValues.h"
 #include <gtest/gtest.h>
 #include <map>
 #include <set>

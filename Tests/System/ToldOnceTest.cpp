@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // That lines were lost is told once, with their number, and what follows is told as it is.
-#include "System/OutputWriter.h"
+#include "System/StandardStreams.h"
 #include <atomic>
 #include <chrono>
 #include <gtest/gtest.h>
