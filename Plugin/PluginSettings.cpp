@@ -321,7 +321,8 @@ void take(PluginState& state, const Instrument& instrument, int outputs) {
     }
     appendParameter(state, Parameter::strikeLevel, instrument.strikeDb);
     appendParameter(state, Parameter::beats, instrument.beats);
-    for (const auto which : parameterTable::instrumentGroup) appendParameter(state, which, rowOf(which).initial);
+    for (const auto which : parameterTable::instrumentGroup)
+        appendParameter(state, which, rowOf(which).initial);
 }
 
 } // namespace

@@ -99,8 +99,9 @@ void Take::releaseUntil(int frames) noexcept {
 }
 
 bool Take::send(std::span<const Strip> strips) {
-    return sendStrips(lastSent_, strips,
-                      [this](const RenderControl& control) { return session.submit({control}).error.empty(); });
+    return sendStrips(lastSent_, strips, [this](const RenderControl& control) {
+        return session.submit({control}).error.empty();
+    });
 }
 
 bool Take::silence(int frame) noexcept {

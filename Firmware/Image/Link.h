@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The board's side of the link: executes messages and sends replies.
 #pragma once
-#include "Registers.h"
 #include "Core/BoardRenderer.h"
 #include "Outputs.h"
+#include "Registers.h"
 #include "SerialPort.h"
 #include "Wire/FrameDecoder.h"
 #include "Wire/SelfTest.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Interrupt-driven serial port, built for the ST-Link's port (USART2) or a Bluetooth module (USART1).
 #pragma once
-#include "Registers.h"
 #include "Outputs.h"
+#include "Registers.h"
 #include "Wire/Messages.h"
 #include <array>
 #include <cstdint>

@@ -4,9 +4,9 @@
 // Three priorities: the sample timer's interrupt writes one frame to the converters, the serial interrupt
 // moves bytes, and the main loop handles messages and renders a few frames ahead. The hardware watchdog is
 // reset once per rendered block, so it detects when timer, interrupts or loop hang.
-#include "Registers.h"
-#include "Outputs.h"
 #include "Link.h"
+#include "Outputs.h"
+#include "Registers.h"
 #include "SerialPort.h"
 #include "Startup.h"
 #include <new>

@@ -2,8 +2,8 @@
 // Extraction of a texture: checks the recording, counts grains that stand out, else looks for repetition.
 #include "Measure/TextureExtractor.h"
 #include "Measure/GrainTrain.h"
-#include "Measure/Spectrum.h"
 #include "Measure/HitExcerpt.h"
+#include "Measure/Spectrum.h"
 #include <algorithm>
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Draws the world panel: field, bodies, impacts as light, actuators.
-#include "Pictures/ShapeOutline.h"
 #include "Pictures/PictureParts.h"
+#include "Pictures/ShapeOutline.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 #include "Io/Provenance.h"
 #include "Io/Result.h"
 #include "Scene/FieldSize.h"
-#include "Scene/SceneLimits.h"
 #include "Scene/PartNames.h"
+#include "Scene/SceneLimits.h"
 #include <cstddef>
 #include <filesystem>
 #include <span>

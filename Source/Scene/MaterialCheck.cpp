@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ranges and names of materials.
-#include "Scene/MaterialTable.h"
 #include "Core/NameNumbers.h"
+#include "Scene/MaterialTable.h"
 #include "Scene/SceneRanges.h"
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads the embedded scenes like scene files.
-#include "Scene/SceneFile.h"
 #include "Io/Text/NumberText.h"
+#include "Scene/SceneFile.h"
 #include <algorithm>
 
 namespace physvib {

@@ -4,8 +4,8 @@
 #include "Api/JavaScript/Exports.h"
 #include "Io/Text/QrCode.h"
 #include "PageWorld.h"
-#include "Scene/SceneFile.h"
 #include "Scene/SceneEdits.h"
+#include "Scene/SceneFile.h"
 #include <array>
 #include <optional>
 

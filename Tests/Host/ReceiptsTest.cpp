@@ -236,7 +236,8 @@ TEST(Receipts, ASpanOverAChangeOfPeriodOrRateIsNotInOnePiece) {
         one.open();
         for (int k = 0; k < 500; ++k) one.play(64, 0);
         const auto feltNs = [&] {
-            return nsOf(one.session.timeline().framesRendered() - one.session.timeline().outputLatencyFrames(),
+            return nsOf(one.session.timeline().framesRendered() -
+                            one.session.timeline().outputLatencyFrames(),
                         one.output.sampleRateHz());
         };
         const std::int64_t changedNs = feltNs();

@@ -7,8 +7,8 @@
 #include "Mixer/Model/MixerWorld.h"
 #include "Mixer/Window/FirstStart.h"
 #include "NewSceneRig.h"
-#include "Scene/SceneFile.h"
 #include "Scene/SceneEdits.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/Simulation.h"
 
 namespace physvib {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // At the wheel one feels how fast one drove, and into what.
 #include "Scene/DropScene.h"
-#include "Scene/SceneFile.h"
 #include "Scene/SceneEdits.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/BodyMass.h"
 #include "Scene/World/ScenePlayer.h"
 #include "SceneHits.h"

@@ -2,8 +2,8 @@
 // In the fruit basket one feels the fruits that one catches: each kind with its own sound, the heavier the
 // stronger.
 #include "Scene/DropScene.h"
-#include "Scene/SceneFile.h"
 #include "Scene/SceneEdits.h"
+#include "Scene/SceneFile.h"
 #include "Scene/World/BodyMass.h"
 #include "Scene/World/ScenePlayer.h"
 #include "SceneHits.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What is drawn in a world, undone and done again: against snapshots, and against the world that felt it.
 #include "Scene/Drawing/BodyEdits.h"
-#include "Scene/SceneFile.h"
 #include "Scene/SceneEdits.h"
+#include "Scene/SceneFile.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/SceneCast.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A hand that holds a body: where it pulls it, how evenly, how hard at most, and what ends it.
-#include "Scene/World/SceneWorld.h"
 #include "DropScene.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/InputCheck.h"
+#include "Scene/World/SceneWorld.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 

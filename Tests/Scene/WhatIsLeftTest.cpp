@@ -3,8 +3,6 @@
 // not hold who was removed, nor his heir; what was lost is counted; a new layout keeps who plays it.
 #include "DropScene.h"
 #include "Scene/LayoutFile.h"
-#include "Scene/LayoutFile.h"
-#include "Scene/PadFile.h"
 #include "Scene/PadFile.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneFields.h"
@@ -139,7 +137,7 @@ TEST(DroppedHits, AreCountedByARunOfEveryTake) {
     EXPECT_EQ(once.drops, alone.drops());
     const auto shared = std::make_shared<const Scene>(scene);
     const std::vector<SceneRun> takes{{0, alone.timeNs(), 1, shared, {}, {}},
-                                       {alone.timeNs(), 0, 1, shared, {}, {}}};
+                                      {alone.timeNs(), 0, 1, shared, {}, {}}};
     EXPECT_EQ(runTakes(takes, {}, alone.timeNs() + 150'000'000).drops, 2 * alone.drops());
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A path on the board: steps without gaps, of bounded number, each as strong and where it is to be.
-#include "Wire/BoardPath.h"
 #include "Core/BoardRenderer.h"
 #include "Core/PhantomPanner.h"
+#include "Wire/BoardPath.h"
 #include "Wire/BoardStrike.h"
 #include <gtest/gtest.h>
 #include <memory>

@@ -7,8 +7,8 @@
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/Stimulus.h"
 #include "Lab/Study/StudyOrder.h"
-#include "Stimuli/Stimulus.h"
 #include "Stimuli/SeededRandom.h"
+#include "Stimuli/Stimulus.h"
 #include <map>
 #include <optional>
 #include <set>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Computes the events of the messages strike, pattern, phantom, path and clip.
-#include "Live/Messages/MessageValues.h"
 #include "Core/ActuatorCells.h"
 #include "Core/Samples.h"
 #include "Io/Text/NumberText.h"
+#include "Live/Messages/MessageValues.h"
 #include "Scene/EventColumns.h"
 #include "Scene/PartNames.h"
 #include "Stimuli/PulsePattern.h"
