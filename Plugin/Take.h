@@ -96,9 +96,9 @@ private:
         PanningLaw law{};
     };
     // The longest L is a block and the steps of a slow world: a fifth of a second.
-    using HeldControls = EventQueue<HeldControl, 2048>;
-    static constexpr int slicesPerSecond = 48; // their frames hold 32 of each kind, beside whatever else
-                                               // comes
+    using HeldControls = EventQueue<HeldControl, 1024>;
+    static constexpr int slicesPerSecond = 128; // their frames hold 12 of each kind: CallbackInputs has
+                                                // places for 16 panners
     struct Held {
         HeldControls queue;
         HeldControl first;

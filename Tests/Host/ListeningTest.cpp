@@ -182,11 +182,11 @@ TEST(Listening, NoneOfManyStopsIsLost) {
     tone.frequencyHz = 200.0;
     tone.amplitude = 0.5;
     tone.durationNs = 5'000'000'000;
-    heard.tell(tone);
+    heard.mirror(tone);
     RenderControl stop;
-    for (int k = 0; k < 384; ++k) heard.tell(stop); // as many as a session's queues hold
+    for (int k = 0; k < 384; ++k) heard.mirror(stop); // as many as a session's queues hold
     stop.timeNs = 20'000'000;
-    heard.tell(stop);
+    heard.mirror(stop);
     EXPECT_EQ(heard.lost(), 0u);
     std::vector<float> begun(4800), ended(4800);
     float* at = begun.data();
