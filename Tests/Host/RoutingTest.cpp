@@ -36,7 +36,7 @@ TEST(Routing, NoActuatorGetsWhatIsMeantForEarsOrMeters) {
     SeededRandom random{115};
     int taken = 0, refused = 0;
     std::array<int, heardKinds> refusedFor{};
-    for (int round = 0; round < 20'000; ++round) {
+    for (int round = 0; round < 10'000; ++round) {
         const int actuators = 1 + static_cast<int>(random.below(6)), outputs = 16;
         std::vector<int> felt(static_cast<std::size_t>(actuators));
         for (int& output : felt) output = static_cast<int>(random.below(outputs + 1)) - 1;
