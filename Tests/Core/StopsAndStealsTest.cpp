@@ -190,7 +190,8 @@ TEST(ControlsOutOfRange, ALayoutOfMoreActuatorsThanOutputsIsNotTaken) {
     const auto plain = renderedWith({});
     for (const int count : {1, 2, 3, 4, 5, 6, 9, limits::maxEnchanters}) {
         RenderControl layout = control(RenderControl::Kind::panner, 0, 0.0f);
-        layout.panner = {test::gridLayout(count, 1), PanningLaw::linear, 1.0, 1.0, 1.0};
+        const PhantomPanner panner{test::gridLayout(count, 1), PanningLaw::linear, 1.0, 1.0, 1.0};
+        layout.panner = &panner;
         EXPECT_EQ(renderedWith({layout}) == plain, count > 4) << count << " actuators on 4 outputs";
     }
 }
