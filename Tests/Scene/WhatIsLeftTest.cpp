@@ -165,7 +165,7 @@ TEST(PadCommands, ControlsActFromTheirOwnNanosecond) {
         RenderControl layout;
         layout.kind = RenderControl::Kind::panner;
         layout.timeNs = at + offset;
-        layout.panner = far;
+        layout.panner = &far;
         EXPECT_EQ(told(near, {layout}), offset <= 0 ? farWords : nearWords) << offset;
     }
 }
