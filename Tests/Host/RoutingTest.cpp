@@ -131,7 +131,7 @@ public:
     int sampleRateHz() override { return 48000; }
     int blockFrames() override { return 64; }
     ChannelSet activeOutputs() const override { return {}; }
-    int outputLatencyFrames() override { return 0; }
+    int deviceLatencyFrames() override { return 0; }
     int xruns() const override { return -1; }
 
 private:

@@ -89,8 +89,8 @@ TEST(Doses, OfBeforeKeepTheFullScalesOfBefore) {
         for (EnchanterDescription& enchanter : layout.enchanters) enchanter.fullScaleG = fullScaleG;
         return layout;
     };
-    DeskExposure updated{output}, forgetful{output};
-    for (DeskExposure* exposure : {&updated, &forgetful}) exposure->use(withScale(1.0));
+    MixerExposure updated{output}, forgetful{output};
+    for (MixerExposure* exposure : {&updated, &forgetful}) exposure->use(withScale(1.0));
     const auto play = [&] {
         for (int k = 0; k < 1500; ++k) { // two seconds
             if (k % 4 == 0) session.advance();
@@ -101,10 +101,10 @@ TEST(Doses, OfBeforeKeepTheFullScalesOfBefore) {
     updated.update();
     const double before = updated.squareGSeconds();
     EXPECT_GT(before, 0.0);
-    for (DeskExposure* exposure : {&updated, &forgetful}) exposure->use(withScale(4.0));
+    for (MixerExposure* exposure : {&updated, &forgetful}) exposure->use(withScale(4.0));
     EXPECT_DOUBLE_EQ(forgetful.squareGSeconds(), before);
     play();
-    for (DeskExposure* exposure : {&updated, &forgetful}) exposure->update();
+    for (MixerExposure* exposure : {&updated, &forgetful}) exposure->update();
     EXPECT_GT(updated.squareGSeconds(), before);
     EXPECT_DOUBLE_EQ(forgetful.squareGSeconds(), updated.squareGSeconds());
 }

@@ -20,7 +20,7 @@ TEST(BoundedInputs, NoPhonePullsBeyondTheWorldsLimitOnAnyAxis) {
                              y = size * most * std::sin(angle);
                 PhoneSensors phone{turn};
                 const auto pull =
-                    phone.take(*sensorFormat("/accelerometer"), {"/accelerometer", {x, y, 0.0}, oscNow});
+                    phone.read(*sensorFormat("/accelerometer"), {"/accelerometer", {x, y, 0.0}, oscNow});
                 ASSERT_TRUE(pull.value.has_value()) << pull.error;
                 // a phone tells what holds it: the pull is the other way
                 const double wantedX = -(std::cos(turn) * x - std::sin(turn) * y),
@@ -46,7 +46,7 @@ TEST(BoundedInputs, TheClockNeverGoesFasterThanItMay) {
                 clock.follow({session, steady, 0}, 0);
                 const std::int64_t now = clock.isReady() ? clock.sessionNs(0) : 0;
                 if (session > 3 * second && before != 0) {
-                    const std::int64_t most = (steady - last) * OscClock::mostSlewPpm / 1'000'000;
+                    const std::int64_t most = (steady - last) * OscClock::maxSlewPpm / 1'000'000;
                     EXPECT_LE(std::abs(now - before), most + 1)
                         << ppm << " ppm, " << stepNs << " ns, at " << session;
                 }
