@@ -70,11 +70,11 @@ struct Played {
     void play(std::span<const RecordedStep> steps, double seconds) {
         for (const RecordedStep& each : steps.first(steps.size() - 1))
             demand(step(each, seconds) == PHYSVIB_OK, "a step without an error");
+        events[0].size = sizeof events[0];
         count = static_cast<int>(physvib_world_take(haptics.world, events, 8, 1));
     }
     physvib_box2d3 haptics{};
     physvib_event events[8]{};
-    events[0].size = sizeof events[0];
     int count = 0;
 };
 

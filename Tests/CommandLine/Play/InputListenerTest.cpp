@@ -136,7 +136,7 @@ TEST(InputListeners, WhatOneInputAsksForAnotherDoesNotLift) {
 TEST(InputListeners, ADoorSetsNoCeilingAboveThatOfTheMachine) {
     Listening one;
     const auto ask = [&](int channel, float value) {
-        RenderControl control;
+        OwnedControl control;
         control.kind = RenderControl::Kind::ceiling;
         control.channel = channel;
         control.value = value;
