@@ -7,7 +7,12 @@
 namespace physvib {
 CollisionCatcher::CollisionCatcher(const FixtureTable& table, ContactGraph& graph)
     : table_(table)
-    , graph_(graph) {}
+    , graph_(graph) {
+    collisions_.reserve(expectedCollisions);
+    ends_.reserve(expectedCollisions);
+    last_.reserve(expectedCollisions);
+    struck_.reserve(2 * expectedCollisions);
+}
 
 void CollisionCatcher::beginStep(const StepSpan& span) noexcept {
     span_ = span;

@@ -184,9 +184,11 @@ private:
 class CollisionCatcher {
 public:
     /// Most collisions of one step: those of haptic sources, and others, which may be transmitted to them. A
-    /// world with more is noise to the touch. Memory grows with what collides.
+    /// world with more is noise to the touch.
     static constexpr std::size_t maxDirectCollisions = 1024;
     static constexpr std::size_t maxDistantCollisions = 4096;
+    /// So many have memory before the first step; with more, lists grow, and then stay so long.
+    static constexpr std::size_t expectedCollisions = 24;
 
     CollisionCatcher(const FixtureTable& table, ContactGraph& graph);
 

@@ -50,7 +50,9 @@ ContactEvents::ContactEvents(const BodyReader& bodies, const ImpactSettings& set
     , onset_(catcher_, table_, graph_)
     , release_(catcher_, table_, graph_, bodies)
     , lasting_(table_)
-    , held_(heldImpacts) {}
+    , held_(heldImpacts) {
+    impacts_.reserve(CollisionCatcher::expectedCollisions);
+}
 
 void ContactEvents::configure(const ImpactSettings& settings) {
     settings_ = checked(settings);

@@ -24,7 +24,9 @@ namespace physvib {
 class EventSorter {
 public:
     explicit EventSorter(std::size_t capacity)
-        : capacity_{capacity} {}
+        : capacity_{capacity} {
+        grow();
+    }
 
     /// Adds an event; when full, or without memory, the weakest of all is dropped and counted.
     void push(const CollisionEvent& event) noexcept {

@@ -27,6 +27,7 @@ struct HardCollision {
 /// thread (M) only.
 class StrikeCauses {
 public:
+    StrikeCauses();
     void clear() noexcept;
     void add(const HardCollision& strike);
     bool isEmpty() const noexcept { return strikes_.empty(); }

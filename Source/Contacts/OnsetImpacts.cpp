@@ -8,7 +8,9 @@ namespace physvib {
 OnsetImpacts::OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph)
     : catcher_(catcher)
     , table_(table)
-    , graph_(graph) {}
+    , graph_(graph) {
+    waiting_.reserve(CollisionCatcher::expectedCollisions);
+}
 
 void OnsetImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     strike(span, impacts);
@@ -118,6 +120,12 @@ OnsetImpacts::HandedOn OnsetImpacts::handOn(std::int32_t camera, const StrikeCau
 }
 
 // Sums the impulses of collisions per component of the contact graph.
+
+StrikeCauses::StrikeCauses() {
+    strikes_.reserve(CollisionCatcher::expectedCollisions);
+    sums_.reserve(CollisionCatcher::expectedCollisions);
+    reached_.reserve(CollisionCatcher::expectedCollisions);
+}
 
 void StrikeCauses::clear() noexcept { strikes_.clear(); }
 

@@ -12,7 +12,11 @@ ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTab
     : catcher_(catcher)
     , table_(table)
     , graph_(graph)
-    , bodies_(bodies) {}
+    , bodies_(bodies) {
+    strikes_.reserve(CollisionCatcher::expectedCollisions);
+    reached_.reserve(CollisionCatcher::expectedCollisions);
+    impulses_.reserve(CollisionCatcher::expectedCollisions);
+}
 
 void ReleaseImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     release(false, span, impacts);

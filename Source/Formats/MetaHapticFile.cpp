@@ -37,8 +37,8 @@ std::vector<ClipPoint> frequenciesOf(const JsonField& envelopes, double start, c
 
 Clip readClip(const JsonField& root, const FrequencyScale& scale) {
     root.expectObject();
-    if (const JsonField version = root["version"]; version["major"].wholeNumber() != 1)
-        version["major"].fail("expected version 1");
+    if (const JsonField major = root["version"]["major"]; major.wholeNumber() != 1)
+        major.fail("expected version 1");
     Clip clip{root.has("metadata") && root["metadata"].has("description")
                   ? root["metadata"]["description"].line()
                   : "",

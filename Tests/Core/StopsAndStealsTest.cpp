@@ -170,7 +170,8 @@ RenderControl control(RenderControl::Kind kind, int channel, float value) {
 
 TEST(ControlsOutOfRange, ChangeNothingAndTheirNeighboursDo) {
     using Kind = RenderControl::Kind;
-    constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+    constexpr float infinity = std::numeric_limits<float>::infinity(),
+                    nan = std::numeric_limits<float>::quiet_NaN();
     const auto plain = renderedWith({});
     for (const auto& [kind, value] :
          {std::pair{Kind::gain, 0.25f}, {Kind::mute, 1.0f}, {Kind::delay, 0.01f}, {Kind::ceiling, 0.125f}}) {

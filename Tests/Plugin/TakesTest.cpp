@@ -151,7 +151,7 @@ TEST(Takes, ALoopUsesThoseThatHaveEnded) {
 // The next one is made as long as this lasts: until the test lets it, or two seconds have passed.
 std::promise<void>* letMake = nullptr;
 std::atomic<bool> isMaking{false}, hasWaitedInVain{false};
-constexpr std::size_t largeBytes = 500'000; // of what a renderer takes at once
+constexpr std::size_t largeBytes = 100'000; // less than a renderer takes at once
 
 TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
     if (!ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";

@@ -17,7 +17,7 @@ std::string wavHead(int channels, int sampleRateHz, std::int64_t dataBytes, cons
 
 /// True if a WAVE file of that size does not need RF64. Any thread.
 constexpr bool fitsWav(int channels, std::int64_t frames) noexcept {
-    return frames <= 0xffff'ff00 / (4 * channels);
+    return frames <= std::int64_t{0xffff'ff00} / (4 * channels);
 }
 
 } // namespace physvib
