@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         messages,
         {[](const LineInput& input, const OscOrigin&) {
              return session
-                 ->take({std::get_if<Action>(&input) ? std::get<Action>(input) : Action{TiltAction{}}})
+                 ->submit({std::get_if<Action>(&input) ? std::get<Action>(input) : Action{TiltAction{}}})
                  .error;
          },
          {},

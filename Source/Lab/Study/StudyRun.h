@@ -14,7 +14,6 @@ struct StudyRun {
     Protocol protocol;
     Participant participant;
     std::filesystem::path folder;
-    bool operator==(const StudyRun&) const = default;
 
     /// Path of the trial file. Any thread (allocates).
     std::filesystem::path trialFile() const {
