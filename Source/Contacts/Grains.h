@@ -51,11 +51,16 @@ inline std::string_view faultOf(const Texture& texture) noexcept {
 /// Motion of a point along a surface during a step: s(t) = start + speed t + acceleration t^2 / 2, t from 0
 /// to `seconds`.
 struct SurfaceMotion {
-    double startMetres = 0.0, metresPerSecond = 0.0, metresPerSecond2 = 0.0, seconds = 0.0;
+    double startMetres = 0.0;      ///< s at t = 0
+    double metresPerSecond = 0.0;  ///< speed at t = 0
+    double metresPerSecond2 = 0.0; ///< acceleration
+    double seconds = 0.0;          ///< how long it lasts
 
+    /// s(t).
     double metresAt(double t) const noexcept {
         return startMetres + (metresPerSecond + 0.5 * metresPerSecond2 * t) * t;
     }
+    /// ds/dt.
     double speedAt(double t) const noexcept { return metresPerSecond + metresPerSecond2 * t; }
     /// Time at which it reverses; `seconds` if it does not.
     double turn() const noexcept {
@@ -66,8 +71,9 @@ struct SurfaceMotion {
 
 /// Ranges of random grains: position within the spacing, and strength, both uniformly distributed.
 struct GrainChance {
-    static constexpr double spacingRange = 0.9;
-    static constexpr double leastStrength = 0.2, strengthRange = 1.6;
+    static constexpr double spacingRange = 0.9;  ///< of the spacing
+    static constexpr double leastStrength = 0.2; ///< the weakest
+    static constexpr double strengthRange = 1.6; ///< from the weakest to the strongest
 };
 
 /// Grains of one surface. Grain `index` lies at (index + 1/2) spacings, +-45 % if random, with a strength of
@@ -81,10 +87,12 @@ public:
         , texture_{texture}
         , perMetre_{1.0 / texture.grainMetres} {}
 
+    /// Place of a grain along the surface.
     double metresOf(std::int64_t index) const noexcept {
         const double jitter = isRandom() ? GrainChance::spacingRange * (chance(index, 0) - 0.5) : 0.0;
         return (static_cast<double>(index) + 0.5 + jitter) * texture_.grainMetres;
     }
+    /// Its strength; 1 of all where they are regular.
     double strengthOf(std::int64_t index) const noexcept {
         return isRandom() ? GrainChance::leastStrength + GrainChance::strengthRange * chance(index, 1) : 1.0;
     }

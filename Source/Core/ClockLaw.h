@@ -12,13 +12,14 @@ namespace physvib {
 /// An onset on the frame grid. `frame` is the first frame not earlier than the onset, which lies `leadFrames`
 /// before it.
 struct FramePosition {
-    std::int64_t frame = 0;
+    std::int64_t frame = 0;  ///< counted from 0
     double leadFrames = 0.0; ///< [0, 1)
 };
 
 /// Converts times to frames of one sample rate. Any thread.
 class FrameClock {
 public:
+    /// `sampleRateHz` above 0.
     explicit FrameClock(int sampleRateHz = 48000) noexcept
         : rate_{sampleRateHz} {}
 
@@ -32,6 +33,7 @@ public:
                 static_cast<double>(missing) * 1e-9};
     }
 
+    /// As given.
     int sampleRateHz() const noexcept { return static_cast<int>(rate_); }
 
 private:

@@ -90,6 +90,7 @@ public:
 
     /// False: the queue is empty. The reader's, wait-free. Call done() when the control's panner was used.
     bool pop(RenderControl& control) noexcept { return controls_.pop(control); }
+    /// Hands the control's panner back to its sender. The reader's, wait-free.
     static void done(const RenderControl& control) noexcept { Pool::handBack(control.panner); }
 
     /// Forgets all controls, also those that were popped and are not done. While neither side uses it.

@@ -60,9 +60,10 @@ inline constexpr std::array<std::string_view, 15> bodyParts{
 
 /// One preset.
 struct BodyLayout {
-    std::string_view name;
-    double widthMetres, heightMetres; ///< the extent
-    std::span<const ActuatorPlace> places;
+    std::string_view name;                 ///< as layoutPreset() takes it
+    double widthMetres;                    ///< of the extent
+    double heightMetres;                   ///< of the extent
+    std::span<const ActuatorPlace> places; ///< from the extent's centre
 };
 
 /// Tips of a right hand's spread, slightly bent fingers. The hand is seen from its back, so the palm has the

@@ -17,7 +17,7 @@ namespace physvib {
 /// A recording is found by the number of its sound or, if it has none, by the frequency of its events. The
 /// caller keeps the samples alive as long as the renderer; they are at the renderer's rate.
 struct RecordedContact {
-    double frequencyHz = 0.0;
+    double frequencyHz = 0.0;       ///< of its events, if `sound` is 0
     std::span<const float> samples; ///< for an event of amplitude 1
     SoundNumber sound = 0;          ///< 0: of all events of that frequency whose own sound has no recording
 };
@@ -65,13 +65,15 @@ struct PlayedEvent {
 
 /// Of all controls so far, also those that take effect later. One thread at a time.
 struct LastChanges {
-    PhantomPanner panner;
-    double level = 1.0;
-    std::int64_t silentUntilNs = 0;
-    std::uint64_t muted = 0, zeroGains = 0; ///< bit j: channel j
+    PhantomPanner panner;           ///< of later events
+    double level = 1.0;             ///< of all channels
+    std::int64_t silentUntilNs = 0; ///< no earlier event is played
+    std::uint64_t muted = 0;        ///< bit j: channel j
+    std::uint64_t zeroGains = 0;    ///< bit j: channel j
 
     std::uint64_t mutedChannels() const noexcept { return muted | zeroGains; } ///< those that play nothing
 
+    /// Notes one control, in the order of their sending.
     void take(const RenderControl& control) noexcept {
         using Kind = RenderControl::Kind;
         const std::uint64_t bit = std::uint64_t{1} << (static_cast<unsigned>(control.channel) % 64U);
