@@ -291,7 +291,8 @@ physvib_int64 physvib_pads_send(physvib_pads name, int pad, physvib_world world,
         for (physvib_int64 sent = 0;;) {
             const physvib_int64 count = physvib_world_take(world, part.data(), part.size(), atOnce);
             if (count < 0) return count; // its text is that of physvib_world_take
-            for (CollisionEvent event; const physvib_event& taken : std::span{part}.first(static_cast<std::size_t>(count))) {
+            for (CollisionEvent event;
+                 const physvib_event& taken : std::span{part}.first(static_cast<std::size_t>(count))) {
                 event = eventOf(taken);
                 event.timeNs += laterNs;
                 sent += pads.at(pad).strike(event) ? 1 : 0;
