@@ -143,6 +143,17 @@ TEST_F(Loads, GrainsAreAtMostAsStrongAsTheLoadWhenItFallsOrRises) {
 }
 
 /// A fixture that nobody said goodbye to: what comes to its address on another body is as unknown as any.
+// A sanitizer keeps what was freed, to find who uses it.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+constexpr bool isReused = false;
+#else
+constexpr bool isReused = true;
+#endif
+#else
+constexpr bool isReused = true;
+#endif
+
 TEST_F(AttachedWorld, AnAddressThatIsUsedAgainHasNoSoundOfBefore) {
     world.SetGravity({0.0F, -10.0F});
     for (int round = 0; round < 3; ++round) {
@@ -153,7 +164,7 @@ TEST_F(AttachedWorld, AnAddressThatIsUsedAgainHasNoSoundOfBefore) {
         run(2);
         body.DestroyFixture(first);
         b2Fixture& heir = ball(5.0F, 0.4F, 0.0F, -1.0F);
-        ASSERT_EQ(&heir, first) << "of this test: the address is used again";
+        if (isReused) ASSERT_EQ(&heir, first) << "of this test: the address is used again";
         EXPECT_EQ(attachment.find(heir), nullptr);
         const std::vector<CollisionEvent> events = run(80);
         EXPECT_TRUE(events.empty()) << events.size();
