@@ -142,7 +142,6 @@ TEST_F(Loads, GrainsAreAtMostAsStrongAsTheLoadWhenItFallsOrRises) {
     }
 }
 
-/// A fixture that nobody said goodbye to: what comes to its address on another body is as unknown as any.
 // A sanitizer keeps what was freed, to find who uses it.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
@@ -154,6 +153,7 @@ constexpr bool isReused = true;
 constexpr bool isReused = true;
 #endif
 
+/// A fixture that nobody said goodbye to: what comes to its address on another body is as unknown as any.
 TEST_F(AttachedWorld, AnAddressThatIsUsedAgainHasNoSoundOfBefore) {
     world.SetGravity({0.0F, -10.0F});
     for (int round = 0; round < 3; ++round) {
