@@ -8,7 +8,7 @@ cd "$(dirname "$0")"
 . .ci/packages.sh
 
 programs() {
-    # shellcheck disable=SC2086 # a list of words
+    # shellcheck disable=SC2046,SC2086 # lists of words
     ensure_build_packages $physvib_run_packages $(case " $* " in *" physvib-virtual-board "*) echo "$physvib_board_packages" ;; esac)
     build release "$@"
 }
