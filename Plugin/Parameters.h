@@ -142,8 +142,7 @@ inline constexpr std::array<ParameterRow, parameterCount> rows{{
      "on the right ones"},
     {Parameter::timing, "timing", "Timing", "Timing", "", 0, 1, 0, choice, timingNames, 4,
      "Output latency of a world. Safe: stepped by a thread of its own. Tight: stepped in the render call, "
-     "which "
-     "needs a computer with time to spare; the output is silent for a moment when this changes"},
+     "which needs a computer with time to spare; the output is silent for a moment when this changes"},
     // Factors from 1/2^n to 2^n: the middle of their scale is 1 exactly, which changes no sample.
     {Parameter::decay, "decay", "Decay", "Decay", "x", 0.125, 8.0, 1.0, log, noWords, 5,
      "How long strikes by notes ring, times the preset's"},
@@ -154,9 +153,8 @@ inline constexpr std::array<ParameterRow, parameterCount> rows{{
     {Parameter::hold, "hold", "Hold", "Hold", "", 0, 2, 0, choice, holdNames, 5,
      "Whether a note without a rule sounds until its key is released"},
     {Parameter::placement, "placement", "Placement", "Place", "", 0, 3, 0, choice, placementNames, 5,
-     "Where a note without a rule is felt: from left (C) to right (B), on one actuator after the other, or "
-     "in "
-     "the middle"},
+     "Where a note without a rule is felt: from left (C) to right (B), on one actuator after the other, "
+     "or in the middle"},
     {Parameter::bendRange, "bend_range", "Bend range", "Bend", "", 0, 8, 0, choice, bendNames, 5,
      "How far a full pitch bend moves the pitch; or it moves the place"},
     {Parameter::noteMaterial, "note_material", "Note material", "Note mat", "", 0, 8, 0, choice,

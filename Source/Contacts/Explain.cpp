@@ -103,9 +103,8 @@ std::string noEvents(const ContactCounts& c) {
     if (most == c.settling)
         return "Impacts came while the world settles, in the first settling_s of its time: set it lower.";
     if (most == c.unplayable)
-        return "Impacts have no sound: set frequency_hz and decay_per_s of the haptic source (or its voice "
-               "to "
-               "that of what strikes it), and its mass_kg or static_mass_kg.";
+        return "Impacts have no sound: set frequency_hz and decay_per_s of the haptic source (or its "
+               "voice to that of what strikes it), and its mass_kg or static_mass_kg.";
     if (most == c.dropped)
         return "Impacts were left out: more came in a step than hits_per_step or there is memory for.";
     return belowThreshold(c);

@@ -115,8 +115,7 @@ std::string outputReason(const ContactCounts& made, const OutputFacts& output) {
     if (output.withoutPart > 0)
         return counted(output.withoutPart, "event") +
                " belong to a part of the body that no actuator is on, and are felt by their place on all: "
-               "give "
-               "the layout's actuators that part, or the body another.";
+               "give the layout's actuators that part, or the body another.";
     if (output.levelGain < 0.03)
         return "The level of the output is low, " + threeDigits(toDecibels(output.levelGain)) +
                " dB: raise it.";

@@ -18,7 +18,40 @@
 
 namespace physvib {
 
-// Start values for overlapping partials by linear prediction (Prony 1795).
+namespace {
+
+// Start values for overlapping partials by linear prediction (Prony 1795): prediction coefficients by least
+// squares, and the roots of their polynomial as eigenvalues of its companion matrix (Eigen).
+
+/// Roots of z^n + c[0] z^(n-1) + ... + c[n-1]; none if there are no coefficients.
+std::vector<std::complex<double>> rootsOf(std::vector<double> c) {
+    if (c.empty()) return {};
+    c.insert(c.begin(), 1.0);
+    const Eigen::VectorXd rising =
+        Eigen::Map<const Eigen::VectorXd>(c.data(), static_cast<Eigen::Index>(c.size())).reverse();
+    const auto roots = Eigen::PolynomialSolver<double, Eigen::Dynamic>(rising).roots();
+    return {roots.begin(), roots.end()};
+}
+
+std::vector<double> meansOf(std::span<const double> samples, std::size_t blocks) {
+    const std::size_t length = samples.size() / blocks;
+    std::vector<double> means(blocks);
+    for (std::size_t b = 0; b < blocks; ++b)
+        for (std::size_t i = 0; i < length; ++i)
+            means[b] += samples[b * length + i] / static_cast<double>(length);
+    return means;
+}
+
+/// c with x[n] + c[0] x[n-1] + ... = 0 in the least-squares sense; empty if undetermined.
+std::vector<double> predictionOf(const std::vector<double>& x, std::size_t order) {
+    NormalEquations equations(order);
+    std::vector<NormalEquations::Column> columns(order);
+    for (std::size_t n = order; n < x.size(); ++n) {
+        for (std::size_t j = 0; j < order; ++j) columns[j][0] = -x[n - 1 - j];
+        equations.add(columns, std::span(&x[n], 1));
+    }
+    return equations.step(1e-14);
+}
 
 struct PredictedPartial {
     double omega = 0.0, tau = 0.0; ///< rad/s, 1/s
@@ -29,9 +62,20 @@ struct PredictedPartial {
 /// sinusoid are one of the same frequency and decay. Fewer results if the roots are not conjugate pairs, none
 /// if there are too few samples. `samples` begin after the onset. Message thread (M) only.
 std::vector<PredictedPartial> predictPartials(std::span<const double> samples, double rateHz,
-                                              std::size_t partials, std::size_t blocks);
+                                              std::size_t partials, std::size_t blocks) {
+    std::vector<PredictedPartial> found;
+    if (samples.size() < blocks || blocks < 4 * partials) return found;
+    const std::size_t blockFrames = samples.size() / blocks; // whole ones
+    const double blockRateHz = rateHz / static_cast<double>(blockFrames);
+    for (const std::complex<double> root : rootsOf(predictionOf(meansOf(samples, blocks), 2 * partials)))
+        if (root.imag() > 1e-6 && std::isfinite(root.real()))
+            found.push_back(
+                {std::arg(root) * blockRateHz, std::max(-std::log(std::abs(root)) * blockRateHz, 1.0)});
+    std::ranges::sort(found, {}, &PredictedPartial::omega);
+    return found;
+}
 
-namespace {
+// Model selection.
 
 constexpr std::size_t mostPartials = 6;
 constexpr double cleanShare = 1e-11; // of the energy: a smaller residual is rounding
@@ -293,57 +337,6 @@ PartialError StruckFit::errorOf(std::size_t partial) const {
     const double variance = residualEnergy() / static_cast<double>(samples_.size() - equations.size());
     return {equations.errorOf(1 + numbersEach * partial, variance),
             equations.errorOf(2 + numbersEach * partial, variance)};
-}
-
-// Prediction coefficients by least squares; the roots of their polynomial as eigenvalues of its companion
-// matrix (Eigen).
-
-namespace {
-
-/// Roots of z^n + c[0] z^(n-1) + ... + c[n-1]; none if there are no coefficients.
-std::vector<std::complex<double>> rootsOf(std::vector<double> c) {
-    if (c.empty()) return {};
-    c.insert(c.begin(), 1.0);
-    const Eigen::VectorXd rising =
-        Eigen::Map<const Eigen::VectorXd>(c.data(), static_cast<Eigen::Index>(c.size())).reverse();
-    const auto roots = Eigen::PolynomialSolver<double, Eigen::Dynamic>(rising).roots();
-    return {roots.begin(), roots.end()};
-}
-
-std::vector<double> meansOf(std::span<const double> samples, std::size_t blocks) {
-    const std::size_t length = samples.size() / blocks;
-    std::vector<double> means(blocks);
-    for (std::size_t b = 0; b < blocks; ++b)
-        for (std::size_t i = 0; i < length; ++i)
-            means[b] += samples[b * length + i] / static_cast<double>(length);
-    return means;
-}
-
-/// c with x[n] + c[0] x[n-1] + ... = 0 in the least-squares sense; empty if undetermined.
-std::vector<double> predictionOf(const std::vector<double>& x, std::size_t order) {
-    NormalEquations equations(order);
-    std::vector<NormalEquations::Column> columns(order);
-    for (std::size_t n = order; n < x.size(); ++n) {
-        for (std::size_t j = 0; j < order; ++j) columns[j][0] = -x[n - 1 - j];
-        equations.add(columns, std::span(&x[n], 1));
-    }
-    return equations.step(1e-14);
-}
-
-} // namespace
-
-std::vector<PredictedPartial> predictPartials(std::span<const double> samples, double rateHz,
-                                              std::size_t partials, std::size_t blocks) {
-    std::vector<PredictedPartial> found;
-    if (samples.size() < blocks || blocks < 4 * partials) return found;
-    const std::size_t blockFrames = samples.size() / blocks; // whole ones
-    const double blockRateHz = rateHz / static_cast<double>(blockFrames);
-    for (const std::complex<double> root : rootsOf(predictionOf(meansOf(samples, blocks), 2 * partials)))
-        if (root.imag() > 1e-6 && std::isfinite(root.real()))
-            found.push_back(
-                {std::arg(root) * blockRateHz, std::max(-std::log(std::abs(root)) * blockRateHz, 1.0)});
-    std::ranges::sort(found, {}, &PredictedPartial::omega);
-    return found;
 }
 
 } // namespace physvib

@@ -26,14 +26,14 @@ public:
     std::int64_t beganNs = now();
 };
 
-class PadStops : public FolderTest {
+class PadStopsInRealTime : public FolderTest {
 protected:
     GamePads pads{}; // before any virtual one
 };
 
 /// A profile with five commands a second: a stop that waited for the next would come up to 200 ms later. The
 /// quickest of some tries counts: another program may hold up any one of them.
-TEST_F(PadStops, SilenceAndLevelZeroDoNotWaitForTheNextCommand) {
+TEST_F(PadStopsInRealTime, SilenceAndLevelZeroDoNotWaitForTheNextCommand) {
     PadProfile slow = builtInPads().front();
     slow.name = "pad-slow";
     slow.law.commandsPerSecond = 5.0;
@@ -69,7 +69,7 @@ TEST_F(PadStops, SilenceAndLevelZeroDoNotWaitForTheNextCommand) {
 }
 
 /// A session that begins anew is felt from its own beginning, although the one before went further.
-TEST_F(PadStops, ASessionThatBeginsAnewIsFelt) {
+TEST_F(PadStopsInRealTime, ASessionThatBeginsAnewIsFelt) {
     VirtualPad pad{"again"};
     PadOutput output{"again", phone()};
     ASSERT_EQ(output.awaitReady([] { return true; }), "");

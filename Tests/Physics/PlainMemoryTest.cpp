@@ -2,12 +2,8 @@
 // Box2D keeps blocks of its own, in which what has been destroyed can still be read unnoticed. Where the
 // address sanitizer watches, all tests of this program get plain memory instead, so that a look at something
 // that is gone is seen.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define PHYSVIB_ADDRESS_SANITIZER
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(PHYSVIB_ADDRESS_SANITIZER)
+#include "Support/Sanitizers.h"
+#if defined(PHYSVIB_ADDRESS_SANITIZER)
 #include <box2d/box2d.h>
 #include <cstdlib>
 #include <gtest/gtest.h>

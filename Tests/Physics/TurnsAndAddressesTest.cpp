@@ -3,6 +3,7 @@
 // a load that falls gives no more than it did; and what takes a destroyed body's address or slot has nothing
 // of it.
 #include "AttachedWorld.h"
+#include "Support/Sanitizers.h"
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -142,13 +143,8 @@ TEST_F(Loads, GrainsAreAtMostAsStrongAsTheLoadWhenItFallsOrRises) {
     }
 }
 
-// A sanitizer keeps what was freed, to find who uses it.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
+#if defined(PHYSVIB_ADDRESS_SANITIZER) // keeps what was freed, to find who uses it
 constexpr bool isReused = false;
-#else
-constexpr bool isReused = true;
-#endif
 #else
 constexpr bool isReused = true;
 #endif

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // How much of the heap is in use, as glibc counts it: all threads, also what lies in pages of its own.
 #pragma once
+#include "Support/Sanitizers.h"
 #include <cstddef>
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !defined(PHYSVIB_ADDRESS_SANITIZER) && !defined(PHYSVIB_THREAD_SANITIZER)
+#define PHYSVIB_COUNTS_HEAP
 #include <malloc.h>
 #endif
 
 namespace physvib::test {
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&                 \
-    !defined(PHYSVIB_THREAD_SANITIZER)
+#if defined(PHYSVIB_COUNTS_HEAP)
 constexpr bool countsHeap = true;
 inline std::size_t heapBytes() noexcept {
     const auto info = mallinfo2();

@@ -48,22 +48,19 @@ public:
         table_.name = name;
         dropByteOrderMark(rest_);
     }
-    /// Returns the error. Rows are not stored: `take` receives each.
-    template <class Begin, class Take>
-    std::string read(Begin begin, Take take) {
-        if (!readHeader()) return placed();
-        if (std::string fault = begin(table_); !fault.empty()) return fault;
-        CsvRow row;
-        while (readRow(row))
-            if (std::string fault = take(row); !fault.empty()) return fault;
-        if (error_.empty() && row.line == 0) fail("expected rows after the header, found none");
-        return error_.empty() ? "" : placed();
+    Result<CsvTable> read() {
+        if (!readHeader()) return Failure{placed()};
+        for (CsvRow row; readRow(row) && keep(row);) row.cells.reserve(table_.columns.size());
+        if (error_.empty() && table_.rows.empty()) fail("expected rows after the header, found none");
+        if (!error_.empty()) return Failure{placed()};
+        return std::move(table_);
     }
+
+private:
     std::string placed() const {
         return table_.name + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ": " + error_;
     }
 
-private:
     bool readHeader() {
         std::string_view header;
         while (header.empty()) {
@@ -92,6 +89,14 @@ private:
         return row.cells.size() == table_.columns.size() ||
                fail("expected " + std::to_string(table_.columns.size()) + " cells, found " +
                     std::to_string(row.cells.size()) + " (a cell with a comma stands in quotes)");
+    }
+    bool keep(CsvRow& row) {
+        if (table_.rows.size() == limits::maxTableRows)
+            return fail("expected at most " + std::to_string(limits::maxTableRows) + " rows");
+        if ((table_.rows.size() + 1) * table_.columns.size() > limits::maxTableCells)
+            return fail("expected at most " + std::to_string(limits::maxTableCells) + " cells in all");
+        table_.rows.push_back({row.line, std::exchange(row.cells, {})});
+        return true;
     }
     bool takeCells(std::string_view line, std::vector<std::string>& cells) {
         for (bool another = !line.empty(); another;) {
@@ -139,32 +144,7 @@ std::string CsvTable::fault(const CsvRow& row, std::size_t at, std::string_view 
 }
 
 Result<CsvTable> readCsvTable(std::string_view text, std::string_view name, CsvHeader header) {
-    CsvTable table;
-    TableReader reader{text, name, header};
-    const auto tooMany = [&](const CsvRow& row, std::size_t most, const char* what) {
-        return table.name + ":" + std::to_string(row.line) + ": expected at most " + std::to_string(most) +
-               what;
-    };
-    const auto begin = [&](const CsvTable& head) {
-        table = head;
-        return std::string{};
-    };
-    const auto take = [&](CsvRow& row) {
-        if (table.rows.size() == limits::maxTableRows) return tooMany(row, limits::maxTableRows, " rows");
-        if ((table.rows.size() + 1) * table.columns.size() > limits::maxTableCells)
-            return tooMany(row, limits::maxTableCells, " cells in all");
-        table.rows.push_back({row.line, std::exchange(row.cells, {})});
-        row.cells.reserve(table.columns.size());
-        return std::string{};
-    };
-    if (std::string error = reader.read(begin, take); !error.empty()) return Failure{std::move(error)};
-    return table;
-}
-
-std::string eachCsvRow(std::string_view text, std::string_view name,
-                       const std::function<std::string(const CsvTable&)>& begin,
-                       const std::function<std::string(const CsvRow&)>& take) {
-    return TableReader{text, name, CsvHeader::named}.read(begin, take);
+    return TableReader{text, name, header}.read();
 }
 
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path) {

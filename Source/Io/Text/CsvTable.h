@@ -4,7 +4,6 @@
 #include "Io/Result.h"
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,13 +40,6 @@ Result<CsvTable> readCsvTable(std::string_view text, std::string_view name,
 
 /// The same for a file. Message thread (M) only.
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path);
-
-/// Reads row by row without storing the table: `begin` receives it without rows, `take` one row at a time. An
-/// error that either returns stops the reading. Returns that error or one of the text, as a complete line;
-/// empty if there is none. Any thread.
-std::string eachCsvRow(std::string_view text, std::string_view name,
-                       const std::function<std::string(const CsvTable&)>& begin,
-                       const std::function<std::string(const CsvRow&)>& take);
 
 /// Appends `text` as a cell, quoted if necessary, with an apostrophe if a spreadsheet would evaluate it as a
 /// formula (the reader removes it); control characters become spaces. Any thread.

@@ -38,7 +38,7 @@ std::string protocolHash(const Protocol& protocol);
 /// Built-in protocols in listing order. Created on first use; any thread.
 const std::vector<Protocol>& builtInProtocols();
 
-/// Built-in protocols, then their versions as published (ThesisVersions.h). Created on first use; any thread.
+/// Built-in protocols, then their versions as published. Created on first use; any thread.
 const std::vector<Protocol>& knownProtocols();
 
 /// Deviations from the thesis' study; empty if the protocol is not one of knownProtocols() or has been

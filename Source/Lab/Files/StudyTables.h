@@ -168,11 +168,6 @@ namespace physvib::limits {
 constexpr std::size_t maxProtocolFileBytes = 1'000'000; // a protocol with many conditions has a few kB
 constexpr std::size_t maxCouplingFileBytes = 4'000'000; // four actuators need 1 kB per frequency, 64 need 100
                                                         // kB
-constexpr std::size_t maxSweepFileBytes = 1'000'000; // a design has a few kB; 100,000 seeds are written as a
-                                                     // range
-constexpr std::size_t maxSweepValues = 4096; // per list; all pairs are compared, and every value is checked
-                                             // before the first render
-constexpr std::size_t maxSweepTasks = 10'000'000; // each task creates a file
-constexpr std::size_t maxConditions = 4096;       // per analysis; they are searched linearly
-constexpr std::size_t maxLabels = 2048;           // stimuli and responses; five actuators have 1240 patterns
+constexpr std::size_t maxConditions = 4096;             // per analysis; they are searched linearly
+constexpr std::size_t maxLabels = 2048; // stimuli and responses; five actuators have 1240 patterns
 } // namespace physvib::limits

@@ -13,8 +13,8 @@
 namespace physvib {
 
 /// One world, stepped by its owner. Time is a step count; same scene, seed and step rate give the same
-/// events. One thread at a time (M unless a driver owns it). After the first contacts have warmed Box2D's
-/// pools up, step() allocates only where `finished` must grow.
+/// events. One thread at a time (M unless a driver owns it). Once Box2D's pools and the lists of contacts
+/// have grown to what collides at once, step() allocates only where `finished` must grow.
 class Simulation {
 public:
     static constexpr int minStepsPerSecond = 10;     // at lower rates bodies pass through each other

@@ -29,25 +29,50 @@
 
 namespace physvib {
 
-// Prints the activity of an OSC port.
+namespace {
+
+// The activity of an OSC port.
+
+std::string summary(const OscCounts& c) {
+    std::ostringstream words;
+    words << c.packets << " packets, " << c.bad << " bad, " << c.lost << " lost; " << c.messages
+          << " messages, " << c.refused << " refused, " << c.late << " late, " << c.held
+          << " replies held back";
+    return words.str();
+}
 
 /// Prints the listening address on stderr, and if the requested port is in use. Any thread.
-void tellPort(const OscSettings& wanted, const std::string& address);
+void tellPort(const OscSettings& wanted, const std::string& address) {
+    const std::string port = std::to_string(*wanted.port);
+    const bool isWanted = *wanted.port == 0 || address.substr(address.rfind(':') + 1) == port;
+    tell(std::string("OSC: listening at ")
+             .append(address)
+             .append(isWanted ? "" : "; " + port + " is another program's"));
+}
 
 /// Prints a summary on stdout at the end. Any thread.
-void summariseOsc(const OscStatus& osc);
+void summariseOsc(const OscStatus& osc) {
+    if (!osc.address.empty()) std::cout << "OSC at " << osc.address << ": " << summary(osc.counts) << '\n';
+    if (osc.sent + osc.unsent > 0)
+        std::cout << "OSC out: " << osc.sent << " sent, " << osc.unsent << " not taken\n";
+}
 
-/// One thread at a time.
+/// What goes wrong at an OSC port, while it plays. One thread at a time.
 class OscReport {
 public:
     /// Prints new errors since the last call on stderr.
-    void tellWrong(const OscCounts& counts);
+    void tellWrong(const OscCounts& counts) {
+        const std::uint64_t wrong = counts.wrong() + counts.late + counts.lost + counts.held;
+        if (std::exchange(told_, wrong) == wrong) return;
+        tell(std::string("OSC: ")
+                 .append(summary(counts))
+                 .append(counts.fault.empty() ? "" : "; the last error: ")
+                 .append(counts.fault));
+    }
 
 private:
     std::uint64_t told_ = 0;
 };
-
-namespace {
 
 std::uint64_t dropsOf(const Session& session, const RenderStatus& status) {
     return session.world().drops() + status.untold + session.pulse().dropped();
@@ -261,43 +286,6 @@ std::string playLive(LivePlay wanted) {
     rig.close();
     if (!lost.empty()) return lost;
     return !unsaved.empty() ? unsaved : trouble;
-}
-
-// Formats OSC counters and the last error.
-
-namespace {
-
-std::string summary(const OscCounts& c) {
-    std::ostringstream words;
-    words << c.packets << " packets, " << c.bad << " bad, " << c.lost << " lost; " << c.messages
-          << " messages, " << c.refused << " refused, " << c.late << " late, " << c.held
-          << " replies held back";
-    return words.str();
-}
-
-} // namespace
-
-void tellPort(const OscSettings& wanted, const std::string& address) {
-    const std::string port = std::to_string(*wanted.port);
-    const bool isWanted = *wanted.port == 0 || address.substr(address.rfind(':') + 1) == port;
-    tell(std::string("OSC: listening at ")
-             .append(address)
-             .append(isWanted ? "" : "; " + port + " is another program's"));
-}
-
-void summariseOsc(const OscStatus& osc) {
-    if (!osc.address.empty()) std::cout << "OSC at " << osc.address << ": " << summary(osc.counts) << '\n';
-    if (osc.sent + osc.unsent > 0)
-        std::cout << "OSC out: " << osc.sent << " sent, " << osc.unsent << " not taken\n";
-}
-
-void OscReport::tellWrong(const OscCounts& counts) {
-    const std::uint64_t wrong = counts.wrong() + counts.late + counts.lost + counts.held;
-    if (std::exchange(told_, wrong) == wrong) return;
-    tell(std::string("OSC: ")
-             .append(summary(counts))
-             .append(counts.fault.empty() ? "" : "; the last error: ")
-             .append(counts.fault));
 }
 
 // Plays a sound file as a `clip` message, with each channel on its own actuator.
