@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every argument of every call that a program makes in play counts, for itself alone; and a change of the
 // renderer is what it says: from its time on, of its channel, by its factor, and nothing else.
+#include "Support/SizedEvents.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +30,7 @@ physvib_renderer_settings plainSettings() {
 }
 
 physvib_event tone(physvib_int64 timeNs, double x, double y) {
-    physvib_event event{};
+    auto event = test::sized<physvib_event>();
     event.time_ns = timeNs;
     event.frequency_hz = 150.0;
     event.decay_per_s = 1.0;
@@ -173,7 +174,7 @@ std::string heardOf(const Fall& fall) {
     }
     EXPECT_EQ(physvib_world_pair(world, fall.surface, fall.other, fall.pair[0], fall.pair[1], fall.pair[2]),
               PHYSVIB_OK);
-    std::vector<physvib_event> events(100);
+    std::vector<physvib_event> events(100, test::sized<physvib_event>());
     std::string words;
     const auto note = [&] {
         const physvib_int64 count = physvib_world_take(world, events.data(), 100, fall.atOnce);

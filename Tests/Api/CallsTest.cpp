@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The library as a program in another language sees it.
+#include "Support/SizedEvents.h"
 #include "Core/PanningLaws.h"
 #include "Support/BegunStructs.h"
 #include "Support/RandomCalls.h"
@@ -348,7 +349,7 @@ TEST(Calls, ValuesThatCanNeverBeFeltAreRefusedWithTheWordThatIsMissing) {
 }
 
 TEST(Calls, LayoutsAndListsAreReadFromTextAsFromFiles) {
-    physvib_layout layout{}, again{};
+    auto layout = test::sized<physvib_layout>(), again = test::sized<physvib_layout>();
     ASSERT_EQ(physvib_layout_preset("phone4", &layout), PHYSVIB_OK);
     ASSERT_EQ(
         physvib_layout_parse(
@@ -464,7 +465,7 @@ TEST(Calls, ListsLayoutsAndSoundsComeBack) {
     const std::vector<physvib_event> swapped{events[1], events[0]};
     EXPECT_EQ(physvib_events_save(list.c_str(), swapped.data(), 2), PHYSVIB_ERROR_ARGUMENT);
 
-    physvib_layout layout{}, again{};
+    auto layout = test::sized<physvib_layout>(), again = test::sized<physvib_layout>();
     ASSERT_EQ(physvib_layout_preset("ring3", &layout), PHYSVIB_OK);
     EXPECT_EQ(physvib_layout_preset("ring5", &again), PHYSVIB_ERROR_ARGUMENT);
     ASSERT_EQ(physvib_layout_save(layoutPath.c_str(), "mine", &layout), PHYSVIB_OK) << physvib_error();

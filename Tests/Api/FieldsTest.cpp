@@ -2,6 +2,7 @@
 // Every field of every structure that a program fills changes what comes out, for itself alone: one that is
 // not read, or read from another field, fails here. A field that is new in the header and not in these tables
 // fails as well.
+#include "Support/SizedEvents.h"
 #include "TestPlaces.h"
 #include <array>
 #include <cmath>
@@ -90,7 +91,7 @@ std::vector<physvib_event> eventsOf(const Told& told) {
         EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
     }
     if (told.removes) physvib_world_remove_body(world, 1);
-    std::vector<physvib_event> events(5000);
+    std::vector<physvib_event> events(5000, test::sized<physvib_event>());
     const physvib_int64 count = physvib_world_take(world, events.data(), 5000, 1);
     events.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
     EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
@@ -353,7 +354,7 @@ void expectEachIsRendered(const std::string& structure, const std::set<std::stri
         settings.layout.part[1] = physvib_part("thumb");
         settings.exponent = 2.0; // with 1, what travels has a law of its own
         settings.law = PHYSVIB_LAW_ENERGY;
-        physvib_event event{};
+        auto event = test::sized<physvib_event>();
         event.time_ns = 1'000'000;
         event.frequency_hz = 200.0;
         event.decay_per_s = 30.0;
@@ -419,12 +420,12 @@ TEST(Fields, EachOfARenderersSettingsAndOfALayoutIsRendered) {
 }
 
 TEST(Fields, WhatAListKeepsIsKept) {
-    physvib_event event{};
+    auto event = test::sized<physvib_event>();
     event.frequency_hz = 200.0, event.decay_per_s = 30.0, event.amplitude = 0.5;
     const std::string path = testing::TempDir() + "physvib-fields.csv";
     const auto again = [&](const physvib_event& one) {
         EXPECT_EQ(physvib_events_save(path.c_str(), &one, 1), PHYSVIB_OK) << physvib_error();
-        physvib_event read{};
+        auto read = test::sized<physvib_event>();
         EXPECT_EQ(physvib_events_load(path.c_str(), &read, 1), 1) << physvib_error();
         return wordsOf(read);
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Materials by name and single impacts, as a program in another language asks for them.
+#include "Support/SizedEvents.h"
 #include "Core/NameNumbers.h"
 #include "Scene/MaterialTable.h"
 #include <array>
@@ -87,7 +88,7 @@ TEST(Materials, ASoundHasTheNumberOfItsName) {
 }
 
 TEST(Impact, IsAnEventOfThatStrengthAndMaterial) {
-    physvib_event event{};
+    auto event = test::sized<physvib_event>();
     ASSERT_EQ(physvib_event_of(nullptr, 0.3, 0.5, 0.8, &event), PHYSVIB_OK) << physvib_error();
     EXPECT_EQ(event.frequency_hz, 200.0);
     EXPECT_EQ(event.decay_per_s, 30.0);
@@ -173,6 +174,7 @@ TEST(Gain, AWorldOfTheCLibraryLearnsItsLevel) {
         physvib_world_end_step(world);
     }
     std::array<physvib_event, 10> events{};
+    events[0].size = sizeof events[0];
     events.front().size = sizeof events.front();
     ASSERT_EQ(physvib_world_take(world, events.data(), 10, 1), 1); // the first one settled
     EXPECT_NEAR(events[0].amplitude, 0.5, 1.0e-9);

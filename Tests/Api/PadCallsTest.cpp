@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Motor commands of the C library are those of PadMotors, frame by frame.
+#include "Support/SizedEvents.h"
 #include "Core/Pads/PadMotors.h"
 #include "Scene/PadFile.h"
 #include <array>
@@ -15,7 +16,7 @@ namespace {
 constexpr physvib_int64 secondNs = 1'000'000'000;
 
 physvib_event padHit(physvib_int64 timeNs, double amplitude = 0.5, double x = 0.5) {
-    physvib_event event{};
+    auto event = test::sized<physvib_event>();
     event.time_ns = timeNs;
     event.frequency_hz = 200.0;
     event.decay_per_s = 30.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Worlds from which nothing is felt, each for one reason: the explanation names it, and what to change.
+#include "Support/SizedEvents.h"
 #include "Support/BegunStructs.h"
 #include <array>
 #include <functional>
@@ -307,7 +308,7 @@ const std::vector<Reason>& reasons() {
              s.open();
              s.pull();
              s.hit();
-             physvib_event event{};
+             auto event = test::sized<physvib_event>();
              event.frequency_hz = 200.0;
              event.decay_per_s = 30.0;
              while (physvib_renderer_strike(s.renderer, &event) == PHYSVIB_OK) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Depth and parts of a body through the C functions: layouts, event lists and samples.
+#include "Support/SizedEvents.h"
 #include "Core/NameNumbers.h"
 #include <algorithm>
 #include <array>
@@ -52,7 +53,7 @@ TEST(SpaceCalls, APartHasTheNumberOfItsName) {
 }
 
 TEST(SpaceCalls, AnEventIsFeltAtItsDepthOrOnItsPart) {
-    physvib_layout vest{};
+    auto vest = test::sized<physvib_layout>();
     ASSERT_EQ(physvib_layout_preset("vest16", &vest), PHYSVIB_OK);
     EXPECT_EQ(vest.part[0], physvib_part("chest"));
     const auto back = gainsOf(vest, tapAt(vest.x_m[9], vest.y_m[9], vest.z_m[9]), PHYSVIB_LAW_AUTO);
@@ -69,7 +70,7 @@ TEST(SpaceCalls, LayoutsAndListsKeepDepthAndPart) {
     const std::string folder = std::filesystem::temp_directory_path().string();
     const std::string layoutPath = folder + "/physvib-space-calls.json",
                       listPath = folder + "/physvib-space-calls.csv";
-    physvib_layout vest{}, again{};
+    auto vest = test::sized<physvib_layout>(), again = test::sized<physvib_layout>();
     ASSERT_EQ(physvib_layout_preset("vest16", &vest), PHYSVIB_OK);
     vest.part[3] = physvib_part("left elbow");
     ASSERT_EQ(physvib_layout_save(layoutPath.c_str(), "mine", &vest), PHYSVIB_OK) << physvib_error();
@@ -80,6 +81,7 @@ TEST(SpaceCalls, LayoutsAndListsKeepDepthAndPart) {
     const physvib_event events[]{tapAt(0.1, 0.2, -0.125), tapAt(0.1, 0.2, 0.0, "left elbow")};
     ASSERT_EQ(physvib_events_save(listPath.c_str(), events, 2), PHYSVIB_OK) << physvib_error();
     std::array<physvib_event, 2> read{};
+    read[0].size = sizeof read[0];
     read.front().size = sizeof read.front();
     ASSERT_EQ(physvib_events_load(listPath.c_str(), read.data(), 2), 2) << physvib_error();
     for (std::size_t i = 0; i < 2; ++i) {

@@ -70,6 +70,7 @@ inline bool strike(const char* name, BrickEngine& engine, int index, const Brick
     engine.throwBrick(brick, centre, velocity);
     for (int step = 0; step < rate / 4; ++step) engine.step();
     physvib_event event{};
+    event.size = sizeof event;
     const bool isFelt = physvib_world_take(engine.world, &event, 1, 1) == 1;
     physvib_world_free(engine.world);
     const double ms = static_cast<double>(event.time_ns) * 1e-6 - seconds * 1e3,

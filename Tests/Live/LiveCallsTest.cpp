@@ -179,7 +179,7 @@ TEST(LiveCalls, WhatLeftIsKnownALatencyLater) {
     settings.level_db = 0.0;
     ASSERT_EQ(physvib_live_open("None:no device", nullptr, &settings, &live), PHYSVIB_OK)
         << physvib_live_error();
-    physvib_event event{};
+    auto event = test::sized<physvib_event>();
     ASSERT_EQ(physvib_event_of(nullptr, 0.0, 0.0, 0.5, &event), PHYSVIB_OK) << physvib_error();
     physvib_live_receipt receipt;
     physvib_live_receipt_init(&receipt, sizeof receipt);
@@ -210,6 +210,7 @@ TEST(LiveCalls, WhatLeftIsKnownALatencyLater) {
 // Of programs that were built with an older header: see Tests/Api/SizesTest.cpp.
 TEST(LiveCalls, EventsOfAnySizeAreStruckAndRendered) {
     std::array<physvib_event, 3> list{};
+    list.fill(test::sized<physvib_event>());
     for (int i = 0; i < 3; ++i) {
         physvib_event& event = list[static_cast<std::size_t>(i)];
         ASSERT_EQ(physvib_event_of(nullptr, 0.01 * i, 0.02 * i, 0.2 + 0.1 * i, &event), PHYSVIB_OK);
@@ -221,7 +222,7 @@ TEST(LiveCalls, EventsOfAnySizeAreStruckAndRendered) {
     physvib_live live = nullptr;
     ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK)
         << physvib_live_error();
-    for (const test::EventSize size : test::eventSizes) {
+    for (const std::size_t size : test::eventSizes) {
         test::SizedEvents given{size, list};
         physvib_session session = nullptr;
         ASSERT_EQ(physvib_session_create(nullptr, given.data(), 3, 100'000'000, &session), PHYSVIB_OK)
@@ -233,11 +234,11 @@ TEST(LiveCalls, EventsOfAnySizeAreStruckAndRendered) {
             EXPECT_EQ(told[i].y_m, list[i].y_m);
             EXPECT_EQ(told[i].fixture, list[i].fixture);
         }
-        EXPECT_TRUE(told.isKeptBehind(2)) << size.said;
+        EXPECT_TRUE(told.isKeptBehind(2)) << size;
         std::vector<float> samples(4 * 4800);
         ASSERT_EQ(physvib_session_render(session, 48000, 4800, samples.data()), PHYSVIB_OK);
         if (whole.empty()) whole = samples;
-        EXPECT_EQ(samples, whole) << size.said;
+        EXPECT_EQ(samples, whole) << size;
         EXPECT_EQ(physvib_session_free(session), PHYSVIB_OK);
         ASSERT_EQ(physvib_live_strike(live, given.data(), 3), PHYSVIB_OK) << physvib_live_error();
         played += 3;
@@ -249,8 +250,7 @@ TEST(LiveCalls, EventsOfAnySizeAreStruckAndRendered) {
         ASSERT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
     } while (status.played + status.rejected + status.dropped < played);
     EXPECT_EQ(status.rejected, 0);
-    const test::EventSize longer{sizeof(physvib_event) + 8, sizeof(physvib_event) + 8};
-    test::SizedEvents refused{longer, list};
+    test::SizedEvents refused{sizeof(physvib_event) + 8, list};
     physvib_session none = nullptr;
     EXPECT_EQ(physvib_live_strike(live, refused.data(), 3), PHYSVIB_ERROR_ARGUMENT);
     EXPECT_EQ(physvib_session_create(nullptr, refused.data(), 3, 0, &none), PHYSVIB_ERROR_ARGUMENT);

@@ -86,7 +86,7 @@ private:
         return &values;
     }
     const physvib_event* events() {
-        const std::size_t size = isRare() ? byte() : std::size_t{0};
+        const std::size_t size = isRare() ? byte() : sizeof(physvib_event);
         for (physvib_event& event : events_) {
             event = {};
             event.size = isRare() ? byte() : size;

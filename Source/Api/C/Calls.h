@@ -103,28 +103,13 @@ bool take(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noe
     return true;
 }
 
-/// Bytes of a structure in version 1.0, which is what its size 0 means: up to the end of its last member
-/// then.
-template <class Struct>
-inline constexpr std::size_t firstBytes = 0;
-template <class Struct>
-constexpr std::size_t padded(std::size_t end) {
-    return (end + alignof(Struct) - 1) / alignof(Struct) * alignof(Struct);
-}
-template <>
-inline constexpr std::size_t firstBytes<physvib_event> =
-    padded<physvib_event>(offsetof(physvib_event, unused) + sizeof(physvib_event::unused));
-template <>
-inline constexpr std::size_t firstBytes<physvib_layout> =
-    padded<physvib_layout>(offsetof(physvib_layout, part) + sizeof(physvib_layout::part));
-
-/// Of a caller's event or layout: its bytes in memory, or 0 if it says a size that this library does not
-/// know.
+/// Of a caller's event or layout: its bytes in memory, or 0 if it says a size that this library does not know.
+/// A size of 0 is not known either: a list of such would be stepped through wrongly by a program with a later,
+/// longer header.
 template <class Struct>
 std::size_t bytesOf(const void* given) noexcept {
     std::size_t size = 0;
     std::memcpy(&size, given, sizeof size);
-    if (size == 0) return firstBytes<Struct>;
     return size >= sizeof size && size <= sizeof(Struct) ? size : 0;
 }
 

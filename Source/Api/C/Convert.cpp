@@ -8,7 +8,7 @@ namespace physvib::api {
 namespace {
 
 constexpr std::string_view wrongSize =
-    "size: expected that of the structure, or 0 (version 1.0), and a library that is as new as the header";
+    "size: expected that of the structure, as its _init sets it, and a library that is as new as the header";
 
 std::string_view faultOf(const physvib_event& event) noexcept {
     if (!isPlayable(eventOf(event)))
@@ -117,12 +117,11 @@ std::int64_t writeEvents(std::span<const CollisionEvent> from, physvib_event* to
     if (capacity == 0) return 0;
     const std::size_t bytes = bytesOf<physvib_event>(to);
     if (bytes == 0) return nothingThere(wrongSize);
-    const std::size_t said = to->size; // 0 stays 0
     const auto count = std::min<std::int64_t>(capacity, std::ssize(from));
     auto* at = reinterpret_cast<std::byte*>(to);
     for (const CollisionEvent& event : from.first(static_cast<std::size_t>(count))) {
         physvib_event whole = eventOf(event);
-        whole.size = said;
+        whole.size = bytes;
         std::memcpy(at, &whole, bytes);
         at += bytes;
     }

@@ -69,6 +69,7 @@ int physvib_renderer_settings_init(physvib_renderer_settings* settings, size_t s
     values.law = PHYSVIB_LAW_AUTO;
     values.limiter = 1;
     values.exponent = 1.0;
+    values.layout.size = sizeof values.layout;
     physvib_layout_preset("phone4", &values.layout);
     // as much of the layout as the caller's structure has room for, which is at its end
     constexpr std::size_t before = offsetof(physvib_renderer_settings, layout);

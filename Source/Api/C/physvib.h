@@ -84,14 +84,13 @@ typedef struct physvib_pads_name* physvib_pads;         /**< events in, motor co
 
 /* Structures that may grow begin with their size in bytes, as the program knows them, and grow at their end
  * only: of a program that was built with a shorter one, only that part is read and written. Fill one with its
- * ..._init(&it, sizeof it), then change what you like. Of events and layouts 0 is the size of version 1.0, so
- * that all 0 is one; who leaves it 0 in a list steps wrongly when compiled with a later header, whose events
- * are longer. Functions step through a list of events by its first one's size: all that are read must have
- * that size; of those that are written, only the first one's counts, and all get it. */
+ * ..._init(&it, sizeof it), then change what you like; one whose size was left 0 is refused. Functions step
+ * through a list of events by its first one's size: all that are read must have that size; of those that are
+ * written, only the first one's counts, and all get it. */
 
 /** An event: amplitude * sin(2 pi frequency_hz t) * exp(-decay_per_s t), t = time since time_ns. */
 typedef struct physvib_event {
-    size_t size;               /**< set by init; 0: that of version 1.0 */
+    size_t size;               /**< set by init */
     physvib_int64 time_ns;     /**< onset, from 0 on */
     physvib_int64 duration_ns; /**< 0: until it has decayed; a decay of 0 needs a duration, and 5 Hz or more;
                                   below, it is at least 1 */
@@ -114,7 +113,7 @@ typedef struct physvib_event {
 /** Places of the actuators: channel j at x_m[j], y_m[j] from the lower left corner of the extent, onto which
  * the field is mapped. z is scaled as x is. */
 typedef struct physvib_layout {
-    size_t size;                        /**< set by init; 0: that of version 1.0 */
+    size_t size;                        /**< set by init */
     double extent_width_m;              /**< above 0 */
     double extent_height_m;             /**< above 0 */
     double x_m[PHYSVIB_MAX_ENCHANTERS]; /**< of each actuator */

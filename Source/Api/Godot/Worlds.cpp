@@ -230,12 +230,13 @@ void HapticWorld::mapField() {
 
 std::string HapticWorld::findLayout(physvib_layout& found) const {
     const std::vector<Value> own = get(actuators).elements();
+    found = {}, found.size = sizeof found;
     if (own.empty())
         return physvib_layout_preset(get(layout).text().c_str(), &found) == PHYSVIB_OK ? "" : physvib_error();
     if (own.size() > PHYSVIB_MAX_ENCHANTERS)
         return "actuators: expected at most 64 places, found " + std::to_string(own.size());
     const Vector size = get(fieldSize).vector();
-    found = {}, found.extent_width_m = size[0] * unit, found.extent_height_m = size[1] * unit;
+    found.extent_width_m = size[0] * unit, found.extent_height_m = size[1] * unit;
     for (const Value& each : own) {
         const Vector at = place(each.vector());
         found.x_m[found.count] = at[0], found.y_m[found.count++] = at[1];
@@ -412,6 +413,7 @@ void HapticWorld::forget() {
     if (isOpen) checkWorld(physvib_world_end_step(world));
     isOpen = false;
     physvib_event ignored{};
+    ignored.size = sizeof ignored;
     while (physvib_world_take(world, &ignored, 1, 1) > 0) {
     }
     for (const auto& [id, each] : watched) physvib_world_remove_body(world, each.number);
