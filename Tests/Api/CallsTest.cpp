@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The library as a program in another language sees it.
-#include "Support/SizedEvents.h"
 #include "Core/PanningLaws.h"
 #include "Support/BegunStructs.h"
 #include "Support/RandomCalls.h"
 #include "Support/ReadWav.h"
+#include "Support/SizedEvents.h"
 #include <atomic>
 #include <cmath>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Materials by name and single impacts, as a program in another language asks for them.
-#include "Support/SizedEvents.h"
 #include "Core/NameNumbers.h"
 #include "Scene/MaterialTable.h"
+#include "Support/SizedEvents.h"
 #include <array>
 #include <cmath>
 #include <filesystem>

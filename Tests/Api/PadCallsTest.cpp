@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Motor commands of the C library are those of PadMotors, frame by frame.
-#include "Support/SizedEvents.h"
 #include "Core/Pads/PadMotors.h"
 #include "Scene/PadFile.h"
+#include "Support/SizedEvents.h"
 #include <array>
 #include <gtest/gtest.h>
 #include <physvib/physvib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Worlds from which nothing is felt, each for one reason: the explanation names it, and what to change.
-#include "Support/SizedEvents.h"
 #include "Support/BegunStructs.h"
+#include "Support/SizedEvents.h"
 #include <array>
 #include <functional>
 #include <gtest/gtest.h>

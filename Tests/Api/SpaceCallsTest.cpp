@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Depth and parts of a body through the C functions: layouts, event lists and samples.
-#include "Support/SizedEvents.h"
 #include "Core/NameNumbers.h"
+#include "Support/SizedEvents.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -20,8 +20,8 @@ Struct sized() {
 }
 
 /// What a program may say: without z_m and what follows, without part, all of it.
-inline constexpr std::array<std::size_t, 3> eventSizes{
-    offsetof(physvib_event, z_m), offsetof(physvib_event, part), sizeof(physvib_event)};
+inline constexpr std::array<std::size_t, 3> eventSizes{offsetof(physvib_event, z_m),
+                                                       offsetof(physvib_event, part), sizeof(physvib_event)};
 
 /// A list in such a program's memory, and what lies behind it.
 class SizedEvents {

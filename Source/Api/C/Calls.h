@@ -103,9 +103,9 @@ bool take(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noe
     return true;
 }
 
-/// Of a caller's event or layout: its bytes in memory, or 0 if it says a size that this library does not know.
-/// A size of 0 is not known either: a list of such would be stepped through wrongly by a program with a later,
-/// longer header.
+/// Of a caller's event or layout: its bytes in memory, or 0 if it says a size that this library does not
+/// know. A size of 0 is not known either: a list of such would be stepped through wrongly by a program with a
+/// later, longer header.
 template <class Struct>
 std::size_t bytesOf(const void* given) noexcept {
     std::size_t size = 0;
