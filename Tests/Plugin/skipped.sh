@@ -10,5 +10,5 @@ run() {
     ! grep '^\[  SKIPPED \]' "$log" || exit 1
     tail -n 1 "$log"
 }
-run "$1/physvib-measure-tests" --gtest_also_run_disabled_tests --gtest_filter='*.DISABLED_*'
+run "$1/physvib-engine-tests" --gtest_also_run_disabled_tests --gtest_filter='*.DISABLED_*'
 run "$1/physvib-plugin-tests" --gtest_also_run_disabled_tests --gtest_filter='*.DISABLED_*:*.LiveIsTheBounce:*.LiveTakesOfALoopAreEqualToo-*ForHours*'

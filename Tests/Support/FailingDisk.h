@@ -3,6 +3,7 @@
 // it. The nth call of one kind fails, all others are the system's.
 #pragma once
 #include "Support/FileTesting.h"
+#include "Support/Sanitizers.h"
 #include <cerrno>
 #include <fcntl.h>
 #include <functional>
@@ -72,23 +73,30 @@ inline void expectToldByEachFault(const std::filesystem::path& folder, const std
 
 } // namespace physvib::test
 
+// One of them is enough in a program; under sanitizers, which have their own, each program has only one.
+#ifdef PHYSVIB_ADDRESS_SANITIZER
+#define PHYSVIB_ONE_OF_THEM
+#else
+#define PHYSVIB_ONE_OF_THEM __attribute__((weak))
+#endif
+
 extern "C" {
 inline int failingDisk(int error) { return errno = error, -1; }
-int fsync(int descriptor) {
+PHYSVIB_ONE_OF_THEM int fsync(int descriptor) {
     if (physvib::test::syncWatcher) return physvib::test::syncWatcher(descriptor);
     return physvib::test::disk.fails("fsync") ? failingDisk(EIO)
                                               : static_cast<int>(syscall(SYS_fsync, descriptor));
 }
-int rename(const char* from, const char* to) noexcept {
+PHYSVIB_ONE_OF_THEM int rename(const char* from, const char* to) noexcept {
     return physvib::test::disk.fails("rename")
                ? failingDisk(EIO)
                : static_cast<int>(syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
 }
-ssize_t pwrite(int descriptor, const void* bytes, std::size_t count, off_t at) {
+PHYSVIB_ONE_OF_THEM ssize_t pwrite(int descriptor, const void* bytes, std::size_t count, off_t at) {
     return physvib::test::disk.fails("write") ? failingDisk(ENOSPC)
                                               : syscall(SYS_pwrite64, descriptor, bytes, count, at);
 }
-ssize_t pwrite64(int descriptor, const void* bytes, std::size_t count, off64_t at) {
+PHYSVIB_ONE_OF_THEM ssize_t pwrite64(int descriptor, const void* bytes, std::size_t count, off64_t at) {
     return pwrite(descriptor, bytes, count, at);
 }
 }

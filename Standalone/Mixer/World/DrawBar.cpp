@@ -288,7 +288,7 @@ private:
 
 namespace {
 
-constexpr std::array<DrawPane::RainPattern, 7> rainPatterns{
+constexpr std::array<RainPattern, 7> rainPatterns{
     {{0, false}, {5, false}, {20, false}, {50, false}, {5, true}, {20, true}, {50, true}}};
 
 /// What a trial of materials depends on: which kinds of surfaces the scene has.

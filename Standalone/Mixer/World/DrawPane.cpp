@@ -12,7 +12,8 @@ namespace physvib {
 
 DrawPane::DrawPane(MixerModel& model, WorldView& view)
     : model_{model}
-    , view_{view} {
+    , view_{view}
+    , rain_{model} {
     setTitle("Drawing");
     setInterceptsMouseClicks(false, false);
 }
@@ -197,7 +198,12 @@ Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
 }
 
 void DrawPane::addStroke() {
-    if (tool_ == DrawTool::rain) return rainPattern_.perSecond > 0 ? beginRain(rainNow()) : add(rainNow());
+    if (tool_ == DrawTool::rain) {
+        auto bodies = rainNow();
+        if (!bodies || rain_.pattern().perSecond == 0) return add(std::move(bodies));
+        if (prepare(bodies.value)) rain_.begin(std::move(bodies.value));
+        return;
+    }
     auto body = drawnNow();
     if (!body) return add(Failure{body.error});
     add(std::vector{std::move(body.value)});
@@ -276,73 +282,9 @@ void DrawPane::erase(const juce::MouseEvent& e) {
             return edit("Erase", erased(drawing(), {name}), e.getDistanceFromDragStart() > 2);
 }
 
-// Rain that comes ball by ball, and fountains.
-
-namespace {
-
-constexpr const char* rainStep = "Let it rain";
-constexpr double rise = 0.5;     // height of a fountain, of the field's
-constexpr double spread = 0.25;  // of its speed, to both sides
-constexpr int differentJets = 7; // balls of one jet would follow each other exactly
-
-/// All from the middle of where they would fall from, upwards.
-void makeFountain(std::vector<BodyDescription>& bodies, const Scene& scene) {
-    Vector middle;
-    for (const BodyDescription& body : bodies) {
-        middle.x += body.positionMetres.x / static_cast<double>(bodies.size());
-        middle.y += body.positionMetres.y / static_cast<double>(bodies.size());
-    }
-    const double gravity = std::hypot(scene.gravityMetresPerSecond2.x, scene.gravityMetresPerSecond2.y),
-                 up = std::sqrt(2.0 * gravity * rise * scene.fieldHeightMetres);
-    for (std::size_t k = 0; k < bodies.size(); ++k) {
-        const int jet = static_cast<int>(3 * k) % differentJets - differentJets / 2; // neighbours differ
-        bodies[k].positionMetres = middle;
-        bodies[k].velocityMetresPerSecond = {2.0 * spread * up * jet / (differentJets - 1), up};
-    }
-}
-
-} // namespace
-
-void DrawPane::setRainPattern(const RainPattern& way) {
-    rainPattern_ = way;
+void DrawPane::setRainPattern(const RainPattern& pattern) {
+    rain_.setPattern(pattern);
     if (onChange) onChange();
-}
-
-void DrawPane::beginRain(Result<std::vector<BodyDescription>> bodies) {
-    if (!bodies) return model_.report(utf8(bodies.error));
-    if (!prepare(bodies.value)) return;
-    if (rainPattern_.isFountain) makeFountain(bodies.value, drawing().drawn());
-    std::ranges::reverse(bodies.value);
-    falling_ = std::move(bodies.value);
-    rainFromNs_ = model_.session().world().sceneNs();
-    spawned_ = 0;
-    model_.undoManager().beginNewTransaction(rainStep);
-    spawnDueBodies();
-}
-
-// By the time of the world: it waits in a pause, and ends when the scene starts anew or the rain is undone.
-void DrawPane::spawnDueBodies() {
-    if (falling_.empty()) return;
-    const auto passed = model_.session().world().sceneNs() - rainFromNs_;
-    const bool isUndone = model_.undoManager().getRedoDescription() == rainStep;
-    if (passed < 0 || isUndone) return falling_.clear();
-    const auto due = 1 + passed * rainPattern_.perSecond / 1'000'000'000;
-    const bool isFirst = spawned_ == 0;
-    std::vector<Action> actions;
-    std::string name;
-    for (; spawned_ < due && !falling_.empty(); ++spawned_) {
-        if (!isFirst) // another rain may have taken its name
-            falling_.back().name = drawing().freeNames("rain", actions.size() + 1).back();
-        name = falling_.back().name;
-        actions.push_back(SpawnAction{std::move(falling_.back()), {}});
-        falling_.pop_back();
-    }
-    if (actions.empty()) return;
-    if (const auto error = model_.world().edit(rainStep, std::move(actions), true); !error.empty()) {
-        falling_.clear();
-        return model_.report(utf8(error));
-    }
-    if (isFirst) hintOnBody(model_, name);
 }
 
 // Creates joints between bodies, or between a body and the field.
@@ -587,81 +529,6 @@ bool DrawPane::handleKey(const juce::KeyPress& key) {
 }
 
 // Draws joints, the selection with its handles, and the shape being drawn.
-
-juce::Path signOf(DrawTool tool) {
-    juce::Path p, line;
-    const auto stroke = [&p, &line](float width = 1.8f) {
-        juce::PathStrokeType{width}.createStrokedPath(p, line);
-    };
-    switch (tool) {
-    case DrawTool::hand: // a ball being thrown
-        p.addEllipse(-8.0f, 0.0f, 8.0f, 8.0f);
-        p.addArrow({{0.0f, 0.0f}, {8.0f, -8.0f}}, 1.8f, 7.0f, 6.0f);
-        break;
-    case DrawTool::choose:
-        p.startNewSubPath(-5.0f, -8.0f);
-        for (const auto& [x, y] :
-             {std::pair{-5.0f, 6.0f}, {-1.5f, 2.8f}, {0.8f, 8.0f}, {3.2f, 7.0f}, {1.0f, 2.0f}, {5.5f, 2.0f}})
-            p.lineTo(x, y);
-        p.closeSubPath();
-        break;
-    case DrawTool::ball: p.addEllipse(-7.0f, -7.0f, 14.0f, 14.0f); break;
-    case DrawTool::box: p.addRectangle(-7.0f, -5.5f, 14.0f, 11.0f); break;
-    case DrawTool::polygon: p.addPolygon({}, 5, 8.0f); break;
-    case DrawTool::line:
-        line.startNewSubPath(-8.0f, 4.0f);
-        line.cubicTo(-3.0f, -12.0f, 2.0f, 12.0f, 8.0f, -4.0f);
-        stroke();
-        break;
-    case DrawTool::wall:
-        line.addLineSegment({-7.0f, 5.0f, 7.0f, -5.0f}, 5.0f);
-        p = line;
-        break;
-    case DrawTool::rain:
-        for (const auto& [x, y] : {std::pair{-6.0f, -6.0f},
-                                   {2.0f, -7.0f},
-                                   {-2.0f, 0.0f},
-                                   {5.0f, 0.0f},
-                                   {-6.0f, 5.0f},
-                                   {2.0f, 6.0f}})
-            p.addEllipse(x - 2.0f, y - 2.0f, 4.5f, 4.5f);
-        break;
-    case DrawTool::pin:
-        p.addEllipse(-4.0f, -4.0f, 8.0f, 8.0f);
-        line.addEllipse(-8.0f, -8.0f, 16.0f, 16.0f);
-        stroke(1.4f);
-        break;
-    case DrawTool::rope:
-        p.addEllipse(-9.0f, -7.0f, 5.0f, 5.0f);
-        p.addEllipse(4.0f, -7.0f, 5.0f, 5.0f);
-        line.startNewSubPath(-6.5f, -4.0f);
-        line.quadraticTo(0.0f, 13.0f, 6.5f, -4.0f);
-        stroke(1.4f);
-        break;
-    case DrawTool::spring:
-        line = coilOutline<juce::Path>(juce::Point{-9.0f, 0.0f}, juce::Point{9.0f, 0.0f}, 6.0f, 3);
-        stroke(1.6f);
-        break;
-    case DrawTool::slider:
-        p.addRectangle(-4.0f, -4.0f, 8.0f, 8.0f);
-        line.addLineSegment({-9.0f, 0.0f, 9.0f, 0.0f}, 1.5f);
-        p.addPath(line);
-        break;
-    case DrawTool::motor:
-        line.addCentredArc(0.0f, 0.0f, 6.5f, 6.5f, 0.0f, -2.4f, 2.0f, true);
-        stroke(2.0f);
-        p.addEllipse(-2.5f, -2.5f, 5.0f, 5.0f);
-        p.addTriangle(9.0f, 0.0f, 2.5f, 2.0f, 8.0f, 7.0f);
-        break;
-    case DrawTool::eraser:
-        line.addRoundedRectangle(-8.0f, -4.0f, 16.0f, 8.0f, 2.0f);
-        line.startNewSubPath(-2.0f, -4.0f);
-        line.lineTo(-2.0f, 4.0f);
-        stroke(1.6f);
-        p.applyTransform(juce::AffineTransform::rotation(-0.6f));
-    }
-    return p;
-}
 
 // Rotates and moves the point with the body from its drawn to its current pose.
 Vector DrawPane::carried(const Vector& point, const std::string& name) const {

@@ -3,6 +3,8 @@
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Model/MixerModel.h"
+#include "Mixer/World/DrawTools.h"
+#include "Mixer/World/Rain.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include <array>
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -10,65 +12,14 @@
 
 namespace physvib {
 
-// List of the tools in the world: throwing bodies, selecting and drawing.
-
-enum class DrawTool {
-    hand,
-    choose,
-    ball,
-    box,
-    polygon,
-    line,
-    wall,
-    rain,
-    pin,
-    rope,
-    spring,
-    slider,
-    motor,
-    eraser
-};
-
-struct DrawToolWords {
-    DrawTool tool;
-    char key; ///< its key, with the focus in the world
-    const char *name, *does;
-};
-
-/// In the order of the tool bar.
-inline constexpr std::array<DrawToolWords, 14> drawTools{{
-    {DrawTool::hand, 'h', "Hand", "Drag a body to throw it, with Shift to hold it"},
-    {DrawTool::choose, 's', "Select",
-     "Click a body, or drag around several; drag to move, handles to size and turn"},
-    {DrawTool::ball, 'b', "Ball", "Drag from the centre outwards"},
-    {DrawTool::box, 'x', "Box", "Drag from corner to corner"},
-    {DrawTool::polygon, 'p', "Polygon", "Click the corners; double click or Enter ends it"},
-    {DrawTool::line, 'l', "Line", "Draw a line freely"},
-    {DrawTool::wall, 'w', "Wall", "Drag from end to end"},
-    {DrawTool::rain, 'n', "Rain",
-     "Drag over the place from which balls fall; how many, and how, is beside the materials"},
-    {DrawTool::pin, 'i', "Pin", "Click where two bodies overlap; a single one is pinned to the field"},
-    {DrawTool::rope, 'r', "Rope", "Drag from one body to another, or to the field"},
-    {DrawTool::spring, 'k', "Spring", "As a rope that swings; its stiffness is beside the selected body"},
-    {DrawTool::slider, 'd', "Slider", "Drag along the way of a body"},
-    {DrawTool::motor, 'm', "Motor", "As a pin that turns"},
-    {DrawTool::eraser, 'e', "Eraser", "Click or drag over bodies and joints"},
-}};
-
-inline bool isStroke(DrawTool tool) {
-    return tool == DrawTool::ball || tool == DrawTool::box || tool == DrawTool::line ||
-           tool == DrawTool::wall || tool == DrawTool::rain;
-}
-inline bool isJoint(DrawTool tool) {
-    return tool == DrawTool::pin || tool == DrawTool::rope || tool == DrawTool::spring ||
-           tool == DrawTool::slider || tool == DrawTool::motor;
-}
-
-inline const DrawToolWords& wordsOf(DrawTool tool) { return drawTools[static_cast<std::size_t>(tool)]; }
-
-/// Icon around (0, 0), within 9 pixels in each direction.
-juce::Path signOf(DrawTool tool);
-
+/// Turns what the mouse and the keys do over the world into edits of its scene, each of which can be undone.
+/// A stroke is kept in metres of the field, so that zooming and a world that moves do not change it. It goes
+/// through these steps:
+/// 1. mouseDown: the tool decides whether a stroke begins (shapes, joints), a selected body is gripped by one
+///    of its handles, or the press goes on to the view below, which throws bodies (the hand tool).
+/// 2. mouseDrag: the stroke grows, snapped to the grid if snaps(). What it would become is painted each time
+///    from the stroke; the scene does not change yet, except by the eraser.
+/// 3. mouseUp: the stroke becomes bodies, a joint, or new places of the selected bodies: one edit.
 /// Message thread only.
 class DrawPane final : public juce::Component {
 public:
@@ -89,18 +40,11 @@ public:
                       const std::function<void(const Scene&, BodyDescription&)>& change,
                       bool continuesEdit = false);
 
-    /// Number of bodies of one rain, and how they come: all at once, so many in a second of the world, or so
-    /// many upwards from one place.
-    struct RainPattern {
-        int perSecond = 0; ///< 0: all at once
-        bool isFountain = false;
-        bool operator==(const RainPattern&) const = default;
-    };
     int rainCount() const noexcept { return rainCount_; }
     void setRainCount(int count);
-    const RainPattern& rainPattern() const noexcept { return rainPattern_; }
-    void setRainPattern(const RainPattern& way);
-    void spawnDueBodies();                     ///< adds those that are due; to be called often
+    const RainPattern& rainPattern() const noexcept { return rain_.pattern(); }
+    void setRainPattern(const RainPattern& pattern);
+    void spawnDueBodies() { rain_.spawnDueBodies(); } ///< of a rain; to be called often
     juce::Rectangle<float> chosenArea() const; ///< of the selected bodies with their handles, in pixels
 
     // Menu commands, at places in metres of the field.
@@ -140,7 +84,6 @@ private:
     Result<BodyDescription> drawnNow() const;
     Result<std::vector<BodyDescription>> rainNow() const;
     void addStroke();
-    void beginRain(Result<std::vector<BodyDescription>> bodies);
     bool prepare(std::vector<BodyDescription>& bodies);
     void add(Result<std::vector<BodyDescription>> bodies);
     void join();
@@ -168,9 +111,7 @@ private:
     DrawTool tool_ = DrawTool::hand;
     int material_ = -1; // at first, the first material with a frequency
     int rainCount_ = 50;
-    RainPattern rainPattern_;
-    std::vector<BodyDescription> falling_; // those of the present rain that are still to come, the next last
-    std::int64_t rainFromNs_ = 0, spawned_ = 0; // time of the scene, and how many have come since
+    Rain rain_;
     bool snaps_ = false, isDrawing_ = false;
     std::vector<std::string> chosen_;
     Copied copied_;

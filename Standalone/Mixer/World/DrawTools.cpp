@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Mixer/World/DrawTools.h"
+#include "Pictures/ShapeOutline.h"
+
+namespace physvib {
+
+juce::Path signOf(DrawTool tool) {
+    juce::Path p, line;
+    const auto stroke = [&p, &line](float width = 1.8f) {
+        juce::PathStrokeType{width}.createStrokedPath(p, line);
+    };
+    switch (tool) {
+    case DrawTool::hand: // a ball being thrown
+        p.addEllipse(-8.0f, 0.0f, 8.0f, 8.0f);
+        p.addArrow({{0.0f, 0.0f}, {8.0f, -8.0f}}, 1.8f, 7.0f, 6.0f);
+        break;
+    case DrawTool::choose:
+        p.startNewSubPath(-5.0f, -8.0f);
+        for (const auto& [x, y] :
+             {std::pair{-5.0f, 6.0f}, {-1.5f, 2.8f}, {0.8f, 8.0f}, {3.2f, 7.0f}, {1.0f, 2.0f}, {5.5f, 2.0f}})
+            p.lineTo(x, y);
+        p.closeSubPath();
+        break;
+    case DrawTool::ball: p.addEllipse(-7.0f, -7.0f, 14.0f, 14.0f); break;
+    case DrawTool::box: p.addRectangle(-7.0f, -5.5f, 14.0f, 11.0f); break;
+    case DrawTool::polygon: p.addPolygon({}, 5, 8.0f); break;
+    case DrawTool::line:
+        line.startNewSubPath(-8.0f, 4.0f);
+        line.cubicTo(-3.0f, -12.0f, 2.0f, 12.0f, 8.0f, -4.0f);
+        stroke();
+        break;
+    case DrawTool::wall:
+        line.addLineSegment({-7.0f, 5.0f, 7.0f, -5.0f}, 5.0f);
+        p = line;
+        break;
+    case DrawTool::rain:
+        for (const auto& [x, y] : {std::pair{-6.0f, -6.0f},
+                                   {2.0f, -7.0f},
+                                   {-2.0f, 0.0f},
+                                   {5.0f, 0.0f},
+                                   {-6.0f, 5.0f},
+                                   {2.0f, 6.0f}})
+            p.addEllipse(x - 2.0f, y - 2.0f, 4.5f, 4.5f);
+        break;
+    case DrawTool::pin:
+        p.addEllipse(-4.0f, -4.0f, 8.0f, 8.0f);
+        line.addEllipse(-8.0f, -8.0f, 16.0f, 16.0f);
+        stroke(1.4f);
+        break;
+    case DrawTool::rope:
+        p.addEllipse(-9.0f, -7.0f, 5.0f, 5.0f);
+        p.addEllipse(4.0f, -7.0f, 5.0f, 5.0f);
+        line.startNewSubPath(-6.5f, -4.0f);
+        line.quadraticTo(0.0f, 13.0f, 6.5f, -4.0f);
+        stroke(1.4f);
+        break;
+    case DrawTool::spring:
+        line = coilOutline<juce::Path>(juce::Point{-9.0f, 0.0f}, juce::Point{9.0f, 0.0f}, 6.0f, 3);
+        stroke(1.6f);
+        break;
+    case DrawTool::slider:
+        p.addRectangle(-4.0f, -4.0f, 8.0f, 8.0f);
+        line.addLineSegment({-9.0f, 0.0f, 9.0f, 0.0f}, 1.5f);
+        p.addPath(line);
+        break;
+    case DrawTool::motor:
+        line.addCentredArc(0.0f, 0.0f, 6.5f, 6.5f, 0.0f, -2.4f, 2.0f, true);
+        stroke(2.0f);
+        p.addEllipse(-2.5f, -2.5f, 5.0f, 5.0f);
+        p.addTriangle(9.0f, 0.0f, 2.5f, 2.0f, 8.0f, 7.0f);
+        break;
+    case DrawTool::eraser:
+        line.addRoundedRectangle(-8.0f, -4.0f, 16.0f, 8.0f, 2.0f);
+        line.startNewSubPath(-2.0f, -4.0f);
+        line.lineTo(-2.0f, 4.0f);
+        stroke(1.6f);
+        p.applyTransform(juce::AffineTransform::rotation(-0.6f));
+    }
+    return p;
+}
+
+} // namespace physvib

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The tools in the world: throwing bodies, selecting and drawing. Of each its key, its words and its icon.
+#pragma once
+#include <array>
+#include <juce_gui_basics/juce_gui_basics.h>
+
+namespace physvib {
+
+enum class DrawTool {
+    hand,
+    choose,
+    ball,
+    box,
+    polygon,
+    line,
+    wall,
+    rain,
+    pin,
+    rope,
+    spring,
+    slider,
+    motor,
+    eraser
+};
+
+struct DrawToolWords {
+    DrawTool tool;
+    char key; ///< its key, with the focus in the world
+    const char *name, *does;
+};
+
+/// In the order of the tool bar.
+inline constexpr std::array<DrawToolWords, 14> drawTools{{
+    {DrawTool::hand, 'h', "Hand", "Drag a body to throw it, with Shift to hold it"},
+    {DrawTool::choose, 's', "Select",
+     "Click a body, or drag around several; drag to move, handles to size and turn"},
+    {DrawTool::ball, 'b', "Ball", "Drag from the centre outwards"},
+    {DrawTool::box, 'x', "Box", "Drag from corner to corner"},
+    {DrawTool::polygon, 'p', "Polygon", "Click the corners; double click or Enter ends it"},
+    {DrawTool::line, 'l', "Line", "Draw a line freely"},
+    {DrawTool::wall, 'w', "Wall", "Drag from end to end"},
+    {DrawTool::rain, 'n', "Rain",
+     "Drag over the place from which balls fall; how many, and how, is beside the materials"},
+    {DrawTool::pin, 'i', "Pin", "Click where two bodies overlap; a single one is pinned to the field"},
+    {DrawTool::rope, 'r', "Rope", "Drag from one body to another, or to the field"},
+    {DrawTool::spring, 'k', "Spring", "As a rope that swings; its stiffness is beside the selected body"},
+    {DrawTool::slider, 'd', "Slider", "Drag along the way of a body"},
+    {DrawTool::motor, 'm', "Motor", "As a pin that turns"},
+    {DrawTool::eraser, 'e', "Eraser", "Click or drag over bodies and joints"},
+}};
+
+inline bool isStroke(DrawTool tool) {
+    return tool == DrawTool::ball || tool == DrawTool::box || tool == DrawTool::line ||
+           tool == DrawTool::wall || tool == DrawTool::rain;
+}
+inline bool isJoint(DrawTool tool) {
+    return tool == DrawTool::pin || tool == DrawTool::rope || tool == DrawTool::spring ||
+           tool == DrawTool::slider || tool == DrawTool::motor;
+}
+
+inline const DrawToolWords& wordsOf(DrawTool tool) { return drawTools[static_cast<std::size_t>(tool)]; }
+
+/// Icon around (0, 0), within 9 pixels in each direction.
+juce::Path signOf(DrawTool tool);
+
+} // namespace physvib
