@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What JUCE's LV2 wrapper requires and a host that knows LV2's core only does not have: numbers for
-// addresses, the largest block, and a port for what is told.
+// Defaults for LV2 hosts that support only the core specification. They lack what JUCE's LV2 wrapper
+// requires: a map of URIs to numbers, the largest block length, and a buffer for the events that the plug-in
+// sends.
 #pragma once
 #include "Core/Limits.h"
 #include <algorithm>
@@ -25,7 +26,7 @@ inline const void* feature(const LV2_Feature* const* features, const char* uri) 
     return nullptr;
 }
 
-/// Numbers for addresses, from 1, of all instances in hosts without any. Any thread.
+/// A map of URIs to numbers from 1, common to all instances, for hosts that have none. Any thread.
 inline LV2_URID_Map& ownMap() {
     static LV2_URID_Map map{nullptr, [](LV2_URID_Map_Handle, const char* uri) {
                                 static std::mutex mutex;
@@ -38,8 +39,8 @@ inline LV2_URID_Map& ownMap() {
     return map;
 }
 
-/// A host's features, and ours for those that it lacks. Valid while both live; instantiate copies what it
-/// keeps.
+/// A host's features, with ours in place of those that it lacks. Valid while the host's list and this object
+/// exist; instantiate copies what it keeps.
 class Lv2Features {
 public:
     explicit Lv2Features(const LV2_Feature* const* hosts) {
@@ -68,10 +69,10 @@ private:
     std::vector<const LV2_Feature*> all_;
 };
 
-/// Where events go that no host takes.
+/// Buffer for the events that the plug-in sends, for a host that does not connect their port.
 class Lv2Sink {
 public:
-    /// Empty, before each block. R, wait-free.
+    /// The buffer, emptied; to be called before each block. R, wait-free.
     LV2_Atom_Sequence* empty() noexcept {
         sequence_.atom.size = sizeof room_;
         return &sequence_;
@@ -79,7 +80,7 @@ public:
 
 private:
     LV2_Atom_Sequence sequence_{};
-    [[maybe_unused]] std::array<std::uint64_t, 1024> room_{}; // behind the sequence's head
+    [[maybe_unused]] std::array<std::uint64_t, 1024> room_{}; // for events, right behind the sequence's head
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One run of a session from its seed on, with the settings it was made for, until it has played what is owed.
+// A take: one run of a session from its seed, with settings of its own, until the last inputs were played.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
 #include "Core/EventQueue.h"
@@ -14,39 +14,39 @@
 
 namespace physvib {
 
-/// The part of a plug-in state that the render thread needs. Each scene run carries its own, so it is never
-/// played with the settings of another.
+/// The part of a plug-in state that the render thread needs. Each take has its own copy, so it is never
+/// played with the settings of another take.
 struct TakeSettings {
     TransportMode transport = TransportMode::free;
     EnchanterLayout layout;
     MidiTable midi;
 };
 
-/// What takes are made of; the next settings have the next number.
+/// What takes are made from. `generation` rises with each change of it.
 struct TakeOrder {
     SessionSetup setup;
     TakeSettings settings;
     std::uint64_t generation = 0;
-    double knownAfterSeconds = 0.0; ///< events are known so long after their time: L has room for that
+    double knownAfterSeconds = 0.0; ///< delay from an event until it is known; L includes it
 };
 
-/// How a world is stepped, and so its output latency L. Without a world both are the same.
+/// Where the world is stepped, which decides the output latency L. Without a world L is the same for both.
 enum class TakeTiming {
-    safe, ///< by a thread beside the render call: L has room for a block and for the thread's lateness
+    safe, ///< on another thread than the render call: L includes a block and that thread's delay
     tight ///< in the render call: L is two steps and the limiter's latency, at any block size
 };
 
 class Take {
 public:
-    /// `hasMusic`: samples may come in. Any thread but R.
+    /// `hasMusic`: the host may send audio, so a MusicDelay is made for it. Any thread but R.
     Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, TakeTiming timing,
          bool hasMusic = false);
 
-    /// From its seed again. Any thread but R, while nobody renders or steps it.
+    /// Starts again from the seed. Any thread but R, while nobody renders or steps it.
     void rewind(TakeTiming timing);
 
-    /// It is to play by these strips from session time on. False: not all of it found room, to be sent again.
-    /// Any thread but R.
+    /// Sends the strips' values to the session, which uses them from now on. False: its queue was full; call
+    /// again. Any thread but R.
     bool send(std::span<const Strip> strips);
 
     const TakeSettings& settings() const noexcept { return order_->settings; }
@@ -57,34 +57,33 @@ public:
         return timing == TakeTiming::tight ? tightFrames_ : safeFrames_;
     }
 
-    /// The next frames of every channel of the session, at most a block. While L is shorter than that
-    /// timing's, it grows: the session goes on and nothing of it is played; what was to be felt comes so much
-    /// later. While it is longer, it shrinks: in silence as well, and what was to be felt meanwhile is not.
-    /// R.
+    /// Renders the next frames of every channel, at most a block. If L is shorter than that of `timing`, it
+    /// is lengthened in silence: what is still to be felt comes later by as much. If L is longer, it is
+    /// shortened in silence too: what was to be felt in the skipped time is lost. R.
     void render(int frames, TakeTiming timing, RenderMode mode) noexcept;
 
-    /// Level, law and exponent at a frame of the coming block, in the order of their frames and at
-    /// ControlPace's pace. Kept here until the renderer comes to them, L later, since its own room is small.
-    /// False: there is no room. R, wait-free.
+    /// Sets the level, or law and exponent, from a frame of the next block on. Calls are in the order of
+    /// their frames, and no more frequent than ControlPace allows. They wait here until the renderer reaches
+    /// that frame, L later, because the session's queue is short. False: the queue is full. R, wait-free.
     bool holdLevel(double gain, int frame) noexcept;
     bool holdLaw(PanningLaw law, double exponent, int frame) noexcept;
 
-    /// Where music goes that comes in; null: there is none. R.
+    /// Takes audio from the host; null without `hasMusic`. R.
     MusicDelay* music() noexcept { return music_.get(); }
 
-    /// What happened before that frame of the coming block is not felt any more. False: there is no room, to
-    /// be sent again. R, wait-free.
+    /// Silences all that happened before that frame of the next block. False: the queue is full; call again.
+    /// R, wait-free.
     bool silence(int frame) noexcept;
 
-    /// Plays what is owed and fades then. R.
+    /// Plays what the inputs until now cause, then fades out. R.
     void end() noexcept;
     bool isOver() const noexcept { return over_; } ///< R
 
     Session session;
     std::atomic<int> number{0};       ///< set by R when it starts
-    std::uint64_t logged = 0;         ///< events that left the session for the log; guarded as the log is
-    std::atomic<bool> isEnded{false}; ///< R lets go of it
-    bool isStill = false;             ///< its world could not go on; whoever steps it
+    std::uint64_t logged = 0;         ///< events that were moved to the log; guarded like the log
+    std::atomic<bool> isEnded{false}; ///< R no longer uses it
+    bool isStill = false;             ///< its world failed and is not stepped again; for the stepping thread
     std::vector<std::vector<float>> out;
 
 private:
@@ -97,8 +96,8 @@ private:
     };
     // The longest L is a block and the steps of a slow world: a fifth of a second.
     using HeldControls = EventQueue<HeldControl, 1024>;
-    static constexpr int slicesPerSecond = 128; // their frames hold 12 of each kind: CallbackInputs has
-                                                // places for 16 panners
+    // A slice has at most 12 held controls of each kind: CallbackInputs has places for 16 panners.
+    static constexpr int slicesPerSecond = 128;
     struct Held {
         HeldControls queue;
         HeldControl first;
@@ -118,7 +117,7 @@ private:
     std::array<SentStrip, limits::maxEnchanters> lastSent_{};
     Held levels_, panners_;
     std::int64_t safeFrames_ = 0, tightFrames_ = 0; // L, by the timing
-    std::int64_t owed_ = -1;                        // frames until it fades; -1: it is not ending
+    std::int64_t owed_ = -1;                        // frames until it fades out; -1: it is not ending
     GainRamp fade_, gap_;                           // gap_ is shut while L grows or shrinks
     std::array<float, limits::maxEnchanters> last_{};
     bool over_ = false;

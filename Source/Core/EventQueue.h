@@ -13,16 +13,16 @@
 #include <utility>
 
 namespace physvib {
-/// Single producer, single consumer, first in first out, `Capacity` items (a power of two). Never allocates,
-/// unless it is on the heap: then resize does, and before its first call the queue is full.
+/// Single producer, single consumer, first in first out, `Capacity` items (a power of two). Allocates only if
+/// `isOnHeap`, and then only in resize(); before the first resize() it has no room for any item.
 template <class T, std::size_t Capacity, bool isOnHeap = false>
 class EventQueue {
     static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0, "capacity must be a power of two");
     static_assert(std::is_trivially_copyable_v<T>, "items are copied across threads");
 
 public:
-    /// Provides `capacity` items, a power of two, at most `Capacity`; what waits is lost if that is another
-    /// number. False: no memory. While neither side uses it.
+    /// Sets the number of items, a power of two, at most `Capacity`. A change discards the items that wait.
+    /// False: no memory. Only while neither side uses the queue.
     bool resize(std::size_t capacity) noexcept {
         if (capacity == capacity_) return true;
         const bool has = items_.resize(capacity);
@@ -148,9 +148,9 @@ private:
 
     alignas(64) std::atomic<std::size_t> written_{0};
     std::atomic<std::size_t> overflows_{0};
-    alignas(64) std::atomic<Chunk*> head_; // the consumer's, which the producer reads; also the next ones
+    alignas(64) std::atomic<Chunk*> head_; // of the consumer, as the next line; the producer reads this one
     std::size_t read_ = 0, writtenSeen_ = 0, at_ = 0;
-    alignas(64) Chunk* oldest_; // the producer's, as the next ones
+    alignas(64) Chunk* oldest_; // of the producer, as the next two lines
     Chunk* tail_;
     std::size_t used_ = 0, chunks_ = 1;
 };

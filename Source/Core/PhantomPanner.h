@@ -19,11 +19,12 @@ public:
     PhantomPanner() = default;
 
     /// `layout` valid; field sizes in metres > 0, mapped onto the layout's extent; exponent > 0 (gamma of
-    /// Eq. 4.2). PanningLaw::automatic becomes `neighbours` on a row of three or more, a grid and a belt; in
-    /// space `triangles` where the actuators close around their centre, `neighbours` where they are a row, a
-    /// grid or a belt in some plane, else `distance`. Elsewhere, and with an exponent other than 1, it
-    /// becomes `linear`; grains then go by grainSpread if the exponent is 1. Each part of the body chooses
-    /// for itself.
+    /// Eq. 4.2). PanningLaw::automatic is resolved for each part of the body on its own:
+    /// - `linear` with an exponent other than 1;
+    /// - in space `triangles` if the actuators enclose their centre, else `neighbours` if they are a row, a
+    ///   grid or a belt in some plane, else `distance`;
+    /// - on a flat layout `neighbours` for a row of three or more, a grid or a belt, else `linear` with
+    ///   grainSpread for grains.
     PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
                   double fieldHeightMetres) noexcept
         : PhantomPanner{layout, law, exponent, fieldWidthMetres, fieldHeightMetres, true} {}
@@ -36,22 +37,22 @@ public:
     void gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept;
 
     /// Gains of an event at its place, by its own spread. Grains without one use grains(). If the event is
-    /// bound to a part of the body, actuators of other parts have gain 0; if no actuator has that part
-    /// (lacksPartOf), its place decides alone. Finds the part's panner each time: PartPanners keeps them. Any
-    /// thread.
+    /// bound to a part of the body, actuators of other parts have gain 0; if no actuator is on that
+    /// part (lacksPartOf), only the place counts. Makes the part's panner on each call; PartPanners keeps
+    /// them. Any thread.
     void gainsAt(const CollisionEvent& event, Gains& gains) const noexcept;
 
     /// The same with another spread. Any thread.
     void gainsOf(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept;
 
-    /// True if events of this part need a panner of their own: it has actuators, but not all. Any thread.
+    /// True if this part needs a panner of its own: some actuators are on it, but not all. Any thread.
     bool divides(PartNumber part) const noexcept;
 
-    /// Panner of a part that divides: its actuators are a layout of their own, whose extent they span. Needs
-    /// up to 10 us. Any thread.
+    /// Panner of a part for which divides() is true. Its actuators form a layout whose extent is the area
+    /// that they span. Takes up to 10 us. Any thread.
     PhantomPanner onPart(PartNumber part) const noexcept;
 
-    /// Gains of an event that is bound to a part, given this panner's onPart of it. Any thread.
+    /// Gains of an event that is bound to a part; `onPart`: this panner's onPart() of it. Any thread.
     void gainsAt(const CollisionEvent& event, const PhantomPanner& onPart, Gains& gains) const noexcept;
 
     /// True if the event is bound to a part of the body that no actuator of the layout has. Any thread.
@@ -64,8 +65,8 @@ public:
     void setGrains(Spread spread) noexcept { grains_ = spread; }
     Spread grains() const noexcept { return grains_; } ///< Spread of grains. Any thread.
 
-    /// Spread of a tone that travels, if none is named: its energy is constant, and the centroid of its
-    /// intensity is at its place. Any thread.
+    /// Default spread of a moving tone: keeps its energy constant, and the centroid of its intensity at its
+    /// place. Any thread.
     Spread travelSpread() const noexcept {
         if (triangles_.areFound()) return spreadBy(PanningLaw::triangles);
         return hasCells() ? spreadBy(PanningLaw::neighbours) : Spread::equal;
@@ -76,16 +77,16 @@ public:
     /// The constructor's arguments. Any thread.
     const EnchanterLayout& layout() const noexcept { return layout_; }
     PanningLaw law() const noexcept { return rule_.law; } ///< Panning law; not PanningLaw::automatic.
-    /// The law that was named, PanningLaw::automatic among them: each part of the body resolves it for its
-    /// own actuators. Any thread.
+    /// The law that the constructor was given. May be PanningLaw::automatic, which each part of the body
+    /// resolves for its own actuators. Any thread.
     PanningLaw partLaw() const noexcept { return partLaw_; }
-    void setPartLaw(PanningLaw law) noexcept { partLaw_ = law; }             ///< As a saved session names it.
+    void setPartLaw(PanningLaw law) noexcept { partLaw_ = law; }             ///< For a saved session.
     double exponent() const noexcept { return rule_.exponent; }              ///< Exponent of the law.
     double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }   ///< Field along x.
     double fieldHeightMetres() const noexcept { return fieldHeightMetres_; } ///< Field along y.
 
 private:
-    /// Without `seeksTriangles` a layout in space does not close around a place.
+    /// `seeksTriangles`: looks for triangles of actuators around the centre, which is slow if there are many.
     PhantomPanner(const ActuatorLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
                   double fieldHeightMetres, bool seeksTriangles) noexcept;
     enum class Arrangement { single, line, rectangle, triangle, scattered };
@@ -102,9 +103,9 @@ private:
     bool findLine() noexcept;
     bool isRectangle() const noexcept;
     Vector place(int enchanter) const noexcept;
-    double placeTolerance() const noexcept; // rounding in a layout file must not make a line a triangle
-    /// True where PanningLaw::automatic is `neighbours`. In the plane of x and y two actuators and the
-    /// corners of a rectangle keep the thesis' law.
+    double placeTolerance() const noexcept; // for places that a layout file rounds
+    /// True where PanningLaw::automatic is `neighbours`. On a flat layout, two actuators and the corners of
+    /// a rectangle use the thesis' law instead.
     bool hasCells() const noexcept {
         return cells_.areFound() &&
                (!isFlat_ || (layout_.count > 2 && arrangement_ != Arrangement::rectangle));
@@ -140,20 +141,21 @@ private:
     Vector lineDirection_;
     double lineExtent_ = 0.0;
     Arrangement arrangement_ = Arrangement::single;
-    NeighbourCells cells_;    // of a layout in one plane
-    TriangleCells triangles_; // of one that closes around a place
+    NeighbourCells cells_;    // for a layout in one plane
+    TriangleCells triangles_; // for a layout that encloses its centre
 };
 
 // Panners of a layout's parts of the body, kept between events.
 
-/// A panner and those of its parts. A part's is found when it is first struck, which may take 10 us, and kept
-/// until the panner changes. Of more parts than `maxKept`, or than were prepared, the oldest is found anew.
+/// A panner and the panners of its parts. A part's panner is made when the part is first struck, which may
+/// take 10 us, and kept until the whole panner changes. When all places (`maxKept`, or as many as were
+/// prepared) are taken, it replaces the oldest.
 class PartPanners {
 public:
-    static constexpr std::size_t maxKept = 16; ///< Core/EnchanterLayout.h names 15
+    static constexpr std::size_t maxKept = 16; ///< Core/EnchanterLayout.h has names for 15 parts
 
-    /// Makes room for the parts of a panner of at most so many actuators: each part has one of its own.
-    /// False: no memory. Message thread (M), not while rendering.
+    /// Allocates places for a layout of at most that many actuators, which has at most as many parts. False:
+    /// no memory. Message thread (M), not while rendering.
     bool prepare(int actuators) noexcept {
         const std::size_t count = std::min(maxKept, static_cast<std::size_t>(actuators));
         parts_.fill(0);
@@ -162,7 +164,7 @@ public:
         return kept_ == count;
     }
 
-    /// Forgets the parts of the panner of before.
+    /// Sets the whole panner, and discards the panners of its parts.
     PartPanners& operator=(const PhantomPanner& whole) noexcept {
         whole_ = whole;
         parts_.fill(0);

@@ -26,8 +26,8 @@ struct Complex {
 template <class Real>
 constexpr Complex<Real> unitPhasor(std::uint64_t phase) noexcept {
     const std::uint64_t quadrant = (phase + (std::uint64_t{1} << 61)) >> 62;
-    const auto rest = static_cast<std::int64_t>(phase - (quadrant << 62)); // at most an eighth of a turn
-                                                                           // either way
+    // at most an eighth of a turn either way
+    const auto rest = static_cast<std::int64_t>(phase - (quadrant << 62));
     const Real x = static_cast<Real>(static_cast<double>(2.0 * std::numbers::pi / 18446744073709551616.0)) *
                    static_cast<Real>(rest);
     const Real q = x * x;
@@ -45,7 +45,7 @@ constexpr Complex<Real> unitPhasor(std::uint64_t phase) noexcept {
     const auto isOdd = static_cast<Bits>(0) - static_cast<Bits>(quadrant & 1);
     const auto c = std::bit_cast<Bits>(cosine),
                swapped = static_cast<Bits>((c ^ std::bit_cast<Bits>(sine)) & isOdd);
-    // whether negative
+    // 1: that component is negative
     const auto re = static_cast<Bits>((quadrant + 1) >> 1 & 1), im = static_cast<Bits>(quadrant >> 1 & 1);
     return {std::bit_cast<Real>(static_cast<Bits>((c ^ swapped) ^ re << sign)),
             std::bit_cast<Real>(static_cast<Bits>((std::bit_cast<Bits>(sine) ^ swapped) ^ im << sign))};

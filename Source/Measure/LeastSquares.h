@@ -36,8 +36,8 @@ private:
     std::vector<double> matrix_, right_; // row by row; only the lower triangle is used
 };
 
-/// Improves `model` until the energy no longer falls; false if it never did. `energyOf(model)` is minimised,
-/// `equationsOf(model)` returns its NormalEquations, `moved(model, step)` a model changed by a step.
+/// Improves `model` until the energy no longer falls; false if no step lowered it. `energyOf(model)` is
+/// minimised, `equationsOf(model)` returns its NormalEquations, `moved(model, step)` the model after a step.
 template <class Model, class Energy, class Equations, class Move>
 bool descend(Model& model, Energy energyOf, Equations equationsOf, Move moved) {
     constexpr int mostSteps = 40;

@@ -116,8 +116,8 @@ void drawWave(const Canvas& canvas, const WaveformEnvelope& wave, int channel, A
     outline.closeSubPath();
     canvas.graphics.setColour(palette::enchanter(channel));
     canvas.graphics.fillPath(outline);
-    canvas.graphics.strokePath(outline,
-                               0.8f); // steep slopes stay as visible as flat ones
+    // The line keeps steep slopes as visible as flat ones.
+    canvas.graphics.strokePath(outline, 0.8f);
 }
 
 // Rows `from` to `to` of `count` that share the height without gaps.

@@ -42,9 +42,9 @@ inline FieldSize fieldOf(const PhantomPanner& panner) noexcept {
     return {panner.fieldWidthMetres(), panner.fieldHeightMetres()};
 }
 
-/// `67 of 67 hits lie outside the field of 0.12 x 0.06 m (see --field)`, or empty. `isGuessed`: the list has
-/// no field, so the layout's extent is used. Up to a twentieth beyond the field counts as inside, because
-/// bodies sink into walls at the edge. Any thread.
+/// A warning such as `67 of 67 hits lie outside the field of 0.12 x 0.06 m (see --field)`, or empty.
+/// `isGuessed`: the list has no field, so the layout's extent is used. Up to a twentieth beyond the field
+/// counts as inside, because bodies sink into walls at the edge. Any thread.
 inline std::string outsideWords(std::span<const CollisionEvent> events, FieldSize field, bool isGuessed) {
     const auto isBeside = [](double at, double length) {
         return !(std::abs(at - 0.5 * length) <= 0.55 * length);

@@ -19,10 +19,10 @@ namespace physvib {
 /// One thread.
 class LinkClock {
 public:
-    static constexpr int window = 256; // 26 s at 10 pings a second: the drift of a warming crystal is
-                                       // constant for so long
-    static constexpr int needed = 100; // pings before the estimate is used, two seconds of them; with 64 an
-                                       // error of 3 ms was seen
+    /// Pings that are kept: 26 s at 10 a second. The drift of a warming crystal is constant for so long.
+    static constexpr int window = 256;
+    /// Pings before the estimate is used: the first 2 s, at 50 a second. With 64 an error of 3 ms was seen.
+    static constexpr int needed = 100;
     static constexpr double maxDrift = 0.02; // of the board's internal oscillator: 1 % plus temperature
 
     void clear() noexcept { count_ = next_ = 0; }

@@ -16,21 +16,22 @@ public:
     static constexpr int startTiles = tilesPerSecond / 10; // soft start: 100 ms
     static constexpr int stopTiles = 3;                    // ramp to silence: 1 ms
     static constexpr int quietTiles = 7;                   // 2.3 ms without a packet: the host stopped
-    static constexpr int amplifierTiles = 6;               // what the output still holds, and more
+    static constexpr int amplifierTiles = 6; // covers what the output still buffers, with a margin
     static constexpr std::int32_t volumeStep = unity * 100 / tilesPerSecond; // the whole range in 10 ms
     static constexpr std::int16_t fullScale = 32767;
     static constexpr std::int32_t lowCeiling = unity / 4; // -12 dB, for small actuators
 
     FrameBuffer<channels> buffer;
 
-    /// False: ramps to silence and stays there. So does a permission that is not renewed for quietTiles: a
-    /// main loop that hangs is felt no longer than a cable that is pulled. Main loop.
+    /// Permits playing; false ramps to silence and stays there. A permission lapses if it is not renewed
+    /// within quietTiles, so a hanging main loop ends the vibration as fast as a pulled cable does. Main
+    /// loop.
     void allow(bool isAllowed) noexcept {
         allowed_.store(isAllowed, std::memory_order_relaxed);
         bump(renewals_);
     }
-    /// Low: everything is scaled down to a quarter, which is then the ceiling; as it is until this is called.
-    /// It falls within a tile, and rises as softly as playing starts. Main loop.
+    /// Low (the initial state): everything is scaled to a quarter, and the ceiling is a quarter of full
+    /// scale. The ceiling falls within a tile, and rises as slowly as the soft start does. Main loop.
     void setLowCeiling(bool isLow) noexcept {
         wantedScale_.store(isLow ? lowCeiling : unity, std::memory_order_relaxed);
     }
@@ -69,19 +70,17 @@ public:
         bump(tiles_);
     }
 
-    /// Tiles since the main loop last said what is allowed. Interrupt of the output.
+    /// Tiles since the main loop last called allow(). Interrupt of the output.
     std::uint32_t unattendedTiles() const noexcept { return unattended_; }
     bool isPlaying() const noexcept { return isPlaying_.load(std::memory_order_relaxed); } ///< any thread
     /// Whether something other than silence may be at the output. Any thread.
     bool isAmplifierOn() const noexcept { return isAmplifierOn_.load(std::memory_order_relaxed); }
     std::uint32_t tiles() const noexcept { return tiles_.load(std::memory_order_relaxed); } ///< any thread
-    std::uint32_t underruns() const noexcept {
-        return underruns_.load(std::memory_order_relaxed);
-    } ///< how often frames were missing while packets came; any thread
-    std::uint32_t limitedTiles() const noexcept {
-        return limited_.load(std::memory_order_relaxed);
-    } ///< tiles in which guard or ceiling acted; any thread
-    /// Any thread.
+    /// How often frames were missing while the host was sending. Any thread.
+    std::uint32_t underruns() const noexcept { return underruns_.load(std::memory_order_relaxed); }
+    /// Tiles in which guard or ceiling reduced the signal. Any thread.
+    std::uint32_t limitedTiles() const noexcept { return limited_.load(std::memory_order_relaxed); }
+    /// Largest sample that passes, of 32767. Any thread.
     std::int32_t ceiling() const noexcept { return ceiling_.load(std::memory_order_relaxed); }
 
 private:
@@ -107,7 +106,7 @@ private:
             state_ = State::playing;
     }
 
-    // Frames that are missing repeat the last one, which the gate then ramps to zero: no step, no click.
+    // Missing frames repeat the last one while the gate ramps to zero, because a step would be a click.
     void fill(Tile<channels>& tile) noexcept {
         const int count = buffer.read(tile, dropped_);
         if (count == tileFrames) return;
@@ -137,12 +136,12 @@ private:
         return times(times(times(level_[j], scale_), gate_), guard_.to(j));
     }
 
-    // Returns the sum of what leaves.
+    // Scales and clips one channel of a tile. Returns the sum of its samples, which the guard needs.
     std::int32_t apply(Tile<channels>& tile, std::size_t j, std::int32_t from, std::int32_t end,
                        bool& clipped) noexcept {
         std::int32_t sum = 0;
         const std::int32_t most = ceiling();
-        if (from == unity && end == unity && most == fullScale) { // as most of the time: samples stay
+        if (from == unity && end == unity && most == fullScale) { // the usual case: samples pass unchanged
             for (auto& frame : tile) {
                 clipped = clipped || frame[j] < -fullScale;
                 frame[j] = std::max<std::int16_t>(frame[j], -fullScale);
@@ -150,7 +149,7 @@ private:
             }
             return sum;
         }
-        auto gain = static_cast<std::uint32_t>(from * tileFrames); // in sixteenths: a ramp ends exactly
+        auto gain = static_cast<std::uint32_t>(from * tileFrames); // times tileFrames: the ramp ends exactly
         for (auto& frame : tile) {
             gain += static_cast<std::uint32_t>(end - from);
             // Rounded towards zero, so that a faint signal ends in zeros.

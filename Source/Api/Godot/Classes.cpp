@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Registers classes with their properties and methods in Godot, and keeps the property values of instances.
 #include "Api/Godot/Classes.h"
 #include <algorithm>
 #include <cmath>
@@ -6,9 +7,9 @@
 
 namespace physvib::godot {
 namespace {
-constexpr std::uint32_t usualUse = 6, flagsOfMethod = 1; // stored and shown in the editor; a usual method
+constexpr std::uint32_t usualUse = 6, flagsOfMethod = 1; // Godot's PROPERTY_USAGE_DEFAULT, METHOD_FLAG_NORMAL
 
-// What Godot hands back with a call: which property of which class.
+// Which property a getter or setter is for; Godot passes it back with each call.
 struct Accessor {
     const Property* property;
     std::size_t index;
@@ -50,14 +51,14 @@ void callGet(void* data, GDExtensionClassInstancePtr instance, const GDExtension
     const Value& value = instanceAt(instance).get(at.index);
     if (at.property->type == GDEXTENSION_VARIANT_TYPE_OBJECT) return value.copyTo(result);
     const bool isShared = at.property->type == GDEXTENSION_VARIANT_TYPE_DICTIONARY;
-    (isShared ? value.call("duplicate") : value.as(at.property->type)).copyTo(result); // its own, as arrays
-                                                                                       // are
+    // Dictionaries are shared, arrays are not: the caller gets a copy of its own.
+    (isShared ? value.call("duplicate") : value.as(at.property->type)).copyTo(result);
 }
 void pointerGet(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr*,
                 GDExtensionTypePtr result) {
     const Accessor& at = accessorAt(data);
     const Value& its = instanceAt(instance).get(at.index);
-    if (at.property->type == GDEXTENSION_VARIANT_TYPE_OBJECT) { // a reference, which counts
+    if (at.property->type == GDEXTENSION_VARIANT_TYPE_OBJECT) { // setReference counts it
         if (its.object() != nullptr) api.setReference(result, its.object());
         return;
     }
@@ -118,8 +119,8 @@ void addGroup(const Class& type, const char* name) {
     api.registerGroup(api.library, Name(type.name).get(), group.get(), prefix.get());
 }
 
-// Godot's own part of an object begins with a notification, which is left to whoever creates it. By pointer:
-// a Value of a new resource would be the first to hold it, and free it.
+// Whoever creates an object has to send it the notification with which Godot's own part of it begins. It is
+// sent by pointer: a Value of a new resource would hold the first reference, and free the object at its end.
 GDExtensionObjectPtr create(void* data, GDExtensionBool isToNotify) {
     const Class& type = *static_cast<Class*>(data);
     GDExtensionObjectPtr object = api.constructObject(Name(type.parent).get());
@@ -178,12 +179,12 @@ void registerClass(const Class& type) {
 namespace {
 std::uint64_t changes = 0;
 
-// Nil: it cannot be used.
+// The value as the property stores it; nil if it cannot be used.
 Value converted(const Property& property, const Value& value) {
     if (property.type == GDEXTENSION_VARIANT_TYPE_OBJECT)
         return value.call("is_class", property.hintText).isTrue() ? value : Value();
     const Value its = value.as(property.type);
-    // A dictionary is shared until it is copied, and would change without a word.
+    // A dictionary is shared until it is copied, so a script could change it without a call of set().
     return its.type() == GDEXTENSION_VARIANT_TYPE_DICTIONARY ? its.call("duplicate") : its;
 }
 bool isFinite(const Value& value) {

@@ -69,8 +69,9 @@ struct CallSet {
 
 /// Scenes that the participant sees and feels: calls of `render` with options of its scene.
 struct WorldSet : CallSet {
-    bool hasHands = false; ///< the participant drags bodies and tilts the world, for any length of time; else
-                           ///< the scene runs for the call's seconds
+    /// The participant drags bodies and tilts the world, for any length of time; else the scene runs for the
+    /// call's seconds.
+    bool hasHands = false;
     /// Metres of the world per metre on the display (50: 1:50); 0: as large as fits.
     double displayScale = 0.0;
     bool operator==(const WorldSet&) const = default;
@@ -105,8 +106,9 @@ struct ConditionPlan {
     double frequencyHz = 205.0, levelG = 1.0;
     StimulusSet stimuli;
     bool isAtResonance = false; ///< use the resonance of the layout's actuators instead of frequencyHz
-    double observerBlur = 0.0;  ///< localisation blur of simulated observers in this condition, as a share of
-                                ///< the field; 0: the observer's own
+    /// Localisation blur of simulated observers in this condition, as a share of the field; 0: the observer's
+    /// own.
+    double observerBlur = 0.0;
     bool operator==(const ConditionPlan&) const = default;
 };
 
@@ -129,11 +131,11 @@ struct Adjustment {
 struct StaircasePlan {
     std::string alternative;
     double startDb = 6.0, stepDb = 2.0; ///< the step is halved at every reversal, down to leastStepDb
-    std::vector<double> startsDb{}; ///< of several staircases, instead of startDb: each trial is of one that
-                                    ///< is not over, at random
+    /// Start levels of several staircases, instead of startDb: each trial belongs to a random one of those
+    /// that have not ended.
+    std::vector<double> startsDb{};
     double leastStepDb = 0.5, leastDb = 0.0, mostDb = 40.0;
-    double upRatio = 1.0; ///< upward step per downward step; 3 with `down` 1 converges to 75 % (Kaernbach
-                          ///< 1991)
+    double upRatio = 1.0; ///< upward step / downward step; 3, `down` 1: converges to 75 % (Kaernbach 1991)
     int down = 2;         ///< consecutive correct answers that lower the level; 2 converges to 70.7 %
     int reversals = 8;    ///< number of reversals at which it ends
     int mostTrials = 200; ///< of each staircase
@@ -204,8 +206,7 @@ struct Protocol {
     int seed = 1;
     bool hasPinkNoise = false;                  ///< played on another output than the stimuli
     double pinkNoiseDb = PinkNoise::safeDb;     ///< its root mean square, in dB of full scale
-    double exposureLimit = exposureActionValue; ///< A(8) in m/s^2 of a participant from which the study
-                                                ///< pauses
+    double exposureLimit = exposureActionValue; ///< A(8), m/s^2: the study pauses at this exposure
     std::vector<StudySoundFile> sounds;         ///< recordings for calls with --method SV
     std::vector<MaterialPictureFile> pictures;  ///< replace the textures of their materials
     ConditionOrder conditionOrder = ConditionOrder::given;
@@ -248,9 +249,9 @@ std::string callOf(const CallSet& set, const StimulusItem& item, const std::stri
 /// True if the condition's calls name the alternative or object. Any thread (allocates).
 bool namesParts(const ConditionPlan& condition);
 
-/// What a trial's level moves in the condition's calls besides how strong it is: names of variables that do
-/// not stand behind --level-g, and level_db where it does not stand behind --level-db. Any thread
-/// (allocates).
+/// What a trial's level changes in the condition's calls other than the strength of the stimulus: variables
+/// that are used elsewhere than right after --level-g, and level_db if it is used elsewhere than right after
+/// --level-db. Any thread (allocates).
 std::vector<std::string> movedBesideStrength(const ConditionPlan& condition);
 
 /// All alternatives and objects that can be put into calls; if there are none, one empty name. Any thread
@@ -269,8 +270,8 @@ double stimulusCount(const ConditionPlan& condition) noexcept;
 // stand in every row of the trial file, where users copy them into a shell. So a call may only render and
 // read files below its folder. The options that write files are listed in Standalone/Calls/CallFiles.h.
 
-constexpr std::size_t mostCallBytes = 2000; // including recordings; a row of the trial file holds the calls
-                                            // of all parts of a trial
+/// Of a call, including recordings; a row of the trial file holds the calls of all parts of a trial.
+constexpr std::size_t mostCallBytes = 2000;
 
 /// Letters (including non-ASCII), digits, and characters that a shell does not interpret.
 constexpr bool isPlainCharacter(char c) noexcept {

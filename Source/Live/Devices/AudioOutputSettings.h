@@ -14,7 +14,7 @@ class InputTap;
 /// Master level at which a session starts: a quarter of the amplifier's full output, since the actuators
 /// touch skin.
 constexpr double safeStartDecibels = -12.0;
-constexpr float safeStartLevel = 0.25118864f; // the same as a gain
+constexpr float safeStartLevel = 0.25118864f; // safeStartDecibels as a gain
 
 constexpr double leastContactDb = -90.0, safeContactDb = -20.0, mostContactDb = 0.0;
 
@@ -23,10 +23,9 @@ constexpr double leastContactDb = -90.0, safeContactDb = -20.0, mostContactDb = 
 struct ListeningSettings {
     std::vector<int> noise;             ///< pink noise that masks the sound of the actuators
     double noiseDb = PinkNoise::safeDb; ///< RMS level in dB of full scale, within PinkNoise's limits
-    std::vector<int> contacts; ///< the sound of each contact; needs a session that makes contact sounds
-    double contactDb = safeContactDb; ///< level of a hit at full scale, and so the upper limit of every
-                                      ///< sample; leastContactDb to mostContactDb
-
+    std::vector<int> contacts;          ///< sounds of contacts; needs a session that makes them
+    /// Level of a hit at full scale, and so the upper limit of every sample; leastContactDb to mostContactDb.
+    double contactDb = safeContactDb;
     std::vector<int> marks; ///< full-scale pulses at onsets; needs a session that makes marks
 
     bool operator==(const ListeningSettings&) const = default;
@@ -36,16 +35,16 @@ struct ListeningSettings {
 /// Which device to open, and how.
 struct AudioOutputSettings {
     std::string device;           ///< name, or type:name where two drivers have the same name
-    std::vector<int> channelMap;  ///< actuator j plays on device output channelMap[j], from 0; empty: j on j
+    std::vector<int> channelMap;  ///< actuator j plays on output channelMap[j], from 0; empty: on output j
     int sampleRateHz = 0;         ///< 0: device default
     int blockFrames = 0;          ///< 0: device default
     float level = safeStartLevel; ///< master gain, 0 to 1, reached in a ramp
     int enchanters = 0;           ///< number of actuators to drive; 0: as many as the session has channels
     bool opensAll = false;        ///< opens every output, so that assign() need not reopen the device
     ListeningSettings listening{};
-    std::vector<int> onOff{};    ///< actuators, from 0, that are on/off motors
-                                 ///< (Core/Actuators/VibrationConverter.h)
-    double onOffThreshold = 0.1; ///< 0 to 1 full scale
+    /// Actuators, from 0, that are motors which are either on or off (Core/Actuators/VibrationConverter.h).
+    std::vector<int> onOff{};
+    double onOffThreshold = 0.1; ///< they are on while samples exceed this, 0 to 1 full scale
     std::vector<int> inputs{};   ///< device inputs, from 0, whose mean goes to `tap`; empty: none
     InputTap* tap = nullptr;     ///< outlives the output
 };

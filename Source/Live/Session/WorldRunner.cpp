@@ -136,8 +136,8 @@ void WorldRunner::tellScene() noexcept {
     take_.store(world_.takeCount(), std::memory_order_relaxed);
 }
 
-// After a pause of the device no strike is left that waited for it. A thread that reads a session time after
-// the pause, and then calls this, sees the pause too.
+// Drops the strikes that waited while the device paused, once it is back. A thread that has read a session
+// time after the pause, and then calls this, sees the pause too.
 void WorldRunner::dropWaiting() {
     const DevicePulse::Return now = pulse_.returns(), before = std::exchange(returns_, now);
     if (now.pauses == before.pauses) return;
@@ -268,8 +268,8 @@ std::int64_t WorldRunner::readPoses(std::vector<BodyPose>& poses) const {
 
 namespace {
 
-// The first stall of `from` may be the last of `to`, grown since it was read: then both begin at the same
-// world time.
+// moveLog() keeps the last stall of a run, because it may still grow. So the first stall of `from` may be the
+// last one of `to` with a new length; then both begin at the same world time.
 void moveTo(SceneRun& to, SceneRun& from) {
     std::ranges::move(from.inputs, std::back_inserter(to.inputs));
     from.inputs.clear();

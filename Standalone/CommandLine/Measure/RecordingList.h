@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A folder of recordings with a table of their conditions.
+// Accelerometer recordings: a folder of them with a table of their conditions, the levels and tones of their
+// channels, and frequency bands as text.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Core/Limits.h"

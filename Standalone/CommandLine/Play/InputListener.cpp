@@ -16,16 +16,17 @@ namespace physvib {
 
 namespace {
 
-constexpr int pollMilliseconds = 50; // only delays the end of the program
-constexpr double ringSeconds = 0.5;  // an impact lasts at most this long; a board waits as long for its
-                                     // computer
+constexpr int pollMilliseconds = 50; // longest wait for input; only delays the end of the program
 
-/// A ceiling that comes from outside is at most as high as the person at the machine has set it.
+// An impact lasts at most this long. A board waits as long for its computer before it falls silent.
+constexpr double ringSeconds = 0.5;
+
+/// Input may lower a ceiling, but not raise it above what the person at this computer set by --ceiling.
 std::string takeControl(const RenderControl& control, Session& session) {
     if (control.kind == RenderControl::Kind::ceiling)
         if (const float most = session.rendered().ceiling(control.channel); control.value > most) {
             std::string fault = "ceiling: expected at most ";
-            appendNumber(fault, most); // shortest: read back, it is the same number
+            appendNumber(fault, most); // the shortest text that reads back as this number
             return fault + ", as --ceiling was set, found " + numberText(control.value);
         }
     return session.submit({control}).error;

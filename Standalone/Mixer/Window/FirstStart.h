@@ -16,8 +16,8 @@ struct FeltChoice {
     juce::String title;
     DeviceChoice device;
     int outputs = 0;
-    bool isBeside = false; ///< a sink; choosing it restarts the session
-    bool isHeard = false;  ///< headphones on the first two outputs, without actuators
+    bool isBeside = false; ///< a sink, used instead of an audio device; choosing it restarts the session
+    bool isHeard = false;  ///< headphones: vibration is heard on the first two outputs, not felt
 };
 
 /// An available sink.
@@ -33,8 +33,8 @@ std::vector<SinkOffer> likelySinks();
 /// likelySinks().
 std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vector<SinkOffer>& offers);
 
-/// Reduces the layout to a preset with at most that number of actuators; a Pico gets its own one. Message
-/// thread.
+/// If the layout has more actuators than `outputs`, replaces it by a preset that fits. A Pico gets its own
+/// preset, unless the user has chosen a layout. Message thread.
 void keepTo(int outputs, Mix& mix, std::string_view device = {});
 
 /// Card over the window, usable by keys alone: up, down and Return; then Return (felt), L (louder), N (not
@@ -47,19 +47,19 @@ public:
     FirstStart(MixerModel& model, std::vector<FeltChoice> choices);
 
     std::function<void(bool hasChosen)> onEnd;
-    std::function<void(const DeviceChoice&)> onBeside; ///< the window opens the sink, and continues with
-                                                       ///< test()
+    /// A sink was chosen: the window opens it, then calls test().
+    std::function<void(const DeviceChoice&)> onBeside;
 
     void choose(int index);
     int chosen() const noexcept { return chosen_; }
     void playHere();        ///< opens the chosen device and starts the test
-    void test(int outputs); ///< tests an actuator per output, four at most, from a low level; waits for sinks
+    void test(int outputs); ///< tests an actuator per output, in turn, from a low level; waits for sinks
     void pulse();           ///< repeats the pulse of the tested actuator
-    void felt();            ///< at its drawn place; goes on to the next
-    void feltAt(double shareX, double shareY); ///< moves the actuator there; goes on to the next
-    void notFelt();                            ///< removes its output; goes on to the next
+    void felt();            ///< the pulse was felt where the actuator is drawn; tests the next
+    void feltAt(double shareX, double shareY); ///< moves the actuator there; tests the next
+    void notFelt();                            ///< takes the output from the actuator; tests the next
     void louder();
-    int tested() const noexcept { return tested_; } ///< -1: none
+    int tested() const noexcept { return tested_; } ///< number of the actuator; -1: none
     void end(bool hasChosen);
 
     bool keyPressed(const juce::KeyPress& key) override;
