@@ -27,7 +27,7 @@ inline const void* feature(const LV2_Feature* const* features, const char* uri) 
 }
 
 /// A map of URIs to numbers from 1, common to all instances, for hosts that have none. Any thread.
-inline LV2_URID_Map& ownMap() {
+inline LV2_URID_Map& fallbackUridMap() {
     static LV2_URID_Map map{nullptr, [](LV2_URID_Map_Handle, const char* uri) {
                                 static std::mutex mutex;
                                 static std::vector<std::string> known;
@@ -64,13 +64,13 @@ public:
 private:
     const std::int32_t longest_ = limits::maxBlockFrames;
     std::array<LV2_Options_Option, 2> option_{};
-    LV2_Feature map_{LV2_URID__map, &ownMap()}, bounded_{LV2_BUF_SIZE__boundedBlockLength, nullptr},
+    LV2_Feature map_{LV2_URID__map, &fallbackUridMap()}, bounded_{LV2_BUF_SIZE__boundedBlockLength, nullptr},
         options_{LV2_OPTIONS__options, option_.data()};
     std::vector<const LV2_Feature*> all_;
 };
 
 /// Buffer for the events that the plug-in sends, for a host that does not connect their port.
-class Lv2Sink {
+class UnconnectedEvents {
 public:
     /// The buffer, emptied; to be called before each block. R, wait-free.
     LV2_Atom_Sequence* empty() noexcept {

@@ -128,8 +128,8 @@ struct Instance {
     const LV2_Atom_Sequence* events = nullptr; // of the port, which the host may connect anew before each
                                                // block
     std::shared_ptr<Lv2Controls> controls{};
-    LV2_Atom_Sequence* told = nullptr; // as events
-    std::shared_ptr<Lv2Sink> sink{};   // for a host that does not connect that
+    LV2_Atom_Sequence* told = nullptr;         // as events
+    std::shared_ptr<UnconnectedEvents> sink{}; // for a host that does not connect that
 };
 
 /// All that live, by JUCE's handles; a host may make and end them on several threads, and runs them on
@@ -198,7 +198,7 @@ LV2_Handle instantiate(const LV2_Descriptor*, double rate, const char* bundle,
     auto controls = std::make_shared<Lv2Controls>();
     if (handle)
         instances().add(handle, {making().instance, false, names, nullptr, std::move(controls), nullptr,
-                                 std::make_shared<Lv2Sink>()});
+                                 std::make_shared<UnconnectedEvents>()});
     return handle;
 }
 

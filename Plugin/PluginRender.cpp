@@ -179,12 +179,12 @@ void PluginProcessor::sendPaced(int first, int end) noexcept {
     if (!take) return;
     send({Parameter::level}, [&] {
         return sendAt(levelPace_, first, end, [&](int frame) {
-            return take->holdLevel(gainOfLevel(value(Parameter::level)), frame);
+            return take->queueLevel(gainOfLevel(value(Parameter::level)), frame);
         });
     });
     send({Parameter::law, Parameter::exponent}, [&] {
         return sendAt(pannerPace_, first, end, [&](int frame) {
-            return take->holdLaw(lawOf(value(Parameter::law)), value(Parameter::exponent), frame);
+            return take->queueLaw(lawOf(value(Parameter::law)), value(Parameter::exponent), frame);
         });
     });
     send({Parameter::gravity, Parameter::tilt}, [&] {

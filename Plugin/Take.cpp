@@ -5,7 +5,7 @@
 
 namespace physvib {
 
-Take::Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, TakeTiming timing,
+Take::Take(std::shared_ptr<const TakeSpec> order, int sampleRateHz, int blockFrames, TakeTiming timing,
            bool hasMusic)
     : session{order->setup}
     , order_{std::move(order)}
@@ -38,7 +38,7 @@ void Take::rewind(TakeTiming timing) {
     fade_.prepare(sampleRateHz_, limits::channelRampSeconds, 1.0f);
     gap_.prepare(sampleRateHz_, limits::channelRampSeconds, 1.0f);
     last_.fill(0.0f);
-    owed_ = -1;
+    framesToFade_ = -1;
     over_ = false;
     number = 0;
     logged = 0;
@@ -55,11 +55,11 @@ void Take::Held::forget() noexcept {
     hasFirst = false;
 }
 
-bool Take::holdLevel(double gain, int frame) noexcept {
+bool Take::queueLevel(double gain, int frame) noexcept {
     return levels_.queue.push({session.timeline().framesRendered() + frame, gain, {}});
 }
 
-bool Take::holdLaw(PanningLaw law, double exponent, int frame) noexcept {
+bool Take::queueLaw(PanningLaw law, double exponent, int frame) noexcept {
     return panners_.queue.push({session.timeline().framesRendered() + frame, exponent, law});
 }
 
@@ -111,7 +111,7 @@ bool Take::silence(int frame) noexcept {
 }
 
 void Take::end() noexcept {
-    if (owed_ < 0) owed_ = session.timeline().inputLatencyFrames();
+    if (framesToFade_ < 0) framesToFade_ = session.timeline().inputLatencyFrames();
 }
 
 void Take::render(int frames, TakeTiming timing, RenderMode mode) noexcept {
@@ -143,7 +143,7 @@ void Take::standStill(int frames) noexcept {
 void Take::skip(int frames) noexcept {
     releaseUntil(frames);
     session.wait(from(0).data(), frames);
-    if (owed_ > 0) owed_ = std::max<std::int64_t>(0, owed_ - frames);
+    if (framesToFade_ > 0) framesToFade_ = std::max<std::int64_t>(0, framesToFade_ - frames);
 }
 
 void Take::play(int first, int frames, RenderMode mode, float gap) noexcept {
@@ -161,9 +161,9 @@ void Take::play(int first, int frames, RenderMode mode, float gap) noexcept {
 }
 
 void Take::fade(int first, int frames) noexcept {
-    if (owed_ < 0) return;
-    const int kept = static_cast<int>(std::min<std::int64_t>(owed_, frames));
-    owed_ -= kept;
+    if (framesToFade_ < 0) return;
+    const int kept = static_cast<int>(std::min<std::int64_t>(framesToFade_, frames));
+    framesToFade_ -= kept;
     if (kept == frames) return;
     fade_.moveTo(0.0f);
     fade_.apply(from(first + kept).data(), session.channels(), frames - kept);

@@ -23,7 +23,7 @@ struct TakeSettings {
 };
 
 /// What takes are made from. `generation` rises with each change of it.
-struct TakeOrder {
+struct TakeSpec {
     SessionSetup setup;
     TakeSettings settings;
     std::uint64_t generation = 0;
@@ -39,7 +39,7 @@ enum class TakeTiming {
 class Take {
 public:
     /// `hasMusic`: the host may send audio, so a MusicDelay is made for it. Any thread but R.
-    Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, TakeTiming timing,
+    Take(std::shared_ptr<const TakeSpec> order, int sampleRateHz, int blockFrames, TakeTiming timing,
          bool hasMusic = false);
 
     /// Starts again from the seed. Any thread but R, while nobody renders or steps it.
@@ -65,8 +65,8 @@ public:
     /// Sets the level, or law and exponent, from a frame of the next block on. Calls are in the order of
     /// their frames, and no more frequent than ControlPace allows. They wait here until the renderer reaches
     /// that frame, L later, because the session's queue is short. False: the queue is full. R, wait-free.
-    bool holdLevel(double gain, int frame) noexcept;
-    bool holdLaw(PanningLaw law, double exponent, int frame) noexcept;
+    bool queueLevel(double gain, int frame) noexcept;
+    bool queueLaw(PanningLaw law, double exponent, int frame) noexcept;
 
     /// Takes audio from the host; null without `hasMusic`. R.
     MusicDelay* music() noexcept { return music_.get(); }
@@ -111,13 +111,13 @@ private:
     void play(int first, int frames, RenderMode mode, float gap = 1.0f) noexcept;
     void fade(int first, int frames) noexcept;
 
-    std::shared_ptr<const TakeOrder> order_;
+    std::shared_ptr<const TakeSpec> order_;
     int sampleRateHz_, sliceFrames_;
     std::unique_ptr<MusicDelay> music_;
     std::array<SentStrip, limits::maxEnchanters> lastSent_{};
     Held levels_, panners_;
     std::int64_t safeFrames_ = 0, tightFrames_ = 0; // L, by the timing
-    std::int64_t owed_ = -1;                        // frames until it fades out; -1: it is not ending
+    std::int64_t framesToFade_ = -1;                // frames until it fades out; -1: it is not ending
     GainRamp fade_, gap_;                           // gap_ is shut while L grows or shrinks
     std::array<float, limits::maxEnchanters> last_{};
     bool over_ = false;

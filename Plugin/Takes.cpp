@@ -45,7 +45,7 @@ void checkGroups(const SessionSetup& setup) {
     check(setup.groups.size());
 }
 
-bool startsQuickly(const TakeOrder& order) noexcept {
+bool startsQuickly(const TakeSpec& order) noexcept {
     return order.settings.transport == TransportMode::restartOnPlay;
 }
 
@@ -59,10 +59,10 @@ void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<St
         std::unique_lock lock{mutex_};
         const int rate = sampleRateHz_, block = blockFrames_;
         const double known = knownAfterSeconds_;
-        TakeOrder order{setup, settings, before ? before->generation + 1 : 1};
+        TakeSpec order{setup, settings, before ? before->generation + 1 : 1};
         setGaps(order);
         lock.unlock();
-        const auto wanted = std::make_shared<const TakeOrder>(std::move(order));
+        const auto wanted = std::make_shared<const TakeSpec>(std::move(order));
         std::unique_ptr<Take> take;
         if (block > 0)
             take = newTake(wanted, rate, block);
@@ -91,13 +91,13 @@ void Takes::sendAll() {
             take->send(strips_);
 }
 
-std::shared_ptr<const TakeOrder> Takes::order() const {
+std::shared_ptr<const TakeSpec> Takes::order() const {
     const std::lock_guard lock{mutex_};
     return order_;
 }
 
 // The mutex is held.
-void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Take> take) {
+void Takes::exchange(std::shared_ptr<const TakeSpec> order, std::unique_ptr<Take> take) {
     order_ = std::move(order);
     fault_.clear();
     canMake_ = true;
@@ -117,7 +117,7 @@ void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Tak
 }
 
 // With a world, what is known late has, beside the gap, the two steps that L has room for. The mutex is held.
-void Takes::setGaps(TakeOrder& order) const noexcept {
+void Takes::setGaps(TakeSpec& order) const noexcept {
     auto& setup = order.setup;
     const double known = order.knownAfterSeconds = setup.direct == Direct::no ? knownAfterSeconds_ : 0.0;
     setup.longestGapSeconds = setup.hasWorld ? std::max(TakePace::longestGapSeconds(setup.stepsPerSecond),
@@ -125,7 +125,7 @@ void Takes::setGaps(TakeOrder& order) const noexcept {
                                              : known;
 }
 
-std::unique_ptr<Take> Takes::newTake(std::shared_ptr<const TakeOrder> order, int sampleRateHz,
+std::unique_ptr<Take> Takes::newTake(std::shared_ptr<const TakeSpec> order, int sampleRateHz,
                                      int blockFrames) const {
     return std::make_unique<Take>(std::move(order), sampleRateHz, blockFrames, timing(), hasMusic_);
 }
@@ -138,7 +138,7 @@ void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds,
     if (!order_) return;
     auto order = *order_;
     setGaps(order);
-    order_ = std::make_shared<const TakeOrder>(std::move(order));
+    order_ = std::make_shared<const TakeSpec>(std::move(order));
     sampleRateHz_ = sampleRateHz;
     blockFrames_ = blockFrames;
     started_ = 0;
@@ -240,7 +240,7 @@ void Takes::makeReady(std::unique_lock<std::mutex>& lock) {
 }
 
 std::unique_ptr<Take> Takes::makeOf(std::vector<std::unique_ptr<Take>>& ended,
-                                    std::shared_ptr<const TakeOrder> order) {
+                                    std::shared_ptr<const TakeSpec> order) {
     const auto found = std::ranges::find_if(
         ended, [&](const auto& take) { return take->generation() == order->generation && !take->isStill; });
     if (found == ended.end()) {

@@ -198,11 +198,11 @@ private:
     static constexpr std::size_t logSize = 16384; // ten minutes of "shake the box", if nobody looks
     static constexpr std::size_t kept = 3;        // one plays, one is next, one is ending or spare
     static constexpr std::size_t maxEnding = 8;   // loops as short as an eighth of L
-    std::shared_ptr<const TakeOrder> order() const;
-    void setGaps(TakeOrder& order) const noexcept;
-    std::unique_ptr<Take> newTake(std::shared_ptr<const TakeOrder> order, int sampleRateHz,
+    std::shared_ptr<const TakeSpec> order() const;
+    void setGaps(TakeSpec& order) const noexcept;
+    std::unique_ptr<Take> newTake(std::shared_ptr<const TakeSpec> order, int sampleRateHz,
                                   int blockFrames) const;
-    void exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Take> take);
+    void exchange(std::shared_ptr<const TakeSpec> order, std::unique_ptr<Take> take);
     void sendAll();
     int ticksPerSecond() const noexcept override { return ticksPerSecond_; }
     double idleSeconds() const noexcept override { return idleSeconds_; }
@@ -214,7 +214,7 @@ private:
     bool isWorkToDo() const;
     std::vector<std::unique_ptr<Take>> collectUnused();
     std::unique_ptr<Take> makeOf(std::vector<std::unique_ptr<Take>>& ended,
-                                 std::shared_ptr<const TakeOrder> order);
+                                 std::shared_ptr<const TakeSpec> order);
     void makeReady(std::unique_lock<std::mutex>& lock);
     void tryToMakeReady(std::unique_lock<std::mutex>& lock) noexcept;
 
@@ -228,7 +228,7 @@ private:
 
     std::mutex setMutex_;      // one `set` at a time; taken first
     mutable std::mutex mutex_; // guards what follows, up to the atomics
-    std::shared_ptr<const TakeOrder> order_;
+    std::shared_ptr<const TakeSpec> order_;
     std::vector<Strip> strips_; // of all takes of that order
     std::vector<std::unique_ptr<Take>> takes_;
     std::vector<TakeEvent> log_;

@@ -201,21 +201,21 @@ bool PhantomPanner::divides(PartNumber part) const noexcept {
 }
 
 void PhantomPanner::gainsAt(const CollisionEvent& event, Gains& gains) const noexcept {
-    if (divides(event.source.part)) return gainsAt(event, onPart(event.source.part), gains);
+    if (divides(event.source.part)) return gainsAt(event, pannerOf(event.source.part), gains);
     gainsHere(event, spreadOf(event), gains);
 }
 
 void PhantomPanner::gainsOf(const CollisionEvent& event, Spread spread, Gains& gains) const noexcept {
     if (!divides(event.source.part)) return gainsHere(event, spread, gains);
     Gains own;
-    onPart(event.source.part).gainsHere(event, spread, own);
+    pannerOf(event.source.part).gainsHere(event, spread, own);
     spreadPart(event.source.part, own, gains);
 }
 
-void PhantomPanner::gainsAt(const CollisionEvent& event, const PhantomPanner& onPart,
+void PhantomPanner::gainsAt(const CollisionEvent& event, const PhantomPanner& pannerOf,
                             Gains& gains) const noexcept {
     Gains own;
-    onPart.gainsHere(event, onPart.spreadOf(event), own);
+    pannerOf.gainsHere(event, pannerOf.spreadOf(event), own);
     spreadPart(event.source.part, own, gains);
 }
 
@@ -226,7 +226,7 @@ void PhantomPanner::spreadPart(PartNumber part, const Gains& own, Gains& gains) 
 }
 
 // Places stay where they are. The triangles of 16 take 10 us to find, those of 63 would take 2 ms.
-PhantomPanner PhantomPanner::onPart(PartNumber part) const noexcept {
+PhantomPanner PhantomPanner::pannerOf(PartNumber part) const noexcept {
     constexpr int mostWithTriangles = 16;
     ActuatorLayout own = layout_;
     const auto end =

@@ -50,10 +50,10 @@ public:
 
     /// Panner of a part for which divides() is true. Its actuators form a layout whose extent is the area
     /// that they span. Takes up to 10 us. Any thread.
-    PhantomPanner onPart(PartNumber part) const noexcept;
+    PhantomPanner pannerOf(PartNumber part) const noexcept;
 
-    /// Gains of an event that is bound to a part; `onPart`: this panner's onPart() of it. Any thread.
-    void gainsAt(const CollisionEvent& event, const PhantomPanner& onPart, Gains& gains) const noexcept;
+    /// Gains of an event that is bound to a part; `pannerOf`: this panner's pannerOf() of it. Any thread.
+    void gainsAt(const CollisionEvent& event, const PhantomPanner& pannerOf, Gains& gains) const noexcept;
 
     /// True if the event is bound to a part of the body that no actuator of the layout has. Any thread.
     bool lacksPartOf(const CollisionEvent& event) const noexcept {
@@ -79,7 +79,7 @@ public:
     PanningLaw law() const noexcept { return rule_.law; } ///< Panning law; not PanningLaw::automatic.
     /// The law that the constructor was given. May be PanningLaw::automatic, which each part of the body
     /// resolves for its own actuators. Any thread.
-    PanningLaw partLaw() const noexcept { return partLaw_; }
+    PanningLaw requestedLaw() const noexcept { return partLaw_; }
     void setPartLaw(PanningLaw law) noexcept { partLaw_ = law; }             ///< For a saved session.
     double exponent() const noexcept { return rule_.exponent; }              ///< Exponent of the law.
     double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }   ///< Field along x.
@@ -187,7 +187,7 @@ private:
         const std::size_t i = next_;
         next_ = (next_ + 1) % kept_;
         parts_[i] = part;
-        panners_[i] = whole_.onPart(part);
+        panners_[i] = whole_.pannerOf(part);
         return i;
     }
 

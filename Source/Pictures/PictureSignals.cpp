@@ -140,8 +140,8 @@ void drawStrip(const Canvas& canvas, const WaveformEnvelope& wave, int channel, 
     }
 }
 
-void drawBeside(const Canvas& canvas, std::string_view label, Colour colour, bool bold, float peak,
-                Area panelRow, Area lane) {
+void drawLabelAndPeak(const Canvas& canvas, std::string_view label, Colour colour, bool bold, float peak,
+                      Area panelRow, Area lane) {
     const Area row = panelRow.withSizeKeepingCentre(panelRow.width, std::max(panelRow.height, 18));
     canvas.text(label, row.withRight(lane.x - 8), Align::left, colour, smallText, bold);
     canvas.text(decibelText(peak), row.withLeft(lane.right()), Align::right,
@@ -163,8 +163,8 @@ void drawWaves(const Canvas& canvas, const PictureInput& input, const WaveformEn
         canvas.well(lane);
         Axis{axis.from, axis.to, lane}.drawGrid(canvas, grid, palette::line);
         drawWave(canvas, wave, channel, lane);
-        drawBeside(canvas, laneLabelOf(input, channel), palette::enchanter(channel), true, wave.peak(channel),
-                   besides(canvas, input, row), lane);
+        drawLabelAndPeak(canvas, laneLabelOf(input, channel), palette::enchanter(channel), true,
+                         wave.peak(channel), besides(canvas, input, row), lane);
     }
 }
 
@@ -183,8 +183,8 @@ void drawStrips(const Canvas& canvas, const PictureInput& input, const WaveformE
         for (int k = i; k < end; ++k) peak = std::max(peak, wave.peak(channels[static_cast<std::size_t>(k)]));
         const auto first = labelOf(input, channels[static_cast<std::size_t>(i)]);
         const auto last = labelOf(input, channels[static_cast<std::size_t>(end) - 1]);
-        drawBeside(canvas, end - i > 1 ? first + "\xe2\x80\x93" + last : first, palette::muted, false, peak,
-                   besides(canvas, input, part(axis.lane, i, end, count)), axis.lane);
+        drawLabelAndPeak(canvas, end - i > 1 ? first + "\xe2\x80\x93" + last : first, palette::muted, false,
+                         peak, besides(canvas, input, part(axis.lane, i, end, count)), axis.lane);
     }
 }
 

@@ -241,7 +241,7 @@ OptionalColumns columnsOf(std::span<const CollisionEvent> events) {
 }
 
 std::string eventsCsvHead(Provenance provenance, FieldSize field, OptionalColumns columns) {
-    if (isField(field)) provenance.entries.emplace_back("field_m", fieldWord(field));
+    if (isField(field)) provenance.entries.emplace_back("field_m", fieldText(field));
     return provenanceComment(provenance) + columnNames(columns) + "\n";
 }
 

@@ -31,7 +31,7 @@ inline bool isField(FieldSize field) noexcept {
 std::optional<FieldSize> parseField(std::string_view word);
 
 /// Text that parseField reads. Any thread.
-inline std::string fieldWord(FieldSize field) {
+inline std::string fieldText(FieldSize field) {
     return numberText(field.widthMetres) + ',' + numberText(field.heightMetres);
 }
 
@@ -45,7 +45,7 @@ inline FieldSize fieldOf(const PhantomPanner& panner) noexcept {
 /// A warning such as `67 of 67 hits lie outside the field of 0.12 x 0.06 m (see --field)`, or empty.
 /// `isGuessed`: the list has no field, so the layout's extent is used. Up to a twentieth beyond the field
 /// counts as inside, because bodies sink into walls at the edge. Any thread.
-inline std::string outsideWords(std::span<const CollisionEvent> events, FieldSize field, bool isGuessed) {
+inline std::string outsideWarning(std::span<const CollisionEvent> events, FieldSize field, bool isGuessed) {
     const auto isBeside = [](double at, double length) {
         return !(std::abs(at - 0.5 * length) <= 0.55 * length);
     };

@@ -25,7 +25,7 @@ inline std::string silentWords(std::span<const CollisionEvent> events, const Pha
     if (events.empty()) return "there are no hits";
     if (!begins) return "all hits begin after the end";
     if (!(strongest > least)) return "the strongest hit is " + fixedNumber(strongest, 6) + " of full scale";
-    const std::string outside = outsideWords(events, fieldOf(panner), isGuessed);
+    const std::string outside = outsideWarning(events, fieldOf(panner), isGuessed);
     return outside.empty() ? "all hits lie where they reach no actuator" : outside;
 }
 

@@ -67,7 +67,7 @@ void check(CLI::Option& option, const Option& row) {
 }
 
 template <class Words, class Reader>
-CLI::Option* readBy(CLI::App& app, const Option& row, const Reader& read) {
+CLI::Option* declareReader(CLI::App& app, const Option& row, const Reader& read) {
     const auto take = [name = row.spellings.front(), read](const Words& words) {
         if (const std::string fault = read(words); !fault.empty()) throw CLI::ValidationError(name, fault);
     };
@@ -85,9 +85,9 @@ CLI::Option* declare(CLI::App& app, const Option& row) {
         else if constexpr (std::is_same_v<Target, std::function<void(int)>>)
             return app.add_option_function<int>(joined(row.spellings, ","), target, row.meaning);
         else if constexpr (std::is_same_v<Target, WordReader>)
-            return readBy<std::string>(app, row, target);
+            return declareReader<std::string>(app, row, target);
         else if constexpr (std::is_same_v<Target, WordsReader>)
-            return readBy<std::vector<std::string>>(app, row, target);
+            return declareReader<std::vector<std::string>>(app, row, target);
         else
             return app.add_option(joined(row.spellings, ","), *target, row.meaning);
     };

@@ -122,7 +122,7 @@ void tellOutside(const Source& source, const PhantomPanner& panner, std::int64_t
     const bool isGuessed = !source.field.isKnown();
     const std::string silent = silentWords(source.events, panner, isGuessed, endNs);
     if (!silent.empty()) return void(leave(0, "warning: silent: " + silent));
-    const std::string outside = source.scene ? "" : outsideWords(source.events, fieldOf(panner), isGuessed);
+    const std::string outside = source.scene ? "" : outsideWarning(source.events, fieldOf(panner), isGuessed);
     if (!outside.empty()) leave(0, "warning: " + outside);
 }
 

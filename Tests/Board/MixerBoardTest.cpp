@@ -74,7 +74,7 @@ TEST(MixerBoard, IsChosenAtTheFirstStartAndTestedWhenItAnswers) {
     choice.sinks = {{"BOARD", board.port()}};
     window.view().setFirstStart(std::make_unique<FirstStart>(
         window.model(), std::vector<FeltChoice>{{"Four-channel board", choice, 4, true}}));
-    window.view().firstStart()->onBeside = [&](const DeviceChoice& chosen) {
+    window.view().firstStart()->onSink = [&](const DeviceChoice& chosen) {
         window.model().device().onSinksWanted(chosen);
     };
     ASSERT_TRUE(window.view().keyPressed(juce::KeyPress{juce::KeyPress::returnKey})) << "one key";

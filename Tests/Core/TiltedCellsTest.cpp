@@ -160,14 +160,14 @@ TEST(TiltedCells, APartChoosesTheLawOfItsOwnShape) {
     const Places places = hand();
     const PhantomPanner panner = pannerOn(places);
     ASSERT_EQ(panner.law(), PanningLaw::distance);
-    EXPECT_EQ(panner.partLaw(), PanningLaw::automatic);
-    EXPECT_EQ(panner.onPart(partNamed("index")).law(), PanningLaw::neighbours);
+    EXPECT_EQ(panner.requestedLaw(), PanningLaw::automatic);
+    EXPECT_EQ(panner.pannerOf(partNamed("index")).law(), PanningLaw::neighbours);
     const ActuatorPlace between = sumOf(sumOf({}, places[1], 0.7), places[5], 0.3);
     const auto gains = gainsFor(panner, between, partNamed("index"));
     EXPECT_NEAR(gains[1] * gains[1], 0.7, 1e-9);
     EXPECT_NEAR(gains[5] * gains[5], 0.3, 1e-9);
     for (const std::size_t other : {0U, 2U, 3U, 4U, 6U}) EXPECT_EQ(gains[other], 0.0);
-    EXPECT_EQ(pannerOn(places, PanningLaw::distance).onPart(partNamed("index")).law(), PanningLaw::distance)
+    EXPECT_EQ(pannerOn(places, PanningLaw::distance).pannerOf(partNamed("index")).law(), PanningLaw::distance)
         << "a law that is named holds for parts too";
 }
 

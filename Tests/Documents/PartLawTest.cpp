@@ -43,7 +43,7 @@ TEST(PartLaw, ComesBackWithTheSession) {
     EXPECT_EQ(written(live)["law"], "distance");
     EXPECT_EQ(written(live)["part_law"], "auto");
     const PhantomPanner back = readBack(written(live));
-    EXPECT_EQ(back.partLaw(), PanningLaw::automatic);
+    EXPECT_EQ(back.requestedLaw(), PanningLaw::automatic);
     EXPECT_EQ(indexGains(back), indexGains(live));
     EXPECT_EQ(written(back).dump(), written(live).dump());
 }

@@ -356,14 +356,14 @@ TEST(FirstStart, APicoComesFirstWithALayoutOfItsOwn) {
 
 TEST(FirstStart, APicoReplacesTheFirstLayoutAndNoChosenOneThatFits) {
     Mix mix = MixerModel::firstMix();
-    keepTo(8, mix, "ALSA:PhysVib pico8");
+    fitLayoutTo(8, mix, "ALSA:PhysVib pico8");
     EXPECT_EQ(mix.layout.name, "pico8");
     EXPECT_EQ(mix.count(), 8);
     mix.layout = presetLayout("ring4");
     mix.resizeStrips();
-    keepTo(8, mix, "ALSA:PhysVib pico8");
+    fitLayoutTo(8, mix, "ALSA:PhysVib pico8");
     EXPECT_EQ(mix.layout.name, "ring4");
-    keepTo(2, mix, "ALSA:PhysVib pico8");
+    fitLayoutTo(2, mix, "ALSA:PhysVib pico8");
     EXPECT_EQ(mix.layout.name, "phone2") << "a system may show two outputs of it";
 }
 

@@ -7,7 +7,8 @@
 
 namespace physvib::godot {
 namespace {
-constexpr std::uint32_t usualUse = 6, flagsOfMethod = 1; // Godot's PROPERTY_USAGE_DEFAULT, METHOD_FLAG_NORMAL
+constexpr std::uint32_t usageDefault = 6, methodFlagNormal = 1; // Godot's PROPERTY_USAGE_DEFAULT,
+                                                                // METHOD_FLAG_NORMAL
 
 // Which property a getter or setter is for; Godot passes it back with each call.
 struct Accessor {
@@ -23,7 +24,8 @@ struct Described {
         : name(literal)
         , className(type == GDEXTENSION_VARIANT_TYPE_OBJECT ? hintText : "")
         , text(hintText) {
-        info = {type, name.get(), className.get(), static_cast<std::uint32_t>(hint), text.get(), usualUse};
+        info = {type,       name.get(),  className.get(), static_cast<std::uint32_t>(hint),
+                text.get(), usageDefault};
     }
     Name name, className;
     Text text;
@@ -93,7 +95,7 @@ void addMethod(const Class& type, const char* name, void* data, GDExtensionClass
     GDExtensionClassMethodArgumentMetadata plain = GDEXTENSION_METHOD_ARGUMENT_METADATA_NONE;
     GDExtensionClassMethodInfo info{};
     info.name = methodName.get(), info.method_userdata = data, info.call_func = call;
-    info.ptrcall_func = pointer, info.method_flags = flagsOfMethod;
+    info.ptrcall_func = pointer, info.method_flags = methodFlagNormal;
     info.has_return_value = result != nullptr;
     info.return_value_info = result != nullptr ? &result->info : nullptr;
     info.argument_count = argument != nullptr ? 1 : 0;

@@ -319,7 +319,7 @@ const char* holderOf(const MuteRequests& silence) noexcept {
 physvib_renderer_settings settingsOf(const PhantomPanner& panner) {
     physvib_renderer_settings settings;
     physvib_renderer_settings_init(&settings, sizeof settings);
-    settings.law = static_cast<int>(panner.partLaw());
+    settings.law = static_cast<int>(panner.requestedLaw());
     settings.exponent = panner.exponent();
     settings.field_width_m = panner.fieldWidthMetres();
     settings.field_height_m = panner.fieldHeightMetres();

@@ -109,7 +109,7 @@ int physvib_session_get_renderer(physvib_session name, physvib_renderer_settings
         told.size = renderer->size;
         told.channels = session.channels;
         told.limiter = session.limiterEnabled ? 1 : 0;
-        told.law = static_cast<int>(session.panner.partLaw()); // which is the law, unless parts choose
+        told.law = static_cast<int>(session.panner.requestedLaw()); // which is the law, unless parts choose
         told.exponent = session.panner.exponent();
         told.field_width_m = session.panner.fieldWidthMetres();
         told.field_height_m = session.panner.fieldHeightMetres();

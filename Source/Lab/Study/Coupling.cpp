@@ -14,8 +14,8 @@ namespace {
 
 using ComplexNumber = std::complex<double>;
 
-constexpr double leastLambda = 1e-9, mostLambda = 1e3; // of full scale squared: from no regularisation to
-                                                       // drives near zero
+constexpr double minLambda = 1e-9, maxLambda = 1e3; // of full scale squared: from no regularisation to
+                                                    // drives near zero
 constexpr double mismatchDb = 2.0, mismatchDegrees = 20.0;
 
 using Entries = Eigen::Matrix<ComplexNumber, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -43,9 +43,9 @@ ComplexAmplitudes CouplingMatrix::times(const ComplexAmplitudes& amplitudes) con
 CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double mostDecibels) {
     const double limit = fromDecibels(mostDecibels);
     const auto keeps = [limit](const CouplingMatrix& drives) { return strongestDrive(drives) <= limit; };
-    CouplingMatrix drives = drivesAt(coupling, leastLambda);
+    CouplingMatrix drives = drivesAt(coupling, minLambda);
     if (keeps(drives)) return drives;
-    double low = std::log(leastLambda), high = std::log(mostLambda);
+    double low = std::log(minLambda), high = std::log(maxLambda);
     for (int halving = 0; halving < 40; ++halving) {
         const double middle = 0.5 * (low + high);
         (keeps(drivesAt(coupling, std::exp(middle))) ? high : low) = middle;

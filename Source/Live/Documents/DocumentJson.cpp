@@ -152,8 +152,8 @@ PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescri
     if (json.has("grain_law"))
         panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law));
     // without this field parts are panned by `law`
-    const char* const partLaw = json.has("part_law") ? "part_law" : "law";
-    panner.setPartLaw(panningLaws[json[partLaw].oneOf(panningLawNames)].law);
+    const char* const requestedLaw = json.has("part_law") ? "part_law" : "law";
+    panner.setPartLaw(panningLaws[json[requestedLaw].oneOf(panningLawNames)].law);
     return panner;
 }
 
@@ -190,8 +190,8 @@ OrderedJson writeKind(const DescribedPanner<const LayoutDescription>& kind, cons
                      {"exponent", panner.exponent()},
                      {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
     if (panner.grains() != Spread::layout) json["grain_law"] = nameOf(panner.grains());
-    if (panner.partLaw() != panner.law() && hasParts(panner.layout()))
-        json["part_law"] = nameOf(panner.partLaw());
+    if (panner.requestedLaw() != panner.law() && hasParts(panner.layout()))
+        json["part_law"] = nameOf(panner.requestedLaw());
     return json;
 }
 

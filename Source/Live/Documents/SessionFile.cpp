@@ -261,7 +261,7 @@ Mix mixOf(const SavedSession& session) {
         session.log.panners.empty() ? session.panner : session.log.panners.back().panner;
     const bool isDescribed = session.log.panners.empty() && !session.layout.enchanters.empty();
     mix.layout = isDescribed ? session.layout : describeLayout("own", panner.layout());
-    mix.law = hasParts(panner.layout()) ? panner.partLaw() : panner.law();
+    mix.law = hasParts(panner.layout()) ? panner.requestedLaw() : panner.law();
     mix.exponent = panner.exponent();
     mix.strips.resize(static_cast<std::size_t>(mix.count()));
     const auto decibels = [](float gain) { return toDecibels(static_cast<double>(gain)); };

@@ -45,7 +45,7 @@ SessionState WorldRunner::state() const {
 
 void WorldRunner::prepare() {
     restartFrame_ = -1;
-    takeUp();
+    startRequestedRun();
     world_.forget(time_.nowNs());
     made_.clear();
     handed_ = 0;
@@ -54,7 +54,7 @@ void WorldRunner::prepare() {
     for (CollisionEvent unplayed; queue_.pop(unplayed);) {
     }
     steppedNs_ = time_.nowNs();
-    tellScene();
+    publishScene();
     slippedNs_ = 0;
     slowness_ = 1;
     stepsWanted_ = 0;
@@ -73,7 +73,7 @@ int WorldRunner::advance(const StepWatch& keepGoing) {
     const std::lock_guard lock{mutex_};
     if (offline_.load(std::memory_order_acquire)) return 0;
     isDriven_.store(true, std::memory_order_release);
-    takeUp();
+    startRequestedRun();
     const int steps = catchUp(keepGoing);
     if (isShown_.load(std::memory_order_relaxed)) showPoses();
     return steps;
@@ -109,13 +109,13 @@ void WorldRunner::moveWorld(std::int64_t untilNs) {
 }
 
 // Starts a new scene run if one is requested; the request is cleared only after the start.
-void WorldRunner::takeUp() {
+void WorldRunner::startRequestedRun() {
     const std::int64_t frame = restartFrame_.exchange(-1, std::memory_order_acquire);
     const std::lock_guard lock{stateMutex_};
     if (frame < 0 && !isNew_) return;
     world_.start(frame < 0 ? time_.nowNs() : time_.sessionNs(frame), state_.scene, state_.seed);
     isNew_ = false;
-    tellScene();
+    publishScene();
     showPoses();
 }
 
@@ -126,12 +126,12 @@ bool WorldRunner::handOver() {
     if (handed_ < made_.size()) return false;
     made_.clear();
     handed_ = 0;
-    tellScene();
+    publishScene();
     steppedNs_.store(world_.timeNs(), std::memory_order_release);
     return true;
 }
 
-void WorldRunner::tellScene() noexcept {
+void WorldRunner::publishScene() noexcept {
     sceneNs_.store(world_.sceneNs(), std::memory_order_relaxed);
     take_.store(world_.takeCount(), std::memory_order_relaxed);
 }
@@ -170,7 +170,7 @@ bool WorldRunner::beginBlock(RenderMode mode) noexcept {
 
 void WorldRunner::beginOffline(std::int64_t endNs) {
     offline_.store(true, std::memory_order_release);
-    takeUp();
+    startRequestedRun();
     takeDue(endNs);
     callback_.handTo(world_);
 }
@@ -190,7 +190,7 @@ bool WorldRunner::popOrStep(CollisionEvent& event, std::int64_t endNs) {
 std::shared_ptr<const Scene> WorldRunner::scene(std::size_t& take) {
     const std::lock_guard lock{mutex_};
     const std::int64_t restart = restartFrame_.load(std::memory_order_acquire);
-    if (restart < 0 || time_.sessionNs(restart) <= time_.nowNs()) takeUp();
+    if (restart < 0 || time_.sessionNs(restart) <= time_.nowNs()) startRequestedRun();
     take = world_.takeCount();
     return world_.take().scene;
 }

@@ -141,8 +141,8 @@ private:
     int catchUp(const StepWatch& keepGoing = {});
     void beginOffline(std::int64_t endNs);
     void moveWorld(std::int64_t untilNs);
-    void takeUp();
-    void tellScene() noexcept;
+    void startRequestedRun();
+    void publishScene() noexcept;
     void dropWaiting();
     void takeDue(std::int64_t untilNs);
     bool handOver();

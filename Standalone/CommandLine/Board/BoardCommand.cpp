@@ -136,7 +136,7 @@ bool tellWhatIsFelt(const BoardOptions& o, const std::vector<CollisionEvent>& ev
     const double least = 0.5 / 127.0 / fromDecibels(o.levelDb); // smallest level that changes the converter's
                                                                 // code
     const std::string silent = silentWords(events, panner, isGuessed, limits::maxTimeNs + 1, least);
-    const std::string outside = outsideWords(events, fieldOf(panner), isGuessed);
+    const std::string outside = outsideWarning(events, fieldOf(panner), isGuessed);
     if (!silent.empty())
         leave(exitFailed,
               o.eventsPath + ": nothing can be felt at --level " + numberText(o.levelDb) + ": " + silent);

@@ -22,7 +22,7 @@ constexpr int pollMilliseconds = 50; // longest wait for input; only delays the 
 constexpr double ringSeconds = 0.5;
 
 /// Input may lower a ceiling, but not raise it above what the person at this computer set by --ceiling.
-std::string takeControl(const RenderControl& control, Session& session) {
+std::string applyControl(const RenderControl& control, Session& session) {
     if (control.kind == RenderControl::Kind::ceiling)
         if (const float most = session.rendered().ceiling(control.channel); control.value > most) {
             std::string fault = "ceiling: expected at most ";
@@ -48,7 +48,7 @@ InputListener::~InputListener() {
     stop_ = true;
     reader_.join();
     thread_.join();
-    tellLeftOut();
+    reportSuppressed();
 }
 
 void InputListener::read() {
@@ -129,18 +129,18 @@ Result<PlainMessage> InputListener::act(LineInput& input, const Line& line) {
 
 void InputListener::complain(const std::string& reason) {
     if (!complaints_.take(reason, BoardLink::nowNs())) return;
-    tellLeftOut();
+    reportSuppressed();
     tell("standard input:" + std::to_string(lines_) + ": " + reason);
 }
 
-void InputListener::tellLeftOut() {
+void InputListener::reportSuppressed() {
     if (const std::uint64_t count = complaints_.takeLeftOut(); count > 0)
         tell("standard input: " + std::to_string(count) + " lines were refused as well");
 }
 
 std::string actOn(const LineInput& input, Session& session, AudioOutput& output, MuteRequester from) {
     if (const auto* action = std::get_if<Action>(&input)) return session.submit({*action}).error;
-    if (const auto* control = std::get_if<OwnedControl>(&input)) return takeControl(*control, session);
+    if (const auto* control = std::get_if<OwnedControl>(&input)) return applyControl(*control, session);
     if (const auto* silence = std::get_if<SilenceControl>(&input))
         return takeSilence(output.silence(), *silence, from);
     return {};

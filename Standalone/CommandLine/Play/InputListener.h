@@ -89,7 +89,7 @@ private:
     // Answer of a query; an empty name if the line is not a query.
     Result<PlainMessage> act(LineInput& input, const Line& line);
     void complain(const std::string& reason);
-    void tellLeftOut();
+    void reportSuppressed();
 
     Session& session_;
     AudioOutput& output_;

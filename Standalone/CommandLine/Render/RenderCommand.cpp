@@ -50,7 +50,7 @@ void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
     say(status.guarded, "times an actuator was turned down, as it would have got nearly direct current");
     say(static_cast<std::uint64_t>(beyond), "events that begin after the end of the render (see --seconds)");
     if (job.scene || job.clip) return;
-    const std::string outside = outsideWords(events, job.field(), job.hasGuessedField());
+    const std::string outside = outsideWarning(events, job.field(), job.hasGuessedField());
     if (!outside.empty()) tell("warning: " + outside);
 }
 

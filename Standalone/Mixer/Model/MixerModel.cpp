@@ -44,7 +44,7 @@ RigSettings rigOf(const Mix& mix, const DeviceChoice& device) {
 
 bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
     return a.law() == b.law() && a.exponent() == b.exponent() &&
-           (a.partLaw() == b.partLaw() || !hasParts(a.layout())) &&
+           (a.requestedLaw() == b.requestedLaw() || !hasParts(a.layout())) &&
            a.fieldWidthMetres() == b.fieldWidthMetres() && a.fieldHeightMetres() == b.fieldHeightMetres() &&
            isSame(a.layout(), b.layout());
 }

@@ -32,7 +32,7 @@ bool isForEars(const std::string& device) {
 
 } // namespace
 
-void keepTo(int outputs, Mix& mix, std::string_view device) {
+void fitLayoutTo(int outputs, Mix& mix, std::string_view device) {
     const bool isFirst = mix.layout.name == MixerModel::firstMix().layout.name; // nobody has chosen it
     if (mix.count() <= outputs && !(isPico(device) && isFirst)) return;
     mix.layout = presetLayout(layoutFor(outputs, device), mix.layout.enchanters);
@@ -138,11 +138,11 @@ void FirstStart::playHere() {
         return end(true);
     }
     if (choice.isBeside) {
-        if (onBeside) onBeside(choice.device);
+        if (onSink) onSink(choice.device);
         return;
     }
     if (choice.isHeard) {
-        model_.change("Headphones", [](Mix& mix) { keepTo(DeviceChoice::ears, mix); });
+        model_.change("Headphones", [](Mix& mix) { fitLayoutTo(DeviceChoice::ears, mix); });
         return useHeadphones(model_, choice.device).empty() ? end(true) : show();
     }
     if (const auto error = model_.open(choice.device); !error.empty()) return show();
@@ -153,7 +153,7 @@ void FirstStart::test(int outputs) {
     if (tested_ < 0) slowness_ = model_.session().world().slowness();
     model_.setSlowness(0); // pause the world, so that only test pulses are felt
     model_.change("First start", [&, outputs](Mix& mix) {
-        keepTo(outputs, mix, model_.device().choice().name);
+        fitLayoutTo(outputs, mix, model_.device().choice().name);
         for (int j = 0; j < mix.count(); ++j) mix.strips[static_cast<std::size_t>(j)].output = j;
         mix.levelDb = std::min(firstDb, mix.levelDb);
     });

@@ -35,7 +35,7 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
 
 /// If the layout has more actuators than `outputs`, replaces it by a preset that fits. A Pico gets its own
 /// preset, unless the user has chosen a layout. Message thread.
-void keepTo(int outputs, Mix& mix, std::string_view device = {});
+void fitLayoutTo(int outputs, Mix& mix, std::string_view device = {});
 
 /// Card over the window, usable by keys alone: up, down and Return; then Return (felt), L (louder), N (not
 /// felt). Message thread only.
@@ -48,7 +48,7 @@ public:
 
     std::function<void(bool hasChosen)> onEnd;
     /// A sink was chosen: the window opens it, then calls test().
-    std::function<void(const DeviceChoice&)> onBeside;
+    std::function<void(const DeviceChoice&)> onSink;
 
     void choose(int index);
     int chosen() const noexcept { return chosen_; }

@@ -170,7 +170,7 @@ FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
             window.showHintOnce();
         });
     };
-    card->onBeside = [this](const DeviceChoice& choice) {
+    card->onSink = [this](const DeviceChoice& choice) {
         files_.settings().setValue(chosenSetting, true);
         if (model_->device().onSinksWanted) model_->device().onSinksWanted(choice);
     };
@@ -240,7 +240,7 @@ Mix MixerWindow::firstMix() {
     Mix mix = MixerModel::firstMix();
     if (const int outputs = settings.getIntValue("outputs");
         outputs > 0 && settings.getValue("device") == utf8(device_.name))
-        keepTo(outputs, mix, device_.name);
+        fitLayoutTo(outputs, mix, device_.name);
     const DeskLimits left = limits();
     mix.levelDb = std::min(mix.levelDb, left.loudestOutputDb());
     if (device_.isHeadphones) mix.levelDb = std::min(mix.levelDb, safeContactDb);
