@@ -12,7 +12,7 @@ PhantomPanner::PhantomPanner(const EnchanterLayout& layout, PanningLaw law, doub
     : layout_{layout}
     , isFlat_{isFlat(layout)}
     , rule_{law, exponent}
-    , partLaw_{law}
+    , requestedLaw_{law}
     , fieldWidthMetres_{fieldWidthMetres}
     , fieldHeightMetres_{fieldHeightMetres}
     , scaleX_{layout.extentWidthMetres / fieldWidthMetres}
@@ -212,10 +212,10 @@ void PhantomPanner::gainsOf(const CollisionEvent& event, Spread spread, Gains& g
     spreadPart(event.source.part, own, gains);
 }
 
-void PhantomPanner::gainsAt(const CollisionEvent& event, const PhantomPanner& pannerOf,
+void PhantomPanner::gainsAt(const CollisionEvent& event, const PhantomPanner& ofPart,
                             Gains& gains) const noexcept {
     Gains own;
-    pannerOf.gainsHere(event, pannerOf.spreadOf(event), own);
+    ofPart.gainsHere(event, ofPart.spreadOf(event), own);
     spreadPart(event.source.part, own, gains);
 }
 
@@ -243,12 +243,12 @@ PhantomPanner PhantomPanner::pannerOf(PartNumber part) const noexcept {
     own.extentWidthMetres = span(&ActuatorPlace::xMetres, layout_.extentWidthMetres);
     own.extentHeightMetres = span(&ActuatorPlace::yMetres, layout_.extentHeightMetres);
     PhantomPanner made{own,
-                       partLaw_,
+                       requestedLaw_,
                        rule_.exponent,
                        own.extentWidthMetres / scaleX_,
                        own.extentHeightMetres / scaleY_,
                        own.count <= mostWithTriangles};
-    if (partLaw_ != PanningLaw::automatic) made.grains_ = grains_;
+    if (requestedLaw_ != PanningLaw::automatic) made.grains_ = grains_;
     return made;
 }
 

@@ -52,8 +52,8 @@ public:
     /// that they span. Takes up to 10 us. Any thread.
     PhantomPanner pannerOf(PartNumber part) const noexcept;
 
-    /// Gains of an event that is bound to a part; `pannerOf`: this panner's pannerOf() of it. Any thread.
-    void gainsAt(const CollisionEvent& event, const PhantomPanner& pannerOf, Gains& gains) const noexcept;
+    /// Gains of an event that is bound to a part; `ofPart`: this panner's pannerOf() of it. Any thread.
+    void gainsAt(const CollisionEvent& event, const PhantomPanner& ofPart, Gains& gains) const noexcept;
 
     /// True if the event is bound to a part of the body that no actuator of the layout has. Any thread.
     bool lacksPartOf(const CollisionEvent& event) const noexcept {
@@ -79,8 +79,8 @@ public:
     PanningLaw law() const noexcept { return rule_.law; } ///< Panning law; not PanningLaw::automatic.
     /// The law that the constructor was given. May be PanningLaw::automatic, which each part of the body
     /// resolves for its own actuators. Any thread.
-    PanningLaw requestedLaw() const noexcept { return partLaw_; }
-    void setPartLaw(PanningLaw law) noexcept { partLaw_ = law; }             ///< For a saved session.
+    PanningLaw requestedLaw() const noexcept { return requestedLaw_; }
+    void setRequestedLaw(PanningLaw law) noexcept { requestedLaw_ = law; }   ///< For a saved session.
     double exponent() const noexcept { return rule_.exponent; }              ///< Exponent of the law.
     double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }   ///< Field along x.
     double fieldHeightMetres() const noexcept { return fieldHeightMetres_; } ///< Field along y.
@@ -134,7 +134,7 @@ private:
     EnchanterLayout layout_;
     bool isFlat_ = true; // all actuators have the same z, and z does not count
     Rule rule_;
-    PanningLaw partLaw_ = PanningLaw::linear; // may be automatic
+    PanningLaw requestedLaw_ = PanningLaw::linear; // may be automatic
     Spread grains_ = Spread::layout;
     double fieldWidthMetres_ = 0.0, fieldHeightMetres_ = 0.0;
     double scaleX_ = 1.0, scaleY_ = 1.0; // field metres to layout metres; z by scaleX_

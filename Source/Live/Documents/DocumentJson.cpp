@@ -153,7 +153,7 @@ PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescri
         panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law));
     // without this field parts are panned by `law`
     const char* const requestedLaw = json.has("part_law") ? "part_law" : "law";
-    panner.setPartLaw(panningLaws[json[requestedLaw].oneOf(panningLawNames)].law);
+    panner.setRequestedLaw(panningLaws[json[requestedLaw].oneOf(panningLawNames)].law);
     return panner;
 }
 
