@@ -136,6 +136,19 @@ TEST(DeviceGuard, AnotherActuatorOnTheOutputIsNoWayAround) {
     rig.waves.expectWithin();
 }
 
+// A study borrows the output again and again, with a session that has had nothing.
+TEST(DeviceGuard, ABorrowedSessionOnTheOutputIsNoWayAround) {
+    OpenRig rig;
+    for (int k = 0; k < 20; ++k) {
+        Session lent{twoActuators()};
+        ASSERT_TRUE(rig.output.playInstead(&lent));
+        rig.waves.play(lent, 0.1);
+        ASSERT_TRUE(rig.output.playInstead(nullptr));
+        if (k % 3 == 0) rig.play(0.05);
+    }
+    rig.waves.expectWithin();
+}
+
 TEST(DeviceGuard, WhatAnOutputHadIsForgottenInTimeAndElsewhereNeverKnown) {
     const PlayedTime time;
     const auto hadBy = [](const std::string& device, int output) {

@@ -40,7 +40,7 @@ inline GuardPath openingsPath(int rate) {
                     at[0] = samples.data() + n;
                     guard.follow(0, 0);
                     guard.process(at.data(), static_cast<int>(count));
-                    PlayedTime::pass(double(count) / rate);
+                    PlayedTime::pass(double(count) / rate); // before it gives back
                 }
                 return samples;
             }};
