@@ -274,8 +274,7 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     fitToWidth();
     outputs_ = BusMap{*this};
     open_.prepare(rate, limits::channelRampSeconds, parameter(Parameter::bypass).value() > 0.5 ? 0.0f : 1.0f);
-    guard_.prepare(static_cast<int>(rate), std::min(getTotalNumOutputChannels(), limits::maxEnchanters),
-                   GuardPlace::last);
+    prepareGuard(rate);
     transport_.reset();
     points_.reset();
     measured_ = {};
@@ -296,8 +295,24 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     startTimer(tellsEveryMs);
 }
 
+// Preparing anew is no way around the guard: outputs keep what they had, as after silence since the release.
+// An export begins at rest, so that it is the same each time.
+void PluginProcessor::prepareGuard(int rate) {
+    std::array<GuardSums, limits::maxEnchanters> had{};
+    if (!isNonRealtime()) {
+        const double rest = 1e-3 * (juce::Time::getMillisecondCounterHiRes() - releasedMs_);
+        guard_.process(nullptr, juce::roundToInt(std::clamp(rest, 0.0, 9.0) * guardRateHz_), true);
+        for (std::size_t j = 0; j < guard_.channels(); ++j) had[j] = guard_.sums(j);
+    }
+    guard_.prepare(guardRateHz_ = rate, std::min(getTotalNumOutputChannels(), limits::maxEnchanters),
+                   GuardPlace::last);
+    releasedMs_ = std::numeric_limits<double>::infinity();
+    if (std::ranges::any_of(had, [](const GuardSums& m) { return m.load > 0.0f; })) guard_.recall(had.data());
+}
+
 void PluginProcessor::releaseResources() {
     takes_.release();
+    if (blockFrames_ > 0) releasedMs_ = juce::Time::getMillisecondCounterHiRes();
     blockFrames_ = 0;
 }
 

@@ -133,6 +133,7 @@ private:
     static BusesProperties propertiesOf(const BusPlan& plan);
     void addGroup(const ParameterGroup& group);
     void addParameters();
+    void prepareGuard(int rate);
     static constexpr int tellsEveryMs = 50, sleepsMs = 2000; ///< while blocks are rendered, and while none is
     void timerCallback() override;
     void parameterValueChanged(int, float) override {}
@@ -225,6 +226,8 @@ private:
     int blockFrames_ = 0;
     GainRamp open_;     // shut by bypass
     OutputGuard guard_; // of what takes add up to while one follows another
+    int guardRateHz_ = 0;
+    double releasedMs_ = std::numeric_limits<double>::infinity(); // since when guard_ rests; not: it does not
     bool isShut_ = false;
     ChannelMeters measured_;
     PointSource* source_ = nullptr;

@@ -77,6 +77,16 @@ unshare -m sh -c 'mount -t tmpfs none "$0/dev/shm" && mount -t proc proc "$0/pro
 "$build/bin/physvib" render "$project/played.json" --seconds 4.5 --out "$project/played.wav" >"$project/log"
 tail -c +"$(($(grep -abo data "$project/played.wav" | head -n 1 | cut -d: -f1) + 9))" "$project/played.wav" >"$project/expected.raw"
 "$build/bin/physvib-compare-recording" "$project/live.raw" "$project/expected.raw" 4 256 "$(sed -n 's/xruns //p' "$project/ready")" || failed=1
+# left() is what left: the peaks of the recording, and nothing without an output.
+python3 - "$project/live.raw" "$project/out" <<'END' || failed=1
+import array, sys
+samples, said = array.array("f", open(sys.argv[1], "rb").read()), open(sys.argv[2]).read()
+peaks = [max(map(abs, samples[j::4])) for j in range(4)]
+told = [float(word) for word in said.split("\nleft ")[1].split("\n")[0].split()]
+isRight = "\nwithout an output {" in said and "without an output { 0" not in said and max(peaks) > 0.01 and all(abs(a - b) < 2e-6 for a, b in zip(peaks, told))
+print("right" if isRight else "WRONG", "left() told", told, "of the recorded", [round(peak, 6) for peak in peaks])
+sys.exit(not isRight)
+END
 for demo in "$project"/addons/physvib/demos/*.tscn; do
     name=${demo##*/}
     godot -s "demos.gd" --fixed-fps 60 -- "demo=res://addons/physvib/demos/$name" >"$project/out" 2>&1 || failed=1

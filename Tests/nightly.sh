@@ -41,7 +41,7 @@ step() {
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh && ensure_packages openbox && Tests/Mixer/headphones.sh $bin ;;
         breaks) Tests/breaks.py build/release build/nightly/breaks ;;
-        studies) Tests/Studies/recorded.sh $bin && Tests/Studies/faults.sh $bin ;;
+        studies) Tests/Studies/recorded.sh $bin && Tests/Studies/faults.sh $bin && Tests/Studies/every-fault.sh $bin ;;
         coverage) $bin/physvib-study-coverage ;;
         hours) Tests/ten-hours.sh ;;
         realtime) Tests/Realtime/rtsan.sh ;;

@@ -38,7 +38,17 @@ func _initialize():
 		haptic.material.frequency_hz = 80 + 30 * i
 		falls.add_child(haptic)
 		root.add_child(falls)
+	var most := [0.0, 0.0, 0.0, 0.0] # of what left, by the world's receipts
+	var look := func():
+		var left: Dictionary = world.left()
+		for j in left: most[j] = maxf(most[j], left[j])
+	process_frame.connect(look)
 	await create_timer(seconds).timeout
+	process_frame.disconnect(look)
 	print("%d hits" % hits[0])
+	print("left %s" % " ".join(most.map(func(peak): return "%.6f" % peak)))
+	world.outputs = []
+	await create_timer(0.1).timeout
+	print("without an output %s" % world.left())
 	world.free() # which closes the session
 	quit()

@@ -2,9 +2,9 @@
 // What an output has had is not forgotten when the device's period or rate changes, when it is opened anew,
 // or when another actuator plays there.
 #include "FakeAudioDevice.h"
+#include "Host/OpeningsPath.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Session/FakeHost.h"
-#include "Support/GuardPaths.h"
 #include <gtest/gtest.h>
 #include <numeric>
 
@@ -12,25 +12,6 @@ namespace physvib {
 namespace {
 
 using namespace test;
-
-/// The clock that outputs keep what they had by: that of what is played.
-class PlayedTime {
-public:
-    PlayedTime() {
-        seconds_ += 100.0; // what other tests have played is over
-        GuardMemory::now = [] {
-            return GuardMemory::Clock::time_point{std::chrono::duration_cast<GuardMemory::Clock::duration>(
-                std::chrono::duration<double>(seconds_))};
-        };
-    }
-    ~PlayedTime() { GuardMemory::now = GuardMemory::Clock::now; }
-    PlayedTime(const PlayedTime&) = delete;
-    PlayedTime& operator=(const PlayedTime&) = delete;
-    static void pass(double seconds) { seconds_ += seconds; }
-
-private:
-    static inline double seconds_ = 1000.0;
-};
 
 /// Half waves of 200 Hz on one actuator, without limiter and so without the session's guard.
 class HalfWaves {
@@ -155,6 +136,19 @@ TEST(DeviceGuard, AnotherActuatorOnTheOutputIsNoWayAround) {
     rig.waves.expectWithin();
 }
 
+// A study borrows the output again and again, with a session that has had nothing.
+TEST(DeviceGuard, ABorrowedSessionOnTheOutputIsNoWayAround) {
+    OpenRig rig;
+    for (int k = 0; k < 20; ++k) {
+        Session lent{twoActuators()};
+        ASSERT_TRUE(rig.output.playInstead(&lent));
+        rig.waves.play(lent, 0.1);
+        ASSERT_TRUE(rig.output.playInstead(nullptr));
+        if (k % 3 == 0) rig.play(0.05);
+    }
+    rig.waves.expectWithin();
+}
+
 TEST(DeviceGuard, WhatAnOutputHadIsForgottenInTimeAndElsewhereNeverKnown) {
     const PlayedTime time;
     const auto hadBy = [](const std::string& device, int output) {
@@ -202,22 +196,7 @@ TEST(DeviceGuard, WhatItDoesNotActOnKeepsItsBits) {
 // The search of GuardAttack, over openings.
 TEST(DeviceGuard, AnAttackOverOpeningsFindsNoneThatPasses) {
     const PlayedTime time;
-    const GuardPath path{"openings", 8000, [](std::vector<float> samples) {
-                             PlayedTime::pass(100.0);
-                             static constexpr std::array<std::size_t, 5> opens{700, 1800, 333, 5000, 1111};
-                             std::size_t next = 0;
-                             for (std::size_t n = 0, count; n < samples.size(); n += count) {
-                                 count = std::min(opens[next++ % opens.size()], samples.size() - n);
-                                 DeviceGuard guard;
-                                 guard.begin("A:one", {3}, 8000);
-                                 std::array<float*, limits::maxEnchanters> at{};
-                                 at[0] = samples.data() + n;
-                                 guard.follow(0, 0);
-                                 guard.process(at.data(), static_cast<int>(count));
-                                 PlayedTime::pass(double(count) / 8000);
-                             }
-                             return samples;
-                         }};
+    const GuardPath path = openingsPath(8000);
     AttackSearch search{[&](const GuardAttack& a) { return figuresBehind(path, a).rms; }, 7};
     search.climb(100, 10);
     search.shape(100, 60);

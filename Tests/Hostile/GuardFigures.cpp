@@ -4,6 +4,7 @@
 //        physvib-guard-figures lists COUNT [SEED]        of random hostile lists of events, rendered
 //        physvib-guard-figures attack COUNT [SEED]       of what a search of so many evaluations finds, per
 //        guard
+#include "Host/OpeningsPath.h"
 #include "Live/Session/OfflineRender.h"
 #include "Pico/FixedGuardPath.h"
 #include "Support/ClosedForm.h"
@@ -75,26 +76,29 @@ int lists(int count, std::uint32_t seed) {
     return above == 0 ? 0 : 1;
 }
 
-// Each guard, each strategy; the worst input is then played at other rates. The project's filter is the
-// bound; an ideal one, which looks ahead for ever, is told.
+// Each guard, each strategy, for each of three figures; the worst input is then played at other rates. The
+// project's filter is the bound; an ideal one, which looks ahead for ever, is told.
 int attack(int count, std::uint32_t seed) {
     using namespace test;
     auto paths = guardPaths();
     paths.push_back(fixedGuardPath());
+    const PlayedTime time;
+    paths.push_back(openingsPath(6000));
     bool isAbove = false;
     for (const auto& path : paths) {
         SlowFigures worst;
         double ideal = 0.0;
         for (const std::size_t size : {6, 15, 40, 70})
-            for (const bool isIdeal : {false, true}) {
+            for (const int figure : {0, 1, 2}) {
                 AttackSearch search{[&](const GuardAttack& a) {
                                         const auto left = path.leaves(a.samples(path.rate));
-                                        return isIdeal ? idealSlowRms(left, path.rate)
-                                                       : slowFigures(left, path.rate).rms;
+                                        if (figure == 1) return idealSlowRms(left, path.rate);
+                                        const auto by = slowFigures(left, path.rate);
+                                        return figure == 0 ? by.rms : by.mean;
                                     },
                                     seed++};
-                size < 50 ? search.climb(count / 16, size) : void();
-                search.shape(count / (size < 50 ? 16 : 8), size + 20);
+                size < 50 ? search.climb(count / 24, size) : void();
+                search.shape(count / (size < 50 ? 24 : 12), size + 20);
                 const auto take = [&](const GuardPath& by) {
                     const auto left = by.leaves(search.worst.samples(by.rate));
                     worst.join(slowFigures(left, by.rate));

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <future>
+#include <numeric>
 
 namespace physvib {
 namespace {
@@ -95,6 +96,49 @@ TEST(Takes, WhatFollowsQuicklyDoesNotAddUpToDirectCurrent) {
             EXPECT_LE(figures.mean, limits::guardShare);
             EXPECT_LE(figures.rms, limits::guardShare);
         }
+    }
+}
+
+// What a host plays between one preparation and the next adds up as well, at whichever block and rate.
+TEST(Takes, PreparingAnewIsNoWayAroundTheGuard) {
+    auto state = strikeAt(0, 1);
+    auto& slow = state.scene.materials[static_cast<std::size_t>(state.notes[0].material)];
+    slow.frequencyHz = slow.decayPerSecond = 1.0;
+    for (const bool isReleased : {false, true}) {
+        TestHost host;
+        ASSERT_TRUE(host.plugin->apply(state));
+        host.plugin->parameter(Parameter::strikeLevel).setValue(1.0f);
+        std::vector<std::vector<float>> left(4); // at 8 kHz: means
+        for (int k = 0; k < 40; ++k) {
+            const int rate = k % 2 == 0 ? 48000 : 96000, block = k % 3 == 0 ? 96 : 480;
+            if (isReleased) host.plugin->releaseResources();
+            host.prepare(rate, block, false);
+            juce::MidiBuffer midi;
+            midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
+            for (int done = 0; done < rate / 10; done += block, midi.clear()) {
+                const auto& out = host.block(block, midi);
+                for (int c = 0; c < std::min(out.getNumChannels(), 4); ++c)
+                    for (int n = 0; n < block; n += rate / 8000) {
+                        const float* const at = out.getReadPointer(c) + n;
+                        left[static_cast<std::size_t>(c)].push_back(
+                            std::accumulate(at, at + rate / 8000, 0.0f) / static_cast<float>(rate / 8000));
+                    }
+            }
+        }
+        EXPECT_GT(peakOf(left), 0.02f);
+        SlowFigures worst;
+        for (const auto& channel : left) worst.join(slowFigures(channel, 8000));
+        EXPECT_LE(worst.mean, limits::guardShare);
+        EXPECT_LE(worst.rms, limits::guardShare);
+        Samples once, again; // an export begins at rest
+        for (Samples* export_ : {&once, &again}) {
+            host.prepare(48000, 480);
+            juce::MidiBuffer midi;
+            midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
+            host.block(480, midi);
+            host.play(48000, *export_);
+        }
+        EXPECT_EQ(once, again);
     }
 }
 
