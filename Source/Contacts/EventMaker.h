@@ -90,21 +90,25 @@ public:
                const ImpactModel& model, const ImpactSettings& settings, EventSorter& events,
                ContactCounts& counts) noexcept;
     void add(const Impact& impact) {
-        if (meet(impact.camera, impact.other)) sound(impact.timeNs, impact.newtonSeconds, impact.point, impact.kind);
+        add(impact.camera, impact.other, impact.timeNs, impact.newtonSeconds, impact.point, impact.kind);
     }
-
-    /// The two of the next impacts. False: they are muted, and `mute` counts them.
-    bool meet(std::int32_t camera, std::int32_t other) {
+    void add(std::int32_t camera, std::int32_t other, std::int64_t timeNs, double newtonSeconds, Vector3 point,
+             ContactKind kind) {
         if (camera != camera_) setSource(camera);
         if (isMuted_) {
             ++counts_.muted;
-            return false;
+            return;
         }
         if (!hasMet_ || other != other_) setPartner(other);
-        return true;
+        sound(timeNs, newtonSeconds, point, kind);
     }
 
-    /// An impact of the two that have met.
+private:
+    struct Mode {
+        double frequencyHz, decayPerSecond, relativeAmplitude;
+        SoundNumber sound;
+        bool isPlayable; // as far as it does not depend on the impact
+    };
     void sound(std::int64_t timeNs, double newtonSeconds, Vector3 point, ContactKind kind) noexcept {
         if (isAtContact_) place(point);
         const double amplitude = pairGain_ * (gain_ * (perNewtonSecond_ * newtonSeconds / amplitudeDivisor_));
@@ -128,12 +132,6 @@ public:
         }
     }
 
-private:
-    struct Mode {
-        double frequencyHz, decayPerSecond, relativeAmplitude;
-        SoundNumber sound;
-        bool isPlayable; // as far as it does not depend on the impact
-    };
     void setSource(std::int32_t camera);
     void setPartner(std::int32_t other);
     template <class Sound>

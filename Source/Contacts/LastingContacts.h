@@ -6,6 +6,8 @@
 #include "Contacts/Grains.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,7 +18,7 @@ namespace physvib {
 
 /// Engines report contacts in nearly the same order in each step, so a record is first looked for behind the
 /// last one found; the lookup by key is needed only for records that are new, gone or reordered (100 rolling
-/// balls: saves 2.5 us of a step of 80). A `Record` has `std::uint64_t key`, not 0. Allocates when a step has
+/// balls: saves 2.5 us of a step of 80). A `Record` is made from a key, not 0, and has it as `key`. Allocates when a step has
 /// more records than any before. One thread at a time.
 template <class Record>
 class StepMemory {
@@ -25,19 +27,21 @@ public:
     struct Told {
         std::int32_t place;  ///< index of the record in this step
         std::int32_t before; ///< index of the same record in the last step, or `none`
-        bool isFirst;        ///< first report in this step: the record is new and has only its key
+        bool isFirst;        ///< first report in this step: the record is new
     };
 
-    Told tell(std::uint64_t key) {
+    /// `what`: what a new record is made from, beside the key.
+    template <class... What>
+    Told tell(std::uint64_t key, const What&... what) {
         const std::int32_t before = placeBefore(key);
         if (before != none) {
             std::int32_t& at = placeNow_[static_cast<std::size_t>(before)];
             const bool isFirst = at == none;
-            if (isFirst) at = add(key);
+            if (isFirst) at = add(key, what...);
             return {at, before, isFirst};
         }
         if (const std::int32_t at = new_.find(key); at != none) return {at, none, false};
-        const std::int32_t at = add(key);
+        const std::int32_t at = add(key, what...);
         new_.set(key, at);
         return {at, none, true};
     }
@@ -81,8 +85,9 @@ public:
     }
 
 private:
-    std::int32_t add(std::uint64_t key) {
-        now_.emplace_back().key = key;
+    template <class... What>
+    std::int32_t add(std::uint64_t key, const What&... what) {
+        now_.emplace_back(key, what...);
         return static_cast<std::int32_t>(now_.size()) - 1;
     }
 
@@ -164,6 +169,12 @@ public:
 
     /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
+    /// The same for `makers.add(camera, other, timeNs, newtonSeconds, point, kind)`, without a list between.
+    template <class Makers>
+    void collectFor(const StepSpan& span, Makers& makers) {
+        follow(span.seconds());
+        for (const Passage& passage : passages_) pass(passage, span, makers);
+    }
     void endStep();
 
     /// The slot is freed or reassigned.
@@ -175,12 +186,17 @@ public:
 
 private:
     struct Told {
-        std::uint64_t key = 0;
+        Told(std::uint64_t of, const LastingPoint& told)
+            : key{of}
+            , point{told} {}
+        std::uint64_t key;
         LastingPoint point;
         std::int32_t pair = 0, before = 0; // indices into pairs_ and into the last step's points
     };
     struct Pair {
-        std::uint64_t key = 0;
+        explicit Pair(std::uint64_t of)
+            : key{of} {}
+        std::uint64_t key;
         std::int32_t before = 0;
         double newtonSeconds = 0.0, newtons = 0.0; // of all its points in the step
     };
@@ -192,11 +208,12 @@ private:
         std::int64_t every;
     };
 
-    void follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path, double seconds);
+    void follow(double seconds);
+    double follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path, double seconds);
     double steadyShare(const Told& told) const noexcept;
-    void thinTogether(double seconds);
     void forgetStep() noexcept;
-    void pass(const Passage& passage, const StepSpan& span, std::vector<Impact>& impacts);
+    template <class Makers>
+    void pass(const Passage& passage, const StepSpan& span, Makers& makers);
 
     const FixtureTable& table_;
     StepMemory<Told> points_;
@@ -204,5 +221,34 @@ private:
     std::vector<Passage> passages_;
     std::uint64_t thinned_ = 0;
 };
+
+template <class Makers>
+void LastingContacts::pass(const Passage& passage, const StepSpan& span, Makers& makers) {
+    const LastingPoint& point = *passage.point;
+    const KnownFixture& surface = table_[passage.surface];
+    const Texture& texture = surface.values.texture;
+    const Grains grains{static_cast<std::uint64_t>(surface.id), texture};
+    const SurfaceMotion motion = passage.motion;
+    const double power = std::sqrt(static_cast<double>(passage.every)), perSecond = 1.0 / motion.seconds;
+    const double backSeconds = 1.5 * motion.seconds, slipping = std::abs(point.slipMetresPerSecond);
+    const double perSpeed = grainImpulse(texture.roughness, passage.loadNewtons, 1.0), rolling = texture.rolling;
+    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
+    const Vector3 from = point.point, velocity = point.metresPerSecond;
+    std::uint64_t passed = 0;
+    grains.along(motion, passage.every, [&](std::int64_t index, double t) {
+        ++passed;
+        const double speed = std::abs(motion.speedAt(t));
+        if (speed < leastMetresPerSecond) return;
+        const double slip = std::min(speed, slipping);
+        const double felt = slip + rolling * (speed - slip);
+        const std::int64_t timeNs = span.laterNs(t * perSecond);
+        const double newtonSeconds = power * grains.strengthOf(index) * (perSpeed * felt);
+        const Vector3 place = from + static_cast<float>(t - backSeconds) * velocity;
+        const ContactKind kind = slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll;
+        if (isFeltByA) makers.add(point.a, point.b, timeNs, newtonSeconds, place, kind);
+        if (isFeltByB) makers.add(point.b, point.a, timeNs, newtonSeconds, place, kind);
+    });
+    thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
+}
 
 } // namespace physvib
