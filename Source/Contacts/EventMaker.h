@@ -29,7 +29,7 @@ public:
     }
 
     /// Adds an event; when full, or without memory, the weakest of all is dropped and counted.
-    void push(const CollisionEvent& event) noexcept {
+    [[gnu::always_inline]] void push(const CollisionEvent& event) noexcept {
         if (free_.empty() && !grow() && !dropWeakest(event.amplitude)) return;
         const std::uint32_t slot = free_.back();
         free_.pop_back();
@@ -61,7 +61,7 @@ private:
             return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.fixture < b.fixture;
         }
     };
-    bool grow() noexcept;                        // false: full, or no memory
+    [[gnu::noinline]] bool grow() noexcept;                        // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
     void share();
     void sort() noexcept;
@@ -92,7 +92,7 @@ public:
     void add(const Impact& impact) {
         add(impact.camera, impact.other, impact.timeNs, impact.newtonSeconds, impact.point, impact.kind);
     }
-    void add(std::int32_t camera, std::int32_t other, std::int64_t timeNs, double newtonSeconds, Vector3 point,
+    [[gnu::always_inline]] void add(std::int32_t camera, std::int32_t other, std::int64_t timeNs, double newtonSeconds, Vector3 point,
              ContactKind kind) {
         if (camera != camera_) setSource(camera);
         if (isMuted_) {
@@ -109,7 +109,7 @@ private:
         SoundNumber sound;
         bool isPlayable; // as far as it does not depend on the impact
     };
-    void sound(std::int64_t timeNs, double newtonSeconds, Vector3 point, ContactKind kind) noexcept {
+    [[gnu::always_inline]] void sound(std::int64_t timeNs, double newtonSeconds, Vector3 point, ContactKind kind) noexcept {
         if (isAtContact_) place(point);
         const double amplitude = pairGain_ * (gain_ * (perNewtonSecond_ * newtonSeconds / amplitudeDivisor_));
         event_.timeNs = timeNs;

@@ -9,19 +9,6 @@ namespace physvib {
 
 namespace {
 
-constexpr std::size_t mostPoints = 4096; // per step; denser contacts are noise to the touch
-constexpr double farMetres = 1.0e9;      // beyond it a double cannot resolve grains
-
-std::uint64_t keyOf(const LastingPoint& point) noexcept {
-    std::uint64_t key = pairKey(point.a, point.b) * 0x9E3779B97F4A7C15U + point.feature;
-    key = (key ^ (key >> 31U)) * 0xBF58476D1CE4E5B9U;
-    return key != 0 ? key : 1; // IntegerMap excludes key 0
-}
-
-bool isUsable(const SurfacePath& path) noexcept {
-    return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres; // false for NaN
-}
-
 SurfaceMotion steady(SurfacePath path, double seconds) noexcept {
     // Half a step's change of speed behind the engine's path, see LastingContacts.h. A new point is treated
     // as if it had arrived at this speed.
@@ -49,19 +36,6 @@ SurfaceMotion between(SurfacePath from, SurfacePath to, double seconds) noexcept
 LastingContacts::LastingContacts(const FixtureTable& table)
     : table_{table} {}
 
-void LastingContacts::touch(const LastingPoint& point) {
-    if (points_.now().size() == mostPoints || !isUsable(point.onA) || !isUsable(point.onB) ||
-        !(point.normalNewtonSeconds >= 0.0))
-        return;
-    const auto [at, before, isFirst] = points_.tell(keyOf(point), point);
-    if (!isFirst) return;
-    const auto pair = pairs_.tell(pairKey(point.a, point.b));
-    if (pair.isFirst) pairs_[pair.place].before = pair.before;
-    pairs_[pair.place].newtonSeconds += point.normalNewtonSeconds;
-    points_[at].pair = pair.place;
-    points_[at].before = before;
-}
-
 void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     struct List {
         std::vector<Impact>& impacts;
@@ -78,7 +52,7 @@ void LastingContacts::follow(double seconds) {
     passages_.clear();
     if (!hasHeard()) return;
     if (!(seconds > 0.0) || seconds > longestStepSeconds) return forgetStep();
-    for (Pair& pair : pairs_.now()) pair.newtons = pair.newtonSeconds / seconds;
+    for (Pair& pair : pairs_.now()) weigh(pair, seconds);
     double grains = 0.0;
     for (const Told& told : points_.now()) {
         if (table_.isRough(told.point.a)) grains += follow(told, told.point.a, &LastingPoint::onA, seconds);
@@ -90,17 +64,17 @@ void LastingContacts::follow(double seconds) {
     for (Passage& passage : passages_) passage.every *= static_cast<std::int64_t>(times);
 }
 
-/// Share of the pair's load that already existed in the last step, 0 to 1.
-double LastingContacts::steadyShare(const Told& told) const noexcept {
-    const Pair& pair = pairs_[told.pair];
-    if (pair.before == StepMemory<Pair>::none || !(pair.newtons > 0.0)) return 0.0;
-    return std::min(1.0, pairs_.before(pair.before).newtons / pair.newtons);
+void LastingContacts::weigh(Pair& pair, double seconds) const noexcept {
+    pair.newtons = pair.newtonSeconds / seconds;
+    pair.steadyShare = pair.before == StepMemory<Pair>::none || !(pair.newtons > 0.0)
+                           ? 0.0
+                           : std::min(1.0, pairs_.before(pair.before).newtons / pair.newtons);
 }
 
 /// Adds the point's passage along a surface, and returns how many grains that is.
 double LastingContacts::follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path,
                                double seconds) {
-    const double newtons = steadyShare(told) * told.point.normalNewtonSeconds / seconds;
+    const double newtons = pairs_[told.pair].steadyShare * told.point.normalNewtonSeconds / seconds;
     if (newtons <= 0.0) return 0.0;
     const SurfacePath to = told.point.*path;
     const SurfacePath* const from =
