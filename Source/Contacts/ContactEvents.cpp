@@ -91,7 +91,7 @@ void ContactEvents::remove(std::int32_t slot) {
 void ContactEvents::cut(std::int32_t a, std::int32_t b, const BodyMotion& motionA,
                         const BodyMotion& motionB) {
     conclude();
-    graph_.erase(a, b);
+    catcher_.cut(a, b);
     impacts_.clear();
     release_.cut({a, b, 0, 1.0, motionA, motionB}, span_, impacts_);
     addImpacts();

@@ -90,6 +90,7 @@ void EventMaker::addModes(const Sound& sound) noexcept {
         event.sound = number;
         modes_[static_cast<std::size_t>(modeCount_++)] = {frequencyHz, decayPerSecond, relativeAmplitude, number,
                                                           isPlayable(event)};
+        setMode(modes_[0]); // the only one of most sounds
     };
     add(sound.frequencyHz, sound.decayPerSecond, 1.0, sound.sound);
     for (const Overtone& mode : sound.overtones)

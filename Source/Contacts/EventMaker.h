@@ -90,17 +90,18 @@ public:
                const ImpactModel& model, const ImpactSettings& settings, EventSorter& events,
                ContactCounts& counts) noexcept;
     void add(const Impact& impact) {
-        add(impact.camera, impact.other, impact.timeNs, impact.newtonSeconds, impact.point, impact.kind);
+        const SmallImpact one{impact.timeNs, impact.newtonSeconds, impact.point, impact.kind};
+        add(impact.camera, impact.other, {&one, 1});
     }
-    [[gnu::always_inline]] void add(std::int32_t camera, std::int32_t other, std::int64_t timeNs, double newtonSeconds, Vector3 point,
-             ContactKind kind) {
+    /// Impacts of the same two.
+    void add(std::int32_t camera, std::int32_t other, std::span<const SmallImpact> impacts) {
         if (camera != camera_) setSource(camera);
         if (isMuted_) {
-            ++counts_.muted;
+            counts_.muted += impacts.size();
             return;
         }
         if (!hasMet_ || other != other_) setPartner(other);
-        sound(timeNs, newtonSeconds, point, kind);
+        for (const SmallImpact& impact : impacts) sound(impact);
     }
 
 private:
@@ -109,20 +110,19 @@ private:
         SoundNumber sound;
         bool isPlayable; // as far as it does not depend on the impact
     };
-    [[gnu::always_inline]] void sound(std::int64_t timeNs, double newtonSeconds, Vector3 point, ContactKind kind) noexcept {
-        if (isAtContact_) place(point);
-        const double amplitude = pairGain_ * (gain_ * (perNewtonSecond_ * newtonSeconds / amplitudeDivisor_));
-        event_.timeNs = timeNs;
-        event_.source.impulseNewtonSeconds = newtonSeconds;
-        event_.source.kind = kind;
-        // The rest of isPlayable() is the mode's. A sum is finite if its parts are; these are no larger than floats.
-        const bool isSomewhere = timeNs >= 0 && timeNs <= limits::maxTimeNs && std::isfinite(event_.x + event_.y + event_.z);
+    [[gnu::always_inline]] void sound(const SmallImpact& impact) noexcept {
+        if (isAtContact_) place(impact.point);
+        const double amplitude = pairGain_ * (gain_ * (perNewtonSecond_ * impact.newtonSeconds / amplitudeDivisor_));
+        event_.timeNs = impact.timeNs;
+        event_.source.impulseNewtonSeconds = impact.newtonSeconds;
+        event_.source.kind = impact.kind;
+        // The rest of isPlayable() is the mode's. The sum is finite if its parts are: these are no larger than floats.
+        const bool isSomewhere = impact.timeNs >= 0 && impact.timeNs <= limits::maxTimeNs &&
+                                 std::isfinite(event_.x + event_.y + event_.z);
         for (int i = 0; i < modeCount_; ++i) {
             const Mode& mode = modes_[static_cast<std::size_t>(i)];
-            event_.frequencyHz = mode.frequencyHz;
-            event_.decayPerSecond = mode.decayPerSecond;
+            if (modeCount_ > 1) setMode(mode);
             event_.amplitude = mode.relativeAmplitude * amplitude;
-            event_.sound = mode.sound;
             if (!(isSomewhere && mode.isPlayable && std::abs(event_.amplitude) <= limits::maxAmplitude)) {
                 ++counts_.unplayable;
                 continue;
@@ -131,7 +131,11 @@ private:
             counts_.made(event_.x, event_.y);
         }
     }
-
+    void setMode(const Mode& mode) noexcept {
+        event_.frequencyHz = mode.frequencyHz;
+        event_.decayPerSecond = mode.decayPerSecond;
+        event_.sound = mode.sound;
+    }
     void setSource(std::int32_t camera);
     void setPartner(std::int32_t other);
     template <class Sound>

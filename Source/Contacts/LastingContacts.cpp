@@ -39,9 +39,9 @@ LastingContacts::LastingContacts(const FixtureTable& table)
 void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     struct List {
         std::vector<Impact>& impacts;
-        void add(std::int32_t camera, std::int32_t other, std::int64_t timeNs, double newtonSeconds, Vector3 point,
-                 ContactKind kind) {
-            impacts.push_back({camera, other, timeNs, newtonSeconds, point, kind});
+        void add(std::int32_t camera, std::int32_t other, std::span<const SmallImpact> grains) {
+            for (const SmallImpact& of : grains)
+                impacts.push_back({camera, other, of.timeNs, of.newtonSeconds, of.point, of.kind});
         }
     } list{impacts};
     collectFor(span, list);
@@ -91,6 +91,8 @@ double LastingContacts::follow(const Told& told, std::int32_t surface, SurfacePa
     passages_.push_back({&told.point, surface, newtons, motion, every});
     return std::abs(motion.metresAt(seconds) - motion.startMetres) / grainMetres / static_cast<double>(every);
 }
+
+void LastingContacts::grow() { grains_.resize(2 * grains_.size() + 32); }
 
 void LastingContacts::endStep() {
     points_.endStep();

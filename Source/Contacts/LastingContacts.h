@@ -47,6 +47,7 @@ public:
     /// Ends the step: this step's records become those of the last.
     void endStep() {
         before_.swap(now_);
+        capacity_ = now_.size();
         countBefore_ = count_;
         clear();
     }
@@ -76,14 +77,17 @@ private:
     }
 
     [[gnu::always_inline]] std::int32_t add(std::uint64_t key, std::int32_t& now, std::int32_t before) {
-        if (count_ == now_.size()) grow();
+        if (count_ == capacity_) grow();
         Record& made = now_[count_];
         made.key = key;
         made.now = none;
         made.before = before;
         return now = static_cast<std::int32_t>(count_++);
     }
-    [[gnu::noinline]] void grow() { now_.resize(2 * count_ + 32); }
+    [[gnu::noinline]] void grow() {
+        capacity_ = 2 * count_ + 32;
+        now_.resize(capacity_);
+    }
 
     [[gnu::noinline]] Told search(std::uint64_t key) {
         const std::int32_t before = placeBefore(key);
@@ -113,7 +117,7 @@ private:
     }
 
     std::vector<Record> before_, now_; // buffers, of which so many are in use
-    std::size_t countBefore_ = 0, count_ = 0;
+    std::size_t countBefore_ = 0, count_ = 0, capacity_ = 0; // capacity_: of now_
     std::size_t next_ = 0; // in before_
     IntegerMap placeOf_;   // keys of before_, built at the first lookup
     bool isMapped_ = false;
@@ -186,7 +190,7 @@ public:
 
     /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
-    /// The same for `makers.add(camera, other, timeNs, newtonSeconds, point, kind)`, without a list between.
+    /// The same for `makers.add(camera, other, impacts)`, without a list between.
     template <class Makers>
     void collectFor(const StepSpan& span, Makers& makers) {
         follow(span.seconds());
@@ -236,6 +240,7 @@ private:
     double follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path, double seconds);
     void weigh(Pair& pair, double seconds) const noexcept;
     void forgetStep() noexcept;
+    void grow();
     template <class Makers>
     void pass(const Passage& passage, const StepSpan& span, Makers& makers);
 
@@ -243,6 +248,7 @@ private:
     StepMemory<Told> points_;
     StepMemory<Pair> pairs_;
     std::vector<Passage> passages_;
+    std::vector<SmallImpact> grains_; // a buffer
     std::uint64_t thinned_ = 0;
 };
 
@@ -256,23 +262,33 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, Makers&
     const double power = std::sqrt(static_cast<double>(passage.every)), perSecond = 1.0 / motion.seconds;
     const double backSeconds = 1.5 * motion.seconds, slipping = std::abs(point.slipMetresPerSecond);
     const double perSpeed = grainImpulse(texture.roughness, passage.loadNewtons, 1.0), rolling = texture.rolling;
-    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
     const Vector3 from = point.point, velocity = point.metresPerSecond;
-    std::uint64_t passed = 0;
-    grains.along(motion, passage.every, [&](std::int64_t index, double t) {
+    std::size_t passed = 0, felt = 0;
+    grains.along(motion, passage.every, [&](std::int64_t index, double t) __attribute__((always_inline)) {
         ++passed;
         const double speed = std::abs(motion.speedAt(t));
         if (speed < leastMetresPerSecond) return;
         const double slip = std::min(speed, slipping);
-        const double felt = slip + rolling * (speed - slip);
-        const std::int64_t timeNs = span.laterNs(t * perSecond);
-        const double newtonSeconds = power * grains.strengthOf(index) * (perSpeed * felt);
-        const Vector3 place = from + static_cast<float>(t - backSeconds) * velocity;
-        const ContactKind kind = slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll;
-        if (isFeltByA) makers.add(point.a, point.b, timeNs, newtonSeconds, place, kind);
-        if (isFeltByB) makers.add(point.b, point.a, timeNs, newtonSeconds, place, kind);
+        if (felt == grains_.size()) grow();
+        grains_[felt++] = {span.laterNs(t * perSecond),
+                           power * grains.strengthOf(index) * (perSpeed * (slip + rolling * (speed - slip))),
+                           from + static_cast<float>(t - backSeconds) * velocity,
+                           slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
     });
     thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
+    const std::span<const SmallImpact> all{grains_.data(), felt};
+    if (felt == 0) return;
+    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
+    if (isFeltByA && isFeltByB) { // by turns, which matters where there is no room for all
+        for (std::size_t i = 0; i < felt; ++i) {
+            makers.add(point.a, point.b, all.subspan(i, 1));
+            makers.add(point.b, point.a, all.subspan(i, 1));
+        }
+    } else if (isFeltByA) {
+        makers.add(point.a, point.b, all);
+    } else if (isFeltByB) {
+        makers.add(point.b, point.a, all);
+    }
 }
 
 } // namespace physvib

@@ -29,27 +29,8 @@ public:
     /// whose end is not known, a point with an impulse is old at once.
     unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
         const b2Manifold& now = *contact.GetManifold();
-        int known = find(contact);
-        if (!isStepping && known >= 0 && entries_[static_cast<std::size_t>(known)].isSolved) {
-            drop(static_cast<std::size_t>(known));
-            known = -1;
-        }
-        if (known < 0 && isSame(before, now)) return 0U; // the usual case
-        // then all of its points are still new
-        const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved;
-        for (int i = 0; i < now.pointCount; ++i) {
-            const std::uint32_t id = now.points[i].id.key;
-            if (!isWaiting && hasPoint(before, id)) continue;
-            if (known < 0) {
-                known = static_cast<int>(entries_.size());
-                entries_.push_back({idOf(contact), {}, 0, false});
-                indices_.set(idOf(contact), known);
-            }
-            Entry& entry = entries_[static_cast<std::size_t>(known)];
-            if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
-                entry.ids[static_cast<std::size_t>(entry.count++)] = id;
-        }
-        return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], now);
+        if (entries_.empty() && isSame(before, now)) return 0U; // the usual case
+        return lookCloser(contact, before, now, isStepping);
     }
 
     /// In PostSolve: the same; marks the points as having an impulse.
@@ -72,6 +53,31 @@ public:
     }
 
 private:
+    [[gnu::noinline]] unsigned lookCloser(const b2Contact& contact, const b2Manifold& before, const b2Manifold& now,
+                                          bool isStepping) {
+        int known = find(contact);
+        if (!isStepping && known >= 0 && entries_[static_cast<std::size_t>(known)].isSolved) {
+            drop(static_cast<std::size_t>(known));
+            known = -1;
+        }
+        if (known < 0 && isSame(before, now)) return 0U;
+        // then all of its points are still new
+        const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved;
+        for (int i = 0; i < now.pointCount; ++i) {
+            const std::uint32_t id = now.points[i].id.key;
+            if (!isWaiting && hasPoint(before, id)) continue;
+            if (known < 0) {
+                known = static_cast<int>(entries_.size());
+                entries_.push_back({idOf(contact), {}, 0, false});
+                indices_.set(idOf(contact), known);
+            }
+            Entry& entry = entries_[static_cast<std::size_t>(known)];
+            if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
+                entry.ids[static_cast<std::size_t>(entry.count++)] = id;
+        }
+        return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], now);
+    }
+
     static bool hasPoint(const b2Manifold& manifold, std::uint32_t id) noexcept {
         const auto isIt = [id](const b2ManifoldPoint& point) { return point.id.key == id; };
         return std::any_of(manifold.points, manifold.points + manifold.pointCount, isIt);
