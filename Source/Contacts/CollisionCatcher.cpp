@@ -3,6 +3,7 @@
 #include "Contacts/CollisionCatcher.h"
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace physvib {
 CollisionCatcher::CollisionCatcher(const FixtureTable& table, ContactGraph& graph)
@@ -69,8 +70,7 @@ void CollisionCatcher::begin(std::int32_t a, std::int32_t b) {
 }
 
 ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
-    graph_.erase(a, b);
-    pairs_.loosen(a, b);
+    cut(a, b);
     if (ends_.size() == maxDirectCollisions + maxDistantCollisions) return nullptr;
     ContactEnd& end = ends_.emplace_back();
     end.a = a;
@@ -154,9 +154,9 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
 void ChainLoads::settle() {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const Contact& contact = contacts_[i];
-        const Vector3 load = pasts_[i].load;
-        if (!contact.isSolved || contact.isUnknown || contact.now.lengthSquared() <= load.lengthSquared())
-            continue;
+        if (contact.step != step_ || pasts_[i].isUnknown) continue;
+        const Vector3 load = smallestOf(pasts_[i].pushed);
+        if (contact.now.lengthSquared() <= load.lengthSquared()) continue;
         const TouchingPairs::Name& of = pasts_[i].of;
         const Vector3 beyond = contact.now - load;
         const float size = beyond.length();
@@ -179,22 +179,20 @@ void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSecon
     passed.point = point;
 }
 
-void ChainLoads::endStep(const ContactGraph& graph) noexcept {
+// What has ended and pushes no more is dropped, from the last on: sums depend on the order of the others.
+void ChainLoads::endStep(const ContactGraph& graph) {
     for (const std::int32_t slot : receivers_) passed_[static_cast<std::size_t>(slot)] = {};
     receivers_.clear();
-    for (std::size_t i = contacts_.size(); i-- > 0;) {
-        Contact& contact = contacts_[i];
-        Past& past = pasts_[i];
-        if (contact.isSolved) {
-            if (contact.isUnknown) past.pushed.fill(contact.now);
-            past.pushed = {contact.now, past.pushed[0], past.pushed[1]};
-            past.load = smallestOf(past.pushed);
-            contact.now = {};
-            contact.isSolved = contact.isUnknown = false;
-        } else if (!graph.isTouching(past.of.a, past.of.b)) {
-            drop(i);
-        }
-    }
+    ended_.clear();
+    pairs_.forLoose([&](const TouchingPairs::Pair& pair) {
+        if (pair.load != TouchingPairs::none && contacts_[static_cast<std::size_t>(pair.load)].step != step_ &&
+            !graph.isTouching(pair.a, pair.b))
+            ended_.push_back(pair.load);
+    });
+    std::sort(ended_.begin(), ended_.end(), std::greater<>{});
+    ended_.erase(std::unique(ended_.begin(), ended_.end()), ended_.end());
+    for (const std::int32_t contact : ended_) drop(static_cast<std::size_t>(contact));
+    if (++step_ == 0) step_ = 1;
 }
 
 void ChainLoads::forget(std::int32_t slot) noexcept {
@@ -211,8 +209,8 @@ Vector3 ChainLoads::smallestOf(const std::array<Vector3, 3>& pushed) noexcept {
 
 ChainLoads::Contact& ChainLoads::meet(const TouchingPairs::Name& pair, bool isUnknown) {
     pairs_[pair.number].load = static_cast<std::int32_t>(contacts_.size());
-    pasts_.push_back({pair});
-    return contacts_.emplace_back(Contact{{}, {}, pair.b, false, isUnknown});
+    pasts_.push_back({pair, isUnknown});
+    return contacts_.emplace_back(Contact{{}, {}, pair.b, 0});
 }
 
 void ChainLoads::drop(std::size_t index) noexcept {

@@ -77,6 +77,12 @@ public:
             if (pair.a == slot || pair.b == slot) loosen(pair.a, pair.b);
     }
 
+    /// Calls see(pair) for pairs that may have ended, some of them twice.
+    template <class See>
+    void forLoose(See see) const {
+        for (const std::int32_t number : loose_) see((*this)[number]);
+    }
+
     /// Call at the end of a step: frees numbers.
     void endStep(const ContactGraph& graph) {
         std::erase_if(loose_, [&](std::int32_t number) {
@@ -120,10 +126,10 @@ public:
     /// opposite.
     void add(const TouchingPairs::Name& pair, Vector3 newtonSeconds, Vector3 point) {
         Contact& contact = find(pair, true);
+        if (contact.step != step_) open(contact);
         // Summed over the step's points and solver passes, and over the segments of a chain.
         contact.now += contact.b == pair.b ? newtonSeconds : -newtonSeconds;
         contact.point = point;
-        contact.isSolved = true;
     }
 
     /// After a step: sums up the transmitted impulses.
@@ -142,22 +148,21 @@ public:
     void begin(const TouchingPairs::Name& pair) { find(pair, false); }
 
     /// Ends the step: its impulses become history. Sleeping bodies keep their load.
-    void endStep(const ContactGraph& graph) noexcept;
+    void endStep(const ContactGraph& graph);
 
     /// The slot is freed or reassigned: drops its contacts.
     void forget(std::int32_t slot) noexcept;
 
 private:
     struct alignas(32) Contact { // read for every push: half a cache line
-        Vector3 now, point;      // now: impulse on b in this step
+        Vector3 now, point;      // now: impulse on b in the last step that pushed
         std::int32_t b;
-        bool isSolved;
-        bool isUnknown; // first seen in mid-contact: the impulse of this step is taken as its load
+        std::uint32_t step; // the number of that step; 0: none has
     };
     struct Past { // read once per step
         TouchingPairs::Name of;
-        Vector3 load{};
-        std::array<Vector3, 3> pushed{}; // newest first
+        bool isUnknown; // first seen in mid-contact: the impulse of the first step is taken as its load
+        std::array<Vector3, 3> pushed{}; // before `now`, newest first
     };
     static Vector3 smallestOf(const std::array<Vector3, 3>& pushed) noexcept;
     Contact& find(const TouchingPairs::Name& pair, bool isUnknown) {
@@ -165,6 +170,16 @@ private:
         return at != TouchingPairs::none ? contacts_[static_cast<std::size_t>(at)] : meet(pair, isUnknown);
     }
     Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
+    void open(Contact& contact) noexcept { // its first push in a step: what it had becomes history
+        Past& past = pasts_[static_cast<std::size_t>(&contact - contacts_.data())];
+        if (contact.step != 0) {
+            if (past.isUnknown) past.pushed.fill(contact.now);
+            past.isUnknown = false;
+            past.pushed = {contact.now, past.pushed[0], past.pushed[1]};
+        }
+        contact.now = {};
+        contact.step = step_;
+    }
     void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size, Vector3 point);
     void drop(std::size_t index) noexcept;
 
@@ -173,7 +188,8 @@ private:
     std::vector<Contact> contacts_;
     std::vector<Past> pasts_;    // parallel to contacts_
     std::vector<Passed> passed_; // by slot
-    std::vector<std::int32_t> receivers_;
+    std::vector<std::int32_t> receivers_, ended_;
+    std::uint32_t step_ = 1; // a number for each
 };
 
 /// Updates the contact graph and records the collisions of each step (`Collision`). A collision needs parts
@@ -215,6 +231,12 @@ public:
     /// One of them ends. Fill in the returned record with time and motions. nullptr: no room, and the contact
     /// is treated as if it had not ended.
     ContactEnd* end(std::int32_t a, std::int32_t b);
+
+    /// One of them has ended outside a step.
+    void cut(std::int32_t a, std::int32_t b) {
+        graph_.erase(a, b);
+        pairs_.loosen(a, b);
+    }
 
     /// Counts a new contact point of two fixtures that the engine distinguishes from the pair's other points.
     void meet(std::int32_t a, std::int32_t b) noexcept {

@@ -36,14 +36,6 @@ constexpr std::array names{
 
 } // namespace
 
-void ContactCounts::made(double x, double y) noexcept {
-    const bool isFirst = events++ == 0;
-    leastX = isFirst ? x : std::min(leastX, x);
-    leastY = isFirst ? y : std::min(leastY, y);
-    mostX = isFirst ? x : std::max(mostX, x);
-    mostY = isFirst ? y : std::max(mostY, y);
-}
-
 ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
     contacts += other.contacts;
     belowThreshold += other.belowThreshold;

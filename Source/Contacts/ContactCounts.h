@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Counts of what happened to a world's contacts, to diagnose why no vibration, or too little, is played.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -54,7 +55,13 @@ struct ContactCounts {
     std::array<Noted, 4> notes{};
 
     /// Counts an event at a place of the field.
-    void made(double x, double y) noexcept;
+    void made(double x, double y) noexcept {
+        const bool isFirst = events++ == 0;
+        leastX = isFirst ? x : std::min(leastX, x);
+        leastY = isFirst ? y : std::min(leastY, y);
+        mostX = isFirst ? x : std::max(mostX, x);
+        mostY = isFirst ? y : std::max(mostY, y);
+    }
 
     /// Notes what the engine says of a haptic source.
     void note(EngineNote what, std::int32_t body) noexcept;

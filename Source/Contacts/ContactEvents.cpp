@@ -91,7 +91,7 @@ void ContactEvents::remove(std::int32_t slot) {
 void ContactEvents::cut(std::int32_t a, std::int32_t b, const BodyMotion& motionA,
                         const BodyMotion& motionB) {
     conclude();
-    graph_.erase(a, b);
+    catcher_.cut(a, b);
     impacts_.clear();
     release_.cut({a, b, 0, 1.0, motionA, motionB}, span_, impacts_);
     addImpacts();
@@ -165,8 +165,14 @@ void ContactEvents::finish() {
     else
         release_.collect(span_, impacts_);
     if (settings_.hitsPerStep) keepStrongest(static_cast<std::size_t>(*settings_.hitsPerStep));
-    lasting_.collect(span_, impacts_);
+    if (isAutomatic(settings_) || settings_.settlingSeconds > 0.0) { // learns from all, or looks at times
+        lasting_.collect(span_, impacts_);
+        return addImpacts();
+    }
     addImpacts();
+    if (!lasting_.hasHeard()) return;
+    EventMaker maker = makeEvents();
+    lasting_.collectFor(span_, maker);
 }
 
 void ContactEvents::keepStrongest(std::size_t count) {
@@ -193,8 +199,12 @@ void ContactEvents::addImpacts() {
         fullScale_.learn(impacts_, span_, table_);
         model_.fullScaleNewtonSeconds = fullScale_.newtonSeconds();
     }
-    EventMaker maker{table_, pairs_, bodies_, model_, settings_, held_, catcher_.tally()};
+    EventMaker maker = makeEvents();
     for (const Impact& impact : impacts_) maker.add(impact);
+}
+
+EventMaker ContactEvents::makeEvents() noexcept {
+    return {table_, pairs_, bodies_, model_, settings_, held_, catcher_.tally()};
 }
 
 ContactCounts ContactEvents::recent() const noexcept {

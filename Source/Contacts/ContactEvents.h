@@ -115,6 +115,7 @@ private:
     ContactCounts recent() const noexcept;
     void finish();
     void addImpacts();
+    EventMaker makeEvents() noexcept;
     void leaveOutSettling();
     void keepStrongest(std::size_t count);
     void forget(std::int32_t slot, bool isWithdrawn, bool othersToo);

@@ -39,34 +39,8 @@ EventMaker::EventMaker(const FixtureTable& table, const PairSounds& pairs, const
     , counts_(counts)
     , model_(model)
     , cos_(std::cos(settings.fieldRadians))
-    , sin_(std::sin(settings.fieldRadians)) {}
-
-void EventMaker::add(const Impact& impact) {
-    if (impact.camera != camera_) setSource(impact.camera);
-    if (isMuted_) {
-        ++counts_.muted;
-        return;
-    }
-    if (!hasMet_ || impact.other != other_) setPartner(impact.other);
-    if (settings_.location == ImpactLocation::contact) place(impact.point);
-    const double amplitude = pairGain_ * (gain_ * own_.amplitude(impact.newtonSeconds, event_.source.massKg));
-    event_.timeNs = impact.timeNs;
-    event_.source.impulseNewtonSeconds = impact.newtonSeconds;
-    event_.source.kind = impact.kind;
-    for (int i = 0; i < modeCount_; ++i) {
-        const Mode& mode = modes_[static_cast<std::size_t>(i)];
-        event_.frequencyHz = mode.frequencyHz;
-        event_.decayPerSecond = mode.decayPerSecond;
-        event_.amplitude = mode.relativeAmplitude * amplitude;
-        event_.sound = mode.sound;
-        if (!isPlayable(event_)) {
-            ++counts_.unplayable;
-            continue;
-        }
-        events_.push(event_);
-        counts_.made(event_.x, event_.y);
-    }
-}
+    , sin_(std::sin(settings.fieldRadians))
+    , isAtContact_(settings.location == ImpactLocation::contact) {}
 
 void EventMaker::setSource(std::int32_t camera) {
     camera_ = camera;
@@ -75,9 +49,12 @@ void EventMaker::setSource(std::int32_t camera) {
     gain_ = of.values.gain;
     isMuted_ = settings_.isMuted || gain_ == 0.0;
     if (isMuted_) return;
-    own_ = modelOf(of.values, model_);
     event_.source.fixture = of.id;
     event_.source.massKg = massOf(of, bodies_);
+    const ImpactModel own = modelOf(of.values, model_);
+    const bool isScaled = own.fullScaleNewtonSeconds > 0.0;
+    perNewtonSecond_ = isScaled ? own.driveGain : own.driveGain * own.normalisation;
+    amplitudeDivisor_ = isScaled ? own.fullScaleNewtonSeconds : event_.source.massKg + own.handMassKg;
     event_.source.part = of.values.part;
     if (settings_.location == ImpactLocation::fixture) place(bodies_.toWorld(of.body.body, of.centre));
 }
@@ -106,18 +83,18 @@ void EventMaker::setPartner(std::int32_t other) {
 /// `sound`: a HapticFixture or a PairSound.
 template <class Sound>
 void EventMaker::addModes(const Sound& sound) noexcept {
-    const auto add = [this](const Mode& mode) { modes_[static_cast<std::size_t>(modeCount_++)] = mode; };
-    add({sound.frequencyHz, sound.decayPerSecond, 1.0, sound.sound});
+    const auto add = [this](double frequencyHz, double decayPerSecond, double relativeAmplitude, SoundNumber number) {
+        CollisionEvent event;
+        event.frequencyHz = frequencyHz;
+        event.decayPerSecond = decayPerSecond;
+        event.sound = number;
+        modes_[static_cast<std::size_t>(modeCount_++)] = {frequencyHz, decayPerSecond, relativeAmplitude, number,
+                                                          isPlayable(event)};
+        setMode(modes_[0]); // the only one of most sounds
+    };
+    add(sound.frequencyHz, sound.decayPerSecond, 1.0, sound.sound);
     for (const Overtone& mode : sound.overtones)
-        if (mode.frequencyHz > 0.0) add({mode.frequencyHz, mode.decayPerSecond, mode.relativeAmplitude, 0});
-}
-
-// The field lies in the plane: its origin and rotation leave z as it is.
-void EventMaker::place(Vector3 world) noexcept {
-    const Vector2 from = inPlane(world) - settings_.fieldOrigin;
-    event_.x = static_cast<double>(cos_ * from.x + sin_ * from.y);
-    event_.y = static_cast<double>(cos_ * from.y - sin_ * from.x);
-    event_.z = static_cast<double>(world.z);
+        if (mode.frequencyHz > 0.0) add(mode.frequencyHz, mode.decayPerSecond, mode.relativeAmplitude, 0);
 }
 
 // Learns the level of a world's hits.
@@ -194,42 +171,68 @@ void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& fi
     std::size_t kept = 0;
     for (const Waiting& each : waiting_) {
         if (each.timeNs < beforeNs)
-            order_.push_back({each, static_cast<std::uint32_t>(order_.size()), 0});
+            order_.push_back(each);
         else
             waiting_[kept++] = each;
     }
     waiting_.resize(kept);
+    share();
     sort();
-    for (const Place& place : order_) {
-        finished.push_back(held_[place.slot]);
-        free_.push_back(place.slot);
+    for (const Waiting& each : order_) {
+        finished.push_back(held_[each.slot]);
+        free_.push_back(each.slot);
     }
 }
 
-// Bucket sort by time: grains arrive by hundreds per step, evenly distributed, so each bucket has few entries
-// to sort.
-void EventSorter::sort() {
-    constexpr std::size_t many = 64;
+// By time into as many buckets as there are events: grains arrive by hundreds per step, evenly distributed, so each bucket has few.
+void EventSorter::share() {
+    constexpr std::size_t many = 16;
     const std::size_t count = order_.size();
-    if (count < many) return std::sort(order_.begin(), order_.end());
-    const auto [first, last] = std::ranges::minmax(order_, {}, &Place::timeNs);
-    const auto startNs = static_cast<double>(first.timeNs);
-    const double rangeNs = static_cast<double>(last.timeNs) - startNs;
-    const double sharesPerNs = static_cast<double>(count) / (rangeNs + 1.0);
+    if (count < many) return;
+    std::int64_t first = order_.front().timeNs, last = first;
+    for (const Waiting& each : order_) {
+        first = std::min(first, each.timeNs);
+        last = std::max(last, each.timeNs);
+    }
+    const double sharesPerNs =
+        static_cast<double>(count) / (static_cast<double>(last) - static_cast<double>(first) + 1.0);
     ends_.assign(count + 2, 0); // rounding may give one bucket more
-    for (Place& place : order_) {
-        place.share = static_cast<std::uint32_t>((static_cast<double>(place.timeNs) - startNs) * sharesPerNs);
-        ++ends_[place.share + 1];
+    for (Waiting& each : order_) {
+        each.share = static_cast<std::uint32_t>(
+            static_cast<std::int64_t>(static_cast<double>(each.timeNs - first) * sharesPerNs));
+        ++ends_[each.share + 1];
     }
     for (std::size_t i = 1; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
     other_.resize(count);
-    for (const Place& place : order_) other_[ends_[place.share]++] = place; // ends_: begins become ends
+    for (std::uint32_t arrival = 0; arrival < count; ++arrival) {
+        const Waiting& each = order_[arrival];
+        Waiting& to = other_[ends_[each.share]++]; // ends_: begins become ends
+        to = each;
+        to.share = arrival;
+    }
     order_.swap(other_);
-    auto begin = order_.begin();
-    for (const std::uint32_t place : ends_) {
-        const auto end = order_.begin() + static_cast<std::ptrdiff_t>(place);
-        if (end - begin > 1) std::sort(begin, end);
-        begin = end;
+}
+
+// Moves each behind those before it: few steps once they are in buckets, and what is equal stays in order of arrival. Where most have
+// one time, as hits at the start of a step, it gives up.
+void EventSorter::sort() noexcept {
+    std::size_t steps = 128 + 8 * order_.size();
+    for (std::size_t i = 1; i < order_.size(); ++i) {
+        if (!(order_[i] < order_[i - 1])) continue;
+        const Waiting moved = order_[i];
+        std::size_t hole = i;
+        do {
+            order_[hole] = order_[hole - 1];
+            --hole;
+        } while (hole > 0 && moved < order_[hole - 1]);
+        order_[hole] = moved;
+        if (i - hole <= steps) {
+            steps -= i - hole;
+            continue;
+        }
+        return std::sort(order_.begin(), order_.end(), [](const Waiting& a, const Waiting& b) {
+            return a < b || (!(b < a) && a.share < b.share); // share: by now the order of arrival
+        });
     }
 }
 

@@ -29,12 +29,12 @@ public:
     }
 
     /// Adds an event; when full, or without memory, the weakest of all is dropped and counted.
-    void push(const CollisionEvent& event) noexcept {
+    [[gnu::always_inline]] void push(const CollisionEvent& event) noexcept {
         if (free_.empty() && !grow() && !dropWeakest(event.amplitude)) return;
         const std::uint32_t slot = free_.back();
         free_.pop_back();
         held_[slot] = event;
-        waiting_.push_back({event.timeNs, event.source.fixture, slot});
+        waiting_.push_back({event.timeNs, event.source.fixture, slot, 0});
     }
 
     /// Moves all events before `beforeNs` to the end of `finished`.
@@ -55,28 +55,25 @@ private:
     struct Waiting {
         std::int64_t timeNs;
         std::int32_t fixture;
-        std::uint32_t slot; // index in held_
-    };
-    struct Place : Waiting {
-        std::uint32_t arrival; // order of arrival among the released
-        std::uint32_t share;   // bucket in time
-        friend bool operator<(const Place& a, const Place& b) noexcept {
-            if (a.timeNs != b.timeNs) return a.timeNs < b.timeNs;
-            return a.fixture != b.fixture ? a.fixture < b.fixture : a.arrival < b.arrival;
+        std::uint32_t slot;  // index in held_
+        std::uint32_t share; // bucket in time, of those being released
+        friend bool operator<(const Waiting& a, const Waiting& b) noexcept {
+            return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.fixture < b.fixture;
         }
     };
-    bool grow() noexcept;                        // false: full, or no memory
+    [[gnu::noinline]] bool grow() noexcept;                        // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
-    void sort();
+    void share();
+    void sort() noexcept;
     void forget(std::size_t place) noexcept;
 
     std::size_t capacity_;
     std::uint64_t drops_ = 0;
     std::vector<CollisionEvent> held_; // an event stays in its slot until it is released
     std::vector<std::uint32_t> free_;  // free slots
-    std::vector<Waiting> waiting_;     // in order of arrival
-    std::vector<Place> order_, other_; // of those being released
-    std::vector<std::uint32_t> ends_;  // ends of the buckets
+    std::vector<Waiting> waiting_;       // in order of arrival
+    std::vector<Waiting> order_, other_; // of those being released
+    std::vector<std::uint32_t> ends_;    // ends of the buckets
 };
 
 /// Adds one event per impact and mode (Eq. 5.4). If the source's voice is `both`, both bodies sound, each
@@ -92,18 +89,64 @@ public:
     EventMaker(const FixtureTable& table, const PairSounds& pairs, const BodyReader& bodies,
                const ImpactModel& model, const ImpactSettings& settings, EventSorter& events,
                ContactCounts& counts) noexcept;
-    void add(const Impact& impact);
+    void add(const Impact& impact) {
+        const SmallImpact one{impact.timeNs, impact.newtonSeconds, impact.point, impact.kind};
+        add(impact.camera, impact.other, {&one, 1});
+    }
+    /// Impacts of the same two.
+    void add(std::int32_t camera, std::int32_t other, std::span<const SmallImpact> impacts) {
+        if (camera != camera_) setSource(camera);
+        if (isMuted_) {
+            counts_.muted += impacts.size();
+            return;
+        }
+        if (!hasMet_ || other != other_) setPartner(other);
+        for (const SmallImpact& impact : impacts) sound(impact);
+    }
 
 private:
     struct Mode {
         double frequencyHz, decayPerSecond, relativeAmplitude;
         SoundNumber sound;
+        bool isPlayable; // as far as it does not depend on the impact
     };
+    [[gnu::always_inline]] void sound(const SmallImpact& impact) noexcept {
+        if (isAtContact_) place(impact.point);
+        const double amplitude = pairGain_ * (gain_ * (perNewtonSecond_ * impact.newtonSeconds / amplitudeDivisor_));
+        event_.timeNs = impact.timeNs;
+        event_.source.impulseNewtonSeconds = impact.newtonSeconds;
+        event_.source.kind = impact.kind;
+        // The rest of isPlayable() is the mode's. The sum is finite if its parts are: these are no larger than floats.
+        const bool isSomewhere = impact.timeNs >= 0 && impact.timeNs <= limits::maxTimeNs &&
+                                 std::isfinite(event_.x + event_.y + event_.z);
+        for (int i = 0; i < modeCount_; ++i) {
+            const Mode& mode = modes_[static_cast<std::size_t>(i)];
+            if (modeCount_ > 1) setMode(mode);
+            event_.amplitude = mode.relativeAmplitude * amplitude;
+            if (!(isSomewhere && mode.isPlayable && std::abs(event_.amplitude) <= limits::maxAmplitude)) {
+                ++counts_.unplayable;
+                continue;
+            }
+            events_.push(event_);
+            counts_.made(event_.x, event_.y);
+        }
+    }
+    void setMode(const Mode& mode) noexcept {
+        event_.frequencyHz = mode.frequencyHz;
+        event_.decayPerSecond = mode.decayPerSecond;
+        event_.sound = mode.sound;
+    }
     void setSource(std::int32_t camera);
     void setPartner(std::int32_t other);
     template <class Sound>
     void addModes(const Sound& sound) noexcept;
-    void place(Vector3 world) noexcept;
+    // The field lies in the plane: its origin and rotation leave z as it is.
+    void place(Vector3 world) noexcept {
+        const Vector2 from = inPlane(world) - settings_.fieldOrigin;
+        event_.x = static_cast<double>(cos_ * from.x + sin_ * from.y);
+        event_.y = static_cast<double>(cos_ * from.y - sin_ * from.x);
+        event_.z = static_cast<double>(world.z);
+    }
 
     const FixtureTable& table_;
     const PairSounds& pairs_;
@@ -113,10 +156,11 @@ private:
     ContactCounts& counts_;
     const ImpactModel model_;
     const float cos_, sin_; // rotation of the field
+    const bool isAtContact_; // else events are at the source's fixture
     CollisionEvent event_;
     // Of the current haptic source:
     std::int32_t camera_ = FixtureTable::none;
-    ImpactModel own_;
+    double perNewtonSecond_ = 0.0, amplitudeDivisor_ = 1.0; // ImpactModel::amplitude, in its order of operations
     double gain_ = 0.0;
     bool isMuted_ = false;
     // Of its current partner:

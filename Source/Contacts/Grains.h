@@ -84,30 +84,34 @@ public:
     /// `texture` is rough.
     Grains(std::uint64_t surface, const Texture& texture) noexcept
         : seed_{2 * surface * seedFactor}
-        , texture_{texture}
-        , perMetre_{1.0 / texture.grainMetres} {}
+        , grainMetres_{texture.grainMetres}
+        , perMetre_{1.0 / texture.grainMetres}
+        , isRandom_{texture.pattern == GrainPattern::random} {}
 
     /// Place of a grain along the surface.
     double metresOf(std::int64_t index) const noexcept {
-        const double jitter = isRandom() ? GrainChance::spacingRange * (chance(index, 0) - 0.5) : 0.0;
-        return (static_cast<double>(index) + 0.5 + jitter) * texture_.grainMetres;
+        const double jitter = isRandom_ ? GrainChance::spacingRange * (chance(index, 0) - 0.5) : 0.0;
+        return (static_cast<double>(index) + 0.5 + jitter) * grainMetres_;
     }
     /// Its strength; 1 of all where they are regular.
     double strengthOf(std::int64_t index) const noexcept {
-        return isRandom() ? GrainChance::leastStrength + GrainChance::strengthRange * chance(index, 1) : 1.0;
+        return isRandom_ ? GrainChance::leastStrength + GrainChance::strengthRange * chance(index, 1) : 1.0;
     }
 
     /// Calls `passed(index, t)` for each grain whose index is a multiple of `every`, in the order in which
     /// they are passed.
     template <class Passed>
-    void along(const SurfaceMotion& motion, std::int64_t every, Passed&& passed) const {
-        const double turn = motion.turn();
-        walk(motion, 0.0, turn, every, passed);
-        if (turn < motion.seconds) walk(motion, turn, motion.seconds, every, passed);
+    [[gnu::always_inline]] void along(const SurfaceMotion& motion, std::int64_t every, Passed&& passed) const {
+        double from = 0.0, to = motion.turn();
+        for (;;) { // there, and back
+            walk(motion, from, to, every, passed);
+            if (!(to < motion.seconds)) return;
+            from = to;
+            to = motion.seconds;
+        }
     }
 
 private:
-    bool isRandom() const noexcept { return texture_.pattern == GrainPattern::random; }
     /// 0 to 1 (SplitMix64's finaliser; Steele, Lea, Flood 2014).
     double chance(std::int64_t index, std::uint64_t which) const noexcept {
         std::uint64_t z = (static_cast<std::uint64_t>(index) + 1U) * 0x9E3779B97F4A7C15U;
@@ -137,7 +141,7 @@ private:
     }
 
     template <class Passed>
-    void walk(const SurfaceMotion& motion, double from, double to, std::int64_t every, Passed& passed) const {
+    [[gnu::always_inline]] void walk(const SurfaceMotion& motion, double from, double to, std::int64_t every, Passed& passed) const {
         const double start = motion.metresAt(from), end = motion.metresAt(to), speed = motion.speedAt(from);
         const bool isUp = end > start;
         const double sign = isUp ? 1.0 : -1.0;
@@ -155,8 +159,8 @@ private:
     static constexpr std::uint64_t seedFactor = 0xD1342543DE82EF95U;
 
     std::uint64_t seed_; // by surface
-    const Texture& texture_;
-    double perMetre_;
+    double grainMetres_, perMetre_;
+    bool isRandom_;
 };
 
 } // namespace physvib

@@ -66,6 +66,13 @@ struct StepSpan {
         return std::max(earliestNs, startNs + roundedNs(sinceStart));
     }
 
+    /// The same of a fraction that is not below 0; inline, because it runs for each grain.
+    std::int64_t laterNs(double fraction) const noexcept {
+        const double sinceStart = fraction * static_cast<double>(endNs - startNs);
+        const auto whole = static_cast<std::int64_t>(sinceStart);
+        return startNs + whole + (sinceStart - static_cast<double>(whole) >= 0.5 ? 1 : 0);
+    }
+
     /// Change of velocity by which a collision counts as an impact. At least 1.5 g dt: a resting body gets g
     /// dt in every step, and a jittering contact more.
     double thresholdMetresPerSecond(float gravityScale) const noexcept {
@@ -127,6 +134,14 @@ struct Impact {
     double newtonSeconds;
     Vector3 point;
     ContactKind kind = ContactKind::hit;
+};
+
+/// The same of an impact whose fixtures are known, as a grain's are.
+struct SmallImpact {
+    std::int64_t timeNs;
+    double newtonSeconds;
+    Vector3 point;
+    ContactKind kind;
 };
 
 } // namespace physvib

@@ -9,19 +9,6 @@ namespace physvib {
 
 namespace {
 
-constexpr std::size_t mostPoints = 4096; // per step; denser contacts are noise to the touch
-constexpr double farMetres = 1.0e9;      // beyond it a double cannot resolve grains
-
-std::uint64_t keyOf(const LastingPoint& point) noexcept {
-    std::uint64_t key = pairKey(point.a, point.b) * 0x9E3779B97F4A7C15U + point.feature;
-    key = (key ^ (key >> 31U)) * 0xBF58476D1CE4E5B9U;
-    return key != 0 ? key : 1; // IntegerMap excludes key 0
-}
-
-bool isUsable(const SurfacePath& path) noexcept {
-    return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres; // false for NaN
-}
-
 SurfaceMotion steady(SurfacePath path, double seconds) noexcept {
     // Half a step's change of speed behind the engine's path, see LastingContacts.h. A new point is treated
     // as if it had arrived at this speed.
@@ -49,97 +36,63 @@ SurfaceMotion between(SurfacePath from, SurfacePath to, double seconds) noexcept
 LastingContacts::LastingContacts(const FixtureTable& table)
     : table_{table} {}
 
-void LastingContacts::touch(const LastingPoint& point) {
-    if (points_.now().size() == mostPoints || !isUsable(point.onA) || !isUsable(point.onB) ||
-        !(point.normalNewtonSeconds >= 0.0))
-        return;
-    const auto [at, before, isFirst] = points_.tell(keyOf(point));
-    if (!isFirst) return;
-    const auto pair = pairs_.tell(pairKey(point.a, point.b));
-    if (pair.isFirst) pairs_[pair.place].before = pair.before;
-    pairs_[pair.place].newtonSeconds += point.normalNewtonSeconds;
-    points_[at].point = point;
-    points_[at].pair = pair.place;
-    points_[at].before = before;
+void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
+    struct List {
+        std::vector<Impact>& impacts;
+        void add(std::int32_t camera, std::int32_t other, std::span<const SmallImpact> grains) {
+            for (const SmallImpact& of : grains)
+                impacts.push_back({camera, other, of.timeNs, of.newtonSeconds, of.point, of.kind});
+        }
+    } list{impacts};
+    collectFor(span, list);
 }
 
-void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
-    const double seconds = span.seconds();
+// What the step's points pass, thinned together.
+void LastingContacts::follow(double seconds) {
     passages_.clear();
     if (!hasHeard()) return;
     if (!(seconds > 0.0) || seconds > longestStepSeconds) return forgetStep();
-    for (Pair& pair : pairs_.now()) pair.newtons = pair.newtonSeconds / seconds;
+    for (Pair& pair : pairs_.now()) weigh(pair, seconds);
+    double grains = 0.0;
     for (const Told& told : points_.now()) {
-        if (table_.isRough(told.point.a)) follow(told, told.point.a, &LastingPoint::onA, seconds);
-        if (table_.isRough(told.point.b)) follow(told, told.point.b, &LastingPoint::onB, seconds);
+        if (table_.isRough(told.point.a)) grains += follow(told, told.point.a, &LastingPoint::onA, seconds);
+        if (table_.isRough(told.point.b)) grains += follow(told, told.point.b, &LastingPoint::onB, seconds);
     }
-    thinTogether(seconds);
-    for (const Passage& passage : passages_) pass(passage, span, impacts);
+    const double most = mostTogetherPerSecond * seconds;
+    if (!(grains > most)) return;
+    const auto times = std::bit_ceil(static_cast<std::uint64_t>(std::ceil(grains / most)));
+    for (Passage& passage : passages_) passage.every *= static_cast<std::int64_t>(times);
 }
 
-/// Share of the pair's load that already existed in the last step, 0 to 1.
-double LastingContacts::steadyShare(const Told& told) const noexcept {
-    const Pair& pair = pairs_[told.pair];
-    if (pair.before == StepMemory<Pair>::none || !(pair.newtons > 0.0)) return 0.0;
-    return std::min(1.0, pairs_.before(pair.before).newtons / pair.newtons);
+void LastingContacts::weigh(Pair& pair, double seconds) const noexcept {
+    pair.newtons = pair.newtonSeconds / seconds;
+    pair.steadyShare = pair.before == StepMemory<Pair>::none || !(pair.newtons > 0.0)
+                           ? 0.0
+                           : std::min(1.0, pairs_.before(pair.before).newtons / pair.newtons);
 }
 
-void LastingContacts::follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path,
-                             double seconds) {
-    const double newtons = steadyShare(told) * told.point.normalNewtonSeconds / seconds;
-    if (newtons <= 0.0) return;
+/// Adds the point's passage along a surface, and returns how many grains that is.
+double LastingContacts::follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path,
+                               double seconds) {
+    const double newtons = pairs_[told.pair].steadyShare * told.point.normalNewtonSeconds / seconds;
+    if (newtons <= 0.0) return 0.0;
     const SurfacePath to = told.point.*path;
     const SurfacePath* const from =
         told.before != StepMemory<Told>::none ? &(points_.before(told.before).point.*path) : nullptr;
     const SurfaceMotion motion =
         from != nullptr && !hasJumped(*from, to, seconds) ? between(*from, to, seconds) : steady(to, seconds);
     const double fastest = std::max(std::abs(motion.metresPerSecond), std::abs(motion.speedAt(seconds)));
-    if (fastest < leastMetresPerSecond) return;
-    const double perSecond = fastest / table_[surface].values.texture.grainMetres;
-    const auto times = static_cast<std::uint64_t>(std::ceil(std::max(1.0, perSecond / mostPerSecond)));
-    passages_.push_back(
-        {&told.point, surface, newtons, motion, static_cast<std::int64_t>(std::bit_ceil(times))});
+    if (fastest < leastMetresPerSecond) return 0.0;
+    const double grainMetres = table_[surface].values.texture.grainMetres, perSecond = fastest / grainMetres;
+    std::int64_t every = 1;
+    if (perSecond > mostPerSecond)
+        every = static_cast<std::int64_t>(
+            std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / mostPerSecond))));
+    passages_.push_back({&told.point, surface, newtons, motion, every});
+    return std::abs(motion.metresAt(seconds) - motion.startMetres) / grainMetres / static_cast<double>(every);
 }
 
-void LastingContacts::thinTogether(double seconds) {
-    double grains = 0.0;
-    for (const Passage& p : passages_)
-        grains += std::abs(p.motion.metresAt(seconds) - p.motion.startMetres) /
-                  table_[p.surface].values.texture.grainMetres / static_cast<double>(p.every);
-    const auto times =
-        static_cast<std::uint64_t>(std::ceil(std::max(1.0, grains / (mostTogetherPerSecond * seconds))));
-    for (Passage& p : passages_) p.every *= static_cast<std::int64_t>(std::bit_ceil(times));
-}
-
-void LastingContacts::pass(const Passage& passage, const StepSpan& span, std::vector<Impact>& impacts) {
-    const LastingPoint& point = *passage.point;
-    const Texture& texture = table_[passage.surface].values.texture;
-    const Grains grains{static_cast<std::uint64_t>(table_[passage.surface].id), texture};
-    const double power = std::sqrt(static_cast<double>(passage.every)),
-                 perSecond = 1.0 / passage.motion.seconds;
-    const double backSeconds = 1.5 * passage.motion.seconds;
-    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
-    grains.along(passage.motion, passage.every, [&](std::int64_t index, double t) {
-        thinned_ += static_cast<std::uint64_t>(passage.every - 1);
-        const double speed = std::abs(passage.motion.speedAt(t));
-        if (speed < leastMetresPerSecond) return;
-        const double slip = std::min(speed, std::abs(point.slipMetresPerSecond));
-        const double felt = slip + texture.rolling * (speed - slip);
-        Impact impact;
-        impact.timeNs = span.timeNs(t * perSecond);
-        impact.newtonSeconds =
-            power * grains.strengthOf(index) * grainImpulse(texture.roughness, passage.loadNewtons, felt);
-        impact.point = point.point + static_cast<float>(t - backSeconds) * point.metresPerSecond;
-        impact.kind = slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll;
-        const auto feel = [&](std::int32_t camera, std::int32_t other) {
-            impact.camera = camera;
-            impact.other = other;
-            impacts.push_back(impact);
-        };
-        if (isFeltByA) feel(point.a, point.b);
-        if (isFeltByB) feel(point.b, point.a);
-    });
-}
+void LastingContacts::grow() { grains_.resize(2 * grains_.size() + 32); }
 
 void LastingContacts::endStep() {
     points_.endStep();

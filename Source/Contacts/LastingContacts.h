@@ -6,88 +6,103 @@
 #include "Contacts/Grains.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace physvib {
 
 // Matches the records that an engine reports in each step with those of the step before.
 
-/// Engines report contacts in nearly the same order in each step, so a record is first looked for behind the
-/// last one found; the lookup by key is needed only for records that are new, gone or reordered (100 rolling
-/// balls: saves 2.5 us of a step of 80). A `Record` has `std::uint64_t key`, not 0. Allocates when a step has
-/// more records than any before. One thread at a time.
+/// Engines report contacts in nearly the same order in each step, so a record is first looked for behind the last one found; the lookup
+/// by key is needed only for records that are new, gone or reordered. A `Record` has `std::uint64_t key`, not 0, `std::int32_t now`, and
+/// `std::int32_t before`, its index in the last step, or `none`. Records are used again as they are: who gets a new one sets the rest.
+/// Allocates when a step has more records than any before. One thread at a time.
 template <class Record>
 class StepMemory {
 public:
     static constexpr std::int32_t none = IntegerMap::none;
     struct Told {
-        std::int32_t place;  ///< index of the record in this step
-        std::int32_t before; ///< index of the same record in the last step, or `none`
-        bool isFirst;        ///< first report in this step: the record is new and has only its key
+        std::int32_t place; ///< index of the record in this step
+        bool isFirst;       ///< first report in this step: the record is new
     };
 
-    Told tell(std::uint64_t key) {
-        const std::int32_t before = placeBefore(key);
-        if (before != none) {
-            std::int32_t& at = placeNow_[static_cast<std::size_t>(before)];
-            const bool isFirst = at == none;
-            if (isFirst) at = add(key);
-            return {at, before, isFirst};
+    [[gnu::always_inline]] Told tell(std::uint64_t key) {
+        if (next_ < countBefore_ && before_[next_].key == key && before_[next_].now == none) {
+            const std::size_t before = next_++;
+            return {add(key, before_[before].now, static_cast<std::int32_t>(before)), true};
         }
-        if (const std::int32_t at = new_.find(key); at != none) return {at, none, false};
-        const std::int32_t at = add(key);
-        new_.set(key, at);
-        return {at, none, true};
+        return search(key);
     }
 
     Record& operator[](std::int32_t place) noexcept { return now_[static_cast<std::size_t>(place)]; }
-    const Record& operator[](std::int32_t place) const noexcept {
-        return now_[static_cast<std::size_t>(place)];
-    }
-    const Record& before(std::int32_t place) const noexcept {
-        return before_[static_cast<std::size_t>(place)];
-    }
-    std::vector<Record>& now() noexcept { return now_; }
-    const std::vector<Record>& now() const noexcept { return now_; }
+    const Record& operator[](std::int32_t place) const noexcept { return now_[static_cast<std::size_t>(place)]; }
+    const Record& before(std::int32_t place) const noexcept { return before_[static_cast<std::size_t>(place)]; }
+    std::span<Record> now() noexcept { return {now_.data(), count_}; }
+    std::size_t count() const noexcept { return count_; } ///< records of this step
 
     /// Ends the step: this step's records become those of the last.
     void endStep() {
         before_.swap(now_);
-        placeNow_.assign(before_.size(), none);
-        forgetStep();
+        capacity_ = now_.size();
+        countBefore_ = count_;
+        clear();
     }
 
     /// Drops this step's records.
     void forgetStep() noexcept {
-        now_.clear();
-        new_.clear();
-        isMapped_ = false;
-        next_ = 0;
-        for (std::int32_t& place : placeNow_) place = none;
+        for (std::size_t i = 0; i < countBefore_; ++i) before_[i].now = none;
+        clear();
     }
 
     template <class Change>
     void changeAll(Change&& change) noexcept {
-        for (Record& record : before_) change(record);
-        for (Record& record : now_) change(record);
+        for (Record& record : std::span{before_.data(), countBefore_}) change(record);
+        for (Record& record : now()) change(record);
     }
 
     void reset() noexcept {
-        before_.clear();
-        placeNow_.clear();
-        forgetStep();
+        countBefore_ = 0;
+        clear();
     }
 
 private:
-    std::int32_t add(std::uint64_t key) {
-        now_.emplace_back().key = key;
-        return static_cast<std::int32_t>(now_.size()) - 1;
+    void clear() noexcept {
+        count_ = next_ = 0;
+        if (new_.size() > 0) new_.clear();
+        isMapped_ = false;
     }
 
+    [[gnu::always_inline]] std::int32_t add(std::uint64_t key, std::int32_t& now, std::int32_t before) {
+        if (count_ == capacity_) grow();
+        Record& made = now_[count_];
+        made.key = key;
+        made.now = none;
+        made.before = before;
+        return now = static_cast<std::int32_t>(count_++);
+    }
+    [[gnu::noinline]] void grow() {
+        capacity_ = 2 * count_ + 32;
+        now_.resize(capacity_);
+    }
+
+    [[gnu::noinline]] Told search(std::uint64_t key) {
+        const std::int32_t before = placeBefore(key);
+        if (before != none) {
+            std::int32_t& at = before_[static_cast<std::size_t>(before)].now;
+            return at != none ? Told{at, false} : Told{add(key, at, before), true};
+        }
+        std::int32_t at = new_.find(key);
+        if (at != none) return {at, false};
+        add(key, at, none);
+        new_.set(key, at);
+        return {at, true};
+    }
     std::int32_t placeBefore(std::uint64_t key) {
-        if (next_ < before_.size() && before_[next_].key == key) return static_cast<std::int32_t>(next_++);
+        if (next_ < countBefore_ && before_[next_].key == key) return static_cast<std::int32_t>(next_++);
         // reported again
         if (next_ > 0 && before_[next_ - 1].key == key) return static_cast<std::int32_t>(next_ - 1);
         if (!isMapped_) map();
@@ -97,15 +112,14 @@ private:
     }
     void map() {
         placeOf_.clear();
-        for (std::size_t i = 0; i < before_.size(); ++i)
-            placeOf_.set(before_[i].key, static_cast<std::int32_t>(i));
+        for (std::size_t i = 0; i < countBefore_; ++i) placeOf_.set(before_[i].key, static_cast<std::int32_t>(i));
         isMapped_ = true;
     }
 
-    std::vector<Record> before_, now_;
-    std::vector<std::int32_t> placeNow_; // by index in before_
-    std::size_t next_ = 0;               // in before_
-    IntegerMap placeOf_;                 // keys of before_, built at the first lookup
+    std::vector<Record> before_, now_; // buffers, of which so many are in use
+    std::size_t countBefore_ = 0, count_ = 0, capacity_ = 0; // capacity_: of now_
+    std::size_t next_ = 0; // in before_
+    IntegerMap placeOf_;   // keys of before_, built at the first lookup
     bool isMapped_ = false;
     IntegerMap new_; // records of now_ that did not exist in the last step
 };
@@ -159,11 +173,29 @@ public:
     bool isRough(std::int32_t slot) const noexcept { return table_.isRough(slot); }
 
     /// Reports a point after the solver, once per step; repeated reports of a point are ignored.
-    void touch(const LastingPoint& point);
-    bool hasHeard() const noexcept { return !points_.now().empty(); }
+    [[gnu::always_inline]] void touch(const LastingPoint& point) {
+        if (points_.count() == mostPoints || !isUsable(point.onA) || !isUsable(point.onB) ||
+            !(point.normalNewtonSeconds >= 0.0))
+            return;
+        const auto [at, isFirst] = points_.tell(keyOf(point));
+        if (!isFirst) return;
+        const auto [pairAt, isPairNew] = pairs_.tell(pairKey(point.a, point.b));
+        Pair& pair = pairs_[pairAt];
+        pair.newtonSeconds = (isPairNew ? 0.0 : pair.newtonSeconds) + point.normalNewtonSeconds;
+        Told& told = points_[at];
+        told.pair = pairAt;
+        told.point = point;
+    }
+    bool hasHeard() const noexcept { return points_.count() > 0; }
 
     /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
+    /// The same for `makers.add(camera, other, impacts)`, without a list between.
+    template <class Makers>
+    void collectFor(const StepSpan& span, Makers& makers) {
+        follow(span.seconds());
+        for (const Passage& passage : passages_) pass(passage, span, makers);
+    }
     void endStep();
 
     /// The slot is freed or reassigned.
@@ -174,16 +206,28 @@ public:
     std::uint64_t thinned() const noexcept { return thinned_; }
 
 private:
+    static constexpr std::size_t mostPoints = 4096; // per step; denser contacts are noise to the touch
+    static constexpr double farMetres = 1.0e9;      // beyond it a double cannot resolve grains
+
     struct Told {
         std::uint64_t key = 0;
+        std::int32_t now = 0, before = 0, pair = 0; // as StepMemory needs them; index into pairs_
         LastingPoint point;
-        std::int32_t pair = 0, before = 0; // indices into pairs_ and into the last step's points
     };
     struct Pair {
         std::uint64_t key = 0;
-        std::int32_t before = 0;
+        std::int32_t now = 0, before = 0;
         double newtonSeconds = 0.0, newtons = 0.0; // of all its points in the step
+        double steadyShare = 0.0;                  // of its load: what it had in the last step, 0 to 1
     };
+    static std::uint64_t keyOf(const LastingPoint& point) noexcept {
+        std::uint64_t key = pairKey(point.a, point.b) * 0x9E3779B97F4A7C15U + point.feature;
+        key = (key ^ (key >> 31U)) * 0xBF58476D1CE4E5B9U;
+        return key != 0 ? key : 1; // IntegerMap excludes key 0
+    }
+    static bool isUsable(const SurfacePath& path) noexcept { // false for NaN
+        return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres;
+    }
     struct Passage { // the grains of one surface that one point passes in this step
         const LastingPoint* point;
         std::int32_t surface; // slot
@@ -192,17 +236,59 @@ private:
         std::int64_t every;
     };
 
-    void follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path, double seconds);
-    double steadyShare(const Told& told) const noexcept;
-    void thinTogether(double seconds);
+    void follow(double seconds);
+    double follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path, double seconds);
+    void weigh(Pair& pair, double seconds) const noexcept;
     void forgetStep() noexcept;
-    void pass(const Passage& passage, const StepSpan& span, std::vector<Impact>& impacts);
+    void grow();
+    template <class Makers>
+    void pass(const Passage& passage, const StepSpan& span, Makers& makers);
 
     const FixtureTable& table_;
     StepMemory<Told> points_;
     StepMemory<Pair> pairs_;
     std::vector<Passage> passages_;
+    std::vector<SmallImpact> grains_; // a buffer
     std::uint64_t thinned_ = 0;
 };
+
+template <class Makers>
+void LastingContacts::pass(const Passage& passage, const StepSpan& span, Makers& makers) {
+    const LastingPoint& point = *passage.point;
+    const KnownFixture& surface = table_[passage.surface];
+    const Texture& texture = surface.values.texture;
+    const Grains grains{static_cast<std::uint64_t>(surface.id), texture};
+    const SurfaceMotion motion = passage.motion;
+    const double power = std::sqrt(static_cast<double>(passage.every)), perSecond = 1.0 / motion.seconds;
+    const double backSeconds = 1.5 * motion.seconds, slipping = std::abs(point.slipMetresPerSecond);
+    const double perSpeed = grainImpulse(texture.roughness, passage.loadNewtons, 1.0), rolling = texture.rolling;
+    const Vector3 from = point.point, velocity = point.metresPerSecond;
+    std::size_t passed = 0, felt = 0;
+    grains.along(motion, passage.every, [&](std::int64_t index, double t) __attribute__((always_inline)) {
+        ++passed;
+        const double speed = std::abs(motion.speedAt(t));
+        if (speed < leastMetresPerSecond) return;
+        const double slip = std::min(speed, slipping);
+        if (felt == grains_.size()) grow();
+        grains_[felt++] = {span.laterNs(t * perSecond),
+                           power * grains.strengthOf(index) * (perSpeed * (slip + rolling * (speed - slip))),
+                           from + static_cast<float>(t - backSeconds) * velocity,
+                           slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
+    });
+    thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
+    const std::span<const SmallImpact> all{grains_.data(), felt};
+    if (felt == 0) return;
+    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
+    if (isFeltByA && isFeltByB) { // by turns, which matters where there is no room for all
+        for (std::size_t i = 0; i < felt; ++i) {
+            makers.add(point.a, point.b, all.subspan(i, 1));
+            makers.add(point.b, point.a, all.subspan(i, 1));
+        }
+    } else if (isFeltByA) {
+        makers.add(point.a, point.b, all);
+    } else if (isFeltByB) {
+        makers.add(point.b, point.a, all);
+    }
+}
 
 } // namespace physvib

@@ -43,15 +43,19 @@ std::int32_t CollisionFinder::find(const b2Fixture& fixture) {
     return FixtureTable::none;
 }
 
-// nullptr: one of the fixtures is not registered.
-CollisionFinder::Known* CollisionFinder::find(const b2Contact& contact) {
-    if (const std::int32_t at = knownAt_.find(idOf(contact)); at != IntegerMap::none) {
-        Known& known = known_[static_cast<std::size_t>(at)];
-        if (known.fixtureA == contact.GetFixtureA() && known.fixtureB == contact.GetFixtureB()) return &known;
+CollisionFinder::Known* CollisionFinder::search(const b2Contact& contact) {
+    Known* found = nullptr;
+    if (const std::int32_t at = knownAt_.find(idOf(contact)); at != IntegerMap::none)
+        if (Known& known = known_[static_cast<std::size_t>(at)]; known.isOf(contact)) found = &known;
+    if (found == nullptr) {
+        const std::int32_t a = find(*contact.GetFixtureA()), b = find(*contact.GetFixtureB());
+        if (a == FixtureTable::none || b == FixtureTable::none) return nullptr;
+        found = &remember(contact, {.a = a, .b = b});
     }
-    const std::int32_t a = find(*contact.GetFixtureA()), b = find(*contact.GetFixtureB());
-    if (a == FixtureTable::none || b == FixtureTable::none) return nullptr;
-    return &remember(contact, {.a = a, .b = b});
+    const auto place = static_cast<std::size_t>(found - known_.data());
+    if (last_ < known_.size()) known_[last_].next = place;
+    last_ = place;
+    return found;
 }
 
 CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair pair) {
@@ -177,95 +181,28 @@ double CollisionFinder::fractionOf(const b2Contact& contact) const noexcept {
     return sweeps_.fraction(aIsFaster ? bodyA(contact) : bodyB(contact));
 }
 
-// Impulses at new points belong to the collision, if there is one; all others are load.
-void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
-    if (!events_.catcher().hasSources()) return;
-    if (fresh == 0 &&
-        !events_.catcher().mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
-        return;
-    Known* const known = find(contact);
-    if (known == nullptr) return;
-    const Pair& pair = pairOf(*known);
-    Collision* const collision = fresh != 0 ? events_.catcher().collision(pair) : nullptr;
-    const bool isRelevant = events_.catcher().isRelevant(pair);
-    if (!isRelevant && collision == nullptr) return;
-    b2WorldManifold manifold;
-    if (isRelevant) contact.GetWorldManifold(&manifold);
-    share(impulse, manifold, pair, fresh, collision, isRelevant);
-    if (events_.lasting().isRelevant(pair.a, pair.b)) // only pairs whose load matters
-        tellLasting(contact, manifold, impulse, collision != nullptr ? fresh : 0U, pair.a, pair.b,
-                    events_.lasting());
-}
-
-void CollisionFinder::share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold,
-                            const Pair& pair, unsigned fresh, Collision* collision, bool isRelevant) {
-    b2Vec2 onB{0.0F, 0.0F};
-    bool isLoaded = false;
-    for (int i = 0; i < impulse.count; ++i) {
-        if (collision != nullptr && isIn(fresh, i)) {
-            collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
-            collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
-        } else if (isRelevant) {
-            isLoaded = true;
-            onB += impulse.normalImpulses[i] * manifold.normal +
-                   impulse.tangentImpulses[i] * b2Cross(manifold.normal, 1.0F);
-        }
-    }
-    if (isLoaded) events_.catcher().push(pair, toVector(onB), toVector(manifold.points[0]));
-}
-
-// Computes the motion of contact points along surfaces, for a face and a corner or disc, and for two discs.
-// Both have a closed form.
-
 namespace {
 
 /// One side of a contact.
 struct Side {
     const b2Body& body;
-    bool isDisc, isRough;
-    float radius;
+    bool isRough;
+    const b2Shape& shape;
 
     Side(const b2Fixture& f, bool rough)
         : body{*f.GetBody()}
-        , isDisc{f.GetType() == b2Shape::e_circle}
         , isRough{rough}
-        , radius{f.GetShape()->m_radius} {}
+        , shape{*f.GetShape()} {}
 
     /// Position of the point on a disc's circumference in that direction, and its speed if the direction
     /// rotates at `radiansPerSecond`.
     SurfacePath around(b2Vec2 direction, float radiansPerSecond) const {
-        if (!isDisc || !isRough) return {}; // a corner, or a surface without texture
+        if (!isRough || shape.m_type != b2Shape::e_circle) return {}; // a surface without texture, or a corner
         const b2Vec2 local = body.GetLocalVector(direction);
-        return {static_cast<double>(radius * b2Atan2(local.y, local.x)),
-                static_cast<double>(radius * (radiansPerSecond - body.GetAngularVelocity()))};
+        return {static_cast<double>(shape.m_radius * b2Atan2(local.y, local.x)),
+                static_cast<double>(shape.m_radius * (radiansPerSecond - body.GetAngularVelocity()))};
     }
 };
-
-/// For the point of `on`, given in its body's frame, that touches `face`.
-void describeFace(const Side& face, const Side& on, b2Vec2 normalFromFace, b2Vec2 localPlace,
-                  LastingPoint& point, SurfacePath& alongFace, SurfacePath& alongOn) {
-    const b2Vec2 place = on.body.GetWorldPoint(localPlace), tangent = b2Cross(normalFromFace, 1.0F);
-    const b2Vec2 velocity = on.body.GetLinearVelocityFromWorldPoint(place);
-    const float turn = face.body.GetAngularVelocity();
-    alongFace = {
-        static_cast<double>(b2Dot(face.body.GetLocalPoint(place), face.body.GetLocalVector(tangent))),
-        static_cast<double>(b2Dot(velocity - face.body.GetLinearVelocityFromWorldPoint(place), tangent))};
-    alongOn = on.around(-normalFromFace, turn);
-    point.metresPerSecond = toVector(velocity - on.radius * b2Cross(turn, normalFromFace));
-}
-
-/// Two discs, or a disc and a corner: the contact point lies on the line between the centres.
-void describeDiscs(const Side& a, const Side& b, b2Vec2 centreA, b2Vec2 centreB, b2Vec2 normal,
-                   LastingPoint& point) {
-    const b2Vec2 velocityA = a.body.GetLinearVelocityFromWorldPoint(centreA),
-                 velocityB = b.body.GetLinearVelocityFromWorldPoint(centreB);
-    const float distance = b2Distance(centreA, centreB);
-    const float turn = distance > b2_epsilon ? b2Cross(normal, velocityB - velocityA) / distance : 0.0F;
-    point.onA = a.around(normal, turn);
-    point.onB = b.around(-normal, turn);
-    point.metresPerSecond = toVector(velocityA + a.radius * b2Cross(turn, normal));
-}
 
 std::uint64_t featureOf(const b2Contact& contact, const b2ManifoldPoint& point) {
     const auto child = [](int index) {
@@ -276,41 +213,119 @@ std::uint64_t featureOf(const b2Contact& contact, const b2ManifoldPoint& point) 
            point.id.key;
 }
 
+/// Where a contact's bodies touch after the solver: normal and points as b2WorldManifold has them, to the bit, without its call, and
+/// how the points move along the surfaces: in closed form, for a face and a corner or disc, and for two discs.
+class SolvedContact {
+public:
+    SolvedContact(const b2Contact& contact, int count)
+        : contact_{contact}
+        , manifold_{*contact.GetManifold()} {
+        if (manifold_.type == b2Manifold::e_circles) {
+            b2WorldManifold world;
+            contact.GetWorldManifold(&world);
+            normal_ = world.normal;
+            points_[0] = world.points[0];
+            return;
+        }
+        const bool isFaceA = manifold_.type == b2Manifold::e_faceA;
+        const b2Fixture &face = isFaceA ? *contact.GetFixtureA() : *contact.GetFixtureB(),
+                        &on = isFaceA ? *contact.GetFixtureB() : *contact.GetFixtureA();
+        const b2Transform &ofFace = face.GetBody()->GetTransform(), &ofOn = on.GetBody()->GetTransform();
+        const float radiusFace = face.GetShape()->m_radius, radiusOn = on.GetShape()->m_radius;
+        const b2Vec2 normal = b2Mul(ofFace.q, manifold_.localNormal), plane = b2Mul(ofFace, manifold_.localPoint);
+        for (int i = 0; i < count; ++i) {
+            const b2Vec2 place = b2Mul(ofOn, manifold_.points[i].localPoint);
+            const b2Vec2 onFace = place + (radiusFace - b2Dot(place - plane, normal)) * normal,
+                         onOther = place - radiusOn * normal;
+            places_[i] = place;
+            points_[i] = 0.5F * (onFace + onOther);
+        }
+        normal_ = isFaceA ? normal : -normal;
+    }
+
+    b2Vec2 normal() const noexcept { return normal_; } ///< from A to B
+    b2Vec2 point() const noexcept { return points_[0]; }
+
+    /// Reports the points to `lasting`, except those in `collisions` (a bit each), which belong to a collision.
+    [[gnu::always_inline]] void tell(const b2ContactImpulse& impulse, unsigned collisions, std::int32_t a, std::int32_t b,
+              LastingContacts& lasting) const {
+        const Side sideA{*contact_.GetFixtureA(), lasting.isRough(a)}, sideB{*contact_.GetFixtureB(), lasting.isRough(b)};
+        const b2Vec2 tangent = b2Cross(normal_, 1.0F);
+        for (int i = 0; i < impulse.count; ++i) {
+            if (isIn(collisions, i)) continue;
+            LastingPoint point;
+            switch (manifold_.type) {
+            case b2Manifold::e_circles: describeDiscs(sideA, sideB, point); break;
+            case b2Manifold::e_faceA:
+                describeFace(sideA, sideB, normal_, places_[i], point, point.onA, point.onB);
+                break;
+            case b2Manifold::e_faceB:
+                describeFace(sideB, sideA, -normal_, places_[i], point, point.onB, point.onA);
+                break;
+            }
+            point.a = a;
+            point.b = b;
+            point.feature = featureOf(contact_, manifold_.points[i]);
+            point.normalNewtonSeconds = static_cast<double>(impulse.normalImpulses[i]);
+            point.point = toVector(points_[i]);
+            point.slipMetresPerSecond =
+                static_cast<double>(b2Dot(sideB.body.GetLinearVelocityFromWorldPoint(points_[i]) -
+                                              sideA.body.GetLinearVelocityFromWorldPoint(points_[i]),
+                                          tangent));
+            lasting.touch(point);
+        }
+    }
+
+private:
+    /// For the point of `on` at `place` that touches `face`.
+    [[gnu::always_inline]] static void describeFace(const Side& face, const Side& on, b2Vec2 normalFromFace, b2Vec2 place,
+                             LastingPoint& point, SurfacePath& alongFace, SurfacePath& alongOn) {
+        const b2Vec2 tangent = b2Cross(normalFromFace, 1.0F);
+        const b2Vec2 velocity = on.body.GetLinearVelocityFromWorldPoint(place);
+        const float turn = face.body.GetAngularVelocity();
+        alongFace = {
+            static_cast<double>(b2Dot(face.body.GetLocalPoint(place), face.body.GetLocalVector(tangent))),
+            static_cast<double>(b2Dot(velocity - face.body.GetLinearVelocityFromWorldPoint(place), tangent))};
+        alongOn = on.around(-normalFromFace, turn);
+        point.metresPerSecond = toVector(velocity - on.shape.m_radius * b2Cross(turn, normalFromFace));
+    }
+
+    /// Two discs, or a disc and a corner: the contact point lies on the line between the centres.
+    [[gnu::noinline]] void describeDiscs(const Side& a, const Side& b, LastingPoint& point) const {
+        const b2Vec2 centreA = a.body.GetWorldPoint(manifold_.localPoint),
+                     centreB = b.body.GetWorldPoint(manifold_.points[0].localPoint);
+        const b2Vec2 velocityA = a.body.GetLinearVelocityFromWorldPoint(centreA),
+                     velocityB = b.body.GetLinearVelocityFromWorldPoint(centreB);
+        const float distance = b2Distance(centreA, centreB);
+        const float turn = distance > b2_epsilon ? b2Cross(normal_, velocityB - velocityA) / distance : 0.0F;
+        point.onA = a.around(normal_, turn);
+        point.onB = b.around(-normal_, turn);
+        point.metresPerSecond = toVector(velocityA + a.shape.m_radius * b2Cross(turn, normal_));
+    }
+
+    const b2Contact& contact_;
+    const b2Manifold& manifold_;
+    b2Vec2 normal_, points_[b2_maxManifoldPoints], places_[b2_maxManifoldPoints]; // places: of what touches a face
+};
+
 } // namespace
 
-void tellLasting(const b2Contact& contact, const b2WorldManifold& world, const b2ContactImpulse& impulse,
-                 unsigned collisions, std::int32_t a, std::int32_t b, LastingContacts& lasting) {
-    const b2Manifold& manifold = *contact.GetManifold();
-    const Side sideA{*contact.GetFixtureA(), lasting.isRough(a)},
-        sideB{*contact.GetFixtureB(), lasting.isRough(b)};
-    const b2Vec2 tangent = b2Cross(world.normal, 1.0F);
-    for (int i = 0; i < impulse.count; ++i) {
-        if ((collisions >> i & 1U) != 0) continue;
-        const b2ManifoldPoint& local = manifold.points[i];
-        LastingPoint point;
-        switch (manifold.type) {
-        case b2Manifold::e_circles:
-            describeDiscs(sideA, sideB, sideA.body.GetWorldPoint(manifold.localPoint),
-                          sideB.body.GetWorldPoint(local.localPoint), world.normal, point);
-            break;
-        case b2Manifold::e_faceA:
-            describeFace(sideA, sideB, world.normal, local.localPoint, point, point.onA, point.onB);
-            break;
-        case b2Manifold::e_faceB:
-            describeFace(sideB, sideA, -world.normal, local.localPoint, point, point.onB, point.onA);
-            break;
-        }
-        point.a = a;
-        point.b = b;
-        point.feature = featureOf(contact, local);
-        point.normalNewtonSeconds = static_cast<double>(impulse.normalImpulses[i]);
-        point.point = toVector(world.points[i]);
-        const b2Vec2 at = world.points[i];
-        point.slipMetresPerSecond = static_cast<double>(b2Dot(
-            sideB.body.GetLinearVelocityFromWorldPoint(at) - sideA.body.GetLinearVelocityFromWorldPoint(at),
-            tangent));
-        lasting.touch(point);
-    }
+// Impulses at new points belong to the collision, if there is one; all others are load.
+void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
+    const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
+    CollisionCatcher& catcher = events_.catcher();
+    if (!catcher.hasSources()) return;
+    if (fresh == 0 && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
+    Known* const known = find(contact);
+    if (known == nullptr) return;
+    const Pair& pair = pairOf(*known);
+    Collision* const collision = fresh != 0 ? catcher.collision(pair) : nullptr;
+    const bool isRelevant = catcher.isRelevant(pair);
+    if (!isRelevant && collision == nullptr) return;
+    const SolvedContact solved{contact, impulse.count};
+    share(impulse, solved.normal(), solved.point(), pair, fresh, collision, isRelevant);
+    if (events_.lasting().isRelevant(pair.a, pair.b)) // only pairs whose load matters
+        solved.tell(impulse, collision != nullptr ? fresh : 0U, pair.a, pair.b, events_.lasting());
 }
 
 } // namespace physvib

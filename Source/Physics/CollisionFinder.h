@@ -29,27 +29,8 @@ public:
     /// whose end is not known, a point with an impulse is old at once.
     unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
         const b2Manifold& now = *contact.GetManifold();
-        int known = find(contact);
-        if (!isStepping && known >= 0 && entries_[static_cast<std::size_t>(known)].isSolved) {
-            drop(static_cast<std::size_t>(known));
-            known = -1;
-        }
-        if (known < 0 && isSame(before, now)) return 0U; // the usual case
-        // then all of its points are still new
-        const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved;
-        for (int i = 0; i < now.pointCount; ++i) {
-            const std::uint32_t id = now.points[i].id.key;
-            if (!isWaiting && hasPoint(before, id)) continue;
-            if (known < 0) {
-                known = static_cast<int>(entries_.size());
-                entries_.push_back({idOf(contact), {}, 0, false});
-                indices_.set(idOf(contact), known);
-            }
-            Entry& entry = entries_[static_cast<std::size_t>(known)];
-            if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
-                entry.ids[static_cast<std::size_t>(entry.count++)] = id;
-        }
-        return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], now);
+        if (entries_.empty() && isSame(before, now)) return 0U; // the usual case
+        return lookCloser(contact, before, now, isStepping);
     }
 
     /// In PostSolve: the same; marks the points as having an impulse.
@@ -72,6 +53,31 @@ public:
     }
 
 private:
+    [[gnu::noinline]] unsigned lookCloser(const b2Contact& contact, const b2Manifold& before, const b2Manifold& now,
+                                          bool isStepping) {
+        int known = find(contact);
+        if (!isStepping && known >= 0 && entries_[static_cast<std::size_t>(known)].isSolved) {
+            drop(static_cast<std::size_t>(known));
+            known = -1;
+        }
+        if (known < 0 && isSame(before, now)) return 0U;
+        // then all of its points are still new
+        const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved;
+        for (int i = 0; i < now.pointCount; ++i) {
+            const std::uint32_t id = now.points[i].id.key;
+            if (!isWaiting && hasPoint(before, id)) continue;
+            if (known < 0) {
+                known = static_cast<int>(entries_.size());
+                entries_.push_back({idOf(contact), {}, 0, false});
+                indices_.set(idOf(contact), known);
+            }
+            Entry& entry = entries_[static_cast<std::size_t>(known)];
+            if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
+                entry.ids[static_cast<std::size_t>(entry.count++)] = id;
+        }
+        return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], now);
+    }
+
     static bool hasPoint(const b2Manifold& manifold, std::uint32_t id) noexcept {
         const auto isIt = [id](const b2ManifoldPoint& point) { return point.id.key == id; };
         return std::any_of(manifold.points, manifold.points + manifold.pointCount, isIt);
@@ -149,12 +155,23 @@ private:
     struct Known { // cache, which saves a search for both fixtures in every step
         const b2Contact* contact;
         const b2Fixture *fixtureA, *fixtureB;
-        Pair pair; // its number: none until it is needed
+        Pair pair;            // its number: none until it is needed
+        std::size_t next = 0; // the place of the one that was looked for after it: usually the next one again
+        bool isOf(const b2Contact& of) const noexcept {
+            return contact == &of && fixtureA == of.GetFixtureA() && fixtureB == of.GetFixtureB();
+        }
     };
-    Known* find(const b2Contact& contact);
+    Known* find(const b2Contact& contact) { // nullptr: one of the fixtures is not registered
+        const std::size_t guess = last_ < known_.size() ? known_[last_].next : 0;
+        if (guess >= known_.size() || !known_[guess].isOf(contact)) return search(contact);
+        last_ = guess;
+        return &known_[guess];
+    }
+    [[gnu::noinline]] Known* search(const b2Contact& contact);
     const Pair& pairOf(Known& known) {
         CollisionCatcher& catcher = events_.catcher();
-        if (!catcher.isKnown(known.pair)) known.pair.number = catcher.know(known.pair.a, known.pair.b);
+        if (!catcher.isKnown(known.pair)) [[unlikely]]
+            known.pair.number = catcher.know(known.pair.a, known.pair.b);
         return known.pair;
     }
     void passOver(const b2Contact& contact, double approachMetresPerSecond);
@@ -164,8 +181,22 @@ private:
     void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
                   Collision& collision) const;
-    void share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold, const Pair& pair,
-               unsigned fresh, Collision* collision, bool isRelevant);
+    void share(const b2ContactImpulse& impulse, b2Vec2 normal, b2Vec2 point, const Pair& pair, unsigned fresh,
+               Collision* collision, bool isRelevant) {
+        const b2Vec2 tangent = b2Cross(normal, 1.0F);
+        b2Vec2 onB{0.0F, 0.0F};
+        bool isLoaded = false;
+        for (int i = 0; i < impulse.count; ++i) {
+            if (collision != nullptr && (fresh >> i & 1U) != 0) {
+                collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
+                collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
+            } else if (isRelevant) {
+                isLoaded = true;
+                onB += impulse.normalImpulses[i] * normal + impulse.tangentImpulses[i] * tangent;
+            }
+        }
+        if (isLoaded) events_.catcher().push(pair, toVector(onB), toVector(point));
+    }
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 
@@ -174,13 +205,7 @@ private:
     FreshPoints fresh_;
     std::vector<Known> known_;             // contacts that touch
     IntegerMap knownAt_{expectedContacts}; // by contact
+    std::size_t last_ = 0;                 // the place of the one that was found last
 };
-
-// Positions and speeds of Box2D's contact points along the touching surfaces, for rolling and sliding.
-
-/// In PostSolve: reports the points of a contact of two slots to `lasting`, except those in `collisions` (a
-/// bit each), which belong to a collision. World thread (M) only.
-void tellLasting(const b2Contact& contact, const b2WorldManifold& world, const b2ContactImpulse& impulse,
-                 unsigned collisions, std::int32_t a, std::int32_t b, LastingContacts& lasting);
 
 } // namespace physvib

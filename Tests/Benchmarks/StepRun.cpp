@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What instructions.sh counts of physics, for so many STEPS:
+// What instructions.sh counts of physics: of so many STEPS those from the 100th on, in the function `counted`.
 //   box BODIES CAMERAS STEPS  a shaken box; cameras: 0: none, 4: the walls, more: all bodies as well,
 //                             below 0: Box2D alone
 //   balls COUNT GRAIN_MM STEPS  balls roll; grains of 0: a smooth floor, below 0: Box2D alone
@@ -12,32 +12,34 @@ namespace {
 
 using namespace physvib;
 
-std::size_t shake(int bodies, int cameras, int steps) {
-    bench::ShakenBox box{bodies};
-    Attachment attachment{box.world, {.fieldWidthMetres = 6.4}};
-    if (cameras < 0)
-        attachment.detach();
-    else
-        box.setAll(attachment, cameras);
-    std::vector<CollisionEvent> events;
-    std::size_t count = 0;
-    for (int i = 0; i < steps; ++i) {
-        box.shake(i);
-        if (cameras < 0)
-            box.world.Step(bench::stepSeconds, 8, 3);
-        else
-            attachment.step(bench::stepSeconds);
-        events.clear();
-        attachment.take(events);
-        count += events.size();
-    }
-    return count;
-}
+constexpr int firstCounted = 100;
 
-std::size_t roll(int balls, double grainMetres, int steps) {
-    bench::RollingBalls world{balls, grainMetres};
+struct Shaken {
+    Shaken(int bodies, int sources)
+        : box{bodies}
+        , isAlone{sources < 0} {
+        if (isAlone)
+            attachment.detach();
+        else
+            box.setAll(attachment, sources);
+    }
+    void step(int i) {
+        box.shake(i);
+        events.clear();
+        if (isAlone) return box.world.Step(bench::stepSeconds, 8, 3);
+        attachment.step(bench::stepSeconds);
+        attachment.take(events);
+    }
+    bench::ShakenBox box;
+    bool isAlone;
+    Attachment attachment{box.world, {.fieldWidthMetres = 6.4}};
+    std::vector<CollisionEvent> events;
+};
+
+template <class World>
+std::size_t run(World& world, int from, int to) {
     std::size_t count = 0;
-    for (int i = 0; i < steps; ++i) {
+    for (int i = from; i < to; ++i) {
         world.step(i);
         count += world.events.size();
     }
@@ -46,13 +48,22 @@ std::size_t roll(int balls, double grainMetres, int steps) {
 
 } // namespace
 
+extern "C" [[gnu::noinline]] std::size_t counted(Shaken* box, bench::RollingBalls* balls, int steps) {
+    return box != nullptr ? run(*box, firstCounted, steps) : run(*balls, firstCounted, steps);
+}
+
 int main(int count, char** arguments) {
     if (count != 5) return 2;
     const int bodies = std::atoi(arguments[2]), steps = std::atoi(arguments[4]);
     const double option = std::atof(arguments[3]);
-    const bool isBox = std::string_view{arguments[1]} == "box";
-    const std::size_t events =
-        isBox ? shake(bodies, static_cast<int>(option), steps) : roll(bodies, 1.0e-3 * option, steps);
+    std::size_t events = 0;
+    if (std::string_view{arguments[1]} == "box") {
+        Shaken box{bodies, static_cast<int>(option)};
+        events = run(box, 0, firstCounted) + counted(&box, nullptr, steps);
+    } else {
+        bench::RollingBalls balls{bodies, 1.0e-3 * option};
+        events = run(balls, 0, firstCounted) + counted(nullptr, &balls, steps);
+    }
     std::printf("events %zu\n", events);
     return 0;
 }

@@ -20,8 +20,8 @@ counted() { # PROGRAM ARGUMENTS...: instructions
 count() { # CHANNELS STRIKES MODES SECONDS
     counted $program "$@"
 }
-per_step() { # WORLD BODIES OPTION: from the 100th step to the 300th
-    echo $((($(counted $steps "$@" 300) - $(counted $steps "$@" 100)) / 200))
+per_step() { # WORLD BODIES OPTION: from the 100th step to the 300th, which alone are counted: exact
+    echo $(($(counted --toggle-collect=counted $steps "$@" 300) / 200))
 }
 more() { # BEFORE AFTER: in per cent
     awk "BEGIN { printf \"%+.1f %%\", 100 * ($2 / $1 - 1) }"
