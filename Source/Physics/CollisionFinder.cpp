@@ -197,7 +197,8 @@ struct Side {
     /// Position of the point on a disc's circumference in that direction, and its speed if the direction
     /// rotates at `radiansPerSecond`.
     SurfacePath around(b2Vec2 direction, float radiansPerSecond) const {
-        if (!isRough || shape.m_type != b2Shape::e_circle) return {}; // a surface without texture, or a corner
+        if (!isRough || shape.m_type != b2Shape::e_circle)
+            return {}; // a surface without texture, or a corner
         const b2Vec2 local = body.GetLocalVector(direction);
         return {static_cast<double>(shape.m_radius * b2Atan2(local.y, local.x)),
                 static_cast<double>(shape.m_radius * (radiansPerSecond - body.GetAngularVelocity()))};
@@ -213,100 +214,107 @@ std::uint64_t featureOf(const b2Contact& contact, const b2ManifoldPoint& point) 
            point.id.key;
 }
 
-/// Where a contact's bodies touch after the solver: normal and points as b2WorldManifold has them, to the bit, without its call, and
-/// how the points move along the surfaces: in closed form, for a face and a corner or disc, and for two discs.
+/// Where a contact's bodies touch after the solver: normal and points as b2WorldManifold has them, to the
+/// bit, each when it is asked for.
 class SolvedContact {
 public:
-    SolvedContact(const b2Contact& contact, int count)
-        : contact_{contact}
-        , manifold_{*contact.GetManifold()} {
-        if (manifold_.type == b2Manifold::e_circles) {
-            b2WorldManifold world;
-            contact.GetWorldManifold(&world);
-            normal_ = world.normal;
-            points_[0] = world.points[0];
+    explicit SolvedContact(const b2Contact& contact) noexcept
+        : manifold_{*contact.GetManifold()}
+        , isTurned_{manifold_.type == b2Manifold::e_faceB}
+        , first_{isTurned_ ? *contact.GetFixtureB() : *contact.GetFixtureA()}
+        , second_{isTurned_ ? *contact.GetFixtureA() : *contact.GetFixtureB()} {
+        const b2Transform& frame = first_.GetBody()->GetTransform();
+        origin_ = b2Mul(frame, manifold_.localPoint);
+        if (manifold_.type != b2Manifold::e_circles) {
+            normal_ = b2Mul(frame.q, manifold_.localNormal);
             return;
         }
-        const bool isFaceA = manifold_.type == b2Manifold::e_faceA;
-        const b2Fixture &face = isFaceA ? *contact.GetFixtureA() : *contact.GetFixtureB(),
-                        &on = isFaceA ? *contact.GetFixtureB() : *contact.GetFixtureA();
-        const b2Transform &ofFace = face.GetBody()->GetTransform(), &ofOn = on.GetBody()->GetTransform();
-        const float radiusFace = face.GetShape()->m_radius, radiusOn = on.GetShape()->m_radius;
-        const b2Vec2 normal = b2Mul(ofFace.q, manifold_.localNormal), plane = b2Mul(ofFace, manifold_.localPoint);
-        for (int i = 0; i < count; ++i) {
-            const b2Vec2 place = b2Mul(ofOn, manifold_.points[i].localPoint);
-            const b2Vec2 onFace = place + (radiusFace - b2Dot(place - plane, normal)) * normal,
-                         onOther = place - radiusOn * normal;
-            places_[i] = place;
-            points_[i] = 0.5F * (onFace + onOther);
-        }
-        normal_ = isFaceA ? normal : -normal;
+        normal_.Set(1.0F, 0.0F);
+        const b2Vec2 other = place(0);
+        if (b2DistanceSquared(origin_, other) <= b2_epsilon * b2_epsilon) return;
+        normal_ = other - origin_;
+        normal_.Normalize();
     }
 
-    b2Vec2 normal() const noexcept { return normal_; } ///< from A to B
-    b2Vec2 point() const noexcept { return points_[0]; }
+    b2Vec2 normal() const noexcept { return isTurned_ ? -normal_ : normal_; } ///< from A to B
+    b2Vec2 normalFromFirst() const noexcept { return normal_; }
+    b2Vec2 centreOfFirst() const noexcept { return origin_; } ///< of two discs
+    bool isDiscs() const noexcept { return manifold_.type == b2Manifold::e_circles; }
+    bool isTurned() const noexcept { return isTurned_; } ///< the face is B's
 
-    /// Reports the points to `lasting`, except those in `collisions` (a bit each), which belong to a collision.
-    [[gnu::always_inline]] void tell(const b2ContactImpulse& impulse, unsigned collisions, std::int32_t a, std::int32_t b,
-              LastingContacts& lasting) const {
-        const Side sideA{*contact_.GetFixtureA(), lasting.isRough(a)}, sideB{*contact_.GetFixtureB(), lasting.isRough(b)};
-        const b2Vec2 tangent = b2Cross(normal_, 1.0F);
-        for (int i = 0; i < impulse.count; ++i) {
-            if (isIn(collisions, i)) continue;
-            LastingPoint point;
-            switch (manifold_.type) {
-            case b2Manifold::e_circles: describeDiscs(sideA, sideB, point); break;
-            case b2Manifold::e_faceA:
-                describeFace(sideA, sideB, normal_, places_[i], point, point.onA, point.onB);
-                break;
-            case b2Manifold::e_faceB:
-                describeFace(sideB, sideA, -normal_, places_[i], point, point.onB, point.onA);
-                break;
-            }
-            point.a = a;
-            point.b = b;
-            point.feature = featureOf(contact_, manifold_.points[i]);
-            point.normalNewtonSeconds = static_cast<double>(impulse.normalImpulses[i]);
-            point.point = toVector(points_[i]);
-            point.slipMetresPerSecond =
-                static_cast<double>(b2Dot(sideB.body.GetLinearVelocityFromWorldPoint(points_[i]) -
-                                              sideA.body.GetLinearVelocityFromWorldPoint(points_[i]),
-                                          tangent));
-            lasting.touch(point);
-        }
+    /// The corner or disc that touches, and the point between the surfaces.
+    b2Vec2 place(int i) const noexcept {
+        return b2Mul(second_.GetBody()->GetTransform(), manifold_.points[i].localPoint);
+    }
+    b2Vec2 point(int i) const noexcept {
+        const float first = first_.GetShape()->m_radius, second = second_.GetShape()->m_radius;
+        const b2Vec2 at = place(i), onSecond = at - second * normal_;
+        const b2Vec2 onFirst =
+            isDiscs() ? origin_ + first * normal_ : at + (first - b2Dot(at - origin_, normal_)) * normal_;
+        return 0.5F * (onFirst + onSecond);
     }
 
 private:
-    /// For the point of `on` at `place` that touches `face`.
-    [[gnu::always_inline]] static void describeFace(const Side& face, const Side& on, b2Vec2 normalFromFace, b2Vec2 place,
-                             LastingPoint& point, SurfacePath& alongFace, SurfacePath& alongOn) {
-        const b2Vec2 tangent = b2Cross(normalFromFace, 1.0F);
-        const b2Vec2 velocity = on.body.GetLinearVelocityFromWorldPoint(place);
-        const float turn = face.body.GetAngularVelocity();
-        alongFace = {
-            static_cast<double>(b2Dot(face.body.GetLocalPoint(place), face.body.GetLocalVector(tangent))),
-            static_cast<double>(b2Dot(velocity - face.body.GetLinearVelocityFromWorldPoint(place), tangent))};
-        alongOn = on.around(-normalFromFace, turn);
-        point.metresPerSecond = toVector(velocity - on.shape.m_radius * b2Cross(turn, normalFromFace));
-    }
-
-    /// Two discs, or a disc and a corner: the contact point lies on the line between the centres.
-    [[gnu::noinline]] void describeDiscs(const Side& a, const Side& b, LastingPoint& point) const {
-        const b2Vec2 centreA = a.body.GetWorldPoint(manifold_.localPoint),
-                     centreB = b.body.GetWorldPoint(manifold_.points[0].localPoint);
-        const b2Vec2 velocityA = a.body.GetLinearVelocityFromWorldPoint(centreA),
-                     velocityB = b.body.GetLinearVelocityFromWorldPoint(centreB);
-        const float distance = b2Distance(centreA, centreB);
-        const float turn = distance > b2_epsilon ? b2Cross(normal_, velocityB - velocityA) / distance : 0.0F;
-        point.onA = a.around(normal_, turn);
-        point.onB = b.around(-normal_, turn);
-        point.metresPerSecond = toVector(velocityA + a.shape.m_radius * b2Cross(turn, normal_));
-    }
-
-    const b2Contact& contact_;
     const b2Manifold& manifold_;
-    b2Vec2 normal_, points_[b2_maxManifoldPoints], places_[b2_maxManifoldPoints]; // places: of what touches a face
+    bool isTurned_;
+    const b2Fixture &first_, &second_; // the face and what touches it, or A and B
+    b2Vec2 origin_, normal_;
 };
+
+/// How a contact point moves along both surfaces.
+struct SurfaceRun {
+    b2Vec2 velocity;
+    SurfacePath first, second;
+};
+
+/// For the point of `on` at `place` that touches `face`: in closed form.
+[[gnu::always_inline]] inline SurfaceRun alongFace(const Side& face, const Side& on, b2Vec2 normalFromFace,
+                                                   b2Vec2 place) {
+    const b2Vec2 tangent = b2Cross(normalFromFace, 1.0F);
+    const b2Vec2 velocity = on.body.GetLinearVelocityFromWorldPoint(place);
+    const float turn = face.body.GetAngularVelocity();
+    return {
+        velocity - on.shape.m_radius * b2Cross(turn, normalFromFace),
+        {static_cast<double>(b2Dot(face.body.GetLocalPoint(place), face.body.GetLocalVector(tangent))),
+         static_cast<double>(b2Dot(velocity - face.body.GetLinearVelocityFromWorldPoint(place), tangent))},
+        on.around(-normalFromFace, turn)};
+}
+
+/// Two discs, or a disc and a corner: the contact point lies on the line between the centres.
+[[gnu::noinline]] SurfaceRun alongDiscs(const Side& a, const Side& b, b2Vec2 centreA, b2Vec2 centreB,
+                                        b2Vec2 normal) {
+    const b2Vec2 velocityA = a.body.GetLinearVelocityFromWorldPoint(centreA),
+                 velocityB = b.body.GetLinearVelocityFromWorldPoint(centreB);
+    const float distance = b2Distance(centreA, centreB);
+    const float turn = distance > b2_epsilon ? b2Cross(normal, velocityB - velocityA) / distance : 0.0F;
+    return {velocityA + a.shape.m_radius * b2Cross(turn, normal), a.around(normal, turn),
+            b.around(-normal, turn)};
+}
+
+/// Reports the points to `lasting`, except those in `collisions` (a bit each), which belong to a collision.
+/// `isTurned`: the face is B's.
+template <bool isTurned>
+[[gnu::always_inline]] inline void tell(const b2Contact& contact, const SolvedContact& solved,
+                                        const b2ContactImpulse& impulse, unsigned collisions, std::int32_t a,
+                                        std::int32_t b, LastingContacts& lasting) {
+    const b2Fixture &fixtureA = *contact.GetFixtureA(), &fixtureB = *contact.GetFixtureB();
+    const Side first{isTurned ? fixtureB : fixtureA, lasting.isRough(isTurned ? b : a)},
+        second{isTurned ? fixtureA : fixtureB, lasting.isRough(isTurned ? a : b)};
+    const b2Vec2 normal = solved.normalFromFirst(), tangent = b2Cross(normal, 1.0F);
+    for (int i = 0; i < impulse.count; ++i) {
+        if (isIn(collisions, i)) continue;
+        const b2Vec2 place = solved.place(i), at = solved.point(i);
+        const SurfaceRun run = solved.isDiscs()
+                                   ? alongDiscs(first, second, solved.centreOfFirst(), place, normal)
+                                   : alongFace(first, second, normal, place);
+        const b2Vec2 slip = // where both are turned, so is the tangent: the same
+            second.body.GetLinearVelocityFromWorldPoint(at) - first.body.GetLinearVelocityFromWorldPoint(at);
+        lasting.touch({a, b, featureOf(contact, contact.GetManifold()->points[i]),
+                       static_cast<double>(impulse.normalImpulses[i]),
+                       static_cast<double>(b2Dot(slip, tangent)), toVector(at), toVector(run.velocity),
+                       isTurned ? run.second : run.first, isTurned ? run.first : run.second});
+    }
+}
 
 } // namespace
 
@@ -315,17 +323,22 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
     const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
     CollisionCatcher& catcher = events_.catcher();
     if (!catcher.hasSources()) return;
-    if (fresh == 0 && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
+    if (fresh == 0 && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
+        return;
     Known* const known = find(contact);
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
     Collision* const collision = fresh != 0 ? catcher.collision(pair) : nullptr;
     const bool isRelevant = catcher.isRelevant(pair);
     if (!isRelevant && collision == nullptr) return;
-    const SolvedContact solved{contact, impulse.count};
-    share(impulse, solved.normal(), solved.point(), pair, fresh, collision, isRelevant);
-    if (events_.lasting().isRelevant(pair.a, pair.b)) // only pairs whose load matters
-        solved.tell(impulse, collision != nullptr ? fresh : 0U, pair.a, pair.b, events_.lasting());
+    const SolvedContact solved{contact};
+    share(impulse, solved.normal(), solved.point(0), pair, fresh, collision, isRelevant);
+    if (!events_.lasting().isRelevant(pair.a, pair.b)) return; // only pairs whose load matters
+    const unsigned collisions = collision != nullptr ? fresh : 0U;
+    if (solved.isTurned())
+        tell<true>(contact, solved, impulse, collisions, pair.a, pair.b, events_.lasting());
+    else
+        tell<false>(contact, solved, impulse, collisions, pair.a, pair.b, events_.lasting());
 }
 
 } // namespace physvib

@@ -53,8 +53,8 @@ public:
     }
 
 private:
-    [[gnu::noinline]] unsigned lookCloser(const b2Contact& contact, const b2Manifold& before, const b2Manifold& now,
-                                          bool isStepping) {
+    [[gnu::noinline]] unsigned lookCloser(const b2Contact& contact, const b2Manifold& before,
+                                          const b2Manifold& now, bool isStepping) {
         int known = find(contact);
         if (!isStepping && known >= 0 && entries_[static_cast<std::size_t>(known)].isSolved) {
             drop(static_cast<std::size_t>(known));
@@ -152,7 +152,7 @@ private:
     static constexpr std::size_t expectedContacts = 128;
 
     using Pair = TouchingPairs::Name;
-    struct Known { // cache, which saves a search for both fixtures in every step
+    struct alignas(64) Known { // cache, which saves a search for both fixtures in every step
         const b2Contact* contact;
         const b2Fixture *fixtureA, *fixtureB;
         Pair pair;            // its number: none until it is needed
@@ -168,7 +168,7 @@ private:
         return &known_[guess];
     }
     [[gnu::noinline]] Known* search(const b2Contact& contact);
-    const Pair& pairOf(Known& known) {
+    [[gnu::always_inline]] const Pair& pairOf(Known& known) {
         CollisionCatcher& catcher = events_.catcher();
         if (!catcher.isKnown(known.pair)) [[unlikely]]
             known.pair.number = catcher.know(known.pair.a, known.pair.b);
