@@ -2,6 +2,7 @@
 // How a tone that moves begins: its phase, its decay and its end in whole numbers.
 #include "Core/Voices.h"
 #include "Core/Modes/ModeIncrements.h"
+#include <algorithm>
 
 namespace physvib {
 bool MovingTones::strike(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept {

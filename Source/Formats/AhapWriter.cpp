@@ -8,6 +8,7 @@
 #include "Formats/ClipEnvelope.h"
 #include "Formats/ClipLimits.h"
 #include "Io/Json/JsonText.h"
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>

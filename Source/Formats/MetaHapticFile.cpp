@@ -6,6 +6,7 @@
 #include "Formats/TimeOrder.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
+#include <algorithm>
 #include <cmath>
 
 namespace physvib {

@@ -3,6 +3,7 @@
 #include "Measure/HitExcerpt.h"
 #include "Core/Limits.h"
 #include "Io/Text/NumberText.h"
+#include <algorithm>
 #include <cmath>
 #include <span>
 

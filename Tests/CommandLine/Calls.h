@@ -2,6 +2,7 @@
 // Calls of the `physvib` program inside a folder of the test's own, and what they left.
 #pragma once
 #include "TestPlaces.h"
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `render --method SV`: recorded contacts in place of modes.
 #include "Calls.h"
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 

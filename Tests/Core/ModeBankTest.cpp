@@ -3,6 +3,7 @@
 #include "Core/Modes/ModeBank.h"
 #include "Support/ClosedForm.h"
 #include "Support/Sets.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <memory>
 

@@ -4,6 +4,7 @@
 #include "Core/Modes/ModeBank.h"
 #include "Core/Pads/PadMotors.h"
 #include "Support/Rendering.h"
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>

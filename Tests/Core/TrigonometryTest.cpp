@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Polynomials against the C library, over whole turns and octaves.
 #include "Core/Trigonometry.h"
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>

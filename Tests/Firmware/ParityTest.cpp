@@ -2,6 +2,7 @@
 // The image's converters against this computer's renderer, code for code and bit for bit, over a million
 // frames.
 #include "Rig.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <iostream>
 #include <memory>

@@ -4,6 +4,7 @@
 #include "Support/BoardReference.h"
 #include "VirtualBoard.h"
 #include "Wire/FrameDecoder.h"
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <stdexcept>

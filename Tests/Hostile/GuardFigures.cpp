@@ -9,6 +9,7 @@
 #include "Pico/FixedGuardPath.h"
 #include "Support/ClosedForm.h"
 #include "Support/SlowFigures.h"
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>

@@ -246,7 +246,7 @@ TEST(Arrangement, TheStrongestHitIsToldInLinesThatFit) {
         const auto lines = juce::StringArray::fromLines(sentence->getText());
         EXPECT_LE(lines.size(), 2);
         for (const auto& line : lines) {
-            EXPECT_LE(sentence->getFont().getStringWidth(line), sentence->getWidth() - 10)
+            EXPECT_LE(text::pixels(sentence->getFont(), line), sentence->getWidth() - 10)
                 << line << " at " << width;
             EXPECT_FALSE(line.trimStart().startsWith("/")) << line;
         }
@@ -261,7 +261,7 @@ TEST(Arrangement, TheScopeSaysHowManyItShowsWhereThereIsLittleRoom) {
         auto* scope = w.view.scope().find<ScopeView>();
         auto* spectra = find(w.view, "Spectra");
         const int lanes = (spectra->isVisible() ? spectra->getX() - gap : scope->getWidth()) - 26;
-        EXPECT_GE(lanes, juce::Font{text::small}.getStringWidth("the first 8 of 64")) << width;
+        EXPECT_GE(lanes, text::pixels(juce::Font{text::small}, "the first 8 of 64")) << width;
     }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contrasts of all texts and controls of a component, measured in a picture of it.
 #pragma once
+#include "LetterRenderer.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <juce_gui_basics/juce_gui_basics.h>
 #include <map>
 #include <vector>
 
@@ -54,37 +54,11 @@ struct DrawnText {
 };
 
 /// Draws as JUCE does, and measures each letter by what it changed in the picture.
-class MeasuringRenderer final : public juce::LowLevelGraphicsSoftwareRenderer {
+class MeasuringRenderer final : public LetterRenderer {
 public:
     explicit MeasuringRenderer(const juce::Image& image)
-        : juce::LowLevelGraphicsSoftwareRenderer{image}
+        : LetterRenderer{image}
         , image_{image} {}
-
-    void drawGlyph(int glyph, const juce::AffineTransform& t) override {
-        const auto at = stack->transform.getTransformWith(t);
-        const float high = stack->font.getHeight() * stack->transform.getPhysicalPixelScaleFactor();
-        const auto cell =
-            juce::Rectangle<float>{at.getTranslationX(), at.getTranslationY() - high, high, 1.3f * high}
-                .getSmallestIntegerContainer()
-                .getIntersection(image_.getBounds());
-        const auto before = pixelsOf(image_, cell);
-        juce::LowLevelGraphicsSoftwareRenderer::drawGlyph(glyph, t);
-        const auto after = pixelsOf(image_, cell);
-        Pixels under;
-        double most = 0.0;
-        juce::Colour ink;
-        for (std::size_t i = 0; i < after.size(); ++i)
-            if (after[i] != before[i]) {
-                under.push_back(before[i]);
-                if (const double c = contrast(after[i], before[i]); c > most) most = c, ink = after[i];
-            }
-        // a space, or a letter that a scrolled page cuts
-        const auto clip = stack->clip ? stack->clip->getClipBounds() : juce::Rectangle<int>{};
-        const int base = static_cast<int>(at.getTranslationY());
-        if (under.empty() || clip.getBottom() < base || clip.getY() > base - static_cast<int>(0.7f * high))
-            return;
-        letters_.push_back({cell, after, commonest(under), ink, most, at.getTranslationY()});
-    }
 
     /// Those that nothing was drawn over since.
     std::vector<DrawnText> texts() const {
@@ -109,6 +83,30 @@ public:
     }
 
 private:
+    void draw(int, const juce::AffineTransform& at, const std::function<void()>& drawn) override {
+        const float high = pixelsHigh();
+        const auto cell =
+            juce::Rectangle<float>{at.getTranslationX(), at.getTranslationY() - high, high, 1.3f * high}
+                .getSmallestIntegerContainer()
+                .getIntersection(image_.getBounds());
+        const auto before = pixelsOf(image_, cell);
+        drawn();
+        const auto after = pixelsOf(image_, cell);
+        Pixels under;
+        double most = 0.0;
+        juce::Colour ink;
+        for (std::size_t i = 0; i < after.size(); ++i)
+            if (after[i] != before[i]) {
+                under.push_back(before[i]);
+                if (const double c = contrast(after[i], before[i]); c > most) most = c, ink = after[i];
+            }
+        // a space, or a letter that a scrolled page cuts
+        const float base = std::floor(at.getTranslationY());
+        if (under.empty() || clip().getBottom() < base || clip().getY() > base - std::floor(0.7f * high))
+            return;
+        letters_.push_back({cell, after, commonest(under), ink, most, at.getTranslationY()});
+    }
+
     struct Letter {
         juce::Rectangle<int> cell;
         Pixels after;

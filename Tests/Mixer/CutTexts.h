@@ -2,8 +2,8 @@
 // Finds texts that a component cuts or crushes: JUCE ends a text that has no room with three dots, narrows
 // its letters, or lets the component's edge cut them.
 #pragma once
+#include "LetterRenderer.h"
 #include <cmath>
-#include <juce_gui_basics/juce_gui_basics.h>
 #include <map>
 #include <vector>
 
@@ -11,31 +11,13 @@ namespace physvib::test {
 
 struct CutText {
     juce::String words, why;
-    juce::Point<int> at, edge; // in pixels of the root; which edge cuts
+    juce::Point<int> at, edge; // which edge cuts
 };
 
-/// Reads what is drawn; the letters themselves do not appear.
-class ReadingRenderer final : public juce::LowLevelGraphicsSoftwareRenderer {
+/// Reads what is drawn at its own size; the letters themselves do not appear.
+class ReadingRenderer final : public LetterRenderer {
 public:
-    explicit ReadingRenderer(const juce::Image& image, float scale)
-        : juce::LowLevelGraphicsSoftwareRenderer{image}
-        , scale_{scale} {}
-
-    void drawGlyph(int glyph, const juce::AffineTransform& t) override {
-        if (!stack->clip) return;
-        const auto at = stack->transform.getTransformWith(t);
-        const auto& font = stack->font;
-        const Letter letter{letterOf(glyph),
-                            {at.getTranslationX() / scale_, at.getTranslationY() / scale_},
-                            font.getHeight(),
-                            font.getHorizontalScale()};
-        const bool keepGoing = !run_.empty() && std::abs(run_.back().at.y - letter.at.y) < 0.5f &&
-                               letter.at.x > run_.back().at.x &&
-                               letter.at.x - run_.back().at.x < 1.6f * letter.height;
-        if (!keepGoing) endRun();
-        run_.push_back(letter);
-        lookAtEdge(glyph, at);
-    }
+    using LetterRenderer::LetterRenderer;
 
     void finish() { endRun(); }
     const std::vector<CutText>& cut() const { return cut_; }
@@ -48,41 +30,44 @@ private:
         float height, width;
     };
 
+    void draw(int glyph, const juce::AffineTransform& at, const std::function<void()>&) override {
+        if (clip().isEmpty()) return;
+        const auto& font = getFont();
+        const Letter letter{letterOf(glyph),
+                            {at.getTranslationX(), at.getTranslationY()},
+                            font.getHeight(),
+                            font.getHorizontalScale()};
+        const bool keepGoing = !run_.empty() && std::abs(run_.back().at.y - letter.at.y) < 0.5f &&
+                               letter.at.x > run_.back().at.x &&
+                               letter.at.x - run_.back().at.x < 1.6f * letter.height;
+        if (!keepGoing) endRun();
+        run_.push_back(letter);
+        lookAtEdge(glyph, letter.at);
+    }
+
     juce::juce_wchar letterOf(int glyph) {
         // read once in a process: thousands of signs; the typeface is kept, so that no other has its address
         static auto& known =
             *new std::map<const void*, std::pair<juce::Typeface::Ptr, std::map<int, juce::juce_wchar>>>;
-        const auto typeface = stack->font.getTypefacePtr();
+        const auto typeface = getFont().getTypefacePtr();
         auto& [kept, letters] = known[typeface.get()];
         kept = typeface;
         if (letters.empty())
-            for (juce::juce_wchar sign = 0x21; sign < 0x2300; ++sign) {
-                juce::Array<int> glyphs;
-                juce::Array<float> offsets;
-                stack->font.getGlyphPositions(juce::String::charToString(sign), glyphs, offsets);
-                if (glyphs.size() == 1) letters.emplace(glyphs[0], sign);
-            }
+            for (juce::juce_wchar sign = 0x21; sign < 0x2300; ++sign)
+                if (const auto its = glyphOf(sign)) letters.emplace(*its, sign);
         const auto found = letters.find(glyph);
         return found == letters.end() ? juce::juce_wchar{'_'} : found->second;
     }
 
     // Above and below, a page that scrolls cuts as well.
-    void lookAtEdge(int glyph, const juce::AffineTransform& at) {
-        const auto typeface = stack->font.getTypefacePtr();
-        juce::Path outline;
-        typeface->getOutlineForGlyph(glyph, outline);
-        const float high = stack->font.getHeight() * stack->transform.getPhysicalPixelScaleFactor();
-        const auto ink = outline.getBounds() * high;
-        const auto clip = stack->clip->getClipBounds().toFloat();
-        if (at.getTranslationY() > clip.getBottom() || at.getTranslationY() - 0.5f * high < clip.getY())
-            return;
-        const float left = at.getTranslationX() + ink.getX() * stack->font.getHorizontalScale(),
-                    right = at.getTranslationX() + ink.getRight() * stack->font.getHorizontalScale();
-        const bool isCutLeft = left < clip.getX() - scale_;
-        if (!isCutLeft && right <= clip.getRight() + scale_) return;
+    void lookAtEdge(int glyph, juce::Point<float> at) {
+        const auto edges = clip();
+        if (at.y > edges.getBottom() || at.y - 0.5f * pixelsHigh() < edges.getY()) return;
+        const auto inked = ink(glyph) + at;
+        const bool isCutLeft = inked.getX() < edges.getX() - 1.0f;
+        if (!isCutLeft && inked.getRight() <= edges.getRight() + 1.0f) return;
         isEdgeCut_ = true;
-        edge_ =
-            (juce::Point{isCutLeft ? clip.getX() : clip.getRight(), at.getTranslationY()} / scale_).toInt();
+        edge_ = juce::Point{isCutLeft ? edges.getX() : edges.getRight(), at.y}.toInt();
     }
 
     void endRun() {
@@ -108,7 +93,6 @@ private:
 
     static constexpr float leastNarrow = 0.85f; // narrower letters look crushed
 
-    const float scale_;
     std::vector<Letter> run_;
     std::vector<CutText> cut_;
     bool isEdgeCut_ = false;
@@ -121,14 +105,12 @@ struct ReadTexts {
     juce::StringArray words; // without spaces, of all texts
 };
 
-inline ReadTexts readTexts(juce::Component& root, float scale) {
-    const juce::Image image{juce::Image::RGB, juce::roundToInt(scale * static_cast<float>(root.getWidth())),
-                            juce::roundToInt(scale * static_cast<float>(root.getHeight())), true,
+inline ReadTexts readTexts(juce::Component& root) {
+    const juce::Image image{juce::Image::RGB, root.getWidth(), root.getHeight(), true,
                             juce::SoftwareImageType{}};
-    ReadingRenderer renderer{image, scale};
+    ReadingRenderer renderer{image};
     {
         juce::Graphics g{renderer};
-        g.addTransform(juce::AffineTransform::scale(scale));
         root.paintEntireComponent(g, true);
     }
     renderer.finish();

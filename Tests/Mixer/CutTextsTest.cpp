@@ -26,7 +26,7 @@ struct CutTexts {
     void expectWhole(const std::string& state) {
         model.dispatchPendingMessages();
         for (int k = 0; k < 2; ++k) view.refresh();
-        const auto read = readTexts(view, 1.0f);
+        const auto read = readTexts(view);
         EXPECT_GT(read.words.size(), 20) << size << state;
         for (const auto& cut : read.cut) {
             if (cut.why == "cut by an edge" && isEdgeOfRow(view, cut.edge)) continue;
@@ -81,7 +81,7 @@ TEST(StripTexts, AGainIsWrittenBesideTheName) {
     model.attach(0.5, 0.5);
     model.dispatchPendingMessages();
     const auto wordsOf = [&view](const char* strip) {
-        return readTexts(*find(view, strip), 1.0f).words.joinIntoString(" ");
+        return readTexts(*find(view, strip)).words.joinIntoString(" ");
     };
     EXPECT_EQ(wordsOf("Strip A").upToFirstOccurrenceOf(" ", false, false), "A");
     EXPECT_TRUE(wordsOf("Strip E").contains(juce::String::fromUTF8("\xe2\x88\x92") + "12.0"))

@@ -5,6 +5,7 @@
 #include "Core/NameNumbers.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "MixerTesting.h"
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -7,6 +7,7 @@
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/SceneFields.h"
 #include "Support/ClosedForm.h"
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>

@@ -6,6 +6,7 @@
 #include "Host/Music/BandPass.h"
 #include "MusicInput.h"
 #include "PluginTesting.h"
+#include <algorithm>
 #include <cmath>
 
 namespace physvib {

@@ -6,6 +6,7 @@
 #include "PluginSettings.h"
 #include "Scene/SceneFile.h"
 #include "Support/ClosedForm.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <thread>
 #include <vector>

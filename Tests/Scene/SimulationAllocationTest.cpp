@@ -3,6 +3,7 @@
 // malloc.)
 #include "DropScene.h"
 #include "Physics/Attachment.h"
+#include <algorithm>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <new>

@@ -4,6 +4,7 @@
 #include "FakeHost.h"
 #include "Live/Session/Session.h"
 #include "Scene/World/RunSettings.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <numbers>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SessionClock: calls that come late, a crystal that drifts, a device that pauses.
 #include "Live/Session/OutputClock.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <random>
 

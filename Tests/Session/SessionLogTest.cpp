@@ -6,6 +6,7 @@
 #include "Live/Documents/SessionFile.h"
 #include "Live/Session/OfflineRender.h"
 #include "Live/Session/Session.h"
+#include <algorithm>
 #include <atomic>
 #include <gtest/gtest.h>
 #include <thread>

@@ -3,6 +3,7 @@
 #pragma once
 #include "Support/BoardReference.h"
 #include "Support/SlowFigures.h"
+#include <algorithm>
 #include <string>
 
 namespace physvib::test {

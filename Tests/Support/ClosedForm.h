@@ -3,6 +3,7 @@
 // written without any of the renderer's code but the event type. Gains come from the caller.
 #pragma once
 #include "Core/CollisionEvent.h"
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>

@@ -5,6 +5,7 @@
 #pragma once
 #include "Support/ClosedForm.h"
 #include "Support/SlowFigures.h"
+#include <algorithm>
 #include <complex>
 #include <functional>
 

@@ -133,7 +133,10 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
             return nothingThere(fault);
 
         const std::lock_guard lock{openMutex()};
-        RigSettings all{.setup = setupOf(taken, wanted), .sinks = outputs.sinks, .savePath = taken.save};
+        RigSettings all; // gcc 14 takes one of which only some members are named for uninitialised
+        all.setup = setupOf(taken, wanted);
+        all.sinks = outputs.sinks;
+        all.savePath = taken.save;
         all.provenance = {PHYSVIB_VERSION, {{"session", all.savePath}}};
         all.output.device = outputs.device;
         all.output.sampleRateHz = taken.rate_hz;

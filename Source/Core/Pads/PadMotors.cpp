@@ -2,6 +2,7 @@
 // Implementation of the conversion from events to motor commands: the energy of modes is shared between two
 // motors, and each motor's command is computed from its model.
 #include "Core/Pads/PadMotors.h"
+#include <algorithm>
 
 namespace physvib {
 namespace {

@@ -4,6 +4,7 @@
 #pragma once
 #include "Io/Text/ReadableNumber.h"
 #include "Pictures/Palette.h"
+#include <cmath>
 #include <juce_graphics/juce_graphics.h>
 #include <juce_gui_basics/juce_gui_basics.h>
 
@@ -50,7 +51,21 @@ enum class Theme { dark, light };
 /// Heights of text in pixels; all text has one of these.
 namespace text {
 constexpr float small = 12.5f, medium = 14.5f, large = 21.0f;
+
+/// How wide `words` are in `font`, in pixels. M.
+inline float width(const juce::Font& font, const juce::String& words) {
+#if JUCE_MAJOR_VERSION >= 8
+    return juce::GlyphArrangement::getStringWidth(font, words);
+#else
+    return font.getStringWidthFloat(words);
+#endif
 }
+
+/// The whole pixels that they need. M.
+inline int pixels(const juce::Font& font, const juce::String& words) {
+    return static_cast<int>(std::ceil(width(font, words)));
+}
+} // namespace text
 
 /// That colour in the theme of `component`. M.
 juce::Colour shade(const juce::Component& component, Shade which);

@@ -259,7 +259,7 @@ const std::vector<juce::Rectangle<float>>& WorldView::badges() const {
     for (int pass = 0; pass < 2; ++pass) { // the second with the text that fits the height
         std::vector<float> widths;
         for (int j = 0; j < layout_.geometry.count; ++j)
-            widths.push_back(badgeFont().getStringWidthFloat(labelOf(j)) + 8.0f);
+            widths.push_back(text::width(badgeFont(), labelOf(j)) + 8.0f);
         badges_ = badgesAround(places, widths, getLocalBounds().reduced(4).toFloat());
     }
     return badges_;
@@ -484,7 +484,7 @@ void WorldView::drawFiles(juce::Graphics& g) const {
         enchanter >= 0 ? "felt on " + labelOf(enchanter) + " alone" : juce::String{"felt here"};
     const juce::Font font{text::small};
     const float below = 0.5f * target.getHeight() + 15.0f;
-    const auto plate = juce::Rectangle<float>{font.getStringWidthFloat(words) + 14.0f, 20.0f}
+    const auto plate = juce::Rectangle<float>{text::width(font, words) + 14.0f, 20.0f}
                            .withCentre(target.getCentre().translated(
                                0.0f, target.getCentreY() < at.field.getCentreY() ? below : -below))
                            .constrainedWithin(getLocalBounds().reduced(4).toFloat());

@@ -8,6 +8,7 @@
 #include "Lab/Study/Identification.h"
 #include "Lab/Study/Places.h"
 #include "Lab/Study/Summaries.h"
+#include <algorithm>
 #include <set>
 
 namespace physvib {

@@ -11,6 +11,7 @@
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
+#include <algorithm>
 
 namespace physvib {
 namespace detail {

@@ -27,11 +27,11 @@ void drawHead(juce::Graphics& g, const juce::Component& c, juce::Rectangle<int> 
     const juce::Font font{text::small};
     g.setFont(font);
     g.setColour(shade(c, rightShade));
-    const auto place = row.removeFromRight(std::min(row.getWidth(), font.getStringWidth(right) + 4));
+    const auto place = row.removeFromRight(std::min(row.getWidth(), text::pixels(font, right) + 4));
     g.drawText(right, place, juce::Justification::centredRight, true);
     g.setColour(shade(c, Shade::muted));
     for (const auto& words : left)
-        if (font.getStringWidth(words) < row.getWidth() - 8)
+        if (text::pixels(font, words) < row.getWidth() - 8)
             return g.drawText(words, row, juce::Justification::centredLeft, true);
 }
 

@@ -6,6 +6,7 @@
 #include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/SceneLimits.h"
+#include <algorithm>
 #include <cmath>
 
 namespace physvib {

@@ -2,6 +2,7 @@
 // Peak meters that fall, held peaks, and the decimated samples.
 #include "Mixer/Model/MixerSignals.h"
 #include "Mixer/Model/MixerMessages.h"
+#include <algorithm>
 #include <cmath>
 #include <juce_audio_basics/juce_audio_basics.h>
 

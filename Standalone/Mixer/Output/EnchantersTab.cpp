@@ -32,7 +32,7 @@ std::array<int, 3> widestOf(const LayoutDescription& layout) {
     const juce::Font font{text::medium};
     std::array<int, 3> widest{};
     const auto widen = [&widest](std::size_t column, const juce::Font& in, const juce::String& words) {
-        widest[column] = std::max(widest[column], in.getStringWidth(words) + after);
+        widest[column] = std::max(widest[column], text::pixels(in, words) + after);
     };
     for (std::size_t i = 0; i < layout.enchanters.size(); ++i) {
         widen(0, nameFont(), utf8(layout.enchanters[i].label));

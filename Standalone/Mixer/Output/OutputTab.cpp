@@ -332,7 +332,7 @@ void OutputTab::resized() {
     for (Cell& cell : first) cell.width = each;
     for (const auto& sink : sinks_) {
         const juce::String title{sink->kind.title.data()};
-        const bool fits = sink->name.getFont().getStringWidth(title) <= each;
+        const bool fits = text::pixels(sink->name.getFont(), title) <= each;
         sink->name.setText(fits ? title : titleOf(std::string{sink->kind.name}), juce::dontSendNotification);
     }
     placeRow(area, first);

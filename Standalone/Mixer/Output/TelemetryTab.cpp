@@ -121,7 +121,7 @@ constexpr int lowestRow = 18, highestRow = 26, afterName = 14;
 
 /// That the words need at that width, broken between words.
 int linesOf(const juce::String& words, const juce::Font& font, int width) {
-    if (font.getStringWidth(words) <= width) return 1;
+    if (text::pixels(font, words) <= width) return 1;
     juce::AttributedString all;
     all.append(words, font);
     juce::TextLayout layout;
@@ -142,8 +142,8 @@ FactList::Places FactList::placesIn(int width) const {
     Places p;
     int widest = 0;
     for (const auto& fact : facts_) {
-        p.nameWidth = std::max(p.nameWidth, font.getStringWidth(fact.name) + afterName);
-        widest = std::max(widest, font.getStringWidth(fact.value) + 1);
+        p.nameWidth = std::max(p.nameWidth, text::pixels(font, fact.name) + afterName);
+        widest = std::max(widest, text::pixels(font, fact.value) + 1);
     }
     const auto room = [&](int columns) { return (width - (columns - 1) * gap) / columns - p.nameWidth; };
     for (p.columns = maxColumns_; p.columns > 1 && room(p.columns) < widest;) --p.columns;

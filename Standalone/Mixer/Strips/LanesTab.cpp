@@ -81,7 +81,7 @@ void LanesTab::paint(juce::Graphics& g) {
     const auto room = axis.withTrimmedLeft(20).withTrimmedRight(110);
     for (const char* words : {"Click adds a point. Record (Ctrl+R), and the faders you move are written.",
                               "Click adds a point. Ctrl+R records faders.", "Click adds a point."})
-        if (g.getCurrentFont().getStringWidth(words) <= room.getWidth())
+        if (text::pixels(g.getCurrentFont(), words) <= room.getWidth())
             return g.drawText(words, room, juce::Justification::centred, false);
 }
 

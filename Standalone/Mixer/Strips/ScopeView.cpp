@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws each column from its minimum to its maximum; the square root of the level makes weak impacts visible.
 #include "Mixer/Strips/ScopeView.h"
+#include <algorithm>
 #include <cmath>
 
 namespace physvib {
@@ -69,7 +70,7 @@ void ScopeView::paint(juce::Graphics& g) {
     };
     int labelWidth = minLabel;
     for (int j = 0; j < lanes; ++j)
-        labelWidth = std::max(labelWidth, bold.getStringWidth(labelOf(j)) + afterLabel);
+        labelWidth = std::max(labelWidth, text::pixels(bold, labelOf(j)) + afterLabel);
     labelWidth = std::min(labelWidth, std::max(minLabel, area.getWidth() / 5)); // the rest is cut
     const auto foot = area.removeFromBottom(scopeFootHeight).withTrimmedLeft(labelWidth);
     g.setFont(juce::Font{text::small});
@@ -81,7 +82,7 @@ void ScopeView::paint(juce::Graphics& g) {
     const juce::String end{"now"};
     const juce::Font small{text::small};
     g.drawText(begin, foot, juce::Justification::centredLeft, true);
-    if (small.getStringWidth(begin) + small.getStringWidth(end) + gap <= foot.getWidth())
+    if (text::pixels(small, begin) + text::pixels(small, end) + gap <= foot.getWidth())
         g.drawText(end, foot, juce::Justification::centredRight, false);
     area.removeFromBottom(2);
     const int height = (area.getHeight() + laneGap) / lanes;

@@ -195,7 +195,7 @@ void StripView::drawName(juce::Graphics& g, juce::Rectangle<int> row, Shade whic
     const double db = strip().gainDb;
     const auto gain = db == 0.0 ? juce::String{} : fader_.textFromValueFunction(db);
     constexpr int between = 5;
-    const int gainWidth = plain.getStringWidth(gain) + between, nameWidth = bold.getStringWidth(name);
+    const int gainWidth = text::pixels(plain, gain) + between, nameWidth = text::pixels(bold, name);
     if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {
         row = row.withSizeKeepingCentre(nameWidth + gainWidth, row.getHeight());
         g.setColour(shade(*this, Shade::muted));

@@ -138,7 +138,8 @@ void AnalysisScreen::run(const std::string& name) {
     if (report_.error.empty() && report_.picture) {
         const auto svg = juce::parseXML(utf8(report_.picture()));
         withoutHatches(*svg);
-        picture_ = juce::Drawable::createFromSVG(*svg);
+        const auto text = svg->toString();
+        picture_ = juce::Drawable::createFromImageData(text.toRawUTF8(), text.getNumBytesAsUTF8());
     }
     showWords();
     resized();

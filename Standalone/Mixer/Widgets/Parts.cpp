@@ -314,7 +314,7 @@ constexpr int barRoom = 12;                 // of the scroll bar, and beside it
 constexpr int widestRest = 60, maxCut = 14; // margin beside a name, and what a narrow panel takes from it
 
 int widthOf(const juce::String& name) {
-    return juce::Font{text::medium, juce::Font::bold}.getStringWidth(name) + 6;
+    return text::pixels(juce::Font{text::medium, juce::Font::bold}, name) + 6;
 }
 
 } // namespace

@@ -367,7 +367,7 @@ void MixerView::resized() {
     dismiss_->setBounds(buttons.removeFromRight(dismissWidth - 4));
     if (act_->isVisible())
         act_->setBounds(
-            buttons.removeFromRight(30 + juce::Font{text::medium}.getStringWidth(act_->getButtonText())));
+            buttons.removeFromRight(30 + text::pixels(juce::Font{text::medium}, act_->getButtonText())));
     trouble_.setBorderSize({0, panelInset, 0, banner.getRight() - buttons.getRight() + 4});
     placeCards();
 }

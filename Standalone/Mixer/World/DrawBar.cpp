@@ -234,7 +234,7 @@ public:
     }
     enum class Show { picture, name, remark }; ///< a remark says in words that it is not felt
     int wanted(Show show) const {
-        return show == Show::picture ? 32 : 38 + juce::Font{text::small}.getStringWidth(words(show));
+        return show == Show::picture ? 32 : 38 + text::pixels(juce::Font{text::small}, words(show));
     }
     void setShow(Show show) {
         show_ = show;

@@ -310,7 +310,7 @@ juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     juce::StringArray lines{parts[0]};
     for (int k = 1; k < parts.size(); ++k) {
         const auto longer = lines.strings.getReference(lines.size() - 1) + dot + parts[k];
-        if (font.getStringWidth(longer) <= room)
+        if (text::pixels(font, longer) <= room)
             lines.set(lines.size() - 1, longer);
         else
             lines.add(parts[k]);
