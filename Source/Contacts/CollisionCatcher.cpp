@@ -185,8 +185,8 @@ void ChainLoads::endStep(const ContactGraph& graph) {
     receivers_.clear();
     ended_.clear();
     pairs_.forLoose([&](const TouchingPairs::Pair& pair) {
-        if (pair.load != TouchingPairs::none && contacts_[static_cast<std::size_t>(pair.load)].step != step_ &&
-            !graph.isTouching(pair.a, pair.b))
+        if (pair.load != TouchingPairs::none &&
+            contacts_[static_cast<std::size_t>(pair.load)].step != step_ && !graph.isTouching(pair.a, pair.b))
             ended_.push_back(pair.load);
     });
     std::sort(ended_.begin(), ended_.end(), std::greater<>{});

@@ -83,13 +83,14 @@ void EventMaker::setPartner(std::int32_t other) {
 /// `sound`: a HapticFixture or a PairSound.
 template <class Sound>
 void EventMaker::addModes(const Sound& sound) noexcept {
-    const auto add = [this](double frequencyHz, double decayPerSecond, double relativeAmplitude, SoundNumber number) {
+    const auto add = [this](double frequencyHz, double decayPerSecond, double relativeAmplitude,
+                            SoundNumber number) {
         CollisionEvent event;
         event.frequencyHz = frequencyHz;
         event.decayPerSecond = decayPerSecond;
         event.sound = number;
-        modes_[static_cast<std::size_t>(modeCount_++)] = {frequencyHz, decayPerSecond, relativeAmplitude, number,
-                                                          isPlayable(event)};
+        modes_[static_cast<std::size_t>(modeCount_++)] = {frequencyHz, decayPerSecond, relativeAmplitude,
+                                                          number, isPlayable(event)};
         setMode(modes_[0]); // the only one of most sounds
     };
     add(sound.frequencyHz, sound.decayPerSecond, 1.0, sound.sound);
@@ -184,7 +185,8 @@ void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& fi
     }
 }
 
-// By time into as many buckets as there are events: grains arrive by hundreds per step, evenly distributed, so each bucket has few.
+// By time into as many buckets as there are events: grains arrive by hundreds per step, evenly distributed,
+// so each bucket has few.
 void EventSorter::share() {
     constexpr std::size_t many = 16;
     const std::size_t count = order_.size();
@@ -213,8 +215,8 @@ void EventSorter::share() {
     order_.swap(other_);
 }
 
-// Moves each behind those before it: few steps once they are in buckets, and what is equal stays in order of arrival. Where most have
-// one time, as hits at the start of a step, it gives up.
+// Moves each behind those before it: few steps once they are in buckets, and what is equal stays in order of
+// arrival. Where most have one time, as hits at the start of a step, it gives up.
 void EventSorter::sort() noexcept {
     std::size_t steps = 128 + 8 * order_.size();
     for (std::size_t i = 1; i < order_.size(); ++i) {

@@ -61,7 +61,7 @@ private:
             return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.fixture < b.fixture;
         }
     };
-    [[gnu::noinline]] bool grow() noexcept;                        // false: full, or no memory
+    [[gnu::noinline]] bool grow() noexcept;      // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
     void share();
     void sort() noexcept;
@@ -69,8 +69,8 @@ private:
 
     std::size_t capacity_;
     std::uint64_t drops_ = 0;
-    std::vector<CollisionEvent> held_; // an event stays in its slot until it is released
-    std::vector<std::uint32_t> free_;  // free slots
+    std::vector<CollisionEvent> held_;   // an event stays in its slot until it is released
+    std::vector<std::uint32_t> free_;    // free slots
     std::vector<Waiting> waiting_;       // in order of arrival
     std::vector<Waiting> order_, other_; // of those being released
     std::vector<std::uint32_t> ends_;    // ends of the buckets
@@ -112,11 +112,13 @@ private:
     };
     [[gnu::always_inline]] void sound(const SmallImpact& impact) noexcept {
         if (isAtContact_) place(impact.point);
-        const double amplitude = pairGain_ * (gain_ * (perNewtonSecond_ * impact.newtonSeconds / amplitudeDivisor_));
+        const double amplitude =
+            pairGain_ * (gain_ * (perNewtonSecond_ * impact.newtonSeconds / amplitudeDivisor_));
         event_.timeNs = impact.timeNs;
         event_.source.impulseNewtonSeconds = impact.newtonSeconds;
         event_.source.kind = impact.kind;
-        // The rest of isPlayable() is the mode's. The sum is finite if its parts are: these are no larger than floats.
+        // The rest of isPlayable() is the mode's. The sum is finite if its parts are: these are no larger
+        // than floats.
         const bool isSomewhere = impact.timeNs >= 0 && impact.timeNs <= limits::maxTimeNs &&
                                  std::isfinite(event_.x + event_.y + event_.z);
         for (int i = 0; i < modeCount_; ++i) {
@@ -155,12 +157,13 @@ private:
     EventSorter& events_;
     ContactCounts& counts_;
     const ImpactModel model_;
-    const float cos_, sin_; // rotation of the field
+    const float cos_, sin_;  // rotation of the field
     const bool isAtContact_; // else events are at the source's fixture
     CollisionEvent event_;
     // Of the current haptic source:
     std::int32_t camera_ = FixtureTable::none;
-    double perNewtonSecond_ = 0.0, amplitudeDivisor_ = 1.0; // ImpactModel::amplitude, in its order of operations
+    double perNewtonSecond_ = 0.0, amplitudeDivisor_ = 1.0; // ImpactModel::amplitude, in its order of
+                                                            // operations
     double gain_ = 0.0;
     bool isMuted_ = false;
     // Of its current partner:

@@ -101,7 +101,8 @@ public:
     /// Calls `passed(index, t)` for each grain whose index is a multiple of `every`, in the order in which
     /// they are passed.
     template <class Passed>
-    [[gnu::always_inline]] void along(const SurfaceMotion& motion, std::int64_t every, Passed&& passed) const {
+    [[gnu::always_inline]] void along(const SurfaceMotion& motion, std::int64_t every,
+                                      Passed&& passed) const {
         double from = 0.0, to = motion.turn();
         for (;;) { // there, and back
             walk(motion, from, to, every, passed);
@@ -141,7 +142,8 @@ private:
     }
 
     template <class Passed>
-    [[gnu::always_inline]] void walk(const SurfaceMotion& motion, double from, double to, std::int64_t every, Passed& passed) const {
+    [[gnu::always_inline]] void walk(const SurfaceMotion& motion, double from, double to, std::int64_t every,
+                                     Passed& passed) const {
         const double start = motion.metresAt(from), end = motion.metresAt(to), speed = motion.speedAt(from);
         const bool isUp = end > start;
         const double sign = isUp ? 1.0 : -1.0;

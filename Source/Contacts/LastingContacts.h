@@ -17,10 +17,11 @@ namespace physvib {
 
 // Matches the records that an engine reports in each step with those of the step before.
 
-/// Engines report contacts in nearly the same order in each step, so a record is first looked for behind the last one found; the lookup
-/// by key is needed only for records that are new, gone or reordered. A `Record` has `std::uint64_t key`, not 0, `std::int32_t now`, and
-/// `std::int32_t before`, its index in the last step, or `none`. Records are used again as they are: who gets a new one sets the rest.
-/// Allocates when a step has more records than any before. One thread at a time.
+/// Engines report contacts in nearly the same order in each step, so a record is first looked for behind the
+/// last one found; the lookup by key is needed only for records that are new, gone or reordered. A `Record`
+/// has `std::uint64_t key`, not 0, `std::int32_t now`, and `std::int32_t before`, its index in the last step,
+/// or `none`. Records are used again as they are: who gets a new one sets the rest. Allocates when a step has
+/// more records than any before. One thread at a time.
 template <class Record>
 class StepMemory {
 public:
@@ -39,8 +40,12 @@ public:
     }
 
     Record& operator[](std::int32_t place) noexcept { return now_[static_cast<std::size_t>(place)]; }
-    const Record& operator[](std::int32_t place) const noexcept { return now_[static_cast<std::size_t>(place)]; }
-    const Record& before(std::int32_t place) const noexcept { return before_[static_cast<std::size_t>(place)]; }
+    const Record& operator[](std::int32_t place) const noexcept {
+        return now_[static_cast<std::size_t>(place)];
+    }
+    const Record& before(std::int32_t place) const noexcept {
+        return before_[static_cast<std::size_t>(place)];
+    }
     std::span<Record> now() noexcept { return {now_.data(), count_}; }
     std::size_t count() const noexcept { return count_; } ///< records of this step
 
@@ -112,14 +117,15 @@ private:
     }
     void map() {
         placeOf_.clear();
-        for (std::size_t i = 0; i < countBefore_; ++i) placeOf_.set(before_[i].key, static_cast<std::int32_t>(i));
+        for (std::size_t i = 0; i < countBefore_; ++i)
+            placeOf_.set(before_[i].key, static_cast<std::int32_t>(i));
         isMapped_ = true;
     }
 
-    std::vector<Record> before_, now_; // buffers, of which so many are in use
+    std::vector<Record> before_, now_;                       // buffers, of which so many are in use
     std::size_t countBefore_ = 0, count_ = 0, capacity_ = 0; // capacity_: of now_
-    std::size_t next_ = 0; // in before_
-    IntegerMap placeOf_;   // keys of before_, built at the first lookup
+    std::size_t next_ = 0;                                   // in before_
+    IntegerMap placeOf_;                                     // keys of before_, built at the first lookup
     bool isMapped_ = false;
     IntegerMap new_; // records of now_ that did not exist in the last step
 };
@@ -261,20 +267,23 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, Makers&
     const SurfaceMotion motion = passage.motion;
     const double power = std::sqrt(static_cast<double>(passage.every)), perSecond = 1.0 / motion.seconds;
     const double backSeconds = 1.5 * motion.seconds, slipping = std::abs(point.slipMetresPerSecond);
-    const double perSpeed = grainImpulse(texture.roughness, passage.loadNewtons, 1.0), rolling = texture.rolling;
+    const double perSpeed = grainImpulse(texture.roughness, passage.loadNewtons, 1.0),
+                 rolling = texture.rolling;
     const Vector3 from = point.point, velocity = point.metresPerSecond;
     std::size_t passed = 0, felt = 0;
-    grains.along(motion, passage.every, [&](std::int64_t index, double t) __attribute__((always_inline)) {
-        ++passed;
-        const double speed = std::abs(motion.speedAt(t));
-        if (speed < leastMetresPerSecond) return;
-        const double slip = std::min(speed, slipping);
-        if (felt == grains_.size()) grow();
-        grains_[felt++] = {span.laterNs(t * perSecond),
-                           power * grains.strengthOf(index) * (perSpeed * (slip + rolling * (speed - slip))),
-                           from + static_cast<float>(t - backSeconds) * velocity,
-                           slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
-    });
+    grains.along(
+        motion, passage.every, [&](std::int64_t index, double t) __attribute__((always_inline)) {
+            ++passed;
+            const double speed = std::abs(motion.speedAt(t));
+            if (speed < leastMetresPerSecond) return;
+            const double slip = std::min(speed, slipping);
+            if (felt == grains_.size()) grow();
+            grains_[felt++] = {span.laterNs(t * perSecond),
+                               power * grains.strengthOf(index) *
+                                   (perSpeed * (slip + rolling * (speed - slip))),
+                               from + static_cast<float>(t - backSeconds) * velocity,
+                               slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
+        });
     thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
     const std::span<const SmallImpact> all{grains_.data(), felt};
     if (felt == 0) return;

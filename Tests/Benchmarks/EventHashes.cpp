@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A hash over every field of every event, and over all counts, of many worlds: one line per world. Two builds of the library that
-// print the same make the same events to the bit. See hashes.sh.
+// A hash over every field of every event, and over all counts, of many worlds: one line per world. Two builds
+// of the library that print the same make the same events to the bit. See hashes.sh.
 //   hashes WORLDS [FIRST]  the worlds of Worlds.h, then so many random ones, from that seed on
 #include "Worlds.h"
 #include <algorithm>
@@ -21,19 +21,26 @@ public:
     }
     void add(const std::vector<CollisionEvent>& events) {
         for (const CollisionEvent& e : events) {
-            add(e.timeNs, e.frequencyHz, e.decayPerSecond, e.amplitude, e.x, e.y, e.z, e.durationNs, e.spread, e.sound);
-            add(e.source.fixture, e.source.other, e.source.impulseNewtonSeconds, e.source.massKg, e.source.kind, e.source.part);
+            add(e.timeNs, e.frequencyHz, e.decayPerSecond, e.amplitude, e.x, e.y, e.z, e.durationNs, e.spread,
+                e.sound);
+            add(e.source.fixture, e.source.other, e.source.impulseNewtonSeconds, e.source.massKg,
+                e.source.kind, e.source.part);
             add(e.course.toX, e.course.toY, e.course.toZ, e.course.travelNs, e.course.sinceNs);
         }
         count_ += events.size();
     }
     void add(const ContactCounts& c) {
-        add(c.contacts, c.belowThreshold, c.withoutSource, c.unplayable, c.muted, c.settling, c.dropped, c.events, c.immovable);
-        add(c.leastX, c.leastY, c.mostX, c.mostY, c.strongestBelow, c.fastestApproach, c.thresholdMetresPerSecond);
+        add(c.contacts, c.belowThreshold, c.withoutSource, c.unplayable, c.muted, c.settling, c.dropped,
+            c.events, c.immovable);
+        add(c.leastX, c.leastY, c.mostX, c.mostY, c.strongestBelow, c.fastestApproach,
+            c.thresholdMetresPerSecond);
     }
-    void add(const std::string& text) { addBytes(reinterpret_cast<const unsigned char*>(text.data()), text.size()); }
+    void add(const std::string& text) {
+        addBytes(reinterpret_cast<const unsigned char*>(text.data()), text.size());
+    }
     void print(const std::string& name) const {
-        std::printf("%-24s %7zu events  %016llx\n", name.c_str(), count_, static_cast<unsigned long long>(value_));
+        std::printf("%-24s %7zu events  %016llx\n", name.c_str(), count_,
+                    static_cast<unsigned long long>(value_));
     }
 
 private:
@@ -51,8 +58,12 @@ public:
         : random_{seed} {}
     int below(int count) { return static_cast<int>(random_() % static_cast<std::uint32_t>(count)); }
     bool oneIn(int count) { return below(count) == 0; }
-    float within(float least, float most) { return least + (most - least) * static_cast<float>(random_()) * 0x1p-32F; }
-    double among(std::initializer_list<double> values) { return *(values.begin() + below(static_cast<int>(values.size()))); }
+    float within(float least, float most) {
+        return least + (most - least) * static_cast<float>(random_()) * 0x1p-32F;
+    }
+    double among(std::initializer_list<double> values) {
+        return *(values.begin() + below(static_cast<int>(values.size())));
+    }
 
 private:
     std::mt19937 random_;
@@ -69,7 +80,8 @@ public:
     }
     void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
         if (pushes && ++calls_ % 31 == 0)
-            contact->GetFixtureB()->GetBody()->ApplyLinearImpulseToCenter({0.02F * impulse->normalImpulses[0], 0.05F}, true);
+            contact->GetFixtureB()->GetBody()->ApplyLinearImpulseToCenter(
+                {0.02F * impulse->normalImpulses[0], 0.05F}, true);
     }
 
 private:
@@ -105,7 +117,8 @@ public:
             if (dice_.oneIn(8)) {
                 attachment_->beginStep(static_cast<double>(seconds));
                 world_.Step(seconds, 8, 3);
-                if (dice_.oneIn(6) && !bodies_.empty()) destroy(dice_.below(static_cast<int>(bodies_.size())));
+                if (dice_.oneIn(6) && !bodies_.empty())
+                    destroy(dice_.below(static_cast<int>(bodies_.size())));
                 attachment_->endStep();
             } else {
                 attachment_->step(seconds);
@@ -151,7 +164,8 @@ private:
         return s;
     }
     HapticFixture values(bool isSource) {
-        HapticFixture v{dice_.among({0.0, 3.0, 60.0, 90.0, 120.0, 200.0, 250.0, 349.0}), static_cast<double>(dice_.within(20.0F, 100.0F)), isSource,
+        HapticFixture v{dice_.among({0.0, 3.0, 60.0, 90.0, 120.0, 200.0, 250.0, 349.0}),
+                        static_cast<double>(dice_.within(20.0F, 100.0F)), isSource,
                         dice_.among({0.0, 5.0, 5.0, 340.0, 340.0}), static_cast<Voice>(dice_.below(3))};
         if (dice_.oneIn(2)) v.texture.grainMetres = dice_.among({0.0002, 0.001, 0.002, 0.005, 0.02, 0.2});
         v.texture.roughness = dice_.among({1.0, 1.0, 0.1, 30.0});
@@ -177,7 +191,8 @@ private:
         b2ChainShape chain;
         std::vector<b2Vec2> line;
         for (int i = 0; i <= 24; ++i)
-            line.push_back({static_cast<float>(12 - i) * 0.5F, dice_.oneIn(2) ? 0.0F : dice_.within(0.0F, isFast_ ? 0.5F : 0.15F)});
+            line.push_back({static_cast<float>(12 - i) * 0.5F,
+                            dice_.oneIn(2) ? 0.0F : dice_.within(0.0F, isFast_ ? 0.5F : 0.15F)});
         chain.CreateChain(line.data(), static_cast<int>(line.size()), {6.5F, 0.0F}, {-6.5F, 0.0F});
         b2EdgeShape edge;
         edge.SetTwoSided({-8.0F, 0.0F}, {8.0F, 0.0F});
@@ -206,7 +221,8 @@ private:
         if (dice_.oneIn(3)) {
             b2Vec2 corners[5];
             for (int i = 0; i < 5; ++i)
-                corners[i] = at + b2Vec2{size * std::cos(1.2566F * static_cast<float>(i)), size * std::sin(1.2566F * static_cast<float>(i))};
+                corners[i] = at + b2Vec2{size * std::cos(1.2566F * static_cast<float>(i)),
+                                         size * std::sin(1.2566F * static_cast<float>(i))};
             polygon.Set(corners, 5);
         } else {
             polygon.SetAsBox(size, dice_.within(0.05F, 0.3F), at, dice_.within(0.0F, 3.0F));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What instructions.sh counts of physics: of so many STEPS those from the 100th on, in the function `counted`.
+// What instructions.sh counts of physics: of so many STEPS those from the 100th on, in the function
+// `counted`.
 //   box BODIES CAMERAS STEPS  a shaken box; cameras: 0: none, 4: the walls, more: all bodies as well,
 //                             below 0: Box2D alone
 //   balls COUNT GRAIN_MM STEPS  balls roll; grains of 0: a smooth floor, below 0: Box2D alone
