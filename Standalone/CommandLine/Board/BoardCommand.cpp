@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command `physvib board`: connects to a board and plays events or a scene on it.
+// The command `physvib board`: connects to a board and plays events on it.
 #include "CommandLine/Board/BoardCommand.h"
-#include "Calls/LoadedRender.h"
 #include "Calls/RenderOptions.h"
 #include "CommandLine/Command.h"
 #include "Core/Units.h"
@@ -9,7 +8,6 @@
 #include "Live/Session/BoardOutput.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/SilentWords.h"
-#include "Scene/World/Simulation.h"
 #include "System/ExitCode.h"
 #include "System/Interrupt.h"
 #include "System/StandardStreams.h"
@@ -69,8 +67,6 @@ inline std::string reportBoard(const BoardLink& link, const wire::Telemetry& bef
 namespace {
 
 constexpr std::int64_t ms = 1'000'000;
-
-void nap(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
 
 void setLevel(BoardLink& link, double levelDb) {
     const double level = fromDecibels(levelDb);
@@ -158,32 +154,6 @@ int play(BoardLink& link, const std::vector<CollisionEvent>& events, const Phant
     return finish(link, before);
 }
 
-/// Steps the world in real time. A collision at world time w is felt at w + `delayNs`. Returns the time
-/// skipped after stalls.
-std::int64_t followClock(Simulation& world, std::int64_t endNs, std::int64_t delayNs,
-                         const PhantomPanner& panner, BoardLink& link) {
-    constexpr std::int64_t mostBehind = 500 * ms;
-    PhantomPanner::Gains gains{};
-    std::vector<CollisionEvent> made;
-    std::int64_t start = BoardLink::nowNs(), slipped = 0;
-    while (!interrupted && world.timeNs() < endNs) {
-        const std::int64_t behind = BoardLink::nowNs() - start - world.timeNs();
-        if (behind > mostBehind) start += behind, slipped += behind;
-        if (behind < 0) {
-            nap(1);
-            continue;
-        }
-        made.clear();
-        world.step(made);
-        for (const CollisionEvent& event : made) {
-            panner.gainsOf(event, Spread::layout, gains);
-            link.push({start + event.timeNs + delayNs,
-                       boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
-        }
-    }
-    return slipped;
-}
-
 } // namespace
 
 void declareBoardOptions(OptionTable& command, BoardOptions& o) {
@@ -222,28 +192,6 @@ int runBoard(const BoardOptions& o) {
     if (o.action == "info") return printBoardInfo(link.status()), exitDone;
     setLevel(link, o.action == "test" ? 0.0 : o.levelDb);
     return o.action == "test" ? test(link) : play(link, events, panner);
-}
-
-int runSceneOnBoard(const std::string& port, const LoadedRender& job, double levelDb) {
-    const RunSettings run = job.run();
-    Simulation world(*job.scene, run.seed, run.stepsPerSecond, run.timing, run.location);
-    heedInterrupts();
-    sayWithoutWaiting();
-    BoardLink link{port};
-    if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
-    setLevel(link, levelDb);
-    const auto before = link.status().telemetry;
-    // a contact is reported up to two steps later
-    const std::int64_t steps = 2'000'000'000 / run.stepsPerSecond, spare = 5 * ms;
-    const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().outputLatencyMs * 1e6) + spare;
-    const std::int64_t slipped = followClock(world, job.endNs(), delay, job.panner(), link);
-    if (interrupted)
-        link.stopAll();
-    else
-        waitFor([] { return false; }, static_cast<int>(delay / ms) + 500); // plays pending events
-    std::cout << std::fixed << std::setprecision(1) << "felt " << static_cast<double>(delay) * 1e-6
-              << " ms after the contact; " << static_cast<double>(slipped) * 1e-6 << " ms of stalls\n";
-    return finish(link, before);
 }
 
 Command boardCommand() {
