@@ -39,17 +39,26 @@ inline double amplitudeAfter(const CollisionEvent& e, double seconds) noexcept {
     return seconds > 0.0 ? e.amplitude * shareLeft(e.decayPerSecond, seconds) : e.amplitude;
 }
 
-/// Duration: to its end, or until it has decayed.
+/// How long it is felt: to its end, or until it has decayed.
 inline std::int64_t boardLifeNs(const CollisionEvent& e) noexcept {
-    return e.durationNs > 0
-               ? e.durationNs
-               : static_cast<std::int64_t>(limits::retireDecibels / (20.0 * std::numbers::log10e) /
-                                           e.decayPerSecond * 1e9);
+    const auto end = static_cast<double>(e.durationNs > 0 ? e.durationNs : limits::maxTimeNs);
+    constexpr double nepers = limits::retireDecibels / (20.0 * std::numbers::log10e);
+    return static_cast<std::int64_t>(e.decayPerSecond > 0.0 ? std::min(end, nepers / e.decayPerSecond * 1e9)
+                                                            : end);
+}
+
+/// The longest duration that a strike can have on the link.
+constexpr std::int64_t longestStrikeNs = 65'535'000'000;
+
+/// True if one strike would end before the event does.
+inline bool outlastsStrike(const CollisionEvent& e) noexcept {
+    return e.durationNs > longestStrikeNs && boardLifeNs(e) > longestStrikeNs;
 }
 
 /// Rounded to the link's units; amplitudes are clamped to 8 times full scale. `gains`: the panner's, one per
 /// board channel. If the board cannot play the frequency, isPlayable refuses the result. An event that
-/// continues a tone has the tone's amplitude by then, but starts at phase 0. Any thread.
+/// continues a tone has the tone's amplitude by then, but starts at phase 0. One that outlastsStrike is cut.
+/// Any thread.
 inline BoardEvent boardEventOf(const CollisionEvent& e,
                                const std::array<double, limits::board::channels>& gains) noexcept {
     const auto rounded = [](double value, double low, double high) {

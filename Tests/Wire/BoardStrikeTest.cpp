@@ -31,6 +31,20 @@ TEST(BoardStrike, RoundsACollisionToTheLinksNumbers) {
     EXPECT_FALSE(isPlayable(boardEventOf(e, {})));
 }
 
+TEST(BoardStrike, OutlastsTheLinksLongestOnlyWhileItIsFelt) {
+    CollisionEvent e;
+    e.durationNs = 65'535'000'000;
+    EXPECT_FALSE(outlastsStrike(e));
+    EXPECT_TRUE(outlastsStrike((++e.durationNs, e)));
+    e.decayPerSecond = 1.0;
+    EXPECT_FALSE(outlastsStrike(e)) << "140 dB weaker after 16 s";
+    e.durationNs = 0;
+    EXPECT_NEAR(static_cast<double>(boardLifeNs(e)), 16.12e9, 1e7);
+    e.decayPerSecond = 1e-12;
+    EXPECT_EQ(boardLifeNs(e), limits::maxTimeNs) << "not a number that overflows";
+    EXPECT_FALSE(outlastsStrike(e)) << "without a duration a strike sounds until it has decayed";
+}
+
 TEST(StrikeBacklog, GivesThemBackInTheOrderOfTheirOnsets) {
     StrikeBacklog backlog;
     for (const int t : {5, 1, 4, 1, 3}) backlog.push(strike(t, 100 + t));

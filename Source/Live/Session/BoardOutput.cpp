@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Converts session events to board events: session time to board time, places to four amplitudes, moving
-// tones to segments.
+// Converts session events to board events: session time to board time, places to four amplitudes, tones that
+// move or outlast a strike to segments.
 #include "Live/Session/BoardOutput.h"
 #include "Core/NameNumbers.h"
 #include "Io/Text/NumberText.h"
@@ -53,10 +53,6 @@ SinkState BoardOutput::state() const {
     return state;
 }
 
-std::string BoardOutput::summary(const std::function<bool()>& keepGoing) const {
-    return boardSummary(link_, before_, keepGoing);
-}
-
 void BoardOutput::feed() {
     if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) {
         clock_.add(felt);
@@ -65,7 +61,10 @@ void BoardOutput::feed() {
     if (clock_.isReady()) {
         takeControls();
         for (CollisionEvent event; events_.pop(event);) {
-            if (event.course.travelNs > 0 && isPlayable(event))
+            const bool isHeld = event.course.travelNs == 0 && outlastsStrike(event);
+            if (isHeld) event.course = {event.x, event.y, event.durationNs, event.course.sinceNs, event.z};
+            if (event.course.travelNs > 0 && isPlayable(event) &&
+                2 * event.frequencyHz < limits::board::sampleRateHz)
                 move(event);
             else
                 strike(event);
@@ -114,9 +113,7 @@ void BoardOutput::takeSteps() {
 void BoardOutput::move(const CollisionEvent& event) {
     const auto atOnce = std::count_if(paths_.begin(), paths_.end(),
                                       [&](const BoardPath& path) { return path.endNs() > event.timeNs; });
-    const bool hasSegments =
-        link_.playsSegments() && atOnce < mostPaths && 2 * event.frequencyHz < limits::board::sampleRateHz;
-    if (hasSegments)
+    if (link_.playsSegments() && atOnce < mostPaths)
         paths_.emplace_back(event, rateHz_);
     else
         steps_.emplace_back(event);
@@ -250,25 +247,24 @@ SinkState sinkStateOf(const BoardLinkStatus& s, const std::string& port, double 
     return state;
 }
 
-std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
-                         const std::function<bool()>& keepGoing) {
+std::string BoardOutput::summary(const std::function<bool()>& keepGoing) const {
     const std::int64_t end = BoardLink::nowNs() + newsWithinNs;
-    const auto seen = link.status().telemetry.frame;
-    while (link.status().telemetry.frame == seen && keepGoing() && BoardLink::nowNs() <= end)
+    const auto seen = link_.status().telemetry.frame;
+    while (link_.status().telemetry.frame == seen && keepGoing() && BoardLink::nowNs() <= end)
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    const auto s = link.status();
+    const auto s = link_.status();
     const auto& t = s.telemetry;
     std::string lines;
     if (s.segments > 0)
-        lines = count(s.segments) + " segments of moving strikes, " + count(s.coarseSegments) +
+        lines = count(s.segments) + " segments of moving or long strikes, " + count(s.coarseSegments) +
                 " of them longer than their law asks for, as the line was full\n";
     std::string guarded;
-    if (const auto times = static_cast<std::uint16_t>(t.guarded - before.guarded); times > 0)
+    if (const auto times = static_cast<std::uint16_t>(t.guarded - before_.guarded); times > 0)
         guarded = ", turned down " + count(times) + " times, as it would have been nearly direct current";
     return lines + "felt " + fixedNumber(s.outputLatencyMs, 1) + " ms after the call; " + count(s.sent) +
-           " strikes sent, " + count(s.thinned) + " thinned, " + count(s.refused) +
-           " refused; the board played " + count(t.played - before.played) + ", " +
-           count(t.late - before.late) + " late, " + count(t.dropped - before.dropped) + " dropped, " +
+           " strikes sent, " + count(s.thinned + untold()) + " thinned, " + count(s.refused) +
+           " refused; the board played " + count(t.played - before_.played) + ", " +
+           count(t.late - before_.late) + " late, " + count(t.dropped - before_.dropped) + " dropped, " +
            count(t.lost) + " lost" + guarded + '\n';
 }
 

@@ -77,23 +77,17 @@ private:
     PhantomPanner panner_;
     std::vector<PannerChange> layouts_; // pending until their time, as the next
     std::vector<RenderControl> others_;
-    std::vector<BoardPath> paths_;  // moving tones, kept until their end is felt: another path may continue
-                                    // there
-    std::vector<BoardSteps> steps_; // moving tones as series of events: for further ones, or for a board
+    std::vector<BoardPath> paths_;  // moving and long tones, kept until their end is felt: another path may
+                                    // continue there
+    std::vector<BoardSteps> steps_; // such tones as series of events: for further ones, or for a board
                                     // without segments
     std::array<double, limits::board::channels> gains_{1.0, 1.0, 1.0, 1.0};
     std::optional<std::array<double, limits::board::channels>> sent_; // gains that the link has
     std::array<bool, limits::board::channels> muted_{};
 };
 
-// Texts about a board link: its state for display, and a summary after playing.
-
-/// State of a board that is wanted at `port` and gets events `latencySeconds` before they are felt. Any
-/// thread, as the next function.
+/// State of a board that is wanted at `port` and gets events `latencySeconds` before they are felt, for
+/// display. Any thread.
 SinkState sinkStateOf(const BoardLinkStatus& board, const std::string& port, double latencySeconds);
-
-/// Lines on what was sent and played since `before`. Waits briefly for newer telemetry.
-std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
-                         const std::function<bool()>& keepGoing);
 
 } // namespace physvib

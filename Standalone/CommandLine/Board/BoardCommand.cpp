@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command `physvib board`: connects to a board and plays events or a scene on it.
+// The command `physvib board`: connects to a board and plays events on it.
 #include "CommandLine/Board/BoardCommand.h"
-#include "Calls/LoadedRender.h"
 #include "Calls/RenderOptions.h"
 #include "CommandLine/Command.h"
 #include "Core/Units.h"
@@ -9,7 +8,6 @@
 #include "Live/Session/BoardOutput.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/SilentWords.h"
-#include "Scene/World/Simulation.h"
 #include "System/ExitCode.h"
 #include "System/Interrupt.h"
 #include "System/StandardStreams.h"
@@ -27,8 +25,8 @@ namespace physvib {
 
 /// Waits for a condition. False on time-out or interruption by the user.
 template <class Condition>
-bool waitFor(Condition isTrue, int milliseconds) {
-    for (const std::int64_t end = BoardLink::nowNs() + milliseconds * std::int64_t{1'000'000}; !isTrue();
+bool waitFor(Condition isTrue, std::int64_t milliseconds = 1'000'000'000) {
+    for (const std::int64_t end = BoardLink::nowNs() + milliseconds * 1'000'000; !isTrue();
          std::this_thread::sleep_for(std::chrono::milliseconds(5)))
         if (interrupted || BoardLink::nowNs() > end) return false;
     return true;
@@ -58,24 +56,9 @@ inline void printBoardInfo(const BoardLinkStatus& s) {
               << "guard acted " << t.guarded << " times; " << t.stackFree << " bytes of stack never used\n";
 }
 
-/// Prints one line on what was sent and played since `before`. Empty, or the board's error.
-inline std::string reportBoard(const BoardLink& link, const wire::Telemetry& before) {
-    std::cout << boardSummary(link, before, [] { return !interrupted; });
-    const auto s = link.status();
-    if (s.state == BoardLinkStatus::State::ready) return {};
-    return s.trouble.empty() ? "the board is gone" : s.trouble;
-}
-
 namespace {
 
 constexpr std::int64_t ms = 1'000'000;
-
-void nap(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
-
-void setLevel(BoardLink& link, double levelDb) {
-    const double level = fromDecibels(levelDb);
-    link.setGains({level, level, level, level});
-}
 
 /// Plays each channel in turn: 205 Hz for a quarter of a second at a quarter of full scale.
 void playScale(BoardLink& link) {
@@ -110,25 +93,24 @@ int test(BoardLink& link) {
     return isEqual ? exitDone : leave(exitFailed, link.status().port + ": the board computes other bits");
 }
 
-/// Sends the events in real time. Returns the last onset on the link's clock.
-std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events,
-                     const PhantomPanner& panner) {
-    PhantomPanner::Gains gains{};
-    const std::int64_t start =
-        BoardLink::nowNs() + static_cast<std::int64_t>(link.status().outputLatencyMs * 1e6) + 20 * ms;
-    std::int64_t end = start;
-    for (const CollisionEvent& event : events) {
-        const std::int64_t onset = start + event.timeNs;
-        if (!waitFor([&] { return onset < BoardLink::nowNs() + 2 * BoardLink::sendAheadMs * ms; },
-                     1'000'000'000))
-            break;
-        panner.gainsOf(event, Spread::layout, gains);
-        link.push({onset, boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
-        end = onset + event.durationNs +
-              (event.decayPerSecond > 0 ? static_cast<std::int64_t>(7.0 / event.decayPerSecond * 1e9) : 0);
+/// A list's time, from when the board can play its beginning.
+class ListClock final : public OutputClock {
+public:
+    ListClock(double latencySeconds, double levelDb)
+        : OutputClock{&interrupted}
+        , startNs{BoardLink::nowNs() + static_cast<std::int64_t>(latencySeconds * 1e9) + 20 * ms} {
+        setLevel(static_cast<float>(fromDecibels(levelDb)));
+        tell({0, startNs, 0, sampleRateHz});
     }
-    return std::min(end, BoardLink::nowNs() + 5000 * ms);
-}
+    /// False: interrupted.
+    bool await(std::int64_t timeNs) const {
+        return waitFor([&] { return BoardLink::nowNs() > startNs + timeNs; });
+    }
+    const std::int64_t startNs;
+
+private:
+    static constexpr int sampleRateHz = 48000; // of the device that it is instead of
+};
 
 /// Reports events outside the field. Returns false after an error line if nothing can be felt.
 bool tellWhatIsFelt(const BoardOptions& o, const std::vector<CollisionEvent>& events,
@@ -145,43 +127,34 @@ bool tellWhatIsFelt(const BoardOptions& o, const std::vector<CollisionEvent>& ev
     return silent.empty();
 }
 
-int finish(const BoardLink& link, const wire::Telemetry& before) {
-    const std::string trouble = reportBoard(link, before);
-    return trouble.empty() ? exitDone : leave(exitFailed, trouble);
+/// Until its end, or until it is 60 dB weaker: less than a step of the board's converters.
+std::int64_t feltNs(const CollisionEvent& e) {
+    constexpr double slowest = 1.0 / limits::board::gridPerHz;
+    return e.decayPerSecond > 0.0
+               ? std::min(boardLifeNs(e),
+                          static_cast<std::int64_t>(7e9 / std::max(e.decayPerSecond, slowest)))
+               : e.durationNs;
 }
 
-int play(BoardLink& link, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
-    const auto before = link.status().telemetry; // the board's counters are cumulative over calls
-    const std::int64_t end = playAll(link, events, panner);
-    waitFor([&] { return BoardLink::nowNs() > end; }, 60'000);
-    if (interrupted) link.stopAll();
-    return finish(link, before);
-}
-
-/// Steps the world in real time. A collision at world time w is felt at w + `delayNs`. Returns the time
-/// skipped after stalls.
-std::int64_t followClock(Simulation& world, std::int64_t endNs, std::int64_t delayNs,
-                         const PhantomPanner& panner, BoardLink& link) {
-    constexpr std::int64_t mostBehind = 500 * ms;
-    PhantomPanner::Gains gains{};
-    std::vector<CollisionEvent> made;
-    std::int64_t start = BoardLink::nowNs(), slipped = 0;
-    while (!interrupted && world.timeNs() < endNs) {
-        const std::int64_t behind = BoardLink::nowNs() - start - world.timeNs();
-        if (behind > mostBehind) start += behind, slipped += behind;
-        if (behind < 0) {
-            nap(1);
-            continue;
-        }
-        made.clear();
-        world.step(made);
-        for (const CollisionEvent& event : made) {
-            panner.gainsOf(event, Spread::layout, gains);
-            link.push({start + event.timeNs + delayNs,
-                       boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
-        }
+int play(const BoardOptions& o, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
+    BoardOutput output{o.port, panner};
+    const auto keepGoing = [] { return !interrupted; };
+    if (const auto trouble = output.awaitReady(keepGoing); !trouble.empty())
+        return leave(exitFailed, trouble);
+    ListClock clock{output.latencySeconds(), o.levelDb};
+    output.follow(&clock);
+    std::int64_t endNs = 0;
+    for (const CollisionEvent& event : events) {
+        if (!clock.await(event.timeNs - 2 * BoardLink::sendAheadMs * ms)) break;
+        output.made(event);
+        endNs = std::max(endNs, event.timeNs + feltNs(event));
     }
-    return slipped;
+    clock.await(endNs);
+    output.follow(nullptr);
+    std::cout << output.summary(keepGoing);
+    const SinkState state = output.state();
+    return state.isReady ? exitDone
+                         : leave(exitFailed, state.trouble.empty() ? "the board is gone" : state.trouble);
 }
 
 } // namespace
@@ -217,33 +190,12 @@ int runBoard(const BoardOptions& o) {
     }
     heedInterrupts();
     sayWithoutWaiting();
+    if (o.action == "play") return play(o, events, panner);
     BoardLink link{o.port};
     if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
     if (o.action == "info") return printBoardInfo(link.status()), exitDone;
-    setLevel(link, o.action == "test" ? 0.0 : o.levelDb);
-    return o.action == "test" ? test(link) : play(link, events, panner);
-}
-
-int runSceneOnBoard(const std::string& port, const LoadedRender& job, double levelDb) {
-    const RunSettings run = job.run();
-    Simulation world(*job.scene, run.seed, run.stepsPerSecond, run.timing, run.location);
-    heedInterrupts();
-    sayWithoutWaiting();
-    BoardLink link{port};
-    if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
-    setLevel(link, levelDb);
-    const auto before = link.status().telemetry;
-    // a contact is reported up to two steps later
-    const std::int64_t steps = 2'000'000'000 / run.stepsPerSecond, spare = 5 * ms;
-    const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().outputLatencyMs * 1e6) + spare;
-    const std::int64_t slipped = followClock(world, job.endNs(), delay, job.panner(), link);
-    if (interrupted)
-        link.stopAll();
-    else
-        waitFor([] { return false; }, static_cast<int>(delay / ms) + 500); // plays pending events
-    std::cout << std::fixed << std::setprecision(1) << "felt " << static_cast<double>(delay) * 1e-6
-              << " ms after the contact; " << static_cast<double>(slipped) * 1e-6 << " ms of stalls\n";
-    return finish(link, before);
+    link.setGains({1.0, 1.0, 1.0, 1.0});
+    return test(link);
 }
 
 Command boardCommand() {

@@ -23,10 +23,4 @@ void declareBoardOptions(OptionTable& command, BoardOptions& options);
 /// Returns an exit code.
 int runBoard(const BoardOptions& options);
 
-struct LoadedRender;
-
-/// Plays a scene on the board alone (`physvib play --board`), stepping its world by this computer's clock.
-/// Returns an exit code.
-int runSceneOnBoard(const std::string& port, const LoadedRender& job, double levelDb);
-
 } // namespace physvib

@@ -2,7 +2,6 @@
 // The command `physvib play`: its options, and the setup of a live session.
 #include "Calls/JobSession.h"
 #include "Calls/RenderOptions.h"
-#include "CommandLine/Board/BoardCommand.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/DeviceList.h"
 #include "CommandLine/Music/BeatOptions.h"
@@ -209,9 +208,15 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     o.device = outputs.device;
     if (!o.board.empty()) outputs.sinks.push_back({"BOARD", o.board});
     for (const std::string& pad : o.pads) outputs.sinks.push_back({"PAD", pad});
-    // then the controllers run on a timer
-    if (o.device.empty() && !o.pads.empty()) o.device = OutputNames{"PAD:"}.device;
-    if (o.device.empty() && o.board.empty()) return leaveWithoutDevice(o.scene.scene);
+    if (o.device.empty() && outputs.sinks.empty()) return leaveWithoutDevice(o.scene.scene);
+    if (o.device.empty()) { // then a timer gives the blocks
+        o.device = OutputNames{"BOARD:"}.device;
+        for (const char* option : {"--map", "--on-off", "--threshold", "--noise", "--noise-db",
+                                   "--contact-sound", "--marker", "--beats"})
+            if (isGiven(command, option))
+                return leave(exitUsage,
+                             std::string{option} + ": expected a --device, as it is of its channels");
+    }
     const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();
     if (auto refusal = sceneFault(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
@@ -264,13 +269,6 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     for (const std::string& note : notesOf(job.recordings)) tell(note);
     for (const std::string& line : calibrationWarnings(o.scene, job.layout)) tell("warning: " + line);
     for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) tell(line);
-    if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty() && o.scene.marker.empty()))
-        return leave(exitUsage, "--noise, --contact-sound, --marker: expected a --device that they leave by");
-    if (o.device.empty() && !o.beatInputs.empty())
-        return leave(exitUsage, "--beats: expected a --device that hears them");
-    if (o.device.empty() && (o.osc.port || !o.osc.receiver.empty()))
-        return leave(exitUsage, "--osc, --osc-to: expected a --device, whose clock they follow");
-    if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     const std::vector<std::string> written{
         o.recordPath, o.savePath,
         o.savePath.empty() ? ""
@@ -304,6 +302,8 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
         return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per actuator (" +
                                     std::to_string(setup.channels) + "), found \"" + o.ceilings + "\"");
+    if (hasBoard && std::ranges::any_of(setup.ceilings, [](float ceiling) { return ceiling < 1.0f; }))
+        return leave(exitUsage, "--ceiling: a board has none below full scale; expected a lower --level");
     OscSettings osc = o.osc;
     osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
     setup.log = LogUse::none;
