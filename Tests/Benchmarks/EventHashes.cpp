@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A hash over every field of every event, and over all counts, of many worlds: one line per world. Two builds
-// of the library that print the same make the same events to the bit. See hashes.sh.
+// of the library that print the same make the same events to the bit: hashes.sh compares.
 //   hashes WORLDS [FIRST]  the worlds of Worlds.h, then so many random ones, from that seed on
 #include "Worlds.h"
 #include <algorithm>
