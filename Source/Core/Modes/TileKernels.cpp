@@ -424,7 +424,9 @@ void clear(float* const* out, int channels, int count) {
     for (int j = 0; j < channels; ++j) clearChannel(out[j], static_cast<std::size_t>(count));
 }
 
-TileKernel kernel(InstructionSet set) { return {set, advance, render, strike, sum, clear, {take, give}}; }
+TileKernel kernel(InstructionSet set) {
+    return {set, advance, render, strike, sum, clear, {take, give}, measure};
+}
 
 } // namespace physvib::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -436,9 +438,13 @@ HWY_AFTER_NAMESPACE();
 namespace physvib {
 namespace {
 
-const TileKernel* ifSupported(std::int64_t target, const TileKernel& kernel) noexcept {
+// What makes a kernel is compiled for its set too, so it is called only where that runs.
+template <typename Make>
+const TileKernel* ifSupported(std::int64_t target, Make make) noexcept {
     static const std::int64_t here = hwy::SupportedTargets();
-    return (here & target) != 0 ? &kernel : nullptr;
+    if ((here & target) == 0) return nullptr;
+    static const TileKernel kernel = make();
+    return &kernel;
 }
 
 } // namespace
@@ -447,28 +453,16 @@ const TileKernel* tileKernel(InstructionSet set) noexcept {
     using enum InstructionSet;
     switch (set) {
 #if HWY_TARGETS & HWY_SSE4
-    case sse4: {
-        static const TileKernel kernel = N_SSE4::kernel(sse4);
-        return ifSupported(HWY_SSE4, kernel);
-    }
+    case sse4: return ifSupported(HWY_SSE4, [] { return N_SSE4::kernel(sse4); });
 #endif
 #if HWY_TARGETS & HWY_AVX2
-    case avx2: {
-        static const TileKernel kernel = N_AVX2::kernel(avx2);
-        return ifSupported(HWY_AVX2, kernel);
-    }
+    case avx2: return ifSupported(HWY_AVX2, [] { return N_AVX2::kernel(avx2); });
 #endif
 #if HWY_TARGETS & HWY_AVX3
-    case avx512: {
-        static const TileKernel kernel = N_AVX3::kernel(avx512);
-        return ifSupported(HWY_AVX3, kernel);
-    }
+    case avx512: return ifSupported(HWY_AVX3, [] { return N_AVX3::kernel(avx512); });
 #endif
 #if HWY_TARGETS & HWY_NEON
-    case neon: {
-        static const TileKernel kernel = N_NEON::kernel(neon);
-        return ifSupported(HWY_NEON, kernel);
-    }
+    case neon: return ifSupported(HWY_NEON, [] { return N_NEON::kernel(neon); });
 #endif
     case best:
         for (const auto s : {avx512, avx2, neon, sse4})

@@ -116,6 +116,8 @@ struct TileKernel {
     void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr;
     void (*clear)(float* const* out, int channels, int frames) = nullptr; ///< out[channel][frame] = 0
     LimiterKernel limiter;
+    /// Raises `peak` to the largest magnitude, and adds the squares. Their last bits differ between sets.
+    void (*measure)(const float* samples, std::size_t frames, float& peak, double& squares) = nullptr;
 };
 
 /// Null for scalar and for sets that this build or processor lacks. Any thread.

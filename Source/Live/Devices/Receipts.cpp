@@ -2,6 +2,7 @@
 // Writes receipts into the ring, and sums up those of a span.
 #include "Live/Devices/Receipts.h"
 #include "Core/ClockLaw.h"
+#include "Core/Modes/TileKernels.h"
 #include <algorithm>
 #include <cmath>
 
@@ -9,24 +10,11 @@ namespace physvib {
 
 namespace {
 
-// Eight sums at once, which compilers put into vector registers.
-void add(float& peak, double& squares, const float* samples, int frames) noexcept {
-    constexpr int lanes = 8;
-    std::array<float, lanes> most{}, sum{};
-    int n = 0;
-    for (; n + lanes <= frames; n += lanes)
-        for (int k = 0; k < lanes; ++k) {
-            const float x = samples[n + k], size = std::abs(x);
-            const auto at = static_cast<std::size_t>(k);
-            most[at] = most[at] < size ? size : most[at];
-            sum[at] += x * x;
-        }
-    for (; n < frames; ++n) {
-        most[0] = std::max(most[0], std::abs(samples[n]));
-        sum[0] += samples[n] * samples[n];
+void measure(const float* samples, std::size_t frames, float& peak, double& squares) {
+    for (std::size_t n = 0; n < frames; ++n) {
+        peak = std::max(peak, std::abs(samples[n]));
+        squares += static_cast<double>(samples[n] * samples[n]);
     }
-    peak = std::max(peak, *std::ranges::max_element(most));
-    for (const float x : sum) squares += static_cast<double>(x);
 }
 
 } // namespace
@@ -35,7 +23,10 @@ Receipts::Receipts(int actuators)
     : actuators_{actuators}
     , bins_{std::make_unique<Bin[]>(static_cast<std::size_t>(mostBins))}
     , levels_{std::make_unique<Level[]>(static_cast<std::size_t>(mostBins * actuators))}
-    , totals_{std::make_unique<SharedTotal[]>(static_cast<std::size_t>(actuators))} {}
+    , totals_{std::make_unique<SharedTotal[]>(static_cast<std::size_t>(actuators))} {
+    const TileKernel* const best = tileKernel(InstructionSet::best);
+    measure_ = best != nullptr ? best->measure : measure;
+}
 
 void Receipts::expect(std::int64_t fromNs, std::int64_t untilNs) noexcept {
     fromNs_.store(std::clamp<std::int64_t>(fromNs, 0, limits::maxTimeNs), std::memory_order_relaxed);
@@ -68,7 +59,7 @@ void Receipts::take(std::uint32_t session, std::int64_t place, int sampleRateHz,
             if (outputs[j] == nullptr)
                 sum.peak = -1.0f;
             else if (sum.peak >= 0.0f)
-                add(sum.peak, sum.squares, outputs[j] + done, part);
+                measure_(outputs[j] + done, static_cast<std::size_t>(part), sum.peak, sum.squares);
         }
         open_.frames += part;
         done += part;

@@ -91,6 +91,7 @@ private:
     void publish() noexcept;
 
     const int actuators_;
+    void (*measure_)(const float*, std::size_t, float&, double&);
     const std::unique_ptr<Bin[]> bins_;
     const std::unique_ptr<Level[]> levels_;
     const std::unique_ptr<SharedTotal[]> totals_;
