@@ -37,29 +37,43 @@ std::int64_t endOf(const CollisionEvent& e) {
 
 int channelOf(const FeltExport& felt, const CollisionEvent& e) {
     PhantomPanner::Gains gains{};
-    felt.panner.gainsOf(e, e.spread, gains);
+    felt.panner.gainsAt(e, gains);
     const auto loudest =
         std::max_element(gains.begin(), gains.begin() + felt.panner.channels()) - gains.begin();
     return 1 + static_cast<int>(std::min<std::ptrdiff_t>(loudest, 15));
 }
 
-// A strike that begins where one of the same note ends goes on with it.
+// A strike that begins where one of the same note ends goes on with it. One that begins while the same note
+// of its channel sounds ends that one, as MIDI counts no notes, and lasts as long as the longer.
 std::vector<WrittenNote> notesOf(const FeltExport& felt) {
     constexpr std::int64_t roundingNs = 2;
     std::vector<WrittenNote> notes;
-    std::array<std::size_t, 128> last{}; // of each number, counted from 1; 0: none
+    std::array<std::size_t, 128> last{};                   // of each number, counted from 1; 0: none
+    std::array<std::array<std::size_t, 128>, 17> lastOf{}; // the same by channel
     for (const CollisionEvent& e : felt.events) {
-        const WrittenNote note{numberOf(e.frequencyHz), channelOf(felt, e), e.timeNs, endOf(e),
-                               std::abs(e.amplitude)};
+        WrittenNote note{numberOf(e.frequencyHz), channelOf(felt, e), e.timeNs, endOf(e),
+                         std::abs(e.amplitude)};
         auto& place = last[static_cast<std::size_t>(note.number)];
+        auto& same = lastOf[static_cast<std::size_t>(note.channel)][static_cast<std::size_t>(note.number)];
         if (place > 0 && std::abs(notes[place - 1].endNs - note.onsetNs) <= roundingNs) {
             WrittenNote& before = notes[place - 1];
             before.endNs = note.endNs;
             before.amplitude = std::max(before.amplitude, note.amplitude);
             continue;
         }
+        if (same > 0 && notes[same - 1].endNs > note.onsetNs) {
+            WrittenNote& before = notes[same - 1];
+            note.endNs = std::max(note.endNs, before.endNs);
+            before.endNs = note.onsetNs;
+            if (before.onsetNs == note.onsetNs) {
+                note.amplitude = std::max(note.amplitude, before.amplitude);
+                before = note;
+                place = same;
+                continue;
+            }
+        }
         notes.push_back(note);
-        place = notes.size();
+        place = same = notes.size();
     }
     return notes;
 }
@@ -71,7 +85,7 @@ Result<std::string> asClip(const FeltExport& felt, const std::string& path, Clip
                          felt.state.layout.name};
     const auto gains = [&felt](const CollisionEvent& e, PhantomPanner::Gains& to) {
         to = {};
-        felt.panner.gainsOf(e, e.spread, to);
+        felt.panner.gainsAt(e, to);
     };
     const auto clip = clipOfHits(hits, {0.004, static_cast<std::size_t>(felt.panner.channels()), gains});
     if (!clip) return Failure{clip.error};
@@ -105,7 +119,7 @@ std::vector<CollisionEvent> FeltEvents::events(bool fromFirst) const {
 
 std::string midiOf(const FeltExport& felt) {
     const auto notes = notesOf(felt);
-    double most = 0.0;
+    double most = 1e-9; // all may be silent
     for (const auto& note : notes) most = std::max(most, note.amplitude);
     juce::MidiMessageSequence track;
     track.addEvent(juce::MidiMessage::tempoMetaEvent(1'000'000));

@@ -212,6 +212,55 @@ TEST(TakesTab, ATrimmedTakePlaysThatPartFromAFileThatStays) {
     EXPECT_EQ(t.shown(), "hands-take, 1.5 s");
 }
 
+TEST(TakesTab, EventsOfAnotherTakeOrDamagedOnesAreNotTakenForTheCopys) {
+    Trimmed t;
+    const auto exports = [&t] {
+        t.takes->exportTo(t.folder("part.wav"));
+        return std::pair{t.folder("part.wav").existsAsFile(), t.folder("part.csv").existsAsFile()};
+    };
+    t.folder("part.csv").replaceWithText("another's");
+    EXPECT_EQ(exports(), (std::pair{false, true})) << "a list alone is not replaced";
+    EXPECT_EQ(t.folder("part.csv").loadFileAsString(), "another's");
+    t.folder("part.csv").deleteFile();
+    t.button("Trim the take").onClick();
+    ASSERT_TRUE(runUntil([&] { return t.shown().contains("of"); }));
+    const auto list = t.folder("hands-take.csv");
+    const auto whole = list.loadFileAsString();
+    list.replaceWithText(whole + "0.2,x\n");
+    EXPECT_EQ(exports(), (std::pair{false, false})) << "not a copy without events, told as whole";
+    list.replaceWithText(whole);
+    EXPECT_EQ(exports(), (std::pair{true, true}));
+    list.replaceWithText(utf8(eventsCsv({}, {}, {"test", {}})));
+    EXPECT_EQ(exports(), (std::pair{true, true}));
+    EXPECT_FALSE(t.folder("part.csv").loadFileAsString().contains("0.2")) << "it felt nothing";
+    t.folder("part.csv").replaceWithText("another's");
+    list.deleteFile();
+    EXPECT_EQ(exports(), (std::pair{true, false}));
+    t.folder("part.csv").replaceWithText("another's");
+    t.button("Trim the take").onClick();
+    EXPECT_EQ(exports(), (std::pair{true, false})) << "nor beside the whole take";
+}
+
+TEST(TakesTab, TwoPartsWithinAMillisecondAreTwoFiles) {
+    Trimmed t;
+    auto* trimmer = find(t.view, "Start and end of the take");
+    trimmer->setSize(3000, 40); // half a millisecond a pixel
+    trimmer->mouseDown(mouseAt(*trimmer, {2990.0f, 5.0f}));
+    for (const float x : {2001.0f, 2000.6f}) {
+        trimmer->mouseDrag(mouseAt(*trimmer, {x, 5.0f}));
+        t.takes->play();
+    }
+    EXPECT_EQ(t.folder("parts").findChildFiles(juce::File::findFiles, false, "*.wav").size(), 2);
+}
+
+TEST(TakesTab, AMinuteIsNotSixtySeconds) {
+    Taken taken;
+    taken.folder("hands-take.wav").deleteFile();
+    writeTake(taken.folder("hands-take.wav"), 59.96);
+    taken.takes->look();
+    EXPECT_EQ(taken.list().getModel()->getNameForRow(0), "hands-take, 1:00");
+}
+
 TEST(TakesTab, WhatIsSilentThroughoutIsNotTrimmed) {
     EXPECT_EQ(soundingPart(std::vector<float>(10, 0.0f), 2.0), (juce::Range{0.0, 2.0}));
     EXPECT_EQ(soundingPart({0.0f, 0.5f, 0.0f, 0.002f, 0.0005f}, 5.0), (juce::Range{1.0, 4.0}));

@@ -77,6 +77,36 @@ TEST(FeltExport, AHeldNoteIsOneNoteAsLongAsItWasHeld) {
     EXPECT_NEAR(notes.getEventPointer(1)->message.getTimeStamp(), 0.8 + 0.4, 0.01) << "with its release";
 }
 
+TEST(FeltExport, AStrikeOfASoundingNoteEndsItOnceAndLastsAsLongAsBoth) {
+    PlayedInstrument host{"Bass"};
+    const auto state = host.plugin->state();
+    const auto notesOf = [&](const std::vector<CollisionEvent>& events) {
+        const std::string bytes = midiOf({events, state, pannerOf(state, PanningLaw::linear, 1.0)});
+        juce::MemoryInputStream stream{bytes.data(), bytes.size(), false};
+        juce::MidiFile file;
+        EXPECT_TRUE(file.readFrom(stream, false)); // else it adds what is missing
+        file.convertTimestampTicksToSeconds();
+        std::vector<std::pair<double, int>> notes; // velocity; 0: off
+        for (const auto* event : *file.getTrack(0))
+            if (event->message.isNoteOnOrOff())
+                notes.emplace_back(event->message.getTimeStamp(),
+                                   event->message.isNoteOn() ? event->message.getVelocity() : 0);
+        return notes;
+    };
+    CollisionEvent first;
+    first.frequencyHz = 110.0;
+    first.amplitude = 1.0;
+    first.durationNs = 1'000'000'000;
+    CollisionEvent second = first;
+    second.timeNs = 500'000'000;
+    second.durationNs = 250'000'000;
+    const std::vector<std::pair<double, int>> expected{{0.0, 127}, {0.5, 0}, {0.5, 127}, {1.0, 0}};
+    EXPECT_EQ(notesOf({first, second}), expected);
+    EXPECT_EQ(notesOf({first, first}), (std::vector<std::pair<double, int>>{{0.0, 127}, {1.0, 0}}));
+    first.amplitude = 0.0;
+    EXPECT_EQ(notesOf({first}), (std::vector<std::pair<double, int>>{{0.0, 1}, {1.0, 0}}));
+}
+
 TEST(FeltExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
     PlayedInstrument host{"Four corners"};
     for (int note = 60; note < 68; ++note)

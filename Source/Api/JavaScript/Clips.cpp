@@ -71,7 +71,7 @@ int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_re
     const PhantomPanner& panner = wanted.panner;
     clip = clipOfStrikes(own, {error, static_cast<std::size_t>(panner.channels()),
                                [&](const CollisionEvent& e, PhantomPanner::Gains& gains) {
-                                   panner.gainsOf(e, Spread::layout, gains);
+                                   panner.gainsAt(e, gains);
                                }});
     const LayoutDescription layout = describeLayout("layout", panner.layout());
     clip.extentWidthMetres = layout.geometry.extentWidthMetres;

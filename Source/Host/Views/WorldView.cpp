@@ -418,7 +418,7 @@ void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
     const auto strongest = std::ranges::max_element(hits_, {}, light);
     if (strongest == hits_.end() || panner_.channels() == 0) return;
     PhantomPanner::Gains gains{};
-    panner_.gainsOf(strongest->event, Spread::layout, gains);
+    panner_.gainsAt(strongest->event, gains);
     const auto from = at.at(strongest->event.x, strongest->event.y);
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const auto gain = static_cast<float>(gains[static_cast<std::size_t>(j)]);

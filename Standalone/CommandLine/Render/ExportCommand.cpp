@@ -29,7 +29,7 @@ StrikeGains gainsOf(const LoadedRender& job) {
                job.session->log.panners[next].timeNs <= event.timeNs)
             panner = job.session->log.panners[next++].panner;
         gains = {};
-        panner.gainsOf(event, event.spread, gains);
+        panner.gainsAt(event, gains);
     };
 }
 

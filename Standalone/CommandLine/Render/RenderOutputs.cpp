@@ -56,7 +56,7 @@ inline std::string collisionWords(const LoadedRender& job) {
     double least = HUGE_VAL, most = 0.0;
     std::size_t under = 0;
     for (const CollisionEvent& e : events) {
-        panner.gainsOf(e, Spread::layout, gains);
+        panner.gainsAt(e, gains);
         double level = 0.0, g = 0.0;
         for (std::size_t j = 0;
              j < std::min(static_cast<std::size_t>(panner.channels()), job.layout.enchanters.size()); ++j) {

@@ -67,7 +67,7 @@ juce::String materialName(const Scene& scene, const CollisionEvent& hit) {
 
 StrongestActuator strongestOf(const Mix& mix, const CollisionEvent& hit) {
     PhantomPanner::Gains gains{};
-    mix.panner().gainsOf(hit, Spread::layout, gains);
+    mix.panner().gainsAt(hit, gains);
     StrongestActuator strongest;
     for (int j = 0; j < mix.count(); ++j) {
         const auto i = static_cast<std::size_t>(j);

@@ -260,7 +260,7 @@ double energyOf(const Mix& mix, std::span<const CollisionEvent> events) {
     double sum = 0.0;
     for (const CollisionEvent& event : events) {
         PhantomPanner::Gains gains{};
-        panner.gainsOf(event, Spread::layout, gains);
+        panner.gainsAt(event, gains);
         for (std::size_t j = 0; j < strips.size(); ++j) {
             if (strips[j].output < 0 || isSilent(strips, j)) continue;
             const double g = std::abs(event.amplitude) * static_cast<double>(gains[j]) *

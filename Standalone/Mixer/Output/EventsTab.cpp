@@ -329,7 +329,7 @@ Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner
     drawn.channels = static_cast<std::size_t>(panner.channels());
     drawn.gains = [&panner](const CollisionEvent& event, PhantomPanner::Gains& gains) {
         gains = {};
-        panner.gainsOf(event, event.spread, gains);
+        panner.gainsAt(event, gains);
     };
     const auto clip = clipOfHits(hits, drawn);
     if (!clip) return Failure{clip.error};

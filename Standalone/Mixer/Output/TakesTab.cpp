@@ -2,6 +2,7 @@
 // Lists, plays, copies and removes recordings.
 #include "Mixer/Output/TakesTab.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/ReadFile.h"
 #include "Io/Wav/WavSink.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Mixer/Widgets/Cards.h"
@@ -20,10 +21,17 @@ constexpr double takeLookMs = 1000.0;
 
 juce::File eventsOf(const juce::File& wav) { return wav.withFileExtension("csv"); }
 
+bool remove(const juce::File& file) { return file.moveToTrash() || file.deleteFile(); } // some have no bin
+
 juce::String lengthText(double seconds) {
-    return seconds < 60.0 ? number(seconds, 1) + " s"
-                          : juce::String{static_cast<int>(seconds) / 60} + ":" +
-                                juce::String{static_cast<int>(seconds) % 60}.paddedLeft('0', 2);
+    if (seconds < 59.95) return number(seconds, 1) + " s"; // not 60.0 s
+    const int whole = static_cast<int>(std::max(60.0, seconds));
+    return juce::String{whole / 60} + ":" + juce::String{whole % 60}.paddedLeft('0', 2);
+}
+
+/// To a thousandth, so that another part has another name.
+juce::String millisecondsText(double seconds) {
+    return number(1e3 * seconds, 3).trimCharactersAtEnd("0").trimCharactersAtEnd(".");
 }
 
 } // namespace
@@ -131,8 +139,8 @@ void TakesTab::play() {
     const auto part = take()->part;
     const auto file = partsFolder(take()->file)
                           .getChildFile(take()->file.getFileNameWithoutExtension() + " " +
-                                        number(1e3 * part.getStart(), 0) + " to " +
-                                        number(1e3 * part.getEnd(), 0) + " ms.wav");
+                                        millisecondsText(part.getStart()) + " to " +
+                                        millisecondsText(part.getEnd()) + " ms.wav");
     if (!file.existsAsFile() || file.getLastModificationTime() < take()->at) {
         file.getParentDirectory().createDirectory();
         if (model_.reportFault(writeTakePart(take()->file, part, file))) return;
@@ -150,12 +158,18 @@ void TakesTab::askExport() {
 void TakesTab::exportTo(const juce::File& file) {
     if (!take() || file == take()->file) return;
     const auto from = take()->file;
+    const auto events = eventsOf(file);
+    if (events.existsAsFile() && !file.existsAsFile())
+        return model_.report(events.getFullPathName() + ": is there already, without " + file.getFileName() +
+                             "; expected another name");
     juce::String error;
     if (take()->isTrimmed())
-        error = utf8(writeTakePart(from, take()->part, file));
-    else if (!from.copyFileTo(file) ||
-             (eventsOf(from).existsAsFile() && !eventsOf(from).copyFileTo(eventsOf(file))))
+        error = utf8(exportTakePart(from, take()->part, file));
+    else if (!from.copyFileTo(file) || (eventsOf(from).existsAsFile() && !eventsOf(from).copyFileTo(events)))
         error = file.getFullPathName() + ": cannot be written";
+    // those of the recording that was replaced
+    if (error.isEmpty() && !eventsOf(from).existsAsFile() && events.existsAsFile() && !remove(events))
+        error = events.getFullPathName() + ": is of another recording and cannot be deleted";
     if (error.isNotEmpty()) return model_.report(error);
     model_.messages().show(
         {"Copied to " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}, "saved"});
@@ -170,8 +184,6 @@ void TakesTab::askErase() {
 void TakesTab::erase() {
     if (!take()) return;
     const auto [file, seconds] = std::pair{take()->file, take()->seconds};
-    const auto remove = [](const juce::File& f) { return f.moveToTrash() || f.deleteFile(); }; // some have no
-                                                                                               // bin
     const bool isGone = remove(file);
     if (eventsOf(file).existsAsFile()) remove(eventsOf(file));
     if (isGone)
@@ -445,22 +457,54 @@ juce::Range<double> soundingPart(const std::vector<float>& levels, double second
     return {secondsOf(first), secondsOf(last)};
 }
 
-std::string writeTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to) {
-    const Provenance provenance{PHYSVIB_VERSION, {{"part_of", take.getFileName().toStdString()}}};
-    Part part{seconds, to, provenanceLine(provenance)};
+namespace {
+
+std::string writePart(const juce::File& take, Part& part) {
     auto error = streamRecording(take.getFullPathName().toStdString(), part);
-    if (error.empty()) error = part.finish();
-    const auto from = take.withFileExtension("csv");
-    if (!error.empty() || !from.existsAsFile()) return error;
-    auto list = loadEventsCsv(from.getFullPathName().toStdString());
-    if (!list) return {}; // a take without an event has a list that has none
+    return error.empty() ? part.finish() : error;
+}
+
+Provenance provenanceOf(const juce::File& take) {
+    return {PHYSVIB_VERSION, {{"part_of", take.getFileName().toStdString()}}};
+}
+
+/// True if nothing follows the header, which readers of lists refuse.
+bool hasNoRows(std::string_view list) {
+    const auto lines = juce::StringArray::fromLines(utf8(std::string{list}));
+    return std::ranges::count_if(lines, [](const juce::String& line) {
+               return line.trim().isNotEmpty() && !line.startsWithChar('#');
+           }) <= 1;
+}
+
+/// Of a take that felt nothing there are none.
+Result<EventList> eventsOfTake(const juce::File& list) {
+    const std::string path = list.getFullPathName().toStdString();
+    auto read = loadEventsCsv(path);
+    if (read) return read;
+    const auto text = readFile(path, limits::maxEventsFileBytes);
+    return text && hasNoRows(text.value) ? Result<EventList>{EventList{}} : read;
+}
+
+} // namespace
+
+std::string writeTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to) {
+    Part part{seconds, to, provenanceLine(provenanceOf(take))};
+    return writePart(take, part);
+}
+
+std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to) {
+    const bool hasList = eventsOf(take).existsAsFile();
+    auto list = hasList ? eventsOfTake(eventsOf(take)) : Result<EventList>{EventList{}};
+    if (!list) return list.error;
+    Part part{seconds, to, provenanceLine(provenanceOf(take))};
+    if (auto error = writePart(take, part); !error.empty() || !hasList) return error;
     auto& events = list.value.events;
     std::erase_if(events, [&](const CollisionEvent& e) {
         return e.timeNs < part.fromNs() || e.timeNs >= part.endNs();
     });
     for (auto& event : events) event.timeNs -= part.fromNs();
-    return writeFile(to.withFileExtension("csv").getFullPathName().toStdString(),
-                     eventsCsv(events, list.value.field, provenance, list.value.names));
+    return writeFile(eventsOf(to).getFullPathName().toStdString(),
+                     eventsCsv(events, list.value.field, provenanceOf(take), list.value.names));
 }
 
 // Beside the parts that were played, so that the recording and its events stay as they are.

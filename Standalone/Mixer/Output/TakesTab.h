@@ -69,7 +69,8 @@ public:
     void choose(int row) { list_.selectRow(row); }
     /// On the device, each channel on the actuator of its number, as a clip of the session.
     void play();
-    /// With the events beside it, of a trimmed take that part; nothing is replaced.
+    /// With the events beside it, of a trimmed take that part. What replaces a recording replaces its events;
+    /// a list alone is left, and told.
     void exportTo(const juce::File& file);
     /// Cuts the silence at both ends, or takes all of a trimmed take again. The recording stays as it is.
     void trim();
@@ -116,9 +117,12 @@ std::vector<float> takeLevels(const juce::File& take, int columns, const std::fu
 /// From the first part that can be felt to the last, s; all of it if there is none. Any thread.
 juce::Range<double> soundingPart(const std::vector<float>& levels, double seconds);
 
-/// Writes that part, and the events in it, as a recording of its own. An edge within the sound fades in 5 ms.
-/// Empty, or one line. Message thread.
+/// Writes that part as a recording of its own. An edge within the sound fades in 5 ms. Empty, or one line.
+/// Message thread, as the next one.
 std::string writeTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to);
+
+/// With the events in it; if those of the take cannot be read, nothing is written.
+std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to);
 
 /// Which part of a recording was chosen, kept in a small file below it.
 /// The folder below the takes for what belongs to them and is not listed.
