@@ -37,6 +37,9 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
         VST3_CATEGORIES ${categories}
         AU_MAIN_TYPE ${au_type}
         ${physvib_vst3_manifest})
+    get_target_property(linked ${target} LINK_LIBRARIES)
+    list(REMOVE_ITEM linked juce::juce_audio_plugin_client) # from 8 on: all of JUCE, compiled once more for each
+    set_target_properties(${target} PROPERTIES LINK_LIBRARIES "${linked}")
     target_sources(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Entry.cpp)
     target_compile_definitions(${target} PUBLIC PHYSVIB_BUSES=${buses} PHYSVIB_CHANNELS=${channels} PHYSVIB_MUSIC_PORTS=${music_ports} JUCE_VST3_CAN_REPLACE_VST2=0
         JucePlugin_LV2URI="${lv2uri}") # juce_add_plugin's own argument is lost in Debian's package
