@@ -5,8 +5,8 @@
 #include "Api/C/Handles.h"
 #include "Api/Live/physvib-live.h"
 #include "Core/Units.h"
-#include "Live/Devices/ThisThread.h"
 #include "Live/Rig/Rig.h"
+#include "Live/Session/ThisThread.h"
 #include <atomic>
 #include <future>
 #include <mutex>

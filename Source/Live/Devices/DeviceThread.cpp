@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs each driver call on a thread of its own and counts the calls that were abandoned.
 #include "Live/Devices/DeviceThread.h"
-#include "Live/Devices/ThisThread.h"
+#include "Live/Session/ThisThread.h"
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>

@@ -2,7 +2,7 @@
 // The null device's thread, with one absolute deadline per block.
 #include "Live/Devices/NoDevice.h"
 #include "Core/Limits.h"
-#include "Live/Devices/ThisThread.h"
+#include "Live/Session/ThisThread.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A thread with deadlines that steps a session's world.
 #include "Live/Devices/SimulationDriver.h"
-#include "Live/Devices/ThisThread.h"
+#include "Live/Session/ThisThread.h"
 #include <algorithm>
 
 namespace physvib {

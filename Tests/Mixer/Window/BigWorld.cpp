@@ -5,7 +5,7 @@
 // the body that it draws. With --paint: processor time of a picture of that world, without a display.
 // ../big-world.sh runs it; no test, since it measures times.
 #include "Host/MessageLoop.h"
-#include "Live/Session/ThreadTime.h"
+#include "Live/Session/ThisThread.h"
 #include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Scene/SceneFile.h"

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Thread processor time on Windows, by GetThreadTimes, in steps of 100 ns.
+// Thread priority on Windows, and processor time, in steps of 100 ns.
 #if defined(_WIN32)
 #include "Io/Disk/SystemWindows.h"
-#include "Live/Session/ThreadTime.h"
+#include "Live/Session/ThisThread.h"
 
 namespace physvib {
+
+void raiseThreadPriority() noexcept { SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_TIME_CRITICAL); }
+
+// they need the COM apartment of that thread
+bool areDriversBoundToTheirThread() noexcept { return true; }
 
 double threadSeconds() noexcept {
     const auto secondsOf = [](const FILETIME& time) {
@@ -14,6 +19,8 @@ double threadSeconds() noexcept {
     GetThreadTimes(GetCurrentThread(), &begun, &ended, &inKernel, &inUser);
     return secondsOf(inKernel) + secondsOf(inUser);
 }
+
+int thisProcess() noexcept { return static_cast<int>(GetCurrentProcessId()); }
 
 } // namespace physvib
 #endif

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The system's rules for threads that drive devices and worlds, and for their process.
+// The system's rules for threads that drive devices and worlds, and for their process; what a thread took.
 #pragma once
 
 namespace physvib {
 
 /// Realtime priority for the calling thread, where the system permits; otherwise nothing changes.
 void raiseThreadPriority() noexcept;
+
+/// Processor time of the calling thread since it began, s: without waiting and other programs. Any thread but
+/// the render thread (R).
+double threadSeconds() noexcept;
 
 /// Whether the thread that creates a driver must make all its calls.
 bool areDriversBoundToTheirThread() noexcept;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Thread priority on POSIX, by the round-robin scheduler.
+// Thread priority on POSIX, by the round-robin scheduler, and processor time.
 #if !defined(_WIN32)
-#include "Live/Devices/ThisThread.h"
+#include "Live/Session/ThisThread.h"
 #include <pthread.h>
 #include <sched.h>
+#include <time.h>
 #include <unistd.h>
 
 namespace physvib {
@@ -17,6 +18,12 @@ void raiseThreadPriority() noexcept {
 }
 
 bool areDriversBoundToTheirThread() noexcept { return false; }
+
+double threadSeconds() noexcept {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 int thisProcess() noexcept { return getpid(); }
 
