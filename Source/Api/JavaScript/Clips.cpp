@@ -69,10 +69,9 @@ int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_re
         refuse("events: expected at most " + std::to_string(limits::maxClipStrikes));
     if (!(error > 0.0 && error <= 0.5)) refuse("error: expected more than 0, to 0.5");
     const PhantomPanner& panner = wanted.panner;
-    clip = clipOfStrikes(own, {error, static_cast<std::size_t>(panner.channels()),
-                               [&](const CollisionEvent& e, PhantomPanner::Gains& gains) {
-                                   panner.gainsAt(e, gains);
-                               }});
+    clip = clipOfStrikes(
+        own, {error, static_cast<std::size_t>(panner.channels()),
+              [&](const CollisionEvent& e, PhantomPanner::Gains& gains) { panner.gainsAt(e, gains); }});
     const LayoutDescription layout = describeLayout("layout", panner.layout());
     clip.extentWidthMetres = layout.geometry.extentWidthMetres;
     clip.extentHeightMetres = layout.geometry.extentHeightMetres;
