@@ -149,6 +149,7 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
     pasts_.reserve(expectedContacts);
     passed_.reserve(expectedContacts);
     receivers_.reserve(expectedContacts);
+    ended_.reserve(expectedContacts);
 }
 
 void ChainLoads::settle() {

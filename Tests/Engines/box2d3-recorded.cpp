@@ -150,6 +150,7 @@ void judgeErrors() {
                "which names the body and the call that is missing");
     }
     demand(told == 1, "and is told once");
+    played.events[0].size = sizeof played.events[0];
     demand(physvib_world_take(played.haptics.world, played.events, 8, 1) == 1, "the next hit is felt");
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-class FailingDisks : public FolderTest {
+class FailingDisksOfRecordings : public FolderTest {
 protected:
     static std::array<std::vector<float>, 2> samples() {
         std::array<std::vector<float>, 2> all;
@@ -22,7 +22,7 @@ protected:
     }
 };
 
-TEST_F(FailingDisks, AreToldByAWavFile) {
+TEST_F(FailingDisksOfRecordings, AreToldByAWavFile) {
     const auto channels = samples();
     const std::array at{channels[0].data(), channels[1].data()};
     for (const bool isThere : {false, true})
@@ -39,7 +39,7 @@ TEST_F(FailingDisks, AreToldByAWavFile) {
             true);
 }
 
-TEST_F(FailingDisks, AreToldByARecordingAndItsList) {
+TEST_F(FailingDisksOfRecordings, AreToldByARecordingAndItsList) {
     const auto channels = samples();
     const std::array at{channels[0].data(), channels[1].data()};
     expectToldByEachFault(
@@ -55,7 +55,7 @@ TEST_F(FailingDisks, AreToldByARecordingAndItsList) {
         true);
 }
 
-TEST_F(FailingDisks, AreToldByEachPartOfAnExport) {
+TEST_F(FailingDisksOfRecordings, AreToldByEachPartOfAnExport) {
     for (const ClipFormat format : {ClipFormat::hjif, ClipFormat::ahap, ClipFormat::haptic}) {
         Clip clip;
         clip.channels.resize(3);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What was measured as wrong, and the tests that hold it: measured.py ROOT [--table]. measured.txt has a line for each: what | before | after | test @ file. Prints
 which line has no test any more; --table: prints all as a table. Exit code 1 if a test is missing."""
 import sys
