@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Instructions per block, per strike and per step of physics, counted by callgrind: the same number however busy the machine
-# is. Callgrind's processor has AVX2 at best. Each figure is the difference of two runs, so start-up does not count.
+# is. Callgrind's processor has AVX2 at best. Start-up does not count: blocks are the difference of two runs, steps are counted
+# alone.
 set -eu
 cd "$(dirname "$0")/../.."
 . .ci/packages.sh
