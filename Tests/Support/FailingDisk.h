@@ -74,7 +74,7 @@ inline void expectToldByEachFault(const std::filesystem::path& folder, const std
 } // namespace physvib::test
 
 // One of them is enough in a program; under sanitizers, which have their own, each program has only one.
-#ifdef PHYSVIB_ADDRESS_SANITIZER
+#if defined(PHYSVIB_ADDRESS_SANITIZER) || defined(PHYSVIB_THREAD_SANITIZER)
 #define PHYSVIB_ONE_OF_THEM
 #else
 #define PHYSVIB_ONE_OF_THEM __attribute__((weak))
