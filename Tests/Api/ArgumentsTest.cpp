@@ -121,6 +121,27 @@ TEST(Arguments, SilencesAndLayoutsActBetweenTheirTimes) {
     }
 }
 
+TEST(Arguments, AFieldThatIsNotGivenIsTheLayouts) {
+    const auto pulled = [](bool isGiven) {
+        physvib_renderer_settings settings = plainSettings();
+        settings.field_width_m = isGiven ? settings.layout.extent_width_m : 0.0;
+        settings.field_height_m = isGiven ? settings.layout.extent_height_m : 0.0;
+        EXPECT_NE(settings.layout.extent_width_m, settings.layout.extent_height_m);
+        physvib_renderer renderer = nullptr;
+        EXPECT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_OK) << physvib_error();
+        const physvib_event event =
+            tone(0, 0.3 * settings.layout.extent_width_m, 0.3 * settings.layout.extent_height_m);
+        EXPECT_EQ(physvib_renderer_strike(renderer, &event), PHYSVIB_OK) << physvib_error();
+        std::vector<float> all(channels * frames);
+        std::array<float*, channels> at{};
+        for (std::size_t j = 0; j < channels; ++j) at[j] = all.data() + j * frames;
+        EXPECT_EQ(physvib_renderer_pull(renderer, at.data(), channels, frames), PHYSVIB_OK);
+        EXPECT_EQ(physvib_renderer_free(renderer), PHYSVIB_OK);
+        return all;
+    };
+    EXPECT_EQ(pulled(false), pulled(true));
+}
+
 TEST(Arguments, OfImpactsCountEachForItselfAlone) {
     const auto impact = [](double x, double y, double strength, const char* material) {
         return played(

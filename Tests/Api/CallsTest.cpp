@@ -155,6 +155,18 @@ TEST(Calls, ALandingIsFeltByItsImpulse) {
     EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
 }
 
+TEST(Calls, ABodyIsOnTheDeviceThatItWasGivenLast) {
+    const physvib_world world = worldOfABall();
+    physvib_body body;
+    physvib_body_init(&body, sizeof body);
+    for (const int device : {0, 3, 1, 0, 2}) {
+        body.device = device;
+        EXPECT_EQ(physvib_world_set_body(world, 1, &body), PHYSVIB_OK);
+        EXPECT_EQ(physvib_world_device(world, 1), device);
+    }
+    EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
+}
+
 TEST(Calls, WhatRollsOverGrainsIsFelt) {
     const physvib_world world = worldOfABall();
     physvib_body floor;

@@ -67,6 +67,16 @@ TEST_F(CalibrateCommand, WritesTheProfileOfWhatWasRecorded) {
     EXPECT_FALSE(loadActuator(folder_ / "mine.json").value.fullScaleG); // nobody said what a sample is
 }
 
+TEST_F(CalibrateCommand, WiredTheOtherWayRoundAnActuatorIsAsStrong) {
+    std::vector<float> turned = felt();
+    for (float& sample : turned) sample = -sample;
+    record(turned);
+    ASSERT_EQ(call(std::string{pair} + "--g-per-unit 4").exitCode, 0);
+    const auto profile = loadActuator(folder_ / "mine.json");
+    ASSERT_TRUE(profile) << profile.error;
+    EXPECT_NEAR(*profile.value.fullScaleG, 2.0, 0.1);
+}
+
 TEST_F(CalibrateCommand, WritesTheLayoutThatHasItsFullScale) {
     record(felt());
     const auto plain = call(std::string{pair} + "--g-per-unit 10");

@@ -2,7 +2,10 @@
 // `physvib render --movie`: its pictures and their times, read from the file itself; ffmpeg by a stand-in
 // that tells how it was called.
 #include "CommandLine/Calls.h"
+#include "Pictures/RenderMovie.h"
+#include <array>
 #include <cstdint>
+#include <vector>
 
 namespace physvib::test {
 namespace {
@@ -37,6 +40,38 @@ Animation animationOf(const std::string& webp) {
     }
     found.share /= static_cast<double>(std::max<std::size_t>(found.frames, 1));
     return found;
+}
+
+TEST(RenderMovie, EachActuatorShinesByWhatItPlays) {
+    constexpr int rateHz = 8000;
+    PictureInput input;
+    input.fieldWidthMetres = input.layout.extentWidthMetres = 0.14;
+    input.fieldHeightMetres = input.layout.extentHeightMetres = 0.07;
+    input.layout.count = 2;
+    input.layout.places[0] = {0.02, 0.03};
+    input.layout.places[1] = {0.12, 0.03};
+    input.sampleRateHz = rateHz;
+    input.durationSeconds = 1.0;
+    const std::vector<float> silence(rateHz), loud(rateHz, 0.5f);
+    const std::array<std::array<const float*, 2>, 3> played{
+        {{silence.data(), silence.data()}, {loud.data(), silence.data()}, {silence.data(), loud.data()}}};
+    std::vector<picture::Image> images;
+    for (const auto& block : played) {
+        WaveformEnvelope waveform(2, 0, rateHz);
+        waveform.add(block.data(), rateHz);
+        input.waveform = &waveform;
+        images.push_back(RenderMovie{input}.at(500'000'000, {}));
+    }
+    std::array<double, 3> centre{};
+    for (const std::size_t which : {1u, 2u}) {
+        double sum = 0.0, count = 0.0;
+        for (int y = 60; y < RenderMovie::height / 2; ++y) // the world, not the lanes below it
+            for (int x = 0; x < RenderMovie::width; ++x)
+                if (images[which].at(x, y) != images[0].at(x, y)) sum += x, ++count;
+        ASSERT_GT(count, 100.0) << which;
+        centre[which] = sum / count;
+    }
+    EXPECT_LT(centre[1] + 100.0, centre[2]);
 }
 
 TEST_F(MovieCommand, LastsAsLongAsTheRenderAndMoves) {

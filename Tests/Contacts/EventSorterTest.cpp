@@ -76,6 +76,15 @@ TEST(EventSorter, FullSorterCountsWhatItDrops) {
     EXPECT_EQ(sorter.drops(), 3U);
 }
 
+TEST(EventSorter, AFullOneKeepsTheStrongest) {
+    EventSorter sorter(2);
+    for (const double amplitude : {0.1, -0.2, 0.15, 0.05}) sorter.push(event(0, 0, amplitude));
+    std::vector<CollisionEvent> finished;
+    sorter.release(100, finished);
+    EXPECT_EQ(finished, (std::vector{event(0, 0, -0.2), event(0, 0, 0.15)}));
+    EXPECT_EQ(sorter.drops(), 2U);
+}
+
 TEST(EventSorter, WithdrawsEventsOfAFixtureAndOnDemandThoseItGave) {
     EventSorter sorter(8);
     CollisionEvent given = event(2, 1);

@@ -155,6 +155,16 @@ TEST(PadMotors, StrongerHitsAreFeltStronger) {
     }
 }
 
+TEST(PadMotors, AHitRumblesUntilItDecaysToTheFloor) {
+    for (const double decayPerSecond : {4.0, 8.0}) {
+        std::int64_t lastNs = 0;
+        for (const PadCommand& command : commandsOf({}, {hit(0.1, 60.0, 0.8, 0.5, decayPerSecond)}))
+            if (!command.isSame({})) lastNs = command.timeNs;
+        const double end = 0.1 + std::log(0.8 / PadLaw{}.floor) / decayPerSecond;
+        EXPECT_NEAR(1e-9 * static_cast<double>(lastNs), end, 0.2) << decayPerSecond;
+    }
+}
+
 TEST(PadMotors, FrequencyAndPlaceShareAHitBetweenTheMotors) {
     const auto felt = [](double frequencyHz, double x) {
         return feltOf({}, commandsOf({}, {hit(0.1, frequencyHz, 0.5, x)}));

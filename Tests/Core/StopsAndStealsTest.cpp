@@ -221,5 +221,16 @@ TEST(StopsOfSound, EndWhateverSoundsWithinATenthOfASecond) {
         }
 }
 
+/// A silence of collisions alone: bodies are silent from the first fixture on, what is struck by hand is not.
+TEST(StopsOfSound, OfCollisionsSilenceEveryFixtureAndNoStrike) {
+    RenderControl silence = control(RenderControl::Kind::silence, 0, 1.0f);
+    silence.untilNs = 500 * ms;
+    for (const std::int32_t fixture : {-1, 0, 1, 7}) {
+        CollisionEvent hit = tone(100 * ms, 0.5);
+        hit.source.fixture = fixture;
+        EXPECT_EQ(peak(rendered({hit}, {silence}, rate), 0, rate) > 0.0, fixture < 0) << fixture;
+    }
+}
+
 } // namespace
 } // namespace physvib

@@ -209,5 +209,20 @@ TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
     EXPECT_NE(loadRecordings(saved.value.log).error.find("second.wav: cannot be read"), std::string::npos);
 }
 
+// The sound of an event leaves a latency after it: so it stands in the list.
+TEST_F(Recordings, EventsStandWhereTheirSoundIs) {
+    Recording recording{folder / "take.wav", 1, 48000};
+    ASSERT_EQ(recording.error(), "");
+    const std::vector<float> silence(4800);
+    const float* const channels[] = {silence.data()};
+    recording.recorder().rendered({channels, 4800, 960, 48000}); // begins 20 ms after the session
+    recording.take(
+        {{.timeNs = 25'000'000, .frequencyHz = 200, .decayPerSecond = 30, .amplitude = 0.5}, 0, false});
+    ASSERT_EQ(recording.finish(480, {1.0, 1.0}, {}, {}), "");
+    const auto list = loadEventsCsv((folder / "take.csv").string());
+    ASSERT_EQ(list.value.events.size(), 1u) << list.error;
+    EXPECT_EQ(list.value.events[0].timeNs, 15'000'000);
+}
+
 } // namespace
 } // namespace physvib

@@ -89,8 +89,8 @@ TEST(Doses, OfBeforeKeepTheFullScalesOfBefore) {
         for (EnchanterDescription& enchanter : layout.enchanters) enchanter.fullScaleG = fullScaleG;
         return layout;
     };
-    MixerExposure updated{output}, forgetful{output};
-    for (MixerExposure* exposure : {&updated, &forgetful}) exposure->use(withScale(1.0));
+    MixerExposure updated{output}, forgetful{output}, ofOne{output};
+    for (MixerExposure* exposure : {&updated, &forgetful, &ofOne}) exposure->use(withScale(1.0));
     const auto play = [&] {
         for (int k = 0; k < 1500; ++k) { // two seconds
             if (k % 4 == 0) session.advance();
@@ -104,8 +104,10 @@ TEST(Doses, OfBeforeKeepTheFullScalesOfBefore) {
     for (MixerExposure* exposure : {&updated, &forgetful}) exposure->use(withScale(4.0));
     EXPECT_DOUBLE_EQ(forgetful.squareGSeconds(), before);
     play();
-    for (MixerExposure* exposure : {&updated, &forgetful}) exposure->update();
+    for (MixerExposure* exposure : {&updated, &forgetful, &ofOne}) exposure->update();
     EXPECT_GT(updated.squareGSeconds(), before);
+    const double more = ofOne.squareGSeconds() - before;
+    EXPECT_NEAR((updated.squareGSeconds() - before) / more, 16.0, 1e-9) << "in g: 4 squared";
     EXPECT_DOUBLE_EQ(forgetful.squareGSeconds(), updated.squareGSeconds());
 }
 

@@ -283,6 +283,35 @@ TEST(MixerRouting, ANewActuatorLeavesTheMonitorAndTheMarkerWhatTheyUse) {
     EXPECT_EQ(list->getItemText(1), "out 1 (monitor)");
 }
 
+/// Chooses the entry that begins with `words`, as a hand does.
+void chooseIn(juce::Component& view, const juce::String& title, const juce::String& words) {
+    auto* list = dynamic_cast<juce::ComboBox*>(find(view, title));
+    ASSERT_NE(list, nullptr) << title;
+    for (int k = 0; k < list->getNumItems(); ++k)
+        if (list->getItemText(k).startsWith(words))
+            return list->setSelectedItemIndex(k, juce::sendNotificationSync);
+    FAIL() << title << " has no " << words;
+}
+
+TEST(MixerRouting, WhatIsChosenInAListIsWhatPlays) {
+    RoutedModel routed;
+    MixerView view{routed.model};
+    routed.model.dispatchPendingMessages();
+    view.refresh();
+    chooseIn(view, "Output of C", "out 7");
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 6, 3}));
+    chooseIn(view, "Output of B", "none");
+    EXPECT_EQ(routed.outputs(), (std::vector{0, -1, 6, 3}));
+    routed.expectAsShown("chosen");
+    view.tabs().choose("Output");
+    view.refresh();
+    chooseIn(view, "Marks", "output 6");
+    EXPECT_EQ(routed.model.device().choice().marker, 5);
+    chooseIn(view, "Marks", "none");
+    EXPECT_EQ(routed.model.device().choice().marker, -1);
+    EXPECT_TRUE(routed.model.trouble().isEmpty()) << routed.model.trouble();
+}
+
 TEST(MixerRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
     FakeInterface hands;
     MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};

@@ -51,6 +51,22 @@ TEST(WorldMenu, EachThingHasItsOwn) {
     EXPECT_TRUE(under.contains(utf8(floor.name)) && under.contains("Material")) << under.joinIntoString(", ");
 }
 
+TEST(Hands, ABodyThatWasLetGoIsNotHeldAgain) {
+    Field f;
+    f.add(DrawTool::ball, 0.5, 0.5);
+    for (int k = 0; k < 20; ++k)
+        f.world.onHold("ball 1", {}, f.share(0.5, 0.5 + 0.01 * k)); // one still waits
+    f.world.onLetGo("ball 1");
+    runFor(0.05);
+    f.view.refresh();
+    const GripAction* last = nullptr;
+    const auto saved = f.model.saved();
+    for (const LiveInput& input : saved.log.takes.back().inputs)
+        if (const auto* grip = std::get_if<GripAction>(&input.action)) last = grip;
+    ASSERT_NE(last, nullptr);
+    EXPECT_FALSE(last->toMetres);
+}
+
 TEST(WorldMenu, WhatItSaysIsDone) {
     Field f;
     f.add(DrawTool::ball, 0.5, 0.5);

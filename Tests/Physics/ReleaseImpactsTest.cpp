@@ -118,6 +118,18 @@ TEST_F(ReleaseImpactsWorld, LastBallOfARowFeelsItsOwnImpulseOnce) {
     EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.02 * own);
 }
 
+// Two collisions of one step: the row is struck hard at two thirds of it, and lightly at a tenth.
+TEST_F(ReleaseImpactsWorld, WhatIsHandedOnIsTheStrongestCollision) {
+    for (int i = 0; i < 4; ++i)
+        (void)attachment.set(ball(0.499F * static_cast<float>(i), 0.0F, 0.0F, 0.0F, 0.0F), object);
+    (void)attachment.set(ball(0.499F * 4.0F, 0.0F, 0.0F, 0.0F, 0.0F), camera);
+    (void)attachment.set(ball(0.499F, 0.5F + 0.0805F, 0.0F, -0.5F, 0.0F), object);
+    (void)attachment.set(ball(-1.0F, 0.0F, 3.0F, 0.0F, 0.0F), object);
+    const auto events = run(100);
+    ASSERT_GE(events.size(), 1U);
+    EXPECT_NEAR(seconds(events[0]), 0.5 / 3.0 + 0.05, 0.001);
+}
+
 TEST_F(ReleaseImpactsWorld, FallingNeighboursFeelNothing) {
     world.SetGravity({0.0F, -10.0F});
     b2Fixture& struck = ball(0.499F, 0.0F, 0.0F, 0.0F, 0.0F);

@@ -142,6 +142,14 @@ TEST(Voice, TheSustainPedalHoldsWhatTheKeyHasLetGo) {
     EXPECT_LT(peakBetween(ended, 28000, 36000), 0.001f) << "All Notes Off";
 }
 
+TEST(Voice, OneKeyOnTwoChannelsIsTwoNotes) {
+    auto state = voiced(true);
+    state.voice.releaseSeconds = 0.05;
+    const Message other = Message::noteOn(2, 45, juce::uint8{127});
+    const auto signal = playedBy(state, {{0, on(45)}, {100, other}, {4800, off(45)}}, 36000);
+    EXPECT_NEAR(peakBetween(signal, 30000, 36000), 1.0f, 0.01f) << "the one that is still held";
+}
+
 TEST(Voice, BendPressureAndSlideMoveWhatSounds) {
     auto state = voiced(true);
     state.voice.bendSemitones = 12.0;

@@ -45,6 +45,10 @@ TEST(PadFile, ABadProfileIsNamedByItsField) {
     EXPECT_EQ(errorOf("\"half\": 0.5", "\"half\": 0.3"),
               "my.json: low.half: expected more than threshold, 0.3");
     EXPECT_EQ(errorOf("\"full\": 0.86", "\"full\": 0.4"), "my.json: low.full: expected more than half, 0.5");
+    PadProfile high = builtInPads().front(); // its low motor is right
+    high.law.high.half = high.law.high.full;
+    EXPECT_EQ(readPad(padJson(high), "my.json").error.rfind("my.json: high.full: expected more than half", 0),
+              0u);
     EXPECT_EQ(errorOf("\"commands_per_s\": 30", "\"commands_per_s\": 0")
                   .rfind("my.json: commands_per_s: expected", 0),
               0u);

@@ -123,6 +123,16 @@ TEST_F(SessionJournals, WaitForADiskThatIsFullAndMissNothing) {
     EXPECT_EQ(rows(), events);
 }
 
+TEST_F(SessionJournals, SayThatTheyAreFull) {
+    Session session{setup};
+    session.prepare(hostRate, 480);
+    SessionJournal journal{folder / "monday.json", session, setup, {}};
+    play(session, journal, 10);
+    journal.end(limits::maxSessionNs + 1);
+    EXPECT_EQ(journal.news().rfind((folder / "monday.json").string() + ": is full (", 0), 0U)
+        << journal.news();
+}
+
 TEST_F(SessionJournals, SayWhatOthersDidToTheirFiles) {
     const auto file = folder / "monday.json", list = folder / "monday.events.csv";
     const std::string

@@ -762,6 +762,20 @@ TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
     EXPECT_FALSE(folder.getChildFile("short-P01.csv").exists());
 }
 
+TEST(FeltStimuli, AreInGWhateverAnActuatorCanGive) {
+    LayoutDescription layout = presetLayout("phone4");
+    for (std::size_t j = 0; j < 4; ++j) layout.enchanters[j].fullScaleG = 2.0 + static_cast<double>(j);
+    const auto file = juce::File::createTempFile(".json");
+    file.replaceWithText(juce::String{layoutJson(layout)});
+    StimulusJob job{PhantomJob{}};
+    job.layout = file.getFullPathName().toStdString();
+    const auto felt = feltStimulus(job, 48000);
+    file.deleteFile();
+    ASSERT_EQ(felt.value.gains.size(), 4u) << felt.error;
+    for (std::size_t j = 0; j < 4; ++j)
+        EXPECT_FLOAT_EQ(felt.value.gains[j], static_cast<float>(1.0 / (2.0 + static_cast<double>(j))));
+}
+
 } // namespace
 } // namespace physvib
 

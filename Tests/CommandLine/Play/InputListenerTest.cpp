@@ -23,7 +23,7 @@ bool comesTrue(const std::function<bool()>& isTrue) {
 /// A session that listens to a pipe in the place of standard input. A message `clip` holds up whoever does
 /// what lines say, until `goOn`.
 struct Listening {
-    Listening() {
+    explicit Listening(bool keepsPlaying = true) {
         EXPECT_EQ(pipe(ends), 0);
         before = dup(STDIN_FILENO);
         dup2(ends[0], STDIN_FILENO);
@@ -32,14 +32,19 @@ struct Listening {
             while (!keepGoing) std::this_thread::sleep_for(std::chrono::milliseconds{1});
             return Result<LoadedClip>{Failure{"no clip"}};
         };
-        listener.emplace(session, output, messages, clips, true);
+        listener.emplace(session, output, messages, clips, keepsPlaying);
     }
     ~Listening() {
         keepGoing = true;
         if (writer.joinable()) writer.join();
         listener.reset();
         dup2(before, STDIN_FILENO);
-        for (const int end : {ends[0], ends[1], before}) close(end);
+        close(ends[0]), close(before);
+        endInput();
+    }
+    void endInput() {
+        if (ends[1] >= 0) close(ends[1]);
+        ends[1] = -1;
     }
     void write(std::string text) {
         if (writer.joinable()) writer.join();
@@ -96,6 +101,13 @@ TEST(InputListeners, SpelledWithEscapesItIsSilenceAsWell) {
     Listening one;
     one.holdUp();
     one.write("{\"control\": \"\\u0073ilence\", \"on\": true}\n");
+    EXPECT_TRUE(comesTrue([&] { return one.output.isSilent(); }));
+}
+
+TEST(InputListeners, TheEndOfTheInputSilences) {
+    Listening one{false}; // whoever sent may have died within a long tone
+    EXPECT_FALSE(one.output.isSilent());
+    one.endInput();
     EXPECT_TRUE(comesTrue([&] { return one.output.isSilent(); }));
 }
 
