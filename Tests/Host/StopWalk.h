@@ -48,7 +48,8 @@ public:
     explicit StopWalk(Program program)
         : program_{std::move(program)} {}
 
-    /// What is called before silence is asked for in a menu, list or dialog.
+    /// What is called before silence is asked for in a menu, list or dialog, and without words when it is
+    /// over.
     void setMeasure(std::function<void(const juce::String& what)> measure) { measure_ = std::move(measure); }
 
     /// Until nothing is left, or so many steps have been taken: a busy machine takes the same ones, later.
@@ -323,7 +324,9 @@ private:
         if (measure_) measure_(how + (" " + steps.joinIntoString(" > ")));
     }
     void rest() {
-        if (measure_) runFor(0.15);
+        if (!measure_) return;
+        runFor(0.15);
+        measure_({});
     }
     void tryStop(const juce::StringArray& steps, bool isModal) {
         if (program_.isSilent()) program_.lift(), settle();

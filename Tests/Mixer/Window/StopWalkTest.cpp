@@ -4,6 +4,8 @@
 #include "../MixerTesting.h"
 #include "Host/Devices/HostDrivers.h"
 #include "Mixer/Window/MixerWindow.h"
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 namespace physvib {
@@ -12,6 +14,17 @@ namespace {
 using namespace test;
 
 constexpr int gateSteps = 400; // of a thousand; 31 to 38 menus, lists and dialogs
+
+/// How long the threads of this program have waited for a processor, in all: a busy machine's share of what
+/// is late.
+std::int64_t msWaited() {
+    std::int64_t ns = 0;
+    for (const auto& task : std::filesystem::directory_iterator{"/proc/self/task"}) {
+        std::int64_t ran = 0, waited = 0;
+        if (std::ifstream{task.path() / "schedstat"} >> ran >> waited) ns += waited;
+    }
+    return ns / 1'000'000;
+}
 
 TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
     juce::Desktop::setMousePosition({0, 0});
@@ -37,8 +50,13 @@ TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
          [](const juce::StringArray& steps) { return steps.size() > 2 && steps[1] == "item Quit"; }}};
     if (device != nullptr)
         walk.setMeasure([&](const juce::String& what) {
+            if (what.isEmpty()) {
+                std::cout << "over " << msWaited() << std::endl;
+                return;
+            }
             window->model().inputs().use({OscUse::thisComputer}); // a tone comes there
             runFor(0.6);
+            std::cout << "over " << msWaited() << '\n';
             std::cout << "stop " << juce::Time::currentTimeMillis() << ' ' << what << std::endl;
         });
     walk.run(device ? std::numeric_limits<int>::max() : gateSteps, device ? 280.0 : 900.0);
