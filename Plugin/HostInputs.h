@@ -28,9 +28,10 @@ public:
     static constexpr double minStrikeSeconds = 0.004; ///< of whole periods, one at least
 
     struct Note {
-        int channel = 0, number = 0; ///< 1 to 16; 0 to 127
-        double velocity = 0.0;       ///< 0 to 1
-        std::int64_t onsetFrame = 0; ///< of the session
+        int channel = 0, number = 0;                 ///< 1 to 16; 0 to 127
+        double velocity = 0.0;                       ///< 0 to 1
+        std::int64_t onsetFrame = 0;                 ///< of the session
+        double pressure = 0.0, masterPressure = 0.0; ///< 0 to 1, of the finger; what MPE's master adds
     };
 
     void forget() noexcept {
@@ -39,17 +40,18 @@ public:
     }
 
     void start(const Note& note) noexcept {
-        Voice* place = &voices_.front();
-        for (Voice& voice : voices_) {
-            const bool isSame =
-                voice.isOn && voice.note.channel == note.channel && voice.note.number == note.number;
-            if (isSame || !voice.isOn) {
-                place = &voice;
-                break;
-            }
-            if (voice.note.onsetFrame < place->note.onsetFrame) place = &voice;
-        }
-        *place = {note, 0, true, true};
+        const auto rank = [&note](const Voice& voice) { // the same key's, a free one, the oldest
+            const bool isSame = voice.note.channel == note.channel && voice.note.number == note.number;
+            return !voice.isOn ? std::int64_t{-1} : isSame ? std::int64_t{-2} : voice.note.onsetFrame;
+        };
+        *std::ranges::min_element(voices_, {}, rank) = {note, 0, true, true};
+    }
+
+    /// Each note that sounds: its pressure may change.
+    template <class Act>
+    void each(Act act) noexcept {
+        for (Voice& voice : voices_)
+            if (voice.isOn) act(voice.note);
     }
 
     void stop(int channel, int number) noexcept {
@@ -95,6 +97,45 @@ private:
 
     std::array<Voice, most> voices_{};
     std::array<bool, 17> pedal_{}; // per MIDI channel, from 1
+};
+
+/// What MIDI says of each channel, from 1, beside its notes: bend (from -1/2 to 1/2), slide, and the zones of
+/// MPE 1.1, whose master moves the notes of its members as well. R only.
+class ChannelExpression {
+public:
+    static constexpr double masterSemitones = 2.0; ///< of a whole bend of the master
+
+    void bend(int channel, float by) noexcept { bend_[at(channel)] = by; }
+    void slide(int channel, float by) noexcept { slide_[at(channel)] = by; }
+    double bendOf(int channel) const noexcept { return double{bend_[at(channel)]}; }
+    double masterBendOf(int channel) const noexcept { return double{bend_[at(masterOf(channel))]}; }
+    double slideOf(int channel) const noexcept {
+        return double{slide_[at(channel)]} + double{slide_[at(masterOf(channel))]};
+    }
+    /// Of the zone that the channel is a member of; 0: of none.
+    int masterOf(int channel) const noexcept {
+        if (channel > 1 && channel <= 1 + lower_) return 1;
+        return channel < 16 && channel >= 16 - upper_ ? 16 : 0;
+    }
+
+    /// Registered parameter 6 of channel 1 or 16 is how many members its zone has; the later one shrinks the
+    /// other's.
+    void controller(int channel, int number, int value) noexcept {
+        constexpr int dataEntry = 6, parameterLow = 100, parameterHigh = 101, configuration = 6;
+        int& parameter = parameter_[at(channel)];
+        if (number == parameterHigh) parameter = value * 128;
+        if (number == parameterLow) parameter = parameter / 128 * 128 + value;
+        if (number != dataEntry || parameter != configuration || (channel != 1 && channel != 16)) return;
+        int &own = channel == 1 ? lower_ : upper_, &other = channel == 1 ? upper_ : lower_;
+        own = std::min(value, 15);
+        other = std::min(other, std::max(0, 14 - own));
+    }
+
+private:
+    static std::size_t at(int channel) noexcept { return static_cast<std::size_t>(channel); }
+    std::array<float, 17> bend_{}, slide_{}; // 0 stays 0
+    std::array<int, 17> parameter_{};        // the registered one that was chosen
+    int lower_ = 0, upper_ = 0;
 };
 
 /// Starts, stops and jumps (a stop and a start) of the host's transport since the last block. R only.

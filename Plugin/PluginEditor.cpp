@@ -114,10 +114,6 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     caption(seedName_, "seed");
     caption(stepsName_, "steps");
     status_.setFont(juce::Font{text::small});
-    firstSteps_.setText("Press a key below, or play a note: you feel it at its place.\n"
-                        "The list at the upper left has other instruments, and worlds.\n"
-                        "Press SILENCE to stop everything at once.",
-                        juce::dontSendNotification);
     firstSteps_.setFont(juce::Font{text::medium});
     firstSteps_.setJustificationType(juce::Justification::centred);
     firstSteps_.setInterceptsMouseClicks(false, false);
@@ -198,6 +194,9 @@ void PluginEditor::fillChoices() {
     silence_.setClickingTogglesState(true);
     silence_.setTooltip(words(rowOf(Parameter::bypass).help));
     silence_.getProperties().set(stopProperty, true);
+    silence_.onClick = [this] {
+        if (!silence_.getToggleState()) plugin_.stop(false);
+    };
     scene_.onChange = [this] {
         const int id = scene_.getSelectedId();
         if (id == 0) return;
@@ -230,16 +229,24 @@ void PluginEditor::fillChoices() {
     midi_.onClick = [this] { showMidi(!midiPanel_.isVisible()); };
 }
 
-// Only the button lifts: a host may close this window by the same Esc.
-void PluginEditor::silence() {
-    auto& bypass = plugin_.parameter(Parameter::bypass);
-    if (bypass.getValue() >= 0.5f) return;
-    bypass.beginChangeGesture();
-    bypass.setValueNotifyingHost(1.0f);
-    bypass.endChangeGesture();
+// Only the button lifts: a host may close this window by the same Esc. It is no parameter's, or a track would
+// be silent in the next session.
+void PluginEditor::silence() { plugin_.stop(true); }
+
+// A list, a menu, or a value that is being typed; a dialog is closed and all is silent at once.
+bool PluginEditor::closesFirst() {
+    const auto* const modal = juce::Component::getCurrentlyModalComponent();
+    return modal != nullptr && dynamic_cast<const juce::TopLevelWindow*>(modal) == nullptr;
 }
 
+// While a value is typed its box gets the keys: under some window managers they come here, after a list was
+// open or something else was clicked. While anything is open, none is the host's.
 bool PluginEditor::keyPressed(const juce::KeyPress& key) {
+    if (auto* const modal = juce::Component::getCurrentlyModalComponent()) {
+        const auto* const value = dynamic_cast<juce::Label*>(modal);
+        auto* const box = isParentOf(value) ? value->getCurrentTextEditor() : nullptr;
+        return box != nullptr && box->keyPressed(key);
+    }
     const auto* const peer = getPeer();
     const auto mods = key.getModifiers();
     return peer != nullptr && !key.isKeyCode(juce::KeyPress::escapeKey) &&
@@ -351,8 +358,15 @@ void PluginEditor::refresh() {
     const int outputs = plugin_.outputs();
     fold_.setVisible(outputs > 0 && meters.connected < enchantersOf(state_));
     fold_.setButtonText("Use " + juce::String{outputs});
-    firstSteps_.setVisible(state_.scene.bodies.empty() && status.session.render.played == 0 &&
-                           world_.isVisible());
+    const bool isSilent = plugin_.isStopped() || plugin_.parameter(Parameter::bypass).value() > 0.5;
+    silence_.setToggleState(isSilent, juce::dontSendNotification);
+    firstSteps_.setText(isSilent ? "SILENT. Press SILENCE again to feel what is played."
+                                 : "Press a key below, or play a note: you feel it at its place.\n"
+                                   "The list at the upper left has other instruments, and worlds.\n"
+                                   "Press SILENCE to stop everything at once.",
+                        juce::dontSendNotification);
+    firstSteps_.setVisible(world_.isVisible() &&
+                           (isSilent || (state_.scene.bodies.empty() && status.session.render.played == 0)));
     auto trouble = plugin_.trouble();
     if (plugin_.keepsRefused()) trouble << " - the host's session keeps it until something is edited here";
     if (trouble.isEmpty()) trouble = news_;

@@ -97,6 +97,7 @@ private:
     void forgetController(const std::string& parameter);
     void followLearning();
     void silence();
+    bool closesFirst();
     void fillPresets();
     void edit(const std::function<void(PluginState&)>& change);
     void report(const juce::String& news) { news_ = news; }
@@ -128,7 +129,7 @@ private:
     juce::String news_;               // of what was opened or asked for; until the next edit
     std::uint64_t shown_ = 0;         // the processor's count of states
     PluginState state_;
-    EmergencyStop stop_{*this, [this] { silence(); }};
+    EmergencyStop stop_{*this, [this] { silence(); }, [this] { return closesFirst(); }};
 };
 
 } // namespace physvib

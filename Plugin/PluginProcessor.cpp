@@ -273,14 +273,13 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
         juce::jlimit(1, limits::maxBlockFrames, usual > 0 ? std::min(usual, blockFrames) : blockFrames);
     fitToWidth();
     outputs_ = BusMap{*this};
-    open_.prepare(rate, limits::channelRampSeconds, parameter(Parameter::bypass).value() > 0.5 ? 0.0f : 1.0f);
+    open_.prepare(rate, limits::channelRampSeconds,
+                  parameter(Parameter::bypass).value() > 0.5 || isStopped() ? 0.0f : 1.0f);
     prepareGuard(rate);
     transport_.reset();
     points_.reset();
     measured_ = {};
-    bend_.fill(0.0f);
-    slide_.fill(0.0f);
-    pressure_.fill(0.0f);
+    expression_ = {};
     held_.forget();
     ++prepares_;
     const auto* sideChain = getBus(true, 0);

@@ -72,6 +72,11 @@ public:
     /// A key of the window: with a velocity it is struck in the next block, 0 lets it go. M, one writer.
     void play(int note, int velocity) noexcept { keys_.push({note, velocity}); }
 
+    /// Silence until it is lifted, by Esc in the window: no parameter, so that no session keeps it. Any
+    /// thread.
+    void stop(bool isStopped) noexcept { isStopped_.store(isStopped, std::memory_order_relaxed); }
+    bool isStopped() const noexcept { return isStopped_.load(std::memory_order_relaxed); }
+
     /// The last controller that came in, with a count in the higher bits that grows with each, so that a
     /// person can show which one is meant; 0: none yet. Any thread.
     std::uint32_t lastController() const noexcept { return lastController_; }
@@ -176,6 +181,7 @@ private:
     void silence(int frame) noexcept;
     void playKeys(int frame) noexcept;
     void receive(const juce::MidiMessageMetadata& message, int frame) noexcept;
+    void press(int channel, int note, double pressure) noexcept;
     void strike(int channel, int note, int velocity, int frame) noexcept;
     NoteSound soundOf(const HeldNotes::Note& note) const noexcept;
     CollisionEvent placed(CollisionEvent strike, int channel) const noexcept;
@@ -229,6 +235,7 @@ private:
     int guardRateHz_ = 0;
     double releasedMs_ = std::numeric_limits<double>::infinity(); // since when guard_ rests; not: it does not
     bool isShut_ = false;
+    std::atomic<bool> isStopped_{false};
     ChannelMeters measured_;
     PointSource* source_ = nullptr;
     ParameterPoints points_;
@@ -238,8 +245,7 @@ private:
     std::atomic<std::uint64_t> displaced_{0};
     bool owesStop_ = false, owesSilence_ = false;
     HeldNotes held_;
-    std::array<float, 17> bend_{}, slide_{}, pressure_{}; // per MIDI channel, from 1: shifts of the strikes,
-                                                          // in parts of the field; 0 to 1
+    ChannelExpression expression_;
 };
 
 } // namespace physvib

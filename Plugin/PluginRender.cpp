@@ -13,6 +13,7 @@ namespace {
 constexpr int slideController = 74; // MPE's third dimension
 constexpr int sustainPedal = 64;
 constexpr int allSoundOff = 120;
+constexpr int resetControllers = 121;
 constexpr int allNotesOff = 123; // lets held ones go; what other notes strike rings out by itself, and the
                                  // world is no note
 constexpr float peakFallDbPerSecond = 20.0f;
@@ -90,7 +91,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
     if (takes_.begin(mode)) forgetControls();
     for (int at = first; at < end;) {
         readPoints(at);
-        if (at == first) isShut_ = value(Parameter::bypass) > 0.5, playKeys(0);
+        if (at == first) isShut_ = isStopped() || value(Parameter::bypass) > 0.5, playKeys(0);
         end = std::min(end, points_.nextOf(Parameter::bypass));
         sendControls(at - first);
         for (; message != midi.end() && frameOf(*message) <= at; ++message) {
@@ -235,15 +236,24 @@ void PluginProcessor::playKeys(int frame) noexcept {
 void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int frame) noexcept {
     if (message.numBytes < 2) return;
     const int kind = message.data[0] & 0xf0, channel = (message.data[0] & 0x0f) + 1;
-    const auto one = static_cast<std::size_t>(channel);
-    if (kind == 0xd0) pressure_[one] = static_cast<float>(message.data[1]) / 127.0f;
+    if (kind == 0xd0) press(channel, -1, message.data[1] / 127.0);
     if (message.numBytes < 3) return;
+    if (kind == 0xa0) press(channel, message.data[1], message.data[2] / 127.0);
     const bool isOn = kind == 0x90 && message.data[2] > 0;
     if (isOn) strike(channel, message.data[1], message.data[2], frame);
     if (!isOn && (kind == 0x80 || kind == 0x90)) held_.stop(channel, message.data[1]);
     if (kind == 0xe0)
-        bend_[one] = static_cast<float>((message.data[2] * 128 + message.data[1]) - 8192) / 16384.0f;
+        expression_.bend(channel,
+                         static_cast<float>((message.data[2] * 128 + message.data[1]) - 8192) / 16384.0f);
     if (kind == 0xb0) control(channel, message.data[1], message.data[2], frame);
+}
+
+// Of that note, or of all that the channel has and leads (-1).
+void PluginProcessor::press(int channel, int note, double pressure) noexcept {
+    held_.each([&](HeldNotes::Note& held) {
+        if (held.channel == channel && (note < 0 || note == held.number)) held.pressure = pressure;
+        if (note < 0 && expression_.masterOf(held.channel) == channel) held.masterPressure = pressure;
+    });
 }
 
 void PluginProcessor::strike(int channel, int note, int velocity, int frame) noexcept {
@@ -259,10 +269,8 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
     CollisionEvent event = midi.strikeOf(note, now, takes_.settings().layout);
     if (event.frequencyHz <= 0.0) return;
     const double loudness = midi.loudnessOf(velocity, now);
-    if (midi.isHeld(note, now)) {
-        pressure_[static_cast<std::size_t>(channel)] = 0.0f; // a new touch
+    if (midi.isHeld(note, now))
         return held_.start({channel, note, loudness, session->timeline().framesRendered() + frame});
-    }
     event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * loudness;
     session->callback().strike(placed(event, channel), frame);
 }
@@ -275,16 +283,18 @@ NoteKnobs PluginProcessor::knobs() const noexcept {
 CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel) const noexcept {
     const auto& settings = takes_.settings();
     const auto& midi = settings.midi;
-    const double bend = bend_[static_cast<std::size_t>(channel)], semitones = midi.bendSemitones(knobs());
+    const double bend = expression_.bendOf(channel), master = expression_.masterBendOf(channel),
+                 semitones = midi.bendSemitones(knobs());
+    const double shift = 2.0 * (bend * semitones + master * ChannelExpression::masterSemitones);
     const auto shifted = [](double at, double by, double size) {
         return std::clamp(at + by * size, 0.0, size);
     };
     if (semitones > 0.0)
-        strike.frequencyHz = std::clamp(strike.frequencyHz * std::exp2(2.0 * bend * semitones / 12.0),
-                                        limits::slowestToneHz, limits::maxFrequencyHz);
-    strike.x = shifted(strike.x, value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend),
+        strike.frequencyHz = std::clamp(strike.frequencyHz * std::exp2(shift / 12.0), limits::slowestToneHz,
+                                        limits::maxFrequencyHz);
+    strike.x = shifted(strike.x, value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend + master),
                        midi.fieldWidthMetres());
-    strike.y = shifted(strike.y, value(Parameter::strikeY) * 0.01 + slide_[static_cast<std::size_t>(channel)],
+    strike.y = shifted(strike.y, value(Parameter::strikeY) * 0.01 + expression_.slideOf(channel),
                        midi.fieldHeightMetres());
     if (!midi.voice().isLoudest) return strike;
     PhantomPanner::Gains gains{};
@@ -300,9 +310,8 @@ CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel) const
 NoteSound PluginProcessor::soundOf(const HeldNotes::Note& note) const noexcept {
     const auto& settings = takes_.settings();
     CollisionEvent event = settings.midi.strikeOf(note.number, knobs(), settings.layout);
-    event.amplitude =
-        gainOfLevel(value(Parameter::strikeLevel)) *
-        std::max(note.velocity, static_cast<double>(pressure_[static_cast<std::size_t>(note.channel)]));
+    event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) *
+                      std::max({note.velocity, note.pressure, note.masterPressure});
     event = placed(event, note.channel);
     return {event.frequencyHz, event.amplitude, event.x, event.y};
 }
@@ -357,11 +366,16 @@ void PluginProcessor::strikeBeat(Session& session, const BandOnset& onset, int f
 }
 
 void PluginProcessor::control(int channel, int controller, int value, int frame) noexcept {
-    if (controller == slideController)
-        slide_[static_cast<std::size_t>(channel)] = static_cast<float>(value - 64) / 128.0f;
+    if (controller == slideController) expression_.slide(channel, static_cast<float>(value - 64) / 128.0f);
+    expression_.controller(channel, controller, value);
     if (controller == allSoundOff) return silence(frame);
     if (controller == sustainPedal) held_.pedal(channel, value >= 64);
     if (controller == allNotesOff) held_.stopAll();
+    if (controller == resetControllers) {
+        expression_.bend(channel, 0.0f), expression_.slide(channel, 0.0f);
+        held_.pedal(channel, false);
+        press(channel, -1, 0.0);
+    }
     if (controller < allSoundOff)
         lastController_.store(((lastController_.load(std::memory_order_relaxed) >> 8) + 1) << 8 |
                                   static_cast<std::uint32_t>(controller),

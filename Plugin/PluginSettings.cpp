@@ -304,6 +304,11 @@ void appendParameter(PluginState& state, Parameter which, double value) {
     state.parameters.emplace_back(id, value);
 }
 
+void resetInstrument(PluginState& state) {
+    for (const auto which : parameterTable::instrumentGroup)
+        appendParameter(state, which, rowOf(which).initial);
+}
+
 void take(PluginState& state, const Instrument& instrument, int outputs) {
     state.scene = emptyField(instrument);
     rearrange(state, outputs > 0 ? outputs : instrument.actuators);
@@ -321,8 +326,30 @@ void take(PluginState& state, const Instrument& instrument, int outputs) {
     }
     appendParameter(state, Parameter::strikeLevel, instrument.strikeDb);
     appendParameter(state, Parameter::beats, instrument.beats);
-    for (const auto which : parameterTable::instrumentGroup)
+    resetInstrument(state);
+}
+
+constexpr int sceneActuators = 4;
+
+/// Places that no preset gives.
+bool isOwnLayout(const PluginState& state) {
+    const auto& own = state.layout.geometry;
+    return std::ranges::none_of(
+        std::array{Arrangement::grid, Arrangement::row, Arrangement::belt},
+        [&own](Arrangement each) { return isSame(layoutOf(each, own.count).geometry, own); });
+}
+
+// As chosen from anywhere: nothing of the preset before stays.
+void take(PluginState& state, const Scene& scene, int outputs) {
+    state.voice = {};
+    state.notes.clear();
+    useScene(state, scene);
+    if (!isOwnLayout(state) || (outputs > 0 && outputs < enchantersOf(state)))
+        rearrange(state, outputs > 0 ? outputs : sceneActuators);
+    state.scene.driveGain *= driveOf(state.scene.name, enchantersOf(state));
+    for (const auto which : {Parameter::strikeLevel, Parameter::beats})
         appendParameter(state, which, rowOf(which).initial);
+    resetInstrument(state);
 }
 
 } // namespace
@@ -356,9 +383,7 @@ void useBuiltIn(PluginState& state, int index, int outputs) {
     const auto& scenes = builtInScenes();
     const auto at = static_cast<std::size_t>(index);
     if (at >= scenes.size()) return take(state, instruments().at(at - scenes.size()), outputs);
-    useScene(state, scenes[at]);
-    if (outputs > 0 && outputs < enchantersOf(state)) rearrange(state, outputs);
-    state.scene.driveGain *= driveOf(state.scene.name, enchantersOf(state));
+    take(state, scenes[at], outputs);
 }
 
 double usualStrikeDb(const PluginState& state) {

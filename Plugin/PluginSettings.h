@@ -59,9 +59,9 @@ const std::vector<std::string>& presetNames();
 /// The place of the preset that a state plays; its own are shown as the first. Any thread.
 int presetOf(const PluginState& state);
 
-/// `state` as that preset has it: a scene keeps notes' voice and parameters, and the layout unless it has
-/// more actuators than outputs; an instrument has its own, on as many actuators as there are outputs. 0
-/// outputs: as many actuators as it is made for. M only.
+/// `state` as that preset has it, whatever was chosen before: with its own voice, notes and parameters of
+/// notes, on as many actuators as there are outputs (0: as it is made for). A scene keeps a layout of one's
+/// own that has outputs enough. M only.
 void useBuiltIn(PluginState& state, int index, int outputs = 0);
 
 /// Other places for as many actuators as there are outputs, by the arrangement of the preset that it plays;

@@ -114,10 +114,11 @@ class Overlay:
         shadows = [f"-I{shadow}" for root in roots if (shadow := self.folder / "sources" / root[1:]).exists()]
         flags = [word for word in words[:at] if word != "-Werror" and not word.startswith("-W")]
         beside = f"-iquote{pathlib.Path(source).parent}"
+        around = sorted({f"-iquote{pathlib.Path(name).parent}" for name in self.files if name.endswith(".h")})  # what a broken header finds beside it
         if "/Unity/" in source:
             beside = "-DPHYSVIB_BREAKS"
         if not new.exists() or any(path.stat().st_mtime > new.stat().st_mtime for name, path in self.files.items() if name in self.deps.get(output, set()) or name == source):
-            call = [*flags[:1], *shadows, *flags[1:], "-O0", "-w", beside, "-include", str(self.folder / "Switch.h"), "-o", str(new), "-c", str(self.files.get(source, source))]
+            call = [*flags[:1], *shadows, *flags[1:], "-O0", "-w", beside, *around, "-include", str(self.folder / "Switch.h"), "-o", str(new), "-c", str(self.files.get(source, source))]
             self.calls.append((call, output))
 
     def link(self, words: list[str]) -> None:

@@ -44,6 +44,7 @@ public:
         std::function<void()> lift;
         std::function<bool(const juce::StringArray& steps)> isTheEnd; ///< these steps would end the test
                                                                       ///< itself
+        int presses = 1; ///< of Esc until it is silent: one for what is open, and one
     };
     explicit StopWalk(Program program)
         : program_{std::move(program)} {}
@@ -311,7 +312,13 @@ private:
             if (auto* found = stopIn(*desktop.getComponent(i))) return found;
         return nullptr;
     }
-    static void escape() {
+    void escape() const {
+        for (int press = 0; press < program_.presses && !program_.isSilent(); ++press) {
+            if (press > 0) runFor(0.1); // what closes is gone a moment later
+            pressEscape();
+        }
+    }
+    static void pressEscape() {
         auto* c = juce::Component::getCurrentlyFocusedComponent();
         if (c == nullptr) c = stopButton();
         if (c != nullptr && c->getPeer() != nullptr)

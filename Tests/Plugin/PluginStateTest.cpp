@@ -234,6 +234,38 @@ TEST(PluginChunk, TheProgramIsTheSceneThatPlays) {
     host.plugin->removeListener(&listener);
 }
 
+TEST(PluginChunk, APresetIsTheSameWhateverWasChosenBefore) {
+    const int count = static_cast<int>(presetNames().size());
+    const auto chosen = [](PluginState state, int preset) {
+        useBuiltIn(state, preset, 4);
+        std::ranges::sort(state.parameters, {}, [](const auto& p) { return p.first; });
+        return state;
+    };
+    for (int to = 0; to < count; ++to) {
+        const std::string at = pluginStateJson(chosen(newPluginState(), to));
+        for (int via = 0; via < count; ++via)
+            EXPECT_EQ(pluginStateJson(chosen(chosen(newPluginState(), via), to)), at)
+                << presetNames()[static_cast<std::size_t>(via)] << ", then "
+                << presetNames()[static_cast<std::size_t>(to)];
+    }
+}
+
+TEST(PluginChunk, AStopIsSilentAndNoPartOfIt) {
+    TestHost host;
+    ASSERT_TRUE(host.plugin->apply(shakenBox()));
+    host.prepare(48000, 512);
+    const auto before = chunkOf(*host.plugin);
+    for (const bool isStopped : {false, true, false}) {
+        host.plugin->stop(isStopped);
+        Samples signal;
+        host.play(24000, signal);
+        signal.clear();
+        host.play(96000, signal);
+        EXPECT_EQ(peakOf(signal) > 0.0f, !isStopped);
+        EXPECT_EQ(chunkOf(*host.plugin), before);
+    }
+}
+
 TEST(PluginChunk, AStateThatIsTakenIsNoEdit) {
     TestHost host;
     host.prepare(48000, 512);

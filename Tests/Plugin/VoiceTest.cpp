@@ -171,6 +171,43 @@ TEST(Voice, BendPressureAndSlideMoveWhatSounds) {
     EXPECT_LT(step, 1.05 * 2.0 * 3.1416 * 220.0 / 48000.0) << "nothing clicks";
 }
 
+TEST(Voice, PressureIsOfItsKeyAndMpesMasterLeadsItsMembers) {
+    const auto louder = [](const std::vector<TimedMessage>& more, int channel = 1) {
+        std::vector<TimedMessage> all{{0, Message::controllerEvent(1, 101, 0)}, // a zone of channels 2 to 6
+                                      {0, Message::controllerEvent(1, 100, 6)},
+                                      {0, Message::controllerEvent(1, 6, 5)},
+                                      {0, on(45, 64, channel)}};
+        all.insert(all.end(), more.begin(), more.end());
+        return peakBetween(playedBy(voiced(true), all, 30000), 20000, 30000);
+    };
+    const float struck = 64.0f / 127.0f;
+    EXPECT_NEAR(louder({}), struck, 1e-3f);
+    EXPECT_NEAR(louder({{9000, Message::aftertouchChange(1, 45, 127)}}), 1.0f, 1e-3f);
+    EXPECT_NEAR(louder({{9000, Message::aftertouchChange(1, 46, 127)}}), struck, 1e-3f) << "another key";
+    EXPECT_NEAR(louder({{9000, Message::channelPressureChange(1, 127)}}, 6), 1.0f, 1e-3f) << "a member";
+    EXPECT_NEAR(louder({{9000, Message::channelPressureChange(1, 127)}}, 7), struck, 1e-3f) << "none";
+    EXPECT_GT(louder({{9000, Message::channelPressureChange(1, 127)}, {12000, on(57, 1)}}), 0.99f)
+        << "a new key leaves the pressure of those that are held";
+}
+
+TEST(Voice, AMasterBendsByTwoSemitonesAndControllersAreSetBackAtOnce) {
+    auto state = voiced(true);
+    state.voice.bendSemitones = 12.0;
+    const auto pitch = [&](std::vector<TimedMessage> messages, int channel) {
+        messages.push_back({100, on(45, 127, channel)});
+        return pitchOf(playedBy(state, messages, 30000), 5000, 30000);
+    };
+    const std::vector<TimedMessage> zone{{0, Message::controllerEvent(1, 101, 0)},
+                                         {0, Message::controllerEvent(1, 100, 6)},
+                                         {0, Message::controllerEvent(1, 6, 15)},
+                                         {0, Message::pitchWheel(1, 16383)}};
+    EXPECT_NEAR(pitch(zone, 2), 110.0 * std::exp2(2.0 / 12.0), 1.5);
+    EXPECT_NEAR(pitch({{0, Message::pitchWheel(1, 16383)}}, 2), 110.0, 1.5) << "no zone";
+    EXPECT_NEAR(pitch({{0, Message::pitchWheel(2, 16383)}}, 2), 220.0, 3.0);
+    EXPECT_NEAR(pitch({{0, Message::pitchWheel(2, 16383)}, {50, Message::controllerEvent(2, 121, 0)}}, 2),
+                110.0, 1.5);
+}
+
 TEST(Voice, HeldNotesAreTheSameSamplesInBlocksOfAnySizeAndDirectToo) {
     auto state = voiced(true, NotePlaces::octave);
     state.voice.bendSemitones = 2.0;

@@ -97,7 +97,7 @@ private:
         };
         const bool isAny = std::ranges::any_of(stops, isHere);
         for (const EmergencyStop* stop : stops)
-            if (!isAny || isHere(stop)) stop->silence_();
+            if ((!isAny || isHere(stop)) && !(stop->closesFirst_ && stop->closesFirst_())) stop->silence_();
     }
 
     std::vector<juce::WeakReference<juce::Component>> heard_;
@@ -105,9 +105,11 @@ private:
     juce::uint32 lookedAtMs_ = 0;
 };
 
-EmergencyStop::EmergencyStop(juce::Component& window, std::function<void()> silence)
+EmergencyStop::EmergencyStop(juce::Component& window, std::function<void()> silence,
+                             std::function<bool()> closesFirst)
     : window_{window}
     , silence_{std::move(silence)}
+    , closesFirst_{std::move(closesFirst)}
     , pictures_{&window, [this] { keys_->lookWithPicture(); }} {
     keys_->stops.push_back(this);
 }

@@ -60,7 +60,53 @@ TEST(HostKeys, WhatNoControlUsesReachesTheHostAndEscStays) {
     EXPECT_EQ(came, expected);
     press(Key{Key::escapeKey});
     EXPECT_TRUE(around.keys().empty());
-    EXPECT_EQ(host.plugin->parameter(Parameter::bypass).getValue(), 1.0f) << "Esc silences";
+    EXPECT_TRUE(host.plugin->isStopped()) << "Esc silences";
+    EXPECT_EQ(host.plugin->parameter(Parameter::bypass).getValue(), 0.0f) << "and no session keeps it";
+}
+
+juce::Label* valueIn(juce::Component& in) {
+    for (auto* child : in.getChildren()) {
+        if (auto* const value = dynamic_cast<juce::Label*>(child);
+            value && value->isShowing() && dynamic_cast<juce::Slider*>(&in) != nullptr)
+            return value;
+        if (auto* const found = valueIn(*child)) return found;
+    }
+    return nullptr;
+}
+
+// Under some window managers the box has no keyboard after a list was open: keys come to the window then.
+TEST(HostKeys, AValueThatIsTypedIsTheValuesAndEscClosesItFirst) {
+    HostWindow around;
+    TestHost host;
+    const std::unique_ptr<PluginEditor> editor{
+        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    editor->addToDesktop(0, reinterpret_cast<void*>(around.window));
+    editor->setVisible(true);
+    runFor(0.3);
+    auto* const value = valueIn(*editor);
+    ASSERT_NE(value, nullptr);
+    const auto press = [&](const Key& key) {
+        editor->getPeer()->handleKeyPress(key);
+        runFor(0.1);
+    };
+    const auto before = value->getText();
+    value->showEditor();
+    for (const Key& key :
+         {Key{Key::backspaceKey}, Key{'3', 0, '3'}, Key{'s', juce::ModifierKeys::ctrlModifier, 0}})
+        editor->keyPressed(key);
+    ASSERT_NE(value->getCurrentTextEditor(), nullptr);
+    EXPECT_EQ(value->getCurrentTextEditor()->getText(), "3");
+    editor->keyPressed(Key{Key::returnKey});
+    runFor(0.1);
+    EXPECT_EQ(value->getCurrentTextEditor(), nullptr);
+    EXPECT_NE(value->getText(), before);
+    value->showEditor();
+    press(Key{Key::escapeKey});
+    EXPECT_EQ(value->getCurrentTextEditor(), nullptr);
+    EXPECT_FALSE(host.plugin->isStopped()) << "it closed what was open";
+    press(Key{Key::escapeKey});
+    EXPECT_TRUE(host.plugin->isStopped());
+    EXPECT_TRUE(around.keys().empty()) << "nothing of it was the host's";
 }
 
 TEST(HostKeys, AWindowOfItsOwnHasNoHost) {

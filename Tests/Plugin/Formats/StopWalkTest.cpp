@@ -28,9 +28,9 @@ TEST(StopWalk, EveryStateOfTheEditorIsSilencedByEscAndByAPress) {
                        editor->setTopLeftPosition(100, 100);
                        editor->setVisible(true);
                    },
-                   [] {}, [&] { return bypass.getValue() >= 0.5f; },
-                   [&] { bypass.setValueNotifyingHost(0.0f); },
-                   [](const juce::StringArray&) { return false; }}};
+                   [] {}, [&] { return host.plugin->isStopped() || bypass.getValue() >= 0.5f; },
+                   [&] { host.plugin->stop(false), bypass.setValueNotifyingHost(0.0f); },
+                   [](const juce::StringArray&) { return false; }, 2}};
     walk.run(std::numeric_limits<int>::max(), 250.0);
     for (const auto& state : walk.modal()) std::cout << state << '\n';
     std::cout << walk.steps() << " steps, " << walk.states() << " menus, lists and dialogs" << std::endl;
