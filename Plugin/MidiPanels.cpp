@@ -52,8 +52,8 @@ MidiPanel::MidiPanel(MixHands hands)
     : hands_{std::move(hands)} {
     setTitle("Notes and controllers");
     title_.setText("Notes and controllers", juce::dontSendNotification);
-    title_.setFont(juce::Font{text::medium, juce::Font::bold});
-    hint_.setFont(juce::Font{text::small});
+    title_.setFont(text::font(text::medium, juce::Font::bold));
+    hint_.setFont(text::font(text::small));
     list_.setRowHeight(rowPixels);
     addNote_.onClick = [this] {
         NoteRule rule;
@@ -108,13 +108,13 @@ void MidiPanel::paintListBoxItem(int row, juce::Graphics& g, int width, int heig
     }
     auto area = juce::Rectangle<int>{width, height}.reduced(10, 0);
     const auto i = static_cast<std::size_t>(row);
-    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    g.setFont(text::font(text::medium, juce::Font::bold));
     g.setColour(shade(*this, Shade::accent));
     const auto key = isNote(row)
                          ? noteName(state_.notes[i].note)
                          : "CC " + juce::String{state_.controllers[i - state_.notes.size()].controller};
     g.drawText(key, area.removeFromLeft(64), juce::Justification::centredLeft, false);
-    g.setFont(juce::Font{text::medium});
+    g.setFont(text::font(text::medium));
     g.setColour(shade(*this, Shade::text));
     g.drawText(isNote(row) ? wordsOf(state_.notes[i], state_.scene)
                            : wordsOf(state_.controllers[i - state_.notes.size()]),
@@ -361,7 +361,7 @@ void KeyboardPanel::paintKey(juce::Graphics& g, int note) const {
     }
     if (note % 12 != 0) return;
     g.setColour(juce::Colour{0xff5a5d66});
-    g.setFont(juce::Font{10.0f});
+    g.setFont(text::font(10.0f));
     g.drawText(juce::MidiMessage::getMidiNoteName(note, true, true, 4),
                key.withTrimmedBottom(6.0f).removeFromBottom(12.0f).expanded(4.0f, 0.0f),
                juce::Justification::centred, false);
@@ -372,7 +372,7 @@ void KeyboardPanel::paint(juce::Graphics& g) {
     const juce::String usual = "Keyboard: click a key to feel it, lower on the key is harder. Marked keys "
                                "have a rule of their own (MIDI).";
     g.setColour(shade(*this, shown_ < 0 ? Shade::muted : Shade::text));
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.drawText(shown_ < 0 ? usual : wordsOfKey(shown_, table_, state_, knobs_),
                getLocalBounds().reduced(panelInset, 3).removeFromTop(captionPixels),
                juce::Justification::centredLeft, true);

@@ -49,10 +49,10 @@ MixStrip::MixStrip(const MixHands& hands, int strip, const juce::String& label)
     actuator_.setTooltip("This actuator's profile, and whether it is equalised");
     actuator_.getProperties().set(quietProperty, true);
     actuator_.onClick = [this] { askActuator(); };
-    level_.setFont(juce::Font{text::small, juce::Font::bold});
+    level_.setFont(text::font(text::small, juce::Font::bold));
     level_.setJustificationType(juce::Justification::centredRight);
     level_.setBorderSize({0, 0, 0, 0});
-    most_.setFont(juce::Font{text::small});
+    most_.setFont(text::font(text::small));
     most_.setBorderSize({0, 4, 0, 0});
     for (juce::Component* c : std::initializer_list<juce::Component*>{
              &meter_, &fader_, &ceiling_, &mute_, &solo_, &polarity_, &delay_, &actuator_, &level_, &most_})
@@ -165,10 +165,10 @@ void MixStrip::paint(juce::Graphics& g) {
     g.setColour(enchanterColour(*this, static_cast<int>(index_)).withMultipliedAlpha(isQuiet ? 0.35f : 1.0f));
     g.fillRoundedRectangle(area.removeFromTop(4).toFloat(), 2.0f);
     g.setColour(shade(*this, isQuiet ? Shade::muted : Shade::text));
-    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    g.setFont(text::font(text::medium, juce::Font::bold));
     g.drawText(label_, area.withTrimmedTop(4).removeFromTop(20), juce::Justification::centred, true);
     g.setColour(shade(*this, Shade::muted));
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     for (const int db : {0, -20, -40, -60}) { // the meter's scale, right of the fader
         const auto y = static_cast<float>(meter_.getY()) +
                        static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
@@ -244,9 +244,9 @@ int MixPanel::wishedWidth() const {
 void MixPanel::paint(juce::Graphics& g) {
     fillPanel(g, *this, getLocalBounds());
     g.setColour(shade(*this, Shade::text));
-    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    g.setFont(text::font(text::medium, juce::Font::bold));
     g.drawText("Level", levelName_, juce::Justification::centred, false);
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.setColour(shade(*this, Shade::muted));
     g.drawText(level_.getTextFromValue(level_.getValue()), levelValue_, juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::well));

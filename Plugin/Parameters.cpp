@@ -53,8 +53,9 @@ std::string valueText(const ParameterRow& row, double value) {
     if (row.unit == "dB" && value <= row.least) return "-inf dB";
     std::array<char, 32> digits{};
     const int decimals = row.unit == "x" || row.unit.empty() ? 2 : 1;
+    const double shown = std::abs(value) < 0.5 * std::pow(10.0, -decimals) ? 0.0 : value; // not "-0.0"
     const auto end =
-        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, decimals)
+        std::to_chars(digits.data(), digits.data() + digits.size(), shown, std::chars_format::fixed, decimals)
             .ptr;
     const std::string number{digits.data(), end};
     return row.unit.empty() ? number : number + " " + std::string{row.unit};

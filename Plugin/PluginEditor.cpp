@@ -18,7 +18,7 @@ void mute(juce::Label& label) { label.setColour(juce::Label::textColourId, shade
 
 void caption(juce::Label& label, const juce::String& shown) {
     label.setText(shown, juce::dontSendNotification);
-    label.setFont(juce::Font{text::small});
+    label.setFont(text::font(text::small));
     label.setBorderSize({0, 0, 0, 0});
     label.setJustificationType(juce::Justification::centredRight);
 }
@@ -110,11 +110,11 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     setOpaque(true);
     setWantsKeyboardFocus(true); // a click anywhere lets Esc silence; other keys are the host's
     title_.setText("PhysVib", juce::dontSendNotification);
-    title_.setFont(juce::Font{text::large, juce::Font::bold});
+    title_.setFont(text::font(text::large, juce::Font::bold));
     caption(seedName_, "seed");
     caption(stepsName_, "steps");
-    status_.setFont(juce::Font{text::small});
-    firstSteps_.setFont(juce::Font{text::medium});
+    status_.setFont(text::font(text::small));
+    firstSteps_.setFont(text::font(text::medium));
     firstSteps_.setJustificationType(juce::Justification::centred);
     firstSteps_.setInterceptsMouseClicks(false, false);
     files_.setButtonText("Files");
@@ -173,7 +173,7 @@ void PluginEditor::fillChoices() {
     steps_.setTooltip("How often the world is stepped: more lets hits be felt sooner");
     steps_.setEditableText(true);
     seed_.setTitle("Seed");
-    seed_.setFont(juce::Font{text::medium});
+    seed_.setFont(text::font(text::medium));
     seed_.setIndents(8, 7);
     seed_.setInputRestrictions(10, "0123456789");
     restart_.setClickingTogglesState(true);
@@ -457,7 +457,7 @@ void PluginEditor::paint(juce::Graphics& g) {
         if (!group.isShown()) continue;
         fillPanel(g, *this, group.place);
         g.setColour(shade(*this, Shade::text));
-        g.setFont(juce::Font{text::small, juce::Font::bold});
+        g.setFont(text::font(text::small, juce::Font::bold));
         g.drawText(words(group.name), group.place.reduced(14, 8).removeFromTop(16),
                    juce::Justification::centredLeft, false);
     }

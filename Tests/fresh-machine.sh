@@ -50,6 +50,7 @@ count_work() {
     worked=$(sed 's/[ms]/ /g' "$machine/times" | awk 'NR == 2 { print int(60 * ($1 + $3) + $2 + $4) }')
 }
 programs="run.sh physvib physvib-mixer PhysVibPlugin_VST3 PhysVibPlugin_LV2"
+counted() { sed -n "s/.*[[:space:]]$1=\"\([0-9]*\)\".*/\1/p" "$2" | head -n 1; }
 packages() { in_machine dpkg-query -W -f '.' | wc -c; }
 for command in $commands; do
     before=$(packages)
@@ -63,6 +64,10 @@ for command in $commands; do
     seconds=$(($(date +%s) - started))
     count_work
     say "$command took $((seconds / 60)):$(printf %02d $((seconds % 60))) min and $(((worked - before_work) / 60)) processor minutes, with $(($(packages) - before)) packages beyond the $before that were there; warnings of the compiler: $(cat "$machine"/root/PhysVib/build/*.log | grep -c ' warning: ' || :)"
+    # What CTest wrote of the tests that this command ran.
+    for report in "$machine"/root/PhysVib/build/tests-*.xml; do
+        [ ! -e "$report" ] || say "$(basename "$report" .xml): $(counted tests "$report") tests, $(counted failures "$report") failed, $(counted skipped "$report") skipped"
+    done
 done
 case $commands in Tests/* | own-juce*) exit 0 ;; esac
 for file in shake-the-box.wav shake-the-box.csv shake-the-box.png; do

@@ -261,7 +261,7 @@ TEST(Arrangement, TheScopeSaysHowManyItShowsWhereThereIsLittleRoom) {
         auto* scope = w.view.scope().find<ScopeView>();
         auto* spectra = find(w.view, "Spectra");
         const int lanes = (spectra->isVisible() ? spectra->getX() - gap : scope->getWidth()) - 26;
-        EXPECT_GE(lanes, text::pixels(juce::Font{text::small}, "the first 8 of 64")) << width;
+        EXPECT_GE(lanes, text::pixels(text::font(text::small), "the first 8 of 64")) << width;
     }
 }
 

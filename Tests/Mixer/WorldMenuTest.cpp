@@ -269,7 +269,7 @@ TEST(Badges, OfSixtyFourActuatorsEachShowsItsWholeLabel) {
     for (int j = 0; j < 64; ++j) {
         const auto label = utf8(f.model.mix().layout.enchanters[static_cast<std::size_t>(j)].label);
         EXPECT_GE(f.world.badgeAt(j).getWidth(),
-                  text::width(juce::Font(text::small, juce::Font::bold), label))
+                  text::width(text::font(text::small, juce::Font::bold), label))
             << label;
     }
 }

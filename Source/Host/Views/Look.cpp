@@ -164,9 +164,9 @@ void Look::setTheme(Theme theme) {
 }
 
 juce::Font Look::getTextButtonFont(juce::TextButton& button, int) {
-    if (isTrue(button, titleProperty)) return juce::Font{text::large, juce::Font::bold};
-    return isTrue(button, stopProperty) ? juce::Font{text::medium, juce::Font::bold}
-                                        : juce::Font{text::small};
+    if (isTrue(button, titleProperty)) return text::font(text::large, juce::Font::bold);
+    return isTrue(button, stopProperty) ? text::font(text::medium, juce::Font::bold)
+                                        : text::font(text::small);
 }
 
 void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool isOver,
@@ -221,7 +221,7 @@ void Look::drawToggleButton(juce::Graphics& g, juce::ToggleButton& button, bool 
                 button.getToggleState(), button.isEnabled(), isOver, isDown);
     g.setColour(button.isEnabled() ? button.findColour(juce::ToggleButton::textColourId)
                                    : shade(button, Shade::muted));
-    g.setFont(juce::Font{size});
+    g.setFont(text::font(size));
     g.drawFittedText(button.getButtonText(),
                      button.getLocalBounds().withTrimmedLeft(juce::roundToInt(tick) + 10).withTrimmedRight(2),
                      juce::Justification::centredLeft, 10);
@@ -263,7 +263,7 @@ void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label) {
     const bool narrow = isNarrow(box);
     label.setBounds(narrow ? 0 : 6, 0, box.getWidth() - (narrow ? 13 : 24), box.getHeight()); // to the arrow
     label.setBorderSize({1, 5, 1, 0});
-    label.setFont(narrow ? juce::Font{text::small} : getComboBoxFont(box));
+    label.setFont(narrow ? text::font(text::small) : getComboBoxFont(box));
 }
 
 void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float,
@@ -286,7 +286,7 @@ void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int heig
 
 juce::Label* Look::createSliderTextBox(juce::Slider& slider) {
     auto* box = juce::LookAndFeel_V4::createSliderTextBox(slider);
-    if (slider.isBar()) box->setFont(juce::Font{text::small});
+    if (slider.isBar()) box->setFont(text::font(text::small));
     return box;
 }
 

@@ -48,9 +48,18 @@ enum class Shade { ground, panel, raised, well, line, text, muted, now, limit, c
 
 enum class Theme { dark, light };
 
+JUCE_BEGIN_IGNORE_WARNINGS_GCC_LIKE("-Wdeprecated-declarations") // JUCE 8 and 9 would rather have others
+/// All of a display, and what the system's bars leave of it. M.
+inline juce::Rectangle<int> wholeOf(const juce::Displays::Display& display) { return display.totalArea; }
+inline juce::Rectangle<int> usableOf(const juce::Displays::Display& display) { return display.userArea; }
+
 /// Heights of text in pixels; all text has one of these.
 namespace text {
 constexpr float small = 12.5f, medium = 14.5f, large = 21.0f;
+
+/// A font of that height, with the metrics of JUCE 7. M.
+inline juce::Font font(float height, int style = juce::Font::plain) { return juce::Font{height, style}; }
+JUCE_END_IGNORE_WARNINGS_GCC_LIKE
 
 /// How wide `words` are in `font`, in pixels. M.
 inline float width(const juce::Font& font, const juce::String& words) {
@@ -93,8 +102,8 @@ public:
     Theme theme() const noexcept { return theme_; }
 
     juce::Font getTextButtonFont(juce::TextButton& button, int) override;
-    juce::Font getComboBoxFont(juce::ComboBox&) override { return juce::Font{text::medium}; }
-    juce::Font getPopupMenuFont() override { return juce::Font{text::medium}; }
+    juce::Font getComboBoxFont(juce::ComboBox&) override { return text::font(text::medium); }
+    juce::Font getPopupMenuFont() override { return text::font(text::medium); }
     juce::Font getLabelFont(juce::Label& label) override { return label.getFont(); }
     void drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool isOver,
                               bool isDown) override;

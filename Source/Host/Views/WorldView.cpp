@@ -245,7 +245,7 @@ juce::String WorldView::labelOf(int enchanter) const {
 
 juce::Font WorldView::badgeFont() const {
     const bool isLow = !badges_.empty() && badges_.front().getHeight() < lowBadge;
-    return {isLow ? text::small : text::medium, juce::Font::bold};
+    return text::font(isLow ? text::small : text::medium, juce::Font::bold);
 }
 
 const std::vector<juce::Rectangle<float>>& WorldView::badges() const {
@@ -482,7 +482,7 @@ void WorldView::drawFiles(juce::Graphics& g) const {
     const float corner = enchanter >= 0 ? 10.0f : 13.0f;
     const auto words =
         enchanter >= 0 ? "felt on " + labelOf(enchanter) + " alone" : juce::String{"felt here"};
-    const juce::Font font{text::small};
+    const auto font = text::font(text::small);
     const float below = 0.5f * target.getHeight() + 15.0f;
     const auto plate = juce::Rectangle<float>{text::width(font, words) + 14.0f, 20.0f}
                            .withCentre(target.getCentre().translated(
@@ -518,7 +518,7 @@ void WorldView::drawGrip(juce::Graphics& g) const {
         const auto badge = juce::Rectangle<float>{highestBadge, highestBadge}.withCentre(*dropAt_);
         g.setColour(shade(*this, Shade::accent));
         g.drawRoundedRectangle(badge, 7.0f, 2.0f);
-        g.setFont(juce::Font{text::large});
+        g.setFont(text::font(text::large));
         g.drawText("+", badge, juce::Justification::centred, false);
     }
     if (isHolding()) return drawHold(g);
@@ -531,7 +531,7 @@ void WorldView::drawGrip(juce::Graphics& g) const {
     g.setColour(shade(*this, Shade::text));
     g.fillPath(dashed);
     if (!pullText) return;
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     const auto words = juce::Rectangle<float>{130.0f, 18.0f}
                            .withCentre(grip_.to.translated(0.0f, -16.0f))
                            .constrainedWithin(getLocalBounds().reduced(4).toFloat());

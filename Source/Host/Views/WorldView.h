@@ -242,11 +242,10 @@ constexpr bool isDisplayWidth(double metres) noexcept {
 inline juce::Rectangle<int> displayOf(const juce::Component& component) {
     const auto* display =
         juce::Desktop::getInstance().getDisplays().getDisplayForRect(component.getScreenBounds());
-    return display != nullptr ? display->totalArea : component.getTopLevelComponent()->getLocalBounds();
+    return display != nullptr ? wholeOf(*display) : component.getTopLevelComponent()->getLocalBounds();
 }
 
-/// Pixels of `component` per metre on its display, which is `displayMetres` wide; 0: use the resolution that
-/// the system reports. M.
+/// Pixels of `component` per metre on its display, `displayMetres` wide; 0: by what the system reports. M.
 inline double screenPixelsPerMetre(const juce::Component& component, double displayMetres) {
     if (displayMetres > 0.0) return displayOf(component).getWidth() / displayMetres;
     constexpr double usualDpi = 96.0, metresPerInch = 0.0254; // if the system reports none

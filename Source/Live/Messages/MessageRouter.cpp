@@ -94,7 +94,8 @@ Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag
             stop(time);
         else
             strike(std::move(strikes), time, isNow);
-        return note.empty() ? PlainMessage{} : PlainMessage{message.name, {{"note", note}}};
+        if (note.empty()) return PlainMessage{};
+        return PlainMessage{message.name, {{"note", note}}};
     } catch (const MessageError& error) {
         return Failure{message.name + ": " + error.what()};
     }

@@ -24,7 +24,7 @@ juce::Rectangle<int> drawWell(juce::Graphics& g, const juce::Component& c) {
 /// Draws the first text of `left` that fits beside `right`.
 void drawHead(juce::Graphics& g, const juce::Component& c, juce::Rectangle<int> row,
               const juce::StringArray& left, const juce::String& right, Shade rightShade = Shade::muted) {
-    const juce::Font font{text::small};
+    const auto font = text::font(text::small);
     g.setFont(font);
     g.setColour(shade(c, rightShade));
     const auto place = row.removeFromRight(std::min(row.getWidth(), text::pixels(font, right) + 4));

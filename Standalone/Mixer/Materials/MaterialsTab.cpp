@@ -299,7 +299,7 @@ void MaterialsTab::filesDropped(const juce::StringArray& files, int x, int y) {
 
 void MaterialsTab::paint(juce::Graphics& g) {
     const MaterialColumns at{headArea_.withWidth(list_.getVisibleRowWidth())};
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.setColour(shade(*this, Shade::muted));
     g.drawText("Material", at.name, juce::Justification::centredLeft, false);
     g.drawText("f Hz", at.frequency, juce::Justification::centredRight, false);
@@ -317,7 +317,7 @@ void MaterialsTab::paintOverChildren(juce::Graphics& g) {
     g.fillRect(plots);
     g.setColour(shade(*this, Shade::accent));
     g.drawRoundedRectangle(plots.toFloat().reduced(1.0f), 5.0f, 2.0f);
-    g.setFont(juce::Font{text::medium});
+    g.setFont(text::font(text::medium));
     const auto name = material ? utf8(material->name) : juce::String{};
     g.drawText(isMeasuring() ? juce::String::fromUTF8("Measuring\xe2\x80\xa6")
                              : "Drop it: the sound of " + name,
@@ -404,7 +404,7 @@ void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width,
     const bool sounds = m.frequencyHz > 0.0;
     g.setColour(palette::material(index).withMultipliedAlpha(sounds ? 1.0f : 0.5f));
     g.fillEllipse(at.dot.withWidth(14).toFloat().withSizeKeepingCentre(12.0f, 12.0f));
-    g.setFont(juce::Font{text::medium});
+    g.setFont(text::font(text::medium));
     g.setColour(shade(tab_, sounds ? Shade::text : Shade::muted));
     g.drawText(utf8(m.name), at.name, juce::Justification::centredLeft, true);
     if (!sounds)

@@ -18,7 +18,7 @@ int presetOf(const EnchanterLayout& layout) {
     return found == layoutPresetNames.end() ? -1 : static_cast<int>(found - layoutPresetNames.begin());
 }
 
-juce::Font nameFont() { return {text::medium, juce::Font::bold}; }
+juce::Font nameFont() { return text::font(text::medium, juce::Font::bold); }
 juce::String placeText(const ActuatorPlace& at) {
     return number(1e3 * at.xMetres, 0) + ", " + number(1e3 * at.yMetres, 0) + " mm";
 }
@@ -29,7 +29,7 @@ juce::String profileText(const EnchanterDescription& e) {
 /// Widths of the longest name, place and profile, with what is kept after them.
 std::array<int, 3> widestOf(const LayoutDescription& layout) {
     constexpr int after = 12;
-    const juce::Font font{text::medium};
+    const auto font = text::font(text::medium);
     std::array<int, 3> widest{};
     const auto widen = [&widest](std::size_t column, const juce::Font& in, const juce::String& words) {
         widest[column] = std::max(widest[column], text::pixels(in, words) + after);
@@ -65,10 +65,10 @@ void EnchantersTab::Module::paintButton(juce::Graphics& g, bool isOver, bool) {
     const auto badge = area.withWidth(26.0f).withSizeKeepingCentre(26.0f, 26.0f).translated(8.0f, 0.0f);
     g.setColour(shade(*this, Shade::accent));
     g.drawRoundedRectangle(badge, 6.0f, 2.0f);
-    g.setFont(juce::Font{text::large});
+    g.setFont(text::font(text::large));
     g.drawText("+", badge, juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::text));
-    g.setFont(juce::Font{text::medium});
+    g.setFont(text::font(text::medium));
     g.drawText("Drag onto the field to attach", area.withTrimmedLeft(46.0f), juce::Justification::centredLeft,
                true);
 }
@@ -103,7 +103,7 @@ void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width
     const auto columns = columnsIn(area.getWidth(), tab_.widest_);
     g.setFont(nameFont());
     cell(utf8(e.label), columns[0], Shade::text);
-    g.setFont(juce::Font{text::medium});
+    g.setFont(text::font(text::medium));
     cell(placeText(place), columns[1], Shade::text);
     cell(profileText(e), columns[2], Shade::muted);
     cell(number(e.fullScaleG, 2) + " g", area.getWidth(), Shade::muted, juce::Justification::centredRight);

@@ -195,7 +195,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
         g.drawText(words, area,
                    isNumber ? juce::Justification::centredRight : juce::Justification::centredLeft, true);
     };
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     cell(timeText(hit.timeNs), at.time, Shade::muted, false);
     cell(nameOf(model.world().scene(), contact), at.name, Shade::text, false);
     const bool isMode = !isClip(hit.sound);
@@ -203,7 +203,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     cell(isMode ? number(hit.decayPerSecond, 1) : "", at.decay, Shade::text, true);
     cell(number(most.levelG, 3), at.level, Shade::text, true);
     cell(placeNumbers(hit), at.place, Shade::muted, true);
-    g.setFont(juce::Font{text::small, juce::Font::bold});
+    g.setFont(text::font(text::small, juce::Font::bold));
     g.setColour(enchanterColour(tab_, most.enchanter));
     g.drawText(utf8(model.mix().layout.enchanters[static_cast<std::size_t>(most.enchanter)].label),
                at.enchanter, juce::Justification::centred, true);
@@ -211,7 +211,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
 
 void EventsTab::paint(juce::Graphics& g) {
     const Columns at{getLocalBounds().withHeight(eventHeadPixels).withWidth(list_.getVisibleRowWidth())};
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.setColour(shade(*this, Shade::muted));
     const auto head = [&](const juce::String& words, juce::Rectangle<int> area, juce::Justification where) {
         g.drawText(words, area, where, true);

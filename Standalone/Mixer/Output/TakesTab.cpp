@@ -208,7 +208,7 @@ void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
     }
     area.reduce(10, 0);
     const Take& t = takes_[static_cast<std::size_t>(row)];
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.setColour(shade(*this, Shade::muted));
     const auto cell = [&](const juce::String& words, int wide) {
         g.drawText(words, area.removeFromRight(wide), juce::Justification::centredRight, true);
@@ -217,7 +217,7 @@ void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
     cell(juce::String{t.channels} + (t.channels == 1 ? " channel" : " channels"), 90);
     g.setColour(shade(*this, Shade::text));
     cell(t.length(), t.isTrimmed() ? 110 : 70);
-    g.setFont(juce::Font{text::medium});
+    g.setFont(text::font(text::medium));
     g.drawText(t.file.getFileNameWithoutExtension(), area, juce::Justification::centredLeft, true);
 }
 

@@ -138,7 +138,7 @@ FactList::FactList(const juce::String& title, int maxColumns)
 
 // As many columns as hold every value in one line; in a single one, a long value has several lines.
 FactList::Places FactList::placesIn(int width) const {
-    const juce::Font font{text::medium};
+    const auto font = text::font(text::medium);
     Places p;
     int widest = 0;
     for (const auto& fact : facts_) {
@@ -171,7 +171,7 @@ void FactList::paint(juce::Graphics& g) {
     const auto p = placesIn(getWidth());
     const int line = juce::jlimit(lowestRow, highestRow, getHeight() / p.lines),
               width = (getWidth() - (p.columns - 1) * gap) / p.columns;
-    const juce::Font font{text::medium};
+    const auto font = text::font(text::medium);
     g.setFont(font);
     int y = 0;
     for (int i = 0; i < static_cast<int>(facts_.size()); ++i) {

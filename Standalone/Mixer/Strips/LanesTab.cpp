@@ -59,7 +59,7 @@ void LanesTab::refresh(const MixerMoment&) {
 }
 
 void LanesTab::Rows::paint(juce::Graphics& g) {
-    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    g.setFont(text::font(text::medium, juce::Font::bold));
     const auto& mix = model_.mix();
     for (std::size_t i = 0; i < std::min(lanes.size(), mix.strips.size() + mix.groups.size()); ++i) {
         const bool isStrip = i < mix.strips.size();
@@ -72,7 +72,7 @@ void LanesTab::Rows::paint(juce::Graphics& g) {
 }
 
 void LanesTab::paint(juce::Graphics& g) {
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.setColour(shade(*this, Shade::muted));
     const auto axis = foot_.withTrimmedLeft(labelWidth);
     g.drawText("0", axis, juce::Justification::centredLeft, false);

@@ -64,7 +64,7 @@ void ScopeView::paint(juce::Graphics& g) {
     const auto& mix = model_.mix();
     auto area = lanes_;
     const int lanes = std::min(mix.count(), maxLanes);
-    const juce::Font bold{text::medium, juce::Font::bold};
+    const auto bold = text::font(text::medium, juce::Font::bold);
     const auto labelOf = [&](int j) {
         return utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label);
     };
@@ -73,14 +73,14 @@ void ScopeView::paint(juce::Graphics& g) {
         labelWidth = std::max(labelWidth, text::pixels(bold, labelOf(j)) + afterLabel);
     labelWidth = std::min(labelWidth, std::max(minLabel, area.getWidth() / 5)); // the rest is cut
     const auto foot = area.removeFromBottom(scopeFootHeight).withTrimmedLeft(labelWidth);
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.setColour(shade(*this, Shade::muted));
     const auto begin = mix.count() > lanes
                            ? "the first " + juce::String{lanes} + " of " + juce::String{mix.count()}
                            : juce::String{juce::CharPointer_UTF8{"\xe2\x88\x92"
                                                                  "1 s"}};
     const juce::String end{"now"};
-    const juce::Font small{text::small};
+    const auto small = text::font(text::small);
     g.drawText(begin, foot, juce::Justification::centredLeft, true);
     if (text::pixels(small, begin) + text::pixels(small, end) + gap <= foot.getWidth())
         g.drawText(end, foot, juce::Justification::centredRight, false);
@@ -150,7 +150,7 @@ void SpectrumView::paint(juce::Graphics& g) {
     auto area = getLocalBounds().withTrimmedTop(6).withTrimmedRight(6);
     const auto levels = area.removeFromLeft(levelsWidth);
     area = drawFrequencyAxis(g, *this, area).withTrimmedBottom(2);
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     for (const int db : {0, -20, -40, -60, -80}) {
         const int y = area.getY() + juce::roundToInt(static_cast<float>(area.getHeight() - 1) *
                                                      static_cast<float>(db) / FrequencyAxis::floorDb);

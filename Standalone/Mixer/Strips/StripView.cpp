@@ -57,10 +57,10 @@ StripView::StripView(MixerModel& model, int strip)
     toggle(polarity_, "Polarity", palette::enchanter(4), &Strip::isInverted);
     delay_.setTitle("Delay of " + label);
     delay_.onClick = [this] { askDelay(); };
-    level_.setFont(juce::Font{text::small, juce::Font::bold});
+    level_.setFont(text::font(text::small, juce::Font::bold));
     level_.setJustificationType(juce::Justification::centredRight);
     level_.setTitle("Level of " + label + " in g");
-    most_.setFont(juce::Font{text::small});
+    most_.setFont(text::font(text::small));
     most_.setTitle("Ceiling of " + label + " in g");
     level_.setBorderSize({0, 0, 0, 0});
     most_.setBorderSize({0, 4, 0, 0});
@@ -177,7 +177,7 @@ void StripView::paint(juce::Graphics& g) {
     area.removeFromTop(4);
     drawName(g, area.removeFromTop(20), isSilent ? Shade::muted : Shade::text);
     g.setColour(shade(*this, Shade::muted));
-    g.setFont(juce::Font{11.0f});
+    g.setFont(text::font(11.0f));
     for (const int db : {0, -20, -40, -60}) { // scale of the meter, right of the fader
         const auto y = static_cast<float>(meter_.getY()) +
                        static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
@@ -191,7 +191,7 @@ void StripView::paint(juce::Graphics& g) {
 // With the fader's gain, unless that is 0 dB or the name needs the room.
 void StripView::drawName(juce::Graphics& g, juce::Rectangle<int> row, Shade which) const {
     const auto name = utf8(model_.mix().layout.enchanters[index_].label);
-    const juce::Font bold{text::medium, juce::Font::bold}, plain{text::small};
+    const auto bold = text::font(text::medium, juce::Font::bold), plain = text::font(text::small);
     const double db = strip().gainDb;
     const auto gain = db == 0.0 ? juce::String{} : fader_.textFromValueFunction(db);
     constexpr int between = 5;
@@ -278,10 +278,10 @@ void MasterStrip::refresh(const MixerMoment& moment) {
 
 void MasterStrip::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::text));
-    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    g.setFont(text::font(text::medium, juce::Font::bold));
     g.drawText("Master", getLocalBounds().withTrimmedTop(8).removeFromTop(20), juce::Justification::centred,
                false);
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.setColour(shade(*this, Shade::muted));
     g.drawText(number(model_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(28).removeFromTop(18),
                juce::Justification::centred, false);
@@ -302,7 +302,7 @@ void MasterStrip::paint(juce::Graphics& g) {
     for (std::size_t j = 0; j < static_cast<std::size_t>(model_.mix().count()); ++j)
         most = std::max(most, maxG(model_, j));
     g.setColour(shade(*this, Shade::text));
-    g.setFont(juce::Font{text::small, juce::Font::bold});
+    g.setFont(text::font(text::small, juce::Font::bold));
     g.drawText(inG(most) + " g", ceiling_, juce::Justification::centred, false);
 }
 

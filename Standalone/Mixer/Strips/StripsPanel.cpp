@@ -17,9 +17,9 @@ void StripsPanel::AttachPlace::paintButton(juce::Graphics& g, bool isOver, bool)
     g.setColour(shade(*this, isOver ? Shade::accent : Shade::line));
     g.fillPath(dashed);
     g.setColour(shade(*this, isOver ? Shade::accent : Shade::muted));
-    g.setFont(juce::Font{text::large});
+    g.setFont(text::font(text::large));
     g.drawText("+", area.withTrimmedBottom(24.0f), juce::Justification::centred, false);
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.drawText("attach", area.withTrimmedTop(24.0f), juce::Justification::centred, false);
 }
 
@@ -130,14 +130,14 @@ GroupView::GroupView(MixerModel& model, int group)
     const auto label = utf8(this->group().name);
     setTitle("Group " + label);
     describe(name_, "Name of " + label, "Double click, or Return: another name");
-    name_.setFont(juce::Font{text::medium, juce::Font::bold});
+    name_.setFont(text::font(text::medium, juce::Font::bold));
     name_.setJustificationType(juce::Justification::centred);
     name_.setMinimumHorizontalScale(0.8f);
     name_.setBorderSize({0, 0, 0, 0});
     name_.setEditable(false, true);
     name_.setWantsKeyboardFocus(true);
     name_.onTextChange = [this] { rename(); };
-    level_.setFont(juce::Font{text::small});
+    level_.setFont(text::font(text::small));
     level_.setJustificationType(juce::Justification::centred);
     level_.setTitle("Gain of the group " + label);
     fader_.setUp(leastStripDb, mostStripDb, "Gain of the group " + label);
@@ -213,7 +213,7 @@ void GroupView::paint(juce::Graphics& g) {
         labels.add(utf8(model_.mix().layout.enchanters[static_cast<std::size_t>(j)].label));
     }
     g.setColour(shade(*this, Shade::muted));
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.drawText(members.empty() ? juce::String{"no strip yet"} : labels.joinIntoString(" "),
                getLocalBounds().withTrimmedTop(28).removeFromTop(18).reduced(4, 0),
                juce::Justification::centred, true);

@@ -82,7 +82,7 @@ AnalysisScreen::AnalysisScreen(MixerModel& model, const juce::String& title)
     words_.setCaretVisible(false);
     words_.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
     words_.setEscapeAndReturnKeysConsumed(false);
-    words_.setFont(juce::Font{text::medium});
+    words_.setFont(text::font(text::medium));
     addAll(*this, {close_.get(), &silence_, &words_});
     prepareControls(*this);
     refresh();
@@ -163,7 +163,7 @@ void AnalysisScreen::showWords() {
 void AnalysisScreen::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::ground));
     g.setColour(shade(*this, Shade::text));
-    g.setFont(juce::Font{text::large, juce::Font::bold});
+    g.setFont(text::font(text::large, juce::Font::bold));
     auto title = files_.empty() ? title_ : files_.front().getFileName();
     if (files_.size() > 1) title << " and " << static_cast<int>(files_.size() - 1) << " more";
     g.drawText(title, titleArea_, juce::Justification::centredLeft, true);

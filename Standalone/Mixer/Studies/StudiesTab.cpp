@@ -84,7 +84,7 @@ StudiesTab::StudiesTab(MixerModel& model)
     begin_.setTitle("Begin the study");
     begin_.onClick = [this] { begin(); };
     for (auto* editor : {&code_, &number_, &folder_}) {
-        editor->setFont(juce::Font{text::medium});
+        editor->setFont(text::font(text::medium));
         editor->setEscapeAndReturnKeysConsumed(false); // Esc must reach the silence button from here, too
         editor->onTextChange = [this] { look(); };
     }
@@ -420,7 +420,7 @@ juce::StringArray StudiesTab::advice() const {
 }
 
 void StudiesTab::paint(juce::Graphics& g) {
-    g.setFont(juce::Font{text::medium});
+    g.setFont(text::font(text::medium));
     g.setColour(shade(*this, Shade::muted));
     const int line = juce::roundToInt(std::ceil(g.getCurrentFont().getHeight()));
     {

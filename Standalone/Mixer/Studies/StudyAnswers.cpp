@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layout of the answer component and its confirm button.
 #include "Mixer/Studies/StudyAnswers.h"
+#include "Host/Views/WorldView.h"
 #include "Io/Text/NumberText.h"
-#include "Mixer/Widgets/Parts.h"
 #include <cmath>
 
 namespace physvib {
@@ -17,11 +17,9 @@ public:
         setUsingNativeTitleBar(true);
         setLookAndFeel(&beside.getLookAndFeel());
         setContentNonOwned(&pane, false);
-        const auto& displays = juce::Desktop::getInstance().getDisplays();
-        const auto* here = displays.getDisplayForRect(beside.getScreenBounds());
         juce::Rectangle<int> room{100, 100, 900, 640};
-        for (const auto& display : displays.displays)
-            if (here != nullptr && display.totalArea != here->totalArea) room = display.userArea;
+        for (const auto& display : juce::Desktop::getInstance().getDisplays().displays)
+            if (wholeOf(display) != displayOf(beside)) room = usableOf(display);
         setBounds(room);
         setResizable(true, false);
         addToDesktop();
@@ -87,12 +85,12 @@ void StudyAnswerPane::paint(juce::Graphics& g) {
     if (standsAlone_) {
         g.fillAll(shade(*this, Shade::ground));
         g.setColour(shade(*this, Shade::text));
-        g.setFont(juce::Font{text::large, juce::Font::bold});
+        g.setFont(text::font(text::large, juce::Font::bold));
         g.drawFittedText(question_, questionArea_, juce::Justification::centred, 2, 1.0f);
     }
     if (!answer_ || !answer_->isVisible()) return;
     g.setColour(shade(*this, Shade::muted));
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.drawText(say_(answer_->keys()), keysArea_, juce::Justification::centredLeft, true);
 }
 
@@ -239,11 +237,11 @@ public:
         for (const auto& scale : scales_) {
             auto row = scale->area;
             g.setColour(shade(*this, isEnabled() ? Shade::text : Shade::muted));
-            g.setFont(juce::Font{text::large});
+            g.setFont(text::font(text::large));
             auto words = row.removeFromTop(28);
             g.drawText(scale->name, words.removeFromLeft(150), juce::Justification::centredLeft, true);
             g.setColour(shade(*this, Shade::muted));
-            g.setFont(juce::Font{text::medium});
+            g.setFont(text::font(text::medium));
             g.drawText(scale->meaning, words, juce::Justification::centredLeft, true);
             const auto ends = row.withTrimmedTop(30).removeFromTop(22);
             g.drawText(say_(anchors_[0]), ends, juce::Justification::centredLeft, true);
@@ -360,7 +358,7 @@ protected:
         setTitle(title);
         typed_.isSpaceTyped = isSpaceTyped;
         typed_.setTitle(title);
-        typed_.setFont(juce::Font{text::large});
+        typed_.setFont(text::font(text::large));
         typed_.onTextChange = [this] {
             if (onChange) onChange();
         };

@@ -192,7 +192,7 @@ void drawPulse(juce::Graphics& g, juce::Point<float> at, float radius, int pulse
     g.setColour(orderColour(pulse).withMultipliedAlpha(light));
     g.fillEllipse(disc);
     g.setColour(juce::Colour{palette::Argb{0xff101218}}.withMultipliedAlpha(light));
-    g.setFont(juce::Font{text::small, juce::Font::bold});
+    g.setFont(text::font(text::small, juce::Font::bold));
     g.drawText(juce::String{pulse + 1}, disc, juce::Justification::centred, false);
 }
 
@@ -282,7 +282,7 @@ public:
     void paint(juce::Graphics& g) override {
         const auto heading = [&](const juce::String& words, juce::Rectangle<int> row) {
             g.setColour(shade(*this, isEnabled() ? Shade::text : Shade::muted));
-            g.setFont(juce::Font{text::medium, juce::Font::bold});
+            g.setFont(text::font(text::medium, juce::Font::bold));
             g.drawText(words, row, juce::Justification::centredLeft, true);
         };
         heading("1   " + say_("Place of the first pulse"), firstHeading_);
@@ -295,12 +295,12 @@ public:
             auto part = legend.removeFromLeft(92);
             drawPulse(g, part.removeFromLeft(20).toFloat().getCentre(), 8.5f, k, 1.0f);
             g.setColour(shade(*this, Shade::muted));
-            g.setFont(juce::Font{text::small});
+            g.setFont(text::font(text::small));
             g.drawText(say_(names[static_cast<std::size_t>(k)]), part.withTrimmedLeft(6),
                        juce::Justification::centredLeft, true);
         }
         g.setColour(shade(*this, Shade::muted));
-        g.setFont(juce::Font{text::medium});
+        g.setFont(text::font(text::medium));
         if (first_ < 0)
             g.drawText(say_("Choose the first pulse's place."), iconsArea_, juce::Justification::centred,
                        true);

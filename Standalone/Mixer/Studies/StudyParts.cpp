@@ -70,10 +70,10 @@ void BigButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
     const int line = 24, lines = remark_.isEmpty() ? line : line + 20;
     area = area.withSizeKeepingCentre(area.getWidth(), std::min(lines, area.getHeight()));
     g.setColour(ink.withMultipliedAlpha(light));
-    g.setFont(juce::Font{getHeight() >= 48 && words_.length() < 24 ? text::large : text::medium});
+    g.setFont(text::font(getHeight() >= 48 && words_.length() < 24 ? text::large : text::medium));
     g.drawText(words_, area.removeFromTop(line), juce::Justification::centred, true);
     g.setColour((isMain_ ? ink : shade(*this, Shade::muted)).withMultipliedAlpha(light));
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.drawText(remark_, area, juce::Justification::centred, true);
     if (!isMarked_) return;
     g.setColour(shade(*this, Shade::accent));
@@ -118,7 +118,7 @@ void drawRing(juce::Graphics& g, const juce::Component& component, juce::Point<f
     g.fillEllipse(ring);
     g.setColour(enchanterColour(component, enchanter));
     g.drawEllipse(ring, 2.0f);
-    g.setFont(juce::Font{text::small, juce::Font::bold});
+    g.setFont(text::font(text::small, juce::Font::bold));
     g.drawText(utf8(layout.enchanters[static_cast<std::size_t>(enchanter)].label), ring,
                juce::Justification::centred, false);
 }

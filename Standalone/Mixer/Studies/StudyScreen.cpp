@@ -659,7 +659,7 @@ juce::String StudyScreen::progressWords() const {
 void StudyScreen::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::ground));
     g.setColour(shade(*this, Shade::muted));
-    g.setFont(juce::Font{text::medium});
+    g.setFont(text::font(text::medium));
     g.drawText(progressWords(), headArea_, juce::Justification::centredLeft, true);
     if (!experiment().isDone() && experiment().sessionTrials() > 0) {
         const auto bar =
@@ -673,12 +673,12 @@ void StudyScreen::paint(juce::Graphics& g) {
             2.0f);
     }
     g.setColour(shade(*this, Shade::text));
-    g.setFont(juce::Font{page_ == Page::trial ? text::large : 30.0f, juce::Font::bold});
+    g.setFont(text::font(page_ == Page::trial ? text::large : 30.0f, juce::Font::bold));
     g.drawFittedText(headline(), questionArea_, juce::Justification::centred, 2, 1.0f);
     const bool isTrouble =
         page_ == Page::trial && (model_.isSilent() || isWaiting() || isLost_ || wrong().isNotEmpty());
     g.setColour(shade(*this, isTrouble ? Shade::limit : Shade::muted));
-    g.setFont(juce::Font{page_ == Page::trial ? text::medium : text::large});
+    g.setFont(text::font(page_ == Page::trial ? text::medium : text::large));
     g.drawFittedText(body(), bodyArea_, juce::Justification::centred, page_ == Page::trial ? 2 : 5, 1.0f);
     if (page_ == Page::pause) drawMaterials(g);
 }
@@ -692,7 +692,7 @@ void StudyScreen::drawMaterials(juce::Graphics& g) const {
     auto row = juce::Rectangle<int>{pageInset, next_.getBottom() + 24, getWidth() - 2 * pageInset, height}
                    .withSizeKeepingCentre(width * static_cast<int>(legends.size()), height);
     if (row.getBottom() > getHeight()) return;
-    g.setFont(juce::Font{text::medium});
+    g.setFont(text::font(text::medium));
     for (const MaterialLegend& legend : legends) {
         auto cell = row.removeFromLeft(width);
         juce::Path shape;

@@ -72,15 +72,15 @@ FileCard::FileCard(const Choice& choice)
     setTitle(choice.title);
     setWantsKeyboardFocus(true);
     title_.setText(choice.title, juce::dontSendNotification);
-    title_.setFont(juce::Font{text::large, juce::Font::bold});
-    for (auto* label : {&place_, &words_}) label->setFont(juce::Font{text::small});
+    title_.setFont(text::font(text::large, juce::Font::bold));
+    for (auto* label : {&place_, &words_}) label->setFont(text::font(text::small));
     place_.setTitle("Folder");
     words_.setTitle("What is wrong");
     list_.setTitle("Files of the folder");
     list_.setRowHeight(rowHeight);
     list_.setMultipleSelectionEnabled(choice.areSeveral);
     name_.setTitle("Name of the file");
-    name_.setFont(juce::Font{text::medium});
+    name_.setFont(text::font(text::medium));
     name_.setText(choice.name, false);
     name_.setSelectAllWhenFocused(true);
     name_.setTextToShowWhenEmpty("name or path", juce::Colours::grey);
@@ -195,12 +195,12 @@ void FileCard::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
     const auto& entry = entries_[row];
     const bool isFolder = entry.isDirectory();
     area.reduce(12, 0);
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     g.setColour(shade(*this, Shade::muted));
     g.drawText(isFolder ? juce::String{"folder"}
                         : entry.getLastModificationTime().formatted("%Y-%m-%d %H:%M"),
                area.removeFromRight(120), juce::Justification::centredRight, true);
-    g.setFont(juce::Font{text::medium, isFolder ? juce::Font::bold : juce::Font::plain});
+    g.setFont(text::font(text::medium, isFolder ? juce::Font::bold : juce::Font::plain));
     g.setColour(shade(*this, Shade::text));
     g.drawText(entry.getFileName(), area, juce::Justification::centredLeft, true);
 }
@@ -237,7 +237,7 @@ public:
     explicit Input(const Field& field)
         : name{field.title} {
         text.setTitle(name);
-        text.setFont(juce::Font{physvib::text::medium});
+        text.setFont(physvib::text::font(physvib::text::medium));
         text.setText(field.value, false);
         text.setSelectAllWhenFocused(true);
         if (field.allowed.isNotEmpty()) text.setInputRestrictions(32, field.allowed);
@@ -250,7 +250,7 @@ public:
     juce::String value() const { return list.getNumItems() > 0 ? list.getText() : text.getText().trim(); }
     void paint(juce::Graphics& g) override {
         g.setColour(shade(*this, Shade::muted));
-        g.setFont(juce::Font{physvib::text::small});
+        g.setFont(physvib::text::font(physvib::text::small));
         g.drawText(name, getLocalBounds().withWidth(nameWidth), juce::Justification::centredLeft, true);
     }
     void resized() override { control().setBounds(getLocalBounds().withTrimmedLeft(nameWidth)); }
@@ -270,9 +270,9 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
     setDescription(words);
     setWantsKeyboardFocus(true);
     title_.setText(title, juce::dontSendNotification);
-    title_.setFont(juce::Font{text::large, juce::Font::bold});
+    title_.setFont(text::font(text::large, juce::Font::bold));
     words_.setText(words, juce::dontSendNotification);
-    words_.setFont(juce::Font{text::medium});
+    words_.setFont(text::font(text::medium));
     words_.setJustificationType(juce::Justification::topLeft);
     words_.setMinimumHorizontalScale(1.0f); // it has space for all lines
     for (juce::Component* c : {&title_, &words_}) addAndMakeVisible(c);
@@ -429,7 +429,7 @@ void RenderTask::paint(juce::Graphics& g) {
     drawCard(g, *this);
     auto area = getLocalBounds().reduced(12, 8).withTrimmedRight(92);
     g.setColour(shade(*this, Shade::text));
-    g.setFont(juce::Font{text::medium});
+    g.setFont(text::font(text::medium));
     const double share = juce::jlimit(0.0, 1.0, share_.load());
     g.drawText(file_.getFileName() + "  " + juce::String{juce::roundToInt(100.0 * share)} + " %",
                area.removeFromTop(24), juce::Justification::centredLeft, true);

@@ -101,7 +101,7 @@ void TwoLines::paint(juce::Graphics& g) {
     auto area = getLocalBounds();
     const auto line = [&](const juce::String& words, juce::Rectangle<int> row, Shade which) {
         g.setColour(shade(*this, which));
-        g.setFont(juce::Font{text::small});
+        g.setFont(text::font(text::small));
         g.drawText(words, row, juce::Justification::centredLeft, true);
     };
     line(first_, area.removeFromTop(getHeight() / 2), shade_);
@@ -152,7 +152,7 @@ void prepareControls(juce::Component& root) {
 Caption::Caption(const juce::String& words, Shade tone)
     : tone_{tone} {
     setText(words, juce::dontSendNotification);
-    setFont(juce::Font{text::small});
+    setFont(text::font(text::small));
     setBorderSize({0, 0, 0, 0});
 }
 
@@ -240,7 +240,7 @@ SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, 
 juce::Rectangle<int> drawFrequencyAxis(juce::Graphics& g, const juce::Component& component,
                                        juce::Rectangle<int> area) {
     const auto foot = area.removeFromBottom(16);
-    g.setFont(juce::Font{text::small});
+    g.setFont(text::font(text::small));
     for (const int hz : {20, 50, 100, 200, 500, 1000}) {
         const int x = area.getX() + juce::roundToInt(FrequencyAxis::shareOf(hz) * (area.getWidth() - 1));
         g.setColour(shade(component, Shade::line).withMultipliedAlpha(0.7f));
@@ -314,7 +314,7 @@ constexpr int barRoom = 12;                 // of the scroll bar, and beside it
 constexpr int widestRest = 60, maxCut = 14; // margin beside a name, and what a narrow panel takes from it
 
 int widthOf(const juce::String& name) {
-    return text::pixels(juce::Font{text::medium, juce::Font::bold}, name) + 6;
+    return text::pixels(text::font(text::medium, juce::Font::bold), name) + 6;
 }
 
 } // namespace
@@ -330,7 +330,7 @@ public:
     void paintButton(juce::Graphics& g, bool isOver, bool) override {
         const bool isChosen = getToggleState();
         g.setColour(shade(*this, isChosen || isOver ? Shade::text : Shade::muted));
-        g.setFont(juce::Font{text::medium, isChosen ? juce::Font::bold : juce::Font::plain});
+        g.setFont(text::font(text::medium, isChosen ? juce::Font::bold : juce::Font::plain));
         g.drawText(getName(), getLocalBounds().withTrimmedBottom(4), juce::Justification::centred, false);
         g.setColour(isChosen ? shade(*this, Shade::accent) : juce::Colours::transparentBlack);
         g.fillRect(getLocalBounds().removeFromBottom(2));

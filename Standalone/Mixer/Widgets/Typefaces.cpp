@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finds typefaces by glyph outlines: a letter whose outline equals that of a non-character is missing. JUCE 8
-// tells.
+// Finds typefaces by outlines: a letter whose outline equals a non-character's is missing. JUCE 8 tells.
 #include "Mixer/Widgets/Typefaces.h"
+#include "Host/Views/Look.h"
 #include <array>
 #include <set>
 
@@ -53,8 +53,8 @@ juce::String lettersOf(const Words& words) {
 } // namespace
 
 bool hasLetters(const juce::String& typeface, const juce::String& letters) {
-    const juce::Font font =
-        typeface.isEmpty() ? juce::Font{20.0f} : juce::Font{typeface, 20.0f, juce::Font::plain};
+    auto font = text::font(text::large);
+    if (typeface.isNotEmpty()) font.setTypefaceName(typeface);
     const auto face = font.getTypefacePtr();
     if (face == nullptr) return false;
     const auto has = lettersIn(*face);

@@ -97,8 +97,8 @@ FirstStart::FirstStart(MixerModel& model, std::vector<FeltChoice> choices)
     , choices_{std::move(choices)} {
     setTitle("First start");
     setWantsKeyboardFocus(true);
-    title_.setFont(juce::Font{text::large, juce::Font::bold});
-    words_.setFont(juce::Font{text::medium});
+    title_.setFont(text::font(text::large, juce::Font::bold));
+    words_.setFont(text::font(text::medium));
     words_.setJustificationType(juce::Justification::topLeft);
     words_.setMinimumHorizontalScale(1.0f); // it has space for two lines
     for (int i = 0; i < std::min(mostRows, static_cast<int>(choices_.size())); ++i) {
@@ -297,7 +297,7 @@ void FirstStart::paint(juce::Graphics& g) {
         g.setColour(enchanterColour(*this, j).withAlpha(j == tested_ ? 1.0f : 0.35f));
         j == tested_ ? g.fillRoundedRectangle(badge, 7.0f) : g.drawRoundedRectangle(badge, 7.0f, 2.0f);
         g.setColour(shade(*this, j == tested_ ? Shade::well : Shade::muted));
-        g.setFont(juce::Font{text::medium, juce::Font::bold});
+        g.setFont(text::font(text::medium, juce::Font::bold));
         g.drawText(utf8(model_.mix().layout.enchanters[static_cast<std::size_t>(j)].label), badge,
                    juce::Justification::centred, false);
     }

@@ -58,7 +58,7 @@ MixerView::MixerView(MixerModel& model)
     world_.onOutput = [this](int enchanter) { strips_.showOutputs(enchanter); };
     world_.onProfile = [this](int enchanter) { tabs_.find<EnchantersTab>()->editRow(enchanter); };
     trouble_.setTitle("Trouble");
-    trouble_.setFont(juce::Font{text::medium});
+    trouble_.setFont(text::font(text::medium));
     dismiss_ = quietButton("Dismiss", "Dismiss the message");
     dismiss_->onClick = [this] { model_.report({}); };
     act_ = quietButton({}, "Act on the message");
@@ -328,7 +328,7 @@ void MixerView::paintOverChildren(juce::Graphics& g) {
         "Hold the actuators: they start quietly, a quarter of full scale.",
         "Drag a ball to throw it. The bar at the left draws balls, walls and joints.",
         "Esc silences everything. More is in the menu, at the top left."};
-    const juce::Font font{text::medium};
+    const auto font = text::font(text::medium);
     const auto at = world_.getBounds().withSizeKeepingCentre(590, 34 + 26 * lines.size());
     g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));
     g.fillRoundedRectangle(at.toFloat(), 10.0f);
@@ -367,7 +367,7 @@ void MixerView::resized() {
     dismiss_->setBounds(buttons.removeFromRight(dismissWidth - 4));
     if (act_->isVisible())
         act_->setBounds(
-            buttons.removeFromRight(30 + text::pixels(juce::Font{text::medium}, act_->getButtonText())));
+            buttons.removeFromRight(30 + text::pixels(text::font(text::medium), act_->getButtonText())));
     trouble_.setBorderSize({0, panelInset, 0, banner.getRight() - buttons.getRight() + 4});
     placeCards();
 }

@@ -66,7 +66,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     setResizeLimits(MixerView::minWidth, MixerView::minHeight, 7680, 4320);
     applyZoom();
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
-        const auto room = display->userArea;
+        const auto room = usableOf(*display);
         centreWithSize(std::min(1440, room.getWidth() - frameRoom.x),
                        std::min(900, room.getHeight() - frameRoom.y));
     }
@@ -882,7 +882,7 @@ juce::Point<int> displayRoom() {
     auto& desktop = juce::Desktop::getInstance();
     const auto* display = desktop.getDisplays().getPrimaryDisplay();
     if (display == nullptr) return usualDisplay;
-    const auto area = display->userArea.toFloat() * desktop.getGlobalScaleFactor();
+    const auto area = usableOf(*display).toFloat() * desktop.getGlobalScaleFactor();
     return {juce::roundToInt(area.getWidth()), juce::roundToInt(area.getHeight())};
 }
 

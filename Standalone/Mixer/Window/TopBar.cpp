@@ -56,9 +56,9 @@ TopBar::TopBar(MixerModel& model)
     };
     restart_.onClick = [this] { model_.restart(model_.mix().seed); };
     seedName_.setText("seed", juce::dontSendNotification);
-    seedName_.setFont(juce::Font{text::small});
+    seedName_.setFont(text::font(text::small));
     describe(seed_, "Seed", "Seed of the scene: another seed is another course");
-    seed_.setFont(juce::Font{text::medium});
+    seed_.setFont(text::font(text::medium));
     seed_.setEditable(true);
     seed_.setWantsKeyboardFocus(true);
     seed_.onTextChange = [this] {
@@ -67,7 +67,7 @@ TopBar::TopBar(MixerModel& model)
         mixChanged();
     };
     time_.setTitle("Time");
-    time_.setFont(juce::Font{text::medium, juce::Font::bold});
+    time_.setFont(text::font(text::medium, juce::Font::bold));
     describe(record_, "Record", "Record what is played, and every event (Ctrl+R)");
     record_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::limit.getARGB()));
     record_.onClick = [this] {

@@ -85,7 +85,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
         pane_.changeChosen(
             name, [what](const Scene& scene, BodyDescription& body) { what(scene, body); }, continuesEdit);
     };
-    name_.setFont(juce::Font{text::small, juce::Font::bold});
+    name_.setFont(text::font(text::small, juce::Font::bold));
     describe(moves_, "Moves", "Moving, or static");
     moves_.onClick = [this, change] {
         change("Moves", [moves = moves_.getToggleState()](const Scene& s, BodyDescription& b) {
@@ -234,7 +234,7 @@ public:
     }
     enum class Show { picture, name, remark }; ///< a remark says in words that it is not felt
     int wanted(Show show) const {
-        return show == Show::picture ? 32 : 38 + text::pixels(juce::Font{text::small}, words(show));
+        return show == Show::picture ? 32 : 38 + text::pixels(text::font(text::small), words(show));
     }
     void setShow(Show show) {
         show_ = show;
@@ -254,7 +254,7 @@ public:
         g.strokePath(decay(), juce::PathStrokeType{1.6f},
                      juce::AffineTransform::translation(7.0f, 0.5f * static_cast<float>(getHeight())));
         g.setColour(shade(*this, getToggleState() ? Shade::text : Shade::muted));
-        g.setFont(juce::Font{text::small});
+        g.setFont(text::font(text::small));
         g.drawText(words(show_), getLocalBounds().withTrimmedLeft(30), juce::Justification::centredLeft,
                    true);
     }

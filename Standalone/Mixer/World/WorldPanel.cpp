@@ -60,9 +60,9 @@ WorldPanel::WorldPanel(MixerModel& model)
     view_.addMouseListener(this, false);
     view_.onMenu = pane_.onMenu = [this](juce::Point<float> place) { showMenu(place); };
     sentence_.setTitle("Strongest hit");
-    sentence_.setFont(juce::Font{text::medium});
+    sentence_.setFont(text::font(text::medium));
     sentence_.setMinimumHorizontalScale(0.8f);
-    law_.setFont(juce::Font{text::small});
+    law_.setFont(text::font(text::small));
     law_.setJustificationType(juce::Justification::centredRight);
     tilt_.onValueChange = [this] {
         if (player_ && player_->moves())
@@ -86,7 +86,7 @@ WorldPanel::WorldPanel(MixerModel& model)
             "Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); },
             continuesEdit);
     });
-    for (auto* name : {&tiltName_, &dragName_}) name->setFont(juce::Font{text::small});
+    for (auto* name : {&tiltName_, &dragName_}) name->setFont(text::font(text::small));
     compare_.setTitle("Compare A and B");
     compare_.onClick = [this] { ab_.toggle(); };
     addAll(*this,
@@ -454,7 +454,7 @@ juce::String countOf(std::size_t inputs) {
 ScriptStrip::ScriptStrip(MixerModel& model)
     : model_{model} {
     setTitle("Script of hands");
-    words_.setFont(juce::Font{text::medium});
+    words_.setFont(text::font(text::medium));
     for (auto* slider : {&from_, &to_}) {
         slider->setSliderStyle(juce::Slider::LinearBar);
         slider->setRange(0.0, 1.0, stepSeconds);
