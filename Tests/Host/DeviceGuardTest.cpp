@@ -149,20 +149,24 @@ TEST(DeviceGuard, ABorrowedSessionOnTheOutputIsNoWayAround) {
     rig.waves.expectWithin();
 }
 
+/// On output 2, counted from 0, in an opening of its own.
+void playAnew(const std::string& device, std::vector<float>& samples) {
+    DeviceGuard guard;
+    guard.begin(device, {0, 2}, 48000);
+    std::array<float*, limits::maxEnchanters> at{};
+    at[0] = samples.data();
+    guard.follow(0, 1);
+    guard.process(at.data(), static_cast<int>(samples.size()));
+    PlayedTime::pass(double(samples.size()) / 48000);
+}
+
 TEST(DeviceGuard, WhatAnOutputHadIsForgottenInTimeAndElsewhereNeverKnown) {
     const PlayedTime time;
     const auto hadBy = [](const std::string& device, int output) {
-        return GuardMemory::at(device, output).load;
+        return GuardMemory::at(device, output).sums.load;
     };
     std::vector<float> slow(12000, 0.2f);
-    {
-        DeviceGuard guard;
-        guard.begin("A:one", {0, 2}, 48000);
-        std::array<float*, limits::maxEnchanters> at{};
-        at[0] = slow.data();
-        guard.follow(0, 1);
-        guard.process(at.data(), 12000);
-    }
+    playAnew("A:one", slow);
     const float had = hadBy("A:one", 2);
     EXPECT_GT(had, 0.8f * limits::guardLoad);
     EXPECT_EQ(hadBy("A:one", 0) + hadBy("A:one", 1) + hadBy("A:two", 2), 0.0f);
@@ -179,18 +183,27 @@ TEST(DeviceGuard, WhatItDoesNotActOnKeepsItsBits) {
     const PlayedTime time;
     std::vector<float> first;
     for (int k = 0; k < 10; ++k) {
-        DeviceGuard guard;
-        guard.begin("A:one", {0}, 48000);
         std::vector<float> tone(4800);
         for (std::size_t n = 0; n < tone.size(); ++n) tone[n] = std::sin(0.0262f * static_cast<float>(n));
         if (first.empty()) first = tone;
-        std::array<float*, limits::maxEnchanters> at{};
-        at[0] = tone.data();
-        guard.follow(0, 0);
-        guard.process(at.data(), 4800);
+        playAnew("A:one", tone);
         ASSERT_EQ(tone, first) << k;
-        PlayedTime::pass(0.1);
     }
+}
+
+// What pulls back is not forgotten for what pushed before: an opening's sums take the place of those that it
+// went on from.
+TEST(DeviceGuard, OpenedAnewItKnowsWhatItWouldHaveKnown) {
+    const PlayedTime time;
+    std::vector<float> push(4800, 0.05f), pull(2400, -0.05f), both = push;
+    both.insert(both.end(), pull.begin(), pull.end());
+    playAnew("A:one", both);
+    const GuardSums one = GuardMemory::at("A:one", 2).sums;
+    playAnew("A:two", push);
+    playAnew("A:two", pull);
+    const GuardSums two = GuardMemory::at("A:two", 2).sums;
+    EXPECT_NEAR(two.slow, one.slow, 0.002f);
+    EXPECT_NEAR(two.load, one.load, 0.05f * one.load);
 }
 
 // The search of GuardAttack, over openings.

@@ -2,8 +2,8 @@
 // What reaches an actuator, measured as its coil is warmed by it: the worst mean over 250 ms, the worst rms
 // below 5 Hz of a second. Usage: physvib-guard-figures FILE.raw CHANNELS RATE    of interleaved floats
 //        physvib-guard-figures lists COUNT [SEED]        of random hostile lists of events, rendered
-//        physvib-guard-figures attack COUNT [SEED]       of what a search of so many evaluations finds, per
-//        guard
+//        physvib-guard-figures attack COUNT [SEED [PATH]]    of what a search of so many evaluations finds,
+//        per guard, or at the one of this name (as within all: their seeds are passed over)
 #include "Host/OpeningsPath.h"
 #include "Live/Session/OfflineRender.h"
 #include "Pico/FixedGuardPath.h"
@@ -79,7 +79,7 @@ int lists(int count, std::uint32_t seed) {
 
 // Each guard, each strategy, for each of three figures; the worst input is then played at other rates. The
 // project's filter is the bound; an ideal one, which looks ahead for ever, is told.
-int attack(int count, std::uint32_t seed) {
+int attack(int count, std::uint32_t seed, const std::string& only) {
     using namespace test;
     auto paths = guardPaths();
     paths.push_back(fixedGuardPath());
@@ -87,6 +87,7 @@ int attack(int count, std::uint32_t seed) {
     paths.push_back(openingsPath(6000));
     bool isAbove = false;
     for (const auto& path : paths) {
+        if (!only.empty() && path.name != only && (seed += 12) != 0) continue;
         SlowFigures worst;
         double ideal = 0.0;
         for (const std::size_t size : {6, 15, 40, 70})
@@ -123,7 +124,7 @@ int main(int argc, char** argv) {
     if (argc < 3) return 2;
     const auto seed = argc > 3 ? static_cast<std::uint32_t>(std::atoi(argv[3])) : 1;
     if (std::string(argv[1]) == "lists") return lists(std::atoi(argv[2]), seed);
-    if (std::string(argv[1]) == "attack") return attack(std::atoi(argv[2]), seed);
+    if (std::string(argv[1]) == "attack") return attack(std::atoi(argv[2]), seed, argc > 4 ? argv[4] : "");
     const auto count = static_cast<std::size_t>(std::atoi(argv[2]));
     std::ifstream file{argv[1], std::ios::binary};
     std::vector<std::vector<float>> samples(count);

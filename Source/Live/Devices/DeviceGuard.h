@@ -37,22 +37,23 @@ public:
     using Kept = KeptGuardSums;
     static inline Clock::time_point (*now)() = Clock::now; ///< tests set it
 
-    /// Of an output, from 0; of two, what is more of each.
-    static void keep(const std::string& device, int output, GuardSums sums) noexcept {
+    /// Of an output, from 0. It replaces what it went on from, kept `since`; of two, what is more of each.
+    static void keep(const std::string& device, int output, GuardSums sums,
+                     Clock::time_point since = {}) noexcept {
         const std::lock_guard lock{mutex_};
         const Kept::Output key{std::hash<std::string>{}(device), output};
         Kept* at = find(key);
-        if (at != nullptr)
+        if (at != nullptr && at->since != since)
             sums = most(sums, aged(*at));
-        else
+        else if (at == nullptr)
             at = std::ranges::min_element(kept_, {}, &Kept::since); // empty, or the oldest
         *at = {key, sums, now()};
     }
     /// What is left by now; it stays until it has decayed, for others who open that output.
-    static GuardSums at(const std::string& device, int output) noexcept {
+    static Kept at(const std::string& device, int output) noexcept {
         const std::lock_guard lock{mutex_};
         const Kept* const found = find({std::hash<std::string>{}(device), output});
-        return found != nullptr ? aged(*found) : GuardSums{};
+        return found != nullptr ? Kept{found->output, aged(*found), found->since} : Kept{};
     }
 
 private:
@@ -97,9 +98,12 @@ public:
         outputs_.assign(outputs.begin(), outputs.end());
         std::array<GuardSums, width> sums;
         std::size_t count = 0;
+        since_.fill({});
         for (std::size_t k = 0; k < outputs_.size() && count < width; ++k)
-            if (const auto had = GuardMemory::at(device_, outputs_[k]); had.load > 0.0f)
-                sums[count] = had, channelAt_[count++] = static_cast<int>(k);
+            if (const auto had = GuardMemory::at(device_, outputs_[k]); had.sums.load > 0.0f) {
+                sums[count] = had.sums, since_[count] = had.since;
+                channelAt_[count++] = static_cast<int>(k);
+            }
         at_.fill(none);
         guard_.prepare(sampleRateHz, static_cast<int>(count), GuardPlace::last);
         if (count > 0) guard_.recall(sums.data());
@@ -109,7 +113,7 @@ public:
         for (std::size_t c = 0; c < guard_.channels(); ++c)
             if (const auto k = static_cast<std::size_t>(channelAt_[c]); k < outputs_.size())
                 if (const auto sums = guard_.sums(c); sums.load > 0.0f)
-                    GuardMemory::keep(device_, outputs_[k], sums);
+                    GuardMemory::keep(device_, outputs_[k], sums, since_[c]);
         outputs_.clear();
     }
 
@@ -148,8 +152,9 @@ private:
 
     OutputGuard guard_;
     std::string device_;
-    std::vector<int> outputs_;            // of the device, per channel of its callback
-    std::array<int, width> channelAt_{};  // of the callback, per channel of the guard
+    std::vector<int> outputs_;                                  // of the device, per channel of its callback
+    std::array<int, width> channelAt_{};                        // of the callback, per channel of the guard
+    std::array<GuardMemory::Clock::time_point, width> since_{}; // when what it went on from was kept
     std::array<std::size_t, width> at_{}; // channel of the guard, per actuator that plays
     std::atomic<float> gain_{1.0f};
     std::atomic<std::uint32_t> episodes_{0};

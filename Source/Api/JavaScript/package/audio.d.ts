@@ -61,7 +61,7 @@ export interface Output {
     readonly settings: RendererSettings;
     /** Frames by which samples lag the events' times: the limiter's look-ahead. */
     readonly latencyFrames: number;
-    /** Samples of yours, a channel per actuator, at the context's rate, from that time of the context (s) on. */
+    /** Samples of yours, a channel per actuator, at the context's rate, from that time of the context (s) on; without one now, as what is struck. */
     playSamples(channels: readonly Float32Array[], seconds?: number): AudioBufferSourceNode;
     follow(haptics: Haptics): () => void;
     /** `laterNs`: from the times of the events to the context's; left out: now. */

@@ -171,12 +171,17 @@ class Output extends EventTarget {
     strike(events, laterNs) {
         const nowNs = laterNs === undefined ? this.#now() : undefined, bytes = this.#physvib.eventBytes(events.map(event => ({ ...event, timeNs: Math.max(0, event.timeNs + (nowNs ?? laterNs)) })));
         const tell = () => this.#tell({ events: bytes, nowNs });
-        if (nowNs === undefined || !stands(this.#context)) return tell();
+        if (nowNs === undefined) tell();
+        else this.#soon(tell, events.length);
+    }
+    // What is meant for now: dropped, and counted, where the context stands still for half a second.
+    #soon(tell, count) {
+        if (!stands(this.#context)) return tell();
         const act = ({ type }) => {
             this.#context.removeEventListener('statechange', act);
             clearTimeout(timer);
             if (type === 'statechange' && !stands(this.#context)) tell();
-            else this.dropped += events.length;
+            else this.dropped += count;
         }, timer = setTimeout(act, waitMs, {});
         this.#context.addEventListener('statechange', act);
     }
@@ -193,14 +198,15 @@ class Output extends EventTarget {
     /** One impact now: { x, y, strength, material }. */
     impact(hit) { this.strike([impactOf(hit)]); }
 
-    /** Samples of yours, a channel per actuator, at the context's rate, from that time of the context (s) on. */
-    playSamples(channels, seconds = this.#context.currentTime) {
+    /** Samples of yours, a channel per actuator, at the context's rate, from that time of the context (s) on; without one now, as what is struck. */
+    playSamples(channels, seconds) {
         if (channels.length !== this.channels) throw new PhysVibError(-2, `samples: expected ${this.channels} channels, found ${channels.length}`);
         const buffer = new AudioBuffer({ numberOfChannels: channels.length, length: channels[0].length, sampleRate: this.#context.sampleRate });
         channels.forEach((channel, j) => buffer.copyToChannel(channel, j));
         const source = new AudioBufferSourceNode(this.#context, { buffer });
         source.connect(this.#mix);
-        source.start(seconds);
+        if (seconds === undefined) this.#soon(() => source.start(), 1);
+        else source.start(seconds);
         return source;
     }
 
