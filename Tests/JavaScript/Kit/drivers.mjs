@@ -10,7 +10,7 @@ const areaOf = ({ radius, half }) => (radius ? Math.PI * radius ** 2 : 4 * half[
 const isDynamic = ({ type = 'dynamic' }) => type === 'dynamic';
 
 async function matter(folder, physvib, { gravity }) {
-    const { default: Matter } = await load(folder, 'matter-js'), { attach } = await load(folder, 'physvib/matter'), { Body, Bodies, Composite, Constraint } = Matter, px = 100;
+    const { default: Matter } = await load(folder, 'matter-js'), { attach } = await load(folder, 'physvib/matter'), { Body, Bodies, Composite, Constraint } = Matter, px = 400; // a circle of 0.1 m has 40 sides then, of 100 px/m 10
     const engine = Matter.Engine.create({ gravity: { x: 0, y: 1, scale: gravity * px / 1e6 } }), perSecond = px / 60;
     const add = made => { Composite.add(engine.world, made); return made; };
     const driver = {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Box2D 3 by box2d3-wasm: soft contacts in small steps. Contacts are read after the step, so no shape needs hit events.
 import { Haptics, motionAt } from './haptics.js';
-import { contactOf, leftOut, whole } from './journal.js';
+import { contactOf, leftOut } from './journal.js';
 import { closingOf, endOf, startOf, stopOf } from './stops.js';
 
 const mostContacts = 64; // of a body in a step
 
 class Box2d3Haptics extends Haptics {
-    #b2; #engine; #threshold; #subSteps; #lastSeconds = 0; #spot = Object.assign(contactOf(), { soft: whole });
+    #b2; #engine; #threshold; #subSteps; #lastSeconds = 0; #spot = Object.assign(contactOf(), { soft: 1 });
 
     constructor(physvib, engine, { b2, restitutionThreshold = 1, subSteps = 4, ...options }) {
         const unit = options.metresPerUnit ?? 1, { value: dynamic } = b2.b2BodyType.b2_dynamicBody;
@@ -15,7 +15,7 @@ class Box2d3Haptics extends Haptics {
             bodyOf: body => (body?.index1 > 0 ? body : undefined),
             keyOf: body => body.index1 * 65536 + body.generation,
             massesOf: body => (b2.b2Body_IsValid(body) && b2.b2Body_GetType(body).value === dynamic
-                ? { massKg: b2.b2Body_GetMass(body), inertia: b2.b2Body_GetRotationalInertia(body) * unit * unit, gravityScale: b2.b2Body_GetGravityScale(body) }
+                ? { massKg: b2.b2Body_GetMass(body), inertia: b2.b2Body_GetMotionLocks?.(body).angularZ ? 0 : b2.b2Body_GetRotationalInertia(body) * unit * unit, gravityScale: b2.b2Body_GetGravityScale(body) }
                 : { massKg: 0, inertia: 0, gravityScale: 1 }),
             options: ['b2', 'restitutionThreshold', 'subSteps'], isThere: body => b2.b2Body_IsValid(body),
             bodies: () => [], // it lists none: filters are not seen
@@ -63,8 +63,8 @@ class Box2d3Haptics extends Haptics {
     // Each contact once: with the second of its bodies, or with the first where that is static.
     #lookAtAll(seconds, gx, gy) {
         const b2 = this.#b2, done = new Set();
-        for (const { body, isStatic } of [...this.each()]) { // who touches first is known from then on
-            if (isStatic || b2.b2Body_GetContactCapacity(body) === 0) continue;
+        for (const { body, isStatic, values } of [...this.each()]) { // who touches first is known from then on
+            if ((isStatic && !values.isSource) || b2.b2Body_GetContactCapacity(body) === 0) continue;
             for (const data of b2.b2Body_GetContactData(body, mostContacts)) {
                 const key = `${data.shapeIdA.index1},${data.shapeIdB.index1}`;
                 if (done.has(key)) continue;
@@ -74,8 +74,13 @@ class Box2d3Haptics extends Haptics {
         }
     }
 
+    #met(shape, seconds, gx, gy) {
+        const known = this.know(this.#b2.b2Shape_GetBody(shape));
+        if (known.stop === undefined) this.#observe(known, seconds, gx, gy);
+        return known;
+    }
     #look(data, seconds, gx, gy) {
-        const b2 = this.#b2, { shapeIdA, shapeIdB, manifold } = data, a = this.know(b2.b2Shape_GetBody(shapeIdA)), b = this.know(b2.b2Shape_GetBody(shapeIdB));
+        const b2 = this.#b2, { shapeIdA, shapeIdB, manifold } = data, a = this.#met(shapeIdA, seconds, gx, gy), b = this.#met(shapeIdB, seconds, gx, gy);
         const { x: nx, y: ny } = manifold.normal, falls = known => (known.isStatic || !known.isAwake ? 0 : known.gravityScale), pull = (falls(a) - falls(b)) * (gx * nx + gy * ny);
         const isRound = [shapeIdA, shapeIdB].map(shape => b2.b2Shape_GetType(shape).value === b2.b2ShapeType.b2_circleShape.value);
         [a.isRound, b.isRound] = isRound;
