@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What every attachment has: numbers of bodies, steps, events for who follows and for who takes. Inside, lengths are metres and y points up.
 import { expectLibrary, expectThat, naming } from './explanation.js';
+import { material } from './impact.js';
 import { Journal, leftOut } from './journal.js';
 import { PhysVibError } from './module.js';
 
@@ -55,13 +56,13 @@ export class Haptics {
         }
     }
 
-    /** How a body feels and sounds: { frequencyHz, decayPerSecond, isSource, ... }; its masses are the engine's. Its number in events, which it keeps when it leaves
+    /** How a body feels and sounds: { frequencyHz, decayPerSecond, isSource, ... }, or { material: a name }; its masses are the engine's. Its number in events, which it keeps when it leaves
      * the engine's world and comes back. */
     set(body, values = {}) {
         return this.guarded(() => {
             const known = this.know(body);
-            const before = known.values;
-            Object.assign(known, { values, isGone: false });
+            const before = known.values, { material: name, ...own } = values;
+            Object.assign(known, { values: name === undefined ? values : { ...material(name), ...own }, isGone: false });
             try {
                 this.#tell(known, this.engine.massesOf(known.body));
             } catch (error) {
