@@ -75,6 +75,13 @@ std::string_view faultOf(ReportedContacts& contacts, const FedContact& contact) 
     return faultOf(contact);
 }
 
+using Reported = ReportedContacts;
+std::string_view told(Reported& contacts, const FedContact& it, void (Reported::*tell)(const FedContact&)) {
+    const std::string_view fault = faultOf(contacts, it);
+    if (fault.empty()) (contacts.*tell)(it);
+    return fault;
+}
+
 } // namespace
 
 std::string_view faultOf(const FedBody& body) noexcept {
@@ -151,23 +158,9 @@ std::string_view ContactFeed::beginStep(std::int64_t endNs, double gravityMetres
     return {};
 }
 
-std::string_view ContactFeed::touch(const FedContact& contact) {
-    if (const std::string_view fault = faultOf(*contacts_, contact); !fault.empty()) return fault;
-    contacts_->touch(contact);
-    return {};
-}
-
-std::string_view ContactFeed::begin(const FedContact& contact) {
-    if (const std::string_view fault = faultOf(*contacts_, contact); !fault.empty()) return fault;
-    contacts_->begin(contact);
-    return {};
-}
-
-std::string_view ContactFeed::push(const FedContact& contact) {
-    if (const std::string_view fault = faultOf(*contacts_, contact); !fault.empty()) return fault;
-    contacts_->push(contact);
-    return {};
-}
+std::string_view ContactFeed::touch(const FedContact& it) { return told(*contacts_, it, &Reported::touch); }
+std::string_view ContactFeed::begin(const FedContact& it) { return told(*contacts_, it, &Reported::begin); }
+std::string_view ContactFeed::push(const FedContact& it) { return told(*contacts_, it, &Reported::push); }
 
 std::string_view ContactFeed::end(std::int32_t a, std::int32_t b) {
     if (!contacts_->bodies().has(a) || !contacts_->bodies().has(b) || a == b) return unknownBody;

@@ -2,6 +2,8 @@
 // Bodies that come, change and go while an attachment follows, in each engine: bodies.mjs FOLDER.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { setFlagsFromString } from 'node:v8';
+import { runInNewContext } from 'node:vm';
 import { engines } from './engines.mjs';
 import { load } from './installed.mjs';
 
@@ -79,6 +81,34 @@ test('a scene of Phaser that ends has taken the events off', async () => {
     const engine = { world: { bodies: [], composites: [] }, pairs: { list: [] }, timing: { lastDelta: 16 }, gravity: { x: 0, y: 1, scale: 0.001 } }, { attach } = await load(folder, 'physvib/matter'), haptics = attach(physvib, engine);
     engine.events = {}; // Events.off(engine)
     assert.match(haptics.explain(), /no longer reach these haptics/);
+    haptics.free();
+});
+
+test('there is no room for the 257th attachment: haptics end, the game goes on', async () => {
+    const { attach } = await load(folder, 'physvib/matter'), { default: Matter } = await load(folder, 'matter-js'), all = [];
+    let last;
+    const told = toldBy(() => { while ((last = attach(physvib, Matter.Engine.create())).error === null) all.push(last); });
+    assert.match(told[0], /the game goes on: worlds: expected at most 256/);
+    assert.equal(last.set(Matter.Bodies.circle(0, 0, 10), {}), -1);
+    assert.deepEqual([last.take(), last.counts], [[], undefined]);
+    assert.match(last.explain(), /expected at most 256.*free\(\)/);
+    for (const each of [last, ...all]) each.free();
+});
+
+test('Matter: what has left the world is kept by nobody', async () => {
+    setFlagsFromString('--expose-gc');
+    const gc = runInNewContext('gc'), { attach } = await load(folder, 'physvib/matter'), { default: Matter } = await load(folder, 'matter-js'), engine = Matter.Engine.create(), haptics = attach(physvib, engine), kept = [];
+    for (let i = 0; i < 300; ++i) {
+        const body = Matter.Bodies.circle(100, 100, 10);
+        Matter.Composite.add(engine.world, body);
+        haptics.set(body, { isSource: true, frequencyHz: 200, decayPerSecond: 30 });
+        Matter.Engine.update(engine, 10);
+        Matter.Composite.remove(engine.world, body);
+        kept.push(new WeakRef(body));
+    }
+    for (let i = 0; i < 4; ++i) { Matter.Engine.update(engine, 10); await new Promise(setImmediate); gc(); }
+    const count = kept.filter(body => body.deref()).length;
+    assert.ok(count < 10, `${count} of 300 are kept`);
     haptics.free();
 });
 

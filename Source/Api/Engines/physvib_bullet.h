@@ -48,7 +48,7 @@ public:
                 if (point.getDistance() > 0 && point.getAppliedImpulse() <= 0) continue;
                 physvib_contact contact;
                 physvib_contact_init(&contact, sizeof contact);
-                contact.a = manifold.getBody0()->getUserIndex(),
+                contact.a = manifold.getBody0()->getUserIndex();
                 contact.b = manifold.getBody1()->getUserIndex();
                 contact.x_m = point.getPositionWorldOnB().x(), contact.y_m = point.getPositionWorldOnB().y();
                 const btVector3 normal = isPlane_ ? flat(-point.m_normalWorldOnB) : -point.m_normalWorldOnB;
@@ -56,7 +56,7 @@ public:
                 contact.normal_x = normal.x(), contact.normal_y = normal.y(), contact.normal_z = normal.z();
                 contact.z_m = isPlane_ ? 0 : point.getPositionWorldOnB().z();
                 contact.impulse_n_s = point.getAppliedImpulse();
-                contact.restitution = std::clamp(static_cast<double>(point.m_combinedRestitution), 0.0, 1.0);
+                contact.restitution = bounce(manifold, point);
                 contact.gap_m = point.getDistance();  // at the start of the step
                 contact.is_soft = PHYSVIB_SOFT_WHOLE; // the impulse also separates overlaps, or lets gaps
                                                       // close
@@ -81,6 +81,19 @@ public:
     }
 
 private:
+    // Where continuous collision predicts a contact, its restitution is 0: the gap closes first, and what is
+    // left of the speed bounces a step later.
+    static double bounce(const btPersistentManifold& of, const btManifoldPoint& point) {
+        const btRigidBody *a = btRigidBody::upcast(of.getBody0()), *b = btRigidBody::upcast(of.getBody1());
+        const double told = std::clamp(double(point.m_combinedRestitution), 0.0, 1.0);
+        if (a == nullptr || b == nullptr || told > 0 || point.getDistance() <= 0) return told;
+        const btVector3 &at = point.getPositionWorldOnB(), &n = point.m_normalWorldOnB;
+        const double left = n.dot(b->getVelocityInLocalPoint(at - b->getCenterOfMassPosition()) -
+                                  a->getVelocityInLocalPoint(at - a->getCenterOfMassPosition()));
+        const double was = left + point.getAppliedImpulse() * (a->computeImpulseDenominator(at, n) +
+                                                               b->computeImpulseDenominator(at, n));
+        return was > left ? std::clamp(a->getRestitution() * b->getRestitution() * left / was, 0.0, 1.0) : 0;
+    }
     void move(const btRigidBody& body) {
         const btVector3 &at = body.getCenterOfMassPosition(), &v = body.getLinearVelocity(),
                         &spin = body.getAngularVelocity(), &free = body.getAngularFactor();

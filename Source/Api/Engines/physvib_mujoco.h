@@ -51,8 +51,9 @@ PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel* m, const mjData* d
     const mjContact* found = &d->contact[index];
     double at[3], normal[3];
     mjtNum force[6];
+    const mjtNum gap = found->dist - found->includemargin; /* with a margin geoms push before they overlap */
     physvib_contact contact;
-    if (found->dist > 0) return PHYSVIB_OK; /* near, but not touching yet */
+    if (gap > 0) return PHYSVIB_OK; /* near, but not touching yet */
     physvib_contact_init(&contact, sizeof contact);
     contact.a = m->geom_bodyid[found->geom1], contact.b = m->geom_bodyid[found->geom2];
     physvib_mujoco_turned(found->pos, at);
@@ -62,7 +63,7 @@ PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel* m, const mjData* d
     mj_contactForce(m, d, index, force);
     contact.impulse_n_s = force[0] * m->opt.timestep;
     contact.restitution = restitution;
-    contact.gap_m = found->dist; /* at the start of the step */
+    contact.gap_m = gap; /* at the start of the step */
     contact.is_soft = 1;
     contact.point_id = PHYSVIB_POINT_BY_PLACE;
     return physvib_world_touch(world, &contact);

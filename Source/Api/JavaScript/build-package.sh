@@ -43,7 +43,7 @@ for package in package jspsych; do
     (cd "$work/$package" && npm pack --silent --pack-destination ../again >/dev/null)
 done
 for file in build/web/*.tgz; do cmp "$file" "$work/again/$(basename "$file")" || { say "expected npm pack to give the same bytes twice"; exit 1; }; done
-# What a page loads that reads no clips; inline.js is instead of physvib.wasm.
-bytes=$(tar -C "$work/package" --exclude=files.wasm --exclude=inline.js -cz . | wc -c)
+# What a page loads that reads no clips; inline.js is instead of physvib.wasm, no page loads types, and feel.js comes when it is called.
+bytes=$(tar -C "$work/package" --exclude=files.wasm --exclude=inline.js --exclude='*.d.ts' --exclude=feel.js -cz . | wc -c)
 file=$(ls build/web/physvib-*.tgz)
-say "$file: $(wc -c <"$file") bytes; without files.wasm, which is loaded when it is asked for, and inline.js: $bytes"
+say "$file: $(wc -c <"$file") bytes; without files.wasm and feel.js, which are loaded when they are asked for, inline.js and types: $bytes"

@@ -42,6 +42,20 @@ local function fail(what, ...)
     error(what:format(...))
 end
 
+-- How often a block that hangs is felt when it has been changed and falls by 0.3 m.
+function changed(change)
+    local metre = love.physics.getMeter()
+    local world = love.physics.newWorld(0, 9.81 * metre, true)
+    local haptics = physvib.attach(world, {field_width_m = 20, field_height_m = 20})
+    love.physics.newFixture(love.physics.newBody(world, 0, 20.5 * metre, "static"), love.physics.newRectangleShape(3000, metre))
+    local body = love.physics.newBody(world, 0, 19.6 * metre, "static")
+    haptics:set(love.physics.newFixture(body, love.physics.newCircleShape(0.1 * metre), 10), {frequency_hz = 200, decay_per_s = 30, is_camera = true})
+    haptics:update(1 / 60)
+    change(body)
+    for _ = 1, 60 do haptics:update(1 / 60) end
+    return #haptics:take({}, true)
+end
+
 -- A ball onto a floor at many heights: how far the onset is from where its surface, on its straight way within a step, meets the floor's.
 function onset()
     local worst, skin = 0, 0.01 * metre -- of the floor, as of every polygon of Box2D
@@ -178,6 +192,9 @@ function love.load()
     for seed = 1, 20 do
         local is_fine, found = pcall(meddle, seed)
         if not is_fine or found == 0 then fail("game %d that meddles: %s", seed, tostring(found)) end
+    end
+    for what, change in pairs {["let go"] = function(body) body:setType("dynamic") end, lighter = function(body) body:setType("dynamic") body:setMass(0.05 * body:getMass()) end} do
+        if changed(change) ~= 1 then fail("%s: it lands once", what) end
     end
     local worst = onset()
     print(("onset %.3f ms from the pencil's"):format(1000 * worst))

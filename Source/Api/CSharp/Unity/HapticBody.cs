@@ -7,15 +7,23 @@ public class HapticBody : MonoBehaviour {
     public bool isFelt = true; // a haptic source
     public float frequencyHz = 200, decayPerS = 30, restitution = 0.3f;
     int id;
+    Body values;
+    Rigidbody2D of;
 
     void Awake() {
-        var of = GetComponent<Rigidbody2D>();
+        of = GetComponent<Rigidbody2D>();
         id = HapticWorld.it.Next();
-        var values = Body.Create();
-        values.MassKg = of.bodyType == RigidbodyType2D.Dynamic ? of.mass : 0;
+        values = Body.Create();
+        values.MassKg = -1;
         values.IsCamera = isFelt ? 1 : 0;
         values.FrequencyHz = frequencyHz;
         values.DecayPerS = decayPerS;
+        Weigh();
+    }
+    void Weigh() { // mass and type may change while a game runs
+        var mass = of.bodyType == RigidbodyType2D.Dynamic ? of.mass : 0;
+        if (values.MassKg == mass) return;
+        values.MassKg = mass;
         HapticWorld.it.world.SetBody(id, values);
     }
     void OnDestroy() { HapticWorld.it.gone.Add(id); }
@@ -25,6 +33,8 @@ public class HapticBody : MonoBehaviour {
     void Tell(Collision2D now, bool isNew) {
         var other = now.collider.GetComponentInParent<HapticBody>();
         if (other != null && other.id > id) return; // it tells of this pair
+        Weigh();
+        if (other != null) other.Weigh();
         var point = now.GetContact(0);
         var contact = Contact.Create(id, other != null ? other.id : 0);
         contact.X_m = point.point.x;

@@ -12,7 +12,7 @@ export interface Haptics<Body = any> {
     readonly metresPerUnit: number;
     /** How a body feels and sounds; its masses are the engine's. Its number in events, which it keeps when it leaves the engine's world and comes back. A part, a
      * collider or a fixture stands for its body. */
-    set(body: Body, values?: HapticValues): number;
+    set(body: Body, values?: HapticValues & { material?: string }): number;
     id(body: Body): number;
     remove(body: Body): void;
     /** `advance` steps the engine by so many seconds. */

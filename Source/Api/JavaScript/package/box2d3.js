@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Box2D 3 by box2d3-wasm: soft contacts in small steps. Contacts are read after the step, so no shape needs hit events.
 import { Haptics, motionAt } from './haptics.js';
-import { contactOf, leftOut, whole } from './journal.js';
+import { contactOf, leftOut } from './journal.js';
+import { closingOf, endOf, startOf, stopOf } from './stops.js';
 
 const mostContacts = 64; // of a body in a step
-const slop = 0.005; // Box2D's, m; and the share of its path that a body may be short of
-const none = { x: 0, y: 0, angle: 0 };
 
 class Box2d3Haptics extends Haptics {
-    #b2; #engine; #threshold; #subSteps; #lastSeconds = 0; #spot = Object.assign(contactOf(), { soft: whole });
+    #b2; #engine; #threshold; #subSteps; #lastSeconds = 0; #spot = Object.assign(contactOf(), { soft: 1 });
 
     constructor(physvib, engine, { b2, restitutionThreshold = 1, subSteps = 4, ...options }) {
         const unit = options.metresPerUnit ?? 1, { value: dynamic } = b2.b2BodyType.b2_dynamicBody;
@@ -16,7 +15,7 @@ class Box2d3Haptics extends Haptics {
             bodyOf: body => (body?.index1 > 0 ? body : undefined),
             keyOf: body => body.index1 * 65536 + body.generation,
             massesOf: body => (b2.b2Body_IsValid(body) && b2.b2Body_GetType(body).value === dynamic
-                ? { massKg: b2.b2Body_GetMass(body), inertia: b2.b2Body_GetRotationalInertia(body) * unit * unit, gravityScale: b2.b2Body_GetGravityScale(body) }
+                ? { massKg: b2.b2Body_GetMass(body), inertia: b2.b2Body_GetMotionLocks?.(body).angularZ ? 0 : b2.b2Body_GetRotationalInertia(body) * unit * unit, gravityScale: b2.b2Body_GetGravityScale(body) }
                 : { massKg: 0, inertia: 0, gravityScale: 1 }),
             options: ['b2', 'restitutionThreshold', 'subSteps'], isThere: body => b2.b2Body_IsValid(body),
             bodies: () => [], // it lists none: filters are not seen
@@ -39,11 +38,11 @@ class Box2d3Haptics extends Haptics {
     #after(seconds, gx, gy) {
         const moving = [...this.eachThere()].filter(({ isStatic }) => !isStatic);
         for (const known of moving) {
-            Object.assign(known, { after: this.#motionOf(known.body) });
+            known.after = this.#motionOf(known.body);
             this.journal.moved(known.id, known.after.vx, known.after.vy, known.after.spin);
         }
         this.#lookAtAll(seconds, gx, gy);
-        for (const known of moving) this.#stop(known, seconds); // for the next step's contacts
+        for (const { stop, after } of moving) endOf(stop, after.x, after.y, 0, after.vx, after.vy, 0, seconds, seconds / this.#subSteps); // for the next step's contacts
         this.#lastSeconds = seconds;
     }
     update(seconds) { this.step(seconds); }
@@ -54,39 +53,18 @@ class Box2d3Haptics extends Haptics {
     }
 
     #observe(known, seconds, gx, gy) {
-        const now = this.#motionOf(known.body), { after } = known;
-        if (!(after && ['x', 'y', 'vx', 'vy'].every(name => after[name] === now[name]))) known.lost = none; // the game has moved it
         known.isAwake = this.#b2.b2Body_IsAwake(known.body);
-        Object.assign(known, now);
-        const pull = known.isStatic || !known.isAwake ? 0 : seconds * known.gravityScale;
-        Object.assign(known, { freeVx: known.vx + pull * gx, freeVy: known.vy + pull * gy });
-        this.journal.move(known.id, known.x, known.y, known.freeVx, known.freeVy, known.spin);
-    }
-
-    // Continuous collision stops a body where it first touches, with the velocity of the step's end; it collides in the next step. What the step would have moved
-    // it on is lost, unless contacts may have taken it; see physvib_box2d3.h.
-    #stop(known, seconds) {
-        const { x, y, vx, vy, after } = known, late = 0.5 * (seconds - seconds / this.#subSteps); // velocities change before bodies move
-        const toX = seconds * after.vx - late * (after.vx - vx), toY = seconds * after.vy - late * (after.vy - vy), path = Math.hypot(toX, toY);
-        const pushed = 0.5 * seconds * Math.hypot(after.vx - known.freeVx, after.vy - known.freeVy), rounding = 1e-6 * (Math.abs(after.x) + Math.abs(after.y));
-        const lost = path > 0 ? path - ((after.x - x) * toX + (after.y - y) * toY) / path : 0;
-        const share = path < slop || lost > path || lost < slop * path + pushed + rounding ? 0 : lost / path;
-        known.lost = share > 0 ? { x: share * toX, y: share * toY, angle: share * seconds * after.spin } : none;
-    }
-
-    // When a gap closes, in steps after the start of this one; below 0 it has in the step before. Sub-steps change the velocity before they move a body, so its path
-    // is that of one that is faster by half a sub-step's gravity.
-    #fraction(gap, speed, pull, seconds) {
-        const start = Math.max(0.5 * speed, speed + 0.5 * pull * seconds / this.#subSteps), root = Math.max(0, start * start + 2 * pull * gap);
-        const length = gap < 0 ? this.#lastSeconds : seconds;
-        return length > 0 ? Math.min(2, Math.max(-1, 2 * gap / (start + Math.sqrt(root)) / length)) : 0;
+        Object.assign(known, this.#motionOf(known.body));
+        const pull = known.isStatic || !known.isAwake ? 0 : seconds * known.gravityScale, vx = known.vx + pull * gx, vy = known.vy + pull * gy;
+        startOf(known.stop ??= stopOf(), known.x, known.y, 0, known.vx, known.vy, 0, vx, vy, 0);
+        this.journal.move(known.id, known.x, known.y, vx, vy, known.spin);
     }
 
     // Each contact once: with the second of its bodies, or with the first where that is static.
     #lookAtAll(seconds, gx, gy) {
         const b2 = this.#b2, done = new Set();
-        for (const { body, isStatic } of [...this.each()]) { // who touches first is known from then on
-            if (isStatic || b2.b2Body_GetContactCapacity(body) === 0) continue;
+        for (const { body, isStatic, values } of [...this.each()]) { // who touches first is known from then on
+            if ((isStatic && !values.isSource) || b2.b2Body_GetContactCapacity(body) === 0) continue;
             for (const data of b2.b2Body_GetContactData(body, mostContacts)) {
                 const key = `${data.shapeIdA.index1},${data.shapeIdB.index1}`;
                 if (done.has(key)) continue;
@@ -96,8 +74,13 @@ class Box2d3Haptics extends Haptics {
         }
     }
 
+    #met(shape, seconds, gx, gy) {
+        const known = this.know(this.#b2.b2Shape_GetBody(shape));
+        if (known.stop === undefined) this.#observe(known, seconds, gx, gy);
+        return known;
+    }
     #look(data, seconds, gx, gy) {
-        const b2 = this.#b2, { shapeIdA, shapeIdB, manifold } = data, a = this.know(b2.b2Shape_GetBody(shapeIdA)), b = this.know(b2.b2Shape_GetBody(shapeIdB));
+        const b2 = this.#b2, { shapeIdA, shapeIdB, manifold } = data, a = this.#met(shapeIdA, seconds, gx, gy), b = this.#met(shapeIdB, seconds, gx, gy);
         const { x: nx, y: ny } = manifold.normal, falls = known => (known.isStatic || !known.isAwake ? 0 : known.gravityScale), pull = (falls(a) - falls(b)) * (gx * nx + gy * ny);
         const isRound = [shapeIdA, shapeIdB].map(shape => b2.b2Shape_GetType(shape).value === b2.b2ShapeType.b2_circleShape.value);
         [a.isRound, b.isRound] = isRound;
@@ -106,10 +89,10 @@ class Box2d3Haptics extends Haptics {
             const point = manifold.GetPoint(i), unit = this.metresPerUnit, gap = point.separation * unit, speed = -point.normalVelocity * unit;
             if (point.totalNormalImpulse <= 0 && gap > 0) continue; // near, and not yet there
             const x = point.point.x * unit, y = point.point.y * unit, spot = motionAt(a, b, x, y, nx, ny, this.#spot), isAhead = speed > 0;
-            const lost = ({ lost = none, ...known }) => (lost.x - lost.angle * (y - known.y)) * nx + (lost.y + lost.angle * (x - known.x)) * ny;
+            const lost = ({ stop, ...known }) => (stop ? stop.toX * nx + stop.toY * ny + stop.turn * known.spin * ((x - known.x) * ny - (y - known.y) * nx) : 0);
             const turn = known => -known.spin * known.spin * ((x - known.x) * nx + (y - known.y) * ny), squared = speed * speed + 2 * pull * Math.max(0, gap);
             this.journal.touch(a.id, b.id, Object.assign(spot, { x, y, normalX: nx, normalY: ny, approach: isAhead && squared > 0 ? Math.sqrt(squared) : speed,
-                fraction: isAhead ? this.#fraction(gap + Math.min(0, lost(b) - lost(a)), speed, pull + turn(a) - turn(b), seconds) : leftOut, gap: isAhead ? leftOut : gap, gapFraction: isAhead ? leftOut : 0,
+                fraction: isAhead ? closingOf(gap + Math.min(0, lost(b) - lost(a)), speed, pull + turn(a) - turn(b), seconds, this.#lastSeconds, seconds / this.#subSteps) : leftOut, gap: isAhead ? leftOut : gap, gapFraction: isAhead ? leftOut : 0,
                 impulse: Math.max(0, 0.5 * point.totalNormalImpulse * unit), // it counts a sub-step twice: solved, and relaxed
                 restitution: speed > this.#threshold ? Math.min(1, Math.max(0, bounce)) : 0, point: isRound.includes(true) ? 0 : point.id }));
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What every attachment has: numbers of bodies, steps, events for who follows and for who takes. Inside, lengths are metres and y points up.
 import { expectLibrary, expectThat, naming } from './explanation.js';
+import { material } from './impact.js';
 import { Journal, leftOut } from './journal.js';
 import { PhysVibError } from './module.js';
 
@@ -26,7 +27,19 @@ export class Haptics {
         expectThat(metresPerUnit > 0, 'metresPerUnit', 'a number above 0', metresPerUnit);
         this.engine = engine;
         this.metresPerUnit = metresPerUnit;
-        this.world = naming(['metresPerUnit', ...engine.options ?? []].join(', '), () => physvib.world(settings));
+        // What is wrong with a call is told to who calls; that there is no room for another world does not end a game.
+        this.world = this.#made(() => naming(['metresPerUnit', ...engine.options ?? []].join(', '), () => physvib.world(settings)));
+    }
+    #made(make) {
+        try { return make(); } catch (error) {
+            if (error.code === wrongArgument) throw error;
+            this.#end(error);
+            return null;
+        }
+    }
+    #end(error) {
+        this.error = error;
+        console.error(`PhysVib: haptics have ended, the game goes on: ${error.message}`);
     }
 
     /** Work of the attachment's own. What it throws ends haptics, is told once, and does not reach the game. `isCalled`: the game has called it, so a wrong argument is
@@ -37,20 +50,19 @@ export class Haptics {
             return work();
         } catch (error) {
             if (isCalled && (this.#isFree || error.code === wrongArgument)) throw error;
-            this.error = error;
             try { this.detach?.(); } catch { /* the engine is in no state for it */ }
-            console.error(`PhysVib: haptics have ended, the game goes on: ${error.message}`);
+            this.#end(error);
             return undefined;
         }
     }
 
-    /** How a body feels and sounds: { frequencyHz, decayPerSecond, isSource, ... }; its masses are the engine's. Its number in events, which it keeps when it leaves
+    /** How a body feels and sounds: { frequencyHz, decayPerSecond, isSource, ... }, or { material: a name }; its masses are the engine's. Its number in events, which it keeps when it leaves
      * the engine's world and comes back. */
     set(body, values = {}) {
         return this.guarded(() => {
             const known = this.know(body);
-            const before = known.values;
-            Object.assign(known, { values, isGone: false });
+            const before = known.values, { material: name, ...own } = values;
+            Object.assign(known, { values: name === undefined ? values : { ...material(name), ...own }, isGone: false });
             try {
                 this.#tell(known, this.engine.massesOf(known.body));
             } catch (error) {
@@ -119,6 +131,7 @@ export class Haptics {
             if (known.isGone || !this.engine.isThere(known.body)) {
                 this.#known.delete(key);
                 known.isOut = true;
+                this.left?.(known);
                 this.world.removeBody(known.id);
                 if (!known.isGone) this.#away.set(known.body, known);
                 if (known.values.isSource) this.#lastAway = known.isGone ? null : known.id;
@@ -209,7 +222,7 @@ export class Haptics {
     /** Why nothing is felt of what happened since the last call; see World.explain. */
     explain(output = [...this.outputs][0]) {
         const why = this.guarded(() => this.#explained(output), true);
-        return this.error ? `Haptics have ended by an error: ${this.error.message}. Free these, and attach anew.` : why;
+        return this.error ? `Haptics have ended by an error: ${this.error.message}. Free these, and those of scenes that have ended (free()), and attach anew.` : why;
     }
     #explained(output) {
         for (const known of this.#known.values()) {
@@ -220,6 +233,9 @@ export class Haptics {
             this.#unfollowed && `A follower has ended by an error: ${this.#unfollowed.message}.`];
         const said = [...hints.filter(Boolean), this.world.explain(output)].join(' ').replace(/beginStep( and endStep)?/g, 'update');
         this.#unsound = this.#unfollowed = null;
+        // Two that nothing can push do not touch for an engine.
+        const still = [...this.each()].filter(known => known.values.isSource), id = still.every(known => known.isStatic) ? still[0]?.id : undefined;
+        if (id !== undefined && said.includes('nothing has touched')) return `Body ${id} is immovable (fixed, kinematic, or of no mass): it is felt when what can be pushed strikes it; nothing has. To be pushed, it has to be dynamic.`;
         return this.#lastAway === null || [...this.each()].some(known => known.values.isSource) ? said
             : `No haptic source is in the engine's world: body ${this.#lastAway} was not added to it, or has left it. Before: ${said}`;
     }
@@ -233,7 +249,7 @@ export class Haptics {
         if (others.length > 0 && filters.every(a => others.every(b => !mayTouch(a, b)))) return 'filtered';
         return isAsleep ? 'asleep' : undefined;
     }
-    get counts() { return this.world.counts; }
+    get counts() { return this.world?.counts; }
 
     /** Ends it: the engine is as it was. */
     free() {
@@ -241,7 +257,7 @@ export class Haptics {
         if (!this.error) this.detach?.();
         this.#isFree = true;
         this.#followers.clear();
-        this.world.free();
+        this.world?.free();
     }
 }
 

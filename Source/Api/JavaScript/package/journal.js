@@ -3,8 +3,8 @@
 export const leftOut = -2e300; // a default
 const mostOfEntry = 19;
 
-/** Of contactOf(): `point`, and `soft` where the impulse is whole all the same. */
-export const byPlace = -2, whole = 2;
+/** Of contactOf(): `point`. */
+export const byPlace = -2;
 /** A contact, which World.touch describes, as numbers alone. Engines of JavaScript keep such members without allocating, as long as each is always a number. */
 export const contactOf = () => ({ x: leftOut, y: leftOut, z: leftOut, normalX: leftOut, normalY: leftOut, normalZ: leftOut, impulse: leftOut, approach: leftOut, restitution: leftOut, fraction: leftOut, gap: leftOut, gapFraction: leftOut, alongA: leftOut, alongB: leftOut, soft: leftOut, point: 0 });
 

@@ -68,7 +68,9 @@ class MatterHaptics extends Haptics {
         const known = this.#byNumber[body.id];
         return (known?.body === body && known.step === this.#step) || this.#there.has(body);
     }
-    #pull({ x, y, scale }) { return Math.hypot(x, y) * scale * 1e6 * this.metresPerUnit; }
+    /** What has left the world is kept by nobody. */
+    left({ body }) { if (this.#byNumber[body.id]?.body === body) this.#byNumber[body.id] = undefined; }
+    #pull({ x, y, scale }) { return Math.abs(Math.hypot(x, y) * scale) * 1e6 * this.metresPerUnit; }
 
     // What Matter's own damping takes of a step is left out where it does not say when it solves.
     #moveAs(known, falls) {
@@ -113,9 +115,9 @@ class MatterHaptics extends Haptics {
         spot.gap = -depth * unit;
         spot.point = isRound ? 0 : byPlace;
         for (let i = 0; i < count; ++i) {
-            const { vertex } = contacts[i];
-            spot.x = vertex.x * unit;
-            spot.y = -vertex.y * unit;
+            const { vertex } = contacts[i], round = a.isRound ? a : b, way = (a.isRound ? 1 : -1) * (round.body.circleRadius ?? 0) * unit; // its circles are polygons
+            spot.x = isRound ? round.x + way * spot.normalX : vertex.x * unit;
+            spot.y = isRound ? round.y + way * spot.normalY : -vertex.y * unit;
             motionAt(a, b, spot.x, spot.y, spot.normalX, spot.normalY, spot);
             spot.approach = leftOut;
             this.journal.touch(a.id, b.id, spot);

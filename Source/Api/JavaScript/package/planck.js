@@ -93,7 +93,7 @@ class PlanckHaptics extends Haptics {
             numbers[to++] = spot.approach;
             numbers[to++] = spot.alongA;
             numbers[to++] = spot.alongB;
-            numbers[to++] = alpha > 0 ? leftOut : (separations[i] ?? 0) * unit;
+            numbers[to++] = (separations[i] ?? 0) * unit;
         }
     }
     // Of a contact, as long as it lasts.
@@ -111,7 +111,6 @@ class PlanckHaptics extends Haptics {
         const load = look.isNew && alpha === 0 && isOne ? Math.max(0, a.isStatic ? -pull * b.massKg * b.gravityScale : pull * a.massKg * a.gravityScale) : 0;
         spot.normalX = nx;
         spot.normalY = ny;
-        spot.fraction = alpha > 0 ? Math.min(1, alpha) : leftOut;
         spot.gapFraction = alpha > 0 ? leftOut : 0;
         spot.restitution = Math.min(1, Math.max(0, contact.getRestitution()));
         spot.point = a.isRound || b.isRound ? 0 : byPlace;
@@ -121,7 +120,10 @@ class PlanckHaptics extends Haptics {
             spot.approach = numbers[from++];
             spot.alongA = numbers[from++];
             spot.alongB = numbers[from++];
-            spot.gap = numbers[from++];
+            const gap = numbers[from++];
+            // Continuous collision stops bodies where they overlap by a little: they met before.
+            spot.fraction = alpha > 0 ? Math.max(0, Math.min(1, alpha + (gap < 0 && spot.approach > 0 ? gap / spot.approach / this.#seconds : 0))) : leftOut;
+            spot.gap = alpha > 0 ? leftOut : gap;
             spot.impulse = normalImpulses[i] * unit - load / count;
             this.journal.touch(a.id, b.id, spot);
         }

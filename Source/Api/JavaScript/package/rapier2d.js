@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Rapier 2D: it looks before it moves, ahead of itself, and solves in small steps. So a blow is told by speed and restitution, and what goes on touching
 // by momentum.
-import { byPlace, contactOf } from './journal.js';
+import { byPlace, contactOf, leftOut } from './journal.js';
 import { expectEngine, Haptics, meet, motionAt } from './haptics.js';
+import { closingOf, endOf, startOf, stopOf } from './stops.js';
 
 const nearMetres = 0.005; // what lies within goes on touching, though Rapier pushes it in some steps only
 
@@ -14,7 +15,7 @@ const keyOf = (a, b) => (a < 2 ** 15 && b < 2 ** 15 ? a << 15 | b : 2 ** 53 - 1 
 
 /** What both have; physvib/rapier3d says otherwise what space changes. */
 export class RapierHaptics extends Haptics {
-    #engine; #touching = new Set(); #was = new Set(); #kept = new Map(); #pass = 0; #seconds = 0; #fresh = null; #one = null; #other = null; #pairs = null; #slack = 0; #v = undefined; #normal = undefined; #gravity = undefined;
+    #engine; #touching = new Set(); #was = new Set(); #kept = new Map(); #pass = 0; #seconds = 0; #fresh = null; #one = null; #other = null; #pairs = null; #slack = 0; #lastSeconds = 0; #v = undefined; #normal = undefined; #gravity = undefined;
     /** Of a contact as it is looked at. */
     spot = Object.assign(contactOf(), { soft: 1 });
 
@@ -39,7 +40,7 @@ export class RapierHaptics extends Haptics {
     /** `advance` steps the engine by `seconds`; without it, we do. */
     step(seconds, advance = () => this.#engine.step()) {
         this.#engine.timestep = seconds;
-        this.around(() => advance(seconds), () => this.#before(seconds), () => this.#after());
+        this.around(() => advance(seconds), () => this.#before(seconds), () => this.#after(seconds));
     }
     #before(seconds) {
         const { gravity } = this.#engine, pull = this.size(gravity) * this.metresPerUnit;
@@ -47,6 +48,7 @@ export class RapierHaptics extends Haptics {
         this.#gravity = gravity;
         this.#slack = 0.05 + pull * seconds;
         ++this.#pass;
+        this.#engine.propagateModifiedBodyPositionsToColliders?.(); // as its step does at first: colliders are where the game has put their bodies
         this.#rest();
         this.begin(seconds, pull);
         this.#meetAll();
@@ -57,7 +59,7 @@ export class RapierHaptics extends Haptics {
         else if (known.body.isDynamic) this.observe(known, this.#seconds * this.#fall(known) * this.metresPerUnit, this.#gravity);
         else this.observeStill(known, known.body.translation());
     }
-    #after() {
+    #after(seconds) {
         for (const known of this.eachThere()) {
             if (known.isStatic) continue;
             if (known.isAtRest && !known.body.isSleeping()) known.isAtRest = false; // something has woken it
@@ -68,6 +70,9 @@ export class RapierHaptics extends Haptics {
         this.#touching.clear();
         this.#gravity = this.#engine.gravity;
         this.#eachPair();
+        const sub = seconds / (this.#engine.numSolverIterations ?? 4);
+        for (const known of this.eachThere()) if (!known.isStatic && !known.isAtRest && known.stop) this.ended(known, seconds, sub); // for the next step's contacts
+        this.#lastSeconds = seconds;
     }
     update(seconds) { this.step(seconds); }
 
@@ -164,21 +169,35 @@ export class RapierHaptics extends Haptics {
 
     #fall(known) { return known.isStatic || known.isAtRest || known.body.isSleeping() ? 0 : known.gravityScale; }
 
-    inertiaOf(body) { return body.principalInertia(); }
+    /** As this step will have it: Rapier derives that of what is put by its place within the step. */
+    velocityOf({ isStatic, body }) {
+        if (!isStatic || body.bodyType() !== 2) return this.#w = body.linvel(this.#w); // RigidBodyType.KinematicPositionBased
+        const at = body.translation(), next = body.nextTranslation(), per = this.#seconds > 0 ? 1 / this.#seconds : 0;
+        return { x: (next.x - at.x) * per, y: (next.y - at.y) * per, z: (next.z - at.z) * per };
+    }
+    inertiaOf(body) { return body.effectiveAngularInertia(); } // 0: it is kept from turning
     size({ x, y }) { return Math.hypot(x, y); }
     product(a, b) { return a.x * b.x + a.y * b.y; }
     between(a, b) { return Math.sqrt((b.x - a.x) ** 2 + (b.y - a.y) ** 2); }
     #at = undefined; #w = undefined;
     /** Motion before the step, as Rapier looks at it, and as its solver finds it, with a `pull` along gravity. */
     observe(known, pull, gravity) {
-        const { body } = known, unit = this.metresPerUnit, at = this.#at = body.worldCom(this.#at), v = this.#w = body.linvel(this.#w);
+        const { body } = known, unit = this.metresPerUnit, at = this.#at = body.worldCom(this.#at), v = this.velocityOf(known);
         known.x = at.x * unit;
         known.y = at.y * unit;
         known.vx = v.x * unit;
         known.vy = v.y * unit;
         known.spin = body.angvel();
-        this.journal.move(known.id, known.x, known.y, known.vx + pull * gravity.x, known.vy + pull * gravity.y, known.spin);
+        const vx = known.vx + pull * gravity.x, vy = known.vy + pull * gravity.y;
+        if (!known.isStatic) startOf(known.stop ??= stopOf(), known.x, known.y, 0, known.vx, known.vy, 0, vx, vy, 0);
+        this.journal.move(known.id, known.x, known.y, vx, vy, known.spin);
     }
+    ended({ stop, body }, seconds, subSeconds) {
+        const unit = this.metresPerUnit, at = this.#at = body.worldCom(this.#at), v = this.#w = body.linvel(this.#w);
+        endOf(stop, at.x * unit, at.y * unit, 0, v.x * unit, v.y * unit, 0, seconds, subSeconds);
+    }
+    /** What a body has lost at a contact, along its normal. */
+    lostAt({ stop, x, y, spin }, spot) { return stop ? stop.toX * spot.normalX + stop.toY * spot.normalY + stop.turn * spin * ((spot.x - x) * spot.normalY - (spot.y - y) * spot.normalX) : 0; }
     observeAgain(known) { this.journal.move(known.id, known.x, known.y, known.vx, known.vy, known.spin); }
     movedAgain(known) { this.journal.moved(known.id, known.vx, known.vy, known.spin); }
     observeStill(known, { x, y }) { this.move(known, x * this.metresPerUnit, y * this.metresPerUnit, 0, 0, 0); }
@@ -197,6 +216,11 @@ export class RapierHaptics extends Haptics {
         place.y = at.y + sin * local.x + cos * local.y;
         return place;
     }
+    // What masses do not say: who dominates cannot be pushed by the other, and what is kept from moving along an axis is heavier. Rapier's own impulse says how strong.
+    #isOdd({ body: a }, { body: b }) {
+        const groupOf = body => (body.isDynamic?.() ? body.dominanceGroup() : 128), isKept = body => body.isDynamic?.() && Object.values(body.effectiveInvMass()).some(part => part === 0);
+        return (groupOf(a) !== groupOf(b) && groupOf(a) !== 128 && groupOf(b) !== 128) || isKept(a) || isKept(b);
+    }
     /** Into `spot`: where contact i of a manifold is, across which gap, and how both surfaces run there. `first`, `second`: its colliders; m: its normal, `turn` times which
      * goes from a to b. Rapier keeps a contact's points and distance for some steps while bodies move on, so they are where both bodies have them now; a ball's are where it is nearest. */
     lookAt(manifold, i, first, second, m, turn, a, b) {
@@ -213,19 +237,27 @@ export class RapierHaptics extends Haptics {
         const count = manifold.numContacts(), one = this.#one, other = this.#other, pass = this.#pass;
         if (count === 0 || one.posed !== pass || other.posed !== pass) return;
         const a = one.known, b = other.known, key = keyOf(a.id, b.id), turn = isFlipped ? -1 : 1, m = this.#normal = manifold.normal(this.#normal), unit = this.metresPerUnit, spot = this.spot, seconds = this.#seconds;
-        let bounce = -1;
+        let bounce = -1, isOdd = null;
         for (let i = 0; i < count; ++i) {
             const impulse = manifold.contactImpulse(i);
             if (!(impulse > 0) && !this.#was.has(key)) continue; // near, and not yet there
             this.lookAt(manifold, i, isFlipped ? other : one, isFlipped ? one : other, m, turn, a, b);
             if (!(impulse > 0) && !(spot.gap < nearMetres && Math.abs(spot.approach) < this.#slack)) continue;
+            if (spot.gap > nearMetres + (this.#slack + Math.max(0, spot.approach)) * seconds) continue; // Rapier keeps impulses of pairs that touch no more
             if (bounce < 0) bounce = Math.min(1, Math.max(0, manifold.restitution()));
             this.#touching.add(key);
             this.#fresh?.push(key);
             spot.impulse = Math.max(0, impulse * unit);
             spot.restitution = bounce;
             spot.point = a.isRound || b.isRound ? 0 : byPlace;
-            meet(spot, (this.#fall(a) - this.#fall(b)) * turn * this.product(this.#gravity, m) * unit, seconds);
+            const pull = (this.#fall(a) - this.#fall(b)) * turn * this.product(this.#gravity, m) * unit, isPut = a.stop?.isPut || b.stop?.isPut, gap = spot.gap + (isPut ? 0 : Math.min(0, this.lostAt(b, spot) - this.lostAt(a, spot))), speed = spot.approach;
+            meet(spot, pull, seconds);
+            if (gap < 0 && speed > 0) {
+                spot.fraction = isPut ? 0 : closingOf(gap, speed, pull, seconds, this.#lastSeconds, seconds / (this.#engine.numSolverIterations ?? 4));
+                spot.gap = leftOut;
+            }
+            isOdd ??= !this.#was.has(key) && this.#isOdd(a, b);
+            spot.soft = isOdd ? leftOut : 1;
             this.journal.touch(a.id, b.id, spot);
         }
     };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rapier 3D: as Rapier 2D, with places, normals and motions in space.
 import { expectRapier, RapierHaptics } from './rapier2d.js';
+import { endOf, startOf, stopOf } from './stops.js';
 
 const plus = (a, b, times = 1) => ({ x: a.x + times * b.x, y: a.y + times * b.y, z: a.z + times * b.z });
 const dot = (a, b) => a.x * b.x + a.y * b.y + a.z * b.z;
@@ -21,9 +22,18 @@ class RapierHaptics3D extends RapierHaptics {
     observe(known, pull, gravity) {
         const { body } = known, unit = this.metresPerUnit, { m11, m22, m33, m12, m13, m23 } = body.effectiveWorldInvInertia();
         const inverse = known.isStatic ? null : [m11, m22, m33, m12, m13, m23].map(m => m / (unit * unit));
-        Object.assign(known, { at: plus(nowhere, body.worldCom(), unit), v: plus(nowhere, body.linvel(), unit), turns: body.angvel() });
+        Object.assign(known, { at: plus(nowhere, body.worldCom(), unit), v: plus(nowhere, this.velocityOf(known), unit), turns: body.angvel() });
         known.inverse = inverse;
-        this.journal.moveInSpace(known.id, known.at, plus(known.v, gravity, pull), known.turns, inverse);
+        const { at, v } = known, free = plus(v, gravity, pull);
+        if (!known.isStatic) startOf(known.stop ??= stopOf(), at.x, at.y, at.z, v.x, v.y, v.z, free.x, free.y, free.z);
+        this.journal.moveInSpace(known.id, at, free, known.turns, inverse);
+    }
+    ended({ stop, body }, seconds, subSeconds) {
+        const at = plus(nowhere, body.worldCom(), this.metresPerUnit), v = plus(nowhere, body.linvel(), this.metresPerUnit);
+        endOf(stop, at.x, at.y, at.z, v.x, v.y, v.z, seconds, subSeconds);
+    }
+    lostAt({ stop, at, turns }, { x, y, z, normalX, normalY, normalZ }) {
+        return stop ? dot(plus({ x: stop.toX, y: stop.toY, z: stop.toZ }, cross(turns, plus({ x, y, z }, at, -1)), stop.turn), { x: normalX, y: normalY, z: normalZ }) : 0;
     }
     observeAgain(known) { this.journal.moveInSpace(known.id, known.at, known.v, known.turns, known.inverse); }
     movedAgain(known) { this.journal.movedInSpace(known.id, known.v, known.turns); }

@@ -12,7 +12,7 @@ const none = {}, members = ['bodies', 'read', 'gravity', 'bounds', 'bodyOf', 'te
 const pairOf = (a, b) => Math.min(a, b) * 2 ** 26 + Math.max(a, b);
 
 class VelocityHaptics extends Haptics {
-    #engine; #turn; #there = new Map(); #order = []; #turns = 0; #told = []; #walls = [{}, {}, {}, {}]; #seconds = 0; #was = new Set(); #touching = new Set(); #before = {}; #after = {}; #spot = Object.assign(contactOf(), { gapFraction: 0 });
+    #engine; #turn; #there = new Map(); #order = []; #turns = 0; #told = []; #walls = [{}, {}, {}, {}]; #seconds = 0; #slow = 0.15; #was = new Set(); #touching = new Set(); #before = {}; #after = {}; #spot = Object.assign(contactOf(), { gapFraction: 0 });
 
     constructor(physvib, engine, { metresPerUnit = 0.01, yDown = true, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
         const height = fieldHeight ?? fieldWidth;
@@ -103,6 +103,7 @@ class VelocityHaptics extends Haptics {
         for (const { body } of this.#order) this.know(body);
         this.begin(seconds, Math.hypot(gx, gy));
         this.#seconds = seconds;
+        this.#slow = Math.max(0.15, 1.25 * seconds * Math.hypot(gx, gy));
         for (const known of this.each()) {
             const after = this.#there.get(known.body), { before } = after, falls = known.isStatic ? 0 : seconds * after.gravityScale;
             known.isRound = after.radius > 0;
@@ -124,7 +125,7 @@ class VelocityHaptics extends Haptics {
         const closing = (a.vx - b.vx) * nx + (a.vy - b.vy) * ny, parting = (stateB.vx - stateA.vx) * nx + (stateB.vy - stateA.vy) * ny;
         // What passes by, or through, keeps its velocity. An engine that solves before it moves has moved them apart again.
         const isMet = parting + closing > 1e-3 && Math.min(before.gap, after.gap) < skin + this.#seconds * Math.max(0, closing, parting), key = pairOf(a.id, b.id);
-        if (!normal && !isMet && !(this.#was.has(key) && Math.min(before.gap, after.gap) < skin)) return;
+        if (!normal && !isMet && !(this.#was.has(key) && Math.min(before.gap, after.gap) < skin && Math.abs(closing) < this.#slow)) return; // what hops, flies
         this.#touching.add(key);
         const place = x === undefined ? between(stateA, stateB, nx, ny) : { x: x * unit, y: y * unit * this.#turn }, spot = motionAt(a, b, place.x, place.y, nx, ny, this.#spot);
         spot.x = place.x;

@@ -23,9 +23,9 @@ def step(restitution=0.5):  # instead of mujoco.mj_step(model, data); any integr
         mujoco.mj_step2(model, data)
         for i in range(data.ncon):
             contact = data.contact[i]
-            if contact.dist > 0:
+            if contact.dist > contact.includemargin:
                 continue  # close, but not touching yet
             mujoco.mj_contactForce(model, data, i, force)
             world.touch(model.geom_bodyid[contact.geom1], model.geom_bodyid[contact.geom2], contact.pos[0], contact.pos[2],
                         normal_x=contact.frame[0], normal_y=contact.frame[2], impulse_n_s=force[0] * model.opt.timestep,
-                        restitution=restitution, gap_m=contact.dist, is_soft=True, point_id=physvib.POINT_BY_PLACE)
+                        restitution=restitution, gap_m=contact.dist - contact.includemargin, is_soft=True, point_id=physvib.POINT_BY_PLACE)

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// All of it by one call: an engine's haptics, felt by what the page has, with one field.
+import { play } from './audio.js';
+import { expectThat } from './explanation.js';
+import { rumble } from './gamepad.js';
+
+// How an engine is known, and what attaches to it; the rest of the options go to whom they are for.
+const kinds = [
+    [engine => engine.world && engine.pairs && engine.timing, () => import('./matter.js')],
+    [engine => engine.getBodyList && engine.on, () => import('./planck.js')],
+    [engine => engine.narrowPhase && engine.gravity.z !== undefined, () => import('./rapier3d.js')],
+    [engine => engine.narrowPhase, () => import('./rapier2d.js')],
+    [(engine, { b2 }) => b2 && engine.index1 > 0, () => import('./box2d3.js')],
+    [engine => typeof engine.bodies === 'function' && engine.read, () => import('./velocities.js')],
+];
+const gestures = ['pointerdown', 'keydown', 'touchend'];
+
+class Felt {
+    #closed = false; #begin = () => this.#open();
+    /** What plays, from the first gesture on; null before, and where there is no audio. */
+    output = null;
+    /** Why there is none, if it failed. */
+    error = null;
+    constructor(physvib, haptics, { context, pads, ...options }) {
+        Object.assign(this, { physvib, haptics, pads });
+        this.#options = options;
+        this.#context = context;
+        pads?.follow(haptics);
+        if (context || globalThis.navigator?.userActivation?.hasBeenActive) this.#begin();
+        else for (const name of gestures) globalThis.document?.addEventListener(name, this.#begin, true);
+    }
+    #options; #context; #isOwn = false;
+    // Browsers make no sound before a click or a key.
+    async #open() {
+        for (const name of gestures) globalThis.document?.removeEventListener(name, this.#begin, true);
+        try {
+            this.#isOwn = !this.#context;
+            this.#context ??= new AudioContext();
+            await this.#context.resume();
+            const output = await play(this.physvib, this.#context, this.#options);
+            if (this.#closed) return output.close();
+            this.output = output;
+            output.follow(this.haptics);
+        } catch (error) {
+            this.error = error;
+            console.error(`PhysVib: no sound, the game goes on: ${error.message}`);
+        }
+    }
+    /** As haptics.set; or the name of a material, of a source. */
+    set(body, values = {}) { return this.haptics.set(body, typeof values === 'string' ? { isSource: true, material: values } : values); }
+    update(seconds) { this.haptics.update(seconds); }
+    explain() { return (this.error ? `${this.error.message} ` : this.output ? '' : 'Nothing plays before the first click or key. ') + this.haptics.explain(); }
+    close() {
+        this.#closed = true;
+        for (const name of gestures) globalThis.document?.removeEventListener(name, this.#begin, true);
+        this.output?.close();
+        this.pads?.close();
+        this.haptics.free();
+        if (this.#isOwn) this.#context?.close?.();
+    }
+}
+
+export async function feel(physvib, engine, { pixelsPerMetre, metresPerUnit = pixelsPerMetre ? 1 / pixelsPerMetre : undefined, fieldWidth = 1, fieldHeight = fieldWidth, layout, outputs, level, latency, worklet, context, profile, phone, ...settings } = {}) {
+    const kind = kinds.find(([isOne]) => isOne(Object(engine), settings));
+    expectThat(kind !== undefined, 'feel', "an engine's world (of Matter, Planck, Rapier, box2d3-wasm with b2, or { bodies, read })", engine);
+    const module = await kind[1](), haptics = (module.attach ?? module.attachVelocities)(physvib, engine, { fullScaleImpulse: 'automatic', ...settings, fieldWidth, fieldHeight, ...(metresPerUnit && { metresPerUnit }) });
+    const field = { fieldWidth, fieldHeight }, given = Object.fromEntries(Object.entries({ layout, outputs, level, latency, worklet }).filter(([, value]) => value !== undefined));
+    const pads = globalThis.navigator?.getGamepads ? rumble(physvib, { ...field, ...(profile && { profile }), ...(phone !== undefined && { phone }), ...(latency && { latency }) }) : null;
+    return new Felt(physvib, haptics, { ...field, ...given, context, pads });
+}

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// What the kit does in each engine: a few verbs. Lengths are metres, y points up; `halfStep` is the share of a step's gravity that a fall from rest begins with, so that
+// the engine's own way of integrating ends on the parabola. An engine without a verb leaves it out: what needs it is not supported there.
+import { join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { load } from '../installed.mjs';
+
+const field = { fieldWidth: 40, fieldHeight: 40, fieldX: -20, fieldY: -20, fullScaleImpulse: 1 };
+const areaOf = ({ radius, half }) => (radius ? Math.PI * radius ** 2 : 4 * half[0] * half[1]);
+const isDynamic = ({ type = 'dynamic' }) => type === 'dynamic';
+
+async function matter(folder, physvib, { gravity }) {
+    const { default: Matter } = await load(folder, 'matter-js'), { attach } = await load(folder, 'physvib/matter'), { Body, Bodies, Composite, Constraint } = Matter, px = 400; // a circle of 0.1 m has 40 sides then, of 100 px/m 10
+    const engine = Matter.Engine.create({ gravity: { x: 0, y: 1, scale: gravity * px / 1e6 } }), perSecond = px / 60;
+    const add = made => { Composite.add(engine.world, made); return made; };
+    const driver = {
+        attach: () => attach(physvib, engine, { metresPerUnit: 1 / px, ...field, fieldY: 20 }), halfStep: 1, count: () => Composite.allBodies(engine.world).length,
+        create(of) {
+            const values = { isStatic: !isDynamic(of), restitution: of.restitution ?? 0, friction: of.friction ?? 0.3, frictionAir: 0, angle: -(of.angle ?? 0), isSensor: of.sensor ?? false, slop: 0.01 };
+            const body = add(of.radius ? Bodies.circle(of.x * px, -of.y * px, of.radius * px, values, 60) : Bodies.rectangle(of.x * px, -of.y * px, 2 * of.half[0] * px, 2 * of.half[1] * px, values));
+            body.ownKg = of.massKg;
+            if (!isDynamic(of)) return body;
+            Body.setMass(body, of.massKg);
+            if (of.lockTurn) Body.setInertia(body, Infinity);
+            driver.fling(body, of.vx ?? 0, of.vy ?? 0, of.spin ?? 0);
+            return body;
+        },
+        get: body => { const v = Body.getVelocity(body); return { x: body.position.x / px, y: -body.position.y / px, vx: v.x / perSecond, vy: -v.y / perSecond, angle: -body.angle, spin: -60 * Body.getAngularVelocity(body), massKg: body.isStatic ? 0 : body.mass }; },
+        put: (body, x, y) => Body.setPosition(body, { x: x * px, y: -y * px }),
+        fling(body, vx, vy, spin = 0) { Body.setVelocity(body, { x: vx * perSecond, y: -vy * perSecond }); Body.setAngularVelocity(body, -spin / 60); },
+        type(body, type) { Body.setStatic(body, type !== 'dynamic'); if (type === 'dynamic' && body.mass === Infinity) { Body.setMass(body, body.ownKg); Body.setInertia(body, body.ownKg * (body.circleRadius || 20) ** 2 / 2); } }, mass: (body, kg) => Body.setMass(body, kg), lockTurn: body => Body.setInertia(body, Infinity),
+        gravity: y => { engine.gravity.scale = y * px / 1e6; },
+        remove: body => Composite.remove(engine.world, body), sensor: (body, is) => { body.isSensor = is; }, passes: (body, is) => { body.collisionFilter.mask = is ? 0 : 0xffffffff; },
+        sleep(body) { engine.enableSleeping = true; Matter.Sleeping.set(body, true); },
+        pin: (a, b, x, y) => add(Constraint.create({ bodyA: a, bodyB: b, pointA: { x: x * px - a.position.x, y: -y * px - a.position.y }, pointB: { x: x * px - b.position.x, y: -y * px - b.position.y }, length: 0, stiffness: 1 })),
+        step: (seconds, haptics) => haptics.step(seconds, () => Matter.Engine.update(engine, seconds * 1000)),
+    };
+    return driver;
+}
+
+async function planck(folder, physvib, { gravity }) {
+    const P = await load(folder, 'planck').then(module => module.default ?? module), { attach } = await load(folder, 'physvib/planck'), world = new P.World({ gravity: { x: 0, y: -gravity } }), skin = 0.01; // of polygons
+    const named = type => ({ fixed: 'static' })[type] ?? type;
+    const driver = {
+        attach: () => attach(physvib, world, field), halfStep: 1, count: () => world.getBodyCount(),
+        create(of) {
+            const body = world.createBody({ type: named(of.type ?? 'dynamic'), position: { x: of.x, y: of.y }, angle: of.angle ?? 0, linearVelocity: { x: of.vx ?? 0, y: of.vy ?? 0 }, angularVelocity: of.spin ?? 0, bullet: of.bullet ?? false, fixedRotation: of.lockTurn ?? false });
+            const half = of.half?.map(length => length - skin);
+            body.createFixture(of.radius ? new P.Circle(of.radius) : new P.Box(...half), { density: (of.massKg ?? 0) / areaOf({ radius: of.radius, half }), restitution: of.restitution ?? 0, friction: of.friction ?? 0.3, isSensor: of.sensor ?? false });
+            return body;
+        },
+        get: body => { const { x, y } = body.getWorldCenter(), v = body.getLinearVelocity(); return { x, y, vx: v.x, vy: v.y, angle: body.getAngle(), spin: body.getAngularVelocity(), massKg: body.isDynamic() ? body.getMass() : 0 }; },
+        put(body, x, y) { body.setTransform({ x, y }, body.getAngle()); body.setAwake(true); }, fling(body, x, y, spin = 0) { body.setLinearVelocity({ x, y }); body.setAngularVelocity(spin); body.setAwake(true); },
+        type: (body, type) => body.setType(named(type)), mass: (body, mass) => body.setMassData({ mass, center: { x: 0, y: 0 }, I: body.getInertia() * mass / body.getMass() }), lockTurn: body => body.setFixedRotation(true),
+        gravityScale: (body, scale) => body.setGravityScale(scale), gravity: y => world.setGravity({ x: 0, y: -y }), remove: body => world.destroyBody(body),
+        sensor: (body, is) => body.getFixtureList().setSensor(is), passes: (body, is) => body.getFixtureList().setFilterData({ groupIndex: 0, categoryBits: 1, maskBits: is ? 0 : 0xffff }),
+        sleep: body => body.setAwake(false), enable: (body, is) => body.setActive(is), moves: (body, vx, vy) => body.setLinearVelocity({ x: vx, y: vy }), shift: (x, y) => world.shiftOrigin({ x, y }),
+        pin: (a, b, x, y) => world.createJoint(new P.RevoluteJoint({}, a, b, { x, y })), step: seconds => world.step(seconds, 30, 10),
+    };
+    return driver;
+}
+
+async function rapier(kind, folder, physvib, { gravity }) {
+    const { default: R } = await load(folder, `@dimforge/rapier${kind}-compat`), { attach } = await load(folder, `physvib/rapier${kind}`), is3d = kind === '3d';
+    await R.init();
+    const at = (x, y) => (is3d ? { x, y, z: 0 } : { x, y }), list = (x, y) => (is3d ? [x, y, 0] : [x, y]), world = new R.World(at(0, -gravity));
+    const types = { dynamic: R.RigidBodyType.Dynamic, fixed: R.RigidBodyType.Fixed, kinematic: R.RigidBodyType.KinematicVelocityBased }, turned = angle => (is3d ? { x: 0, y: 0, z: Math.sin(angle / 2), w: Math.cos(angle / 2) } : angle);
+    const driver = {
+        attach: () => attach(physvib, world, field), halfStep: 1 / world.integrationParameters.numSolverIterations, count: () => world.bodies.len(),
+        create(of) {
+            const desc = new R.RigidBodyDesc(types[of.type ?? 'dynamic']).setTranslation(...list(of.x, of.y)).setLinvel(...list(of.vx ?? 0, of.vy ?? 0)).setCcdEnabled(of.bullet ?? false).setCanSleep(of.sleeps ?? false);
+            desc.setRotation(turned(of.angle ?? 0));
+            desc.setAngvel(is3d ? { x: 0, y: 0, z: of.spin ?? 0 } : of.spin ?? 0);
+            if (is3d) desc.restrictRotations?.(false, false, !of.lockTurn);
+            if (is3d) desc.enabledRotations?.(false, false, !of.lockTurn);
+            if (!is3d && of.lockTurn) desc.lockRotations();
+            const body = world.createRigidBody(desc), form = of.radius ? R.ColliderDesc.ball(of.radius) : R.ColliderDesc.cuboid(...of.half, ...(is3d ? [of.type === 'fixed' ? 5 : of.half[0]] : []));
+            if (isDynamic(of)) form.setMass(of.massKg);
+            form.setRestitutionCombineRule(R.CoefficientCombineRule.Max).setSensor(of.sensor ?? false);
+            world.createCollider(form.setRestitution(of.restitution ?? 0).setFriction(of.friction ?? 0.3), body);
+            return body;
+        },
+        get(body) { if (world.bodies.get(body.handle) !== body) throw new Error('gone'); const { x, y } = body.worldCom(), v = body.linvel(), spin = body.angvel(), turn = body.rotation(); return { x, y, vx: v.x, vy: v.y, angle: is3d ? 2 * Math.atan2(turn.z, turn.w) : turn, spin: is3d ? spin.z : spin, massKg: body.isDynamic() ? body.mass() : 0 }; },
+        put: (body, x, y) => body.setTranslation(at(x, y), true), fling(body, vx, vy, spin = 0) { body.setLinvel(at(vx, vy), true); body.setAngvel(is3d ? { x: 0, y: 0, z: spin } : spin, true); },
+        type: (body, type) => body.setBodyType(types[type], true), mass: (body, kg) => body.collider(0).setMass(kg), lockTurn: body => body.lockRotations(true, true), lockX: body => body.setEnabledTranslations(...(is3d ? [false, true, true] : [false, true]), true),
+        gravityScale: (body, scale) => body.setGravityScale(scale, true), gravity: y => { world.gravity = at(0, -y); }, remove: body => world.removeRigidBody(body), sensor: (body, is) => body.collider(0).setSensor(is),
+        passes: (body, is) => body.collider(0).setCollisionGroups(is ? 0x00010000 : 0xffffffff), sleep: body => body.sleep(), enable: (body, is) => body.setEnabled(is), moves: (body, vx, vy) => body.setLinvel(at(vx, vy), true),
+        moveTo(body, x, y) { if (!body.isKinematic() || body.bodyType() !== R.RigidBodyType.KinematicPositionBased) body.setBodyType(R.RigidBodyType.KinematicPositionBased, true); body.setNextKinematicTranslation(at(x, y)); },
+        dominates: (body, group) => body.setDominanceGroup(group), touchesAll: body => body.collider(0).setActiveCollisionTypes(R.ActiveCollisionTypes.ALL), bounces: (body, restitution) => body.collider(0).setRestitution(restitution), grow: (body, radius) => body.collider(0).setRadius(radius),
+        pin(a, b, x, y) { const from = ({ x: bx, y: by }) => at(x - bx, y - by); world.createImpulseJoint(R.JointData[is3d ? 'spherical' : 'revolute'](from(a.translation()), from(b.translation())), a, b, true).setContactsEnabled(false); },
+        step: (seconds, haptics) => haptics.update(seconds),
+    };
+    return driver;
+}
+
+let b2;
+async function box2d3(folder, physvib, { gravity }) {
+    b2 ??= await (await import(pathToFileURL(join(resolve(folder), 'node_modules/box2d3-wasm/build/dist/es/entry.mjs')))).default();
+    const { attach } = await load(folder, 'physvib/box2d3'), settings = b2.b2DefaultWorldDef(), types = { dynamic: b2.b2BodyType.b2_dynamicBody, fixed: b2.b2BodyType.b2_staticBody, kinematic: b2.b2BodyType.b2_kinematicBody };
+    settings.gravity.Set(0, -gravity);
+    const world = b2.b2CreateWorld(settings), shapes = new Map(), keyOf = body => `${body.index1},${body.generation}`, at = (x, y) => new b2.b2Vec2(x, y);
+    let count = 0;
+    const driver = {
+        attach: () => attach(physvib, world, { b2, ...field }), halfStep: 1 / 4, count: () => count,
+        create(of) {
+            const def = b2.b2DefaultBodyDef(), form = b2.b2DefaultShapeDef();
+            def.type = types[of.type ?? 'dynamic'];
+            def.position.Set(of.x, of.y);
+            def.rotation = b2.b2MakeRot(of.angle ?? 0);
+            def.linearVelocity.Set(of.vx ?? 0, of.vy ?? 0);
+            def.angularVelocity = of.spin ?? 0;
+            def.isBullet = of.bullet ?? false;
+            if (of.lockTurn) def.motionLocks.angularZ = true;
+            const body = b2.b2CreateBody(world, def);
+            form.density = (of.massKg ?? 0) / areaOf(of);
+            form.material.restitution = of.restitution ?? 0;
+            form.material.friction = of.friction ?? 0.3;
+            form.isSensor = of.sensor ?? false;
+            const circle = new b2.b2Circle();
+            circle.center.Set(0, 0);
+            circle.radius = of.radius ?? 0;
+            shapes.set(keyOf(body), of.radius ? b2.b2CreateCircleShape(body, form, circle) : b2.b2CreatePolygonShape(body, form, b2.b2MakeBox(...of.half)));
+            ++count;
+            return body;
+        },
+        get: body => { const { x, y } = b2.b2Body_GetWorldCenterOfMass(body), v = b2.b2Body_GetLinearVelocity(body); return { x, y, vx: v.x, vy: v.y, angle: b2.b2Rot_GetAngle(b2.b2Body_GetRotation(body)), spin: b2.b2Body_GetAngularVelocity(body), massKg: b2.b2Body_GetType(body).value === types.dynamic.value ? b2.b2Body_GetMass(body) : 0 }; },
+        put: (body, x, y) => b2.b2Body_SetTransform(body, at(x, y), b2.b2Body_GetRotation(body)), fling(body, x, y, spin = 0) { b2.b2Body_SetAwake(body, true); b2.b2Body_SetLinearVelocity(body, at(x, y)); b2.b2Body_SetAngularVelocity(body, spin); },
+        type: (body, type) => b2.b2Body_SetType(body, types[type]), mass(body, kg) { const data = b2.b2Body_GetMassData(body); data.rotationalInertia *= kg / data.mass; data.mass = kg; b2.b2Body_SetMassData(body, data); },
+        gravityScale: (body, scale) => b2.b2Body_SetGravityScale(body, scale), gravity: y => b2.b2World_SetGravity(world, at(0, -y)), remove(body) { b2.b2DestroyBody(body); --count; },
+        passes(body, is) { const { filter } = b2.b2DefaultShapeDef(); if (is) filter.maskBits = 0; b2.b2Shape_SetFilter(shapes.get(keyOf(body)), filter); }, sleep: body => b2.b2Body_SetAwake(body, false), enable: (body, is) => b2[is ? 'b2Body_Enable' : 'b2Body_Disable'](body),
+        moves: (body, vx, vy) => b2.b2Body_SetLinearVelocity(body, at(vx, vy)), moveTo(body, x, y, seconds) { const transform = b2.b2Body_GetTransform(body); transform.p.Set(x, y); b2.b2Body_SetTargetTransform(body, transform, seconds); },
+        pin(a, b, x, y) {
+            const def = b2.b2DefaultRevoluteJointDef();
+            [def.base.bodyIdA, def.base.bodyIdB] = [a, b];
+            for (const [frame, body] of [[def.base.localFrameA, a], [def.base.localFrameB, b]]) { const local = b2.b2Body_GetLocalPoint(body, at(x, y)); frame.p.Set(local.x, local.y); }
+            b2.b2CreateRevoluteJoint(world, def);
+        },
+        step: (seconds, haptics) => haptics.update(seconds),
+    };
+    return driver;
+}
+
+/** A game's own: circles, and boxes that do not turn. */
+async function velocities(folder, physvib, { gravity }) {
+    const { attachVelocities } = await load(folder, 'physvib/velocities'), { apart, stateOf } = await load(folder, 'physvib/velocities').then(() => ({ apart: near, stateOf: null })), bodies = new Set(), pull = { x: 0, y: -gravity };
+    function near(a, b) {
+        const dx = b.x - a.x, dy = b.y - a.y;
+        if (a.radius && b.radius) { const length = Math.hypot(dx, dy) || 1; return { gap: length - a.radius - b.radius, nx: dx / length, ny: dy / length }; }
+        const outX = Math.abs(dx) - (a.width + b.width) / 2, outY = Math.abs(dy) - (a.height + b.height) / 2;
+        return outX > outY ? { gap: outX, nx: Math.sign(dx) || 1, ny: 0 } : { gap: outY, nx: 0, ny: Math.sign(dy) || 1 };
+    }
+    function advance(seconds) {
+        for (const body of bodies) {
+            if (body.massKg > 0 && !body.isAsleep) body.vy += pull.y * body.gravityScale * seconds;
+            if (!body.isAsleep) { body.x += body.vx * seconds; body.y += body.vy * seconds; }
+        }
+        const all = [...bodies];
+        for (let i = 0; i < all.length; ++i) for (let j = i + 1; j < all.length; ++j) {
+            const [a, b] = [all[i], all[j]], inverse = (a.massKg > 0 ? 1 / a.massKg : 0) + (b.massKg > 0 ? 1 / b.massKg : 0);
+            if (inverse === 0 || a.isSensor || b.isSensor || a.isPassed || b.isPassed) continue;
+            const { gap, nx, ny } = apart(a, b), closing = (a.vx - b.vx) * nx + (a.vy - b.vy) * ny;
+            if (gap >= 0) continue;
+            for (const [body, way] of [[a, 1], [b, -1]]) if (body.massKg > 0) { body.x += way * gap * nx / body.massKg / inverse; body.y += way * gap * ny / body.massKg / inverse; body.isAsleep = false; }
+            if (closing <= 0) continue;
+            const impulse = closing * (1 + (closing > 0.5 ? Math.max(a.restitution, b.restitution) : 0)) / inverse;
+            for (const [body, way] of [[a, -1], [b, 1]]) if (body.massKg > 0) { body.vx += way * impulse * nx / body.massKg; body.vy += way * impulse * ny / body.massKg; }
+        }
+    }
+    return {
+        attach: () => attachVelocities(physvib, { bodies: () => [...bodies].filter(body => !body.isSensor && !body.isPassed), read: (body, to) => Object.assign(to, { x: body.x, y: body.y, vx: body.vx, vy: body.vy, width: body.width, height: body.height, radius: body.radius, massKg: body.massKg, gravityScale: body.gravityScale }), gravity: () => pull },
+            { metresPerUnit: 1, yDown: false, ...field }), halfStep: 1, count: () => bodies.size, isUnturned: true,
+        create(of) { const body = { x: of.x, y: of.y, vx: of.vx ?? 0, vy: of.vy ?? 0, radius: of.radius ?? 0, width: 2 * (of.radius ?? of.half[0]), height: 2 * (of.radius ?? of.half[1]), massKg: isDynamic(of) ? of.massKg : 0, ownKg: of.massKg, gravityScale: 1, restitution: of.restitution ?? 0, isSensor: of.sensor ?? false }; bodies.add(body); return body; },
+        get: ({ x, y, vx, vy, massKg }) => ({ x, y, vx, vy, angle: 0, spin: 0, massKg }), put: (body, x, y) => Object.assign(body, { x, y }), fling: (body, vx, vy) => Object.assign(body, { vx, vy }),
+        type: (body, type) => Object.assign(body, { massKg: type === 'dynamic' ? body.ownKg : 0 }), mass: (body, massKg) => Object.assign(body, { massKg }), gravityScale: (body, gravityScale) => Object.assign(body, { gravityScale }), gravity: y => { pull.y = -y; },
+        remove: body => bodies.delete(body), sensor: (body, isSensor) => Object.assign(body, { isSensor }), passes: (body, isPassed) => Object.assign(body, { isPassed }), moves: (body, vx, vy) => Object.assign(body, { vx, vy }),
+        bounces: (body, restitution) => Object.assign(body, { restitution }), grow: (body, radius) => Object.assign(body, { radius, width: 2 * radius, height: 2 * radius }),
+        step: (seconds, haptics) => haptics.step(seconds, () => advance(seconds)),
+    };
+}
+
+export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities };
