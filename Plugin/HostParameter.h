@@ -14,8 +14,8 @@ namespace physvib {
 class HostParameter final : public juce::RangedAudioParameter { // LV2 tells real ranges of this kind only
 public:
     explicit HostParameter(const ParameterRow& row)
-        : RangedAudioParameter{juce::ParameterID{text(row.id), row.version}, text(row.name),
-                               juce::AudioProcessorParameterWithIDAttributes{}.withLabel(text(row.unit))}
+        : RangedAudioParameter{juce::ParameterID{text(row.id), row.version}, text(row.name)}
+        // no label: texts have the unit, and hosts append it
         , row_{row}
         , range_{rangeOf(row)}
         , normal_{static_cast<float>(normalised(row, row.initial))} {}
