@@ -188,7 +188,7 @@ struct LoadedRender {
         if (session && !options.given.contains("--method")) return session->shaping.method;
         RenderingMethod wanted = options.method;
         wanted.fixedAmplitude = RenderingMethod::fixedLevelG / fullScaleG();
-        wanted.holdsLevel = wanted.fixesAmplitude;
+        wanted.holdsLevel = wanted.fixesAmplitude && options.fixesSum;
         return wanted;
     }
     /// Of the first enchanter; a fixed level needs it to be that of all.

@@ -57,6 +57,7 @@ struct RenderJob {
     ImpactLocation location = ImpactLocation::contact;
     ImpactTiming timing = ImpactTiming::onset;
     RenderingMethod method;       ///< its amplitude needs the layout
+    bool fixesSum = true;         ///< a fixed amplitude is that of all hits together; else of each
     bool playsRecordings = false; ///< SV: play `sounds` instead of the method's modes
     double levelDb = 0.0;         ///< of all impacts
     double gamma = 0.0;           ///< Eq. 5.5: share of the amplitude at which a decay is cut; 0: not cut

@@ -36,6 +36,9 @@ void declareSceneOptions(OptionTable& command, RenderJob& o) {
         "--timing", o.timing, {{"onset", ImpactTiming::onset}, {"release", ImpactTiming::release}},
         "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)");
     addMethod(command, o);
+    command.addOneOf<bool>("--fixed-level", o.fixesSum, {{"sum", true}, {"each", false}},
+                           "of a fixed amplitude: the peak of all that sound together (sum), or of each hit, "
+                           "as in the thesis (each)");
     addSounds(command, o.sounds,
               "for SV and --contact-sound: the recorded contact of a material, or HZ=FILE.wav of all of that "
               "frequency; FILE may be synthetic-SEED; may be repeated");

@@ -254,6 +254,18 @@ void addToCalls(Protocol& protocol, std::string_view options) {
             condition.stimuli);
 }
 
+/// In each call that has them.
+void changeCalls(Protocol& protocol, std::string_view words, std::string_view others) {
+    for (ConditionPlan& condition : protocol.conditions)
+        std::visit(
+            [&](auto& set) {
+                if constexpr (requires { set.call; })
+                    if (const auto at = set.call.find(words); at != set.call.npos)
+                        set.call.replace(at, words.size(), others);
+            },
+            condition.stimuli);
+}
+
 void edit(Protocol& protocol, ThesisEdit how) {
     switch (how) {
     case ThesisEdit::none: break;
@@ -265,6 +277,8 @@ void edit(Protocol& protocol, ThesisEdit how) {
         break;
     case ThesisEdit::releaseTiming: addToCalls(protocol, "--timing release"); break;
     case ThesisEdit::cutDecays: addToCalls(protocol, "--gamma 0.1"); break;
+    case ThesisEdit::fixEach: addToCalls(protocol, "--fixed-level each"); break;
+    case ThesisEdit::matchPeaks: changeCalls(protocol, "--sound-match rms", "--sound-match peak"); break;
     }
 }
 

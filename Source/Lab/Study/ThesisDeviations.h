@@ -14,7 +14,9 @@ enum class ThesisEdit {
     noBreakBefore, ///< removes breaks before sessions
     noGroups,      ///< removes condition groups
     releaseTiming, ///< adds --timing release to calls
-    cutDecays      ///< adds --gamma 0.1 to calls
+    cutDecays,     ///< adds --gamma 0.1 to calls
+    fixEach,       ///< adds --fixed-level each to calls
+    matchPeaks     ///< recordings by their peak, in place of their strength
 };
 
 /// One deviation of one protocol.
@@ -55,8 +57,11 @@ inline constexpr std::array thesisDeviations{
                     "add --timing release to the call", ThesisEdit::releaseTiming},
     ThesisDeviation{"model-or-sound", "5.2.1", "a decay ends where it has fallen to a tenth (Eq. 5.5)",
                     "a decay rings out", "add --gamma 0.1 to the call", ThesisEdit::cutDecays},
-    ThesisDeviation{"model-or-sound", "5.2.1", "recordings of the nine real objects",
+    ThesisDeviation{"model-or-sound", "5.2.1", "three downloaded contact sounds, one per pair",
                     "synthetic contacts; give your own by --sound or sounds", "sounds of your own"},
+    ThesisDeviation{"model-or-sound", "5.2.1", "the normalised recording times A_i",
+                    "a recording is as strong as the mode over 0.25 s", "--sound-match peak in the call",
+                    ThesisEdit::matchPeaks},
     ThesisDeviation{
         "model-or-sound", "5.2.1", "levels and actuator as built there",
         "the recorded contact at -8 dB and the model at -2 dB or less of their calls' own levels, "
@@ -67,6 +72,14 @@ inline constexpr std::array thesisDeviations{
                     "add --timing release to the call", ThesisEdit::releaseTiming},
     ThesisDeviation{"eight-methods", "5.3.1", "a decay ends where it has fallen to a tenth (Eq. 5.5)",
                     "a decay rings out", "add --gamma 0.1 to the call", ThesisEdit::cutDecays},
+    ThesisDeviation{
+        "eight-methods", "5.3.1",
+        "A=F: each collision has 1.5 g; what sounds together is added, and normalised beyond full scale",
+        "1.5 g is the peak of all that sound together: a hit is weaker while others sound, down to 0",
+        "add --fixed-level each to the call", ThesisEdit::fixEach},
+    ThesisDeviation{"eight-methods", "5.3.1", "AF-FV-DRF of rubber: 20 ms of 80 Hz, which have a mean",
+                    "the guard against direct current takes the mean, and with it up to half of the level",
+                    ""},
     ThesisDeviation{"eight-methods", "5.3.1", "walls of 0.02 m",
                     "walls of 0.3 m outside the same field, through which nothing is pressed", ""},
     ThesisDeviation{"eight-methods", "5.3.1", "no rest is mentioned between training and main session",

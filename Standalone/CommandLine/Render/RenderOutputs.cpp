@@ -180,6 +180,8 @@ Provenance RenderOutputs::provenance() const {
     const RenderJob& o = job_.options;
     Provenance p = inputProvenance();
     if (!job_.method().fixesNothing() || o.playsRecordings) p.entries.emplace_back("method", o.methodName());
+    if (job_.method().fixesAmplitude && !job_.method().holdsLevel)
+        p.entries.emplace_back("fixed-level", "each");
     if (o.levelDb != 0.0) p.entries.emplace_back("level_db", numberText(o.levelDb));
     if (o.isWeighted) p.entries.emplace_back("perceived_level", "on");
     for (const RecordedSound& sound : o.sounds)
