@@ -46,7 +46,7 @@ TEST_F(EveryOption, OfARenderCountsOrIsPromisedNotTo) {
         {"--timing", "release", events, "out.csv"},
         {"--method", "AF-FV-DRV", list, "out.wav"},
         {"--method", "AV-FF-DRV", list, "out.wav"},
-        {"--fixed-level", "each", list + "--method AF-FV-DRV ", "out.wav"},
+        {"--fixed-level", "each", scene + "--method AF-FF-DRV ", "out.wav"},
         {"--method", "AV-FV-DRF", list, "out.wav"},
         {"--level-db", "-3", list, "out.wav"},
         {"--gamma", "0.5", list, "out.wav"},
