@@ -58,7 +58,7 @@ step() {
         report) Tests/figures/report.sh $bin/physvib build/nightly/report ;;
         arm64) Tests/arm64.sh $bin/physvib-render ;;
         windows) Tests/windows.sh $bin/physvib-render ;;
-        fresh) Tests/fresh-machine.sh ;;
+        fresh) Tests/fresh-machine.sh --same-as build/release ;;
         fresh-13) Tests/fresh-machine.sh --suite trixie --same-as build/release ;;
         fresh-sid) Tests/fresh-machine.sh --suite sid --same-as build/release ;;
         juce-8) Tests/fresh-machine.sh --suite trixie --own-juce ;;

@@ -241,12 +241,12 @@ std::vector<Fact> OutputTab::sinkFacts() const {
     std::vector<Fact> facts;
     for (const SinkState& sink : model_.session().sinks().states()) {
         const bool isPart = sink.isReady && sink.channels > 0 && model_.mix().count() > sink.channels;
-        const auto rest =
-            isPart ? "; the first " + juce::String{sink.channels} + " actuators" : juce::String{};
-        facts.push_back(
-            {titleOf(sink.name), utf8(sink.where) + rest, sink.isReady ? Shade::text : Shade::now});
+        juce::String where = utf8(sink.where);
+        if (isPart) where << "; the first " << sink.channels << " actuators";
+        facts.push_back({titleOf(sink.name), where, sink.isReady ? Shade::text : Shade::now});
     }
-    return facts.empty() ? std::vector<Fact>{{"Board", "none", Shade::muted}} : facts;
+    if (facts.empty()) facts.push_back({"Board", "none", Shade::muted});
+    return facts;
 }
 
 void OutputTab::mixChanged() {
