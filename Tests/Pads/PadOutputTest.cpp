@@ -47,7 +47,7 @@ public:
     }
 
     static std::int64_t now() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
-    const std::int64_t beganNs = now();
+    std::int64_t beganNs = now();
 };
 
 const std::function<bool()> always = [] { return true; };
@@ -159,6 +159,23 @@ TEST_F(Pads, NothingIsFeltWhenNobodyIsFollowedAndWhenTheSinkEnds) {
         EXPECT_TRUE(ringing(output));
     }
     EXPECT_TRUE(pad.isAtRest());
+}
+
+// Session time stands still meanwhile: what is felt then lies before what the motors have had already.
+TEST_F(PadsInRealTime, AfterAPauseOfTheDeviceTheyAreOnTimeAgain) {
+    VirtualPad pad{"paused"};
+    Following following{"paused"};
+    ASSERT_EQ(following.fault, "");
+    PacedDevice& device = following.device;
+    device.run(600 * ms);
+    std::this_thread::sleep_for(std::chrono::milliseconds{400});
+    device.beganNs += 400 * ms;
+    device.block();
+    const std::int64_t atNs = device.sessionNs() + 50 * ms;
+    following.output.made(hit(atNs, 60.0, 1.0, 0.5));
+    device.run(atNs + 120 * ms);
+    ASSERT_FALSE(pad.told().empty()) << "it waits for the time that the device stood still";
+    EXPECT_GE(pad.told().front().steadyNs, device.beganNs + atNs - 60 * ms);
 }
 
 TEST_F(Pads, UnpluggedItIsLookedForAndPlaysAgainWhenItIsBack) {

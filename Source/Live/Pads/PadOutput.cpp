@@ -14,7 +14,7 @@ constexpr std::int64_t msNs = 1'000'000;
 constexpr std::int64_t repeatNs = 100 * msNs;    // half the duration of a command
 constexpr std::int64_t lookNs = 250 * msNs;      // search interval for a newly connected controller
 constexpr std::int64_t patienceNs = 2000 * msNs; // a Bluetooth controller needs a second to connect
-constexpr std::int64_t jumpNs = 1000 * msNs;     // a backward jump of session time that means a restart
+constexpr std::int64_t jumpNs = 70 * msNs; // a backward jump of session time that means a pause or a restart
 
 std::string milliseconds(double seconds) { return fixedNumber(1e3 * seconds, 0) + " ms"; }
 

@@ -153,13 +153,14 @@ private:
 /// One thread.
 class SessionClock {
 public:
-    static constexpr std::int64_t halfWindowNs = 250'000'000;
+    static constexpr std::int64_t halfWindowNs = 250'000'000, pauseNs = 80'000'000;
 
     /// In time order; repeating a moment changes nothing.
     void add(const OutputMoment& moment) noexcept {
         const std::int64_t lag = moment.steadyNs - moment.sessionNs, age = moment.steadyNs - halfBeganNs_;
-        // the first, or the first after a pause
-        if (!isReady_ || age > 2 * halfWindowNs) before_ = now_ = lag;
+        // the first, or the first after a pause, in which session time stood still
+        if (!isReady_ || age > 2 * halfWindowNs || lag - std::min(before_, now_) > pauseNs)
+            before_ = now_ = lag;
         if (!isReady_ || age > halfWindowNs) {
             before_ = now_;
             now_ = lag;
