@@ -26,6 +26,9 @@ for version in "$@"; do
         gcc -Wall -Wextra -isystem "$folder/box2d/include" -I"$build/include" "$root/Tests/Engines/drop3.c" "$folder"/objects/*.o \
             -L"$build/lib" -lphysvib "-Wl,-rpath,$build/lib" -lm -o "$folder/drop3"
         (cd "$folder" && ./drop3) | sed "s/^/$version: drop3.c: /"
+        gcc -Wall -Wextra -isystem "$folder/box2d/include" -I"$build/include" "$root/Tests/Engines/changes3.c" "$folder"/objects/*.o \
+            -L"$build/lib" -lphysvib "-Wl,-rpath,$build/lib" -lm -o "$folder/changes3"
+        "$folder/changes3" || failed=1
     fi
     ! grep -q FAILED "$folder/log" || failed=1
     python3 "$root/Tests/Engines/worlds.py" "$version=$folder/run" || failed=1

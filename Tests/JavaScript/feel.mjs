@@ -10,7 +10,7 @@ import test from 'node:test';
 import { Context as Fake } from './fake-audio.mjs';
 import { load } from './installed.mjs';
 
-const folder = resolve(process.argv[2]), physvib = await (await load(folder, 'physvib')).load(), at = createRequire(join(folder, 'index.js'));
+const folder = resolve(process.argv[2]), { feel } = await load(folder, 'physvib/feel'), at = createRequire(join(folder, 'index.js'));
 const { default: Matter } = await load(folder, 'matter-js');
 function game() {
     const engine = Matter.Engine.create(), ball = Matter.Bodies.circle(200, 300, 20);
@@ -19,7 +19,7 @@ function game() {
 }
 
 test('Matter: a ball of a material is felt, and close() ends it', async () => {
-    const { engine, ball, step } = game(), felt = await physvib.feel(engine, { pixelsPerMetre: 100, fieldWidth: 8, fieldHeight: 6 });
+    const { engine, ball, step } = game(), felt = await feel(engine, { pixelsPerMetre: 100, fieldWidth: 8, fieldHeight: 6 });
     felt.set(ball, 'wooden board');
     for (let i = 0; i < 240; ++i) step();
     const events = felt.haptics.take(true), { material } = await load(folder, 'physvib');
@@ -40,15 +40,15 @@ test('other engines are known, and what is none is refused', async () => {
         await R.init();
         worlds.push(new R.World({ x: 0, y: -9.81, z: 0 }));
     }
-    for (const world of worlds) (await physvib.feel(world)).close();
-    await assert.rejects(physvib.feel({}), /feel: expected an engine's world/);
-    await assert.rejects(physvib.feel(worlds[0], { feildWidth: 1 }), /feildWidth/);
+    for (const world of worlds) (await feel(world)).close();
+    await assert.rejects(feel({}), /feel: expected an engine's world/);
+    await assert.rejects(feel(worlds[0], { feildWidth: 1 }), /feildWidth/);
 });
 
 test('with a context it plays', async () => {
     const { engine, ball, step } = game(), context = new Fake(readFileSync(at.resolve('physvib/worklet.js'), 'utf8'), 8);
     context.resume ??= async () => {};
-    const felt = await physvib.feel(engine, { pixelsPerMetre: 100, fieldWidth: 8, fieldHeight: 6, layout: 'phone4', context });
+    const felt = await feel(engine, { pixelsPerMetre: 100, fieldWidth: 8, fieldHeight: 6, layout: 'phone4', context });
     for (let i = 0; i < 100 && !felt.output && !felt.error; ++i) await new Promise(done => setTimeout(done, 10));
     assert.equal(felt.error, null);
     assert.equal(felt.output.channels, 4);
@@ -60,8 +60,8 @@ test('with a context it plays', async () => {
 test('its types are real, in node10 too', () => {
     const work = mkdtempSync(join(tmpdir(), 'physvib-types-'));
     symlinkSync(join(folder, 'node_modules'), join(work, 'node_modules'));
-    writeFileSync(join(work, 'game.ts'), `import { load } from 'physvib';\nimport { attach } from 'physvib/planck';\nasync function run(engine: { world: object; pairs: object; timing: object }) {
-    const physvib = await load(), felt = await physvib.feel(engine, { pixelsPerMetre: 100, layout: 'phone4' });
-    felt.set({}, 'wooden board');\n    const wrong: number = felt.explain(); // @ts-expect-error\n    attach(physvib, engine).update(1 / 60);\n}\nvoid run;\n`.replace('    const wrong: number = felt.explain(); // @ts-expect-error', '    // @ts-expect-error\n    const wrong: number = felt.explain();'));
+    writeFileSync(join(work, 'game.ts'), `import { feel } from 'physvib/feel';\nimport { attach } from 'physvib/planck';\nasync function run(engine: { world: object; pairs: object; timing: object }) {
+    const felt = await feel(engine, { pixelsPerMetre: 100, layout: 'phone4' });
+    felt.set({}, 'wooden board');\n    const wrong: number = felt.explain(); // @ts-expect-error\n    attach(felt.physvib, engine).update(1 / 60);\n}\nvoid run;\n`.replace('    const wrong: number = felt.explain(); // @ts-expect-error', '    // @ts-expect-error\n    const wrong: number = felt.explain();'));
     for (const way of ['node10', 'bundler']) execFileSync(process.execPath, [at.resolve('typescript/bin/tsc'), '--noEmit', '--strict', '--target', 'es2022', '--module', 'es2022', '--moduleResolution', way, join(work, 'game.ts')], { stdio: 'inherit' });
 });

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The kit: situations of Kit/situations.mjs in each engine: kit.mjs FOLDER [ENGINE...] [--only WORDS] [--table]. FOLDER: where npm has installed physvib and the engines.
+// The kit: situations of Kit/situations.mjs in each engine: kit.mjs FOLDER [ENGINE...] [--only WORDS] [--table] [--page PAGE]. FOLDER: where npm has installed physvib and the engines.
 // Right: as the closed form, or the engine's own velocities, say: onset within 0.5 ms, strength within 2 %. Own: felt as the engine moved, which is not what paper
-// says. Not there: the engine, or its driver, has no such thing. Prints a table; 1 if anything is wrong.
+// says. Not there: the engine, or its driver, has no such thing. Prints a table; 1 if anything is wrong that is
+// not `open`, or open no more.
+import { readFileSync } from 'node:fs';
 import { load } from './installed.mjs';
 import { drivers } from './Kit/drivers.mjs';
 import { g, situations } from './Kit/situations.mjs';
 
-const [folder, ...words] = process.argv.slice(2), at = words.indexOf('--only'), only = at < 0 ? '' : words.splice(at, 2)[1], isTable = words.includes('--table'), names = words.filter(word => !word.startsWith('--'));
+const [folder, ...words] = process.argv.slice(2), at = words.indexOf('--only'), only = at < 0 ? '' : words.splice(at, 2)[1], pageAt = words.indexOf('--page'), page = pageAt < 0 ? '' : words.splice(pageAt, 2)[1], isTable = words.includes('--table'), names = words.filter(word => !word.startsWith('--'));
 const physvib = await (await load(folder, 'physvib')).load(), source = { isSource: true, frequencyHz: 200, decayPerSecond: 30 }, closeMs = 0.5, closeShare = 0.02;
 
 class NotThere extends Error {}
@@ -149,7 +151,7 @@ const motionsEnd = ({ motions }, { k }) => motions[k].time + motions[k].seconds;
 const massOf = ({ motions }, body) => motions.map(({ after }) => after.get(body)?.massKg ?? 0).find(massKg => massKg > 0) ?? 0;
 const isPut = (situation, own) => (situation.acts ?? []).some(([time]) => own.at - time < 2 * own.seconds && own.at >= time - 1e-6);
 
-const table = new Map(), wrong = [], counts = {};
+const table = new Map(), wrong = [], open = [], counts = {};
 for (const [name, make] of Object.entries(drivers)) {
     if (names.length > 0 && !names.includes(name)) continue;
     counts[name] = { right: 0, own: 0, 'not there': 0, wrong: 0 };
@@ -164,7 +166,10 @@ for (const [name, make] of Object.entries(drivers)) {
         }
         ++counts[name][verdict.is];
         (table.get(title) ?? table.set(title, {}).get(title))[name] = verdict.is;
-        if (verdict.is === 'wrong') wrong.push(`${name}: ${title}: ${verdict.why}`);
+        const isOpen = situation.open?.split(' ').includes(name) ?? false;
+        if (verdict.is === 'wrong' && isOpen) open.push(`${name}: ${title}: ${verdict.why}`);
+        else if (verdict.is === 'wrong') wrong.push(`${name}: ${title}: ${verdict.why}`);
+        else if (isOpen) wrong.push(`${name}: ${title}: is open no more`);
     }
 }
 const columns = Object.keys(counts), shown = { right: 'right', own: 'own', 'not there': '-', wrong: 'WRONG' };
@@ -172,6 +177,16 @@ if (isTable) {
     console.log(`| situation | ${columns.join(' | ')} |\n| --- |${' --- |'.repeat(columns.length)}`);
     for (const [title, row] of table) console.log(`| ${title} | ${columns.map(name => shown[row[name]]).join(' | ')} |`);
 }
+// By groups, as PAGE has it.
+const groups = [...new Set([...table.keys()].map(title => title.split(':')[0]))].map(group => [group, [...table].filter(([title]) => title.startsWith(`${group}:`))]);
+const cell = (rows, name) => { const of = kind => rows.filter(([, row]) => row[name] === kind).length; return [[of('right'), ''], [of('own'), ' own'], [of('wrong'), ' wrong']].filter(([count]) => count > 0).map(([count, word]) => `${count}${word}`).join(', ') || '-'; };
+const rows = groups.map(([group, of]) => `| ${group}: ${of.length} | ${columns.map(name => cell(of, name)).join(' | ')} |`);
+if (page) {
+    const text = readFileSync(page, 'utf8'), missing = rows.filter(row => !text.includes(row));
+    for (const row of rows) console.log(row);
+    for (const row of missing) wrong.push(`${page}: expected the line ${row}`);
+}
+for (const line of open) console.log(`open: ${line}`);
 for (const line of wrong) console.log(`WRONG ${line}`);
 console.log(`\n| of ${table.size} | right | the engine's own | not there | wrong |\n| --- | --- | --- | --- | --- |`);
 for (const [name, of] of Object.entries(counts)) console.log(`| ${name} | ${of.right} | ${of.own} | ${of['not there']} | ${of.wrong} |`);

@@ -33,19 +33,17 @@
 
 /** A body of Box2D and its number. */
 typedef struct physvib_box2d3_number {
-    b2BodyId body;   /**< the body when it got its number */
-    int id;          /**< -1: removed, or it never had one */
-    int is_told;     /**< its error was returned */
-    double x_m;      /**< before the step; after it: as the step left it, as the next */
-    double y_m;      /**< see x_m */
-    double vx;       /**< see x_m */
-    double vy;       /**< see x_m */
-    double spin;     /**< before the step */
-    double free_vx;  /**< what the velocity becomes in the step if nothing is touched */
-    double free_vy;  /**< see free_vx */
-    double lost_x_m; /**< see physvib_box2d3_stop */
-    double lost_y_m; /**< see physvib_box2d3_stop */
-    double lost_rad; /**< see physvib_box2d3_stop */
+    b2BodyId body;           /**< the body when it got its number */
+    int id;                  /**< -1: removed, or it never had one */
+    int is_told;             /**< its error was returned */
+    physvib_body values;     /**< as they were set */
+    double x_m, y_m;         /**< before the step; after it: as the step left it, as the next */
+    double vx, vy;           /**< see x_m */
+    double spin;             /**< before the step */
+    double free_vx, free_vy; /**< what the velocity becomes in the step if nothing is touched */
+    double lost_x_m;         /**< see physvib_box2d3_stop */
+    double lost_y_m;         /**< see physvib_box2d3_stop */
+    double lost_rad;         /**< see physvib_box2d3_stop */
 } physvib_box2d3_number;
 
 /** State between two steps; zero it, and set `world` and `box2d`. */
@@ -120,8 +118,8 @@ PHYSVIB_UNUSED static int physvib_box2d3_remove(physvib_box2d3* haptics, b2BodyI
     return physvib_world_remove_body(haptics->world, id);
 }
 
-/* Sets the values of a body (from physvib_body_init); mass, inertia and gravity scale are read from Box2D.
- * Call it again when these change. */
+/* Sets the values of a body (from physvib_body_init); mass, inertia and gravity scale are Box2D's, as they
+ * are in each step. */
 PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3* haptics, b2BodyId body, int id,
                                              physvib_body values) {
     const int falls = b2Body_GetType(body) == b2_dynamicBody;
@@ -134,7 +132,7 @@ PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3* haptics, b2BodyId b
     if (code != PHYSVIB_OK) return code;
     number = physvib_box2d3_entry(haptics, body);
     if (!number) return PHYSVIB_ERROR_MEMORY;
-    number->id = id, number->is_told = 0;
+    number->id = id, number->is_told = 0, number->values = values;
     return PHYSVIB_OK;
 }
 
@@ -256,9 +254,11 @@ PHYSVIB_UNUSED static void physvib_box2d3_before(physvib_box2d3* haptics, physvi
     const b2BodyId body = number->body;
     const b2Vec2 g = b2World_GetGravity(haptics->box2d), v = b2Body_GetLinearVelocity(body);
     const double x = PHYSVIB_BOX2D3_CENTRE(body).x, y = PHYSVIB_BOX2D3_CENTRE(body).y,
-                 pull = b2Body_GetType(body) == b2_dynamicBody
-                            ? seconds * (double)b2Body_GetGravityScale(body)
-                            : 0;
+                 mass = b2Body_GetType(body) == b2_dynamicBody ? b2Body_GetMass(body) : 0,
+                 scale = b2Body_GetGravityScale(body), pull = mass > 0 ? seconds * scale : 0;
+    if (mass != number->values.mass_kg || scale != number->values.gravity_scale)
+        physvib_box2d3_fail(haptics, number, physvib_box2d3_set(haptics, body, number->id, number->values),
+                            physvib_error());
     if (number->x_m != x || number->y_m != y || number->vx != v.x || number->vy != v.y)
         number->lost_x_m = number->lost_y_m = number->lost_rad = 0; /* the game has moved it */
     number->x_m = x, number->y_m = y, number->vx = v.x, number->vy = v.y;

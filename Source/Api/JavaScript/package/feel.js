@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
 // All of it by one call: an engine's haptics, felt by what the page has, with one field.
 import { play } from './audio.js';
+import { attach as box2d3 } from './box2d3.js';
 import { expectThat } from './explanation.js';
 import { rumble } from './gamepad.js';
+import { attach as matter } from './matter.js';
+import { load } from './physvib.js';
+import { attach as planck } from './planck.js';
+import { attach as rapier2d } from './rapier2d.js';
+import { attach as rapier3d } from './rapier3d.js';
+import { attachVelocities } from './velocities.js';
 
 // How an engine is known, and what attaches to it; the rest of the options go to whom they are for.
 const kinds = [
-    [engine => engine.world && engine.pairs && engine.timing, () => import('./matter.js')],
-    [engine => engine.getBodyList && engine.on, () => import('./planck.js')],
-    [engine => engine.narrowPhase && engine.gravity.z !== undefined, () => import('./rapier3d.js')],
-    [engine => engine.narrowPhase, () => import('./rapier2d.js')],
-    [(engine, { b2 }) => b2 && engine.index1 > 0, () => import('./box2d3.js')],
-    [engine => typeof engine.bodies === 'function' && engine.read, () => import('./velocities.js')],
+    [engine => engine.world && engine.pairs && engine.timing, matter],
+    [engine => engine.getBodyList && engine.on, planck],
+    [engine => engine.narrowPhase && engine.gravity.z !== undefined, rapier3d],
+    [engine => engine.narrowPhase, rapier2d],
+    [(engine, { b2 }) => b2 && engine.index1 > 0, box2d3],
+    [engine => typeof engine.bodies === 'function' && engine.read, attachVelocities],
 ];
 const gestures = ['pointerdown', 'keydown', 'touchend'];
 
@@ -60,10 +67,11 @@ class Felt {
     }
 }
 
-export async function feel(physvib, engine, { pixelsPerMetre, metresPerUnit = pixelsPerMetre ? 1 / pixelsPerMetre : undefined, fieldWidth = 1, fieldHeight = fieldWidth, layout, outputs, level, latency, worklet, context, profile, phone, ...settings } = {}) {
+export async function feel(engine, { physvib, pixelsPerMetre, metresPerUnit = pixelsPerMetre ? 1 / pixelsPerMetre : undefined, fieldWidth = 1, fieldHeight = fieldWidth, layout, outputs, level, latency, worklet, context, profile, phone, ...settings } = {}) {
     const kind = kinds.find(([isOne]) => isOne(Object(engine), settings));
     expectThat(kind !== undefined, 'feel', "an engine's world (of Matter, Planck, Rapier, box2d3-wasm with b2, or { bodies, read })", engine);
-    const module = await kind[1](), haptics = (module.attach ?? module.attachVelocities)(physvib, engine, { fullScaleImpulse: 'automatic', ...settings, fieldWidth, fieldHeight, ...(metresPerUnit && { metresPerUnit }) });
+    physvib ??= await load();
+    const haptics = kind[1](physvib, engine, { fullScaleImpulse: 'automatic', ...settings, fieldWidth, fieldHeight, ...(metresPerUnit && { metresPerUnit }) });
     const field = { fieldWidth, fieldHeight }, given = Object.fromEntries(Object.entries({ layout, outputs, level, latency, worklet }).filter(([, value]) => value !== undefined));
     const pads = globalThis.navigator?.getGamepads ? rumble(physvib, { ...field, ...(profile && { profile }), ...(phone !== undefined && { phone }), ...(latency && { latency }) }) : null;
     return new Felt(physvib, haptics, { ...field, ...given, context, pads });

@@ -39,8 +39,6 @@ export class PhysVib {
     };
 
     world(settings) { return new World(this.#module, this.#registry, settings); }
-    /** All of it by one call: feel.js. */
-    async feel(engine, options) { return (await import('./feel.js')).feel(this, engine, options); }
     renderer(settings) { return new Renderer(this.#module, this.#registry, settings); }
     /** Two motors of a game controller; physvib/gamepad plays them. */
     pad(profile, settings) { return new Pad(this.#module, this.#registry, profile, settings); }
