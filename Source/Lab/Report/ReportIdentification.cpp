@@ -120,7 +120,7 @@ bool isGrid(const std::vector<IdentifiedCondition>& all) {
                                [](const auto& c) { return parseGridCell(c.matrix.label(0)).has_value(); });
 }
 
-/// Tables, tests and charts for one criterion of a correct answer.
+/// Tables and charts for one criterion of a correct answer.
 void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance) {
     const std::string suffix = tolerance ? "-tolerance-" + std::to_string(tolerance) : "",
                       words = tolerance ? ", 1 step of tolerance" : "";
@@ -135,16 +135,6 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     std::vector<std::string> names;
     for (const auto& one : all) names.push_back(one.condition);
     const ConditionAxes axes = ConditionAxes::of(names);
-    if (axes.factors.size() == 2 && !tolerance)
-        report.page.paragraph("condition.1 and condition.2 are the parts of the conditions' names: " +
-                              listed(axes.series) + "; " + listed(axes.groups) + ".");
-    if (!axes.factors.empty()) {
-        StudyTest test{StudyTest::Kind::anova, values, "percent_correct", axes.factors};
-        report.test(test);
-        test.kind = StudyTest::Kind::pairs;
-        test.isBonferroni = true;
-        report.test(test);
-    }
     const bool hasPeople = all.front().shares.size() > 1;
     BarChart it{report.frame("Information transfer" + words), "condition", "IT (bit)", axes.groups,
                 barsOf(axes, all, [](const auto& c) { return ChartValue::around(c.transfer.bits); })};
@@ -249,26 +239,6 @@ std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std
     return lineChart(chart);
 }
 
-/// Whether perceived rows or columns differ by target.
-void testPlaces(ReportBuilder& report, const PlacesOf& one, bool hasConditions, bool isRow) {
-    StudyTest test{StudyTest::Kind::anova, trialsTable, isRow ? "y" : "x"};
-    if (hasConditions) test.where = {"condition=" + one.condition};
-    std::set<int> rows, columns;
-    for (const LocationTrial& trial : one.trials) {
-        rows.insert(trial.targetRow);
-        columns.insert(trial.targetColumn);
-    }
-    if (rows.size() > 1) test.within.emplace_back("target_row");
-    if (columns.size() > 1) test.within.emplace_back("target_column");
-    if (test.within.empty()) return;
-    report.test(test);
-    if ((isRow ? rows : columns).size() < 2) return;
-    test.kind = StudyTest::Kind::pairs;
-    test.within = {isRow ? "target_row" : "target_column"};
-    test.isBonferroni = true;
-    report.test(test);
-}
-
 } // namespace
 
 void tellPlaces(ReportBuilder& report) {
@@ -310,12 +280,6 @@ void tellPlaces(ReportBuilder& report) {
     if (!grids.empty())
         report.page.figure(grids, "Neighbouring rows and columns merged until every cell reaches 1.42 % (as "
                                   "thesis Fig. 4.9 b): the perceptual resolution, columns x rows.");
-    report.page.subheading("Do perceived places differ by target?");
-    report.page.paragraph("As thesis Table 4.1, but over participants: each participant's mean per target is "
-                          "one value. The thesis' degrees of freedom are those of single trials.");
-    const bool hasConditions = all.column("condition").has_value() && places.size() > 1;
-    for (const PlacesOf& one : places)
-        for (const bool isRow : {true, false}) testPlaces(report, one, hasConditions, isRow);
 }
 
 void tellPlaceErrors(ReportBuilder& report) {

@@ -75,11 +75,6 @@ void tellMagnitudes(ReportBuilder& report) {
                     ", and "
                     "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
                     "their own geometric mean first.");
-    StudyTest test{StudyTest::Kind::friedman, trialsTable, "value", {"stimulus"}};
-    report.test(test);
-    test.kind = StudyTest::Kind::pairs;
-    test.isOfRanks = true;
-    report.test(test);
 }
 
 /// "wood small" of "pair=wood size=small".
@@ -99,20 +94,6 @@ std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>&
         if (s.kind == LevelTrial::Kind::adjustment)
             bars.emplace_back(valuesOf(s.stimulus), ChartValue::around(s.estimate, s.halfInterval));
     return bars.size() < 2 ? std::string{} : barsChart(frame, "stimulus", "level (dB)", bars);
-}
-
-/// Compares the conditions' thresholds within participants, methods apart, as each has a threshold of its
-/// own.
-void tellDifferences(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
-    for (const auto& [kind, method] :
-         {std::pair{LevelTrial::Kind::staircase, "staircase"}, {LevelTrial::Kind::quest, "quest"}}) {
-        if (std::ranges::count(summaries, kind, &LevelSummary::kind) < 2) continue;
-        report.test({StudyTest::Kind::pairs,
-                     "thresholds.csv",
-                     "threshold",
-                     {"condition"},
-                     {std::string("method=").append(method)}});
-    }
 }
 
 /// Warns about adjustments at the end of their range, which may have been limited by it.
@@ -156,7 +137,6 @@ void tellLevels(ReportBuilder& report) {
     auto summaries = summariseLevels(trials);
     if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest))
         report.addTable("thresholds.csv", words.participants);
-    tellDifferences(report, summaries);
     tellEndsOfRanges(report);
     if (const std::string chart = matchesChart(report, summaries); !chart.empty())
         report.page.figure({chart}, "Levels that were set by adjustment: means" + report.intervals() + ".");

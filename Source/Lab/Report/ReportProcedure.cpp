@@ -300,9 +300,7 @@ void tellProvenance(ReportBuilder& report) {
     if (report.people() > 1) facts.emplace_back("intervals over participants: Student's t");
     report.page.list(facts);
     report.page.paragraph(
-        std::string{
-            "Every table below is CSV with names of columns in its second line, after one of its origin"} +
-        (report.tests().empty() ? "." : "; analysis.R runs every test on them."));
+        "Every table below is CSV with names of columns in its second line, after one of its origin.");
     std::vector<std::string> files;
     for (const auto& [name, text] : report.tables()) files.push_back(name);
     report.page.list(files);

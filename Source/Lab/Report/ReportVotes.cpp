@@ -15,8 +15,6 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t mostTestedFactors = 3;
-
 /// Factors in condition names like "pair=wood size=small", with their values in table order; empty if a
 /// condition has another kind of name.
 std::vector<std::pair<std::string, std::vector<std::string>>>
@@ -47,19 +45,6 @@ bool hasWord(std::string_view condition, const std::string& factor, const std::s
 /// Shares of one participant have Wilson's interval over trials.
 std::string shareIntervals(const ReportBuilder& report) {
     return report.people() > 1 ? report.intervals() : ", of one participant: 95 % intervals over trials";
-}
-
-void listChoiceTests(ReportBuilder& report,
-                     const std::vector<std::pair<std::string, std::vector<std::string>>>& factors,
-                     const std::string& alternative) {
-    StudyTest test{StudyTest::Kind::friedman, trialsTable, "choice=" + alternative};
-    for (const auto& [name, values] : factors)
-        if (values.size() > 1 && test.within.size() < mostTestedFactors) test.within.push_back(name);
-    if (test.within.empty()) return;
-    report.test(test);
-    test.kind = StudyTest::Kind::pairs;
-    test.isOfRanks = test.isBonferroni = true;
-    report.test(test);
 }
 
 /// Mean share of the first alternative for each combination of two factors, over the levels of the others.
@@ -185,8 +170,6 @@ void tellChoices(ReportBuilder& report) {
                            shareIntervals(report) + ".");
     if (summaries.front().shares.size() != 2) return;
     const std::string alternative = summaries.front().shares.front().alternative;
-    report.test({StudyTest::Kind::choices, trialsTable});
-    listChoiceTests(report, factors, alternative);
     std::vector<std::pair<std::string, std::vector<std::string>>> several;
     for (const auto& factor : factors)
         if (factor.second.size() > 1) several.push_back(factor);
@@ -210,19 +193,6 @@ void tellRatings(ReportBuilder& report) {
     std::set<std::string> conditions;
     for (const RatingTrial& trial : trials) conditions.insert(trial.condition);
     const bool hasMethods = summaries.size() > conditions.size();
-    for (std::size_t s = 0; s < scales.size() && conditions.size() > 1; ++s) {
-        StudyTest test{StudyTest::Kind::anova, trialsTable, scales[s]};
-        if (!hasMethods)
-            test.within = {report.trials.all.column("stimulus") ? "stimulus" : "condition"};
-        else
-            for (const RatedFactor& factor : ratedFactors)
-                if (conditionNamed(summaries, factor.varied) && conditionNamed(summaries, factor.fixed))
-                    test.within.emplace_back(factor.name);
-        report.test(test);
-        if (hasMethods) continue; // two levels each: no pairs
-        test.kind = StudyTest::Kind::pairs;
-        report.test(test);
-    }
     if (hasMethods)
         report.page.figure(factorCharts(report, scales, summaries),
                            "Mean scores by factor (as thesis Fig. 5.13)" + report.intervals() + ".");
