@@ -6,6 +6,7 @@
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Report/ReportPage.h"
 #include "Lab/Report/ReportTrials.h"
+#include "Lab/Study/ThesisDeviations.h"
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -31,6 +32,14 @@ public:
     /// ", 95 % intervals over participants"; of one participant, who has none, that there are none.
     std::string intervals() const {
         return people() > 1 ? ", 95 % intervals over participants" : ", of one participant without intervals";
+    }
+
+    /// " (as thesis Fig. 4.4)" in the report of one of the thesis' own studies, else empty.
+    std::string asThesis(std::string_view figure) const {
+        const auto isOwn = [&](const ThesisDeviation& one) { return one.protocol == trials.protocol->name; };
+        return trials.protocol && std::ranges::any_of(thesisDeviations, isOwn)
+                   ? " (as thesis " + std::string{figure} + ")"
+                   : std::string{};
     }
 
     /// Options for an analysis of one of the report's tables.

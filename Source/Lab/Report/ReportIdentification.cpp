@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Report sections on identification (information transfer, percent correct by condition and by stimulus) and
 // on pointing.
-#include "Io/Text/NameList.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ReportBuilder.h"
@@ -9,7 +8,6 @@
 #include "Lab/Study/Places.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
-#include <set>
 
 namespace physvib {
 namespace {
@@ -116,8 +114,10 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
 }
 
 bool isGrid(const std::vector<IdentifiedCondition>& all) {
-    return std::ranges::all_of(all,
-                               [](const auto& c) { return parseGridCell(c.matrix.label(0)).has_value(); });
+    for (const IdentifiedCondition& one : all)
+        for (std::size_t i = 0; i < one.matrix.stimuli(); ++i)
+            if (!parseGridCell(one.matrix.label(i))) return false;
+    return true;
 }
 
 /// Tables and charts for one criterion of a correct answer.
@@ -141,7 +141,8 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     it.ceilings = ceilingsOf(axes, all);
     it.ceilingWords = "most possible";
     report.page.figure({barChart(it)}, "Information transfer of all participants' trials together" + words +
-                                           " (as thesis Fig. 3.11, 4.2): one estimate per condition, so it "
+                                           report.asThesis("Fig. 3.11, 4.2") +
+                                           ": one estimate per condition, so it "
                                            "has no interval. Dotted: log2 of the number of stimuli.");
     if (hasPeople) {
         it.frame = report.frame("Information transfer of participants" + words);
@@ -154,7 +155,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)", axes.groups,
                 barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
     pc.most = 100.0;
-    report.page.figure({barChart(pc)}, "Mean percent correct" + words + " (as thesis Fig. 3.12, 4.3)" +
+    report.page.figure({barChart(pc)}, "Mean percent correct" + words + report.asThesis("Fig. 3.12, 4.3") +
                                            report.intervals() + ".");
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
@@ -168,7 +169,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     if (charts.empty()) return;
     report.page.figure(
         charts, isGrid(all)
-                    ? "Percent correct by place" + words + " (as thesis Fig. 4.4)" + report.intervals() +
+                    ? "Percent correct by place" + words + report.asThesis("Fig. 4.4") + report.intervals() +
                           (hasPeople ? " where there is room." : ".")
                     : "Confusions: rows are stimuli, columns responses, darker is a larger share of the "
                       "stimulus' trials. Where labels have no room every second, third ... is shown.");
@@ -182,13 +183,7 @@ void tellIdentification(ReportBuilder& report) {
     const auto data = readIdentification({&file, 1});
     if (!data) return report.page.note(data.error);
     tellCriterion(report, data.value, 0);
-    const auto all = conditionsOf(data.value, 0);
-    const bool allGrids = std::ranges::all_of(all, [](const auto& c) {
-        for (std::size_t i = 0; i < c.matrix.stimuli(); ++i)
-            if (!parseGridCell(c.matrix.label(i))) return false;
-        return true;
-    });
-    if (allGrids) tellCriterion(report, data.value, 1);
+    if (isGrid(conditionsOf(data.value, 0))) tellCriterion(report, data.value, 1);
 }
 
 // Pointing: responses with normal distributions, perceived rows and columns, most likely targets, percent
@@ -266,20 +261,24 @@ void tellPlaces(ReportBuilder& report) {
     }
     report.page.figure(responses,
                        "Every response (dots, coloured by target) and the normal distribution of each "
-                       "target's responses (ellipses of one standard deviation; as thesis Fig. 4.6).");
+                       "target's responses (ellipses of one standard deviation)" +
+                           report.asThesis("Fig. 4.6") + ".");
     const auto& all = report.trials.all;
     report.page.figure(
         {perceivedChart(report, all, places, false), perceivedChart(report, all, places, true)},
-        "Mean perceived column and row against the intended one (as thesis Fig. 4.7)" + report.intervals() +
-            ".");
-    report.page.figure(territories, "The likeliest target of every place (Eq. 4.4, 4.5; as thesis Fig. 4.8). "
-                                    "Numbers, row,column of the target, stand at the mean of its responses; "
-                                    "where one lies in another's territory, it is not told apart.");
-    report.page.figure(counts, "Percent counts: the share of the field that each target is likeliest for (as "
-                               "thesis Fig. 4.9 a). Framed: below 1.42 %.");
+        "Mean perceived column and row against the intended one" + report.asThesis("Fig. 4.7") +
+            report.intervals() + ".");
+    report.page.figure(territories,
+                       "The likeliest target of every place" + report.asThesis("Fig. 4.8") +
+                           ". "
+                           "Numbers, row,column of the target, stand at the mean of its responses; "
+                           "where one lies in another's territory, it is not told apart.");
+    report.page.figure(counts, "Percent counts: the share of the field that each target is likeliest for" +
+                                   report.asThesis("Fig. 4.9 a") + ". Framed: below 1.42 %.");
     if (!grids.empty())
-        report.page.figure(grids, "Neighbouring rows and columns merged until every cell reaches 1.42 % (as "
-                                  "thesis Fig. 4.9 b): the perceptual resolution, columns x rows.");
+        report.page.figure(grids, "Neighbouring rows and columns merged until every cell reaches 1.42 %" +
+                                      report.asThesis("Fig. 4.9 b") +
+                                      ": the perceptual resolution, columns x rows.");
 }
 
 void tellPlaceErrors(ReportBuilder& report) {

@@ -76,7 +76,8 @@ void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run
         "analysis.R, beside this page, chooses each test by its measure and by the factors that rows have, "
         "and "
         "runs it in R (Debian: r-base-core; r-cran-lme4 where people lack levels). The unit is the "
-        "participant. Trainings and trials that did not leave are left out. Corrections are named with their "
+        "participant. Training, and trials that did not leave, are left out. Corrections are named with "
+        "their "
         "p; sphericity and normality are shown, and decide nothing.");
     StudyFiles files = report.tables();
     files[analysisScriptName] = made.files[analysisScriptName];
@@ -203,7 +204,7 @@ namespace {
 constexpr int mostSimulated = 6; // as many as tests need; more change no test's call
 constexpr std::string_view notListed =
     "not listed, as R (Debian: r-base-core) was not there: analysis.R chooses";
-constexpr std::string_view testMark = "- test: ", oldTestMark = "- physvib analyse ";
+constexpr std::string_view testMark = "- test: ";
 
 std::string codeOf(int number) { return std::string("P").append(std::to_string(number)); }
 
@@ -270,11 +271,9 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     if (!head.contains("plan") || !head.contains("hash") || !head.contains("participants"))
         return Failure{std::string{name} + ":1: expected a plan of `physvib study plan`"};
     std::set<std::string> planned;
-    bool isOld = false; // its tests are calls of an analysis that is gone
     while (!rest.empty()) {
         const std::string_view line = takeUntil('\n', rest);
         if (line.starts_with(testMark)) planned.emplace(line.substr(testMark.size()));
-        isOld |= line.starts_with(oldTestMark);
     }
     std::vector<std::string> sentences{"The plan has the hash " + contentHash(std::string{plan}) + "."};
     if (head.at("hash") != trials.common("hash"))
@@ -287,11 +286,6 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     if (std::to_string(people.size()) != head.at("participants"))
         sentences.push_back("Planned were " + head.at("participants") + " participants, " +
                             std::to_string(people.size()) + " took part.");
-    if (isOld) {
-        sentences.emplace_back(
-            "The plan lists its tests as calls of an earlier version: compare them with those here.");
-        return sentences;
-    }
     if (tests.empty() || plan.find(notListed) != std::string_view::npos) {
         sentences.emplace_back(
             "The tests are not compared: R did not run, now or when it was planned, or found "

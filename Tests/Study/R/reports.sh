@@ -18,3 +18,10 @@ for study in patterns phantom-grids phantom-places model-or-sound eight-methods 
     echo "$study: $ran tests, $run with a p"
     [ "$ran" = "$run" ]
 done
+# Without R the page says what to install, and has all but the tests.
+mkdir bin
+for program in env timeout; do ln -s "$(command -v $program)" bin/; done
+PATH=$PWD/bin "$physvib" report trials/magnitudes-P*.csv --out without >told
+grep -q 'tests: run `Rscript without/analysis.R` where R is (Debian: r-base-core)' told
+grep -q 'It has not run: type' without/index.html
+[ -e without/analysis.R ] && [ ! -e without/tests.csv ]
