@@ -25,7 +25,11 @@ TEST(CsvTable, FaultsAreNamedByLine) {
     const auto fault = [](std::string_view text) { return readCsvTable(text, "t.csv").error; };
     EXPECT_EQ(fault(""), "t.csv:1: expected a header line, found the end of the file");
     EXPECT_EQ(fault("a,a\n1,2\n"), "t.csv:1: column a appears twice");
-    EXPECT_EQ(fault("a,\n1,2\n"), "t.csv:1: expected a name for every column");
+    EXPECT_EQ(fault("a,,b\n1,2,3\n"), "t.csv:1: expected a name for every column");
+    EXPECT_EQ(fault("a,\n1,2\n"), "t.csv:2: expected nothing in the last column, which has no name");
+    EXPECT_EQ(fault("\xFF\xFE"
+                    "a"),
+              "t.csv:1: expected UTF-8, found UTF-16: save it as CSV UTF-8");
     EXPECT_EQ(fault("a,b\n1,2,3\n"),
               "t.csv:2: expected 2 cells, found 3 (a cell with a comma stands in quotes)");
     EXPECT_EQ(fault("a,b\n1,2\n\n1,2\n"),
@@ -34,6 +38,17 @@ TEST(CsvTable, FaultsAreNamedByLine) {
     EXPECT_EQ(fault("a\n\"1\"2\n"), "t.csv:2: expected quotes around whole cells, and in pairs");
     EXPECT_EQ(fault("a\n1\"2\n"), "t.csv:2: expected quotes around whole cells, and in pairs");
     EXPECT_EQ(fault("a\n"), "t.csv:1: expected rows after the header, found none");
+}
+
+TEST(CsvTable, SpreadsheetsAndExperimentsSeparateCellsOtherwise) {
+    for (const char* text : {"a,b,\n1.5,x,\n", "a;b\n1,5;x\n", "sep=;\na;b\n1,5;x\n", "sep=,\na,b\n1.5,x\n",
+                             "a\tb\n1.5\tx\n", "\"a\";\"b\"\n1,5;\"x\"\n"}) {
+        const auto table = readCsvTable(text, "t.csv");
+        ASSERT_TRUE(table) << text << table.error;
+        EXPECT_EQ(table.value.columns, (std::vector<std::string>{"a", "b"})) << text;
+        EXPECT_EQ(table.value.rows.front().cells, (std::vector<std::string>{"1.5", "x"})) << text;
+    }
+    EXPECT_EQ(readCsvTable("a\tb\tc\n1\t\t\n", "t.csv").value.rows.front().cells[0], "1") << "empty cells";
 }
 
 TEST(CsvTable, WrittenCellsAreReadBack) {

@@ -47,7 +47,8 @@ TEST(StudyCsv, ResponsesOutsideTheFieldAreRefused) {
     EXPECT_EQ(readOne(readLocations, head + "A,1,1,0.5,0.5\nA,1,1,1.5,0.5\n").error,
               "f.csv:3: column x: expected a number from 0 to 1, found \"1.5\"");
     EXPECT_EQ(readOne(readLocations, head + "A,1,1,0.5,nan\n").error,
-              "f.csv:2: column y: expected a number from 0 to 1, found \"nan\"");
+              "f.csv:2: column y: expected a number from 0 to 1, found \"\"")
+        << "no answer";
     EXPECT_EQ(readOne(readLocations, head + "A,0,1,0.5,0.5\n").error,
               "f.csv:2: column target_column: expected a whole number from 1 to 16, found \"0\"");
     EXPECT_EQ(readOne(readLocations, "condition,x\nA,1\n").error,
@@ -71,6 +72,54 @@ TEST(StudyCsv, ChoicesByConditionOrStimulus) {
     EXPECT_EQ(data.value.conditions.front().trials[1].condition, "steel");
     EXPECT_EQ(readOne(readChoices, "condition,choice\nwood,\n").error,
               "f.csv:2: column choice: expected a label, found \"\"");
+}
+
+TEST(StudyCsv, ConditionsAndStimuliAreToldApart) {
+    const auto names = [](const char* rows) {
+        std::vector<std::string> names;
+        const auto data = readOne(readChoices, std::string{"condition,stimulus,choice\n"} + rows);
+        for (const auto& trial : data.value.conditions.front().trials) names.push_back(trial.condition);
+        return names;
+    };
+    EXPECT_EQ(names("low,s,a\nhigh,s,a\n"), (std::vector<std::string>{"low", "high"}));
+    EXPECT_EQ(names("low,s,a\nlow,t,a\n"), (std::vector<std::string>{"s", "t"}));
+    EXPECT_EQ(names("low,s,a\nhigh,t,a\n"),
+              (std::vector<std::string>{"condition=low stimulus=s", "condition=high stimulus=t"}));
+    EXPECT_EQ(names("low,g=1 l=2,a\nhigh,g=2 l=2,a\n").front(), "condition=low g=1 l=2");
+}
+
+TEST(StudyCsv, OtherProgramsWordsForNothingAndForRight) {
+    const auto answers = [](const std::string& rows) {
+        return readOne(
+            [](auto files) {
+                return readLevelAnswers(files, {"level_db", "correct", false});
+            },
+            "participant,level_db,correct\n" + rows);
+    };
+    const auto data = answers("NA,1,true\nNA,2,FALSE\n01,2,1.0\n01,1,null\n01,1,NA\n");
+    ASSERT_TRUE(data) << data.error;
+    const auto& trials = data.value.conditions.front().trials;
+    ASSERT_EQ(trials.size(), 3u) << "null and NA are no answers";
+    EXPECT_EQ(trials[0].participant, "NA") << "a code";
+    EXPECT_EQ(trials[0].answer + trials[1].answer + 10 * trials[2].answer, 11.0);
+    const std::string head =
+        "# physvib 1 protocol=p participant=P\nparticipant,condition,session,trial,choice\n";
+    EXPECT_EQ(readOne(readChoices, head + "P,c,s,1,null\n").value.conditions.front().trials.front().choice,
+              "null")
+        << "in our own files it is a label";
+    EXPECT_EQ(readOne(readChoices, head + "P,c,s,1,a\nP,c,s,2,a\nP,c,s,1,a\n").error,
+              "f.csv:5: column trial: expected each trial once, not as in line 3, found \"1\"");
+}
+
+TEST(StudyCsv, TrainingIsNoThreshold) {
+    const std::string head = "participant,condition,session,phase,task,stimulus,level_db,correct,value\n";
+    const auto trials = [&](const std::string& rows) {
+        return readOne(readLevels, head + rows).value.conditions.front().trials;
+    };
+    EXPECT_EQ(trials("P,c,t,training,choose,s,9,1,\nP,c,m,main,choose,s,1,1,\n").size(), 1u);
+    EXPECT_EQ(trials("P,c,t,training,adjust,s,,,9\nP,c,m,main,adjust,s,,,1\n").front().value, 1.0);
+    EXPECT_EQ(trials("P,c,t,training,adjust,s,,,9\nP,c,m,main,choose,s,1,1,\n").size(), 2u)
+        << "matched for it";
 }
 
 TEST(StudyCsv, PercentCountsAreReadBackAsWritten) {

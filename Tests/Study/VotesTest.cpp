@@ -49,18 +49,18 @@ TEST(Votes, ThirteenForAndSevenAgainstIsNoDecision) {
     EXPECT_NEAR(one.shares[0].least, proportion(one.shares[0].hits, 100).least, 1e-12);
 }
 
-TEST(Votes, RatingsOfTheThesisMethodsAlsoShowTheirParts) {
-    const auto summaries = summariseRatings({{"P1", "AV-FV-DRV", {80, 60}},
-                                             {"P2", "AV-FV-DRV", {70, 60}},
-                                             {"P1", "AF-FF-DRF", {30, 40}},
-                                             {"P2", "AF-FF-DRF", {40, 40}}});
-    ASSERT_EQ(summaries.size(), 2u + 6u);
-    EXPECT_EQ(summaries[1].condition, "AV-FV-DRV");
+TEST(Votes, RatingsAlsoShowTheLevelsOfFactors) {
+    const auto summaries = summariseRatings({{"P1", "f=2 l=1", {80, 60}},
+                                             {"P2", "f=2 l=1", {70, 60}},
+                                             {"P1", "f=1 l=1", {30, 40}},
+                                             {"P2", "f=1 l=1", {40, 40}}});
+    ASSERT_EQ(summaries.size(), 2u + 2u) << "l does not vary";
+    EXPECT_EQ(summaries[1].condition, "f=2 l=1");
     EXPECT_NEAR(summaries[1].means[0], 75.0, 1e-12);
     EXPECT_NEAR(summaries[1].deviations[0], std::sqrt(50.0), 1e-9);
     EXPECT_NEAR(summaries[1].halfIntervals[0], 12.706204736174698 * 5.0, 1e-9);
     EXPECT_EQ(summaries[1].halfIntervals[1], 0.0);
-    EXPECT_EQ(summaries[2].condition, "AV");
+    EXPECT_EQ(summaries[2].condition, "f=1");
 }
 
 TEST(Votes, OneRatingHasNoIntervalAndNoNumberIsMissing) {
@@ -79,8 +79,9 @@ TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
     const auto summaries = summariseLevels(trials);
     ASSERT_EQ(summaries.size(), 1u);
     EXPECT_EQ(summaries[0].reversals, 4u); // at 4, 5, 4.5 and 5
-    EXPECT_NEAR(summaries[0].estimate, (4.75 + 1.0) / 2, 1e-12);
-    EXPECT_NEAR(summaries[0].deviation, 3.75 / std::sqrt(2.0), 1e-12);
+    EXPECT_NEAR(summaries[0].estimate, 4.75, 1e-12);
+    EXPECT_EQ(summaries[0].leftOut,
+              std::vector<std::string>{"participant P2 left out: a staircase has fewer than two reversals"});
 }
 
 TEST(LevelTrials, MatchesAreMeansAndMagnitudesGeometricMeans) {

@@ -11,10 +11,10 @@ namespace physvib {
 namespace {
 
 /// Removes a cell from the front of `rest`; false if its quotes do not match.
-bool takeCell(std::string_view& rest, std::string& cell) {
-    const std::size_t start = std::min(rest.find_first_not_of(" \t"), rest.size());
+bool takeCell(std::string_view& rest, std::string& cell, char separator) {
+    const std::size_t start = std::min(rest.find_first_not_of(separator == '\t' ? " " : " \t"), rest.size());
     if (start == rest.size() || rest[start] != '"') {
-        cell = trimmed(takeUntil(',', rest));
+        cell = trimmed(takeUntil(separator, rest));
         return cell.find('"') == std::string::npos;
     }
     rest.remove_prefix(start + 1);
@@ -28,7 +28,16 @@ bool takeCell(std::string_view& rest, std::string& cell) {
         cell += '"';
         rest.remove_prefix(1);
     }
-    return trimmed(takeUntil(',', rest)).empty();
+    return trimmed(takeUntil(separator, rest)).empty();
+}
+
+/// A number with a decimal comma, as spreadsheets write where semicolons separate cells: with a point.
+void takeDecimalComma(std::string& cell) {
+    const std::size_t comma = cell.find(',');
+    if (comma == std::string::npos || cell.find('.') != std::string::npos) return;
+    std::string number = cell;
+    number[comma] = '.';
+    if (parseNumber<double>(number)) cell = std::move(number);
 }
 
 /// A spreadsheet would evaluate such text as a formula; a leading apostrophe keeps it text. Text that begins
@@ -51,6 +60,7 @@ public:
     Result<CsvTable> read() {
         if (!readHeader()) return Failure{placed()};
         for (CsvRow row; readRow(row) && keep(row);) row.cells.reserve(table_.columns.size());
+        if (error_.empty() && !table_.columns.empty() && table_.columns.back().empty()) dropLastColumn();
         if (error_.empty() && table_.rows.empty()) fail("expected rows after the header, found none");
         if (!error_.empty()) return Failure{placed()};
         return std::move(table_);
@@ -61,20 +71,49 @@ private:
         return table_.name + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ": " + error_;
     }
 
+    /// Programs that end every line with a separator have a last column without name and cells.
+    void dropLastColumn() {
+        for (CsvRow& row : table_.rows) {
+            if (!row.cells.back().empty() && header_ == CsvHeader::named) {
+                line_ = row.line;
+                fail("expected nothing in the last column, which has no name");
+                return;
+            }
+            row.cells.pop_back();
+        }
+        table_.columns.pop_back();
+    }
+    /// The separator of a header, or of the line sep= before it.
+    void takeSeparator(std::string_view line) {
+        for (const char one : {',', ';', '\t'})
+            if (line.find(one) != std::string_view::npos) {
+                separator_ = one;
+                return;
+            }
+    }
     bool readHeader() {
         std::string_view header;
+        if (rest_.starts_with("\xFF\xFE") || rest_.starts_with("\xFE\xFF"))
+            return fail("expected UTF-8, found UTF-16: save it as CSV UTF-8");
         while (header.empty()) {
             if (rest_.empty()) return fail("expected a header line, found the end of the file");
             header = nextLine();
+            if (table_.columns.empty() && header.starts_with("sep=") && header.size() == 5) {
+                isTold_ = true;
+                separator_ = header.back();
+                header = {};
+            }
             if (!header.starts_with('#')) continue;
             if (table_.comments.size() < limits::maxTableColumns)
                 table_.comments.emplace_back(trimmed(header.substr(1)));
             header = {};
         }
+        if (!isTold_) takeSeparator(header);
         if (!takeCells(header, table_.columns)) return false;
         for (const std::string& column : table_.columns) {
             if (header_ == CsvHeader::loose) break;
-            if (column.empty()) return fail("expected a name for every column");
+            if (column.empty() && &column != &table_.columns.back())
+                return fail("expected a name for every column");
             if (std::ranges::count(table_.columns, column) > 1)
                 return fail("column " + printable(column) + " appears twice");
         }
@@ -104,19 +143,23 @@ private:
                 return fail("expected at most " + std::to_string(limits::maxTableColumns) +
                             " cells in a row");
             const std::string_view whole = line;
-            if (!takeCell(line, cells.emplace_back()))
+            if (!takeCell(line, cells.emplace_back(), separator_))
                 return fail("expected quotes around whole cells, and in pairs");
             if (cells.back().starts_with('\'') && isTakenForFormula(cells.back())) cells.back().erase(0, 1);
+            if (separator_ == ';') takeDecimalComma(cells.back());
             if (cells.back().size() > limits::maxCellBytes)
                 return fail("expected cells of at most " + std::to_string(limits::maxCellBytes) + " bytes");
             const std::size_t taken = whole.size() - line.size();
-            another = taken > 0 && whole[taken - 1] == ',';
+            another = taken > 0 && whole[taken - 1] == separator_;
         }
         return true;
     }
     std::string_view nextLine() {
         ++line_;
-        return trimmed(takeUntil('\n', rest_));
+        std::string_view line = takeUntil('\n', rest_);
+        if (separator_ != '\t') return trimmed(line);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        return line;
     }
     bool fail(std::string message) {
         error_ = std::move(message);
@@ -125,6 +168,8 @@ private:
 
     std::string_view rest_;
     CsvHeader header_;
+    char separator_ = ',';
+    bool isTold_ = false; // by a line sep=
     std::size_t line_ = 0;
     CsvTable table_;
     std::string error_;

@@ -28,13 +28,15 @@ struct CsvTable {
     std::string fault(const CsvRow& row, std::size_t column, std::string_view expected) const;
 };
 
-/// Whether column names must be present and unique. Experiment programs end lines with a comma or repeat
-/// names: with loose, unused columns may be faulty, and of equal names the first counts.
+/// Whether column names must be present and unique. Experiment programs repeat names: with loose, unused
+/// columns may be faulty, and of equal names the first counts.
 enum class CsvHeader { named, loose };
 
 /// The table in `text`, or a one-line error naming file, line and expectation. A header line names the
 /// columns; comments (#) and blank lines may precede it, blank lines may end the file. A cell in double
-/// quotes may contain commas and doubled quotes, but no line end. Any thread.
+/// quotes may contain commas and doubled quotes, but no line end. As spreadsheets write them: semicolons
+/// (with decimal commas) or tabs instead of commas, a first line sep=;, a separator after every last
+/// cell. Any thread.
 Result<CsvTable> readCsvTable(std::string_view text, std::string_view name,
                               CsvHeader header = CsvHeader::named);
 

@@ -28,9 +28,13 @@ const char* kindWord(LevelTrial::Kind kind) {
 void tell(std::ostream& out, const LevelSummary& s) {
     const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
     out << wholeLabel(s.condition) << (s.stimulus.empty() ? "" : ", " + wholeLabel(s.stimulus)) << ": "
-        << kindWord(s.kind) << ' ' << fixedNumber(s.estimate, isMagnitude ? 2 : 1)
-        << (isMagnitude ? "" : " dB");
+        << kindWord(s.kind) << ' ';
     const bool isThreshold = s.kind == LevelTrial::Kind::staircase || s.kind == LevelTrial::Kind::quest;
+    if (isThreshold && s.thresholds.empty()) {
+        out << "of nobody, " << counted(s.trials, "trial") << '\n';
+        return;
+    }
+    out << fixedNumber(s.estimate, isMagnitude ? 2 : 1) << (isMagnitude ? "" : " dB");
     if (s.deviation > 0.0)
         out << " (standard deviation " << fixedNumber(s.deviation, 2) << (isMagnitude ? " of log10" : " dB")
             << (isThreshold ? " over participants)" : " over trials)");
@@ -38,7 +42,8 @@ void tell(std::ostream& out, const LevelSummary& s) {
         out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to "
             << fixedNumber(s.estimate + s.halfInterval, 1) << " dB"
             << (s.participants > 1 ? " over participants" : " of what is still possible");
-    out << ", " << counted(s.trials, "trial") << " of " << counted(s.participants, "participant");
+    out << ", " << counted(s.trials, "trial") << " of "
+        << counted(isThreshold ? s.thresholds.size() : s.participants, "participant");
     if (s.kind == LevelTrial::Kind::staircase)
         out << ", " << s.reversals << " reversals that a trial followed";
     out << '\n';
@@ -65,10 +70,6 @@ AnalysisReport analyseChoices(const AnalysisJob& o) {
     if (summaries.front().participants == 1)
         report.warnings.push_back("one participant, or no column participant: intervals are over trials, and "
                                   "say nothing about other people");
-    if (summaries.front().shares.size() == 1)
-        report.warnings.push_back("every choice is " +
-                                  printable(summaries.front().shares.front().alternative) +
-                                  ": nothing to compare");
     for (const auto& summary : summaries) {
         tell(out, summary);
         for (const auto& share : summary.shares) {
@@ -109,7 +110,9 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
         }
         out << '\n';
     }
-    if (hasIntervals) out << "+-: half of the 95 % interval over participants\n";
+    if (hasIntervals)
+        out << "+-: half of the 95 % interval over "
+            << (summaries.front().participants > 1 ? "participants" : "trials, of one participant") << '\n';
     report.words = out.str();
     report.table = table.text();
     report.picture = [scales = scales, summaries, isSimulated = report.isSimulated] {
@@ -130,11 +133,8 @@ AnalysisReport analyseLevels(const AnalysisJob& o) {
     std::ostringstream out;
     for (const LevelSummary& s : summaries) {
         tell(out, s);
-        if (s.flatRuns > 0)
-            report.warnings.push_back(printable(s.condition) + ": " + std::to_string(s.flatRuns) +
-                                      (s.flatRuns == 1 ? " staircase has" : " staircases have") +
-                                      " fewer than two reversals: the level of the last trial "
-                                      "stands for a threshold");
+        for (const std::string& words : s.leftOut)
+            report.warnings.push_back(printable(s.condition) + ": " + words);
         for (const auto& [participant, threshold] : s.thresholds)
             each.row(s.kind == LevelTrial::Kind::quest ? "quest" : "staircase", s.condition, participant,
                      threshold);
@@ -184,31 +184,15 @@ void leaveOut(AnalysisReport& report, const std::string& condition, const std::s
 
 /// Error line if no participant could be fitted.
 AnalysisReport nobodyFitted(const AnalysisJob& o, const AnalysisReport& report) {
-    return {o.files.front() + ": nobody can be fitted; " + report.warnings.back()};
+    std::string words = o.files.front() + ": nobody can be fitted";
+    for (const std::string& one : report.warnings) words += "; " + one;
+    return {words};
 }
 
 /// Chart of the first condition; reports have charts of all.
 ChartFrame frameOf(const AnalysisJob& o, const std::string& condition, bool isSimulated) {
     return {"fit", condition.empty() ? std::filesystem::path{o.files.front()}.filename().string() : condition,
             isSimulated};
-}
-
-/// Warning for a threshold outside the participant's levels; empty if it lies between them.
-std::string beyondWords(const std::vector<LevelAnswer>& trials, const std::string& participant,
-                        const PsychometricFunction& f) {
-    const double threshold = f.threshold;
-    double least = threshold, most = threshold;
-    bool isFirst = true;
-    for (const LevelAnswer& trial : trials) {
-        if (trial.participant != participant) continue;
-        least = isFirst ? trial.level : std::min(least, trial.level);
-        most = isFirst ? trial.level : std::max(most, trial.level);
-        isFirst = false;
-    }
-    if (threshold >= least && threshold <= most) return {};
-    return "participant " + printable(participant) + ": the threshold, " +
-           fixedNumber(threshold, decimalsOf(f.jnd())) + ", lies outside the levels that were played, " +
-           plainNumber(least) + " to " + plainNumber(most);
 }
 
 } // namespace
@@ -230,8 +214,6 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
                 continue;
             }
             const PsychometricFunction& f = own.fit.function;
-            if (std::string words = beyondWords(condition.trials, own.participant, f); !words.empty())
-                report.warnings.push_back(prefixOf(condition.name) + words);
             thresholds.push_back(f.threshold);
             jnds.push_back(f.jnd());
             table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),

@@ -38,21 +38,6 @@ static_assert(std::ranges::all_of(studyTasks,
                                   }),
               "every task's analysis is one of these");
 
-/// "trials of the task locate", or "columns of such trials" if the table has no task.
-std::string trialWordsOf(const CsvTable& table, const std::string& analysis) {
-    const auto task = table.column(trialColumns::task);
-    std::set<std::string> tasks;
-    for (const CsvRow& row : table.rows)
-        if (const StudyTaskDescription* const did = task ? studyTaskNamed(row.cells[*task]) : nullptr;
-            did != nullptr &&
-            (did->analysis == analysis || (analysis == "levels" && did->answer == AnswerKind::choice)))
-            tasks.emplace(did->name);
-    if (tasks.empty()) return "the columns of another kind of trials";
-    std::string words = tasks.size() == 1 ? "trials of the task" : "trials of the tasks";
-    for (const std::string& one : tasks) words.append(" ").append(one);
-    return words;
-}
-
 } // namespace
 
 std::span<const Analysis> allAnalyses() noexcept { return analyses; }
@@ -69,9 +54,9 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
             const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
             const bool isAdapted = did->answer == AnswerKind::choice && correct &&
                                    !row.cells[*correct].empty() && !(level && row.cells[*level].empty());
-            if (isAdapted || did->analysis == "levels")
-                found.insert("levels"); // including training
-            else if (!isTraining)
+            if (did->answer == AnswerKind::level || (isAdapted && !isTraining))
+                found.insert("levels"); // matches before a study stand for themselves
+            else if (!isTraining && !isAdapted)
                 found.emplace(did->analysis);
         }
     } else {
@@ -97,29 +82,28 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
 
 namespace {
 
-/// For a table that an analysis rejected: the kind of its trials and the call that reads them. Empty if no
-/// analysis is known for them, or if the kind was right and the error is another.
+/// Of a table that an analysis rejected, the call that reads its trials; empty if that is unknown, or the
+/// kind was right and the error is another.
 std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
     if (job.files.empty() || job.made != nullptr) return {};
-    const auto text = readFile(job.files.front(), limits::maxTableBytes);
-    auto table = text ? readCsvTable(text.value, job.files.front(),
-                                     job.columns.empty() ? CsvHeader::named : CsvHeader::loose)
-                      : Result<CsvTable>{Failure{text.error}};
-    std::size_t leftOut = 0;
-    if (!table || !takeColumns(table.value, job.columns, leftOut).empty()) return {};
+    std::vector<std::string> names;
+    const auto look = [&](const std::vector<NamedText>& files) -> Result<bool> {
+        auto table = readCsvTable(files[0].text, files[0].name, CsvHeader::loose);
+        std::size_t leftOut = 0;
+        if (table && takeColumns(table.value, job.columns, leftOut).empty()) names = analysesFor(table.value);
+        return true;
+    };
+    readStudyFiles(job, look);
     std::string words;
-    for (const std::string& name : analysesFor(table.value)) {
+    for (const std::string& name : names) {
         if (name == asked.name || (asked.kind == Analysis::Kind::fit && name == "levels") ||
             (asked.name == "icons" && name == "confusion") ||
-            (asked.name == "places" && name == "resolution" && table.value.column("target_x")))
+            (asked.name == "places" && name == "resolution"))
             return {};
-        words.append(words.empty() ? "; the file has " : ", and ")
-            .append(trialWordsOf(table.value, name))
-            .append(", which `physvib analyse ")
-            .append(name)
-            .append("` reads");
+        words +=
+            (words.empty() ? "; the file has trials that `physvib analyse " : ", `analyse ") + name + "`";
     }
-    return words;
+    return words.empty() ? words : words + " reads";
 }
 
 } // namespace

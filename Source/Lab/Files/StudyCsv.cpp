@@ -177,10 +177,38 @@ std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
     });
 }
 
-/// "condition stimulus", or the stimulus alone if all trials have one condition, as in a trial file.
+constexpr char betweenKinds = '\n'; // in no cell
+
+/// Condition and stimulus, until nameKinds().
 std::string kindOf(const CsvRow& row, std::optional<std::size_t> stimulus,
                    std::optional<std::size_t> condition) {
-    return stimulus ? row.cells[*stimulus] : StudyRows::textIf(row, condition);
+    return StudyRows::textIf(row, condition) + betweenKinds + StudyRows::textIf(row, stimulus);
+}
+
+/// Trials are told apart by condition or stimulus, or by words of both where both differ:
+/// "condition=low stimulus=0.2".
+template <class Trial>
+void nameKinds(std::vector<Trial>& trials) {
+    std::set<std::string, std::less<>> conditions, stimuli;
+    const auto parts = [](std::string_view kind) {
+        const std::string_view condition = takeUntil(betweenKinds, kind);
+        return std::pair{condition, kind};
+    };
+    for (const Trial& trial : trials) {
+        const auto [condition, stimulus] = parts(trial.condition);
+        conditions.emplace(condition), stimuli.emplace(stimulus);
+    }
+    const auto words = [](const char* name, std::string_view cell) {
+        return (cell.find('=') == std::string_view::npos ? std::string{name} + "=" : "") + std::string{cell};
+    };
+    for (Trial& trial : trials) {
+        const auto [condition, stimulus] = parts(trial.condition);
+        const bool isOne = stimulus.empty() || (conditions.size() > 1 && stimuli.size() == 1);
+        trial.condition = isOne ? std::string{condition}
+                          : conditions.size() < 2
+                              ? std::string{stimulus}
+                              : words("condition", condition) + " " + words("stimulus", stimulus);
+    }
 }
 
 std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
@@ -267,8 +295,18 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     std::size_t taken = 0;
     const auto task = rows.optional(trialColumns::task);
     if (!task && !rows.optional("value")) rows.required("correct");
+    const auto phase = rows.optional(trialColumns::phase);
+    const auto isTraining = [&](const CsvRow& row) {
+        return phase && row.cells[*phase] == trialColumns::training;
+    };
+    // Levels that are only matched before the study are no training of matching.
+    const bool hasMatches = std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
+        return task && answerOf(row.cells[*task]) == AnswerKind::level && !isTraining(row);
+    });
     for (const CsvRow& row : rows.table().rows) {
-        if (task && answerOf(row.cells[*task]) == AnswerKind::wish) continue; // explorations have no stimulus
+        const auto answer = task ? answerOf(row.cells[*task]) : std::nullopt;
+        if (isTraining(row) && (answer != AnswerKind::level || hasMatches)) continue;
+        if (answer == AnswerKind::wish) continue; // explorations have no stimulus
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
             conditionNamed(rows, data, {}).push_back(std::move(*trial));
@@ -393,11 +431,15 @@ Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files) {
 }
 
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) {
-    return readAll<StudyData<ChoiceTrial>>(files, takeChoices);
+    auto data = readAll<StudyData<ChoiceTrial>>(files, takeChoices);
+    for (auto& all : data.value.conditions) nameKinds(all.trials);
+    return data;
 }
 
 Result<RatingData> readRatings(std::span<const NamedText> files) {
-    return readAll<RatingData>(files, takeRatings);
+    auto data = readAll<RatingData>(files, takeRatings);
+    for (auto& all : data.value.data.conditions) nameKinds(all.trials);
+    return data;
 }
 
 Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files) {

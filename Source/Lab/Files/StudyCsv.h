@@ -60,15 +60,16 @@ Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files)
 /// answers, with a warning.
 Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files);
 
-/// Columns choice (or response); optional condition (or stimulus), participant. The result has one condition.
+/// Columns choice (or response); optional condition, stimulus, participant. The result has one condition; a
+/// trial's names condition and stimulus, "condition=low stimulus=0.2", or the one that differs.
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files);
 
-/// Columns stimulus (or condition), optional participant. Every column that trial files do not have is a
-/// scale from 0 to 100.
+/// Columns stimulus or condition (as of choices), optional participant. Every column that trial files do not
+/// have is a scale from 0 to 100.
 Result<RatingData> readRatings(std::span<const NamedText> files);
 
-/// Staircases, QUEST+ sessions, adjustments (also in training) and magnitude estimations of a trial file. The
-/// result has one condition.
+/// Staircases, QUEST+ sessions, adjustments and magnitude estimations of a trial file. Of trainings only
+/// adjustments of a file that has no other ones. The result has one condition.
 Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files);
 
 /// Column names for a fit of answers to levels.

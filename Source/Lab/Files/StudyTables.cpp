@@ -84,6 +84,49 @@ std::string unitFault(std::span<const ColumnName> names) {
     return {};
 }
 
+void takeOthersWords(CsvTable& table) {
+    if (!trialHeadOf(table.comments).empty()) return;
+    constexpr std::string_view none[] = {"null", "None", "NaN", "nan", "NA", "n/a", "."},
+                               right[] = {"true", "TRUE", "True", "1.0"},
+                               wrong[] = {"false", "FALSE", "False", "0.0"},
+                               labels[] = {"participant", "observer", "condition", "session", "phase",
+                                           "task",        "stimulus", "parts",     "group"};
+    const auto has = [](const auto& words, const std::string& cell) {
+        return std::ranges::find(words, cell) != std::end(words);
+    };
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        if (has(labels, table.columns[c])) continue;
+        for (CsvRow& row : table.rows) {
+            std::string& cell = row.cells[c];
+            if (has(none, cell)) cell.clear();
+            if (table.columns[c] != "correct") continue;
+            if (has(right, cell)) cell = "1";
+            if (has(wrong, cell)) cell = "0";
+        }
+    }
+}
+
+std::string doubledRowFault(const CsvTable& table) {
+    if (!trialHeadOf(table.comments).contains("protocol")) return {};
+    std::vector<std::size_t> columns;
+    for (const char* name : {"participant", "condition", "session", "trial"})
+        if (const auto column = table.column(name))
+            columns.push_back(*column);
+        else
+            return {};
+    std::map<std::vector<std::string>, std::size_t> lines;
+    for (const CsvRow& row : table.rows) {
+        std::vector<std::string> key;
+        for (const std::size_t c : columns) key.push_back(row.cells[c]);
+        if (key.back().empty()) continue;
+        const auto [first, isNew] = lines.try_emplace(std::move(key), row.line);
+        if (!isNew)
+            return table.fault(row, columns.back(),
+                               "each trial once, not as in line " + std::to_string(first->second));
+    }
+    return {};
+}
+
 std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut) {
     if (names.empty()) return {};
     std::vector<std::size_t> from;

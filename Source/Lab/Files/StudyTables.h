@@ -43,6 +43,14 @@ std::string unitFault(std::span<const ColumnName> names);
 /// target_row are derived, ascending from 1, if each axis has at most mostGridLines of them. Returns an error
 /// line or an empty string; without `names` it does nothing. Any thread.
 std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut);
+
+/// In tables of other programs, answers that are none (null, None, NaN, NA, n/a) become empty cells, and
+/// right or wrong as true, TRUE, 1.0 become 1 or 0. Codes and labels stay: NA may be a participant. Any
+/// thread (allocates).
+void takeOthersWords(CsvTable& table);
+
+/// Empty, or one line on a trial that is twice in a trial file. Any thread (allocates).
+std::string doubledRowFault(const CsvTable& table);
 } // namespace physvib
 namespace physvib::detail {
 /// Error in a study file; caught within Lab/Files.
@@ -61,6 +69,8 @@ public:
         table_ = std::move(read.value);
         if (std::string fault = takeColumns(table_, columns, leftOut_); !fault.empty())
             throw StudyFault{std::move(fault)};
+        takeOthersWords(table_);
+        if (std::string fault = doubledRowFault(table_); !fault.empty()) throw StudyFault{std::move(fault)};
         if (kept == Kept::all) return;
         const LeftRows rows{table_};
         notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return rows.didNotLeave(row); });

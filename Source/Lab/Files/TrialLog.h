@@ -104,6 +104,9 @@ constexpr std::string_view quest = "quest";
 /// Only in protocols with staircases that are mixed: which one the trial is of.
 constexpr std::string_view staircase = "staircase";
 
+/// Only in other programs' tables: the group of a participant who is compared with those of others.
+constexpr std::string_view group = "group";
+
 /// Measured values of each trial, after those. Files that older versions began without them stay without
 /// them.
 constexpr std::string_view peakG = "peak_g", rmsG = "rms_g", exposure = "a8_m_per_s2";
@@ -131,8 +134,8 @@ constexpr bool isApparatus(std::string_view name) {
     return std::ranges::find(apparatus, name) != apparatus.end();
 }
 constexpr bool has(std::string_view name) {
-    return name == quest || name == staircase || isMeasured(name) || isApparatus(name) || isReceipt(name) ||
-           std::ranges::find(names, name) != names.end();
+    return name == quest || name == staircase || name == group || isMeasured(name) || isApparatus(name) ||
+           isReceipt(name) || std::ranges::find(names, name) != names.end();
 }
 } // namespace physvib::trialColumns
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Writes analysis.R: a line of its origin with a hash, the functions, then one call per test.
+// Writes analysis.R: a line of its origin with a hash, the functions, then one call.
 #include "Lab/Report/AnalysisScript.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/CleanText.h"
-#include "Io/Text/NameList.h"
+#include "Io/Text/CsvTable.h"
+#include <algorithm>
 #include <sstream>
 
 namespace physvib {
@@ -40,38 +41,20 @@ std::string vectorInR(const std::vector<std::string>& words) {
 
 } // namespace
 
-std::string StudyTest::words() const {
-    if (kind == Kind::choices)
-        return "signed ranks of the participants' shares of an alternative against one half, " + table +
-               "; Holm's correction";
-    std::string all = kind == Kind::anova      ? "analysis of variance"
-                      : kind == Kind::friedman ? "Friedman's test"
-                      : isOfRanks              ? "pairs by signed ranks"
-                                               : "pairs by t";
-    all += " of " + measure + " by " + listed(within) + ", " + table;
-    for (const std::string& one : where) all += " where " + one;
-    if (kind == Kind::anova) return all + "; Greenhouse and Geisser's correction";
-    if (kind == Kind::pairs) all += isBonferroni ? "; Bonferroni's correction" : "; Holm's correction";
-    return all;
-}
-
-std::string StudyTest::call() const {
-    constexpr std::string_view functions[] = {"anova.test", "friedman", "pairs.test", "choices"};
-    std::string line{functions[static_cast<std::size_t>(kind)]};
-    line += "(" + inR(words()) + ", " + inR(table);
-    if (kind == Kind::choices) return line + ")\n";
-    line += ", " + inR(measure) + ", " + vectorInR(within);
-    if (!where.empty()) line += ", where = " + vectorInR(where);
-    if (isOfRanks) line += ", by = \"ranks\"";
-    if (isBonferroni) line += ", correction = \"bonferroni\"";
-    return line + ")\n";
-}
-
-std::string analysisScript(const std::vector<StudyTest>& tests, const std::string& study) {
+std::string analysisScript(const std::string& study, const std::vector<std::string>& scales) {
     std::string text{embeddedScript().front().text};
-    for (const StudyTest& test : tests) text += test.call();
-    text += "finish(" + inR(study) + ")\n";
+    text += "study(" + inR(study) + ", " + vectorInR(scales) + ")\n";
     return std::string{firstWords} + contentHash(text) + ": " + cleanLine(study) + "\n" + text;
+}
+
+std::vector<std::string> testsIn(const std::string& table) {
+    std::vector<std::string> tests;
+    const auto read = readCsvTable(table, testsTable);
+    const auto test = read.value.column("test"), p = read.value.column("p");
+    for (const CsvRow& row : read.value.rows)
+        if (test && p && !row.cells[*p].empty() && std::ranges::find(tests, row.cells[*test]) == tests.end())
+            tests.push_back(row.cells[*test]);
+    return tests;
 }
 
 std::string keptScriptFault(const std::filesystem::path& path) {

@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: MIT
-// The tests of a study over participants, and analysis.R, which runs them: the only place of inference. C++
-// says which tests there are; R alone computes (Lab/Script/analysis.R).
+// analysis.R, which chooses and runs the tests of a study over participants: the only place of inference. It
+// reads the tables of a report; C++ only says which columns are rating scales.
 #pragma once
+#include "Io/Result.h"
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace physvib {
 
-/// One test of the report's tables.
-struct StudyTest {
-    enum class Kind { anova, friedman, pairs, choices } kind = Kind::anova;
-    std::string table;                 ///< file in the report's folder
-    std::string measure{};             ///< its column of numbers; "choice=RM": 1 where the column says so
-    std::vector<std::string> within{}; ///< factors that every participant has all levels of
-    std::vector<std::string> where{};  ///< "method=quest": only rows that say so
-    bool isOfRanks = false;            ///< pairs: signed ranks instead of t
-    bool isBonferroni = false;         ///< pairs: instead of Holm's correction
-
-    /// One line, for pages and plans. Any thread (allocates).
-    std::string words() const;
-    /// The call of the script's function.
-    std::string call() const;
-};
-
-/// Name of the script beside a report's tables.
+/// Name of the script beside a report's tables, and of what it writes: a line per figure, and the same in
+/// words.
 inline constexpr const char* analysisScriptName = "analysis.R";
+inline constexpr const char* testsTable = "tests.csv";
+inline constexpr const char* testsWords = "tests.txt";
+
+/// Files by name.
+using StudyFiles = std::map<std::string, std::string>;
+
+/// Runs the script among the files of a report, and returns what it wrote, or one line why it could not.
+/// Without files (R is not there) the page says what to install.
+using ScriptRunner = std::function<Result<StudyFiles>(const StudyFiles&)>;
 
 /// The script. `study`: what it is of, one line. Equal input gives equal bytes. Any thread (allocates).
-std::string analysisScript(const std::vector<StudyTest>& tests, const std::string& study);
+std::string analysisScript(const std::string& study, const std::vector<std::string>& scales);
+
+/// Names of the tests in testsTable that have a p, each once. Any thread (allocates).
+std::vector<std::string> testsIn(const std::string& table);
 
 /// Why the file there must not be replaced by a new script: it is not one of ours, or somebody has edited it.
 /// Empty if it may be. Message thread only.

@@ -98,10 +98,6 @@ void tellApparatus(ReportBuilder& report) {
         table.row(felt.trials, felt.limited, felt.mostLimitedDb);
     }
     report.addTable("apparatus.csv", table.text());
-    report.page.paragraph(
-        "Device, master level in dB, root mean square of the pink noise in dB of full scale (off: there was "
-        "none), version of the program, and by how much the limiter lowered what was felt.");
-    report.page.table(table.text(), "apparatus.csv");
     for (const std::string& sentence : sentencesOf(kinds)) report.page.paragraph(sentence);
     tellNoise(report, kinds);
     if (kinds.size() > 1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the analyses of a report and lists its tests.
+// Runs the analyses of a report.
 #include "Lab/Report/ReportBuilder.h"
 #include <algorithm>
 #include <set>
@@ -56,12 +56,6 @@ AnalysisReport ReportBuilder::analysis(const std::string& kind, const AnalysisJo
     else
         tables_[name] = report.table;
     return report;
-}
-
-void ReportBuilder::test(StudyTest test) {
-    if (people() < 2) return;
-    page.call("Rscript " + std::string{analysisScriptName} + "  # " + test.words());
-    tests_.push_back(std::move(test));
 }
 
 } // namespace physvib

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A report under construction: its page, its tables, the list of tests that analysis.R runs; and the sections
-// that write into it.
+// A report under construction: its page and its tables; and the sections that write into it.
 #pragma once
 #include "Io/Charts/Charts.h"
 #include "Io/Text/CsvTable.h"
 #include "Lab/Analysis/Analysis.h"
-#include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/ReportPage.h"
 #include "Lab/Report/ReportTrials.h"
+#include "Lab/Study/ThesisDeviations.h"
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -35,6 +34,14 @@ public:
         return people() > 1 ? ", 95 % intervals over participants" : ", of one participant without intervals";
     }
 
+    /// " (as thesis Fig. 4.4)" in the report of one of the thesis' own studies, else empty.
+    std::string asThesis(std::string_view figure) const {
+        const auto isOwn = [&](const ThesisDeviation& one) { return one.protocol == trials.protocol->name; };
+        return trials.protocol && std::ranges::any_of(thesisDeviations, isOwn)
+                   ? " (as thesis " + std::string{figure} + ")"
+                   : std::string{};
+    }
+
     /// Options for an analysis of one of the report's tables.
     AnalysisJob optionsFor(const std::string& table) const;
 
@@ -46,21 +53,16 @@ public:
     /// `error` is empty on success.
     AnalysisReport analysis(const std::string& kind, const AnalysisJob& options, const std::string& name);
 
-    /// Adds a test to analysis.R, and to the page that it runs there. None of a single participant.
-    void test(StudyTest test);
-
     /// Frame of the next chart, with a unique name.
     ChartFrame frame(std::string title) {
         return {"chart" + std::to_string(++charts_), std::move(title), isSimulated()};
     }
 
-    const std::vector<StudyTest>& tests() const noexcept { return tests_; }
     const std::map<std::string, std::string>& tables() const noexcept { return tables_; }
 
 private:
     void warn(const std::vector<std::string>& warnings);
     std::map<std::string, std::string> tables_; // by file name
-    std::vector<StudyTest> tests_;
     std::vector<std::string> warned_;
     int charts_ = 0;
 };
@@ -83,8 +85,7 @@ private:
     const CsvTable& table_;
 };
 
-// Splits two-part condition names such as PHONE-3x3 into series and groups of a chart, and into factors of a
-// test.
+// Splits two-part condition names such as PHONE-3x3 into series and groups of a chart.
 
 /// The summary of a condition; null if there is none.
 template <class Summary>
@@ -95,7 +96,6 @@ const Summary* conditionNamed(const std::vector<Summary>& all, const std::string
 
 struct ConditionAxes {
     std::vector<std::string> series, groups; ///< one empty series if conditions are groups
-    std::vector<std::string> factors;        ///< for --within; empty if there is only one condition
 
     std::string conditionOf(std::size_t s, std::size_t g) const {
         return series[s].empty() ? groups[g] : series[s] + "-" + groups[g];
@@ -114,18 +114,11 @@ struct ConditionAxes {
         }
         if (axes.series.size() * axes.groups.size() != names.size() || axes.groups.size() < 2)
             return plain(std::move(names));
-        if (axes.series.size() > 1) axes.factors.emplace_back("condition.1");
-        axes.factors.emplace_back("condition.2");
         return axes;
     }
 
 private:
-    static ConditionAxes plain(std::vector<std::string> names) {
-        const bool isOne = names.size() < 2;
-        return {{""},
-                std::move(names),
-                isOne ? std::vector<std::string>{} : std::vector<std::string>{"condition"}};
-    }
+    static ConditionAxes plain(std::vector<std::string> names) { return {{""}, std::move(names)}; }
     static void add(std::vector<std::string>& words, std::string word) {
         if (std::ranges::find(words, word) == words.end()) words.push_back(std::move(word));
     }

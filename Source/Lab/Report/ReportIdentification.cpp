@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Report sections on identification (information transfer, percent correct by condition and by stimulus) and
 // on pointing.
-#include "Io/Text/NameList.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ReportBuilder.h"
@@ -9,7 +8,6 @@
 #include "Lab/Study/Places.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
-#include <set>
 
 namespace physvib {
 namespace {
@@ -116,11 +114,13 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
 }
 
 bool isGrid(const std::vector<IdentifiedCondition>& all) {
-    return std::ranges::all_of(all,
-                               [](const auto& c) { return parseGridCell(c.matrix.label(0)).has_value(); });
+    for (const IdentifiedCondition& one : all)
+        for (std::size_t i = 0; i < one.matrix.stimuli(); ++i)
+            if (!parseGridCell(one.matrix.label(i))) return false;
+    return true;
 }
 
-/// Tables, tests and charts for one criterion of a correct answer.
+/// Tables and charts for one criterion of a correct answer.
 void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance) {
     const std::string suffix = tolerance ? "-tolerance-" + std::to_string(tolerance) : "",
                       words = tolerance ? ", 1 step of tolerance" : "";
@@ -135,23 +135,14 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     std::vector<std::string> names;
     for (const auto& one : all) names.push_back(one.condition);
     const ConditionAxes axes = ConditionAxes::of(names);
-    if (axes.factors.size() == 2 && !tolerance)
-        report.page.paragraph("condition.1 and condition.2 are the parts of the conditions' names: " +
-                              listed(axes.series) + "; " + listed(axes.groups) + ".");
-    if (!axes.factors.empty()) {
-        StudyTest test{StudyTest::Kind::anova, values, "percent_correct", axes.factors};
-        report.test(test);
-        test.kind = StudyTest::Kind::pairs;
-        test.isBonferroni = true;
-        report.test(test);
-    }
     const bool hasPeople = all.front().shares.size() > 1;
     BarChart it{report.frame("Information transfer" + words), "condition", "IT (bit)", axes.groups,
                 barsOf(axes, all, [](const auto& c) { return ChartValue::around(c.transfer.bits); })};
     it.ceilings = ceilingsOf(axes, all);
     it.ceilingWords = "most possible";
     report.page.figure({barChart(it)}, "Information transfer of all participants' trials together" + words +
-                                           " (as thesis Fig. 3.11, 4.2): one estimate per condition, so it "
+                                           report.asThesis("Fig. 3.11, 4.2") +
+                                           ": one estimate per condition, so it "
                                            "has no interval. Dotted: log2 of the number of stimuli.");
     if (hasPeople) {
         it.frame = report.frame("Information transfer of participants" + words);
@@ -164,7 +155,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)", axes.groups,
                 barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
     pc.most = 100.0;
-    report.page.figure({barChart(pc)}, "Mean percent correct" + words + " (as thesis Fig. 3.12, 4.3)" +
+    report.page.figure({barChart(pc)}, "Mean percent correct" + words + report.asThesis("Fig. 3.12, 4.3") +
                                            report.intervals() + ".");
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
@@ -178,7 +169,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     if (charts.empty()) return;
     report.page.figure(
         charts, isGrid(all)
-                    ? "Percent correct by place" + words + " (as thesis Fig. 4.4)" + report.intervals() +
+                    ? "Percent correct by place" + words + report.asThesis("Fig. 4.4") + report.intervals() +
                           (hasPeople ? " where there is room." : ".")
                     : "Confusions: rows are stimuli, columns responses, darker is a larger share of the "
                       "stimulus' trials. Where labels have no room every second, third ... is shown.");
@@ -192,13 +183,7 @@ void tellIdentification(ReportBuilder& report) {
     const auto data = readIdentification({&file, 1});
     if (!data) return report.page.note(data.error);
     tellCriterion(report, data.value, 0);
-    const auto all = conditionsOf(data.value, 0);
-    const bool allGrids = std::ranges::all_of(all, [](const auto& c) {
-        for (std::size_t i = 0; i < c.matrix.stimuli(); ++i)
-            if (!parseGridCell(c.matrix.label(i))) return false;
-        return true;
-    });
-    if (allGrids) tellCriterion(report, data.value, 1);
+    if (isGrid(conditionsOf(data.value, 0))) tellCriterion(report, data.value, 1);
 }
 
 // Pointing: responses with normal distributions, perceived rows and columns, most likely targets, percent
@@ -249,26 +234,6 @@ std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std
     return lineChart(chart);
 }
 
-/// Whether perceived rows or columns differ by target.
-void testPlaces(ReportBuilder& report, const PlacesOf& one, bool hasConditions, bool isRow) {
-    StudyTest test{StudyTest::Kind::anova, trialsTable, isRow ? "y" : "x"};
-    if (hasConditions) test.where = {"condition=" + one.condition};
-    std::set<int> rows, columns;
-    for (const LocationTrial& trial : one.trials) {
-        rows.insert(trial.targetRow);
-        columns.insert(trial.targetColumn);
-    }
-    if (rows.size() > 1) test.within.emplace_back("target_row");
-    if (columns.size() > 1) test.within.emplace_back("target_column");
-    if (test.within.empty()) return;
-    report.test(test);
-    if ((isRow ? rows : columns).size() < 2) return;
-    test.kind = StudyTest::Kind::pairs;
-    test.within = {isRow ? "target_row" : "target_column"};
-    test.isBonferroni = true;
-    report.test(test);
-}
-
 } // namespace
 
 void tellPlaces(ReportBuilder& report) {
@@ -296,26 +261,24 @@ void tellPlaces(ReportBuilder& report) {
     }
     report.page.figure(responses,
                        "Every response (dots, coloured by target) and the normal distribution of each "
-                       "target's responses (ellipses of one standard deviation; as thesis Fig. 4.6).");
+                       "target's responses (ellipses of one standard deviation)" +
+                           report.asThesis("Fig. 4.6") + ".");
     const auto& all = report.trials.all;
     report.page.figure(
         {perceivedChart(report, all, places, false), perceivedChart(report, all, places, true)},
-        "Mean perceived column and row against the intended one (as thesis Fig. 4.7)" + report.intervals() +
-            ".");
-    report.page.figure(territories, "The likeliest target of every place (Eq. 4.4, 4.5; as thesis Fig. 4.8). "
-                                    "Numbers, row,column of the target, stand at the mean of its responses; "
-                                    "where one lies in another's territory, it is not told apart.");
-    report.page.figure(counts, "Percent counts: the share of the field that each target is likeliest for (as "
-                               "thesis Fig. 4.9 a). Framed: below 1.42 %.");
+        "Mean perceived column and row against the intended one" + report.asThesis("Fig. 4.7") +
+            report.intervals() + ".");
+    report.page.figure(territories,
+                       "The likeliest target of every place" + report.asThesis("Fig. 4.8") +
+                           ". "
+                           "Numbers, row,column of the target, stand at the mean of its responses; "
+                           "where one lies in another's territory, it is not told apart.");
+    report.page.figure(counts, "Percent counts: the share of the field that each target is likeliest for" +
+                                   report.asThesis("Fig. 4.9 a") + ". Framed: below 1.42 %.");
     if (!grids.empty())
-        report.page.figure(grids, "Neighbouring rows and columns merged until every cell reaches 1.42 % (as "
-                                  "thesis Fig. 4.9 b): the perceptual resolution, columns x rows.");
-    report.page.subheading("Do perceived places differ by target?");
-    report.page.paragraph("As thesis Table 4.1, but over participants: each participant's mean per target is "
-                          "one value. The thesis' degrees of freedom are those of single trials.");
-    const bool hasConditions = all.column("condition").has_value() && places.size() > 1;
-    for (const PlacesOf& one : places)
-        for (const bool isRow : {true, false}) testPlaces(report, one, hasConditions, isRow);
+        report.page.figure(grids, "Neighbouring rows and columns merged until every cell reaches 1.42 %" +
+                                      report.asThesis("Fig. 4.9 b") +
+                                      ": the perceptual resolution, columns x rows.");
 }
 
 void tellPlaceErrors(ReportBuilder& report) {

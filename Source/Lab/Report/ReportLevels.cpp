@@ -4,9 +4,13 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
 
 namespace physvib {
 namespace {
@@ -23,13 +27,30 @@ PsychometricModel modelOf(const ReportTrials& trials) {
     return model;
 }
 
+/// The table of trials, without those of staircases and QUEST+ that did not come to their end.
+StudyFiles finishedTrials(const ReportBuilder& report) {
+    std::set<std::array<std::string, 3>> unfinished;
+    for (const UnfinishedRun& run : unfinishedRuns(report.trials))
+        if (run.isAdaptive) unfinished.insert({run.participant, run.condition, run.session});
+    const std::string& whole = report.tableText(trialsTable);
+    if (unfinished.empty()) return {{trialsTable, whole}};
+    ReportTrials kept = report.trials;
+    const Cells cell{report.trials.all};
+    std::erase_if(kept.all.rows, [&](const CsvRow& row) {
+        return unfinished.contains({cell(row, "participant"), cell(row, "condition"), cell(row, "session")});
+    });
+    return {{trialsTable, trialsCsv(kept, whole.substr(0, whole.find('\n') + 1))}};
+}
+
 /// Of QUEST+ alone, `quest` has its thresholds: a second fit would only differ from them.
-void tellThresholds(ReportBuilder& report, const std::vector<LevelSummary>& quest = {}) {
+void tellThresholds(ReportBuilder& report, const StudyFiles& tables,
+                    const std::vector<LevelSummary>& quest = {}) {
     report.page.subheading("Psychometric functions");
     AnalysisJob fit = report.optionsFor(trialsTable);
+    fit.made = &tables;
     fit.model = modelOf(report.trials);
     if (quest.empty() && !report.analysis("psychometric", fit, "psychometric.csv").error.empty()) return;
-    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const NamedText file{tables.at(trialsTable), trialsTable};
     const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
     const FitWords words = fitWords(report.trials.columns);
@@ -54,9 +75,13 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelSummary>& ques
     else
         caption += "The functions are ";
     report.page.figure(
-        charts, caption + std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) +
-                    ", with a guess rate of " + numberText(100.0 * fit.model.guess) +
-                    " % and lapse rates of up to " + numberText(100.0 * fit.model.lapseUpTo) + " %.");
+        charts,
+        caption + std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) +
+            ", with a guess rate of " +
+            fixedNumber(100.0 * fit.model.guess,
+                        std::abs(100.0 * fit.model.guess - std::round(100.0 * fit.model.guess)) < 1e-9 ? 0
+                                                                                                       : 1) +
+            " % and lapse rates of up to " + numberText(100.0 * fit.model.lapseUpTo) + " %.");
 }
 
 void tellMagnitudes(ReportBuilder& report) {
@@ -75,21 +100,6 @@ void tellMagnitudes(ReportBuilder& report) {
                     ", and "
                     "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
                     "their own geometric mean first.");
-    StudyTest test{StudyTest::Kind::friedman, trialsTable, "value", {"stimulus"}};
-    report.test(test);
-    test.kind = StudyTest::Kind::pairs;
-    test.isOfRanks = true;
-    report.test(test);
-}
-
-/// "wood small" of "pair=wood size=small".
-std::string valuesOf(std::string_view stimulus) {
-    std::string words;
-    while (!stimulus.empty()) {
-        const std::string_view word = takeUntil(' ', stimulus);
-        words.append(words.empty() ? "" : " ").append(word.substr(word.find('=') + 1));
-    }
-    return words;
 }
 
 std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
@@ -97,22 +107,8 @@ std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>&
     std::vector<std::pair<std::string, ChartValue>> bars;
     for (const LevelSummary& s : summaries)
         if (s.kind == LevelTrial::Kind::adjustment)
-            bars.emplace_back(valuesOf(s.stimulus), ChartValue::around(s.estimate, s.halfInterval));
+            bars.emplace_back(s.stimulus, ChartValue::around(s.estimate, s.halfInterval));
     return bars.size() < 2 ? std::string{} : barsChart(frame, "stimulus", "level (dB)", bars);
-}
-
-/// Compares the conditions' thresholds within participants, methods apart, as each has a threshold of its
-/// own.
-void tellDifferences(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
-    for (const auto& [kind, method] :
-         {std::pair{LevelTrial::Kind::staircase, "staircase"}, {LevelTrial::Kind::quest, "quest"}}) {
-        if (std::ranges::count(summaries, kind, &LevelSummary::kind) < 2) continue;
-        report.test({StudyTest::Kind::pairs,
-                     "thresholds.csv",
-                     "threshold",
-                     {"condition"},
-                     {std::string("method=").append(method)}});
-    }
 }
 
 /// Warns about adjustments at the end of their range, which may have been limited by it.
@@ -139,32 +135,34 @@ void tellEndsOfRanges(ReportBuilder& report) {
 
 void tellLevels(ReportBuilder& report) {
     report.page.heading("Levels");
+    const StudyFiles tables = finishedTrials(report);
     if (!report.trials.knowTasks() && !report.trials.all.column("value")) {
         report.page.note("the tables do not say how levels were chosen: functions are fitted to the answers, "
                          "reversals are not looked for");
-        return tellThresholds(report);
+        return tellThresholds(report, tables);
     }
-    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const NamedText file{tables.at(trialsTable), trialsTable};
     const auto data = readLevels({&file, 1});
     if (!data) return report.page.note(data.error);
     const auto& trials = data.value.conditions.front().trials;
     const auto has = [&](LevelTrial::Kind kind) {
         return std::ranges::any_of(trials, [=](const LevelTrial& trial) { return trial.kind == kind; });
     };
-    const auto words = report.analysis("levels", report.optionsFor(trialsTable), "levels.csv");
+    AnalysisJob options = report.optionsFor(trialsTable);
+    options.made = &tables;
+    const auto words = report.analysis("levels", options, "levels.csv");
     if (!words.error.empty()) return;
     auto summaries = summariseLevels(trials);
     if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest))
         report.addTable("thresholds.csv", words.participants);
-    tellDifferences(report, summaries);
     tellEndsOfRanges(report);
     if (const std::string chart = matchesChart(report, summaries); !chart.empty())
         report.page.figure({chart}, "Levels that were set by adjustment: means" + report.intervals() + ".");
     if (has(LevelTrial::Kind::staircase))
-        tellThresholds(report);
+        tellThresholds(report, tables);
     else if (std::erase_if(summaries, [](const auto& s) { return s.kind != LevelTrial::Kind::quest; });
              !summaries.empty())
-        tellThresholds(report, summaries);
+        tellThresholds(report, tables, summaries);
     if (has(LevelTrial::Kind::magnitude)) tellMagnitudes(report);
 }
 

@@ -19,7 +19,6 @@ body { font: 15px/1.5 Georgia, "Times New Roman", serif; color: #1a1a1a; backgro
 h1, h2, h3, th, td, figcaption, .note, .mark { font-family: Helvetica, Arial, sans-serif; }
 h1 { font-size: 24px; line-height: 1.25; } h2 { font-size: 19px; margin-top: 2em; border-bottom: 1px solid #999; } h3 { font-size: 15.5px; margin-top: 1.6em; }
 pre { font: 12px/1.45 "DejaVu Sans Mono", Menlo, Consolas, monospace; background: #f5f5f5; border-left: 3px solid #888; padding: .6em .8em; white-space: pre-wrap; overflow-wrap: anywhere; }
-pre.call { border-left-color: #0072B2; }
 table { border-collapse: collapse; font-size: 11.5px; margin: .8em 0; max-width: 100%; } th, td { text-align: left; padding: 2px 6px; border-bottom: 1px solid #ddd; overflow-wrap: break-word; }
 th { border-bottom: 1.5px solid #222; vertical-align: bottom; } td.number { text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: normal; white-space: nowrap; }
 figure { margin: 1.4em 0; text-align: center; break-inside: avoid; } figure svg { max-width: 100%; height: auto; } figcaption { font-size: 12.5px; text-align: left; color: #333; margin-top: .4em; }
@@ -86,8 +85,6 @@ void ReportPage::notes(const std::vector<std::string>& lines) {
     for (const std::string& line : lines) body_ += (&line == &lines.front() ? "" : "<br>\n") + markup(line);
     body_ += "</p>\n";
 }
-void ReportPage::call(std::string_view words) { element("pre class=\"call\"", words); }
-
 void ReportPage::lines(std::string_view words) {
     body_ += "<pre>";
     while (!words.empty()) body_ += markup(takeUntil('\n', words)) + "\n";

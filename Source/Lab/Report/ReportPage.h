@@ -20,7 +20,6 @@ public:
     /// A warning, or why something is missing.
     void note(std::string_view words) { notes({std::string(words)}); }
     void lines(std::string_view words); ///< preformatted text, as `analyse` prints it
-    void call(std::string_view words);  ///< a call of the program
     void list(const std::vector<std::string>& items);
     /// A table from CSV text with comments, of at most `mostRows` rows and a link to the rest. A folded table
     /// opens on a click and is not printed.

@@ -190,23 +190,6 @@ void tellSameNumbers(ReportPage& page, const std::vector<std::pair<std::string, 
                       ": they had the same orders, which nothing balances");
 }
 
-/// Explains which training trials count: adjustments and staircases count in every session.
-std::string trainingWords(const CsvTable& all) {
-    const Cells cell{all};
-    bool isAny = false, isLevel = false;
-    for (const CsvRow& row : all.rows) {
-        if (cell(row, trialColumns::phase) != trialColumns::training) continue;
-        isAny = true;
-        const StudyTaskDescription* const did = studyTaskNamed(cell(row, trialColumns::task));
-        isLevel |= did != nullptr && (did->analysis == "levels" ||
-                                      (did->answer == AnswerKind::choice && !cell(row, "correct").empty() &&
-                                       !cell(row, "level_db").empty()));
-    }
-    if (!isAny) return {};
-    return isLevel ? "Trainings are left out of all analyses but that of levels."
-                   : "Trainings are left out of all analyses.";
-}
-
 } // namespace
 
 void tellParticipants(ReportBuilder& report) {
@@ -270,8 +253,9 @@ void tellParticipants(ReportBuilder& report) {
         report.page.paragraph("Nobody and no main trial is left out.");
     else
         report.page.list(exclusions);
-    if (const std::string words = trainingWords(report.trials.all); !words.empty())
-        report.page.paragraph(words);
+    if (std::ranges::any_of(people, [](const auto& one) { return one.second.training > 0; }))
+        report.page.paragraph(
+            "Trainings are left out; only levels that are matched before a study have their means.");
 }
 
 void tellProcedure(ReportBuilder& report) {
@@ -300,9 +284,7 @@ void tellProvenance(ReportBuilder& report) {
     if (report.people() > 1) facts.emplace_back("intervals over participants: Student's t");
     report.page.list(facts);
     report.page.paragraph(
-        std::string{
-            "Every table below is CSV with names of columns in its second line, after one of its origin"} +
-        (report.tests().empty() ? "." : "; analysis.R runs every test on them."));
+        "Every table below is CSV with names of columns in its second line, after one of its origin.");
     std::vector<std::string> files;
     for (const auto& [name, text] : report.tables()) files.push_back(name);
     report.page.list(files);

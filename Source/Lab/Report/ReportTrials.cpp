@@ -126,6 +126,9 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
         if (!table) return Failure{table.error};
         if (std::string fault = takeColumns(table.value, columns, trials.rowsLeftOut); !fault.empty())
             return Failure{std::move(fault)};
+        takeOthersWords(table.value);
+        if (std::string fault = doubledRowFault(table.value); !fault.empty())
+            return Failure{std::move(fault)};
         if (std::string fault = callsFault(table.value, callFault); !fault.empty())
             return Failure{std::move(fault)};
         if (std::string fault = shared.add(table.value); !fault.empty()) return Failure{std::move(fault)};
@@ -274,7 +277,7 @@ bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t p
 std::string UnfinishedRun::words() const {
     return "participant " + participant + " did not finish " + session + " in " + condition + ": " +
            std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +
-           (isAdaptive ? ", so the threshold is not one of the method" : "");
+           (isAdaptive ? ", so this threshold is left out of means and tests" : "");
 }
 
 std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {

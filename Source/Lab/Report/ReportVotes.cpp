@@ -15,116 +15,11 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t mostTestedFactors = 3;
-
-/// Factors in condition names like "pair=wood size=small", with their values in table order; empty if a
-/// condition has another kind of name.
-std::vector<std::pair<std::string, std::vector<std::string>>>
-factorsOf(const std::vector<ChoiceTrial>& trials) {
-    std::vector<std::pair<std::string, std::vector<std::string>>> factors;
-    for (const ChoiceTrial& trial : trials)
-        for (std::string_view rest = trial.condition; !rest.empty();) {
-            const std::string_view word = takeUntil(' ', rest);
-            const std::size_t equals = word.find('=');
-            if (equals == std::string_view::npos) return {};
-            const std::string name{word.substr(0, equals)}, value{word.substr(equals + 1)};
-            auto found =
-                std::ranges::find(factors, name, &std::pair<std::string, std::vector<std::string>>::first);
-            if (found == factors.end()) found = factors.insert(factors.end(), {name, {}});
-            if (std::ranges::find(found->second, value) == found->second.end())
-                found->second.push_back(value);
-        }
-    return factors;
-}
-
-/// True if the condition contains `factor=value`.
-bool hasWord(std::string_view condition, const std::string& factor, const std::string& value) {
-    while (!condition.empty())
-        if (takeUntil(' ', condition) == factor + "=" + value) return true;
-    return false;
-}
+constexpr std::size_t mostShown = 24; // bars side by side
 
 /// Shares of one participant have Wilson's interval over trials.
 std::string shareIntervals(const ReportBuilder& report) {
     return report.people() > 1 ? report.intervals() : ", of one participant: 95 % intervals over trials";
-}
-
-void listChoiceTests(ReportBuilder& report,
-                     const std::vector<std::pair<std::string, std::vector<std::string>>>& factors,
-                     const std::string& alternative) {
-    StudyTest test{StudyTest::Kind::friedman, trialsTable, "choice=" + alternative};
-    for (const auto& [name, values] : factors)
-        if (values.size() > 1 && test.within.size() < mostTestedFactors) test.within.push_back(name);
-    if (test.within.empty()) return;
-    report.test(test);
-    test.kind = StudyTest::Kind::pairs;
-    test.isOfRanks = test.isBonferroni = true;
-    report.test(test);
-}
-
-/// Mean share of the first alternative for each combination of two factors, over the levels of the others.
-std::string combinationChart(ReportBuilder& report, const std::vector<ChoiceTrial>& trials,
-                             const std::pair<std::string, std::vector<std::string>>& first,
-                             const std::pair<std::string, std::vector<std::string>>& second,
-                             const std::string& alternative) {
-    BarChart chart{report.frame("Chosen: " + alternative + ", by " + first.first + " and " + second.first),
-                   second.first,
-                   "chosen (%)",
-                   second.second,
-                   {}};
-    for (const std::string& a : first.second) {
-        chart.series.push_back({first.first + " " + a, {}});
-        for (const std::string& b : second.second) {
-            std::vector<ChoiceTrial> chosen;
-            for (const ChoiceTrial& trial : trials) {
-                if (hasWord(trial.condition, first.first, a) && hasWord(trial.condition, second.first, b))
-                    chosen.push_back({trial.participant, "", trial.choice});
-            }
-            std::optional<ChartValue> bar;
-            for (const ChoiceSummary& summary : summariseChoices(chosen))
-                for (const ChoiceShare& share : summary.shares)
-                    if (share.alternative == alternative)
-                        bar = ChartValue{100.0 * share.share, 100.0 * share.least, 100.0 * share.most};
-            chart.series.back().bars.push_back(bar);
-        }
-    }
-    chart.most = 100.0;
-    chart.reference = {50.0, "chance"};
-    return barChart(chart);
-}
-
-// Ratings:
-
-struct RatedFactor {
-    const char* name;
-    const char* words;
-    const char* varied;
-    const char* fixed;
-};
-constexpr RatedFactor ratedFactors[] = {
-    {"A", "amplitude", "AV", "AF"}, {"F", "frequency", "FV", "FF"}, {"DR", "decay rate", "DRV", "DRF"}};
-
-/// One panel per scale with the three factors of the thesis' methods.
-std::vector<std::string> factorCharts(ReportBuilder& report, const std::vector<std::string>& scales,
-                                      const std::vector<RatingSummary>& summaries) {
-    std::vector<std::string> charts;
-    for (std::size_t s = 0; s < scales.size(); ++s) {
-        BarChart chart{
-            report.frame(scales[s]), "", "mean score (0 to 100)", {}, {{"varied", {}}, {"fixed", {}}}};
-        for (const RatedFactor& factor : ratedFactors) {
-            const auto *const varied = conditionNamed(summaries, factor.varied), *const fixed =
-                                                                                     conditionNamed(
-                                                                                         summaries,
-                                                                                         factor.fixed);
-            if (!varied || !fixed) continue;
-            chart.groups.emplace_back(factor.words);
-            chart.series[0].bars.push_back(scoreOf(*varied, s));
-            chart.series[1].bars.push_back(scoreOf(*fixed, s));
-        }
-        chart.most = 100.0;
-        charts.push_back(barChart(chart));
-    }
-    return charts;
 }
 
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.
@@ -162,38 +57,20 @@ void tellChoices(ReportBuilder& report) {
     tellConstantStimuli(report, file);
     const auto& trials = data.value.conditions.front().trials;
     const auto summaries = summariseChoices(trials);
-    std::vector<std::string> groups{"all"};
-    std::vector<const ChoiceSummary*> chosen{&summaries.front()};
-    const auto factors = factorsOf(trials);
-    for (const auto& [name, values] : factors)
-        for (const std::string& value : values)
-            if (const auto* const summary = conditionNamed(summaries, name + "=" + value);
-                summary && values.size() > 1) {
-                groups.push_back(value);
-                chosen.push_back(summary);
-            }
-    if (factors.empty())
-        for (std::size_t i = 1; i < std::min<std::size_t>(summaries.size(), 24); ++i) {
-            groups.push_back(summaries[i].condition);
-            chosen.push_back(&summaries[i]);
+    std::set<std::string> conditions;
+    for (const ChoiceTrial& trial : trials) conditions.insert(trial.condition);
+    // Of factors their levels; else all trials, and conditions while there is room.
+    const bool hasFactors = summaries.size() > conditions.size() + 1;
+    std::vector<std::string> groups;
+    std::vector<const ChoiceSummary*> chosen;
+    for (const ChoiceSummary& summary : summaries)
+        if (chosen.size() < mostShown && (!hasFactors || !conditions.contains(summary.condition))) {
+            groups.push_back(summary.condition);
+            chosen.push_back(&summary);
         }
-    std::string names;
-    for (const auto& [name, values] : factors) names.append(names.empty() ? "all; by " : ", ").append(name);
-    report.page.figure({sharesChart(report.frame("Shares of the alternatives"),
-                                    names.empty() ? "condition" : names, groups, chosen)},
-                       "Mean of the participants' shares (as thesis Fig. 5.8, which has medians)" +
+    report.page.figure({sharesChart(report.frame("Shares of the alternatives"), "condition", groups, chosen)},
+                       "Mean of the participants' shares" + report.asThesis("Fig. 5.8, which has medians") +
                            shareIntervals(report) + ".");
-    if (summaries.front().shares.size() != 2) return;
-    const std::string alternative = summaries.front().shares.front().alternative;
-    report.test({StudyTest::Kind::choices, trialsTable});
-    listChoiceTests(report, factors, alternative);
-    std::vector<std::pair<std::string, std::vector<std::string>>> several;
-    for (const auto& factor : factors)
-        if (factor.second.size() > 1) several.push_back(factor);
-    if (several.size() < 2) return;
-    report.page.figure(
-        {combinationChart(report, trials, several[several.size() - 2], several.back(), alternative)},
-        "Shares by two factors (as thesis Fig. 5.9)" + shareIntervals(report) + ", within 0 and 100 %.");
 }
 
 void tellRatings(ReportBuilder& report) {
@@ -209,29 +86,13 @@ void tellRatings(ReportBuilder& report) {
     const auto summaries = summariseRatings(trials);
     std::set<std::string> conditions;
     for (const RatingTrial& trial : trials) conditions.insert(trial.condition);
-    const bool hasMethods = summaries.size() > conditions.size();
-    for (std::size_t s = 0; s < scales.size() && conditions.size() > 1; ++s) {
-        StudyTest test{StudyTest::Kind::anova, trialsTable, scales[s]};
-        if (!hasMethods)
-            test.within = {report.trials.all.column("stimulus") ? "stimulus" : "condition"};
-        else
-            for (const RatedFactor& factor : ratedFactors)
-                if (conditionNamed(summaries, factor.varied) && conditionNamed(summaries, factor.fixed))
-                    test.within.emplace_back(factor.name);
-        report.test(test);
-        if (hasMethods) continue; // two levels each: no pairs
-        test.kind = StudyTest::Kind::pairs;
-        report.test(test);
-    }
-    if (hasMethods)
-        report.page.figure(factorCharts(report, scales, summaries),
-                           "Mean scores by factor (as thesis Fig. 5.13)" + report.intervals() + ".");
+    // In reverse order, so that AV-FV-DRV comes first; of many combinations the levels of factors.
+    const bool isMany = conditions.size() > mostShown && summaries.size() > conditions.size();
     std::vector<const RatingSummary*> shown;
-    for (auto at = summaries.rbegin(); at != summaries.rend(); ++at) // reverse order, so that AV-FV-DRV comes
-                                                                     // first
-        if (conditions.contains(at->condition)) shown.push_back(&*at);
+    for (auto at = summaries.rbegin(); at != summaries.rend(); ++at)
+        if (conditions.contains(at->condition) != isMany) shown.push_back(&*at);
     report.page.figure({scoresChart(report.frame("Mean scores"), scales, shown)},
-                       "Mean scores by condition (as thesis Fig. 5.14)" + report.intervals() + ".");
+                       "Mean scores" + report.asThesis("Fig. 5.14") + report.intervals() + ".");
 }
 
 // Report section on answers in words, from the columns task, phase, condition, session, stimulus and

@@ -60,20 +60,42 @@ std::string studyWords(const ReportTrials& trials) {
     return words;
 }
 
-void tellTests(ReportBuilder& report) {
-    if (report.tests().empty()) return;
+/// Columns of ratings, if there are ratings.
+std::vector<std::string> scalesOf(const CsvTable& all, const std::vector<std::string>& analyses) {
+    std::vector<std::string> scales;
+    if (std::ranges::find(analyses, "ratings") == analyses.end()) return scales;
+    for (const std::string& column : all.columns)
+        if (!trialColumns::has(column)) scales.push_back(column);
+    return scales;
+}
+
+/// What analysis.R finds, if it can be run here, and how else to run it.
+void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run) {
     report.page.heading("Tests");
     report.page.paragraph(
-        "Tests: run `Rscript analysis.R` in this folder. It needs R alone (Debian: r-base-core), prints "
-        "each test with its assumptions and writes tests.csv. It runs:");
-    std::vector<std::string> words;
-    for (const StudyTest& test : report.tests()) words.push_back(test.words());
-    report.page.list(words);
+        "analysis.R, beside this page, chooses each test by its measure and by the factors that rows have, "
+        "and "
+        "runs it in R (Debian: r-base-core; r-cran-lme4 where people lack levels). The unit is the "
+        "participant. Training, and trials that did not leave, are left out. Corrections are named with "
+        "their "
+        "p; sphericity and normality are shown, and decide nothing.");
+    StudyFiles files = report.tables();
+    files[analysisScriptName] = made.files[analysisScriptName];
+    auto ran = run ? run(files) : Result<StudyFiles>{StudyFiles{}};
+    if (!ran) return report.page.note("analysis.R did not end: " + ran.error);
+    if (ran.value.empty())
+        return report.page.paragraph("It has not run: type `Rscript analysis.R` in this folder.");
+    const std::string& table = ran.value[testsTable];
+    made.tests = testsIn(table);
+    report.page.paragraph("By " + table.substr(std::min<std::size_t>(2, table.size()), table.find('\n') - 2) +
+                          (made.tests.empty() ? ": nothing to compare." : ":"));
+    report.page.lines(ran.value[testsWords]);
+    made.files[testsTable] = table;
 }
 
 } // namespace
 
-StudyReport studyReport(const ReportTrials& trials) {
+StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) {
     StudyReport made;
     if (!trials.sharedNote.empty()) made.notes.push_back(trials.sharedNote);
     if (!trials.notLeft.empty()) made.notes.push_back(notLeftWords(trials.notLeft.size()));
@@ -91,17 +113,17 @@ StudyReport studyReport(const ReportTrials& trials) {
         report.page.note(made.notes.back());
         report.page.table(report.tableText(trialsTable), trialsTable);
     }
-    for (const StudyTest& test : report.tests()) made.tests.push_back(test.words());
-    tellTests(report);
+    if (report.people() > 1) {
+        made.files[analysisScriptName] = analysisScript(studyWords(trials), scalesOf(trials.all, kinds));
+        tellTests(report, made, script);
+    }
     if (!trials.facts.plan.empty()) {
         report.page.heading("Planned and done");
         const auto compared = comparedWithPlan(trials.facts.plan, "plan", trials, made.tests);
         report.page.list(compared.value);
     }
     tellProvenance(report);
-    made.files = report.tables();
-    if (!report.tests().empty())
-        made.files[analysisScriptName] = analysisScript(report.tests(), studyWords(trials));
+    made.files.insert(report.tables().begin(), report.tables().end());
     made.files["index.html"] = report.page.html();
     return made;
 }
@@ -135,7 +157,7 @@ Result<std::vector<std::pair<std::string, std::string>>> readTexts(const std::ve
 } // namespace
 
 Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protocol>& protocol,
-                               const CallCheck& callFault) {
+                               const CallCheck& callFault, const ScriptRunner& script) {
     const auto texts = readTexts(job.files);
     if (!texts) return Failure{texts.error};
     auto trials = readReportTrials(texts.value, job.columns, protocol, callFault);
@@ -166,7 +188,7 @@ Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protoco
     }
     if (std::string fault = takeFacts(trials.value, std::move(facts)); !fault.empty())
         return Failure{std::move(fault)};
-    StudyReport report = studyReport(trials.value);
+    StudyReport report = studyReport(trials.value, script);
     report.isSimulated = trials.value.isSimulated;
     if (!job.wantsBids) return report;
     if (!trials.value.all.column("participant"))
@@ -180,7 +202,9 @@ Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protoco
 namespace {
 
 constexpr int mostSimulated = 6; // as many as tests need; more change no test's call
-constexpr std::string_view testMark = "- test: ", oldTestMark = "- physvib analyse ";
+constexpr std::string_view notListed =
+    "not listed, as R (Debian: r-base-core) was not there: analysis.R chooses";
+constexpr std::string_view testMark = "- test: ";
 
 std::string codeOf(int number) { return std::string("P").append(std::to_string(number)); }
 
@@ -194,13 +218,13 @@ std::string simulatedFile(const Protocol& protocol, int number) {
     return text;
 }
 
-Result<StudyReport> rehearsed(const Protocol& protocol, int participants) {
+Result<StudyReport> rehearsed(const Protocol& protocol, int participants, const ScriptRunner& script) {
     std::vector<std::pair<std::string, std::string>> files;
     for (int number = 1; number <= std::min(participants, mostSimulated); ++number)
         files.emplace_back(codeOf(number), simulatedFile(protocol, number));
     const auto trials = readReportTrials(files, {}, protocol);
     if (!trials) return Failure{trials.error};
-    return studyReport(trials.value);
+    return studyReport(trials.value, script);
 }
 
 std::string listOf(const char* title, const std::vector<std::string>& lines) {
@@ -212,8 +236,8 @@ std::string listOf(const char* title, const std::vector<std::string>& lines) {
 
 } // namespace
 
-Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants) {
-    auto report = rehearsed(protocol, participants);
+Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script) {
+    auto report = rehearsed(protocol, participants, script);
     if (!report) return Failure{report.error};
     std::vector<std::string> conditions, sessions, tests;
     for (const std::string& test : report.value.tests) tests.push_back("test: " + test);
@@ -234,7 +258,8 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants) {
         {"those who are excluded have a reason in the table of people, and all their trials are left out",
          "tests leave out who lacks a combination of levels; who did not finish is named"});
     text += listOf("Tests over participants, with their corrections, as analysis.R runs them in R", tests);
-    if (tests.empty()) text += "none\n";
+    if (tests.empty())
+        text += report.value.files.contains(testsTable) ? "none\n" : std::string{notListed} + "\n";
     return PlannedStudy{std::move(text), std::move(report.value.files[analysisScriptName])};
 }
 
@@ -246,11 +271,9 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     if (!head.contains("plan") || !head.contains("hash") || !head.contains("participants"))
         return Failure{std::string{name} + ":1: expected a plan of `physvib study plan`"};
     std::set<std::string> planned;
-    bool isOld = false; // its tests are calls of an analysis that is gone
     while (!rest.empty()) {
         const std::string_view line = takeUntil('\n', rest);
         if (line.starts_with(testMark)) planned.emplace(line.substr(testMark.size()));
-        isOld |= line.starts_with(oldTestMark);
     }
     std::vector<std::string> sentences{"The plan has the hash " + contentHash(std::string{plan}) + "."};
     if (head.at("hash") != trials.common("hash"))
@@ -263,9 +286,10 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     if (std::to_string(people.size()) != head.at("participants"))
         sentences.push_back("Planned were " + head.at("participants") + " participants, " +
                             std::to_string(people.size()) + " took part.");
-    if (isOld) {
+    if (tests.empty() || plan.find(notListed) != std::string_view::npos) {
         sentences.emplace_back(
-            "The plan lists its tests as calls of an earlier version: compare them with those here.");
+            "The tests are not compared: R did not run, now or when it was planned, or found "
+            "nothing to test; the scripts can be.");
         return sentences;
     }
     for (const std::string& test : tests)

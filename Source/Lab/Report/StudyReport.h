@@ -3,6 +3,7 @@
 #pragma once
 #include "Io/Result.h"
 #include "Lab/Files/StudyTables.h"
+#include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Report/ReportTrials.h"
 #include <map>
@@ -13,15 +14,15 @@
 
 namespace physvib {
 struct StudyReport {
-    std::map<std::string, std::string> files; ///< file names within the report's folder, and contents:
-                                              ///< index.html, tables, analysis.R if there are tests
-    std::vector<std::string> notes;           ///< one line each on trials without a known analysis
-    std::vector<std::string> tests;           ///< all tests, in words
-    bool isSimulated = false;                 ///< trials are of a simulated observer
+    StudyFiles files;               ///< file names within the report's folder, and contents:
+                                    ///< index.html, tables, analysis.R of two people or more
+    std::vector<std::string> notes; ///< one line each on trials without a known analysis
+    std::vector<std::string> tests; ///< all tests that the script ran, in words
+    bool isSimulated = false;       ///< trials are of a simulated observer
 };
 
-/// Equal trials give identical bytes. Message thread only.
-StudyReport studyReport(const ReportTrials& trials);
+/// Equal trials give identical bytes. Without `script` the page says how tests are run. Message thread only.
+StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script = {});
 
 // Options of a report on trial files: inputs, output folder and additional facts.
 
@@ -43,17 +44,17 @@ struct ReportJob {
 /// The report's files in memory, or an error line. `protocol`: given by the user; without it, a built-in one
 /// is looked up. Message thread only.
 Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protocol>& protocol,
-                               const CallCheck& callFault);
+                               const CallCheck& callFault, const ScriptRunner& script);
 
 // What a study is going to do, written before its first participant, and what a report says of it afterwards.
 
 struct PlannedStudy {
     std::string text;   ///< design, number of participants, stop rules, exclusions, tests and corrections
-    std::string script; ///< analysis.R with these tests; empty if there are none
+    std::string script; ///< analysis.R, as the report will have it; empty of one participant
 };
 
-/// The tests are those of a report of simulated participants. Message thread only.
-Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants);
+/// The tests are those that the script runs of simulated participants. Message thread only.
+Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script);
 
 /// Sentences on what differs between a plan and the trials, or that nothing does; the first has the plan's
 /// hash. `tests`: those of the report. Fails on a text that is no plan. Any thread (allocates).

@@ -1,13 +1,24 @@
 # SPDX-License-Identifier: MIT
-# Tests over participants, by R alone. Run in the folder of the report: Rscript analysis.R. Prints each test and writes tests.csv.
+# Tests over participants, by R alone. Run in the folder of the report: Rscript analysis.R. Prints each test and writes tests.csv. `study` at the end
+# says which measures there are; what is tested follows from the measure and from the factors that its rows have, here and nowhere else.
 script <- sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE))
 if (length(script) == 1 && basename(script) == "analysis.R") setwd(dirname(script))
 options(warn = -1) # R warns of ties in rank tests, where p is not exact, and of names in an appended table
+if ("quiet" %in% commandArgs(TRUE)) sink("tests.txt")
 
 # All cells as text: 01 is not 1, and NA may be a code. The apostrophe before what a spreadsheet would take for a formula goes.
+# A participant's group stands in participants.csv, unless rows have it. Trainings, and trials that did not leave, are left out.
 table.of <- function(file) {
-  d <- read.csv(file, comment.char = "#", colClasses = "character", check.names = FALSE, encoding = "UTF-8", na.strings = character())
-  d[] <- lapply(d, sub, pattern = "^'('*[=+@-])", replacement = "\\1")
+  read <- function(file) {
+    d <- read.csv(file, comment.char = "#", colClasses = "character", check.names = FALSE, encoding = "UTF-8", na.strings = character())
+    d[] <- lapply(d, sub, pattern = "^'('*[=+@-])", replacement = "\\1")
+    d
+  }
+  d <- read(file)
+  if (!("group" %in% names(d)) && file.exists("participants.csv") && "group" %in% names(people <- read("participants.csv")))
+    d$group <- people$group[match(d$participant, people$participant)]
+  if ("phase" %in% names(d)) d <- d[d$phase != "training", ]
+  if ("left" %in% names(d)) d <- d[d$left != "0", ]
   d
 }
 # The level of a factor in each row: a column, the second part of one (condition.2), a word of condition or stimulus (pair=wood), or a letter of a
@@ -20,151 +31,334 @@ level.in <- function(cell, factor) {
   NA_character_
 }
 level <- function(d, factor) {
+  found <- rep(NA_character_, nrow(d))
+  for (column in intersect(c("stimulus", "condition"), names(d))) {
+    cells <- unique(d[[column]]); own <- vapply(cells, level.in, "", factor)[match(d[[column]], cells)]
+    found <- ifelse(is.na(own), found, own)
+  }
+  if (nrow(d) > 0 && !anyNA(found)) return(unname(found)) # a word, though a column may have its name
   if (factor %in% names(d)) return(d[[factor]])
   column <- sub("\\.[1-9]$", "", factor)
   if (column != factor && column %in% names(d)) return(sapply(strsplit(d[[column]], "-", fixed = TRUE), `[`, as.integer(sub(".*\\.", "", factor))))
-  found <- rep(NA_character_, nrow(d))
-  for (column in intersect(c("stimulus", "condition"), names(d))) { own <- vapply(d[[column]], level.in, "", factor); found <- ifelse(is.na(own), found, own) }
   unname(found)
 }
-# The rows of a measure; "choice=RM" is 1 where the column says so, else 0. Trainings and rows without the measure are left out.
-rows.of <- function(file, measure, within, where) {
-  d <- table.of(file)
-  if ("phase" %in% names(d)) d <- d[d$phase != "training", ]
-  for (words in where) d <- d[which(level(d, sub("=.*", "", words)) == sub("^[^=]*=", "", words)), ]
+in.order <- function(levels) { # numbers by size
+  levels <- sort(unique(levels), method = "radix"); numbers <- suppressWarnings(as.numeric(levels))
+  if (anyNA(numbers)) levels else levels[order(numbers)]
+}
+# The rows of a measure; "choice=RM" is 1 where the column says so, else 0. Rows without the measure are left out.
+where.is <- function(d, where) { for (words in where) d <- d[which(level(d, sub("=.*", "", words)) == sub("^[^=]*=", "", words)), ]; d }
+rows.of <- function(file, measure, factors, where = character()) {
+  d <- if (is.data.frame(file)) file else table.of(file)
+  d <- where.is(d, where)
   column <- if (measure %in% names(d)) measure else sub("=.*", "", measure)
   d <- d[!(d[[column]] %in% c("", "NA")), ]
   y <- if (measure %in% names(d)) as.numeric(d[[column]]) else as.numeric(d[[column]] == sub("^[^=]*=", "", measure))
   rows <- data.frame(id = d$participant, y = y)
-  for (i in seq_along(within)) { own <- level(d, within[i]); rows[[paste0("w", i)]] <- factor(own, levels = unique(own)) }
+  for (i in seq_along(factors)) { own <- level(d, factors[i]); rows[[paste0("w", i)]] <- factor(own, levels = in.order(own)) }
   rows
 }
 # A participant per row, a combination of levels per column (the last factor varies fastest): means over rows. Who lacks a combination is left out.
 cells.of <- function(rows) {
-  cell <- interaction(rows[-(1:2)], sep = ":", lex.order = TRUE)
-  means <- tapply(rows$y, list(factor(rows$id, levels = unique(rows$id)), cell), mean)
-  means <- means[complete.cases(means), , drop = FALSE]
-  if (nrow(means) < 2) stop(paste("expected two or more participants with all levels, found", nrow(means)))
-  means
+  id <- factor(rows$id, levels = unique(rows$id))
+  cell <- if (ncol(rows) > 2) interaction(rows[-(1:2)], sep = ":", lex.order = TRUE) else factor(rep("all", nrow(rows)))
+  means <- tapply(rows$y, list(id, cell), mean)
+  whole <- complete.cases(means)
+  if (sum(whole) < 2) stop(paste("expected two or more participants with all levels, found", sum(whole)))
+  structure(means[whole, , drop = FALSE], lacking = rownames(means)[!whole])
 }
 by.level <- function(rows, cells, i) { # means over the cells of all other factors
   at <- rev(expand.grid(rev(lapply(rows[-(1:2)], levels))))[[i]]
   sapply(levels(rows[[i + 2]]), function(l) apply(cells[, at == l, drop = FALSE], 1, mean))
 }
+of.people <- function(file, measure, factor, people, where = character()) { # the level that each of them has alone
+  rows <- rows.of(file, measure, factor, where)
+  factor(as.character(rows$w1)[match(people, rows$id)])
+}
 
 results <- data.frame()
 result <- function(test, effect, statistic, value, p, n, df1 = NA, df2 = NA, p_corrected = NA, correction = "", epsilon = NA, size = "",
                    effect_size = NA, difference = NA, least = NA, most = NA, note = "") {
-  line <- data.frame(test, effect, statistic, df1, df2, value, p, p_corrected, correction, epsilon, size, effect_size, n, difference, least, most, note)
+  line <- data.frame(test, effect, statistic, df1, df2, value, p, p_corrected, correction, epsilon, size, effect_size, n, difference, least, most, note, p_across = NA)
   results <<- rbind(results, line)
   near <- function(x) format(signif(x, 4), digits = 4)
   known <- function(words, x) if (is.na(x)) "" else paste0(", ", words, " ", near(x))
   df <- if (is.na(df1)) "" else paste0("(", near(df1), if (!is.na(df2)) paste0(", ", near(df2)), ")")
   interval <- if (is.na(least)) "" else paste0(" (95 % interval ", near(least), " to ", near(most), ")")
-  told <- paste0(statistic, df, " = ", near(value), ", p = ", near(p), known(paste(correction, "p ="), p_corrected), known("epsilon", epsilon),
-                 known("difference", difference), interval, known(paste(size, "="), effect_size))
-  cat("  ", effect, ": ", if (note != "") paste("not tested:", note) else told, ", n = ", n, "\n", sep = "")
+  words <- paste0(statistic, df, " = ", near(value), ", p = ", near(p), known(paste(correction, "p ="), p_corrected), known("epsilon", epsilon),
+                  known("difference", difference), interval, known(paste(size, "="), effect_size))
+  cat("  ", effect, ": ", if (note == "") words else if (effect %in% c("factors", "left out")) note else paste("not tested:", note), ", n = ", n, "\n", sep = "")
 }
 # A test that R refuses is a line that says why; the others go on.
 attempt <- function(test, effect, run) tryCatch(run, error = function(e) result(test, effect, "", NA, NA, NA, note = gsub("\n", "", conditionMessage(e), fixed = TRUE)))
+tell.lacking <- function(test, cells) {
+  lacking <- attr(cells, "lacking")
+  if (length(lacking) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = paste("some levels are lacking of", paste(lacking, collapse = ", ")))
+}
 
-# Repeated measures: each effect by its orthonormal contrasts of the cells, F against its own error; p corrected by Greenhouse and Geisser.
-anova.test <- function(test, file, measure, within, where = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
+# Means of participants' cells, within and between them: each effect by its orthonormal contrasts of the cells, against its own error; between people by
+# sums of squares of type III. p is corrected by Greenhouse and Geisser.
+anova.test <- function(test, file, measure, within = character(), where = character(), between = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
   rows <- rows.of(file, measure, within, where); cells <- cells.of(rows); n <- nrow(cells)
+  tell.lacking(test, cells)
+  people <- setNames(lapply(between, function(b) of.people(file, measure, b, rownames(cells), where)), sprintf("b%d", seq_along(between)))
+  x <- if (length(between) > 0) model.matrix(as.formula(paste("~", paste(names(people), collapse = "*"))), as.data.frame(people), lapply(people, function(f) "contr.sum"))
+       else matrix(1, n, 1)
+  terms <- if (length(between) > 0) attr(x, "assign") else 0
+  labels <- c("", vapply(unlist(lapply(seq_along(between), function(m) combn(between, m, paste, collapse = ":")), use.names = FALSE), identity, ""))
+  left.df <- n - qr(x)$rank
+  if (left.df < 1) stop("expected more people than groups")
   contrast <- function(i, effect) {
     k <- nlevels(rows[[i + 2]])
     if (!(i %in% effect)) return(matrix(1 / sqrt(k), k))
     h <- contr.helmert(k)
     h %*% diag(1 / sqrt(colSums(h^2)), k - 1)
   }
-  effects <- unlist(lapply(seq_along(within), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE)
-  contrasts <- lapply(c(list(integer()), effects), function(e) Reduce(kronecker, lapply(seq_along(within), contrast, e)))
+  effects <- c(list(integer()), unlist(lapply(seq_along(within), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE))
+  contrasts <- lapply(effects, function(e) Reduce(kronecker, lapply(seq_along(within), contrast, e), matrix(1)))
   scores <- lapply(contrasts, function(one) cells %*% one)
-  error <- lapply(scores, function(s) crossprod(scale(s, scale = FALSE)))
+  left.of <- function(s, x) if (ncol(x) > 0) crossprod(lm.fit(x, s)$residuals) else crossprod(s)
+  error <- lapply(scores, left.of, x)
   errors <- sum(sapply(error, function(e) sum(diag(e)))) # of generalised eta squared
   for (i in seq_along(effects)) {
-    s <- scores[[i + 1]]; e <- error[[i + 1]]; d <- ncol(s); name <- paste(within[effects[[i]]], collapse = ":")
-    squares <- n * sum(colMeans(s)^2); left <- sum(diag(e))
-    if (left <= 1e-26 * sum(cells^2)) { result(test, name, "F", NA, NA, n, note = "nobody differs from the others in it"); next }
-    f <- squares / (left / (n - 1)); epsilon <- left^2 / (d * sum(e^2))
-    p <- function(epsilon) pf(f, epsilon * d, epsilon * d * (n - 1), lower.tail = FALSE)
-    corrected <- if (d > 1) list(p(epsilon), "Greenhouse-Geisser", epsilon) else list(NA, "", NA)
-    result(test, name, "F", f, p(1), n, d, d * (n - 1), corrected[[1]], corrected[[2]], corrected[[3]], "generalised eta squared", squares / (squares + errors))
-    if (d > 1 && n > d) attempt(test, paste(name, "sphericity"), {
-      m <- mauchly.test(lm(cells ~ 1), T = t(contrasts[[i + 1]]))
-      result(test, paste(name, "sphericity"), "Mauchly W", m$statistic, m$p.value, n)
+    s <- scores[[i]]; e <- error[[i]]; d <- ncol(s); own <- paste(within[effects[[i]]], collapse = ":"); left <- sum(diag(e)); epsilon <- left^2 / (d * sum(e^2))
+    for (t in unique(terms)) {
+      if (i == 1 && t == 0) next # the mean of all
+      name <- paste(c(labels[t + 1], own)[nzchar(c(labels[t + 1], own))], collapse = ":")
+      if (left <= 1e-26 * sum(cells^2)) { result(test, name, "F", NA, NA, n, note = "nobody differs from the others in it"); next }
+      df <- d * sum(terms == t)
+      squares <- sum(diag(left.of(s, x[, terms != t, drop = FALSE]))) - left
+      f <- (squares / df) / (left / (d * left.df))
+      p <- function(epsilon) pf(f, epsilon * df, epsilon * d * left.df, lower.tail = FALSE)
+      corrected <- if (d > 1) list(p(epsilon), "Greenhouse-Geisser", epsilon) else list(NA, "", NA)
+      result(test, name, "F", f, p(1), n, df, d * left.df, corrected[[1]], corrected[[2]], corrected[[3]], "generalised eta squared", squares / (squares + errors))
+    }
+    if (d > 1 && left.df >= d) attempt(test, paste(own, "sphericity"), {
+      m <- mauchly.test(lm(cells ~ x - 1), T = t(contrasts[[i]]))
+      result(test, paste(own, "sphericity"), "Mauchly W", m$statistic, m$p.value, n)
     })
   }
-  for (i in seq_len(ncol(cells))) attempt(test, paste(colnames(cells)[i], "normality"), {
-    s <- shapiro.test(cells[, i]); result(test, paste(colnames(cells)[i], "normality"), "Shapiro-Wilk W", s$statistic, s$p.value, n)
+  attempt(test, "residuals normality", {
+    left <- lm.fit(x, cells)$residuals
+    s <- shapiro.test(left - rowMeans(left) * (ncol(cells) > 1)); result(test, "residuals normality", "Shapiro-Wilk W", s$statistic, s$p.value, n)
   })
+  if (length(attr(cells, "lacking")) > 0 && requireNamespace("lme4", quietly = TRUE)) attempt(test, "mixed model", mixed(test, file, measure, c(within, between), where))
 }) }
-friedman <- function(test, file, measure, within, where = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
-  rows <- rows.of(file, measure, within, where); cells <- cells.of(rows)
+# Where people lack levels, all of them in one model (lme4): each effect by the likelihood ratio of the model with and without it.
+mixed <- function(test, file, measure, factors, where) {
+  d <- aggregate(y ~ ., rows.of(file, measure, factors, where), mean)
+  own <- names(d)[-c(1, ncol(d))]
+  x <- model.matrix(as.formula(paste("~", paste(own, collapse = "*"))), d, lapply(d[own], function(f) "contr.sum"))
+  terms <- attr(x, "assign"); labels <- unlist(lapply(seq_along(own), function(m) combn(factors, m, paste, collapse = ":")))
+  fit <- function(x) as.numeric(logLik(suppressMessages(lme4::lmer(y ~ 0 + x + (1 | id), data.frame(y = d$y, id = d$id), REML = FALSE))))
+  for (t in seq_along(labels)) {
+    chi <- max(0, 2 * (fit(x) - fit(x[, terms != t, drop = FALSE])))
+    result(test, paste(labels[t], "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t))
+  }
+}
+friedman <- function(test, file, measure, within = character(), where = character(), between = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
+  rows <- rows.of(file, measure, within, where); cells <- cells.of(rows); n <- nrow(cells)
+  tell.lacking(test, cells)
   for (i in seq_along(within)) attempt(test, within[i], {
-    t <- friedman.test(by.level(rows, cells, i)); n <- nrow(cells)
+    t <- friedman.test(by.level(rows, cells, i))
     if (is.nan(t$p.value)) stop("all levels are tied")
     result(test, within[i], "chi-squared", t$statistic, t$p.value, n, t$parameter, size = "Kendall's W", effect_size = t$statistic / (n * t$parameter))
   })
-}) }
-# Every two levels of each factor within participants; the correction is for all lines.
-pairs.test <- function(test, file, measure, within, where = character(), by = "t", correction = "holm") { cat(test, "\n", sep = ""); attempt(test, "all", {
-  rows <- rows.of(file, measure, within, where); cells <- cells.of(rows); n <- nrow(cells)
-  tests <- list()
-  for (i in seq_along(within)) {
-    m <- by.level(rows, cells, i); two <- combn(ncol(m), 2)
-    for (k in seq_len(ncol(two))) {
-      a <- m[, two[1, k]]; b <- m[, two[2, k]]
-      t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else wilcox.test(a, b, paired = TRUE), error = function(e) list(p.value = NaN))
-      effect <- paste0(within[i], ": ", colnames(m)[two[1, k]], " - ", colnames(m)[two[2, k]])
-      tests[[length(tests) + 1]] <- list(effect = effect, a = a, b = b, t = t)
-    }
-  }
-  ps <- sapply(tests, function(one) one$t$p.value)
-  corrected <- p.adjust(ps, correction, length(ps))
-  for (k in seq_along(tests)) {
-    one <- tests[[k]]; t <- one$t; d <- one$a - one$b
-    if (is.nan(ps[k])) result(test, one$effect, "", NA, NA, n, note = "the differences do not vary")
-    else if (by == "t") result(test, one$effect, "t", t$statistic, ps[k], n, t$parameter, NA, corrected[k], correction, size = "d", effect_size = mean(d) / sd(d),
-                               difference = mean(d), least = t$conf.int[1], most = t$conf.int[2])
-    else result(test, one$effect, "V", t$statistic, ps[k], n, p_corrected = corrected[k], correction = correction, size = "rank-biserial r",
-                effect_size = 2 * t$statistic / sum(seq_len(sum(d != 0))) - 1, difference = median(d))
-  }
-  if (by == "t" && n > 1) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
-    found <- power.t.test(n, power = 0.8, sd = 1, sig.level = alpha, type = "paired")$delta
-    cat("  power: n = ", n, " finds d = ", round(found, 2), " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
+  for (b in between) attempt(test, b, {
+    t <- kruskal.test(rowMeans(cells), of.people(file, measure, b, rownames(cells), where))
+    if (is.nan(t$p.value)) stop("all people are tied")
+    result(test, b, "chi-squared", t$statistic, t$p.value, n, t$parameter)
   })
 }) }
-# Signed ranks of participants' shares of the first alternative against one half: of all trials, each word of a stimulus or condition, each whole one.
-choices <- function(test, file) { cat(test, "\n", sep = ""); attempt(test, "all", {
-  d <- table.of(file)
-  if ("phase" %in% names(d)) d <- d[d$phase != "training", ]
+# Every two levels of each factor, within participants or between them; the correction is for all lines of a factor.
+pairs.test <- function(test, file, measure, within = character(), where = character(), by = "t", correction = "holm", between = character()) {
+  cat(test, "\n", sep = ""); attempt(test, "all", {
+  rows <- rows.of(file, measure, within, where); cells <- cells.of(rows); n <- nrow(cells)
+  for (f in c(within, between)) {
+    is.within <- f %in% within
+    own <- if (is.within) by.level(rows, cells, match(f, within)) else split(unname(rowMeans(cells)), of.people(file, measure, f, rownames(cells), where))
+    two <- combn(names(if (is.within) as.data.frame(own, optional = TRUE) else own), 2, simplify = FALSE)
+    level.of <- function(l) if (is.within) own[, l] else own[[l]]
+    deviation <- if (!is.within) sqrt(sum(sapply(own, function(y) sum((y - mean(y))^2))) / (n - length(own))) # of all groups
+    tests <- lapply(two, function(l) {
+      a <- level.of(l[1]); b <- level.of(l[2])
+      if (by == "t" && !is.within) {
+        se <- deviation * sqrt(1 / length(a) + 1 / length(b)); df <- n - length(own); t <- (mean(a) - mean(b)) / se
+        return(list(p = 2 * pt(-abs(t), df), value = t, df = df, size = "d", effect = (mean(a) - mean(b)) / deviation, difference = mean(a) - mean(b),
+                    interval = mean(a) - mean(b) + c(-1, 1) * qt(0.975, df) * se, n = length(a) + length(b)))
+      }
+      t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else wilcox.test(a, b, paired = is.within), error = function(e) list(p.value = NaN))
+      out <- list(p = t$p.value, value = t$statistic, df = NA, size = "rank-biserial r", interval = c(NA, NA), n = if (is.within) n else length(a) + length(b))
+      if (is.nan(t$p.value)) return(out)
+      if (by == "t") return(modifyList(out, list(df = t$parameter, size = "d", effect = mean(a - b) / sd(a - b), difference = mean(a - b), interval = t$conf.int)))
+      share <- if (is.within) t$statistic / sum(seq_len(sum(a != b))) else t$statistic / (length(a) * length(b))
+      modifyList(out, list(effect = 2 * share - 1, difference = if (is.within) median(a - b) else median(a) - median(b)))
+    })
+    ps <- sapply(tests, function(one) one$p)
+    corrected <- p.adjust(ps, correction, length(ps))
+    for (k in seq_along(tests)) {
+      one <- tests[[k]]; effect <- paste0(f, ": ", two[[k]][1], " - ", two[[k]][2])
+      if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = "the differences do not vary")
+      else result(test, effect, if (by == "t") "t" else if (is.within) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], correction, size = one$size,
+                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2])
+    }
+    if (by == "t" && is.within && n > 1) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
+      found <- power.t.test(n, power = 0.8, sd = 1, sig.level = alpha, type = "paired")$delta
+      cat("  power: n = ", n, " finds d = ", round(found, 2), " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
+    })
+  }
+}) }
+# Participants' shares of an alternative against chance: of all trials, each level of a factor, each combination of levels. Signed ranks; where all lean
+# equally far, as where they are unanimous, exact binomials of how many lean to it. The alternatives are those that were there to choose.
+choices <- function(test, file, factors = NULL, where = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
+  d <- where.is(if (is.data.frame(file)) file else table.of(file), where)
   if ("task" %in% names(d)) d <- d[d$task == "choose", ]
   if (!("choice" %in% names(d))) d$choice <- d$response
   d <- d[d$choice != "", ]
-  words <- sort(unique(d$choice), method = "radix")
-  if (length(words) != 2) stop(paste("expected two alternatives that were chosen, found", length(words)))
-  kind <- if ("stimulus" %in% names(d)) d$stimulus else if ("condition" %in% names(d)) d$condition else rep("", nrow(d))
-  parts <- setdiff(grep("=", unlist(strsplit(kind, " ", fixed = TRUE)), value = TRUE), kind)
-  groups <- c("all", if (length(unique(kind)) > 1) c(sort(unique(parts)), sort(unique(kind))))
-  tests <- lapply(groups, function(name) {
-    of <- name == "all" | kind == name | grepl(paste0(" ", name, " "), paste0(" ", kind, " "), fixed = TRUE)
-    hits <- tapply(d$choice[of] == words[1], d$participant[of], sum); n <- tapply(of[of], d$participant[of], length)
-    lead <- (2 * hits - n) / n # leads of the same size tie to the bit
-    list(share = mean(hits / n), n = length(n), t = if (length(n) > 1 && any(lead != 0)) wilcox.test(lead) else NULL)
-  })
+  words <- alternatives.of(d); k <- length(words)
+  if (k < 2) stop(paste("expected two alternatives or more, found", k))
+  if (is.null(factors)) { design <- design.of(d); factors <- c(design$within, design$between) }
+  words.of <- function(f) paste0(f, "=", level(d, f))
+  marks <- lapply(factors, words.of)
+  if (length(factors) > 1) marks <- c(marks, list(do.call(paste, marks)))
+  groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
+  lines <- expand.grid(group = groups, word = if (k == 2) words[1] else words, stringsAsFactors = FALSE)
+  tests <- Map(function(group, word) {
+    of <- if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m == group))
+    hits <- tapply(d$choice[of] == word, d$participant[of], sum); n <- tapply(of[of], d$participant[of], length)
+    lead <- (k * hits - n) / n # leads of the same size tie to the bit
+    away <- lead[lead != 0]
+    t <- if (length(n) < 2 || length(away) == 0) NULL else if (k == 2 && length(unique(abs(away))) == 1) binom.test(sum(away > 0), length(away)) else wilcox.test(lead)
+    list(share = mean(hits / n), n = length(n), t = t)
+  }, lines$group, lines$word)
   ps <- sapply(tests, function(one) if (is.null(one$t)) NA else one$t$p.value)
   corrected <- p.adjust(ps, "holm")
-  for (k in seq_along(groups)) {
-    one <- tests[[k]]
-    if (is.na(ps[k])) result(test, groups[k], "V", NA, NA, one$n, note = "one participant, or shares of one half alone")
-    else result(test, groups[k], "V", one$t$statistic, ps[k], one$n, p_corrected = corrected[k], correction = "holm", size = paste("share of", words[1]),
-                effect_size = one$share)
+  for (i in seq_along(tests)) {
+    one <- tests[[i]]; effect <- if (k == 2) lines$group[i] else paste0(lines$word[i], ", ", lines$group[i])
+    if (is.na(ps[i])) result(test, effect, "V", NA, NA, one$n, note = "one participant, or shares of chance alone")
+    else result(test, effect, if (is.null(one$t$parameter)) "V" else "people who lean to it, exact binomial", one$t$statistic, ps[i], one$n, p_corrected = corrected[i],
+                correction = "holm", size = paste("share of", lines$word[i]), effect_size = one$share)
   }
 }) }
-finish <- function(study) {
-  writeLines(paste0("# ", study, ", ", R.version.string), "tests.csv")
-  write.table(results, "tests.csv", append = TRUE, sep = ",", row.names = FALSE, na = "", qmethod = "double")
-  cat("tests.csv  ", nrow(results), " lines\n", sep = "")
+alternatives.of <- function(d) {
+  parts <- if ("parts" %in% names(d)) unlist(strsplit(d$parts, "|", fixed = TRUE))
+  sort(setdiff(unique(c(d$choice, parts)), ""), method = "radix")
 }
 
+# Names of the factors in a column: words (pair=wood), the letters of the thesis' methods, two parts that are crossed (PHONE-3x3), or the column.
+factor.names <- function(column, d) {
+  if (!(column %in% names(d))) return(character())
+  cells <- unique(d[[column]]); words <- unlist(strsplit(cells, " ", fixed = TRUE)); parts <- strsplit(cells, "-", fixed = TRUE)
+  if (length(words) > 0 && all(grepl("=", words, fixed = TRUE))) return(unique(sub("=.*", "", words)))
+  if (length(cells) > 1 && all(grepl("^A[VF]-F[VF]-DR[VF]$", cells))) return(c("A", "F", "DR"))
+  if (column == "condition" && all(lengths(parts) == 2)) {
+    first <- unique(sapply(parts, `[`, 1)); second <- unique(sapply(parts, `[`, 2))
+    if (length(second) > 1 && length(first) * length(second) == length(cells)) return(c("condition.1", "condition.2"))
+  }
+  column
+}
+# The factors that rows vary in: of which everybody has all levels with those of the others (within), or one alone (between). Others are averaged over,
+# and so are more than 12 stimuli without a factor's name beside other factors.
+design.of <- function(d, columns = c("group", "condition", "stimulus")) {
+  out <- list(within = character(), between = character(), notes = character())
+  seen <- list()
+  people <- length(unique(d$participant))
+  for (f in unlist(lapply(columns, factor.names, d))) {
+    own <- level(d, f); levels <- unique(own)
+    if (length(levels) < 2) next
+    if (any(vapply(seen, function(other) nrow(unique(data.frame(other, own))) == length(levels) && length(unique(other)) == length(levels), NA))) next
+    if (anyNA(own)) { out$notes <- c(out$notes, paste(f, "is not of every trial: averaged over")); next }
+    if (f == "stimulus" && length(levels) > 12 && length(seen) > 0) { out$notes <- c(out$notes, paste0("stimulus (", length(levels), "): averaged over")); next }
+    if (all(tapply(own, d$participant, function(l) length(unique(l))) == 1)) out$between <- c(out$between, f)
+    else {
+      counts <- do.call(table, unname(c(list(d$participant), lapply(c(out$within, f), function(one) level(d, one)))))
+      whole <- sum(apply(counts > 0, 1, all))
+      if (whole < max(2, people / 2)) { out$notes <- c(out$notes, paste0(f, ": ", whole, " of ", people, " participants have all its levels with those of other factors: averaged over")); next }
+      out$within <- c(out$within, f)
+    }
+    seen[[f]] <- own
+  }
+  out
+}
+# The model that a measure and its factors call for. Scores: analysis of variance, pairs by t. Ranks: Friedman's or Kruskal and Wallis' test, pairs by
+# ranks. Magnitudes: ranks of one factor; of several the analysis of variance of their logarithms.
+most.levels <- 12 # of which every two are compared
+compare <- function(what, d, measure, kind = "scores", columns = c("group", "condition", "stimulus")) {
+  column <- sub("=.*", "", measure)
+  d <- d[!(d[[column]] %in% c("", "NA")), ]
+  if (length(unique(d$participant)) < 2) return(invisible())
+  design <- design.of(d, columns); factors <- c(design$within, design$between)
+  for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = note)
+  if (length(factors) == 0) return(invisible())
+  if (kind == "magnitudes" && length(factors) > 1) { d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what); kind <- "scores" }
+  few <- function(some) Filter(function(f) length(unique(level(d, f))) <= most.levels, some)
+  name <- paste(what, "by", paste(factors, collapse = ", "))
+  if (kind == "scores") anova.test(paste("analysis of variance of", name), d, measure, design$within, between = design$between)
+  else if (any(vapply(factors, function(f) length(unique(level(d, f))) > 2, NA)))
+    friedman(paste("Friedman's or Kruskal and Wallis' test of", name), d, measure, design$within, between = design$between)
+  if (length(few(factors)) > 0)
+    pairs.test(paste("pairs by", if (kind == "scores") "t" else "ranks", "of", name), d, measure, few(design$within), by = if (kind == "scores") "t" else "ranks",
+               between = few(design$between))
+  if (length(few(factors)) < length(factors)) result(paste("pairs of", name), "factors", "", NA, NA, length(unique(d$participant)), note = "more than 12 levels")
+}
+# Several scales ask one question each: Holm's correction over them, effect by effect.
+across <- function(tests) {
+  own <- results$test %in% tests & results$statistic == "F" & !is.na(results$p)
+  for (effect in unique(results$effect[own])) {
+    at <- which(own & results$effect == effect)
+    results$p_across[at] <<- p.adjust(ifelse(is.na(results$p_corrected[at]), results$p[at], results$p_corrected[at]), "holm")
+    if (length(at) > 1) cat("over all scales, ", effect, ": Holm's p = ", paste(signif(results$p_across[at], 4), collapse = ", "), "\n", sep = "")
+  }
+}
+# All tests of a report's folder. `scales`: the columns of ratings.
+study <- function(study, scales = character()) {
+  d <- table.of("trials.csv")
+  if (!("participant" %in% names(d))) return(finish(study))
+  is.told <- "task" %in% names(d)
+  # rows of a task, session by session where there are several; of tables without tasks those with the column
+  each <- function(task, column, run) {
+    if (!(column %in% names(d))) return(invisible())
+    own <- if (is.told) d[d$task == task, ] else d
+    own <- own[!(own[[column]] %in% c("", "NA")), ]
+    sessions <- if (is.told) unique(own$session) else ""
+    for (s in sessions) run(if (is.told) own[own$session == s, ] else own, if (length(sessions) > 1) paste(" in", s) else "")
+  }
+  from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) {
+    own <- table.of(file)
+    for (m in measures) compare(paste0(m, words), own, m, columns = columns)
+  }
+  from("identification.csv", "percent_correct")
+  from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
+  if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words)
+    for (one in split(own, if ("condition" %in% names(own)) factor(own$condition, unique(own$condition)) else rep("", nrow(own)))) {
+      place <- if (length(unique(own$condition)) > 1) paste(words, "of", one$condition[1]) else words
+      for (m in c("x", "y")) compare(paste0(m, place), one, m, columns = c("group", "target_row", "target_column"))
+    })
+  from("places.csv", c("distance", "variable"))
+  each("choose", if ("choice" %in% names(d)) "choice" else "response", function(own, words) {
+    if (is.told) own <- own[own$correct == "" | own$level_db == "", ] # levels that follow the answers
+    else if (!("choice" %in% names(d))) return()
+    if (length(unique(own$participant)) < 2) return()
+    choices(paste0("shares of the alternatives", words, " against chance"), own)
+    names <- alternatives.of(own)
+    for (a in if (length(names) == 2) names[1] else names) compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks")
+  })
+  before <- unique(results$test)
+  for (scale in scales) each("rate", scale, function(own, words) compare(paste0(scale, words), own, scale))
+  if (length(scales) > 1) across(setdiff(unique(results$test), before))
+  if (file.exists("thresholds.csv")) {
+    own <- table.of("thresholds.csv")
+    for (m in unique(own$method)) compare(paste("threshold by", m), own[own$method == m, ], "threshold", columns = c("group", "condition"))
+  } else from("psychometric.csv", c("threshold", "jnd"))
+  from("psychometric-stimuli.csv", c("threshold", "jnd"))
+  each("adjust", "value", function(own, words) if (is.told) compare(paste0("matched levels", words), own, "value"))
+  each("estimate", "value", function(own, words) compare(paste0("magnitudes", words), own, "value", "magnitudes"))
+  from("power-law.csv", "exponent")
+  finish(study)
+}
+finish <- function(study) {
+  lme4 <- if (any(grepl("mixed model", results$effect))) paste(", lme4", packageVersion("lme4")) else ""
+  writeLines(paste0("# ", study, ", ", R.version.string, lme4), "tests.csv")
+  if (nrow(results) > 0) write.table(results, "tests.csv", append = TRUE, sep = ",", row.names = FALSE, na = "", qmethod = "double")
+  cat("tests.csv  ", nrow(results), " lines\n", sep = "")
+}

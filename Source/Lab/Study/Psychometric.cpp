@@ -5,6 +5,7 @@
 // Search units: the range of the levels is 1, the width is logarithmic, and the lapse rate is kept in bounds
 // by a cosine.
 #include "Lab/Study/Psychometric.h"
+#include "Io/Text/NumberText.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <cmath>
@@ -137,6 +138,33 @@ std::string faultOfCounts(std::span<const LevelCount> counts) {
     return {};
 }
 
+/// What the levels and answers do not tell, though a likeliest function was found.
+std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricModel& model,
+                       const PsychometricFunction& f, double likeliest) {
+    const auto [least, most] = std::ranges::minmax(counts, {}, &LevelCount::level);
+    const double range = most.level - least.level;
+    double trials = 0.0, level = 0.0, hits = 0.0, product = 0.0;
+    for (const LevelCount& c : counts) {
+        const auto n = static_cast<double>(c.trials), h = static_cast<double>(c.hits);
+        trials += n, level += n * c.level, hits += h, product += h * c.level;
+    }
+    const double slope = product - level * hits / trials;
+    if (slope <= 0.0) return "the share of answers does not rise with the level";
+    // A step between two levels that is as likely as the fit: the answers do not tell how wide it is.
+    for (std::size_t i = 1; i < counts.size(); ++i)
+        for (const double lapse : {f.lapse, 0.0})
+            if (logLikelihood(counts, {model.shape, 0.5 * (counts[i - 1].level + counts[i].level),
+                                       1e-3 * range, model.guess, lapse}) > likeliest - 1e-2)
+                return "a step between two levels fits as well, so the answers tell no JND";
+    if (f.width > 19.5 * range) return "the answers hardly change within the levels that were played";
+    if (f.threshold < least.level || f.threshold > most.level)
+        return "the threshold, " +
+               fixedNumber(f.threshold, std::max(0, 2 - static_cast<int>(std::floor(std::log10(range))))) +
+               ", lies outside the levels that were played, " + plainNumber(least.level) + " to " +
+               plainNumber(most.level);
+    return {};
+}
+
 } // namespace
 
 double PsychometricFunction::probability(double level) const noexcept {
@@ -166,7 +194,9 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
     const Likelihood likelihood{counts, model};
     Point best = climb(likelihood, bestOfGrid(likelihood));
     best = climb(likelihood, best); // step 3
-    return {{}, likelihood.function(best), -likelihood(best)};
+    const PsychometricFunction found = likelihood.function(best);
+    const double likeliest = -likelihood(best);
+    return {faultOfFit(counts, model, found, likeliest), found, likeliest};
 }
 
 // Groups trials by participant and fits each group.

@@ -56,13 +56,14 @@ struct LevelCount {
 double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function);
 
 struct PsychometricFit {
-    std::string fault; ///< error in one line; if set, the rest is invalid
+    std::string fault; ///< why it is no fit, in one line; if set, the rest is of no account
     PsychometricFunction function{};
     double logLikelihood = 0.0;
 };
 
-/// Maximum-likelihood fit. Errors: fewer than two levels, or answers that do not change with the level. Any
-/// thread (allocates).
+/// Maximum-likelihood fit; `counts` by rising levels. Errors: fewer than two levels, answers that do not rise
+/// with the level or as a step alone, a width at the bound of the search (20 times the levels' range), a
+/// threshold outside the levels. Any thread (allocates).
 PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model);
 
 // Stevens' power law, magnitude = factor * level^exponent, fitted by least squares of logarithms.

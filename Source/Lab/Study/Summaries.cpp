@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -125,18 +126,6 @@ RatingSummary summarise(const std::string& condition, const Chosen& trials) {
     return summary;
 }
 
-// The parts of the thesis' method names, e.g. AV-FF-DRV (5.3).
-constexpr std::array<std::array<const char*, 2>, 3> methodParts{{{"AV", "AF"}, {"FV", "FF"}, {"DRV", "DRF"}}};
-
-bool hasPart(const std::string& name, std::string part) {
-    return ("-" + name + "-").find("-" + part + "-") != std::string::npos;
-}
-
-bool isMethod(const std::string& name) {
-    return std::ranges::all_of(
-        methodParts, [&](const auto& parts) { return hasPart(name, parts[0]) != hasPart(name, parts[1]); });
-}
-
 } // namespace
 
 std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials) {
@@ -167,16 +156,12 @@ std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& tria
     for (const auto& trial : trials) conditions[trial.condition].push_back(&trial);
     std::vector<RatingSummary> summaries;
     for (const auto& [condition, own] : conditions) summaries.push_back(summarise(condition, own));
-    if (conditions.size() < 2 ||
-        !std::ranges::all_of(conditions, isMethod, [](const auto& c) { return c.first; }))
-        return summaries;
-    for (const auto& parts : methodParts)
-        for (const char* part : parts) {
-            Chosen chosen;
-            for (const auto& trial : trials)
-                if (hasPart(trial.condition, part)) chosen.push_back(&trial);
-            if (!chosen.empty()) summaries.push_back(summarise(part, chosen));
-        }
+    std::map<std::string, Chosen> factors;
+    for (const auto& trial : trials)
+        for (const auto& factor : factorsOf(trial.condition))
+            if (!conditions.contains(factor)) factors[factor].push_back(&trial);
+    for (const auto& [factor, own] : factors)
+        if (own.size() < trials.size()) summaries.push_back(summarise(factor, own));
     return summaries;
 }
 
@@ -227,8 +212,8 @@ double staircaseThreshold(const Run& run, LevelSummary& summary) {
     for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
     const auto reversals = reversalsOf(levels);
     summary.reversals += reversals.size();
-    summary.flatRuns += reversals.size() < 2 ? 1 : 0;
-    return reversals.size() < 2 ? levels.back() : meanOf(reversals, reversals.size() / 2);
+    return reversals.size() < 2 ? std::numeric_limits<double>::quiet_NaN()
+                                : meanOf(reversals, reversals.size() / 2);
 }
 
 double questThreshold(const Run& run, LevelSummary& summary) {
@@ -288,6 +273,21 @@ double poolThresholds(const std::map<std::string, Run>& participants, std::vecto
     return deviation;
 }
 
+/// Why this is no threshold; null: it is one.
+const char* faultOf(LevelTrial::Kind kind, const Run& trials, double threshold) {
+    if (kind == LevelTrial::Kind::staircase)
+        return std::isnan(threshold) ? "a staircase has fewer than two reversals" : nullptr;
+    double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();
+    for (const LevelTrial* trial : trials) {
+        const auto levels = questPlan(trial->quest)->levels;
+        const double step = levels.size() > 1 ? levels[1] - levels[0] : 0.0;
+        least = std::max(least, levels.front() + 0.5 * step),
+        most = std::min(most, levels.back() - 0.5 * step);
+    }
+    return threshold < least || threshold > most ? "its threshold is at an end of the levels of QUEST+"
+                                                 : nullptr;
+}
+
 void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>& participants) {
     std::vector<std::vector<double>> own;
     double shared = 0.0;
@@ -303,9 +303,15 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
             summary.halfInterval /= static_cast<double>(thresholds.size());
         }
     std::vector<double> thresholds;
+    std::size_t at = 0;
     for (const auto& [participant, trials] : participants) {
-        thresholds.push_back(meanOf(own[thresholds.size()]));
-        summary.thresholds.emplace_back(participant, thresholds.back());
+        const double threshold = meanOf(own[at++]);
+        if (const char* const why = faultOf(summary.kind, trials, threshold)) {
+            summary.leftOut.push_back("participant " + participant + " left out: " + why);
+            continue;
+        }
+        thresholds.push_back(threshold);
+        summary.thresholds.emplace_back(participant, threshold);
     }
     const Moments moments{thresholds};
     summary.estimate = moments.mean;

@@ -128,9 +128,8 @@ struct RatingSummary {
                                            ///< participants are unknown; 0 for one value
 };
 
-/// Each condition by name. If every condition's name has the parts AV/AF, FV/FF, DRV/DRF of the thesis'
-/// methods, then also each part. Precondition: every trial has the same number of scores. Any thread
-/// (allocates).
+/// Each condition by name, then each factor of names like "pair=wood size=small". Precondition: every trial
+/// has the same number of scores. Any thread (allocates).
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials);
 
 // Results of staircases, adjustments, magnitude estimations and QUEST+: thresholds, levels and magnitudes per
@@ -150,10 +149,10 @@ struct LevelSummary {
     LevelTrial::Kind kind = LevelTrial::Kind::staircase;
     std::string condition, stimulus; ///< stimulus is empty for staircases and QUEST+, which pool all stimuli
     std::size_t trials = 0, participants = 0;
-    std::size_t reversals = 0; ///< staircase: sum over participants
-    std::size_t flatRuns = 0;  ///< staircases with fewer than two reversals
-    double estimate = 0.0;     ///< staircase, QUEST+: mean threshold in dB; adjustment: mean dB; magnitude:
-                               ///< geometric mean
+    std::size_t reversals = 0;          ///< staircase: sum over participants
+    std::vector<std::string> leftOut{}; ///< one line each on participants without a threshold, and why
+    double estimate = 0.0;  ///< staircase, QUEST+: mean threshold in dB; adjustment: mean dB; magnitude:
+                            ///< geometric mean
     double deviation = 0.0; ///< sample standard deviation of participants' thresholds, of dB, or of log10; 0
                             ///< for one value
     double halfInterval = 0.0; ///< 95 % half-interval of thresholds and adjustments over participants; for
@@ -163,9 +162,10 @@ struct LevelSummary {
 };
 
 /// Sorted by kind, condition and stimulus. A staircase threshold is the mean level of the later half of the
-/// reversals (Levitt 1971), or the last level if there are fewer than two. A QUEST+ threshold is the
-/// posterior mean, recomputed from levels and answers; of several participants with the widths that all tell
-/// together (QuestMethod.h). Several sessions of a participant are averaged. Any thread (allocates).
+/// reversals (Levitt 1971). Left out: staircases of fewer than two, and QUEST+ at an end of its levels. A
+/// QUEST+ threshold is the posterior mean, recomputed from levels and answers; of several participants with
+/// the widths that all tell together (QuestMethod.h). Several sessions of a participant are averaged. Any
+/// thread (allocates).
 std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials);
 
 } // namespace physvib

@@ -3,10 +3,15 @@
 #include "Calls/CallFiles.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
+#include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
+#include "Io/Disk/ReadFile.h"
 #include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/StudyReport.h"
 #include "Studies/StudyCalls.h"
+#include "System/Process.h"
+#include <chrono>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -101,7 +106,7 @@ int runReport(ReportOptions& o) {
         if (!found) return leave(exitFailed, found.error);
         protocol = std::move(found.value);
     }
-    const auto report = makeReport(o.job, protocol, writtenWordFault);
+    const auto report = makeReport(o.job, protocol, writtenWordFault, runAnalysisScript);
     if (!report) return leave(exitFailed, report.error);
     std::vector<std::string> inputs = o.job.files;
     if (!o.protocol.empty()) inputs.push_back(o.protocol);
@@ -113,13 +118,60 @@ int runReport(ReportOptions& o) {
     std::cout << (std::filesystem::path{o.job.folder} / "index.html").string() << "  "
               << report.value.files.size() << " files\n";
     if (const std::size_t tests = report.value.tests.size(); tests > 0)
+        std::cout << (std::filesystem::path{o.job.folder} / testsTable).string() << "  "
+                  << counted(tests, "test") << " by R\n";
+    else if (report.value.files.contains(analysisScriptName) && !report.value.files.contains(testsTable))
         std::cout << "tests: run `Rscript "
-                  << (std::filesystem::path{o.job.folder} / analysisScriptName).string() << "`, " << tests
-                  << " tests\n";
+                  << (std::filesystem::path{o.job.folder} / analysisScriptName).string()
+                  << "` where R is (Debian: r-base-core)\n";
     return exitDone;
 }
 
+/// A folder that nobody else had, which goes with its contents.
+class OwnFolder {
+public:
+    OwnFolder() {
+        std::random_device random;
+        std::error_code fault;
+        const auto root = std::filesystem::temp_directory_path(fault);
+        for (int tries = 0; tries < 10 && path.empty() && !fault; ++tries) {
+            const auto named = root / ("physvib-" + std::to_string(random()) + std::to_string(random()));
+            if (std::filesystem::create_directory(named, fault)) path = named;
+        }
+        std::filesystem::permissions(path, std::filesystem::perms::owner_all, fault);
+    }
+    ~OwnFolder() {
+        std::error_code ignored;
+        if (!path.empty()) std::filesystem::remove_all(path, ignored);
+    }
+    OwnFolder(const OwnFolder&) = delete;
+    OwnFolder& operator=(const OwnFolder&) = delete;
+    std::filesystem::path path; ///< empty: it could not be made
+};
+
 } // namespace
+
+Result<StudyFiles> runAnalysisScript(const StudyFiles& files) {
+    if (!hasProgram("Rscript")) return StudyFiles{};
+    const OwnFolder folder;
+    if (folder.path.empty()) return Failure{"no folder can be made for it"};
+    for (const auto& [name, text] : files)
+        if (AtomicFile file{folder.path / name}; !file.write(text).empty() || !file.commit().empty())
+            return Failure{file.error()};
+    const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes{10};
+    const auto said = runWatched(
+        "Rscript", {"--no-init-file", "--no-site-file", (folder.path / analysisScriptName).string(), "quiet"},
+        [latest] { return std::chrono::steady_clock::now() < latest; });
+    if (!said) return Failure{said.error};
+    if (!said.value.empty()) return Failure{said.value};
+    StudyFiles made;
+    for (const char* name : {testsTable, testsWords}) {
+        auto text = readFile((folder.path / name).string(), limits::maxTableBytes);
+        if (!text) return Failure{text.error};
+        made[name] = std::move(text.value);
+    }
+    return made;
+}
 
 Command reportCommand() {
     return commandOf("report", "trial files as a page with pictures and tables, and a script of tests for R",

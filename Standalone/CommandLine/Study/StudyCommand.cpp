@@ -162,7 +162,7 @@ int check(const StudyOptions& o) {
 int plan(const StudyOptions& o) {
     const auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
-    const auto planned = plannedStudy(protocol.value, o.participants);
+    const auto planned = plannedStudy(protocol.value, o.participants, runAnalysisScript);
     if (!planned) return leave(exitFailed, planned.error);
     const auto script = std::filesystem::path{o.planPath}.replace_filename(analysisScriptName);
     const bool hasScript = !o.planPath.empty() && !planned.value.script.empty();

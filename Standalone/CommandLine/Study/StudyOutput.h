@@ -3,6 +3,7 @@
 #pragma once
 #include "Io/Disk/AtomicFile.h"
 #include "Lab/Analysis/Analysis.h"
+#include "Lab/Report/AnalysisScript.h"
 #include "System/ExitCode.h"
 #include <functional>
 #include <iostream>
@@ -43,6 +44,9 @@ inline int writeStudyFiles(const std::vector<StudyFile>& files) {
         if (const auto& error = file->commit(); !error.empty()) return leave(exitFailed, error);
     return exitDone;
 }
+
+/// Runs analysis.R in a folder of its own, where R is there; else returns no files. Message thread.
+Result<StudyFiles> runAnalysisScript(const StudyFiles& files);
 
 // The option `--columns`, shared by commands that read tables of other programs.
 

@@ -42,7 +42,8 @@ for (n in c(2, 3, 4, 12, 49, 50)) for (levels in list(2, 3, 6, c(2, 3), c(2, 2, 
     r <- anova(fit, update(fit, ~ 0), X = ~ 1, M = ~ a, idata = data.frame(a = factor(seq_len(levels))), test = "Spherical")
     same(paste("G-G p, n", n), line(ours, "a")$p_corrected, r[["G-G Pr"]][2])
     same(paste("Mauchly p, n", n), line(ours, "a sphericity")$p, mauchly.test(fit, X = ~ 1)$p.value)
-    same(paste("normality, n", n), line(ours, "l1 normality")$p, shapiro.test(wide[, "l1"])$p.value)
+    left <- aov(y ~ a + participant, m)$residuals
+    same(paste("normality, n", n), line(ours, "residuals normality")$p, shapiro.test(left)$p.value)
   }
 }
 
@@ -84,12 +85,21 @@ for (n in c(1, 6, 49, 50)) {
     same(paste("in a column response, n", n), line(told(choices("t", "trials.csv")), "all")$p, line(ours, "all")$p)
   }
 }
-# Three alternatives have no one half; their shares are tested by Friedman's test of one of them.
+# Three alternatives: each against a third.
 d <- expand.grid(trial = 1:4, condition = c("c1", "c2"), participant = c("NA", "1", "01", "P"), stringsAsFactors = FALSE)
 d$choice <- sample(c("A", "B", "C"), nrow(d), TRUE)
 rows(d)
 ours <- told(choices("t", "trials.csv"))
-if (!grepl("found 3", ours$note)) fault("three alternatives: ", ours$note)
+for (word in c("A", "B", "C")) same(paste(word, "of three"), line(ours, paste0(word, ", all"))$p,
+  wilcox.test(as.vector(tapply(d$choice == word, d$participant, function(x) (3 * sum(x) - length(x)) / length(x))))$p.value)
+# Unanimous: exact binomials of people, though the other alternative was only there to choose.
+d <- expand.grid(trial = 1:4, stimulus = c("s", "t"), participant = person(8), stringsAsFactors = FALSE)
+d$choice <- "80"; d$parts <- "80|200"; rows(d)
+ours <- told(choices("t", "trials.csv"))
+same("8 of 8 choose it", line(ours, "all")$p, binom.test(0, 8)$p.value)
+d <- expand.grid(trial = 1:4, condition = c("c1", "c2"), participant = c("NA", "1", "01", "P"), stringsAsFactors = FALSE)
+d$choice <- sample(c("A", "B", "C"), nrow(d), TRUE)
+rows(d)
 ours <- told(pairs.test("t", "trials.csv", "choice=B", "condition"))
 wide <- with(d, tapply(choice == "B", list(participant, condition), mean))
 if (ours$n != 4) fault("NA, 1 and 01 are three people, found", ours$n)
@@ -118,6 +128,33 @@ if (line(ours, "condition: x - y")$note == "" || is.na(line(ours, "condition: x 
 for (kind in list(anova.test, friedman, pairs.test)) {
   ours <- told(kind("t", "trials.csv", "y", "condition", where = "condition=nobody"))
   if (nrow(ours) != 1 || ours$note == "") fault("nothing that fits")
+}
+# Groups of unequal size, beside factors within: strata of aov where groups are equal, sums of squares of type III of linear models where not.
+for (sizes in list(c(6, 6), c(4, 7), c(5, 3, 6))) {
+  n <- sum(sizes); group <- rep(paste0("g", seq_along(sizes)), sizes)
+  d <- expand.grid(trial = 1:2, stimulus = c("f=1 l=a", "f=2 l=a", "f=1 l=b", "f=2 l=b", "f=1 l=c", "f=2 l=c"), participant = person(n), stringsAsFactors = FALSE)
+  d$group <- group[as.integer(d$participant)]; d$y <- rnorm(nrow(d)) + rnorm(n)[as.integer(d$participant)] + (d$group == "g1") * grepl("f=1", d$stimulus)
+  d$f <- sub(" .*", "", d$stimulus); d$l <- sub(".* ", "", d$stimulus); rows(d[c("participant", "stimulus", "group", "y")])
+  design <- design.of(table.of("trials.csv"))
+  if (!identical(design[1:2], list(within = c("f", "l"), between = "group"))) fault("design", paste(unlist(design), collapse = " "))
+  ours <- told(anova.test("t", "trials.csv", "y", c("f", "l"), between = "group")); words <- paste("groups of", paste(sizes, collapse = ", "))
+  m <- aggregate(y ~ f + l + group + participant, d, mean)
+  if (length(unique(sizes)) == 1) {
+    strata <- summary(aov(y ~ group * f * l + Error(participant / (f * l)), m))
+    for (stratum in strata) for (effect in trimws(rownames(stratum[[1]]))) if (effect != "Residuals")
+      same(paste(words, effect), line(ours, effect)$p, stratum[[1]][trimws(rownames(stratum[[1]])) == effect, "Pr(>F)"])
+  }
+  score <- tapply(m$y * ifelse(m$f == "f=1", 1, -1), m$participant, sum) # of f: one contrast, so R's own tests of a linear model
+  model <- lm(score ~ g, data.frame(score, g = factor(group)), contrasts = list(g = "contr.sum"))
+  same(paste(words, "f"), line(ours, "f")$p, coef(summary(model))[1, 4])
+  same(paste(words, "group:f"), line(ours, "group:f")$p, anova(model)[["Pr(>F)"]][1])
+  all <- tapply(m$y, m$participant, mean)
+  same(paste(words, "group"), line(ours, "group")$p, anova(lm(all ~ group))[["Pr(>F)"]][1])
+  pooled <- pairwise.t.test(all, group, p.adjust.method = "none")$p.value
+  ours <- told(pairs.test("t", "trials.csv", "y", between = "group"))
+  same(paste(words, "pair"), line(ours, "group: g1 - g2")$p, pooled[1, 1])
+  same(paste(words, "ranks"), line(told(pairs.test("t", "trials.csv", "y", between = "group", by = "ranks")), "group: g1 - g2")$p,
+       wilcox.test(all[group == "g1"], all[group == "g2"])$p.value)
 }
 cat(faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)
