@@ -220,7 +220,7 @@ bool MixerModel::attach(double shareX, double shareY) {
     if (mix_.count() >= limits::maxEnchanters) return false;
     change("Attach an actuator", [&](Mix& mix) {
         auto& layout = mix.layout;
-        const auto label = [&layout](int n) {
+        const auto label = [](int n) {
             return describeLayout("", EnchanterLayout{1, 1, n + 1, {}}).enchanters.back().label;
         };
         int n = 0;
