@@ -27,6 +27,7 @@ step() {
         hostile) Tests/Hostile/run.sh 10000 ;;
         guard) $bin/physvib-guard-figures attack 20000 ;;
         kills) Tests/CommandLine/kills.sh $bin 200 render study play ;;
+        receipts) ensure_packages valgrind && Tests/Benchmarks/receipts.sh $bin ;;
         full-disk) Tests/CommandLine/full-disk.sh $bin ;;
         kinds) ensure_packages ffmpeg sox && Tests/Live/sounds.py $bin/physvib-sound-kinds --judges && Tests/Formats/texts.py $bin/physvib ;;
         skipped) Tests/Plugin/skipped.sh $bin ;;

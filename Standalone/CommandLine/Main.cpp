@@ -11,6 +11,7 @@
 #include <exception>
 #include <iostream>
 #include <map>
+#include <new>
 
 namespace physvib {
 
@@ -78,8 +79,9 @@ int main(int argc, char** argv) {
     int code = exitFailed;
     try {
         code = run(argc, argv);
-    } catch (const std::exception& error) { // out of memory, or a full disk reported by a library: print one
-                                            // line
+    } catch (const std::bad_alloc&) {
+        leave(exitFailed, "memory: expected more of it");
+    } catch (const std::exception& error) { // such as a full disk reported by a library
         leave(exitFailed, error.what());
     }
     const std::string fault = outputFault();

@@ -17,6 +17,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sstream>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -61,6 +62,9 @@ void beginProcess() {
     openStandardDescriptors();
     std::signal(SIGXFSZ, SIG_IGN);
     catchEnding(endBySignal, KeepIgnored::all);
+    rlimit stack{}; // of 128 kB renders need most, and beyond its end nothing can be said
+    if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < 128 * 1024)
+        std::cerr << "physvib: ulimit -s: expected at least 128\n", std::_Exit(1);
 }
 
 void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept {

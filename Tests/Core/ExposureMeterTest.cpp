@@ -70,45 +70,6 @@ TEST(ExposureMeter, AnHourOfOneGAt205HzIsTheClosedFormsDailyExposure) {
     EXPECT_NEAR(squareGSecondsOf(dailyExposure(123.0)), 123.0, 1e-9);
 }
 
-TEST(ExposureMeter, PeaksAndPlainSumsStartAgainWhereTheyAreMarked) {
-    ExposureMeter meter;
-    meter.prepare(48000);
-    const std::vector<float> loud(480, 0.5f), soft(480, -0.25f), none(480, 0.0f);
-    meter.take(3, loud.data(), 480);
-    meter.publish();
-    EXPECT_EQ(meter.read().peaks[3], 0.5);
-    EXPECT_NEAR(meter.read().plain[3], 0.25 * 0.01, 1e-12);
-    const double weighted = meter.read().weighted[3];
-    const auto mark = meter.restart();
-    meter.publish();
-    EXPECT_EQ(meter.read().mark, mark);
-    EXPECT_EQ(meter.read().peaks[3], 0.0);
-    EXPECT_EQ(meter.read().weighted[3], weighted) << "exposure is never forgotten";
-    meter.take(3, soft.data(), 480);
-    meter.take(3, none.data(), 480);
-    meter.publish();
-    EXPECT_EQ(meter.read().peaks[3], 0.25);
-    EXPECT_NEAR(meter.read().plain[3], 0.0625 * 0.01, 1e-12);
-}
-
-TEST(ExposureMeter, MeasuresASpanWhereverItsBlocksEnd) {
-    const std::vector<float> half(480, 0.5f);
-    for (const int block : {1, 7, 480}) {
-        ExposureMeter meter;
-        meter.prepare(48000);
-        const auto mark = meter.restart({100, 340});
-        for (int at = 0; at < 480; at += block) {
-            const int frames = std::min(block, 480 - at);
-            meter.take(0, half.data(), frames, at);
-            meter.publish(at + frames);
-        }
-        const ExposureSums& sums = meter.read();
-        EXPECT_EQ(sums.mark, mark);
-        EXPECT_EQ(sums.until, 480);
-        EXPECT_NEAR(sums.plain[0], 0.25 * 240 / 48000, 1e-15) << block;
-    }
-}
-
 TEST(ExposureMeter, AddsNothingToSilence) {
     ExposureMeter meter;
     meter.prepare(48000);

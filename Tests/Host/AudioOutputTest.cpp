@@ -143,16 +143,11 @@ TEST(AudioOutput, SumsUpWhatLeavesForTheHands) {
     Rig rig;
     ASSERT_EQ(rig.open({}, 0.5f), "");
     rig.play(0.1, 64);
-    const auto mark = rig.output.restartLevels();
     const auto before = rig.output.exposure().weighted;
-    const auto out = rig.play(2.0, 64);
+    rig.play(2.0, 64);
     const ExposureSums sums = rig.output.exposure();
-    EXPECT_EQ(sums.mark, mark);
     double felt = 0.0;
-    for (std::size_t k = 0; k < hands; ++k) {
-        EXPECT_EQ(sums.peaks[k], static_cast<double>(loudest(out[k]))) << k;
-        felt += sums.weighted[k] - before[k];
-    }
+    for (std::size_t k = 0; k < hands; ++k) felt += sums.weighted[k] - before[k];
     EXPECT_GT(felt, 0.0);
     rig.output.setSilent(true);
     rig.play(0.5, 64); // filters ring out

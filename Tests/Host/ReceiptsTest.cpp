@@ -101,6 +101,30 @@ TEST(Receipts, EqualWhatWasGivenForEverySpan) {
     }
 }
 
+TEST(Receipts, EverySetOfInstructionsMeasuresWhatIsThere) {
+    Random random{3};
+    for (const auto set :
+         {InstructionSet::sse4, InstructionSet::avx2, InstructionSet::avx512, InstructionSet::neon})
+        for (std::size_t frames = 0; frames < 200; ++frames) {
+            const TileKernel* const kernel = tileKernel(set);
+            if (kernel == nullptr) break; // not of this processor
+            MeasuredLanes lanes;
+            float peak = 0.0f, squares = 0.0f;
+            for (int times = 0; times < 2; ++times) {
+                std::vector<float> samples(frames); // of its own, so that reading beyond is seen
+                for (float& x : samples) {
+                    x = static_cast<float>(random.below(2001) - 1000) / 1000.0f;
+                    peak = std::max(peak, std::abs(x)), squares += x * x;
+                }
+                kernel->measure(samples.data(), frames, lanes);
+            }
+            const Measured all = kernel->join(lanes), none = kernel->join(lanes);
+            EXPECT_EQ(all.peak, peak) << frames;
+            EXPECT_NEAR(all.squares, squares, 1e-5f * squares) << frames;
+            EXPECT_EQ(none.peak + none.squares, 0.0f);
+        }
+}
+
 TEST(Receipts, TellWhatIsPendingForgottenOrOfAnotherSession) {
     Receipts receipts{1};
     const std::vector<float> samples(static_cast<std::size_t>(bin), 0.5f);

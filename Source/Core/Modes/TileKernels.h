@@ -106,6 +106,21 @@ struct TileStrikes {
     double* tails = nullptr;        ///< [channel * 64 + frame], of all modes; on a cache line
     TileCarriers carriers;
 };
+/// The largest magnitude of samples, and the sum of their squares.
+struct Measured {
+    float peak = 0.0f, squares = 0.0f;
+};
+/// The same in the making, per lane of the widest vector. The last bits of the sums differ between sets.
+struct alignas(64) MeasuredLanes {
+    float peaks[16]{}, squares[16]{};
+
+    void take(float x) noexcept {
+        const float size = x < 0.0f ? -x : x;
+        peaks[0] = peaks[0] < size ? size : peaks[0];
+        squares[0] += x * x;
+    }
+};
+
 /// One instruction set's functions. R, wait-free.
 struct TileKernel {
     InstructionSet set = InstructionSet::scalar;
@@ -116,8 +131,8 @@ struct TileKernel {
     void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr;
     void (*clear)(float* const* out, int channels, int frames) = nullptr; ///< out[channel][frame] = 0
     LimiterKernel limiter;
-    /// Raises `peak` to the largest magnitude, and adds the squares. Their last bits differ between sets.
-    void (*measure)(const float* samples, std::size_t frames, float& peak, double& squares) = nullptr;
+    void (*measure)(const float* samples, std::size_t frames, MeasuredLanes& to) = nullptr; ///< adds them
+    Measured (*join)(MeasuredLanes& of) = nullptr; ///< of all lanes, which are 0 afterwards
 };
 
 /// Null for scalar and for sets that this build or processor lacks. Any thread.

@@ -281,9 +281,8 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
     if (time.framesRendered() > before) // else session time stands still, as nothing steps the world yet
         receipts_.take(played_.number(), next - frames, sampleRateHz(), left.data(), frames);
     for (int j = 0; j < session.channels(); ++j)
-        if (const float* const at = felt[static_cast<std::size_t>(j)])
-            exposure_.take(j, at, frames, next - frames);
-    exposure_.publish(next); // on/off motors are left out: their vibration level is unknown
+        if (const float* const at = felt[static_cast<std::size_t>(j)]) exposure_.take(j, at, frames);
+    exposure_.publish(); // on/off motors are left out: their vibration level is unknown
 }
 
 AudioOutputStatus AudioOutput::status() {

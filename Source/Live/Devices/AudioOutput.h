@@ -95,8 +95,6 @@ public:
 
     /// Exposure of the session's channels as played: after ceilings, master level, silence and guard. M.
     const ExposureSums& exposure() noexcept { return exposure_.read(); }
-    /// See ExposureMeter; places are the session's frames when they are felt. M
-    std::uint32_t restartLevels(const SampleSpan& span = {}) noexcept { return exposure_.restart(span); }
 
     /// M.
     AudioOutputStatus status();

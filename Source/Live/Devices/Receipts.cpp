@@ -2,19 +2,20 @@
 // Writes receipts into the ring, and sums up those of a span.
 #include "Live/Devices/Receipts.h"
 #include "Core/ClockLaw.h"
-#include "Core/Modes/TileKernels.h"
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace physvib {
 
 namespace {
 
-void measure(const float* samples, std::size_t frames, float& peak, double& squares) {
-    for (std::size_t n = 0; n < frames; ++n) {
-        peak = std::max(peak, std::abs(samples[n]));
-        squares += static_cast<double>(samples[n] * samples[n]);
-    }
+void measure(const float* samples, std::size_t frames, MeasuredLanes& to) {
+    for (std::size_t n = 0; n < frames; ++n) to.take(samples[n]);
+}
+Measured join(MeasuredLanes& of) {
+    const Measured all{of.peaks[0], of.squares[0]};
+    of = {};
+    return all;
 }
 
 } // namespace
@@ -26,6 +27,7 @@ Receipts::Receipts(int actuators)
     , totals_{std::make_unique<SharedTotal[]>(static_cast<std::size_t>(actuators))} {
     const TileKernel* const best = tileKernel(InstructionSet::best);
     measure_ = best != nullptr ? best->measure : measure;
+    join_ = best != nullptr ? best->join : join;
 }
 
 void Receipts::expect(std::int64_t fromNs, std::int64_t untilNs) noexcept {
@@ -33,15 +35,19 @@ void Receipts::expect(std::int64_t fromNs, std::int64_t untilNs) noexcept {
     untilNs_.store(std::clamp<std::int64_t>(untilNs, 0, limits::maxTimeNs), std::memory_order_relaxed);
 }
 
-// Frames from `place` on that belong to one bin, at most `frames`.
-int Receipts::untilEdge(std::int64_t place, int frames) const noexcept {
-    const std::int64_t bin = std::max(1, open_.rate / binsPerSecond);
-    std::int64_t edge = place - (place % bin + bin) % bin + bin;
-    const FrameClock clock{open_.rate};
-    for (const auto* const ns : {&fromNs_, &untilNs_})
-        if (const auto at = clock.at(ns->load(std::memory_order_relaxed)).frame; at > place)
-            edge = std::min(edge, at);
-    return static_cast<int>(std::min<std::int64_t>(edge - place, frames));
+// The open bin becomes that, and ends where the grid does, or what is expected begins or ends.
+void Receipts::begin(const Place& place) noexcept {
+    const std::int64_t bin = std::max(1, place.rate / binsPerSecond), at = place.end();
+    if (isExpectedAnew() || place.rate != open_.rate) {
+        edgeFromNs_ = fromNs_.load(std::memory_order_relaxed);
+        edgeUntilNs_ = untilNs_.load(std::memory_order_relaxed);
+        const FrameClock clock{place.rate};
+        expected_ = {clock.at(edgeFromNs_).frame, clock.at(edgeUntilNs_).frame};
+    }
+    open_ = place;
+    edge_ = at - (at % bin + bin) % bin + bin;
+    for (const std::int64_t frame : expected_)
+        if (frame > at) edge_ = std::min(edge_, frame);
 }
 
 void Receipts::take(std::uint32_t session, std::int64_t place, int sampleRateHz, const float* const* outputs,
@@ -50,51 +56,52 @@ void Receipts::take(std::uint32_t session, std::int64_t place, int sampleRateHz,
                            open_.opening == opening_ && open_.end() == place;
     if (!keepGoing) {
         publish();
-        open_ = {place, 0, sampleRateHz, session, opening_};
+        begin({place, 0, sampleRateHz, session, opening_});
+    } else if (isExpectedAnew()) {
+        begin(open_);
     }
     for (int done = 0; done < frames;) {
-        const int part = untilEdge(place + done, frames - done);
+        const auto part = static_cast<int>(std::min<std::int64_t>(edge_ - open_.end(), frames - done));
         for (int j = 0; j < actuators_; ++j) {
-            Sum& sum = sums_[static_cast<std::size_t>(j)];
+            Growing& growing = growing_[static_cast<std::size_t>(j)];
             if (outputs[j] == nullptr)
-                sum.peak = -1.0f;
-            else if (sum.peak >= 0.0f)
-                measure_(outputs[j] + done, static_cast<std::size_t>(part), sum.peak, sum.squares);
+                growing.hasOutput = false;
+            else
+                measure_(outputs[j] + done, static_cast<std::size_t>(part), growing.lanes);
         }
         open_.frames += part;
         done += part;
-        if (done < frames || untilEdge(place + done - 1, 2) == 1) publish();
+        if (open_.end() == edge_) publish();
     }
 }
 
 // The open bin becomes readable, and the next one begins at its end.
 void Receipts::publish() noexcept {
-    if (open_.frames > 0) {
-        const std::int64_t now = written_.load(std::memory_order_relaxed);
-        Bin& bin = bins_[static_cast<std::size_t>(now % mostBins)];
-        bin.start.store(open_.start, std::memory_order_release);
-        bin.frames.store(open_.frames, std::memory_order_release);
-        bin.rate.store(open_.rate, std::memory_order_release);
-        bin.session.store(open_.session, std::memory_order_release);
-        bin.opening.store(open_.opening, std::memory_order_release);
-        for (int j = 0; j < actuators_; ++j) {
-            const Sum& sum = sums_[static_cast<std::size_t>(j)];
-            level(now, j).peak.store(sum.peak, std::memory_order_release);
-            level(now, j).squares.store(static_cast<float>(sum.squares), std::memory_order_release);
-            if (sum.peak < 0.0f) continue;
-            SharedTotal& total = totals_[static_cast<std::size_t>(j)]; // R is the only one that writes
-            total.seconds.store(total.seconds.load(std::memory_order_relaxed) +
-                                    static_cast<double>(open_.frames) / open_.rate,
+    if (open_.frames == 0) return;
+    const std::int64_t now = written_.load(std::memory_order_relaxed);
+    Bin& bin = bins_[static_cast<std::size_t>(now % mostBins)];
+    bin.start.store(open_.start, std::memory_order_release);
+    bin.frames.store(open_.frames, std::memory_order_release);
+    bin.rate.store(open_.rate, std::memory_order_release);
+    bin.session.store(open_.session, std::memory_order_release);
+    bin.opening.store(open_.opening, std::memory_order_release);
+    const double seconds = static_cast<double>(open_.frames) / open_.rate;
+    Level* level = &this->level(now, 0);
+    for (int j = 0; j < actuators_; ++j, ++level) {
+        Growing& growing = growing_[static_cast<std::size_t>(j)];
+        const auto [peak, squares] = join_(growing.lanes);
+        level->peak.store(growing.hasOutput ? peak : -1.0f, std::memory_order_release);
+        level->squares.store(squares, std::memory_order_release);
+        if (std::exchange(growing.hasOutput, true)) { // R is the only one that writes these
+            SharedTotal& total = totals_[static_cast<std::size_t>(j)];
+            total.seconds.store(total.seconds.load(std::memory_order_relaxed) + seconds,
                                 std::memory_order_relaxed);
-            total.peak.store(
-                std::max(total.peak.load(std::memory_order_relaxed), static_cast<double>(sum.peak)),
-                std::memory_order_relaxed);
+            if (total.peak.load(std::memory_order_relaxed) < static_cast<double>(peak))
+                total.peak.store(static_cast<double>(peak), std::memory_order_relaxed);
         }
-        written_.store(now + 1, std::memory_order_release);
     }
-    open_.start = open_.end();
-    open_.frames = 0;
-    std::fill_n(sums_.begin(), actuators_, Sum{});
+    written_.store(now + 1, std::memory_order_release);
+    begin({open_.end(), 0, open_.rate, open_.session, open_.opening});
 }
 
 Receipts::Total Receipts::all(int actuator) const noexcept {
@@ -112,10 +119,9 @@ bool Receipts::read(std::int64_t number, Place& place) const noexcept {
     return written_.load(std::memory_order_acquire) < number + mostBins;
 }
 
-bool Receipts::read(std::int64_t number, int actuator, Sum& sum) const noexcept {
+bool Receipts::read(std::int64_t number, int actuator, Measured& sum) const noexcept {
     const Level& at = level(number, actuator);
-    sum = {at.peak.load(std::memory_order_acquire),
-           static_cast<double>(at.squares.load(std::memory_order_acquire))};
+    sum = {at.peak.load(std::memory_order_acquire), at.squares.load(std::memory_order_acquire)};
     return written_.load(std::memory_order_acquire) < number + mostBins;
 }
 
@@ -139,18 +145,22 @@ Receipt Receipts::left(std::int64_t fromNs, std::int64_t untilNs, int actuator,
         all.isOver = all.isOver || place.end() >= last;
         isBegun = place.start <= first;
         if (place.start >= last || place.end() <= first) continue;
-        Sum sum;
+        Measured sum;
         if (!read(number, actuator, sum)) break;
         const bool isNewest = nextNumber < 0;
         isWhole = isWhole && sum.peak >= 0.0f &&
                   (isNewest ? place.end() >= last
                             : nextNumber == number + 1 && next.opening == place.opening &&
                                   next.start == place.end());
-        if (isNewest) all.opening = place.opening;
+        if (isNewest) {
+            all.opening = place.opening;
+            all.endNs = place.end() / place.rate * 1'000'000'000 +
+                        place.end() % place.rate * 1'000'000'000 / place.rate;
+        }
         if (sum.peak >= 0.0f) {
             all.frames += place.frames;
             all.peak = std::max(all.peak, static_cast<double>(sum.peak));
-            squares += sum.squares;
+            squares += static_cast<double>(sum.squares);
         }
         next = place;
         nextNumber = number;

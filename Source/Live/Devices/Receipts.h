@@ -3,6 +3,7 @@
 // session time at which it is felt. What is reported as played or felt is read from them.
 #pragma once
 #include "Core/Limits.h"
+#include "Core/Modes/TileKernels.h"
 #include "Core/Nonblocking.h"
 #include <array>
 #include <atomic>
@@ -19,6 +20,7 @@ struct Receipt {
                             ///< the actuator had an output
     bool isOver = false;    ///< false: the device has not asked for the end of the span yet
     bool isKept = true;     ///< false: the span is too old, and parts of it are unknown
+    std::int64_t endNs = 0; ///< of the last frame that left: where a span that goes on from it begins
     std::uint32_t opening = 0; ///< number of the last opening in the span; 0: no frame of it left
 };
 
@@ -77,21 +79,26 @@ private:
     struct SharedTotal {
         std::atomic<double> seconds{0.0}, peak{0.0};
     };
-    struct Sum {
-        float peak = 0.0f;
-        double squares = 0.0;
+    struct Growing {
+        MeasuredLanes lanes;
+        bool hasOutput = true;
     };
 
     bool read(std::int64_t bin, Place& place) const noexcept;
-    bool read(std::int64_t bin, int actuator, Sum& sum) const noexcept;
+    bool read(std::int64_t bin, int actuator, Measured& sum) const noexcept;
     Level& level(std::int64_t bin, int actuator) const noexcept {
         return levels_[static_cast<std::size_t>(bin % mostBins * actuators_ + actuator)];
     }
-    int untilEdge(std::int64_t place, int frames) const noexcept;
+    bool isExpectedAnew() const noexcept {
+        return edgeFromNs_ != fromNs_.load(std::memory_order_relaxed) ||
+               edgeUntilNs_ != untilNs_.load(std::memory_order_relaxed);
+    }
+    void begin(const Place& place) noexcept;
     void publish() noexcept;
 
     const int actuators_;
-    void (*measure_)(const float*, std::size_t, float&, double&);
+    void (*measure_)(const float*, std::size_t, MeasuredLanes&);
+    Measured (*join_)(MeasuredLanes&);
     const std::unique_ptr<Bin[]> bins_;
     const std::unique_ptr<Level[]> levels_;
     const std::unique_ptr<SharedTotal[]> totals_;
@@ -100,8 +107,11 @@ private:
 
     // R
     std::uint32_t opening_ = 0;
-    Place open_; // the bin that grows
-    std::array<Sum, static_cast<std::size_t>(limits::maxEnchanters)> sums_{};
+    Place open_;                                    // the bin that grows
+    std::int64_t edge_ = 0;                         // where it ends
+    std::int64_t edgeFromNs_ = 0, edgeUntilNs_ = 0; // that edge_ regards, and their frames
+    std::array<std::int64_t, 2> expected_{};
+    std::array<Growing, static_cast<std::size_t>(limits::maxEnchanters)> growing_{};
 };
 
 } // namespace physvib

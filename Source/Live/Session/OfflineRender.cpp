@@ -4,6 +4,7 @@
 #include "Core/HapticRenderer.h"
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <vector>
 
 namespace physvib {
@@ -34,7 +35,7 @@ struct ListSource {
 RenderStatus renderOffline(std::span<const CollisionEvent> events, const OfflineSettings& settings,
                            const BlockConsumer& consume) {
     const auto renderer = std::make_unique<HapticRenderer>();
-    if (!renderer->prepare(settings.renderer)) return {};
+    if (!renderer->prepare(settings.renderer)) throw std::bad_alloc{}; // else what is written is silent
     renderer->setContacts(settings.contacts);
     const auto channels = static_cast<std::size_t>(settings.renderer.outputs());
     const auto block = static_cast<std::size_t>(settings.blockFrames);

@@ -217,14 +217,4 @@ void MixerExposure::update() {
     sums_ = now;
 }
 
-FeltLevel MixerExposure::felt(double seconds) const {
-    FeltLevel level;
-    if (sums_.mark != mark_ || seconds <= 0.0) return level;
-    for (std::size_t j = 0; j < fullScaleG_.size(); ++j) {
-        level.peakG = std::max(level.peakG, sums_.peaks[j] * fullScaleG_[j]);
-        level.rmsG = std::max(level.rmsG, std::sqrt(sums_.plain[j] / seconds) * fullScaleG_[j]);
-    }
-    return level;
-}
-
 } // namespace physvib

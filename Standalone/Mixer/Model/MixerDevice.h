@@ -154,16 +154,10 @@ public:
     /// A(8), if there was no other exposure that day
     double daily() const noexcept { return dailyExposure(squareGSeconds_); }
 
-    /// Starts a new measurement of felt(), of these frames of the session that is played.
-    void restartLevels(const SampleSpan& span) { mark_ = output_.restartLevels(span); }
-    /// Level of the strongest actuator in the span, over `seconds`; zeros if nothing was played.
-    FeltLevel felt(double seconds) const;
-
 private:
     AudioOutput& output_;
     std::array<double, limits::maxEnchanters> fullScaleG_{};
     ExposureSums sums_;
-    std::uint32_t mark_ = 0;
     double squareGSeconds_ = 0.0;
 };
 

@@ -285,7 +285,8 @@ std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesys
     setup_.marks = MarkedOnsets::all;
     seconds_ = hasHands ? 0.0 : world.seconds;
     feltNs_ = seenNs_ = checkedNs_ = 0;
-    actuators_ = world.layout.geometry.count;
+    left_.clear();
+    for (const auto& actuator : world.layout.enchanters) left_.push_back({actuator.fullScaleG});
     course_ = Course::none;
     stoppedNs_ = -1;
     fault_.clear();
@@ -295,8 +296,7 @@ std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesys
     if (!isWithin(folder.parent_path(), folder)) return folder.string() + ": " + leadsElsewhere;
     session_ = std::make_unique<Session>(setup_);
     model_.exposure().use(world.layout);
-    model_.exposure().restartLevels(
-        {0, hasHands ? SampleSpan{}.to : std::llround(seconds_ * model_.output().sampleRateHz())});
+    model_.output().expect(0, std::llround(1e9 * seconds_));
     if (!model_.output().playInstead(session_.get())) return session_.reset(), "expected a device that plays";
     number_ = model_.output().playedSession();
     sendStrips();
@@ -313,12 +313,34 @@ std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesys
 void StudyWorld::askReceipts(std::int64_t untilNs) {
     if (!model_.output().isPlaying()) course_ = Course::lost;
     if (course_ != Course::plays || untilNs <= checkedNs_) return;
-    for (int j = 0; j < actuators_; ++j) {
-        const Receipt receipt = model_.output().left(checkedNs_, untilNs, j, number_);
+    const std::int64_t setNs = std::llround(1e9 * seconds_), afterNs = untilNs;
+    const bool isMeasured = setNs == 0 || checkedNs_ < setNs;
+    if (isMeasured && setNs > 0) untilNs = std::min(untilNs, setNs);
+    auto left = left_;
+    std::int64_t endNs = untilNs;
+    for (std::size_t j = 0; j < left.size(); ++j) {
+        const Receipt receipt = model_.output().left(checkedNs_, untilNs, static_cast<int>(j), number_);
         if (!receipt.isOver) return; // a block is between the session and its receipt
         if (!receipt.isRunning) course_ = Course::lost;
+        endNs = receipt.endNs; // no bin is added twice
+        if (!isMeasured) continue;
+        left[j].peak = std::max(left[j].peak, receipt.peak);
+        left[j].squareSeconds +=
+            receipt.meanSquare * static_cast<double>(receipt.frames) / model_.output().sampleRateHz();
     }
-    checkedNs_ = untilNs;
+    left_ = std::move(left);
+    checkedNs_ = std::max(endNs, untilNs); // a lost one may end before
+    askReceipts(afterNs);
+}
+
+FeltLevel StudyWorld::felt() const {
+    const double seconds = std::max(1e-3, seconds_ > 0.0 ? seconds_ : feltSeconds());
+    FeltLevel level;
+    for (const Left& one : left_) {
+        level.peakG = std::max(level.peakG, one.peak * one.fullScaleG);
+        level.rmsG = std::max(level.rmsG, std::sqrt(one.squareSeconds / seconds) * one.fullScaleG);
+    }
+    return level;
 }
 
 void StudyWorld::sendStrips() {

@@ -119,8 +119,7 @@ public:
     bool isMoving() const noexcept { return isPlaying() && stoppedNs_ < 0; }
     /// Duration of the current or last world, without silences.
     double feltSeconds() const noexcept { return 1e-9 * static_cast<double>(feltNs_); }
-    /// What the levels are measured over: a set length, or what was felt.
-    double measuredSeconds() const noexcept { return seconds_ > 0.0 ? seconds_ : feltSeconds(); }
+    FeltLevel felt() const; ///< of the strongest actuator, by receipts: over the set length, or what was felt
 
     /// Stops the world; sounding modes fade out.
     void end();
@@ -146,8 +145,11 @@ private:
     std::string fault_;
     double seconds_ = 0.0; // of a world without user input
     Course course_ = Course::none;
-    std::uint32_t number_ = 0;                              // of the session, for receipts
-    int actuators_ = 0;                                     // of its layout
+    std::uint32_t number_ = 0; // of the session, for receipts
+    struct Left {
+        double fullScaleG = 0.0, peak = 0.0, squareSeconds = 0.0;
+    };
+    std::vector<Left> left_;                                // by actuator of its layout, up to checkedNs_
     std::int64_t checkedNs_ = 0;                            // receipts were asked for up to there
     std::int64_t feltNs_ = 0, seenNs_ = 0, stoppedNs_ = -1; // stoppedNs_: session time of the stop
 };

@@ -434,8 +434,7 @@ void StudyScreen::markFelt() {
 /// Stores the felt level of the part that is over: a device that restarts later knows it no more.
 void StudyScreen::noteFelt() {
     model_.exposure().update();
-    felt_[part_] =
-        worldSet() != nullptr ? model_.exposure().felt(pane_.world().measuredSeconds()) : sound_.felt();
+    felt_[part_] = worldSet() != nullptr ? pane_.world().felt() : sound_.felt();
 }
 
 /// The participant's A(8) from this study's trials of today.
