@@ -28,6 +28,7 @@ node Tests/JavaScript/bodies.mjs "$work"
 node Tests/JavaScript/velocities.mjs "$work"
 node Tests/JavaScript/feel.mjs "$work"
 node Tests/JavaScript/kit.mjs "$work" --table --page Docs/javascript.md
+node Tests/JavaScript/fuzz.mjs "$work"
 node Tests/JavaScript/lives.mjs "$work"
 node Tests/JavaScript/cost.mjs "$work" 100
 node Tests/JavaScript/space.mjs "$work"

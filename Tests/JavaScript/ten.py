@@ -23,6 +23,7 @@ KNOWN = {
     ("Matter", "chain of ghosts", 60): "it has no chains: seams jolt",
     ("Matter", "ragdoll", 60): "its feet are not felt",
     ("Matter", "ball on slope", 60): "the ball bounces though it should not",
+    ("Matter", "ball on slope", 240): "the ball bounces though it should not",
     ("Matter", "pile at rest", 60): "its pile does not rest",
     ("Planck", "stack that lands", 60): "the boxes above arrive in the next step, as a load",
     ("Rapier", "pole", 60): "it pushes the head in two steps, and both are felt",
