@@ -34,6 +34,11 @@ std::string columnNames(OptionalColumns columns = {}) {
     return names;
 }
 
+/// Without the quotes that R and others put around cells.
+std::string_view unquoted(std::string_view cell) {
+    const bool isQuoted = cell.size() > 1 && cell.starts_with('"') && cell.ends_with('"');
+    return isQuoted ? cell.substr(1, cell.size() - 2) : cell;
+}
 std::size_t cellsIn(std::string_view line) {
     return line.empty() ? 0 : static_cast<std::size_t>(std::ranges::count(line, ',')) + 1;
 }
@@ -72,7 +77,7 @@ private:
                 return failEnd("expected a header line " + columnNames() + ", found the end of the file");
         }
         for (std::size_t left = cellsIn(header); left > 0; --left)
-            if (!readName(trimmed(takeUntil(',', header)))) return false;
+            if (!readName(unquoted(trimmed(takeUntil(',', header))))) return false;
         for (std::size_t i = 0; i < requiredEventColumns; ++i)
             if (!has(eventColumns[i]))
                 return fail("column " + std::string(eventColumns[i].name) + " is missing");
@@ -131,7 +136,7 @@ private:
         CollisionEvent event;
         std::string_view rest = line;
         for (const EventColumn* column : order_)
-            if (!readCellOf(*column, trimmed(takeUntil(',', rest)), event)) return false;
+            if (!readCellOf(*column, unquoted(trimmed(takeUntil(',', rest))), event)) return false;
         if (!hasMaterials_) takeFormerClip(event);
         return accept(event);
     }

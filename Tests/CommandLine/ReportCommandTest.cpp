@@ -247,7 +247,7 @@ TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
     EXPECT_TRUE(has(page("other"), "Planned, not done: other")) << plan;
     EXPECT_TRUE(has(page("other"), "Not planned: Friedman"));
     refuses("report magnitudes-P01.csv --plan magnitudes-P01.csv --out none", 1,
-            "expected a plan of `physvib study plan`", 20);
+            "expected a plan of `physvib study plan`", 19);
 }
 
 TEST_F(Report, PeopleInTwoTablesAreNamed) {

@@ -199,7 +199,7 @@ TEST(EventsCsv, MissingLaterColumnsTakeTheDefaults) {
 
 TEST(EventsCsv, ColumnsAreFoundByNameInAnyOrder) {
     const Events events =
-        readGood("mass_kg,y_m,x_m,amplitude,decay_per_s,frequency_hz,time_s\n7,6,5,4,3,2,1\n");
+        readGood("\"mass_kg\",y_m,x_m,amplitude,decay_per_s,frequency_hz,time_s\n\"7\",6,5,4,3,2,1\n");
     EXPECT_TRUE((events == Events{{1'000'000'000, 2.0, 3.0, 4.0, 5.0, 6.0, 0, {-1, -1, 0.0, 7.0}}}));
 }
 

@@ -87,10 +87,12 @@ namespace {
 std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
     if (job.files.empty() || job.made != nullptr) return {};
     std::vector<std::string> names;
+    bool hasPlaces = false;
     const auto look = [&](const std::vector<NamedText>& files) -> Result<bool> {
         auto table = readCsvTable(files[0].text, files[0].name, CsvHeader::loose);
         std::size_t leftOut = 0;
         if (table && takeColumns(table.value, job.columns, leftOut).empty()) names = analysesFor(table.value);
+        hasPlaces = table.value.column("target_x").has_value();
         return true;
     };
     readStudyFiles(job, look);
@@ -98,7 +100,7 @@ std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
     for (const std::string& name : names) {
         if (name == asked.name || (asked.kind == Analysis::Kind::fit && name == "levels") ||
             (asked.name == "icons" && name == "confusion") ||
-            (asked.name == "places" && name == "resolution"))
+            (asked.name == "places" && name == "resolution" && hasPlaces))
             return {};
         words +=
             (words.empty() ? "; the file has trials that `physvib analyse " : ", `analyse ") + name + "`";

@@ -292,7 +292,7 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
 }
 
 std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
-    std::size_t taken = 0;
+    std::size_t taken = 0, ofTraining = 0;
     const auto task = rows.optional(trialColumns::task);
     if (!task && !rows.optional("value")) rows.required("correct");
     const auto phase = rows.optional(trialColumns::phase);
@@ -309,9 +309,11 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
         if (answer == AnswerKind::wish) continue; // explorations have no stimulus
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
+            ofTraining += isTraining(row);
             conditionNamed(rows, data, {}).push_back(std::move(*trial));
         }
     }
+    if (ofTraining > 0) data.warnings.emplace_back("levels were set in a training, and no others: it counts");
     return taken;
 }
 

@@ -254,8 +254,7 @@ void tellParticipants(ReportBuilder& report) {
     else
         report.page.list(exclusions);
     if (std::ranges::any_of(people, [](const auto& one) { return one.second.training > 0; }))
-        report.page.paragraph(
-            "Trainings are left out; only levels that are matched before a study have their means.");
+        report.page.paragraph("Trainings are left out of all analyses.");
 }
 
 void tellProcedure(ReportBuilder& report) {
