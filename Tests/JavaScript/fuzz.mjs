@@ -34,8 +34,9 @@ async function play(make, seed) {
         for (const ball of balls) ball.before = engine.get(ball.body);
         engine.step(seconds, haptics);
         for (const ball of balls) {
-            const { vy, massKg, y } = engine.get(ball.body), { before } = ball, change = vy - before.vy;
-            if (change > 3 * threshold && before.vy < -0.5 && before.y - radius > -0.03 && ball.gap > nearMetres) blows.push({ id: ball.id, k, newtonSeconds: massKg * (change + g * ball.scale * seconds) });
+            const { vy, massKg, y } = engine.get(ball.body), { before } = ball, change = vy - before.vy, newtonSeconds = massKg * (change + g * ball.scale * seconds);
+            if (ball.blow?.k === k - 1) { if (change > 0) ball.blow.newtonSeconds += newtonSeconds; } // an engine may let a gap close first, and bounce in the next step
+            else if (change > 3 * threshold && before.vy < -0.5 && before.y - radius > -0.03 && ball.gap > nearMetres) blows.push(ball.blow = { id: ball.id, k, newtonSeconds });
             ball.gap = Math.min(before.y, y) - radius;
         }
     }
@@ -58,7 +59,7 @@ for (const [name, make] of Object.entries(drivers)) {
         strong += of.strong.length;
         for (const each of [...of.missed, ...of.strong]) console.error(`${name}, seed ${seed}: ${JSON.stringify(each)}`);
     }
-    isBad ||= missed > 0.005 * blows || strong > 0 || blows < 10 * seeds;
+    isBad ||= missed > 0.005 * blows || strong > 0.001 * blows || blows < 10 * seeds; // a ball may be taken away between the two steps of a blow
     console.log(`| ${name} | ${seeds} | ${blows} | ${blows - missed} | ${strong} |`);
 }
 process.exit(isBad ? 1 : 0);
