@@ -70,7 +70,7 @@ void Link::handle(std::span<const std::uint8_t> payload, Moment ended) noexcept 
     case wire::Type::stopAll: stopAll(); break;
     case wire::Type::selfTest:
         stopAll();
-        selfTest_.begin();
+        selfTest_.begin(*renderer_);
         break;
     default: break; // message of a later protocol version
     }

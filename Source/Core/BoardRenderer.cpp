@@ -62,6 +62,15 @@ void BoardRenderer::setGains(const Gains& gains) noexcept {
     for (int j = 0; j < channels; ++j) gains_[at(j)].moveTo(gains[at(j)]);
 }
 
+BoardRenderer::Gains BoardRenderer::exchangeGains(const Gains& gains) noexcept {
+    Gains before;
+    for (int j = 0; j < channels; ++j) {
+        before[at(j)] = gains_[at(j)].target();
+        gains_[at(j)].jumpTo(gains[at(j)]);
+    }
+    return before;
+}
+
 void BoardRenderer::stopAll() noexcept {
     bank_.clear();
     segments_.clear();

@@ -139,6 +139,8 @@ public:
     /// Gains per channel, reached within limits::channelRampSeconds. Negative gains invert the polarity, 0
     /// mutes.
     void setGains(const Gains& gains) noexcept;
+    /// The same at once, while nothing is heard; what they were to be.
+    Gains exchangeGains(const Gains& gains) noexcept;
 
     /// Ends all modes and segments and discards pending events, from the next block on. The caller fades what
     /// the converters still hold.

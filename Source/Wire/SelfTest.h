@@ -12,7 +12,11 @@ namespace physvib::wire {
 /// Called around each block of the renderer.
 class SelfTestRun {
 public:
-    void begin() noexcept { step_ = 1; }
+    /// The gains of who played before are set aside until the end.
+    void begin(BoardRenderer& renderer) noexcept {
+        if (!isRunning()) gains_ = renderer.exchangeGains({1.0f, 1.0f, 1.0f, 1.0f});
+        step_ = 1;
+    }
     bool isRunning() const noexcept { return step_ != 0; }
 
     /// Before a block: adds eight notes, each with its own frequency and decay.
@@ -30,10 +34,11 @@ public:
     }
 
     /// After a block that took `cycles`: true once, when the result is complete.
-    bool take(const BoardRenderer::Codes& block, std::uint32_t cycles, const BoardRenderer& renderer,
+    bool take(const BoardRenderer::Codes& block, std::uint32_t cycles, BoardRenderer& renderer,
               SelfTestReply& reply) noexcept {
         if (step_++ <= blocks) return false;
         step_ = 0;
+        (void)renderer.exchangeGains(gains_);
         reply.modes = static_cast<std::uint16_t>(renderer.status().modes);
         reply.blockCycles = cycles;
         reply.hash = crc16({block[0].data(), sizeof(block)});
@@ -43,6 +48,7 @@ public:
 private:
     static constexpr int notesPerBlock = 8, blocks = limits::board::maxModes / notesPerBlock;
     int step_ = 0;
+    BoardRenderer::Gains gains_{};
 };
 
 /// The answer expected from a board, except for the cycles. Resets `renderer`.
@@ -51,7 +57,7 @@ inline SelfTestReply expectedSelfTest(BoardRenderer& renderer) noexcept {
     SelfTestReply reply;
     BoardRenderer::Codes block;
     renderer.prepare();
-    test.begin();
+    test.begin(renderer);
     do {
         test.strike(renderer);
         renderer.render(block);

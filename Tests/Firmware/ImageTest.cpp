@@ -34,6 +34,7 @@ TEST(BoardImage, HasNoHeapAndNoExceptions) {
 TEST(BoardImage, SelfTestGivesTheBitsOfThisComputer) {
     test::Rig rig;
     rig.connect();
+    rig.send(wire::Gains{{1000, -2000, 0, 4096}}); // of who played before
     const auto onBoard = *rig.ask<wire::SelfTestReply>(wire::SelfTest{});
     BoardRenderer renderer;
     const auto reply = wire::expectedSelfTest(renderer);

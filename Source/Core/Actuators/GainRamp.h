@@ -33,6 +33,7 @@ public:
     bool isOne() const noexcept { return now_ == 1.0f && target_ == 1.0f; }
 
     float now() const noexcept { return now_; }
+    float target() const noexcept { return target_; }
     /// Lower bound of the gain from now on.
     float leastAhead() const noexcept { return std::min(now_, target_); }
     /// The gain of the next frame.
