@@ -22,6 +22,26 @@ std::string shareIntervals(const ReportBuilder& report) {
     return report.people() > 1 ? report.intervals() : ", of one participant: 95 % intervals over trials";
 }
 
+/// Shares by the last two factors of names like "pair=wood size=small", over the levels of the others.
+void tellTwoFactors(ReportBuilder& report, std::vector<ChoiceTrial> trials) {
+    std::set<std::string> both;
+    for (ChoiceTrial& trial : trials) {
+        const std::string& of = trial.condition;
+        const std::size_t last = of.rfind(' '), before = last == 0 ? of.npos : of.rfind(' ', last - 1);
+        if (last == of.npos) return;
+        trial.condition = of.substr(before == of.npos ? 0 : before + 1);
+        both.insert(trial.condition);
+    }
+    if (both.size() > mostShown) return;
+    const auto summaries = summariseChoices(trials);
+    std::vector<const ChoiceSummary*> chosen;
+    for (const ChoiceSummary& each : summaries)
+        if (both.contains(each.condition)) chosen.push_back(&each);
+    report.page.figure(
+        {sharesChart(report.frame("Shares by two factors"), "condition", {both.begin(), both.end()}, chosen)},
+        "Shares by two factors" + report.asThesis("Fig. 5.9") + shareIntervals(report) + ".");
+}
+
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.
 void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
     const auto data = readLevelAnswers({&file, 1}, {"stimulus", "correct", false});
@@ -71,6 +91,7 @@ void tellChoices(ReportBuilder& report) {
     report.page.figure({sharesChart(report.frame("Shares of the alternatives"), "condition", groups, chosen)},
                        "Mean of the participants' shares" + report.asThesis("Fig. 5.8, which has medians") +
                            shareIntervals(report) + ".");
+    if (hasFactors) tellTwoFactors(report, trials);
 }
 
 void tellRatings(ReportBuilder& report) {
@@ -93,6 +114,13 @@ void tellRatings(ReportBuilder& report) {
         if (conditions.contains(at->condition) != isMany) shown.push_back(&*at);
     report.page.figure({scoresChart(report.frame("Mean scores"), scales, shown)},
                        "Mean scores" + report.asThesis("Fig. 5.14") + report.intervals() + ".");
+    std::erase_if(shown, [&](const RatingSummary* each) { return conditions.contains(each->condition); });
+    if (!isMany)
+        for (const RatingSummary& each : summaries)
+            if (!conditions.contains(each.condition)) shown.push_back(&each);
+    if (shown.empty() || isMany) return;
+    report.page.figure({scoresChart(report.frame("Mean scores by factor"), scales, shown)},
+                       "Mean scores by factor" + report.asThesis("Fig. 5.13") + report.intervals() + ".");
 }
 
 // Report section on answers in words, from the columns task, phase, condition, session, stimulus and

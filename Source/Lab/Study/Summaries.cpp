@@ -2,6 +2,7 @@
 // Quantiles by bisection; choices and ratings grouped by name; thresholds from reversals or QUEST+, means in
 // dB or in logarithms.
 #include "Lab/Study/Summaries.h"
+#include "Core/EventShaping.h"
 #include "Lab/Study/QuestMethod.h"
 #include <algorithm>
 #include <array>
@@ -61,9 +62,12 @@ namespace {
 /// The factors in a condition's name: "size=small" of "pair=wood size=small".
 std::vector<std::string> factorsOf(const std::string& condition) {
     std::vector<std::string> parts;
+    RenderingMethod method;
+    const bool isMethod = renderingMethodNamed(condition, method);
     for (std::size_t from = 0; from < condition.size();) {
-        const std::size_t to = std::min(condition.find(' ', from), condition.size());
-        if (std::string part = condition.substr(from, to - from); part.find('=') != std::string::npos)
+        const std::size_t to = std::min(condition.find(isMethod ? '-' : ' ', from), condition.size());
+        if (std::string part = condition.substr(from, to - from);
+            isMethod || part.find('=') != std::string::npos)
             parts.push_back(std::move(part));
         from = to + 1;
     }

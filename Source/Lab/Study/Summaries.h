@@ -128,8 +128,8 @@ struct RatingSummary {
                                            ///< participants are unknown; 0 for one value
 };
 
-/// Each condition by name, then each factor of names like "pair=wood size=small". Precondition: every trial
-/// has the same number of scores. Any thread (allocates).
+/// Each condition by name, then each factor of names like "pair=wood size=small", or each part of methods'
+/// names like AV-FF-DRV. Precondition: every trial has the same number of scores. Any thread (allocates).
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials);
 
 // Results of staircases, adjustments, magnitude estimations and QUEST+: thresholds, levels and magnitudes per
