@@ -35,7 +35,7 @@ public:
     void enter(const juce::File& folder);
     const juce::File& folder() const noexcept { return folder_; }
     juce::String name() const { return name_.getText().trim(); }
-    void setName(const juce::String& name) { name_.setText(name, true); }
+    void setName(const juce::String& name) override { name_.setText(name, true); }
     juce::String words() const { return words_.getText(); }
     /// Same as Return: enters a folder, or takes the file.
     void accept();
