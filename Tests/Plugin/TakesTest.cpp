@@ -153,8 +153,9 @@ TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
     ASSERT_TRUE(host.plugin->apply(two));
     host.prepare(48000, 64);
     std::atomic<bool> isDone{false};
-    std::thread message{[&] {
-        for (int i = 0; i < 60; ++i) host.plugin->apply(i % 2 ? two : four);
+    std::atomic<std::size_t> seen{0};
+    std::thread message{[&] { // as many as make eleven, however the processor is shared
+        for (int i = 0; i < 60 || (seen < 11 && i < 100'000); ++i) host.plugin->apply(i % 2 ? two : four);
         isDone = true;
     }};
     std::vector<int> channels{0}; // of each take
@@ -164,6 +165,7 @@ TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
         host.block(64, midi);
         if (host.plugin->takes().status().take == static_cast<int>(channels.size()))
             channels.push_back(host.plugin->takes().session()->channels());
+        seen = channels.size();
     }
     message.join();
     EXPECT_GT(channels.size(), 10u);
