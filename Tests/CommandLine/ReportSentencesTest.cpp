@@ -155,6 +155,8 @@ std::vector<Sentence> sentences() {
          of(constant, 3, {}, true), of(steps, 3)},
         {"Mean of the participants' shares", of(fits, 3), of(steps, 3)},
         {"Mean scores (as thesis Fig. 5.14)", of(methods, 3), of(grid, 3)},
+        {"Mean scores by factor (as thesis Fig. 5.13)", of(methods, 3), of(grid, 3)},
+        {"Shares by two factors (as thesis Fig. 5.9)", of(fits, 3), of(steps, 3)},
         {"Share of answers \u201ccorrect\u201d by level (dB).", of(steps, 3), of(numbers, 3)},
         {"Circles: all participants' trials, larger where there were more", of(steps, 3), of(numbers, 3)},
         {"Thresholds are where the function is half way between guessing and certainty", of(steps, 3),
