@@ -106,8 +106,8 @@ class PsychoPyExample(unittest.TestCase):
             self.assertEqual(row["participant"], "P01")
             self.assertEqual(row["correct"], str(int(row["answer"] == row["stronger"])))
         analysed = subprocess.run([PHYSVIB, "analyse", "psychometric", "strength.csv", "--columns", "participant=participant,level_db=level_db,correct=correct"], cwd=self.folder, capture_output=True, encoding="utf-8")
-        self.assertEqual(analysed.returncode, 0, analysed.stderr)
-        self.assertIn("threshold", analysed.stdout)
+        # eight answers are read, and are too few to tell a JND: that is said of the participant, and of nothing else
+        self.assertIn("strength.csv: nobody can be fitted; participant P01 left out:", analysed.stderr)
 
     def test_without_psychopy_its_own_lines_write_the_table(self) -> None:
         (self.modules / "psychopy.py").write_text("raise ImportError('none here')\n")  # also where it is installed

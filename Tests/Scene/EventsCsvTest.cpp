@@ -249,7 +249,7 @@ TEST(EventsCsv, NamesLineColumnAndWhatWasExpected) {
         {"1,200,10,1,0,1e999,0,1,2,0,1", R"(y_m: expected a number, found "1e999")"},
         {"1,200,10,1,0,,0,1,2,0,1", R"(y_m: expected a number, found "")"},
         {"1,200,10,1,0,0.5m,0,1,2,0,1", R"(y_m: expected a number, found "0.5m")"},
-        {"1,200,10,1,0,\"0.5\",0,1,2,0,1", R"(y_m: expected a number, found ""0.5"")"},
+        {"1,200,10,1,0,\"0.5m\",0,1,2,0,1", R"(y_m: expected a number, found "0.5m")"},
         {"1,200,10,1,0,0,-0.1,1,2,0,1", R"(duration_s: expected seconds from 0 to 100000000, found "-0.1")"},
         {"1,200,10,1,0,0,0,1.5,2,0,1", R"(fixture: expected a whole number, found "1.5")"},
         {"1,200,10,1,0,0,0,1,2147483648,0,1", R"(other: expected a whole number, found "2147483648")"},

@@ -25,7 +25,7 @@ TEST(ColumnNames, ATableOfPsychoPyIsReadByTheNamesThatItHas) {
     EXPECT_EQ(read.value.warnings.front(),
               "p.csv: rows left out, with nothing in one of the named columns: 1");
     const NamedText plain{psychopy, "p.csv"};
-    EXPECT_EQ(readIdentification({&plain, 1}).error, "p.csv:1: expected a name for every column");
+    EXPECT_EQ(readIdentification({&plain, 1}).error, "p.csv: expected a column stimulus, found none");
 }
 
 TEST(ColumnNames, OnlyNamedColumnsCountAndFaultsNameTheLine) {

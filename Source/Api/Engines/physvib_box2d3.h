@@ -33,17 +33,20 @@
 
 /** A body of Box2D and its number. */
 typedef struct physvib_box2d3_number {
-    b2BodyId body;           /**< the body when it got its number */
-    int id;                  /**< -1: removed, or it never had one */
-    int is_told;             /**< its error was returned */
-    physvib_body values;     /**< as they were set */
-    double x_m, y_m;         /**< before the step; after it: as the step left it, as the next */
-    double vx, vy;           /**< see x_m */
-    double spin;             /**< before the step */
-    double free_vx, free_vy; /**< what the velocity becomes in the step if nothing is touched */
-    double lost_x_m;         /**< see physvib_box2d3_stop */
-    double lost_y_m;         /**< see physvib_box2d3_stop */
-    double lost_rad;         /**< see physvib_box2d3_stop */
+    b2BodyId body;       /**< the body when it got its number */
+    int id;              /**< -1: removed, or it never had one */
+    int is_told;         /**< its error was returned */
+    physvib_body values; /**< as they were set */
+    double x_m;          /**< before the step; after it: as the step left it, as the next */
+    double y_m;          /**< see x_m */
+    double vx;           /**< see x_m */
+    double vy;           /**< see x_m */
+    double spin;         /**< before the step */
+    double free_vx;      /**< what the velocity becomes in the step if nothing is touched */
+    double free_vy;      /**< see free_vx */
+    double lost_x_m;     /**< see physvib_box2d3_stop */
+    double lost_y_m;     /**< see physvib_box2d3_stop */
+    double lost_rad;     /**< see physvib_box2d3_stop */
 } physvib_box2d3_number;
 
 /** State between two steps; zero it, and set `world` and `box2d`. */

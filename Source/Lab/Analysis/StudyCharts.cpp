@@ -144,7 +144,7 @@ std::vector<std::string> levelCharts(std::span<const LevelSummary> summaries, bo
     for (const Words& words : kinds) {
         std::vector<std::pair<std::string, ChartValue>> bars;
         for (const LevelSummary& s : summaries)
-            if (s.kind == words.kind)
+            if (s.kind == words.kind && !std::isnan(s.estimate))
                 bars.emplace_back(
                     s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
                     ChartValue::around(s.estimate, s.kind == Kind::magnitude ? 0.0 : s.deviation));

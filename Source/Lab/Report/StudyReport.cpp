@@ -82,7 +82,10 @@ void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run
     StudyFiles files = report.tables();
     files[analysisScriptName] = made.files[analysisScriptName];
     auto ran = run ? run(files) : Result<StudyFiles>{StudyFiles{}};
-    if (!ran) return report.page.note("analysis.R did not end: " + ran.error);
+    if (!ran) {
+        made.scriptFault = "analysis.R did not end: " + ran.error;
+        return report.page.note(made.scriptFault);
+    }
     if (ran.value.empty())
         return report.page.paragraph("It has not run: type `Rscript analysis.R` in this folder.");
     const std::string& table = ran.value[testsTable];
@@ -239,6 +242,7 @@ std::string listOf(const char* title, const std::vector<std::string>& lines) {
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script) {
     auto report = rehearsed(protocol, participants, script);
     if (!report) return Failure{report.error};
+    if (!report.value.scriptFault.empty()) return Failure{report.value.scriptFault};
     std::vector<std::string> conditions, sessions, tests;
     for (const std::string& test : report.value.tests) tests.push_back("test: " + test);
     for (const ConditionPlan& condition : protocol.conditions)

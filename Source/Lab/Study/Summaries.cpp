@@ -318,7 +318,7 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
         summary.thresholds.emplace_back(participant, threshold);
     }
     const Moments moments{thresholds};
-    summary.estimate = moments.mean;
+    summary.estimate = thresholds.empty() ? std::numeric_limits<double>::quiet_NaN() : moments.mean;
     summary.deviation = moments.deviation;
     if (thresholds.size() > 1)
         summary.halfInterval = std::hypot(moments.halfInterval(), normalQuantile(0.975) * shared);

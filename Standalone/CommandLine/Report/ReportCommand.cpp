@@ -114,6 +114,7 @@ int runReport(ReportOptions& o) {
     if (!o.job.planPath.empty()) inputs.push_back(o.job.planPath);
     if (const int code = write(o.job.folder, report.value.files, inputs); code != exitDone) return code;
     for (const std::string& note : report.value.notes) warn(note);
+    if (const std::string& fault = report.value.scriptFault; !fault.empty()) return leave(exitFailed, fault);
     tellIfSimulated(report.value.isSimulated);
     std::cout << (std::filesystem::path{o.job.folder} / "index.html").string() << "  "
               << report.value.files.size() << " files\n";
