@@ -6,55 +6,168 @@ import { mkdtempSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
-import test from 'node:test';
+import { pathToFileURL } from 'node:url';
+import test, { after } from 'node:test';
 import { Context as Fake } from './fake-audio.mjs';
 import { load } from './installed.mjs';
 
-const folder = resolve(process.argv[2]), { feel } = await load(folder, 'physvib/feel'), at = createRequire(join(folder, 'index.js'));
-const { default: Matter } = await load(folder, 'matter-js');
+const folder = resolve(process.argv[2]), { feel: begin } = await load(folder, 'physvib/feel'), opened = [], at = createRequire(join(folder, 'index.js')), worklet = readFileSync(at.resolve('physvib/worklet.js'), 'utf8');
+const { default: Matter } = await load(folder, 'matter-js'), physvib = await (await load(folder, 'physvib')).load(), { material } = await load(folder, 'physvib');
+const field = { pixelsPerMetre: 200, fieldWidth: 4, fieldHeight: 3 };
+async function feel(...given) {
+    const felt = await begin(...given);
+    opened.push(felt);
+    return felt;
+}
+after(() => { for (const felt of opened) try { felt.output?.close(); felt.close(); } catch { /* it has ended */ } }); // what looks for devices ends
+/** A ball that falls for 0.7 s. */
 function game() {
     const engine = Matter.Engine.create(), ball = Matter.Bodies.circle(200, 300, 20);
     Matter.Composite.add(engine.world, [Matter.Bodies.rectangle(400, 590, 800, 20, { isStatic: true }), ball]);
     return { engine, ball, step: () => Matter.Engine.update(engine, 1000 / 240) };
 }
+class Context extends Fake {
+    static made = [];
+    isClosed = false;
+    constructor() {
+        super(worklet, 8);
+        this.state = 'suspended';
+        Context.made.push(this);
+    }
+    async close() { this.isClosed = true; }
+}
+const until = async holds => { for (const began = performance.now(); !holds() && performance.now() - began < 30000;) await new Promise(done => setTimeout(done, 5)); }; // what then must hold is asserted
+/** A page, as long as `act` goes on. */
+async function onPage(navigator, act, AudioContext = Context) {
+    const before = Object.getOwnPropertyDescriptor(globalThis, 'navigator'), { error } = console, lines = [];
+    Object.defineProperty(globalThis, 'navigator', { configurable: true, value: { userAgent: 'X11; Linux', ...navigator } });
+    Object.assign(globalThis, { document: Object.assign(new EventTarget(), { baseURI: 'https://example.org/' }), AudioContext });
+    Context.made = [];
+    console.error = line => lines.push(line);
+    try { await act(name => document.dispatchEvent(new Event(name)), lines); } finally {
+        console.error = error;
+        if (before) Object.defineProperty(globalThis, 'navigator', before); else delete globalThis.navigator;
+        delete globalThis.document;
+        delete globalThis.AudioContext;
+    }
+}
 
 test('Matter: a ball of a material is felt, and close() ends it', async () => {
-    const { engine, ball, step } = game(), felt = await feel(engine, { pixelsPerMetre: 100, fieldWidth: 8, fieldHeight: 6 });
+    const { engine, ball, step } = game(), felt = await feel(engine, field);
     felt.set(ball, 'wooden board');
     for (let i = 0; i < 240; ++i) step();
-    const events = felt.haptics.take(true), { material } = await load(folder, 'physvib');
-    assert.ok(events.length > 0 && events.every(({ frequencyHz }) => frequencyHz === material('wooden board').frequencyHz), felt.explain());
-    assert.ok(Math.abs(events[0].x - 2) < 0.01 && Math.abs(events[0].y - 0.2) < 0.02, 'metres of the field');
+    const events = felt.haptics.take(true), { frequencyHz } = material('wooden board');
+    assert.ok(events.length > 0 && events.every(event => event.frequencyHz === frequencyHz), felt.explain());
+    assert.ok(Math.abs(events[0].x - 1) < 0.01 && Math.abs(events[0].y - 0.1) < 0.01, 'metres of the field');
+    assert.ok(Math.abs(events[0].amplitude - 0.5) < 0.01, 'the level is set by what happens');
     assert.equal(felt.output, null);
     assert.match(felt.explain(), /^Nothing plays before the first click or key\./);
     assert.throws(() => felt.set(ball, 'cheese'), /material: expected one that vibrates/);
     felt.close();
     felt.close();
+    assert.deepEqual(Object.values(engine.events).flat(), [], 'nothing is left in the engine');
     step();
+    assert.throws(() => felt.set(ball, 'wooden board'));
 });
 
 test('other engines are known, and what is none is refused', async () => {
-    const planck = await load(folder, 'planck').then(module => module.default ?? module), worlds = [new planck.World(), { bodies: () => [], read() {} }];
-    for (const kind of ['2d', '3d']) {
+    const planck = await load(folder, 'planck').then(module => module.default ?? module), worlds = [['PlanckHaptics', new planck.World()], ['VelocityHaptics', { bodies: () => [], read() {} }]];
+    for (const [kind, name] of [['2d', 'RapierHaptics'], ['3d', 'RapierHaptics3D']]) {
         const { default: R } = await load(folder, `@dimforge/rapier${kind}-compat`);
         await R.init();
-        worlds.push(new R.World({ x: 0, y: -9.81, z: 0 }));
+        worlds.push([name, new R.World({ x: 0, y: -9.81, ...(kind === '3d' && { z: 0 }) })]);
     }
-    for (const world of worlds) (await feel(world)).close();
+    const b2 = await (await import(pathToFileURL(join(folder, 'node_modules/box2d3-wasm/build/dist/es/entry.mjs')))).default();
+    worlds.push(['Box2d3Haptics', b2.b2CreateWorld(b2.b2DefaultWorldDef()), { b2 }]);
+    for (const [name, world, options] of worlds) {
+        const felt = await feel(world, options);
+        assert.equal(felt.haptics.constructor.name, name);
+        felt.update?.(1 / 60);
+        assert.equal(felt.haptics.error, null);
+        felt.close();
+    }
     await assert.rejects(feel({}), /feel: expected an engine's world/);
-    await assert.rejects(feel(worlds[0], { feildWidth: 1 }), /feildWidth/);
+    await assert.rejects(feel(worlds[0][1], { feildWidth: 1 }), /feildWidth/);
 });
 
-test('with a context it plays', async () => {
-    const { engine, ball, step } = game(), context = new Fake(readFileSync(at.resolve('physvib/worklet.js'), 'utf8'), 8);
-    context.resume ??= async () => {};
-    const felt = await feel(engine, { pixelsPerMetre: 100, fieldWidth: 8, fieldHeight: 6, layout: 'phone4', context });
-    for (let i = 0; i < 100 && !felt.output && !felt.error; ++i) await new Promise(done => setTimeout(done, 10));
+/** Steps until the ball has bounced; the sum of what actuators get. */
+function heard({ step }, context) {
+    for (let i = 0; i < 300; ++i) {
+        step();
+        context.run(1 + i % 2);
+    }
+    return context.recorded.flat().reduce((sum, sample) => sum + Math.abs(sample), 0);
+}
+
+test('with a context it plays what the ball does, and the context stays the game\'s', async () => {
+    const one = game(), context = new Context(), felt = await feel(one.engine, { ...field, physvib, layout: 'ring3', context });
+    await until(() => felt.output || felt.error);
     assert.equal(felt.error, null);
-    assert.equal(felt.output.channels, 4);
-    felt.set(ball, { isSource: true, material: 'wooden board', gain: 0.5 });
-    step();
+    assert.deepEqual([felt.output.channels, context.state], [3, 'running']);
+    felt.set(one.ball, { isSource: true, material: 'wooden board', gain: 0.5 });
+    assert.ok(heard(one, context) > 1);
+    assert.doesNotMatch(felt.explain(), /Nothing plays/);
     felt.close();
+    context.run(1);
+    assert.deepEqual([context.isAlive, context.isClosed], [false, false]);
+});
+
+test('a page plays from the first gesture on, once, and until it is closed', () => onPage({ userActivation: { hasBeenActive: false } }, async gesture => {
+    const one = game(), felt = await feel(one.engine, { ...field, physvib });
+    felt.set(one.ball, 'wooden board');
+    assert.equal(Context.made.length, 0);
+    gesture('keydown');
+    gesture('pointerdown');
+    await until(() => felt.output);
+    const [context, ...more] = Context.made;
+    assert.deepEqual([more.length, context.state], [0, 'running']);
+    assert.ok(heard(one, context) > 1);
+    felt.close();
+    assert.ok(context.isClosed);
+    const early = await feel(game().engine, { ...field, physvib });
+    early.close();
+    gesture('pointerdown');
+    assert.equal(Context.made.length, 1, 'one that is closed does not begin');
+    const hasty = await feel(game().engine, { ...field, physvib });
+    gesture('touchend');
+    hasty.close();
+    await until(() => Context.made[1].physvib);
+    await new Promise(done => setTimeout(done, 5));
+    Context.made[1].run(1);
+    assert.deepEqual([hasty.output, Context.made[1].isAlive], [null, false], 'what opens when it is closed is closed');
+    navigator.userActivation.hasBeenActive = true;
+    const late = await feel(game().engine, { ...field, physvib });
+    await until(() => late.output);
+    assert.equal(Context.made.length, 3);
+    late.close();
+}));
+
+test('without sound the game goes on, and says why', () => onPage({}, async (gesture, lines) => {
+    const { engine, ball, step } = game(), felt = await feel(engine, { ...field, physvib });
+    felt.set(ball, 'wooden board');
+    gesture('keydown');
+    await until(() => felt.error);
+    for (let i = 0; i < 240; ++i) step();
+    assert.ok(felt.haptics.take(true).length > 0);
+    assert.match(felt.explain(), /^No device\. /);
+    assert.deepEqual(lines, ['PhysVib: no sound, the game goes on: No device.']);
+    felt.close();
+}, class { constructor() { throw new Error('No device.'); } }));
+
+test('controllers get it, too', () => {
+    const sent = [], pad = { connected: true, vibrationActuator: { effects: ['dual-rumble'], playEffect(_, { strongMagnitude }) { sent.push(strongMagnitude); return Promise.resolve('complete'); }, reset() { sent.push(-1); return Promise.resolve('complete'); } } };
+    return onPage({ getGamepads: () => [null, pad] }, async () => {
+        const { engine, ball, step } = game(), felt = await feel(engine, { ...field, physvib });
+        felt.set(ball, 'wooden board');
+        for (let i = 0; i < 240; ++i) step();
+        await until(() => sent.some(strong => strong > 0));
+        assert.ok(sent.some(strong => strong > 0), 'a motor runs');
+        felt.close();
+        assert.equal(sent.at(-1), -1, 'and stands still');
+        const other = game();
+        await assert.rejects(feel(other.engine, { ...field, physvib, profile: 'pad-none' }), /pad-generic/);
+        assert.deepEqual(Object.values(other.engine.events).flat(), [], 'what is refused leaves nothing');
+    });
 });
 
 test('its types are real, in node10 too', () => {

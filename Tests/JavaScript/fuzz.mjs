@@ -43,6 +43,7 @@ async function play(make, seed) {
     const hits = haptics.take(true).filter(({ kind }) => kind === 'hit').map(event => ({ id: event.fixture, step: event.timeNs * 1e-9 / seconds, newtonSeconds: event.impulse }));
     if (haptics.error) throw haptics.error;
     haptics.free();
+    engine.end?.();
     const found = blows.map(blow => ({ ...blow, hits: hits.filter(hit => hit.id === blow.id && hit.step > blow.k - 1.5 && hit.step < blow.k + 2.05) }));
     return { blows: blows.length, missed: found.filter(blow => blow.hits.length === 0), strong: found.filter(blow => blow.hits.length > 0 && blow.hits.every(hit => hit.newtonSeconds > 1.35 * blow.newtonSeconds)) };
 }

@@ -63,6 +63,8 @@ async function play(make, situation) {
     const said = haptics.explain(), events = haptics.take(true).filter(({ kind }) => kind === 'hit').map(event => ({ ...event, at: event.timeNs * 1e-9, body: ids.get(event.fixture) }));
     const error = haptics.error;
     haptics.free();
+    second?.free();
+    driver.end?.();
     return { events, said, motions, all, gravity, scales, error, kinds, isTwice: Boolean(second) };
 }
 

@@ -135,7 +135,7 @@ async function box2d3(folder, physvib, { gravity }) {
             for (const [frame, body] of [[def.base.localFrameA, a], [def.base.localFrameB, b]]) { const local = b2.b2Body_GetLocalPoint(body, at(x, y)); frame.p.Set(local.x, local.y); }
             b2.b2CreateRevoluteJoint(world, def);
         },
-        step: (seconds, haptics) => haptics.update(seconds),
+        step: (seconds, haptics) => haptics.update(seconds), end: () => b2.b2DestroyWorld(world), // there is room for 128
     };
     return driver;
 }

@@ -43,6 +43,7 @@ export const situations = [
     fallsAfter('let go: kinematic, then dynamic', (e, { ball }) => { e.type(ball, 'dynamic'); e.rest(ball); }, { ...landing(1), at: 0.1 + secondsOf(1) }, { bodies: { floor, ball: ball(1, { type: 'kinematic', later: kg }) }, atLeast: 1, most: 3 }),
     fallsAfter('made fixed in the air', (e, { ball }) => e.type(ball, 'fixed'), null, { says: /immovable|No contact/ }),
     fallsAfter('20 times lighter', (e, { ball }) => e.mass(ball, kg / 20), landing(1, kg / 20)), fallsAfter('20 times heavier', (e, { ball }) => e.mass(ball, 20 * kg), landing(1, 20 * kg)),
+    fallsAfter('20 times lighter in the step that it lands in', () => {}, landing(1, kg / 20), { acts: [[0.445, (e, { ball }) => e.mass(ball, kg / 20)]] }),
     fallsAfter('a bar that is locked in flight', (e, { bar }) => e.lockTurn(bar), landing(1, 2), { bodies: { ledge: { type: 'fixed', x: -0.95, y: -0.5, half: [0.1, 0.5] }, bar: { isSource: true, half: [1, 0.1], massKg: 2, x: 0, y: 1.1 } }, seconds: 0.6 }),
     fallsAfter('gravity scale 0: floats', (e, { ball }) => { e.gravityScale(ball, 0); e.fling(ball, 0, 0); }, null, { says: /No contact/ }),
     fallsAfter('gravity scale 2', (e, { ball }) => { e.gravityScale(ball, 2); e.fling(ball, 0, 0); e.put(ball, 0, 1 + radius); }, { own: true }, { scale: 2 }),

@@ -20,7 +20,7 @@ const kinds = [
     [(engine, { b2 }) => b2 && engine.index1 > 0, box2d3],
     [engine => typeof engine.bodies === 'function' && engine.read, attachVelocities],
 ];
-const gestures = ['pointerdown', 'keydown', 'touchend'];
+const gestures = ['pointerdown', 'keydown', 'touchend'], early = { capture: true };
 
 class Felt {
     #closed = false; #begin = () => this.#open();
@@ -34,12 +34,12 @@ class Felt {
         this.#context = context;
         pads?.follow(haptics);
         if (context || globalThis.navigator?.userActivation?.hasBeenActive) this.#begin();
-        else for (const name of gestures) globalThis.document?.addEventListener(name, this.#begin, true);
+        else for (const name of gestures) globalThis.document?.addEventListener(name, this.#begin, early);
     }
     #options; #context; #isOwn = false;
     // Browsers make no sound before a click or a key.
     async #open() {
-        for (const name of gestures) globalThis.document?.removeEventListener(name, this.#begin, true);
+        for (const name of gestures) globalThis.document?.removeEventListener(name, this.#begin, early);
         try {
             this.#isOwn = !this.#context;
             this.#context ??= new AudioContext();
@@ -59,7 +59,7 @@ class Felt {
     explain() { return (this.error ? `${this.error.message} ` : this.output ? '' : 'Nothing plays before the first click or key. ') + this.haptics.explain(); }
     close() {
         this.#closed = true;
-        for (const name of gestures) globalThis.document?.removeEventListener(name, this.#begin, true);
+        for (const name of gestures) globalThis.document?.removeEventListener(name, this.#begin, early);
         this.output?.close();
         this.pads?.close();
         this.haptics.free();
@@ -73,6 +73,11 @@ export async function feel(engine, { physvib, pixelsPerMetre, metresPerUnit = pi
     physvib ??= await load();
     const haptics = kind[1](physvib, engine, { fullScaleImpulse: 'automatic', ...settings, fieldWidth, fieldHeight, ...(metresPerUnit && { metresPerUnit }) });
     const field = { fieldWidth, fieldHeight }, given = Object.fromEntries(Object.entries({ layout, outputs, level, latency, worklet }).filter(([, value]) => value !== undefined));
-    const pads = globalThis.navigator?.getGamepads ? rumble(physvib, { ...field, ...(profile && { profile }), ...(phone !== undefined && { phone }), ...(latency && { latency }) }) : null;
-    return new Felt(physvib, haptics, { ...field, ...given, context, pads });
+    try {
+        const pads = globalThis.navigator?.getGamepads ? rumble(physvib, { ...field, ...(profile && { profile }), ...(phone !== undefined && { phone }), ...(latency && { latency }) }) : null;
+        return new Felt(physvib, haptics, { ...field, ...given, context, pads });
+    } catch (error) {
+        haptics.free();
+        throw error;
+    }
 }

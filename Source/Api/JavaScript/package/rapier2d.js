@@ -135,7 +135,9 @@ export class RapierHaptics extends Haptics {
             const isAsleep = !known.isStatic && known.body.isSleeping();
             known.isAtRest = isAsleep && known.hasSlept === true && known.posed === known.body.numColliders();
             known.hasSlept = isAsleep;
-            if (!known.isAtRest) known.posed = 0;
+            if (known.isAtRest) continue;
+            known.posed = 0;
+            if (!known.isStatic) known.body.recomputeMassPropertiesFromColliders?.(); // as its step does at first: masses are what the game has made them
         }
     }
     // A body that touches for the first time is known before the step that it touches in.
