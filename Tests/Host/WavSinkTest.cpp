@@ -140,6 +140,8 @@ TEST(WavSink, KeepsTheComment) {
     ASSERT_EQ(writeBlocks(path, 4, 10, 10, "shake-the-box, seed 1"), "");
     EXPECT_NE(bytesOf(path).find("ICMT"), std::string::npos);
     EXPECT_NE(bytesOf(path).find("shake-the-box, seed 1"), std::string::npos);
+    const auto bytes = bytesOf(path);
+    EXPECT_EQ(bytes.size(), chunkAt(bytes, "data") + 10 * 4 * sizeof(float)) << "behind it, whole";
 }
 
 TEST(PlayedRecorder, SaysInTheFileAtWhichSessionTimeItBegins) {

@@ -336,14 +336,15 @@ protocol_list() { at 1322 85; sleep 0.2; at 1060 146; }
 open_chooser() { x key ctrl+o sleep 0.5 key d; } # do not save
 # stop_in STATE HOW...: brings it about; Esc, which closes it as well; then again, and a press.
 mixer_door='mixer: SILENCE, Esc, whatever is open'
+# From when key or click has been sent: how long xdotool takes to begin is a matter of the processor's share.
 stop_in() {
     state=$1
     shift
     "$@" || true
-    sleep 0.6; t=$(now); x key Escape; zero "Esc" "$state" "$t" 150; note_stop "$mixer_door" "$t"; stays Esc
+    sleep 0.6; x key Escape; t=$(now); zero "Esc" "$state" "$t" 150; note_stop "$mixer_door" "$t"; stays Esc
     again
     "$@" || true
-    sleep 0.6; over 1353 26; t=$(now); x click 1; zero "SILENCE" "$state" "$t" 150; note_stop "$mixer_door" "$t"; stays SILENCE
+    sleep 0.6; over 1353 26; x click 1; t=$(now); zero "SILENCE" "$state" "$t" 150; note_stop "$mixer_door" "$t"; stays SILENCE
     again
 }
 # stays DOOR: no pause of a loaded machine, but silence.
