@@ -171,12 +171,17 @@ TEST(Voice, BendPressureAndSlideMoveWhatSounds) {
     EXPECT_LT(step, 1.05 * 2.0 * 3.1416 * 220.0 / 48000.0) << "nothing clicks";
 }
 
+/// Makes channel 1 the master of so many.
+std::vector<TimedMessage> zoneOf(int members) {
+    return {{0, Message::controllerEvent(1, 101, 0)},
+            {0, Message::controllerEvent(1, 100, 6)},
+            {0, Message::controllerEvent(1, 6, members)}};
+}
+
 TEST(Voice, PressureIsOfItsKeyAndMpesMasterLeadsItsMembers) {
     const auto louder = [](const std::vector<TimedMessage>& more, int channel = 1) {
-        std::vector<TimedMessage> all{{0, Message::controllerEvent(1, 101, 0)}, // a zone of channels 2 to 6
-                                      {0, Message::controllerEvent(1, 100, 6)},
-                                      {0, Message::controllerEvent(1, 6, 5)},
-                                      {0, on(45, 64, channel)}};
+        std::vector<TimedMessage> all = zoneOf(5); // channels 2 to 6
+        all.push_back({0, on(45, 64, channel)});
         all.insert(all.end(), more.begin(), more.end());
         return peakBetween(playedBy(voiced(true), all, 30000), 20000, 30000);
     };
@@ -197,10 +202,8 @@ TEST(Voice, AMasterBendsByTwoSemitonesAndControllersAreSetBackAtOnce) {
         messages.push_back({100, on(45, 127, channel)});
         return pitchOf(playedBy(state, messages, 30000), 5000, 30000);
     };
-    const std::vector<TimedMessage> zone{{0, Message::controllerEvent(1, 101, 0)},
-                                         {0, Message::controllerEvent(1, 100, 6)},
-                                         {0, Message::controllerEvent(1, 6, 15)},
-                                         {0, Message::pitchWheel(1, 16383)}};
+    std::vector<TimedMessage> zone = zoneOf(15);
+    zone.push_back({0, Message::pitchWheel(1, 16383)});
     EXPECT_NEAR(pitch(zone, 2), 110.0 * std::exp2(2.0 / 12.0), 1.5);
     EXPECT_NEAR(pitch({{0, Message::pitchWheel(1, 16383)}}, 2), 110.0, 1.5) << "no zone";
     EXPECT_NEAR(pitch({{0, Message::pitchWheel(2, 16383)}}, 2), 220.0, 3.0);

@@ -244,26 +244,25 @@ std::string protocolSchema() {
 
 namespace {
 
-/// Appends these options to all calls of the protocol.
-void addToCalls(Protocol& protocol, std::string_view options) {
+/// Each call of the protocol, which may be changed.
+template <class Act>
+void eachCall(Protocol& protocol, Act act) {
     for (ConditionPlan& condition : protocol.conditions)
         std::visit(
-            [options](auto& set) {
-                if constexpr (requires { set.call; }) set.call.append(" ").append(options);
+            [&act](auto& set) {
+                if constexpr (requires { set.call; }) act(set.call);
             },
             condition.stimuli);
 }
 
-/// In each call that has them.
+void addToCalls(Protocol& protocol, std::string_view options) {
+    eachCall(protocol, [options](std::string& call) { call.append(" ").append(options); });
+}
+
 void changeCalls(Protocol& protocol, std::string_view words, std::string_view others) {
-    for (ConditionPlan& condition : protocol.conditions)
-        std::visit(
-            [&](auto& set) {
-                if constexpr (requires { set.call; })
-                    if (const auto at = set.call.find(words); at != set.call.npos)
-                        set.call.replace(at, words.size(), others);
-            },
-            condition.stimuli);
+    eachCall(protocol, [&](std::string& call) {
+        if (const auto at = call.find(words); at != call.npos) call.replace(at, words.size(), others);
+    });
 }
 
 void edit(Protocol& protocol, ThesisEdit how) {

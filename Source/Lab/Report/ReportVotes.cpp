@@ -114,12 +114,11 @@ void tellRatings(ReportBuilder& report) {
         if (conditions.contains(at->condition) != isMany) shown.push_back(&*at);
     report.page.figure({scoresChart(report.frame("Mean scores"), scales, shown)},
                        "Mean scores" + report.asThesis("Fig. 5.14") + report.intervals() + ".");
-    std::erase_if(shown, [&](const RatingSummary* each) { return conditions.contains(each->condition); });
-    if (!isMany)
-        for (const RatingSummary& each : summaries)
-            if (!conditions.contains(each.condition)) shown.push_back(&each);
-    if (shown.empty() || isMany) return;
-    report.page.figure({scoresChart(report.frame("Mean scores by factor"), scales, shown)},
+    std::vector<const RatingSummary*> factors;
+    for (const RatingSummary& each : summaries)
+        if (!conditions.contains(each.condition)) factors.push_back(&each);
+    if (factors.empty() || isMany) return; // of many they are shown already
+    report.page.figure({scoresChart(report.frame("Mean scores by factor"), scales, factors)},
                        "Mean scores by factor" + report.asThesis("Fig. 5.13") + report.intervals() + ".");
 }
 

@@ -152,7 +152,7 @@ struct LevelSummary {
     std::size_t reversals = 0;          ///< staircase: sum over participants
     std::vector<std::string> leftOut{}; ///< one line each on participants without a threshold, and why
     double estimate = 0.0;  ///< staircase, QUEST+: mean threshold in dB; adjustment: mean dB; magnitude:
-                            ///< geometric mean
+                            ///< geometric mean; NaN: a threshold of nobody
     double deviation = 0.0; ///< sample standard deviation of participants' thresholds, of dB, or of log10; 0
                             ///< for one value
     double halfInterval = 0.0; ///< 95 % half-interval of thresholds and adjustments over participants; for

@@ -36,29 +36,36 @@ struct HostWindow {
     Window window;
 };
 
-TEST(HostKeys, WhatNoControlUsesReachesTheHostAndEscStays) {
+/// The plug-in's window within a host's.
+struct Embedded {
+    Embedded() {
+        editor->addToDesktop(0, reinterpret_cast<void*>(around.window));
+        editor->setVisible(true);
+        runFor(0.3);
+    }
+    void press(const Key& key) const {
+        editor->getPeer()->handleKeyPress(key);
+        runFor(0.1);
+    }
     HostWindow around;
     TestHost host;
     const std::unique_ptr<PluginEditor> editor{
         dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
-    editor->addToDesktop(0, reinterpret_cast<void*>(around.window));
-    editor->setVisible(true);
-    runFor(0.3);
+};
+
+TEST(HostKeys, WhatNoControlUsesReachesTheHostAndEscStays) {
+    Embedded embedded;
+    auto& [around, host, editor] = embedded;
     ASSERT_NE(editor->getPeer(), nullptr);
-    auto* const peer = editor->getPeer();
-    const auto press = [&](const Key& key) {
-        peer->handleKeyPress(key);
-        runFor(0.1);
-    };
-    press(Key{'S', juce::ModifierKeys::ctrlModifier, 0});
-    press(Key{Key::spaceKey});
-    press(Key{Key::F5Key, juce::ModifierKeys::shiftModifier, 0});
-    press(Key{Key::returnKey});
+    embedded.press(Key{'S', juce::ModifierKeys::ctrlModifier, 0});
+    embedded.press(Key{Key::spaceKey});
+    embedded.press(Key{Key::F5Key, juce::ModifierKeys::shiftModifier, 0});
+    embedded.press(Key{Key::returnKey});
     const auto came = around.keys();
     const std::vector<std::pair<KeySym, unsigned int>> expected{
         {XK_s, ControlMask}, {XK_space, 0}, {XK_F5, ShiftMask}, {XK_Return, 0}};
     EXPECT_EQ(came, expected);
-    press(Key{Key::escapeKey});
+    embedded.press(Key{Key::escapeKey});
     EXPECT_TRUE(around.keys().empty());
     EXPECT_TRUE(host.plugin->isStopped()) << "Esc silences";
     EXPECT_EQ(host.plugin->parameter(Parameter::bypass).getValue(), 0.0f) << "and no session keeps it";
@@ -76,19 +83,10 @@ juce::Label* valueIn(juce::Component& in) {
 
 // Under some window managers the box has no keyboard after a list was open: keys come to the window then.
 TEST(HostKeys, AValueThatIsTypedIsTheValuesAndEscClosesItFirst) {
-    HostWindow around;
-    TestHost host;
-    const std::unique_ptr<PluginEditor> editor{
-        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
-    editor->addToDesktop(0, reinterpret_cast<void*>(around.window));
-    editor->setVisible(true);
-    runFor(0.3);
+    Embedded embedded;
+    auto& [around, host, editor] = embedded;
     auto* const value = valueIn(*editor);
     ASSERT_NE(value, nullptr);
-    const auto press = [&](const Key& key) {
-        editor->getPeer()->handleKeyPress(key);
-        runFor(0.1);
-    };
     const auto before = value->getText();
     value->showEditor();
     for (const Key& key :
@@ -101,10 +99,10 @@ TEST(HostKeys, AValueThatIsTypedIsTheValuesAndEscClosesItFirst) {
     EXPECT_EQ(value->getCurrentTextEditor(), nullptr);
     EXPECT_NE(value->getText(), before);
     value->showEditor();
-    press(Key{Key::escapeKey});
+    embedded.press(Key{Key::escapeKey});
     EXPECT_EQ(value->getCurrentTextEditor(), nullptr);
     EXPECT_FALSE(host.plugin->isStopped()) << "it closed what was open";
-    press(Key{Key::escapeKey});
+    embedded.press(Key{Key::escapeKey});
     EXPECT_TRUE(host.plugin->isStopped());
     EXPECT_TRUE(around.keys().empty()) << "nothing of it was the host's";
 }
