@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # receipts.sh BIN_FOLDER [MOST]: what share of a block of `physvib play` its receipts take, in instructions that callgrind counts (its processor has AVX2 at best), with blocks
-# of 512 frames, which are usual, and of 64; fails above MOST per cent (1.6; 1 is wanted) of a block of 512. Needs valgrind.
+# of 512 frames, which are usual, and of 64; fails above MOST per cent (1) of a block of 512. Needs valgrind.
 set -eu
 bin=$(cd "$1" && pwd)
-most=${2:-1.6}
+most=${2:-1}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"

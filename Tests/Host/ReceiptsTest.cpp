@@ -108,7 +108,7 @@ TEST(Receipts, EverySetOfInstructionsMeasuresWhatIsThere) {
         for (std::size_t frames = 0; frames < 200; ++frames) {
             const TileKernel* const kernel = tileKernel(set);
             if (kernel == nullptr) break; // not of this processor
-            MeasuredLanes lanes;
+            std::array<MeasuredLanes, 2> lanes;
             float peak = 0.0f, squares = 0.0f;
             for (int times = 0; times < 2; ++times) {
                 std::vector<float> samples(frames); // of its own, so that reading beyond is seen
@@ -116,12 +116,16 @@ TEST(Receipts, EverySetOfInstructionsMeasuresWhatIsThere) {
                     x = static_cast<float>(random.below(2001) - 1000) / 1000.0f;
                     peak = std::max(peak, std::abs(x)), squares += x * x;
                 }
-                kernel->measure(samples.data(), frames, lanes);
+                const std::array<const float*, 2> outputs{nullptr, samples.data()};
+                kernel->measure(outputs.data(), 2, 0, frames, lanes.data());
             }
-            const Measured all = kernel->join(lanes), none = kernel->join(lanes);
+            std::array<Measured, 2> joined, again;
+            kernel->join(lanes.data(), 2, joined.data());
+            kernel->join(lanes.data(), 2, again.data());
+            const auto [all, none] = std::pair{joined[1], again[1]};
             EXPECT_EQ(all.peak, peak) << frames;
             EXPECT_NEAR(all.squares, squares, 1e-5f * squares) << frames;
-            EXPECT_EQ(none.peak + none.squares, 0.0f);
+            EXPECT_EQ(none.peak + none.squares + joined[0].peak, 0.0f);
         }
 }
 

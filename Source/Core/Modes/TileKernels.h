@@ -131,8 +131,11 @@ struct TileKernel {
     void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr;
     void (*clear)(float* const* out, int channels, int frames) = nullptr; ///< out[channel][frame] = 0
     LimiterKernel limiter;
-    void (*measure)(const float* samples, std::size_t frames, MeasuredLanes& to) = nullptr; ///< adds them
-    Measured (*join)(MeasuredLanes& of) = nullptr; ///< of all lanes, which are 0 afterwards
+    /// Adds outputs[j][first, first + frames) to to[j] for up to 64 outputs; returns bit j where one is null.
+    std::uint64_t (*measure)(const float* const* outputs, std::size_t count, std::size_t first,
+                             std::size_t frames, MeasuredLanes* to) = nullptr;
+    /// all[j] of all lanes of of[j], which are 0 afterwards
+    void (*join)(MeasuredLanes* of, std::size_t count, Measured* all) = nullptr;
 };
 
 /// Null for scalar and for sets that this build or processor lacks. Any thread.

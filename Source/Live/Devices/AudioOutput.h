@@ -86,7 +86,7 @@ public:
         return receipts_.left(fromNs, untilNs, actuator, session);
     }
     std::uint32_t playedSession() const noexcept { return played_.number(); } ///< 0: its own
-    /// Makes left() exact for this span in the future; otherwise it is extended to whole bins of 5 ms. M.
+    /// Makes left() exact for this span in the future; otherwise it is extended to whole bins of 10 ms. M.
     void expect(std::int64_t fromNs, std::int64_t untilNs) noexcept { receipts_.expect(fromNs, untilNs); }
     Receipts::Total leftInAll(int actuator) const noexcept { return receipts_.all(actuator); } ///< any thread
     /// Whether a device is open and asks for blocks, with no pause longer than three of them and 100 ms. Of a

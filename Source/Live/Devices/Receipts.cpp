@@ -3,25 +3,35 @@
 #include "Live/Devices/Receipts.h"
 #include "Core/ClockLaw.h"
 #include <algorithm>
-#include <utility>
 
 namespace physvib {
 
 namespace {
 
-void measure(const float* samples, std::size_t frames, MeasuredLanes& to) {
-    for (std::size_t n = 0; n < frames; ++n) to.take(samples[n]);
+std::uint64_t measure(const float* const* outputs, std::size_t count, std::size_t first, std::size_t frames,
+                      MeasuredLanes* to) {
+    std::uint64_t absent = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+        if (outputs[j] == nullptr)
+            absent |= std::uint64_t{1} << j;
+        else
+            for (std::size_t n = first; n < first + frames; ++n) to[j].take(outputs[j][n]);
+    }
+    return absent;
 }
-Measured join(MeasuredLanes& of) {
-    const Measured all{of.peaks[0], of.squares[0]};
-    of = {};
-    return all;
+void join(MeasuredLanes* of, std::size_t count, Measured* all) {
+    for (std::size_t j = 0; j < count; ++j) {
+        all[j] = {of[j].peaks[0], of[j].squares[0]};
+        of[j] = {};
+    }
 }
+static_assert(limits::maxEnchanters <= 64, "a bit for each");
 
 } // namespace
 
 Receipts::Receipts(int actuators)
     : actuators_{actuators}
+    , count_{static_cast<std::size_t>(actuators)}
     , bins_{std::make_unique<Bin[]>(static_cast<std::size_t>(mostBins))}
     , levels_{std::make_unique<Level[]>(static_cast<std::size_t>(mostBins * actuators))}
     , totals_{std::make_unique<SharedTotal[]>(static_cast<std::size_t>(actuators))} {
@@ -35,17 +45,17 @@ void Receipts::expect(std::int64_t fromNs, std::int64_t untilNs) noexcept {
     untilNs_.store(std::clamp<std::int64_t>(untilNs, 0, limits::maxTimeNs), std::memory_order_relaxed);
 }
 
-// The open bin becomes that, and ends where the grid does, or what is expected begins or ends.
-void Receipts::begin(const Place& place) noexcept {
-    const std::int64_t bin = std::max(1, place.rate / binsPerSecond), at = place.end();
-    if (isExpectedAnew() || place.rate != open_.rate) {
+// The open bin ends where the grid does, or what is expected begins or ends.
+void Receipts::setEdge() noexcept {
+    const std::int64_t bin = std::max(1, open_.rate / binsPerSecond), at = open_.end(), over = at % bin;
+    if (isExpectedAnew() || open_.rate != edgeRate_) {
         edgeFromNs_ = fromNs_.load(std::memory_order_relaxed);
         edgeUntilNs_ = untilNs_.load(std::memory_order_relaxed);
-        const FrameClock clock{place.rate};
+        edgeRate_ = open_.rate;
+        const FrameClock clock{open_.rate};
         expected_ = {clock.at(edgeFromNs_).frame, clock.at(edgeUntilNs_).frame};
     }
-    open_ = place;
-    edge_ = at - (at % bin + bin) % bin + bin;
+    edge_ = at - over + (over < 0 ? 0 : bin);
     for (const std::int64_t frame : expected_)
         if (frame > at) edge_ = std::min(edge_, frame);
 }
@@ -56,19 +66,15 @@ void Receipts::take(std::uint32_t session, std::int64_t place, int sampleRateHz,
                            open_.opening == opening_ && open_.end() == place;
     if (!keepGoing) {
         publish();
-        begin({place, 0, sampleRateHz, session, opening_});
+        open_ = {place, 0, sampleRateHz, session, opening_};
+        setEdge();
     } else if (isExpectedAnew()) {
-        begin(open_);
+        setEdge();
     }
     for (int done = 0; done < frames;) {
         const auto part = static_cast<int>(std::min<std::int64_t>(edge_ - open_.end(), frames - done));
-        for (int j = 0; j < actuators_; ++j) {
-            Growing& growing = growing_[static_cast<std::size_t>(j)];
-            if (outputs[j] == nullptr)
-                growing.hasOutput = false;
-            else
-                measure_(outputs[j] + done, static_cast<std::size_t>(part), growing.lanes);
-        }
+        absent_ |= measure_(outputs, count_, static_cast<std::size_t>(done), static_cast<std::size_t>(part),
+                            growing_.data());
         open_.frames += part;
         done += part;
         if (open_.end() == edge_) publish();
@@ -86,28 +92,33 @@ void Receipts::publish() noexcept {
     bin.session.store(open_.session, std::memory_order_release);
     bin.opening.store(open_.opening, std::memory_order_release);
     const double seconds = static_cast<double>(open_.frames) / open_.rate;
+    join_(growing_.data(), count_, joined_.data());
     Level* level = &this->level(now, 0);
-    for (int j = 0; j < actuators_; ++j, ++level) {
-        Growing& growing = growing_[static_cast<std::size_t>(j)];
-        const auto [peak, squares] = join_(growing.lanes);
-        level->peak.store(growing.hasOutput ? peak : -1.0f, std::memory_order_release);
+    for (std::size_t j = 0; j < count_; ++j, ++level) {
+        const auto [peak, squares] = joined_[j];
+        const bool hasOutput = (absent_ >> j & 1) == 0;
+        level->peak.store(hasOutput ? peak : -1.0f, std::memory_order_release);
         level->squares.store(squares, std::memory_order_release);
-        if (std::exchange(growing.hasOutput, true)) { // R is the only one that writes these
-            SharedTotal& total = totals_[static_cast<std::size_t>(j)];
+        if (hasOutput) { // R is the only one that writes these
+            SharedTotal& total = totals_[j];
             total.seconds.store(total.seconds.load(std::memory_order_relaxed) + seconds,
                                 std::memory_order_relaxed);
-            if (total.peak.load(std::memory_order_relaxed) < static_cast<double>(peak))
-                total.peak.store(static_cast<double>(peak), std::memory_order_relaxed);
+            if (total.peak.load(std::memory_order_relaxed) < peak)
+                total.peak.store(peak, std::memory_order_relaxed);
         }
     }
+    absent_ = 0;
     written_.store(now + 1, std::memory_order_release);
-    begin({open_.end(), 0, open_.rate, open_.session, open_.opening});
+    open_.start = open_.end();
+    open_.frames = 0;
+    setEdge();
 }
 
 Receipts::Total Receipts::all(int actuator) const noexcept {
     if (actuator < 0 || actuator >= actuators_) return {};
     const SharedTotal& total = totals_[static_cast<std::size_t>(actuator)];
-    return {total.seconds.load(std::memory_order_relaxed), total.peak.load(std::memory_order_relaxed)};
+    return {total.seconds.load(std::memory_order_relaxed),
+            static_cast<double>(total.peak.load(std::memory_order_relaxed))};
 }
 
 // False if the bin has been overwritten meanwhile.
