@@ -94,7 +94,7 @@ TEST(Receipts, EqualWhatWasGivenForEverySpan) {
                            std::to_string(b));
         };
         for (int k = 0; k < 100; ++k) {
-            const std::int64_t a = bin * random.below(200), b = a + bin * (1 + random.below(40));
+            const std::int64_t a = bin * random.below(100), b = a + bin * (1 + random.below(20));
             expectAt(a, b);
         }
         expectAt(from, until);
@@ -163,13 +163,14 @@ TEST(Receipts, AReaderNeverGetsHalfABin) {
     Receipts receipts{1};
     std::atomic<bool> ends{false};
     std::atomic<std::int64_t> newest{0};
+    constexpr int width = 5000 / Receipts::binsPerSecond;
     std::thread writer{[&] {
-        std::vector<float> samples(25);
+        std::vector<float> samples(static_cast<std::size_t>(width));
         const float* const at = samples.data();
         receipts.begin();
         for (std::int64_t k = 0; !ends; ++k) {
             std::ranges::fill(samples, static_cast<float>(1 + k % 64) / 64.0f);
-            receipts.take(0, k * 25, 5000, &at, 25);
+            receipts.take(0, k * width, 5000, &at, width);
             newest = k;
         }
     }};
@@ -177,7 +178,7 @@ TEST(Receipts, AReaderNeverGetsHalfABin) {
     for (int k = 0; k < 3000 || read < 300; ++k) {
         const std::int64_t bin =
             std::max<std::int64_t>(0, newest - (k % 2 == 0 ? 0 : Receipts::mostBins - 3));
-        const Receipt told = receipts.left(nsOf(25 * bin, 5000), nsOf(25 * (bin + 1), 5000), 0);
+        const Receipt told = receipts.left(nsOf(width * bin, 5000), nsOf(width * (bin + 1), 5000), 0);
         if (!told.isKept || !told.isOver) continue;
         ++read;
         EXPECT_EQ(told.peak, static_cast<double>(1 + bin % 64) / 64.0);
