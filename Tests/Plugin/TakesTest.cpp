@@ -320,5 +320,16 @@ TEST(Takes, WithoutMemoryForAnotherTheHostPlaysOnAndItIsSaid) {
     EXPECT_EQ(host.plugin->takes().status().take, 2);
 }
 
+TEST(Takes, ASessionWithoutMemoryForItsRendererIsNoSilentOne) {
+    if (!ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
+    SessionSetup setup;
+    setup.hasWorld = false;
+    Session session{setup};
+    beforeMemory = [](std::size_t) { return false; };
+    EXPECT_THROW(session.prepare(48000, 480), std::bad_alloc);
+    beforeMemory = nullptr;
+    session.prepare(48000, 480);
+}
+
 } // namespace
 } // namespace physvib

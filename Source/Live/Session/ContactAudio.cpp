@@ -4,6 +4,7 @@
 #include "Core/NameNumbers.h"
 #include "Core/Units.h"
 #include <deque>
+#include <new>
 #include <utility>
 
 namespace physvib {
@@ -58,7 +59,7 @@ struct ContactAudio::Source {
 };
 
 void ContactAudio::prepare(int sampleRateHz) {
-    renderer_->prepare(settingsAt(sampleRateHz, ears_, field_));
+    if (!renderer_->prepare(settingsAt(sampleRateHz, ears_, field_))) throw std::bad_alloc{};
     setContacts(sampleRateHz);
     for (CollisionEvent unplayed; events_.pop(unplayed);) {
     }
@@ -69,7 +70,7 @@ void ContactAudio::prepare(int sampleRateHz) {
 }
 
 void ContactAudio::moveTo(int sampleRateHz, std::int64_t frame) {
-    renderer_->moveTo(sampleRateHz, frame);
+    if (!renderer_->moveTo(sampleRateHz, frame)) throw std::bad_alloc{};
     setContacts(sampleRateHz);
 }
 

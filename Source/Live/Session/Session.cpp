@@ -3,6 +3,7 @@
 #include "Live/Session/Session.h"
 #include <algorithm>
 #include <array>
+#include <new>
 
 namespace physvib {
 
@@ -49,13 +50,14 @@ Session::Session(const SessionSetup& setup)
 
 void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     const std::scoped_lock lock{scheduler_.mutex_, world_.mutex_};
-    renderer_->prepare({.sampleRateHz = sampleRateHz,
-                        .channels = setup_.channels,
-                        .panner = setup_.panner,
-                        .limiterEnabled = setup_.limiterEnabled,
-                        .ceilings = setup_.ceilings,
-                        .modes = setup_.modes,
-                        .equalised = setup_.equalised});
+    if (!renderer_->prepare({.sampleRateHz = sampleRateHz,
+                             .channels = setup_.channels,
+                             .panner = setup_.panner,
+                             .limiterEnabled = setup_.limiterEnabled,
+                             .ceilings = setup_.ceilings,
+                             .modes = setup_.modes,
+                             .equalised = setup_.equalised}))
+        throw std::bad_alloc{}; // else it would be silent without a word
     renderer_->setContacts(scheduler_.contactsAt(sampleRateHz));
     channels_.prepare(sampleRateHz, -renderer_->latencyFrames());
     const ClockLaw law = lawAt(sampleRateHz, maxBlockFrames);
@@ -83,7 +85,7 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     setTime(lawAt(sampleRateHz, maxBlockFrames), clock.at(time_.nowNs()).frame);
     const auto rendered = std::max<std::int64_t>(0, time_.framesRendered() - time_.outputLatencyFrames() +
                                                         time_.law().limiterFrames);
-    renderer_->moveTo(sampleRateHz, rendered);
+    if (!renderer_->moveTo(sampleRateHz, rendered)) throw std::bad_alloc{};
     channels_.moveTo(sampleRateHz, rendered, rendered - renderer_->latencyFrames());
     renderer_->setContacts(scheduler_.contactsAt(sampleRateHz)); // sounding recordings stop
 }

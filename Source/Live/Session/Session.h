@@ -39,7 +39,7 @@ public:
     explicit Session(const SessionSetup& setup);
 
     /// Sets the output latency. Session time 0, silence, the scene at its start, an empty log. M, while no
-    /// thread renders or drives.
+    /// thread renders or drives. Throws std::bad_alloc without memory, as resume does.
     void prepare(int sampleRateHz, int maxBlockFrames);
 
     /// Continues at another rate and block size: session time, world and sounding modes continue, the
