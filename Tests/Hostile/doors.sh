@@ -337,27 +337,16 @@ open_chooser() { x key ctrl+o sleep 0.5 key d; } # do not save
 # stop_in STATE HOW...: brings it about; Esc, which closes it as well; then again, and a press.
 mixer_door='mixer: SILENCE, Esc, whatever is open'
 # From when key or click has been sent: how long xdotool takes to begin is a matter of the processor's share.
-# One of some twenty presses is heard 0.2 to 0.4 s late here while the mixer's window waits in poll: why is not known. It is told, and that state tried
-# once more; late again is a failure.
-late() { until_true 5000 quiet && [ $(($(tail -n 1 heard | cut -d ' ' -f 2) - $1)) -gt 150 ]; }
 stop_in() {
     state=$1
     shift
     for by in Esc SILENCE; do
-        for try in 1 2; do
-            "$@" || true
-            sleep 0.6
-            if [ $by = Esc ]; then x key Escape; else over 1353 26 && x click 1; fi
-            t=$(now)
-            if [ $try = 1 ] && late "$t"; then
-                echo "$by, $state: late once ($(($(tail -n 1 heard | cut -d ' ' -f 2) - t)) ms), tried again"
-                again
-                continue
-            fi
-            zero $by "$state" "$t" 150; note_stop "$mixer_door" "$t"; stays $by
-            again
-            break
-        done
+        "$@" || true
+        sleep 0.6
+        if [ $by = Esc ]; then x key Escape; else over 1353 26 && x click 1; fi
+        t=$(now)
+        zero $by "$state" "$t" 150; note_stop "$mixer_door" "$t"; stays $by
+        again
     done
 }
 # stays DOOR: no pause of a loaded machine, but silence.

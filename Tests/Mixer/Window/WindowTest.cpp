@@ -3,6 +3,7 @@
 // record, save, open again; the recorded file has what the actions say.
 #include "../MixerTesting.h"
 #include "Host/FakeAudioDevice.h"
+#include "Host/Views/EmergencyStop.h"
 #include "Host/Views/WorldView.h"
 #include "Live/Session/OfflineRender.h"
 #include "Live/Session/SessionRender.h"
@@ -1161,6 +1162,30 @@ TEST(Window, OfVeryManyCopiesTheNewestAreOfferedAndTheOthersStay) {
     EXPECT_TRUE(runUntil([&] { return left.copies() == 25; }));
     EXPECT_TRUE(runUntil([&] { return window.view().question()->words().contains("5 older ones stay"); }))
         << "the next are offered";
+}
+
+/// Tells when it was pressed.
+struct Pressed : juce::Component {
+    void mouseDown(const juce::MouseEvent&) override { is = true; }
+    bool is = false;
+};
+
+// The click lies in the display's socket when the mouse is asked for, so its answer is read behind the click;
+// nothing more comes afterwards that would wake JUCE.
+TEST(Display, AClickThatWasReadAheadIsHeardAtOnce) {
+    if (std::system("command -v xdotool >/dev/null") != 0) GTEST_SKIP() << "no xdotool";
+    Pressed pressed;
+    const EmergencyStop stop{pressed, [] {}};
+    pressed.setBounds(100, 100, 300, 300);
+    pressed.addToDesktop(juce::ComponentPeer::windowIsTemporary);
+    pressed.setVisible(true);
+    for (int k = 0; k < 5; ++k) {
+        runFor(0.3);
+        pressed.is = false;
+        ASSERT_EQ(std::system("xdotool mousemove 250 250 click 1"), 0);
+        juce::Desktop::getMousePosition();
+        EXPECT_TRUE(runUntil([&] { return pressed.is; }, 5.0)) << "press " << k;
+    }
 }
 
 } // namespace
