@@ -189,10 +189,11 @@ TEST_F(Report, PeopleOfWhomNothingIsKnownCount) {
 }
 
 TEST_F(Report, WhoStoppedBeforeTheEndIsNamed) {
-    for (const std::string name : {"level-steps", "level-quest", "magnitudes"}) {
+    for (const auto& [name, missing] :
+         {std::pair<std::string, int>{"level-steps", 4}, {"level-quest", 4}, {"magnitudes", 1}}) {
         simulate(name, 3);
         std::string text = read(name + "-P02.csv");
-        for (int line = 0; line < 4; ++line) text.erase(text.rfind('\n', text.size() - 2) + 1);
+        for (int line = 0; line < missing; ++line) text.erase(text.rfind('\n', text.size() - 2) + 1);
         write(name + "-P02.csv", text);
         ASSERT_EQ(call("report " + name + "-P*.csv --out " + name).exitCode, 0) << name;
         const std::string html = page(name);

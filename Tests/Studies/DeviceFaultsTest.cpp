@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A device fails at 20 moments of a trial, in five ways, in four kinds of tasks: rows, samples that the
-// device got and report agree, and nothing that waited is felt later. What the test asserts holds however
-// slow the machine is: a pause of the test is one more pause of the device. The ways take turns over the
-// moments; with PHYSVIB_FAULT=0..4 it is that one at all of them (every-fault.sh).
+// A device fails, or somebody silences it, at 20 moments of a trial, in six ways, in four kinds of tasks:
+// rows, samples that the device got and report agree, and nothing that waited is felt later. What the test
+// asserts holds however slow the machine is: a pause of the test is one more pause of the device. The ways
+// take turns over the moments; with PHYSVIB_FAULT=0..5 it is that one at all of them (every-fault.sh).
 #include "Host/FakeAudioDevice.h"
 #include "Live/Devices/NoDevice.h"
 #include "Participant.h"
@@ -15,9 +15,10 @@ namespace {
 
 constexpr double levelG = 0.2, seconds = 0.05;
 
-enum class Fault { kill, stop, unplug, period, rate };
-constexpr Fault faults[] = {Fault::kill, Fault::stop, Fault::unplug, Fault::period, Fault::rate};
-constexpr const char* faultNames[] = {"kill", "stop", "unplug", "period", "rate"};
+enum class Fault { kill, stop, unplug, period, rate, silence };
+constexpr Fault faults[] = {Fault::kill,   Fault::stop, Fault::unplug,
+                            Fault::period, Fault::rate, Fault::silence};
+constexpr const char* faultNames[] = {"kill", "stop", "unplug", "period", "rate", "silence"};
 
 /// What left in one piece.
 struct Burst {
@@ -146,6 +147,11 @@ protected:
             hands.rate = hands.rate == 48000 ? 44100 : 48000;
             output.maintain(now);
             break;
+        case Fault::silence:
+            p->model.setSilent(true);
+            run(16);
+            p->model.setSilent(false);
+            break;
         }
         if (fault != Fault::period) cut(); // which goes on
     }
@@ -202,7 +208,7 @@ TEST_P(DeviceFaults, AtAnyMomentRowsSamplesAndReportAgree) {
             ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial) << p->screen()->getDescription();
             if (p->screen()->plays() > 0) played += hands.block / 64;
             if (!hasFailed && played >= moment)
-                hasFailed = true, fail(faults[only != nullptr ? std::atoi(only) : n % 5]);
+                hasFailed = true, fail(faults[only != nullptr ? std::atoi(only) : n % 6]);
             const bool isFeeling = p->screen()->isFeeling();
             const bool isFree = task.peaks.size() != 2 || p->find("Feel number 1")->isEnabled(); // no
                                                                                                  // sequence

@@ -376,10 +376,10 @@ WorldMoment StudyWorld::look() {
                      std::max(1, model_.output().sampleRateHz());
     const std::int64_t now = session_->status().sessionNs, felt = session_->timeline().nextFeltNs();
     if (felt >= checkedNs_ + askedNs || !model_.output().isPlaying()) askReceipts(felt);
+    if (model_.isSilent() && seconds_ > 0.0 && isMoving()) course_ = Course::lost; // as a sound: felt again
     if (course_ == Course::lost) return finish(), moment; // a device that is gone plays no end
     if (isMoving()) {
-        session_->world().setSlowness(model_.isSilent() ? 0 : 1); // pause the display too while output is
-                                                                  // silent
+        session_->world().setSlowness(model_.isSilent() ? 0 : 1); // what one moves stands still in silence
         if (!model_.isSilent())
             feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
         if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
