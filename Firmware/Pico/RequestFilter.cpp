@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: MIT
+// What TinyUSB 0.18 would not survive, put right before it sees it. The linker puts these functions before
+// TinyUSB's (--wrap).
+//
 // Refuses standard requests whose direction contradicts them, before TinyUSB 0.18 sees them: asked for a
-// descriptor by a request that sends data, it writes that data over the descriptor. The linker puts this
-// function before TinyUSB's (--wrap).
+// descriptor by a request that sends data, it writes that data over the descriptor.
 #include "tusb.h" // first: dcd.h needs it
 
 #include "device/dcd.h"
 #include <cstdint>
 
 extern "C" {
+
+std::uint16_t __real_tu_fifo_write_n(tu_fifo_t* fifo, void const* data, std::uint16_t bytes);
+
+/// A packet of no bytes is no failure: TinyUSB takes the 0 for one, and never arms the stream's endpoint again.
+/// Main loop.
+std::uint16_t __wrap_tu_fifo_write_n(tu_fifo_t* fifo, void const* data, std::uint16_t bytes) {
+    return bytes == 0 ? 1 : __real_tu_fifo_write_n(fifo, data, bytes);
+}
 
 void __real_dcd_event_handler(dcd_event_t const* event, bool isInterrupt);
 

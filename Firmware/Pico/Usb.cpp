@@ -10,6 +10,7 @@
 #include "pico/platform.h"
 #include "pico/unique_id.h"
 #include "tusb.h"
+#include <cstring>
 
 namespace physvib::pico {
 namespace {
@@ -28,7 +29,32 @@ std::uint32_t wrongSizes = 0, restarts = 0;
 bool isStreaming = false; // alternate setting 1 is selected
 char serialNumber[2 * PICO_UNIQUE_BOARD_ID_SIZE_BYTES + 1];
 
+// A restart by the watchdog lifts neither silence nor a volume that was turned down: they are in its scratch
+// registers, whose first one counts restarts, and whose last four are the SDK's.
+struct Kept {
+    std::array<std::uint8_t, boardChannels + 1> volumes;
+    std::uint8_t isSilenced;
+};
+constexpr int keptWords = 3;
+static_assert(sizeof(Kept) <= keptWords * sizeof(std::uint32_t));
+
+void keep() noexcept {
+    const Kept kept{controls.kept(), console.isSilenced()};
+    std::uint32_t words[keptWords]{};
+    std::memcpy(words, &kept, sizeof kept);
+    for (int k = 0; k < keptWords; ++k) watchdog_hw->scratch[k + 1] = words[k];
+}
+void restore() noexcept {
+    std::uint32_t words[keptWords];
+    for (int k = 0; k < keptWords; ++k) words[k] = watchdog_hw->scratch[k + 1];
+    Kept kept;
+    std::memcpy(&kept, words, sizeof kept);
+    controls.restore(kept.volumes);
+    if (kept.isSilenced != 0) console.silence();
+}
+
 void applyVolume() noexcept {
+    keep();
     for (int channel = 0; channel < boardChannels; ++channel)
         player->setVolume(channel, controls.gain(channel));
 }
@@ -66,6 +92,7 @@ void answerConsole() noexcept {
                                    player->buffer.level(),
                                    worstTileCycles()};
         const auto answer = console.answer(facts);
+        keep();
         tud_cdc_write(answer.data(), static_cast<std::uint32_t>(answer.size())); // what does not fit is
                                                                                  // dropped
         tud_cdc_write_flush();
@@ -77,6 +104,7 @@ void answerConsole() noexcept {
 void startUsb(Player<boardChannels>& to, std::uint32_t watchdogRestarts) noexcept {
     player = &to;
     restarts = watchdogRestarts;
+    if (restarts > 0) restore();
     applyVolume();
     pico_get_unique_board_id_string(serialNumber, sizeof serialNumber);
     tusb_rhport_init_t device{};

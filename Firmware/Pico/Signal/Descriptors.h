@@ -87,6 +87,22 @@ public:
         return true;
     }
 
+    /// All of it in a byte per channel, the one for all first: steps below the highest volume, and mute in
+    /// the highest bit. Steps are rounded towards silence.
+    std::array<std::uint8_t, static_cast<std::size_t>(channels) + 1> kept() const noexcept {
+        std::array<std::uint8_t, static_cast<std::size_t>(channels) + 1> bytes{};
+        for (std::size_t j = 0; j < bytes.size(); ++j)
+            bytes[j] = static_cast<std::uint8_t>((maxVolume - volume_[j] + volumeStep - 1) / volumeStep |
+                                                 (isMuted_[j] ? 0x80 : 0));
+        return bytes;
+    }
+    void restore(const std::array<std::uint8_t, static_cast<std::size_t>(channels) + 1>& bytes) noexcept {
+        for (std::size_t j = 0; j < bytes.size(); ++j) {
+            volume_[j] = std::max(minVolume, maxVolume - (bytes[j] & 0x7f) * volumeStep);
+            isMuted_[j] = (bytes[j] & 0x80) != 0;
+        }
+    }
+
     /// Gain of a channel, 0 to unity. The lowest volume is silence.
     std::int32_t gain(int channel) const noexcept {
         const auto own = static_cast<std::size_t>(channel) + 1;

@@ -237,6 +237,7 @@ export class Board {
     select(alternate) { return this.control(setup(1, 11, alternate, 1, 0)) !== null; }
     // A millisecond of the bus begins; they are numbered.
     sof() { this.usb.sofFrameNumber = (this.usb.sofFrameNumber + 1) & 0x7ff; }
+    get isWaitingForPacket() { return this.armed[1] !== undefined; }
     // One packet, if the board waits for one. Frames: arrays of samples.
     packet(bytes) {
         if (this.armed[1] === undefined) return false;
