@@ -6,6 +6,7 @@
 // descriptor by a request that sends data, it writes that data over the descriptor.
 #include "tusb.h" // first: dcd.h needs it
 
+#include "Usb.h"
 #include "device/dcd.h"
 #include <cstdint>
 
@@ -23,6 +24,7 @@ void __real_dcd_event_handler(dcd_event_t const* event, bool isInterrupt);
 
 /// Interrupt of USB, and main loop.
 void __wrap_dcd_event_handler(dcd_event_t const* event, bool isInterrupt) {
+    if (event->event_id == DCD_EVENT_BUS_RESET) physvib::pico::feedbackForm.reset();
     if (event->event_id != DCD_EVENT_SETUP_RECEIVED) return __real_dcd_event_handler(event, isInterrupt);
     dcd_event_t checked = *event;
     auto& request = checked.setup_received;
@@ -31,6 +33,8 @@ void __wrap_dcd_event_handler(dcd_event_t const* event, bool isInterrupt) {
             request.bRequest == TUSB_REQ_GET_STATUS || request.bRequest == TUSB_REQ_GET_DESCRIPTOR ||
             request.bRequest == TUSB_REQ_GET_CONFIGURATION || request.bRequest == TUSB_REQ_GET_INTERFACE;
         constexpr std::uint8_t unknown = 0xff; // which TinyUSB refuses
+        if (request.bRequest == TUSB_REQ_GET_DESCRIPTOR)
+            physvib::pico::feedbackForm.asks(static_cast<std::uint8_t>(request.wValue >> 8));
         const bool isIn = request.bmRequestType_bit.direction == TUSB_DIR_IN;
         if (answers ? !isIn : isIn || request.wLength > 0) request.bRequest = unknown;
     }

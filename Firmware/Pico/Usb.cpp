@@ -15,8 +15,9 @@
 namespace physvib::pico {
 namespace {
 
-constexpr auto deviceBytes = deviceDescriptor(boardChannels);
+constexpr auto deviceBytes = deviceDescriptor(boardChannels, PHYSVIB_VERSION);
 constexpr auto configurationBytes = configurationDescriptor(boardChannels);
+constexpr auto configurationWithThree = configurationDescriptor(boardChannels, 3);
 static_assert(configurationBytes.count == 9 + CFG_TUD_AUDIO_FUNC_1_DESC_LEN + TUD_CDC_DESC_LEN);
 static_assert(packetBytes(boardChannels) == CFG_TUD_AUDIO_FUNC_1_EP_OUT_SZ_MAX);
 
@@ -101,6 +102,8 @@ void answerConsole() noexcept {
 
 } // namespace
 
+FeedbackForm feedbackForm;
+
 void startUsb(Player<boardChannels>& to, std::uint32_t watchdogRestarts) noexcept {
     player = &to;
     restarts = watchdogRestarts;
@@ -116,7 +119,9 @@ void startUsb(Player<boardChannels>& to, std::uint32_t watchdogRestarts) noexcep
 void pollUsb() noexcept {
     tud_task();
     answerConsole();
-    player->allow(isStreaming && tud_ready() && !console.isSilenced());
+    const bool isStopped = !tud_ready() || console.isSilenced();
+    if (isStopped) player->startSoftly();
+    player->allow(isStreaming && !isStopped);
 }
 
 std::uint32_t faults() noexcept {
@@ -130,7 +135,9 @@ using namespace physvib::pico;
 extern "C" {
 
 std::uint8_t const* tud_descriptor_device_cb(void) { return deviceBytes.data(); }
-std::uint8_t const* tud_descriptor_configuration_cb(std::uint8_t) { return configurationBytes.data.data(); }
+std::uint8_t const* tud_descriptor_configuration_cb(std::uint8_t) {
+    return (feedbackForm.isThreeBytes() ? configurationWithThree : configurationBytes).data.data();
+}
 
 std::uint16_t const* tud_descriptor_string_cb(std::uint8_t index, std::uint16_t) {
     static std::uint16_t text[32];
@@ -173,8 +180,7 @@ bool tud_audio_set_req_entity_cb(std::uint8_t, tusb_control_request_t const* req
     return true;
 }
 
-// Windows reads 16.16 from every device, Linux finds out by itself.
-bool tud_audio_feedback_format_correction_cb(std::uint8_t) { return false; }
+bool tud_audio_feedback_format_correction_cb(std::uint8_t) { return feedbackForm.isThreeBytes(); }
 
 // A packet that came between a request to open the stream again and its execution is reported when the
 // endpoint is armed anew; TinyUSB would arm it twice, which it does not survive. False: it does nothing.

@@ -66,6 +66,24 @@ function silence(board, since, what, mayJump = false) {
     say(`plays again; ${board.ask('counters')}`);
 }
 {
+    // The form of feedback that a host reads, and the same board at another host.
+    const board = fresh();
+    const form = (asMac) => {
+        board.resetBus();
+        const { configuration } = board.enumerate({ asMac });
+        const at = configuration.findIndex((v, k) => v === 7 && configuration[k + 1] === 5 && configuration[k + 2] === 0x81);
+        board.control(setup(0x80, 6, asMac ? 0x0200 : 0x0302, 0, 255)); // what is asked for later says nothing
+        board.select(1);
+        playing(board);
+        const least = board.feedback % 2 ** (8 * board.feedbackBytes) / (asMac ? 2 ** 14 : 2 ** 16);
+        check(Math.abs(least - 48) < 1, `feedback: ${least} frames`);
+        return `${configuration[at + 4]} ${board.feedbackBytes}`;
+    };
+    const forms = [form(false), form(true), form(false)].join(', ');
+    check(forms === '4 4, 3 3, 4 4', `bytes of feedback, promised and sent: ${forms}`);
+    say('feedback of 3 bytes for a host that asks for a text first, of 4 for others');
+}
+{
     // Late by up to 0.9 ms, missing now and then, doubled, of any size.
     const board = fresh();
     board.select(1);
