@@ -14,8 +14,8 @@ extern "C" {
 
 std::uint16_t __real_tu_fifo_write_n(tu_fifo_t* fifo, void const* data, std::uint16_t bytes);
 
-/// A packet of no bytes is no failure: TinyUSB takes the 0 for one, and never arms the stream's endpoint again.
-/// Main loop.
+/// A packet of no bytes is no failure: TinyUSB takes the 0 for one, and never arms the stream's endpoint
+/// again. Main loop.
 std::uint16_t __wrap_tu_fifo_write_n(tu_fifo_t* fifo, void const* data, std::uint16_t bytes) {
     return bytes == 0 ? 1 : __real_tu_fifo_write_n(fifo, data, bytes);
 }

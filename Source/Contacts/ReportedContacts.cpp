@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace physvib {
 ReportedContacts::ReportedContacts(const ImpactSettings& settings)
@@ -26,21 +27,25 @@ void ReportedContacts::touch(const FedContact& contact) {
     Pair& pair = know(contact, true);
     pair.isNamed = true;
     const bool isNewPoint = this->isNewPoint(pair, contact);
-    if (isNewPoint && !pair.isNew) events_.catcher().meet(pair.a, pair.b);
-    tell(pair, contact, pair.isNew || isNewPoint);
+    const bool isKick = this->isKick(pair, contact);
+    if ((isNewPoint || isKick) && !pair.isNew) events_.catcher().meet(pair.a, pair.b);
+    const bool isStruck = pair.isNew || isNewPoint || isKick;
+    tell(pair, isKick && !pair.isNew ? beyondLoad(pair, contact) : contact, isStruck);
 }
 
 void ReportedContacts::begin(const FedContact& contact) {
     Pair& pair = know(contact, false);
     isNewPoint(pair, contact); // the next step knows this point
+    isKick(pair, contact);
     tell(pair, contact, true);
 }
 
 void ReportedContacts::push(const FedContact& contact) {
     Pair& pair = know(contact, false); // it may have touched before the first report
     const bool isNewPoint = this->isNewPoint(pair, contact) && !pair.isNew;
-    if (isNewPoint) events_.catcher().meet(pair.a, pair.b);
-    tell(pair, contact, isNewPoint);
+    const bool isKick = this->isKick(pair, contact);
+    if (isKick || isNewPoint) events_.catcher().meet(pair.a, pair.b);
+    tell(pair, isKick ? beyondLoad(pair, contact) : contact, isKick || isNewPoint);
 }
 
 bool ReportedContacts::end(std::int32_t a, std::int32_t b) {
@@ -64,6 +69,8 @@ void ReportedContacts::endStep() {
             continue;
         }
         pair.isNew = pair.isNamed = false;
+        pair.lastApproach = std::exchange(pair.approach, 0.0);
+        pair.lastLoad = std::exchange(pair.load, 0.0);
         pair.points = {.before = pair.points.now};
         pair.waiting = FedPoints::none;
     }
@@ -113,6 +120,34 @@ bool ReportedContacts::isNewPoint(Pair& pair, const FedContact& contact) {
                          trembleMetres + 1.5 * slide) &&
            // an impulse alone does not tell an impact from a load that shifts
            (pair.isNew || speedOf(contact) > 0.0);
+}
+
+// A flipper under a resting ball, a platform that jerks: what touches is struck without having parted, faster
+// than gravity explains. In its first step, since what drives it may push on, unless that was a small part,
+// as where an engine passes an impact on over several; what still has to come there is no kick yet.
+bool ReportedContacts::isKick(Pair& pair, const FedContact& contact) {
+    if (contact.impulseNewtonSeconds && !contact.isSoft)
+        pair.load = contact.isImpulseOfPair ? *contact.impulseNewtonSeconds
+                                            : pair.load + std::max(0.0, *contact.impulseNewtonSeconds);
+    if (!events_.catcher().hasSources()) return false;
+    const double speed = speedOf(contact), seconds = events_.stepSeconds();
+    if (!(speed > 0.0) || contact.gapMetres > speed * seconds) return false;
+    const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
+    const float gravityScale = std::max(a.gravityScale(), b.gravityScale());
+    constexpr double clearly = 1.5; // an elevator that starts is none
+    const double beyond = speed - gravity_ * seconds * std::abs(static_cast<double>(gravityScale));
+    if (!events_.catcher().isCollision(gravityScale, beyond / clearly)) return false;
+    pair.approach = std::max(pair.approach, speed);
+    return !pair.isNew && speed > 2.0 * pair.lastApproach;
+}
+
+// Without what the pair has passed on in the step before.
+FedContact ReportedContacts::beyondLoad(Pair& pair, FedContact contact) {
+    if (!contact.impulseNewtonSeconds || contact.isSoft) return contact;
+    const double load = std::min(pair.lastLoad, std::max(0.0, *contact.impulseNewtonSeconds));
+    *contact.impulseNewtonSeconds -= load;
+    if (!contact.isImpulseOfPair) pair.lastLoad -= load; // several points share it
+    return contact;
 }
 
 void ReportedContacts::tell(Pair& pair, const FedContact& contact, bool isNew) {

@@ -277,6 +277,9 @@ private:
         std::int32_t a, b; // slots, the lower one first
         bool isAsked;      // it was reported by touch(), and ends when touch() leaves it out
         bool isNew, isNamed;
+        double approach = 0.0, lastApproach = 0.0; // m/s where it was faster than gravity explains: in this
+                                                   // step, in the last one
+        double load = 0.0, lastLoad = 0.0;         // N s along the normal, likewise
         FedPoints::Chain points{};              // of this step and the one before, if the engine names points
         std::int32_t waiting = FedPoints::none; // the newest of its contacts that are solved at the end of
                                                 // the step
@@ -298,6 +301,8 @@ private:
         return contact.isSoft || contact.isImpulseOfPair || !contact.impulseNewtonSeconds;
     }
     bool isNewPoint(Pair& pair, const FedContact& contact);
+    bool isKick(Pair& pair, const FedContact& contact);
+    static FedContact beyondLoad(Pair& pair, FedContact contact);
     void tell(Pair& pair, const FedContact& contact, bool isNew);
     void settle(const Pair& pair);
     void settleTogether();

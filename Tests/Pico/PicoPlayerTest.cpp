@@ -55,7 +55,8 @@ TEST(PicoPlayer, AHitThatBeginsTheStreamAfterAPauseIsFelt) {
     const auto share = [&] { // of the power of a hit that begins with the stream, in its first 100 ms
         const auto began = stream.sent;
         const auto hit = [began](auto n, int j) { // 200 Hz that ends within 100 ms
-            return static_cast<std::int16_t>(tone(2 * (n - began), j) * std::exp(-double(n - began) / 1500.0));
+            return static_cast<std::int16_t>(tone(2 * (n - began), j) *
+                                             std::exp(-double(n - began) / 1500.0));
         };
         const auto first = stream.out.size();
         stream.play(hit, 120);

@@ -74,7 +74,7 @@ TEST(PicoVolume, IsInDecibels) {
 }
 
 TEST(PicoVolume, IsKeptInAByteAndNeverLouder) {
-    for (int volume = pico::minVolume; volume <= 0; volume += 7) {
+    for (int volume = pico::minVolume + pico::volumeStep; volume <= 0; volume += 7) {
         pico::AudioControls<4> controls, again;
         const std::uint8_t data[] = {static_cast<std::uint8_t>(volume),
                                      static_cast<std::uint8_t>(volume >> 8)};

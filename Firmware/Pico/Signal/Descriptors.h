@@ -129,10 +129,10 @@ private:
     std::array<int, static_cast<std::size_t>(channels) + 1> volume_{}; // [0]: all channels
     std::array<bool, static_cast<std::size_t>(channels) + 1> isMuted_{};
 };
-/// Which form of feedback the host reads. At full speed macOS takes 10.14 in three bytes alone, and Windows 16.16
-/// in four alone; Linux finds out by itself. After a reset of the bus, macOS asks for a text before it asks for
-/// the configuration, and the others after it (seen by TinyUSB's authors with Windows 10 and 11, Linux 3.16 to
-/// 6.8, macOS 13 and 14). reset, asks: interrupt of USB; the other: any.
+/// Which form of feedback the host reads. At full speed macOS takes 10.14 in three bytes alone, and
+/// Windows 16.16 in four alone; Linux finds out by itself. After a reset of the bus, macOS asks for a text
+/// before it asks for the configuration, and the others after it (seen by TinyUSB's authors with Windows 10
+/// and 11, Linux 3.16 to 6.8, macOS 13 and 14). reset, asks: interrupt of USB; the other: any.
 class FeedbackForm {
 public:
     void reset() noexcept { asked_.store(0, std::memory_order_relaxed); }
@@ -248,12 +248,23 @@ constexpr std::array<std::uint8_t, 18> deviceDescriptor(int channels, std::strin
         if (c < '0' || c > '9' || part >= parts.size()) break;
         parts[part] = std::min(9, 10 * parts[part] + (c - '0')); // a digit each
     }
-    return {18,   1,    0x00,
-            0x02, 0xef, 2,
-            1,    64, // USB 2.0, functions by association
-            0xfe, 0xca, static_cast<std::uint8_t>(0x50 + channels),
-            0x40, static_cast<std::uint8_t>(16 * parts[1] + parts[2]), static_cast<std::uint8_t>(parts[0]),
-            1,    2,    3,
+    return {18,
+            1,
+            0x00,
+            0x02,
+            0xef,
+            2,
+            1,
+            64, // USB 2.0, functions by association
+            0xfe,
+            0xca,
+            static_cast<std::uint8_t>(0x50 + channels),
+            0x40,
+            static_cast<std::uint8_t>(16 * parts[1] + parts[2]),
+            static_cast<std::uint8_t>(parts[0]),
+            1,
+            2,
+            3,
             1};
 }
 

@@ -14,7 +14,7 @@ template <int channels>
 class Player {
 public:
     static constexpr int startTiles = tilesPerSecond / 10; // soft start: 100 ms
-    static constexpr int stopTiles = 3; // ramp to silence, and from it after a pause: 1 ms
+    static constexpr int stopTiles = 3;                    // ramp to silence, and from it after a pause: 1 ms
     static constexpr int quietTiles = 7;                   // 2.3 ms without a packet: the host stopped
     static constexpr int amplifierTiles = 6; // covers what the output still buffers, with a margin
     static constexpr std::int32_t volumeStep = unity * 100 / tilesPerSecond; // the whole range in 10 ms
@@ -30,8 +30,9 @@ public:
         allowed_.store(isAllowed, std::memory_order_relaxed);
         bump(renewals_);
     }
-    /// The next start takes startTiles, as the first one and one after a hang of the main loop do. Others follow
-    /// a pause of a program that has played, whose next hit they would swallow. Main loop, while not allowed.
+    /// The next start takes startTiles, as the first one and one after a hang of the main loop do. Others
+    /// follow a pause of a program that has played, whose next hit they would swallow. Main loop, while not
+    /// allowed.
     void startSoftly() noexcept { isStartSoft_.store(true, std::memory_order_relaxed); }
     /// Low (the initial state): everything is scaled to a quarter, and the ceiling is a quarter of full
     /// scale. The ceiling falls within a tile, and rises as slowly as the soft start does. Main loop.
@@ -177,8 +178,7 @@ private:
     int quiet_ = 0, amplifier_ = 0;
     std::uint32_t lastWritten_ = 0, lastRenewals_ = 0, unattended_ = 0;
     std::atomic<std::int32_t> wantedScale_{lowCeiling}, ceiling_{times(fullScale, lowCeiling)};
-    std::atomic<bool> allowed_{false}, isPlaying_{false}, isAmplifierOn_{false},
-        isStartSoft_{true};
+    std::atomic<bool> allowed_{false}, isPlaying_{false}, isAmplifierOn_{false}, isStartSoft_{true};
     std::atomic<std::uint32_t> tiles_{0}, underruns_{0}, limited_{0}, renewals_{0};
 };
 
