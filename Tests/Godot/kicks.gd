@@ -122,8 +122,8 @@ func breaks():
 	await end()
 
 
-# A ball that rolls smoothly is not felt. Where it is so fast that the engine throws it up, no hit is above what the
-# solver gave it in two ticks.
+# A ball that rolls smoothly is not felt. Where the engine throws it up, no hit is above what the solver gave it in two
+# ticks.
 func seams(floor_name: String, speed: float):
 	var hz := float(Engine.physics_ticks_per_second)
 	var nodes := []
@@ -155,14 +155,16 @@ func seams(floor_name: String, speed: float):
 	var most := 0.0
 	for i in range(1, gave.size()): most = maxf(most, gave[i] + gave[i - 1])
 	var above := hits.filter(func(hit): return hit.strength_n_s > 1.3 * most)
-	check(hits.is_empty() if speed <= 2 else above.is_empty(), named("a ball that rolls at %.0f m/s over %s, the solver gave at most %.2f N s" % [speed, floor_name, most]))
+	var is_smooth := hz >= 60 and most < 2 * 9.8 / hz + 0.15 # at 30 ticks a second gravity's own share is a hit's
+	check(hits.is_empty() if is_smooth else above.is_empty(), named("a ball that rolls at %.0f m/s over %s, the solver gave at most %.2f N s" % [speed, floor_name, most]))
 	await end()
 
 
 func ragdoll():
 	var skeleton := Skeleton3D.new()
 	skeleton.add_bone("bone")
-	var bone = made("PhysicalBone3D", at(0, 1.0), 0.1, true)
+	skeleton.position = at(0, 1.0)
+	var bone = made("PhysicalBone3D", at(0, 0), 0.1, true)
 	bone.set("bone_name", "bone")
 	var simulator := PhysicalBoneSimulator3D.new()
 	skeleton.add_child(simulator)
