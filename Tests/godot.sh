@@ -52,6 +52,11 @@ for engine in GodotPhysics3D "Jolt Physics"; do
                 grep -E '^(right|WRONG)' "$project/out" || { cat "$project/out" && failed=1; }
             done
         done
+        for rate in 30 60 240; do
+            godot -s kicks.gd --fixed-fps "$rate" -- "space=$space" "hz=$rate" >"$project/out" 2>&1 || failed=1
+            grep -E '^(right|WRONG)' "$project/out" || { cat "$project/out" && failed=1; }
+            ! grep '^ERROR' "$project/out" || failed=1
+        done
         for rate in 30 240; do
             for striker in alone observed; do
                 godot -s pair.gd --fixed-fps "$rate" -- "space=$space" "hz=$rate" "$striker" >"$project/out" 2>&1 || failed=1

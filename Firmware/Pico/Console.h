@@ -52,6 +52,7 @@ public:
     }
 
     bool isSilenced() const noexcept { return silenced_; }
+    void silence() noexcept { silenced_ = true; } ///< as before a restart
 
 private:
     void counters(const Facts& f) noexcept {

@@ -10,12 +10,14 @@
 #include "pico/platform.h"
 #include "pico/unique_id.h"
 #include "tusb.h"
+#include <cstring>
 
 namespace physvib::pico {
 namespace {
 
-constexpr auto deviceBytes = deviceDescriptor(boardChannels);
+constexpr auto deviceBytes = deviceDescriptor(boardChannels, PHYSVIB_VERSION);
 constexpr auto configurationBytes = configurationDescriptor(boardChannels);
+constexpr auto configurationWithThree = configurationDescriptor(boardChannels, 3);
 static_assert(configurationBytes.count == 9 + CFG_TUD_AUDIO_FUNC_1_DESC_LEN + TUD_CDC_DESC_LEN);
 static_assert(packetBytes(boardChannels) == CFG_TUD_AUDIO_FUNC_1_EP_OUT_SZ_MAX);
 
@@ -28,7 +30,32 @@ std::uint32_t wrongSizes = 0, restarts = 0;
 bool isStreaming = false; // alternate setting 1 is selected
 char serialNumber[2 * PICO_UNIQUE_BOARD_ID_SIZE_BYTES + 1];
 
+// A restart by the watchdog lifts neither silence nor a volume that was turned down: they are in its scratch
+// registers, whose first one counts restarts, and whose last four are the SDK's.
+struct Kept {
+    std::array<std::uint8_t, boardChannels + 1> volumes;
+    std::uint8_t isSilenced;
+};
+constexpr int keptWords = 3;
+static_assert(sizeof(Kept) <= keptWords * sizeof(std::uint32_t));
+
+void keep() noexcept {
+    const Kept kept{controls.kept(), console.isSilenced()};
+    std::uint32_t words[keptWords]{};
+    std::memcpy(words, &kept, sizeof kept);
+    for (int k = 0; k < keptWords; ++k) watchdog_hw->scratch[k + 1] = words[k];
+}
+void restore() noexcept {
+    std::uint32_t words[keptWords];
+    for (int k = 0; k < keptWords; ++k) words[k] = watchdog_hw->scratch[k + 1];
+    Kept kept;
+    std::memcpy(&kept, words, sizeof kept);
+    controls.restore(kept.volumes);
+    if (kept.isSilenced != 0) console.silence();
+}
+
 void applyVolume() noexcept {
+    keep();
     for (int channel = 0; channel < boardChannels; ++channel)
         player->setVolume(channel, controls.gain(channel));
 }
@@ -66,6 +93,7 @@ void answerConsole() noexcept {
                                    player->buffer.level(),
                                    worstTileCycles()};
         const auto answer = console.answer(facts);
+        keep();
         tud_cdc_write(answer.data(), static_cast<std::uint32_t>(answer.size())); // what does not fit is
                                                                                  // dropped
         tud_cdc_write_flush();
@@ -74,9 +102,12 @@ void answerConsole() noexcept {
 
 } // namespace
 
+FeedbackForm feedbackForm;
+
 void startUsb(Player<boardChannels>& to, std::uint32_t watchdogRestarts) noexcept {
     player = &to;
     restarts = watchdogRestarts;
+    if (restarts > 0) restore();
     applyVolume();
     pico_get_unique_board_id_string(serialNumber, sizeof serialNumber);
     tusb_rhport_init_t device{};
@@ -88,7 +119,9 @@ void startUsb(Player<boardChannels>& to, std::uint32_t watchdogRestarts) noexcep
 void pollUsb() noexcept {
     tud_task();
     answerConsole();
-    player->allow(isStreaming && tud_ready() && !console.isSilenced());
+    const bool isStopped = !tud_ready() || console.isSilenced();
+    if (isStopped) player->startSoftly();
+    player->allow(isStreaming && !isStopped);
 }
 
 std::uint32_t faults() noexcept {
@@ -102,7 +135,9 @@ using namespace physvib::pico;
 extern "C" {
 
 std::uint8_t const* tud_descriptor_device_cb(void) { return deviceBytes.data(); }
-std::uint8_t const* tud_descriptor_configuration_cb(std::uint8_t) { return configurationBytes.data.data(); }
+std::uint8_t const* tud_descriptor_configuration_cb(std::uint8_t) {
+    return (feedbackForm.isThreeBytes() ? configurationWithThree : configurationBytes).data.data();
+}
 
 std::uint16_t const* tud_descriptor_string_cb(std::uint8_t index, std::uint16_t) {
     static std::uint16_t text[32];
@@ -145,8 +180,7 @@ bool tud_audio_set_req_entity_cb(std::uint8_t, tusb_control_request_t const* req
     return true;
 }
 
-// Windows reads 16.16 from every device, Linux finds out by itself.
-bool tud_audio_feedback_format_correction_cb(std::uint8_t) { return false; }
+bool tud_audio_feedback_format_correction_cb(std::uint8_t) { return feedbackForm.isThreeBytes(); }
 
 // A packet that came between a request to open the stream again and its execution is reported when the
 // endpoint is armed anew; TinyUSB would arm it twice, which it does not survive. False: it does nothing.

@@ -74,7 +74,7 @@ struct FedContact {
 
     /// Which point of its pair it is: a number of the engine's (>= 0), `byPlace`, or `noPoint`. A new
     /// point that approaches fast is an impact even while its pair touches (a pole that topples, a crate that
-    /// rocks).
+    /// rocks). So is one that lasts and is suddenly approached (a flipper under a resting ball).
     std::int32_t pointId = noPoint;
 
     /// The impulses are those of the whole pair, reported with each of its points. The share of new points

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace physvib {
 ReportedContacts::ReportedContacts(const ImpactSettings& settings)
@@ -26,21 +27,19 @@ void ReportedContacts::touch(const FedContact& contact) {
     Pair& pair = know(contact, true);
     pair.isNamed = true;
     const bool isNewPoint = this->isNewPoint(pair, contact);
-    if (isNewPoint && !pair.isNew) events_.catcher().meet(pair.a, pair.b);
-    tell(pair, contact, pair.isNew || isNewPoint);
+    tell(pair, contact, pair.isNew || isNewPoint, isNewPoint);
 }
 
 void ReportedContacts::begin(const FedContact& contact) {
     Pair& pair = know(contact, false);
     isNewPoint(pair, contact); // the next step knows this point
-    tell(pair, contact, true);
+    tell(pair, contact, true, false);
 }
 
 void ReportedContacts::push(const FedContact& contact) {
     Pair& pair = know(contact, false); // it may have touched before the first report
     const bool isNewPoint = this->isNewPoint(pair, contact) && !pair.isNew;
-    if (isNewPoint) events_.catcher().meet(pair.a, pair.b);
-    tell(pair, contact, isNewPoint);
+    tell(pair, contact, isNewPoint, isNewPoint);
 }
 
 bool ReportedContacts::end(std::int32_t a, std::int32_t b) {
@@ -64,6 +63,9 @@ void ReportedContacts::endStep() {
             continue;
         }
         pair.isNew = pair.isNamed = false;
+        // Engines need a few steps to end an impact.
+        pair.lastApproach = std::max(std::exchange(pair.approach, 0.0), 0.5 * pair.lastApproach);
+        pair.lastLoad = std::exchange(pair.load, 0.0);
         pair.points = {.before = pair.points.now};
         pair.waiting = FedPoints::none;
     }
@@ -115,20 +117,54 @@ bool ReportedContacts::isNewPoint(Pair& pair, const FedContact& contact) {
            (pair.isNew || speedOf(contact) > 0.0);
 }
 
-void ReportedContacts::tell(Pair& pair, const FedContact& contact, bool isNew) {
-    if (!events_.catcher().hasSources()) return;
+// A flipper under a resting ball, a platform that jerks: what touches is struck without having parted, faster
+// than gravity explains. In its first step, since what drives it may push on, unless that was a small part,
+// as where an engine passes an impact on over several; what still has to come there is no kick yet.
+bool ReportedContacts::isKick(Pair& pair, const FedContact& contact, bool isNew) {
+    if (contact.impulseNewtonSeconds && !contact.isSoft)
+        pair.load = contact.isImpulseOfPair ? *contact.impulseNewtonSeconds
+                                            : pair.load + std::max(0.0, *contact.impulseNewtonSeconds);
+    const double speed = speedOf(contact), seconds = events_.stepSeconds();
+    if (!(speed > 0.0) || (!isNew && contact.gapMetres > speed * seconds)) return false;
+    const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
+    const float gravityScale = std::max(a.gravityScale(), b.gravityScale());
+    constexpr double clearly = 2.5; // no elevator that starts, no rest of an impact before
+    const double beyond = speed - gravity_ * seconds * std::abs(static_cast<double>(gravityScale));
+    if (!events_.catcher().isCollision(gravityScale, beyond / clearly)) return false;
+    pair.approach = std::max(pair.approach, speed);
+    return !isNew && speed > 2.0 * pair.lastApproach;
+}
+
+// Without what the pair has passed on in the step before.
+FedContact ReportedContacts::beyondLoad(Pair& pair, FedContact contact) {
+    if (!contact.impulseNewtonSeconds || contact.isSoft) return contact;
+    const double load = std::min(pair.lastLoad, std::max(0.0, *contact.impulseNewtonSeconds));
+    *contact.impulseNewtonSeconds -= load;
+    if (!contact.isImpulseOfPair) pair.lastLoad -= load; // several points share it
+    return contact;
+}
+
+void ReportedContacts::tell(Pair& pair, const FedContact& contact, bool isNew, bool isNewPoint) {
+    if (!events_.catcher().hasSources()) {
+        if (isNewPoint && !pair.isNew) events_.catcher().meet(pair.a, pair.b);
+        return;
+    }
+    const bool isKick = this->isKick(pair, contact, isNew);
+    if ((isNewPoint || isKick) && !pair.isNew) events_.catcher().meet(pair.a, pair.b);
     if (waits(contact)) {
         const bool isByMomentum = this->isByMomentum(contact);
         const auto momentum = isByMomentum
                                   ? static_cast<std::int32_t>(momentum_.add(bodies_, contact.a, contact.b,
                                                                             contact.point, contact.normal))
                                   : FedPoints::none;
-        waiting_.push_back({contact, isNew, pair.waiting, momentum});
+        waiting_.push_back({contact, isNew || isKick, isKick, pair.waiting, momentum});
         pair.waiting = static_cast<std::int32_t>(waiting_.size()) - 1;
-        if (isNew || contact.isImpulseOfPair || isByMomentum) return;
+        if (isNew || isKick || contact.isImpulseOfPair || isByMomentum) return;
     }
     if (isNew)
         strike(contact);
+    else if (isKick)
+        strike(beyondLoad(pair, contact));
     else
         load(contact);
 }
@@ -257,7 +293,7 @@ TouchingPairs::Name ReportedContacts::nameOf(const FedContact& contact) {
 void ReportedContacts::settleTogether() {
     if (waiting_.empty()) return;
     momentum_.solve();
-    for (const Pair& pair : pairs_)
+    for (Pair& pair : pairs_)
         if (pair.waiting != FedPoints::none) settle(pair);
     momentum_.clear();
 }
@@ -292,7 +328,26 @@ void ReportedContacts::strikeByMomentum() {
     strikeTogether();
 }
 
-void ReportedContacts::settle(const Pair& pair) {
+// Where a point is new, that is the impact, and points that rock on press.
+void ReportedContacts::judgeKicks(Pair& pair) {
+    bool isAnyNew = false;
+    const auto next = [this](std::int32_t at) { return waiting_[static_cast<std::size_t>(at)].next; };
+    for (std::int32_t at = pair.waiting; at != FedPoints::none; at = next(at))
+        if (const Waiting& each = waiting_[static_cast<std::size_t>(at)]; each.isNew && !each.isKick)
+            isAnyNew = true;
+    for (std::int32_t at = pair.waiting; at != FedPoints::none; at = next(at)) {
+        Waiting& each = waiting_[static_cast<std::size_t>(at)];
+        if (!each.isKick) continue;
+        each.isNew = !isAnyNew;
+        if (!isAnyNew)
+            each.contact = beyondLoad(pair, each.contact);
+        else if (each.momentum == FedPoints::none && !each.contact.isImpulseOfPair)
+            load(each.contact);
+    }
+}
+
+void ReportedContacts::settle(Pair& pair) {
+    judgeKicks(pair);
     together_.clear();
     for (std::int32_t at = pair.waiting; at != FedPoints::none;
          at = waiting_[static_cast<std::size_t>(at)].next)

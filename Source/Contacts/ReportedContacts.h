@@ -277,13 +277,16 @@ private:
         std::int32_t a, b; // slots, the lower one first
         bool isAsked;      // it was reported by touch(), and ends when touch() leaves it out
         bool isNew, isNamed;
+        double approach = 0.0, lastApproach = 0.0; // m/s where it was faster than gravity explains: in this
+                                                   // step, in the last ones
+        double load = 0.0, lastLoad = 0.0;         // N s along the normal, of this step, of the last one
         FedPoints::Chain points{};              // of this step and the one before, if the engine names points
         std::int32_t waiting = FedPoints::none; // the newest of its contacts that are solved at the end of
                                                 // the step
     };
     struct Waiting {
         FedContact contact;
-        bool isNew;
+        bool isNew, isKick; // struck; it is no new point
         std::int32_t next;
         std::int32_t momentum; // its number there, or none
     };
@@ -298,8 +301,11 @@ private:
         return contact.isSoft || contact.isImpulseOfPair || !contact.impulseNewtonSeconds;
     }
     bool isNewPoint(Pair& pair, const FedContact& contact);
-    void tell(Pair& pair, const FedContact& contact, bool isNew);
-    void settle(const Pair& pair);
+    bool isKick(Pair& pair, const FedContact& contact, bool isNew);
+    static FedContact beyondLoad(Pair& pair, FedContact contact);
+    void tell(Pair& pair, const FedContact& contact, bool isNew, bool isNewPoint);
+    void judgeKicks(Pair& pair);
+    void settle(Pair& pair);
     void settleTogether();
     double speedOf(const FedContact& contact) const;
     std::int32_t slotOf(std::int32_t id) const noexcept {

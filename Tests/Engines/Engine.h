@@ -56,6 +56,8 @@ struct Engine {
     }
     virtual void step() = 0;
     virtual Motion motion(int body) const = 0;
+    /// Gives a body that speed upwards. False: not asked for; Box2D 2.4's way is the thesis', without kicks.
+    virtual bool shoot(int /*body*/, double /*vy*/) { return false; }
     virtual std::vector<physvib_event> take() { ///< all of them
         std::vector<physvib_event> events(4096);
         events.front().size = sizeof events.front();

@@ -73,6 +73,11 @@ struct Bullet final : scenes::Engine {
     static btScalar real(double value) { return static_cast<btScalar>(value); }
     static btVector3 vector(double x, double y) { return {real(x), real(y), 0}; }
     void step() override { bullet->stepSimulation(real(dt), 0); }
+    bool shoot(int id, double vy) override {
+        bodies.at(id)->activate();
+        bodies.at(id)->setLinearVelocity({0, btScalar(vy), 0});
+        return true;
+    }
     scenes::Motion motion(int id) const override {
         const btRigidBody& body = *bodies.at(id);
         const btMatrix3x3& turned = body.getWorldTransform().getBasis();

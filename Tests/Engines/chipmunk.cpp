@@ -76,6 +76,11 @@ struct Chipmunk final : scenes::Engine {
         if (physvib_chipmunk_step(space, world, dt) != PHYSVIB_OK)
             std::fprintf(stderr, "%s\n", physvib_chipmunk_error);
     }
+    bool shoot(int id, double vy) override {
+        cpBodyActivate(bodies.at(id));
+        cpBodySetVelocity(bodies.at(id), cpv(0, vy));
+        return true;
+    }
     scenes::Motion motion(int id) const override {
         const cpBody* body = bodies.at(id);
         const cpVect at = cpBodyGetPosition(body), v = cpBodyGetVelocity(body);

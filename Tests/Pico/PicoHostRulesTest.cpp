@@ -62,7 +62,8 @@ INSTANTIATE_TEST_SUITE_P(Channels, PicoHostRules, testing::Values(4, 8));
 constexpr int inputTerminal = 2, outputTerminal = 3, featureUnit = 6, clockSource = 10;
 
 TEST_P(PicoHostRules, WindowsFindsTheFunction) {
-    const auto device = pico::deviceDescriptor(channels);
+    const auto device = pico::deviceDescriptor(channels, "1.2.13-rc.1");
+    EXPECT_EQ(device[12] | device[13] << 8, 0x0129) << "the version, a digit each";
     EXPECT_EQ((std::vector<int>{device[4], device[5], device[6]}), (std::vector<int>{0xef, 2, 1}))
         << "functions by association, or Windows makes one device of all interfaces";
     const auto all = pico::configurationDescriptor(channels);
@@ -153,7 +154,7 @@ TEST_P(PicoHostRules, TheMacFindsControlsAndName) {
     EXPECT_EQ(feature[2], featureUnit) << "the unit beside the output terminal, with volume and mute in one";
     for (const auto& s : settings)
         EXPECT_EQ(s.interface[8], 0) << "an interface's name would replace the product's";
-    EXPECT_EQ(pico::deviceDescriptor(channels)[15], 2) << "the product's name";
+    EXPECT_EQ(pico::deviceDescriptor(channels, "1.0")[15], 2) << "the product's name";
     EXPECT_EQ(word(entity(inputTerminal), 9), 0) << "channels are no loudspeakers";
 }
 

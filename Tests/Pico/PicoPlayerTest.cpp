@@ -48,6 +48,41 @@ TEST(PicoPlayer, StartsSoftly) {
             << n;
 }
 
+// A sound server closes the card after a pause, and opens it for the next hit.
+TEST(PicoPlayer, AHitThatBeginsTheStreamAfterAPauseIsFelt) {
+    Stream<4> stream;
+    const auto constant = [](auto, int) -> std::int16_t { return 800; };
+    const auto share = [&] { // of the power of a hit that begins with the stream, in its first 100 ms
+        const auto began = stream.sent;
+        const auto hit = [began](auto n, int j) { // 200 Hz that ends within 100 ms
+            return static_cast<std::int16_t>(tone(2 * (n - began), j) *
+                                             std::exp(-double(n - began) / 1500.0));
+        };
+        const auto first = stream.out.size();
+        stream.play(hit, 120);
+        double sent = 0.0, felt = 0.0;
+        for (std::int64_t n = began; n < began + 4800; ++n) sent += hit(n, 0) * hit(n, 0);
+        for (std::size_t n = first; n < stream.out.size(); ++n) felt += stream.out[n][0] * stream.out[n][0];
+        return felt / sent;
+    };
+    const auto pause = [&] {
+        stream.isAllowed = false;
+        stream.tiles(15000);
+        stream.isAllowed = true;
+    };
+    stream.play(constant, 300);
+    pause();
+    EXPECT_GT(share(), 0.9);
+    pause();
+    stream.player->startSoftly(); // silence was commanded, or the computer suspended
+    EXPECT_LT(share(), 0.2);
+    stream.play(constant, 300);
+    stream.isAttended = false; // the main loop hung
+    stream.tiles(20);
+    stream.isAttended = true;
+    EXPECT_LT(share(), 0.2);
+}
+
 // Silence within 5 ms of the last packet, whatever it held, and no step on the way.
 TEST(PicoPlayer, RampsToSilenceWhenPacketsStop) {
     Stream<4> stream;

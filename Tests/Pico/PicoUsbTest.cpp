@@ -73,6 +73,24 @@ TEST(PicoVolume, IsInDecibels) {
     EXPECT_EQ(controls.get(pico::unitClock, 2, pico::audio_request::clockFrequency, 0).count, 14);
 }
 
+TEST(PicoVolume, IsKeptInAByteAndNeverLouder) {
+    for (int volume = pico::minVolume + pico::volumeStep; volume <= 0; volume += 7) {
+        pico::AudioControls<4> controls, again;
+        const std::uint8_t data[] = {static_cast<std::uint8_t>(volume),
+                                     static_cast<std::uint8_t>(volume >> 8)};
+        ASSERT_TRUE(controls.set(pico::unitVolume, 1, pico::audio_request::volume, 2, data, 2));
+        ASSERT_TRUE(controls.set(pico::unitVolume, 1, pico::audio_request::mute, 3, data, 1));
+        again.restore(controls.kept());
+        EXPECT_LE(again.gain(1), controls.gain(1)) << volume;
+        EXPECT_GE(again.gain(1) + 1, controls.gain(1) * 0.94) << volume << ": half a decibel at most";
+        EXPECT_EQ(again.gain(2), controls.gain(2)) << "mute";
+        EXPECT_EQ(again.kept(), controls.kept());
+    }
+    pico::AudioControls<4> torn;
+    torn.restore({0x7f, 0, 0xff, 0, 0});
+    EXPECT_EQ(torn.gain(0), 0) << "below the lowest";
+}
+
 TEST(PicoVolume, AnyRequestLeavesAGainOfAtMostOne) {
     pico::AudioControls<8> controls;
     std::minstd_rand random(1);

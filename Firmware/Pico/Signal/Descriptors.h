@@ -5,7 +5,9 @@
 #pragma once
 #include "FixedGuard.h"
 #include <algorithm>
+#include <atomic>
 #include <initializer_list>
+#include <string_view>
 
 namespace physvib::pico {
 
@@ -87,6 +89,22 @@ public:
         return true;
     }
 
+    /// All of it in a byte per channel, the one for all first: steps below the highest volume, and mute in
+    /// the highest bit. Steps are rounded towards silence.
+    std::array<std::uint8_t, static_cast<std::size_t>(channels) + 1> kept() const noexcept {
+        std::array<std::uint8_t, static_cast<std::size_t>(channels) + 1> bytes{};
+        for (std::size_t j = 0; j < bytes.size(); ++j)
+            bytes[j] = static_cast<std::uint8_t>((maxVolume - volume_[j] + volumeStep - 1) / volumeStep |
+                                                 (isMuted_[j] ? 0x80 : 0));
+        return bytes;
+    }
+    void restore(const std::array<std::uint8_t, static_cast<std::size_t>(channels) + 1>& bytes) noexcept {
+        for (std::size_t j = 0; j < bytes.size(); ++j) {
+            volume_[j] = std::max(minVolume, maxVolume - (bytes[j] & 0x7f) * volumeStep);
+            isMuted_[j] = (bytes[j] & 0x80) != 0;
+        }
+    }
+
     /// Gain of a channel, 0 to unity. The lowest volume is silence.
     std::int32_t gain(int channel) const noexcept {
         const auto own = static_cast<std::size_t>(channel) + 1;
@@ -111,6 +129,26 @@ private:
     std::array<int, static_cast<std::size_t>(channels) + 1> volume_{}; // [0]: all channels
     std::array<bool, static_cast<std::size_t>(channels) + 1> isMuted_{};
 };
+/// Which form of feedback the host reads. At full speed macOS takes 10.14 in three bytes alone, and
+/// Windows 16.16 in four alone; Linux finds out by itself. After a reset of the bus, macOS asks for a text
+/// before it asks for the configuration, and the others after it (seen by TinyUSB's authors with Windows 10
+/// and 11, Linux 3.16 to 6.8, macOS 13 and 14). reset, asks: interrupt of USB; the other: any.
+class FeedbackForm {
+public:
+    void reset() noexcept { asked_.store(0, std::memory_order_relaxed); }
+    /// `descriptorType`: what the host asks for.
+    void asks(std::uint8_t descriptorType) noexcept {
+        if ((descriptorType == configuration || descriptorType == text) &&
+            asked_.load(std::memory_order_relaxed) == 0)
+            asked_.store(descriptorType, std::memory_order_relaxed);
+    }
+    bool isThreeBytes() const noexcept { return asked_.load(std::memory_order_relaxed) == text; }
+
+private:
+    static constexpr std::uint8_t configuration = 2, text = 3;
+    std::atomic<std::uint8_t> asked_{0}; // the first one
+};
+
 constexpr std::uint8_t audioControlInterface = 0, audioStreamInterface = 1, serialControlInterface = 2,
                        serialDataInterface = 3;
 constexpr std::uint8_t audioEndpoint = 0x01, feedbackEndpoint = 0x81, serialNotifyEndpoint = 0x82,
@@ -163,7 +201,7 @@ constexpr void addAudioControl(DescriptorBytes& d, int channels) noexcept {
 }
 
 // Alternate setting 0 takes no bandwidth; 1 has the stream and its feedback.
-constexpr void addAudioStream(DescriptorBytes& d, int channels) noexcept {
+constexpr void addAudioStream(DescriptorBytes& d, int channels, int feedbackBytes) noexcept {
     const int most = packetBytes(channels);
     d.put({interface, audioStreamInterface, 0, 0, audio, 2, audioVersion, 0});
     d.put({interface, audioStreamInterface, 1, 2, audio, 2, audioVersion, 0});
@@ -171,7 +209,7 @@ constexpr void addAudioStream(DescriptorBytes& d, int channels) noexcept {
     d.put({ofInterface, 2, 1, 2, 16});                                             // two bytes, 16 bits
     d.put({endpoint, audioEndpoint, 0x05, lowByte(most), highByte(most), 1});      // asynchronous, every ms
     d.put({ofEndpoint, 1, 0, 0, 0, 0, 0});
-    d.put({endpoint, feedbackEndpoint, 0x11, 4, 0, 1}); // feedback, every ms
+    d.put({endpoint, feedbackEndpoint, 0x11, feedbackBytes, 0, 1}); // every ms
 }
 
 constexpr void addSerial(DescriptorBytes& d) noexcept {
@@ -189,25 +227,44 @@ constexpr void addSerial(DescriptorBytes& d) noexcept {
 } // namespace descriptor
 
 /// The configuration descriptor, whole. Compile time.
-constexpr DescriptorBytes configurationDescriptor(int channels) noexcept {
+constexpr DescriptorBytes configurationDescriptor(int channels, int feedbackBytes = 4) noexcept {
     DescriptorBytes d;
     d.put({descriptor::configuration, 0, 0, 4, 1, 0, 0x80, 50}); // powered by the bus, 100 mA at most
     descriptor::addAudioControl(d, channels);
-    descriptor::addAudioStream(d, channels);
+    descriptor::addAudioStream(d, channels, feedbackBytes);
     descriptor::addSerial(d);
     d.setWord(2, d.count);
     return d;
 }
 
 /// The device descriptor. The vendor number is TinyUSB's for examples: this project owns none, so nothing may
-/// find the board by number; its name begins with "PhysVib".
-constexpr std::array<std::uint8_t, 18> deviceDescriptor(int channels) noexcept {
-    return {18,   1,    0x00,
-            0x02, 0xef, 2,
-            1,    64, // USB 2.0, functions by association
-            0xfe, 0xca, static_cast<std::uint8_t>(0x50 + channels),
-            0x40, 0x00, 0x01,
-            1,    2,    3,
+/// find the board by number; its name begins with "PhysVib". The version is the image's, since Windows keeps
+/// what it has read of one: "1.2.3" is 1.23.
+constexpr std::array<std::uint8_t, 18> deviceDescriptor(int channels, std::string_view version) noexcept {
+    std::array<int, 3> parts{};
+    std::size_t part = 0;
+    for (const char c : version) {
+        if (c == '.' && ++part < parts.size()) continue;
+        if (c < '0' || c > '9' || part >= parts.size()) break;
+        parts[part] = std::min(9, 10 * parts[part] + (c - '0')); // a digit each
+    }
+    return {18,
+            1,
+            0x00,
+            0x02,
+            0xef,
+            2,
+            1,
+            64, // USB 2.0, functions by association
+            0xfe,
+            0xca,
+            static_cast<std::uint8_t>(0x50 + channels),
+            0x40,
+            static_cast<std::uint8_t>(16 * parts[1] + parts[2]),
+            static_cast<std::uint8_t>(parts[0]),
+            1,
+            2,
+            3,
             1};
 }
 

@@ -14,7 +14,7 @@ template <int channels>
 class Player {
 public:
     static constexpr int startTiles = tilesPerSecond / 10; // soft start: 100 ms
-    static constexpr int stopTiles = 3;                    // ramp to silence: 1 ms
+    static constexpr int stopTiles = 3;                    // ramp to silence, and from it after a pause: 1 ms
     static constexpr int quietTiles = 7;                   // 2.3 ms without a packet: the host stopped
     static constexpr int amplifierTiles = 6; // covers what the output still buffers, with a margin
     static constexpr std::int32_t volumeStep = unity * 100 / tilesPerSecond; // the whole range in 10 ms
@@ -30,6 +30,10 @@ public:
         allowed_.store(isAllowed, std::memory_order_relaxed);
         bump(renewals_);
     }
+    /// The next start takes startTiles, as the first one and one after a hang of the main loop do. Others
+    /// follow a pause of a program that has played, whose next hit they would swallow. Main loop, while not
+    /// allowed.
+    void startSoftly() noexcept { isStartSoft_.store(true, std::memory_order_relaxed); }
     /// Low (the initial state): everything is scaled to a quarter, and the ceiling is a quarter of full
     /// scale. The ceiling falls within a tile, and rises as slowly as the soft start does. Main loop.
     void setLowCeiling(bool isLow) noexcept {
@@ -95,6 +99,7 @@ private:
         unattended_ = renewals == lastRenewals_ ? unattended_ + 1 : 0;
         lastRenewals_ = renewals;
         const bool isAllowed = allowed_.load(std::memory_order_relaxed) && unattended_ < quietTiles;
+        if (unattended_ >= quietTiles) isStartSoft_.store(true, std::memory_order_relaxed);
         const auto written = buffer.writtenFrames();
         quiet_ = written == lastWritten_ ? quiet_ + 1 : 0;
         lastWritten_ = written;
@@ -124,10 +129,13 @@ private:
     }
 
     void moveGate() noexcept {
-        if (state_ == State::playing)
-            gate_ = std::min(unity, gate_ + unity / startTiles + 1);
-        else
+        if (state_ != State::playing) {
             gate_ = std::max(std::int32_t{0}, gate_ - (unity / stopTiles + 1));
+            return;
+        }
+        const bool isSoft = isStartSoft_.load(std::memory_order_relaxed);
+        gate_ = std::min(unity, gate_ + unity / (isSoft ? startTiles : stopTiles) + 1);
+        if (gate_ == unity) isStartSoft_.store(false, std::memory_order_relaxed);
     }
 
     std::int32_t gainAtEnd(std::size_t j) noexcept {
@@ -170,7 +178,7 @@ private:
     int quiet_ = 0, amplifier_ = 0;
     std::uint32_t lastWritten_ = 0, lastRenewals_ = 0, unattended_ = 0;
     std::atomic<std::int32_t> wantedScale_{lowCeiling}, ceiling_{times(fullScale, lowCeiling)};
-    std::atomic<bool> allowed_{false}, isPlaying_{false}, isAmplifierOn_{false};
+    std::atomic<bool> allowed_{false}, isPlaying_{false}, isAmplifierOn_{false}, isStartSoft_{true};
     std::atomic<std::uint32_t> tiles_{0}, underruns_{0}, limited_{0}, renewals_{0};
 };
 

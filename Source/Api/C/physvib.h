@@ -258,7 +258,8 @@ typedef struct physvib_contact {
                      touching (0) */
     int point_id; /**< identifies the point within its pair: a number from 0 on, or PHYSVIB_POINT_BY_PLACE. A
                      point that was not there in the step before and approaches fast is an impact even while
-                     its pair touches (PHYSVIB_POINT_NONE: the pair is reported as a whole) */
+                     its pair touches, and so is a sudden approach of one that lasts (PHYSVIB_POINT_NONE: the
+                     pair is reported as a whole) */
     int is_impulse_of_pair; /**< 1: the impulses are those of the whole pair, repeated with each of its points
                                (0) */
     double z_m;             /**< where, across the plane of the field (0) */

@@ -54,6 +54,10 @@ const std::vector<Property>& materialProperties() {
     return all;
 }
 
+std::string pathOf(const Value& node) {
+    const bool isNode = node.object() != nullptr && node.call("is_class", "Node").isTrue();
+    return isNode ? node.call("get_path").text() : "a body without a node";
+}
 bool isPhysicsBody(const Value& node) {
     return node.call("is_class", "PhysicsBody2D").isTrue() || node.call("is_class", "PhysicsBody3D").isTrue();
 }
@@ -94,27 +98,29 @@ std::vector<std::string> HapticBody::warnings() const {
     return {};
 }
 
-bool HapticBody::describe(physvib_body& body, const Value& standard) const {
+void HapticBody::describe(physvib_body& body, const Value& standard) const {
     body.is_camera = isFelt() ? 1 : 0;
     body.gain = get(gain).real();
     body.static_mass_kg = get(staticMass).real();
     body.device = static_cast<int>(get(controller).whole()) + 1; // 0: all
     const std::string itsPart = get(part).text();
-    body.part = itsPart.empty() ? 0 : std::max(0, physvib_part(itsPart.c_str()));
+    const int number = itsPart.empty() ? 0 : physvib_part(itsPart.c_str());
+    const Value node = self().call("get_parent");
+    if (number < 0) report("HapticBody of " + pathOf(node) + ": " + physvib_error());
+    body.part = std::max(0, number);
     body.frequency_hz = 200.0, body.decay_per_s = 30.0;
-    return describeMaterial(body, get(material).object() != nullptr ? get(material) : standard);
+    describeMaterial(body, get(material).object() != nullptr ? get(material) : standard, node);
 }
 
-bool describeMaterial(physvib_body& body, const Value& material) {
-    if (material.object() == nullptr) return true;
+void describeMaterial(physvib_body& body, const Value& material, const Value& node) {
+    if (material.object() == nullptr) return;
     const std::string name = material.call("get_preset").text();
     body.frequency_hz = material.call("get_frequency_hz").real();
     body.decay_per_s = material.call("get_decay_per_s").real();
     body.grain_m = material.call("get_grain_m").real();
     body.roughness = material.call("get_roughness").real();
-    if (name.empty() || physvib_material(name.c_str(), &body) == PHYSVIB_OK) return true;
-    report(std::string("HapticMaterial: ") + physvib_error());
-    return false;
+    if (!name.empty() && physvib_material(name.c_str(), &body) != PHYSVIB_OK)
+        report("HapticMaterial of " + pathOf(node) + ": " + physvib_error());
 }
 
 namespace {

@@ -24,15 +24,16 @@ public:
     std::uint64_t spaceId() const { return space; }
     bool isFelt() const;
     /// Sets vibration, gain and part, not the mass. `standard`: the HapticMaterial if it has none of its own;
-    /// nil: the built-in one. False: the material has errors, which were reported.
-    bool describe(physvib_body& body, const Value& standard) const;
+    /// nil: the built-in one. Reports what is unknown, with the body's path; its default counts then.
+    void describe(physvib_body& body, const Value& standard) const;
 
 private:
     std::uint64_t parentId = 0, space = 0;
 };
 
-/// Sets vibration and grains by a HapticMaterial; nil: none. False: it has errors, which were reported.
-bool describeMaterial(physvib_body& body, const Value& material);
+/// Sets vibration and grains by a HapticMaterial of `node`; nil: none. An unknown preset is reported, and the
+/// material's two numbers count.
+void describeMaterial(physvib_body& body, const Value& material, const Value& node);
 /// RID of the space of a node of the plane or of space that is in a scene tree.
 std::uint64_t spaceOf(const Value& node, bool isSpace);
 

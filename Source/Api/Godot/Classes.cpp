@@ -185,6 +185,11 @@ std::uint64_t changes = 0;
 Value converted(const Property& property, const Value& value) {
     if (property.type == GDEXTENSION_VARIANT_TYPE_OBJECT)
         return value.call("is_class", property.hintText).isTrue() ? value : Value();
+    const auto isNumber = [](GDExtensionVariantType type) { // which Godot also makes of a text: 0
+        return type == GDEXTENSION_VARIANT_TYPE_BOOL || type == GDEXTENSION_VARIANT_TYPE_INT ||
+               type == GDEXTENSION_VARIANT_TYPE_FLOAT;
+    };
+    if (isNumber(property.type) && !isNumber(value.type())) return {};
     const Value its = value.as(property.type);
     // A dictionary is shared until it is copied, so a script could change it without a call of set().
     return its.type() == GDEXTENSION_VARIANT_TYPE_DICTIONARY ? its.call("duplicate") : its;

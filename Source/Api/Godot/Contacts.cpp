@@ -24,6 +24,12 @@ bool goesThroughCentre(const Watched& body, const Vector& at, const Vector& norm
 }
 } // namespace
 
+// What sleeps keeps its list of contacts, also with what was freed.
+bool HapticWorld::isOtherThere(const Watched& each, int i) {
+    const std::uint64_t id = each.state.contactObject(i);
+    return id == 0 ? !each.state.sleeps() : api.instanceFromId(id) != nullptr;
+}
+
 double HapticWorld::bounceOf(std::uint64_t rid) {
     const auto [found, isNew] = bounces.try_emplace(rid, 0.0);
     constexpr int bounce = 0; // PhysicsServer's BODY_PARAM_BOUNCE
@@ -36,7 +42,7 @@ double HapticWorld::bounceOf(std::uint64_t rid) {
 void HapticWorld::touchAll(const Watched& each) {
     const int count = each.state.contacts();
     for (int i = 0; i < count; ++i)
-        if (isOfInterest(each, i)) touch(each, i);
+        if (isOfInterest(each, i) && isOtherThere(each, i)) touch(each, i);
 }
 
 // What strikes felt bodies only, strikes thousands of others too.
@@ -90,9 +96,32 @@ Surface HapticWorld::surfaceOf(const Watched& each, int i) const {
     return {at, there, normal, dot(minus(there, at), normal), length > 0.0};
 }
 
+// Where it touches, or where the plane on which it rolls holds it: an edge that does not stand out of that
+// plane, as between two tiles, strikes nothing, though Jolt's normal there points from the body to the edge.
+Surface HapticWorld::overSeams(const Watched& each, int i) const {
+    constexpr double outstanding = 0.005; // m
+    const Surface own = surfaceOf(each, i);
+    const bool isRound = goesThroughCentre(each, own.at, own.normal);
+    const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch a wall as high as the floor
+    const auto approach = [&](const Surface& of, int k) {
+        const Vector its = direction(each.state.contactOtherVelocity(k));
+        return dot(minus(velocityAt(each, of.at), its), of.normal);
+    };
+    Surface found = own;
+    double slowest = approach(own, i);
+    for (int j = 0; j < each.state.contacts(); ++j) {
+        const Surface under = surfaceOf(each, j);
+        const double height = dot(minus(own.there, under.there), under.normal),
+                     alike = dot(own.normal, under.normal);
+        if (!under.isOne || !(std::abs(height) < outstanding) || !(alike > least) || alike > 0.9999) continue;
+        if (const double its = approach(under, j); its < 0.5 * slowest) found = under, slowest = its;
+    }
+    return found;
+}
+
 void HapticWorld::touch(const Watched& each, int i) {
     const BodyState& state = each.state;
-    const Surface surface = surfaceOf(each, i);
+    const Surface surface = overSeams(each, i);
     const auto& [at, there, normal, gap, isOne] = surface;
     const double before = dot(each.before, normal);
     const bool isPushed = std::abs(dot(each.change, normal)) > 1e-3 * std::abs(before) + 1e-4;

@@ -122,7 +122,7 @@ void HapticWorld::enter() {
         report("HapticWorld: another one of this kind is in the scene; this one begins when that one leaves");
     configure();
     configureOutputs();
-    const char* const kind = isSpace ? "RigidBody3D" : "RigidBody2D";
+    const char* const kind = isSpace ? "PhysicsBody3D" : "RigidBody2D";
     for (const Value& body : tree.call("get_root").call("find_children", "*", kind, true, false).elements())
         added(body);
     tree.call("connect", "physics_frame", Value::callable(object, "_finish_step"));
@@ -337,10 +337,15 @@ namespace {
 constexpr int listed = 16; // contacts of a body that Godot lists per tick, unless the game wants more
 // Ids of nodes have no highest bit.
 std::uint64_t idOfRid(std::uint64_t rid) { return rid | std::uint64_t{1} << 63U; }
+bool isRigidBody(const Value& node, bool isSpace) {
+    if (!isSpace) return node.call("is_class", "RigidBody2D").isTrue();
+    return node.call("is_class", "RigidBody3D").isTrue() || // or of a ragdoll
+           node.call("is_class", "PhysicalBone3D").isTrue();
+}
 } // namespace
 
 void HapticWorld::added(const Value& node) {
-    if (!node.call("is_class", isSpace ? "RigidBody3D" : "RigidBody2D").isTrue()) return;
+    if (!isRigidBody(node, isSpace)) return;
     if (isInTree(node.object()) && spaceOf(node, isSpace) == space)
         rigidBodies.insert(api.instanceId(node.object()));
 }
@@ -400,7 +405,7 @@ Watched* HapticWorld::watch(std::uint64_t id, std::uint64_t rid, const HapticBod
     added.isMet = true;
     if (there != nullptr) added.body = Value(there);
     added.isNode = added.body.call("is_class", "Node").isTrue();
-    added.isRigid = added.body.call("is_class", isSpace ? "RigidBody3D" : "RigidBody2D").isTrue();
+    added.isRigid = isRigidBody(added.body, isSpace);
     added.slides = added.body.call("is_class", isSpace ? "CharacterBody3D" : "CharacterBody2D").isTrue();
     if (added.isRigid) added.rid = added.body.call("get_rid").rid();
     objects[added.number] = key;
@@ -437,9 +442,10 @@ void HapticWorld::describe(Watched& each) {
     physvib_body body;
     physvib_body_init(&body, sizeof body);
     const Value material = materialOf(each);
-    const bool isRight =
-        each.values != nullptr ? each.values->describe(body, material) : describeMaterial(body, material);
-    if (!isRight) body.is_camera = 0;
+    if (each.values != nullptr)
+        each.values->describe(body, material);
+    else
+        describeMaterial(body, material, each.body);
     body.mass_kg = each.slides ? body.static_mass_kg : mass;
     each.described = body;
     checkWorld(physvib_world_set_body(world, each.number, &body));

@@ -77,8 +77,10 @@ private:
     void moveAfter(Watched& watched);
     void touchAll(const Watched& watched);
     bool isOfInterest(const Watched& watched, int contact) const;
+    static bool isOtherThere(const Watched& watched, int contact);
     void touch(const Watched& watched, int contact);
     Surface surfaceOf(const Watched& watched, int contact) const;
+    Surface overSeams(const Watched& watched, int contact) const;
     bool getsThere(const Watched& watched, const Watched& met, const Surface& surface) const;
     Watched* other(const Watched& watched, int contact, const Vector& place);
     Watched* moving(std::uint64_t id, std::uint64_t rid, const Vector& velocity, const Vector& place);

@@ -30,7 +30,17 @@ fi
 rm -rf "$work/addons" "$work"/*.zip
 cp -r "$build/godot/addons" "$work"
 bin=$work/addons/physvib/bin
-strip --strip-unneeded "$bin"/linux.*/*
+own=$bin/linux.$(uname -m | sed 's/aarch64/arm64/')
+strip --strip-unneeded "$own"/*
+# What physvib-live needs, and only this Debian has in these versions, with its licences. Sound servers and the C library are the player's.
+ldd "$own"/libphysvib-live.so.* | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | sort -u | while read -r library; do
+    case ${library##*/} in
+    libphysvib* | libc.so* | libm.so* | libdl.so* | librt.so* | libpthread.so* | libgcc_s.so* | libstdc++.so* | libasound.so* | libjack.so* | libhwy.so*) continue ;;
+    esac
+    cp -L "$library" "$own"
+    package=$(dpkg -S "$(realpath "$library")" | head -n 1 | cut -d: -f1)
+    cp "/usr/share/doc/$package/copyright" "$bin/$package-LICENSE"
+done
 # shellcheck disable=SC2034 # roots and targets: for cross.sh
 roots="" targets=physvib-godot
 for system in "$@"; do
@@ -51,6 +61,7 @@ for system in "$@"; do
     cp -r "$made"/. "$bin"
 done
 cp /usr/share/doc/libhwy1/copyright "$bin/libhwy-LICENSE"
+cp /usr/share/doc/nlohmann-json3-dev/copyright "$bin/nlohmann-json-LICENSE"
 version=$(sed -n 's/^version="\(.*\)"/\1/p' "$work/addons/physvib/plugin.cfg")
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git show -s --format=%ct)} python3 Standalone/Packaging/pack.py "$work/addons" "$work/physvib-$version.zip"
 say "build/godot/physvib-$version.zip: $(wc -c <"$work/physvib-$version.zip") bytes"

@@ -150,6 +150,7 @@ export class Board {
             if (!isEnabled(false)) return; // the chip does not answer for an endpoint that is off
             setControl(inControl, control(inControl) & ~(available | full));
             this.feedback = feedback;
+            this.feedbackBytes = control(inControl) & 0x3ff;
             ready(1, false);
         });
         this.forget = () => { asked.cancel(); this.armed = {}; };
@@ -212,12 +213,13 @@ export class Board {
         return wait(() => this.inPackets[0].length > 0) ? new Uint8Array(0) : null;
     }
 
-    // Address, descriptors, configuration; stops with an error where a host would.
-    enumerate() {
+    // Address, descriptors, configuration; stops with an error where a host would. macOS asks for a text first.
+    enumerate({ asMac = false } = {}) {
         const need = (what, answer) => { if (answer === null) throw new Error(`refused: ${what}`); return answer; };
         if (!this.until(() => this.wasReset, 100)) throw new Error('the board does not appear on the bus');
         const device = need('device descriptor', this.control(setup(0x80, 6, 0x0100, 0, 18)));
         need('address', this.control(setup(0, 5, 7, 0, 0)));
+        if (asMac) need('name', this.control(setup(0x80, 6, 0x0302, 0x0409, 255)));
         const head = need('configuration', this.control(setup(0x80, 6, 0x0200, 0, 9)));
         const configuration = need('configuration', this.control(setup(0x80, 6, 0x0200, 0, head[2] | (head[3] << 8))));
         need('set configuration', this.control(setup(0, 9, 1, 0, 0)));
@@ -237,6 +239,7 @@ export class Board {
     select(alternate) { return this.control(setup(1, 11, alternate, 1, 0)) !== null; }
     // A millisecond of the bus begins; they are numbered.
     sof() { this.usb.sofFrameNumber = (this.usb.sofFrameNumber + 1) & 0x7ff; }
+    get isWaitingForPacket() { return this.armed[1] !== undefined; }
     // One packet, if the board waits for one. Frames: arrays of samples.
     packet(bytes) {
         if (this.armed[1] === undefined) return false;

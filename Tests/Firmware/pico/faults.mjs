@@ -66,6 +66,24 @@ function silence(board, since, what, mayJump = false) {
     say(`plays again; ${board.ask('counters')}`);
 }
 {
+    // The form of feedback that a host reads, and the same board at another host.
+    const board = fresh();
+    const form = (asMac) => {
+        board.resetBus();
+        const { configuration } = board.enumerate({ asMac });
+        const at = configuration.findIndex((v, k) => v === 7 && configuration[k + 1] === 5 && configuration[k + 2] === 0x81);
+        board.control(setup(0x80, 6, asMac ? 0x0200 : 0x0302, 0, 255)); // what is asked for later says nothing
+        board.select(1);
+        playing(board);
+        const least = board.feedback % 2 ** (8 * board.feedbackBytes) / (asMac ? 2 ** 14 : 2 ** 16);
+        check(Math.abs(least - 48) < 1, `feedback: ${least} frames`);
+        return `${configuration[at + 4]} ${board.feedbackBytes}`;
+    };
+    const forms = [form(false), form(true), form(false)].join(', ');
+    check(forms === '4 4, 3 3, 4 4', `bytes of feedback, promised and sent: ${forms}`);
+    say('feedback of 3 bytes for a host that asks for a text first, of 4 for others');
+}
+{
     // Late by up to 0.9 ms, missing now and then, doubled, of any size.
     const board = fresh();
     board.select(1);
@@ -75,7 +93,7 @@ function silence(board, since, what, mayJump = false) {
         const next = board.now + 1e6, kind = random(40);
         board.sof();
         board.run(kind < 20 ? random(900) / 1e3 : 0);
-        const size = kind === 39 ? random(49 * 2 * channels) : 48 * 2 * channels;
+        const size = kind === 39 ? random(49 * 2 * channels) : kind === 36 ? 0 : 48 * 2 * channels;
         const bytes = board.pack(Array.from({ length: 49 }, loud)).subarray(0, size);
         if (kind !== 38 && board.packet(bytes)) ++sent;
         if (kind === 37) board.run(0.1), board.packet(bytes);
@@ -83,6 +101,7 @@ function silence(board, since, what, mayJump = false) {
     }
     for (const { frame } of board.frames)
         check(frame.every((v) => v >= 0 && v <= level && v === frame[0]), `torn: ${frame}`);
+    check(board.isWaitingForPacket, 'a packet of no bytes ended the stream');
     const c = counters(board);
     check(c.wrong_sizes > 0 && c.missing_packets > 0 && c.restarts === 0, 'wrong sizes or missing packets are not counted');
     board.run(20);
@@ -244,6 +263,33 @@ const hang = (board, address) => board.mcu.sramView.setUint16((address & ~1) - 0
     playing(board);
     check(counters(board).restarts === 1, 'the restart is not counted');
     say('plays again, and has counted the restart');
+    // What the host turned down and does not turn down again, and silence, hold across the next two.
+    check(board.control(setup(0x21, 1, 0x0200, 0x0200, 2), Uint8Array.from([0x00, 0xe2])) !== null, 'volume'); // -30 dB
+    check(board.control(setup(0x21, 1, 0x0102, 0x0200, 1), Uint8Array.from([1])) !== null, 'mute of channel 2');
+    const again = () => {
+        check(board.until(() => board.mcu.core.waiting, 1), 'the main loop does not sleep');
+        hang(board, board.mcu.core.PC);
+        const before = board.restarts;
+        check(board.until(() => board.restarts > before, 200), 'the watchdog does not act');
+        board.enumerate();
+        board.select(1);
+        board.stream(130, loud);
+        return board.frames.at(-1).frame;
+    };
+    const quiet = again();
+    check(quiet.every((v, j) => v === (j === 1 ? 0 : Math.floor(level * 10 ** (-30 / 20)))), `-30 dB and a mute before a restart: ${quiet}`);
+    board.ask('silence on');
+    check(again().every((v) => v === 0) && board.ask('counters').startsWith('silenced'), 'silence before a restart is lifted by it');
+    board.ask('silence off');
+    board.stream(130, loud);
+    check(board.frames.at(-1).frame.join() === quiet.join(), `silence off: ${board.frames.at(-1).frame}`);
+    board.resetBus();
+    board.past = board.now;
+    board.powerOn(); // without power they are gone
+    board.enumerate();
+    board.select(1);
+    playing(board);
+    say('volume, mute and silence hold across a restart by the watchdog; without power they end');
 }
 {
     const board = fresh();
