@@ -146,23 +146,20 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
     : table_(table)
     , pairs_(pairs) {
     contacts_.reserve(expectedContacts);
-    pasts_.reserve(expectedContacts);
     passed_.reserve(expectedContacts);
     receivers_.reserve(expectedContacts);
     ended_.reserve(expectedContacts);
 }
 
 void ChainLoads::settle() {
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        const Contact& contact = contacts_[i];
-        if (contact.step != step_ || pasts_[i].isUnknown) continue;
-        const Vector3 load = smallestOf(pasts_[i].pushed);
-        if (contact.now.lengthSquared() <= load.lengthSquared()) continue;
-        const TouchingPairs::Name& of = pasts_[i].of;
-        const Vector3 beyond = contact.now - load;
+    for (const Contact& contact : contacts_) {
+        if (contact.step != step_ || contact.isUnknown) continue;
+        const Vector3 now = contact.pushed[contact.newest], load = loadOf(contact);
+        if (now.lengthSquared() <= load.lengthSquared()) continue;
+        const Vector3 beyond = now - load;
         const float size = beyond.length();
-        pass(of.a, of.b, -beyond, size, contact.point);
-        pass(of.b, of.a, beyond, size, contact.point);
+        pass(contact.of.a, contact.of.b, -beyond, size, contact.point);
+        pass(contact.of.b, contact.of.a, beyond, size, contact.point);
     }
 }
 
@@ -197,30 +194,28 @@ void ChainLoads::endStep(const ContactGraph& graph) {
 }
 
 void ChainLoads::forget(std::int32_t slot) noexcept {
-    for (std::size_t i = pasts_.size(); i-- > 0;)
-        if (pasts_[i].of.a == slot || pasts_[i].of.b == slot) drop(i);
+    for (std::size_t i = contacts_.size(); i-- > 0;)
+        if (contacts_[i].of.a == slot || contacts_[i].of.b == slot) drop(i);
 }
 
 // Without branches, which could not be predicted here.
-Vector3 ChainLoads::smallestOf(const std::array<Vector3, 3>& pushed) noexcept {
-    const float squared[] = {pushed[0].lengthSquared(), pushed[1].lengthSquared(), pushed[2].lengthSquared()};
-    const auto ofNewer = static_cast<std::size_t>(squared[1] < squared[0]);
-    return pushed[squared[2] < squared[ofNewer] ? 2 : ofNewer];
+Vector3 ChainLoads::loadOf(const Contact& contact) noexcept {
+    const auto before = [&contact](unsigned steps) { return contact.pushed[(contact.newest - steps) % 4]; };
+    const Vector3 one = before(1), two = before(2), three = before(3);
+    const Vector3 newer = two.lengthSquared() < one.lengthSquared() ? two : one;
+    return three.lengthSquared() < newer.lengthSquared() ? three : newer;
 }
 
 ChainLoads::Contact& ChainLoads::meet(const TouchingPairs::Name& pair, bool isUnknown) {
     pairs_[pair.number].load = static_cast<std::int32_t>(contacts_.size());
-    pasts_.push_back({pair, isUnknown});
-    return contacts_.emplace_back(Contact{{}, {}, pair.b, 0});
+    return contacts_.emplace_back(Contact{.of = pair, .isUnknown = isUnknown});
 }
 
 void ChainLoads::drop(std::size_t index) noexcept {
-    pairs_[pasts_[index].of.number].load = TouchingPairs::none;
+    pairs_[contacts_[index].of.number].load = TouchingPairs::none;
     contacts_[index] = contacts_.back();
-    pasts_[index] = pasts_.back();
     contacts_.pop_back();
-    pasts_.pop_back();
-    if (index < pasts_.size()) pairs_[pasts_[index].of.number].load = static_cast<std::int32_t>(index);
+    if (index < contacts_.size()) pairs_[contacts_[index].of.number].load = static_cast<std::int32_t>(index);
 }
 
 } // namespace physvib

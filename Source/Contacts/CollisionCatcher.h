@@ -128,7 +128,7 @@ public:
         Contact& contact = find(pair, true);
         if (contact.step != step_) open(contact);
         // Summed over the step's points and solver passes, and over the segments of a chain.
-        contact.now += contact.b == pair.b ? newtonSeconds : -newtonSeconds;
+        contact.pushed[contact.newest] += contact.of.b == pair.b ? newtonSeconds : -newtonSeconds;
         contact.point = point;
     }
 
@@ -154,30 +154,26 @@ public:
     void forget(std::int32_t slot) noexcept;
 
 private:
-    struct alignas(32) Contact { // read for every push: half a cache line
-        Vector3 now, point;      // now: impulse on b in the last step that pushed
-        std::int32_t b;
-        std::uint32_t step; // the number of that step; 0: none has
-    };
-    struct Past { // read once per step
+    struct Contact {
         TouchingPairs::Name of;
-        bool isUnknown; // first seen in mid-contact: the impulse of the first step is taken as its load
-        std::array<Vector3, 3> pushed{}; // before `now`, newest first
+        std::uint32_t step = 0, newest = 0; // step: the number of the last one that pushed; 0: none has
+        std::array<Vector3, 4> pushed{}; // impulses on of.b in that step (at `newest`) and the three before, in turn
+        Vector3 point{};
+        bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its load
     };
-    static Vector3 smallestOf(const std::array<Vector3, 3>& pushed) noexcept;
+    static Vector3 loadOf(const Contact& contact) noexcept;
     Contact& find(const TouchingPairs::Name& pair, bool isUnknown) {
         const std::int32_t at = pairs_[pair.number].load;
         return at != TouchingPairs::none ? contacts_[static_cast<std::size_t>(at)] : meet(pair, isUnknown);
     }
     Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
     void open(Contact& contact) noexcept { // its first push in a step: what it had becomes history
-        Past& past = pasts_[static_cast<std::size_t>(&contact - contacts_.data())];
         if (contact.step != 0) {
-            if (past.isUnknown) past.pushed.fill(contact.now);
-            past.isUnknown = false;
-            past.pushed = {contact.now, past.pushed[0], past.pushed[1]};
+            if (contact.isUnknown) contact.pushed.fill(contact.pushed[contact.newest]);
+            contact.isUnknown = false;
+            contact.newest = (contact.newest + 1) % 4;
+            contact.pushed[contact.newest] = {};
         }
-        contact.now = {};
         contact.step = step_;
     }
     void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size, Vector3 point);
@@ -186,7 +182,6 @@ private:
     const FixtureTable& table_;
     TouchingPairs& pairs_; // stores the index of each pair's load
     std::vector<Contact> contacts_;
-    std::vector<Past> pasts_;    // parallel to contacts_
     std::vector<Passed> passed_; // by slot
     std::vector<std::int32_t> receivers_, ended_;
     std::uint32_t step_ = 1; // a number for each
@@ -277,7 +272,7 @@ public:
 
     /// True if at least one of the two is a haptic source.
     bool touchesSource(std::int32_t a, std::int32_t b) const noexcept {
-        return table_.isCamera(a) || table_.isCamera(b);
+        return ((table_.traits(a) | table_.traits(b)) & FixtureTable::source) != 0;
     }
 
     /// True if pushes of the pair matter: one of them is a haptic source, or the pair collided in the last

@@ -18,9 +18,8 @@ std::int32_t FixtureTable::know(std::uint64_t fixture, const BodyFacts& body) {
     if (free_.empty()) {
         free_.push_back(size());
         known_.emplace_back();
-        isCamera_.push_back(0);
+        traits_.push_back(0);
         mobility_.emplace_back();
-        isRough_.push_back(0);
         free_.reserve(known_.capacity()); // so that releasing a slot never allocates
     }
     const std::int32_t slot = free_.back();
@@ -49,8 +48,7 @@ std::int32_t FixtureTable::set(std::int32_t slot, const HapticFixture& values, V
     slotOfId_.set(keyOf(id), slot);
     nextId_ = std::max(nextId_, id + 1);
     weigh(known);
-    noteCamera(slot, values.isCamera);
-    isRough_[static_cast<std::size_t>(slot)] = values.texture.isRough() ? 1 : 0;
+    noteTraits(slot, values.isCamera, values.texture.isRough());
     return id;
 }
 
@@ -58,17 +56,15 @@ void FixtureTable::unset(std::int32_t slot) {
     lose(slot);
     at(slot).id = nextNameless_--;
     at(slot).values = {};
-    noteCamera(slot, false);
-    isRough_[static_cast<std::size_t>(slot)] = 0;
+    noteTraits(slot, false, false);
 }
 
 void FixtureTable::release(std::int32_t slot) {
     lose(slot);
     slots_.erase(at(slot).fixture);
-    noteCamera(slot, false);
+    noteTraits(slot, false, false);
     at(slot) = {};
     noteBody(slot, {});
-    isRough_[static_cast<std::size_t>(slot)] = 0;
     free_.push_back(slot);
 }
 
@@ -77,10 +73,11 @@ void FixtureTable::noteBody(std::int32_t slot, const BodyFacts& body) noexcept {
     mobility_[static_cast<std::size_t>(slot)] = {at(slot).movableMassKg(), at(slot).gravityScale()};
 }
 
-void FixtureTable::noteCamera(std::int32_t slot, bool isCamera) noexcept {
-    std::uint8_t& flag = isCamera_[static_cast<std::size_t>(slot)];
-    if (isCamera == (flag != 0)) return;
-    flag = isCamera ? 1 : 0;
+void FixtureTable::noteTraits(std::int32_t slot, bool isCamera, bool isRough) noexcept {
+    std::uint8_t& traits = traits_[static_cast<std::size_t>(slot)];
+    const bool wasCamera = (traits & source) != 0;
+    traits = static_cast<std::uint8_t>((isCamera ? source : 0) | (isRough ? rough : 0));
+    if (isCamera == wasCamera) return;
     cameras_ += isCamera ? 1 : -1;
     if (isCamera)
         cameraNames_.add(at(slot).fixture);

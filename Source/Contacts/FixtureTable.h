@@ -60,10 +60,13 @@ public:
     const KnownFixture& operator[](std::int32_t slot) const noexcept {
         return known_[static_cast<std::size_t>(slot)];
     }
-    bool isCamera(std::int32_t slot) const noexcept { return isCamera_[static_cast<std::size_t>(slot)] != 0; }
+    /// What decides per contact and step which reports matter, a bit each.
+    enum Trait : std::uint8_t { source = 1, rough = 2 };
+    unsigned traits(std::int32_t slot) const noexcept { return traits_[static_cast<std::size_t>(slot)]; }
+    bool isCamera(std::int32_t slot) const noexcept { return (traits(slot) & source) != 0; }
     /// By the engine's number, without a search; false is certain.
     bool mayBeCamera(std::uint64_t fixture) const noexcept { return cameraNames_.mayHave(fixture); }
-    bool isRough(std::int32_t slot) const noexcept { return isRough_[static_cast<std::size_t>(slot)] != 0; }
+    bool isRough(std::int32_t slot) const noexcept { return (traits(slot) & rough) != 0; }
 
     /// Two properties of KnownFixture that are read often.
     struct Mobility {
@@ -85,14 +88,12 @@ private:
     KnownFixture& at(std::int32_t slot) noexcept { return known_[static_cast<std::size_t>(slot)]; }
     void lose(std::int32_t slot);
     void noteBody(std::int32_t slot, const BodyFacts& body) noexcept;
-    void noteCamera(std::int32_t slot, bool isCamera) noexcept;
+    void noteTraits(std::int32_t slot, bool isCamera, bool isRough) noexcept;
     void weigh(const KnownFixture& known);
 
     std::vector<KnownFixture> known_;
-    std::vector<std::uint8_t> isCamera_; // by slot, as the next two: read for each contact in each step, so
-                                         // kept compact
+    std::vector<std::uint8_t> traits_; // by slot, as the next: read for each contact in each step, so compact
     std::vector<Mobility> mobility_;
-    std::vector<std::uint8_t> isRough_;
     std::int32_t cameras_ = 0;
     NameSketch cameraNames_;
     std::vector<std::int32_t> free_;

@@ -172,7 +172,7 @@ public:
     /// True if points of this pair are to be reported: a surface is rough, and one of the two is a haptic
     /// source.
     bool isRelevant(std::int32_t a, std::int32_t b) const noexcept {
-        return (table_.isRough(a) || table_.isRough(b)) && (table_.isCamera(a) || table_.isCamera(b));
+        return (table_.traits(a) | table_.traits(b)) == (FixtureTable::source | FixtureTable::rough);
     }
 
     /// Only paths along rough surfaces are used.

@@ -44,7 +44,10 @@ public:
     bool remove(b2World& world);
 
     /// From now on it only forwards calls.
-    void deactivate() noexcept { finder_.reset(); }
+    void deactivate() noexcept {
+        finder_.reset();
+        isAlone_ = false;
+    }
 
     CollisionFinder& finder() noexcept { return *finder_; }
 
@@ -66,7 +69,8 @@ private:
     WorldBodies& bodies_;
     std::unique_ptr<CollisionFinder> finder_; // null: deactivated
     b2ContactListener* chained_ = nullptr;
-    bool isAlone_ = false; // nothing to forward to: no other listener, or Box2D's own, which does nothing
+    // active, and nothing to forward to: no other listener, or Box2D's own, which does nothing
+    bool isAlone_ = false;
     b2DestructionListener* chainedEnds_ = nullptr;
     const void* callFor_ = nullptr; // object of the call that is being forwarded
 };
@@ -319,7 +323,7 @@ void WorldListener::EndContact(b2Contact* contact) {
 }
 
 void WorldListener::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) {
-    if (isAlone_ && finder_) return finder_->onPreSolve(*contact, *oldManifold);
+    if (isAlone_) return finder_->onPreSolve(*contact, *oldManifold);
     const Call call{*this, contact};
     if (!call) return;
     if (chained_ != nullptr) chained_->PreSolve(contact, oldManifold); // it may disable the contact
@@ -327,7 +331,7 @@ void WorldListener::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) 
 }
 
 void WorldListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
-    if (isAlone_ && finder_) return finder_->onPostSolve(*contact, *impulse);
+    if (isAlone_) return finder_->onPostSolve(*contact, *impulse);
     const Call call{*this, contact};
     if (!call) return;
     if (finder_) finder_->onPostSolve(*contact, *impulse);
@@ -374,7 +378,7 @@ void WorldListener::install(b2World& world) {
     if (b2ContactListener* found = world.GetContactManager().m_contactListener;
         !isReachedBy(found, &WorldListener::chained_)) {
         chained_ = skipInactive(found, &WorldListener::chained_);
-        isAlone_ = chained_ == nullptr || typeid(*chained_) == typeid(b2ContactListener);
+        isAlone_ = finder_ && (chained_ == nullptr || typeid(*chained_) == typeid(b2ContactListener));
         world.SetContactListener(this);
         if (finder_) finder_->forgetContacts();
     }

@@ -121,9 +121,8 @@ void CollisionFinder::end(const b2Contact& contact) {
     }
 }
 
-void CollisionFinder::onPreSolve(const b2Contact& contact, const b2Manifold& before) {
-    const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping());
-    if (fresh == 0 || !contact.IsEnabled() || !events_.catcher().hasSources()) return;
+void CollisionFinder::meet(const b2Contact& contact, unsigned fresh) {
+    if (!contact.IsEnabled() || !events_.catcher().hasSources()) return;
     b2WorldManifold manifold;
     contact.GetWorldManifold(&manifold);
     double fastest = 0.0;
@@ -243,18 +242,22 @@ public:
     bool isTurned() const noexcept { return isTurned_; } ///< the face is B's
 
     /// The corner or disc that touches, and the point between the surfaces.
-    b2Vec2 place(int i) const noexcept {
-        return b2Mul(second_.GetBody()->GetTransform(), manifold_.points[i].localPoint);
-    }
-    b2Vec2 point(int i) const noexcept {
+    struct Spot {
+        b2Vec2 place, point;
+    };
+    Spot spot(int i) const noexcept {
         const float first = first_.GetShape()->m_radius, second = second_.GetShape()->m_radius;
         const b2Vec2 at = place(i), onSecond = at - second * normal_;
         const b2Vec2 onFirst =
             isDiscs() ? origin_ + first * normal_ : at + (first - b2Dot(at - origin_, normal_)) * normal_;
-        return 0.5F * (onFirst + onSecond);
+        return {at, 0.5F * (onFirst + onSecond)};
     }
 
 private:
+    b2Vec2 place(int i) const noexcept {
+        return b2Mul(second_.GetBody()->GetTransform(), manifold_.points[i].localPoint);
+    }
+
     const b2Manifold& manifold_;
     bool isTurned_;
     const b2Fixture &first_, &second_; // the face and what touches it, or A and B
@@ -295,15 +298,16 @@ struct SurfaceRun {
 /// `isTurned`: the face is B's.
 template <bool isTurned>
 [[gnu::always_inline]] inline void tell(const b2Contact& contact, const SolvedContact& solved,
-                                        const b2ContactImpulse& impulse, unsigned collisions, std::int32_t a,
-                                        std::int32_t b, LastingContacts& lasting) {
+                                        const SolvedContact::Spot& ofFirst, const b2ContactImpulse& impulse,
+                                        unsigned collisions, std::int32_t a, std::int32_t b,
+                                        LastingContacts& lasting) {
     const b2Fixture &fixtureA = *contact.GetFixtureA(), &fixtureB = *contact.GetFixtureB();
     const Side first{isTurned ? fixtureB : fixtureA, lasting.isRough(isTurned ? b : a)},
         second{isTurned ? fixtureA : fixtureB, lasting.isRough(isTurned ? a : b)};
     const b2Vec2 normal = solved.normalFromFirst(), tangent = b2Cross(normal, 1.0F);
     for (int i = 0; i < impulse.count; ++i) {
         if (isIn(collisions, i)) continue;
-        const b2Vec2 place = solved.place(i), at = solved.point(i);
+        const auto [place, at] = i == 0 ? ofFirst : solved.spot(i);
         const SurfaceRun run = solved.isDiscs()
                                    ? alongDiscs(first, second, solved.centreOfFirst(), place, normal)
                                    : alongFace(first, second, normal, place);
@@ -332,13 +336,14 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
     const bool isRelevant = catcher.isRelevant(pair);
     if (!isRelevant && collision == nullptr) return;
     const SolvedContact solved{contact};
-    share(impulse, solved.normal(), solved.point(0), pair, fresh, collision, isRelevant);
+    const SolvedContact::Spot first = solved.spot(0);
+    share(impulse, solved.normal(), first.point, pair, fresh, collision, isRelevant);
     if (!events_.lasting().isRelevant(pair.a, pair.b)) return; // only pairs whose load matters
     const unsigned collisions = collision != nullptr ? fresh : 0U;
     if (solved.isTurned())
-        tell<true>(contact, solved, impulse, collisions, pair.a, pair.b, events_.lasting());
+        tell<true>(contact, solved, first, impulse, collisions, pair.a, pair.b, events_.lasting());
     else
-        tell<false>(contact, solved, impulse, collisions, pair.a, pair.b, events_.lasting());
+        tell<false>(contact, solved, first, impulse, collisions, pair.a, pair.b, events_.lasting());
 }
 
 } // namespace physvib

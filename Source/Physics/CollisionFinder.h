@@ -29,7 +29,7 @@ public:
     /// whose end is not known, a point with an impulse is old at once.
     unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
         const b2Manifold& now = *contact.GetManifold();
-        if (entries_.empty() && isSame(before, now)) return 0U; // the usual case
+        if (isSame(before, now) && !mayHave(contact)) [[likely]] return 0U;
         return lookCloser(contact, before, now, isStepping);
     }
 
@@ -70,6 +70,7 @@ private:
                 known = static_cast<int>(entries_.size());
                 entries_.push_back({idOf(contact), {}, 0, false});
                 indices_.set(idOf(contact), known);
+                names_.add(idOf(contact));
             }
             Entry& entry = entries_[static_cast<std::size_t>(known)];
             if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
@@ -98,8 +99,9 @@ private:
         int count;
         bool isSolved;
     };
+    bool mayHave(const b2Contact& contact) const noexcept { return names_.mayHave(idOf(contact)); }
     int find(const b2Contact& contact) const noexcept {
-        return entries_.empty() ? IntegerMap::none : indices_.find(idOf(contact));
+        return mayHave(contact) ? indices_.find(idOf(contact)) : IntegerMap::none;
     }
     static bool has(const Entry& entry, std::uint32_t id) noexcept {
         const auto* end = entry.ids.data() + entry.count;
@@ -113,6 +115,7 @@ private:
     }
     void drop(std::size_t entry) noexcept {
         indices_.erase(entries_[entry].contact);
+        names_.remove(entries_[entry].contact);
         entries_[entry] = entries_.back();
         entries_.pop_back();
         if (entry < entries_.size()) indices_.set(entries_[entry].contact, static_cast<std::int32_t>(entry));
@@ -120,6 +123,7 @@ private:
 
     std::vector<Entry> entries_;
     IntegerMap indices_; // small, to stay in the first-level cache
+    NameSketch names_;   // of most contacts it tells that they have none
 };
 
 /// Converts Box2D's contact callbacks to the reports that CollisionCatcher needs. World thread (M) only.
@@ -142,7 +146,11 @@ public:
     void begin(const b2Contact& contact); ///< in BeginContact
     void end(const b2Contact& contact);   ///< in EndContact
     /// After the game's own listener
-    void onPreSolve(const b2Contact& contact, const b2Manifold& before);
+    void onPreSolve(const b2Contact& contact, const b2Manifold& before) {
+        if (const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping()); fresh != 0)
+            [[unlikely]]
+            meet(contact, fresh);
+    }
     void onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse);
 
     /// Right after b2World::Step.
@@ -167,6 +175,7 @@ private:
         last_ = guess;
         return &known_[guess];
     }
+    [[gnu::noinline]] void meet(const b2Contact& contact, unsigned fresh);
     [[gnu::noinline]] Known* search(const b2Contact& contact);
     [[gnu::always_inline]] const Pair& pairOf(Known& known) {
         CollisionCatcher& catcher = events_.catcher();

@@ -87,23 +87,21 @@ public:
     /// Allocates if the world has grown.
     void beginStep(const b2World& world, double stepSeconds) {
         lastStepSeconds_ = std::exchange(stepSeconds_, stepSeconds);
-        largestMassKg_ = 0.0;
-        std::size_t count = 0;
+        // no more than these; the last place takes what follows of them
+        sweeps_.resize(static_cast<std::size_t>(world.GetBodyCount()) + 1);
+        Sweep* next = sweeps_.data();
+        float largestKg = 0.0F;
         bool isKnown = true; // usually the bodies and their order are those of the last step
         for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) {
-            if (body->GetType() == b2_staticBody) continue;
-            isKnown = isKnown && count < sweeps_.size() && sweeps_[count].body == body;
-            const Sweep sweep{body, body->GetWorldCenter(), motionOf(*body)};
-            if (count < sweeps_.size())
-                sweeps_[count] = sweep;
-            else
-                sweeps_.push_back(sweep);
-            ++count;
-            if (body->GetType() == b2_dynamicBody && body->IsEnabled())
-                largestMassKg_ = std::max(largestMassKg_, static_cast<double>(body->GetMass()));
+            const b2BodyType type = body->GetType();
+            if (type == b2_staticBody) continue;
+            isKnown &= next->body == body;
+            *next++ = {body, body->GetWorldCenter(), motionOf(*body)};
+            if (type == b2_dynamicBody && body->IsEnabled()) largestKg = std::max(largestKg, body->GetMass());
         }
-        if (isKnown && count == sweeps_.size()) return;
-        sweeps_.erase(sweeps_.begin() + static_cast<std::ptrdiff_t>(count), sweeps_.end());
+        largestMassKg_ = static_cast<double>(largestKg);
+        if (isKnown && next->body == nullptr) return;
+        for (; next != sweeps_.data() + sweeps_.size(); ++next) next->body = nullptr;
         index();
     }
 
@@ -140,7 +138,7 @@ public:
 
 private:
     struct Sweep {
-        const b2Body* body; // used as an address only
+        const b2Body* body = nullptr; // used as an address only
         b2Vec2 centre;
         BodyMotion start;
     };
@@ -150,13 +148,13 @@ private:
     }
     void index() {
         indices_.clear();
-        for (std::size_t i = 0; i < sweeps_.size(); ++i)
+        for (std::size_t i = 0; sweeps_[i].body != nullptr; ++i)
             indices_.set(idOf(*sweeps_[i].body), static_cast<std::int32_t>(i));
     }
 
     double stepSeconds_ = 0.0, lastStepSeconds_ = 0.0;
     double largestMassKg_ = 0.0;
-    std::vector<Sweep> sweeps_; // of bodies that are not static
+    std::vector<Sweep> sweeps_; // of bodies that are not static, then without a body
     IntegerMap indices_;        // indices into sweeps_, by body
 };
 
