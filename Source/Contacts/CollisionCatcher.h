@@ -124,11 +124,13 @@ public:
 
     /// Within a step: an existing contact of (a, b) has pushed b by `newtonSeconds` (world), and a by the
     /// opposite.
-    void add(const TouchingPairs::Name& pair, Vector3 newtonSeconds, Vector3 point) {
-        Contact& contact = find(pair, true);
-        if (contact.step != step_) open(contact);
+    [[gnu::always_inline]] void add(const TouchingPairs::Name& pair, std::int32_t load, Vector3 newtonSeconds,
+                                    Vector3 point) {
+        Contact& contact =
+            load != TouchingPairs::none ? contacts_[static_cast<std::size_t>(load)] : meet(pair, true);
+        if (contact.of.b != pair.b) newtonSeconds = -newtonSeconds;
         // Summed over the step's points and solver passes, and over the segments of a chain.
-        contact.pushed[contact.newest] += contact.of.b == pair.b ? newtonSeconds : -newtonSeconds;
+        contact.pushed[contact.newest] = open(contact) + newtonSeconds;
         contact.point = point;
     }
 
@@ -145,7 +147,9 @@ public:
     }
 
     /// A contact begins: its load is 0.
-    void begin(const TouchingPairs::Name& pair) { find(pair, false); }
+    void begin(const TouchingPairs::Name& pair) {
+        if (pairs_[pair.number].load == TouchingPairs::none) meet(pair, false);
+    }
 
     /// Ends the step: its impulses become history. Sleeping bodies keep their load.
     void endStep(const ContactGraph& graph);
@@ -162,19 +166,17 @@ private:
         bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its load
     };
     static Vector3 loadOf(const Contact& contact) noexcept;
-    Contact& find(const TouchingPairs::Name& pair, bool isUnknown) {
-        const std::int32_t at = pairs_[pair.number].load;
-        return at != TouchingPairs::none ? contacts_[static_cast<std::size_t>(at)] : meet(pair, isUnknown);
-    }
-    Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
-    void open(Contact& contact) noexcept { // its first push in a step: what it had becomes history
+    [[gnu::noinline]] Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
+    /// What it has been pushed by in this step. At the first push what it had becomes history.
+    [[gnu::always_inline]] Vector3 open(Contact& contact) noexcept {
+        if (contact.step == step_) return contact.pushed[contact.newest];
         if (contact.step != 0) {
             if (contact.isUnknown) contact.pushed.fill(contact.pushed[contact.newest]);
             contact.isUnknown = false;
             contact.newest = (contact.newest + 1) % 4;
-            contact.pushed[contact.newest] = {};
         }
         contact.step = step_;
+        return {};
     }
     void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size, Vector3 point);
     void drop(std::size_t index) noexcept;
@@ -250,6 +252,7 @@ public:
     /// TouchingPairs.
     std::int32_t know(std::int32_t a, std::int32_t b) { return pairs_.know(a, b); }
     bool isKnown(const TouchingPairs::Name& pair) const noexcept { return pairs_.is(pair); }
+    TouchingPairs::Pair& operator[](const TouchingPairs::Name& pair) noexcept { return pairs_[pair.number]; }
 
     /// True if parts that approach each other at this speed, before the solver, collide; `gravityScale`: the
     /// larger one of the two bodies.
@@ -291,10 +294,15 @@ public:
     /// Adds the impulse, N s in the world, by which parts that do not collide have pushed b, and a by the
     /// opposite.
     void push(const TouchingPairs::Name& pair, Vector3 newtonSeconds, Vector3 point) {
+        push(pair, pairs_[pair.number], touchesSource(pair.a, pair.b), newtonSeconds, point);
+    }
+    /// The same where what is stored of the pair, and whether it touches a source, are known.
+    [[gnu::always_inline]] void push(const TouchingPairs::Name& pair, const TouchingPairs::Pair& stored,
+                                     bool isOfSource, Vector3 newtonSeconds, Vector3 point) {
         hasHeard_ = true;
-        if (const std::int32_t last = pairs_[pair.number].last; last != TouchingPairs::none)
-            last_[static_cast<std::size_t>(last)].newtonSeconds += newtonSeconds;
-        if (touchesSource(pair.a, pair.b)) loads_.add(pair, newtonSeconds, point);
+        if (stored.last != TouchingPairs::none) [[unlikely]]
+            last_[static_cast<std::size_t>(stored.last)].newtonSeconds += newtonSeconds;
+        if (isOfSource) loads_.add(pair, stored.load, newtonSeconds, point);
     }
 
     const std::vector<Collision>& collisions() const noexcept { return collisions_; }

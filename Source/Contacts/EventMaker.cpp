@@ -60,17 +60,17 @@ void EventMaker::setSource(std::int32_t camera) {
 }
 
 void EventMaker::setPartner(std::int32_t other) {
+    const bool isSameSound = hasMet_ && hasOwnSound_; // as of many that roll on one floor
     hasMet_ = true;
     other_ = other;
-    modeCount_ = 0;
-    pairGain_ = 1.0;
     const HapticFixture& own = table_[camera_].values;
-    if (other == FixtureTable::none) {
-        event_.source.other = -1;
-        return addModes(own);
-    }
+    event_.source.other = other == FixtureTable::none ? -1 : table_[other].id;
+    hasOwnSound_ = other == FixtureTable::none || (own.voice == Voice::own && own.surface == 0);
+    if (hasOwnSound_ && isSameSound) return;
+    pairGain_ = 1.0;
+    modeCount_ = 0;
+    if (hasOwnSound_) return addModes(own);
     const HapticFixture& others = table_[other].values;
-    event_.source.other = table_[other].id;
     if (const PairSound* const pair = pairs_.find(own.surface, others.surface)) {
         pairGain_ = pair->gain;
         return addModes(*pair);

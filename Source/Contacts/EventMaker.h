@@ -167,7 +167,7 @@ private:
     double gain_ = 0.0;
     bool isMuted_ = false;
     // Of its current partner:
-    bool hasMet_ = false;
+    bool hasMet_ = false, hasOwnSound_ = false; // the source's own, whoever the partner is
     std::int32_t other_ = FixtureTable::none;
     double pairGain_ = 1.0;
     int modeCount_ = 0;

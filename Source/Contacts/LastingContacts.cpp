@@ -47,33 +47,9 @@ void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts
     collectFor(span, list);
 }
 
-// What the step's points pass, thinned together.
-void LastingContacts::follow(double seconds) {
-    passages_.clear();
-    if (!hasHeard()) return;
-    if (!(seconds > 0.0) || seconds > longestStepSeconds) return forgetStep();
-    for (Pair& pair : pairs_.now()) weigh(pair, seconds);
-    double grains = 0.0;
-    for (const Told& told : points_.now()) {
-        if (table_.isRough(told.point.a)) grains += follow(told, told.point.a, &LastingPoint::onA, seconds);
-        if (table_.isRough(told.point.b)) grains += follow(told, told.point.b, &LastingPoint::onB, seconds);
-    }
-    const double most = mostTogetherPerSecond * seconds;
-    if (!(grains > most)) return;
-    const auto times = std::bit_ceil(static_cast<std::uint64_t>(std::ceil(grains / most)));
-    for (Passage& passage : passages_) passage.every *= static_cast<std::int64_t>(times);
-}
-
-void LastingContacts::weigh(Pair& pair, double seconds) const noexcept {
-    pair.newtons = pair.newtonSeconds / seconds;
-    pair.steadyShare = pair.before == StepMemory<Pair>::none || !(pair.newtons > 0.0)
-                           ? 0.0
-                           : std::min(1.0, pairs_.before(pair.before).newtons / pair.newtons);
-}
-
 /// Adds the point's passage along a surface, and returns how many grains that is.
-double LastingContacts::follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path,
-                               double seconds) {
+template <SurfacePath LastingPoint::*path>
+inline double LastingContacts::follow(const Told& told, std::int32_t surface, double seconds) {
     const double newtons = pairs_[told.pair].steadyShare * told.point.normalNewtonSeconds / seconds;
     if (newtons <= 0.0) return 0.0;
     const SurfacePath to = told.point.*path;
@@ -90,6 +66,30 @@ double LastingContacts::follow(const Told& told, std::int32_t surface, SurfacePa
             std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / mostPerSecond))));
     passages_.push_back({&told.point, surface, newtons, motion, every});
     return std::abs(motion.metresAt(seconds) - motion.startMetres) / grainMetres / static_cast<double>(every);
+}
+
+// What the step's points pass, thinned together.
+void LastingContacts::follow(double seconds) {
+    passages_.clear();
+    if (!hasHeard()) return;
+    if (!(seconds > 0.0) || seconds > longestStepSeconds) return forgetStep();
+    for (Pair& pair : pairs_.now()) weigh(pair, seconds);
+    double grains = 0.0;
+    for (const Told& told : points_.now()) {
+        if (table_.isRough(told.point.a)) grains += follow<&LastingPoint::onA>(told, told.point.a, seconds);
+        if (table_.isRough(told.point.b)) grains += follow<&LastingPoint::onB>(told, told.point.b, seconds);
+    }
+    const double most = mostTogetherPerSecond * seconds;
+    if (!(grains > most)) return;
+    const auto times = std::bit_ceil(static_cast<std::uint64_t>(std::ceil(grains / most)));
+    for (Passage& passage : passages_) passage.every *= static_cast<std::int64_t>(times);
+}
+
+void LastingContacts::weigh(Pair& pair, double seconds) const noexcept {
+    pair.newtons = pair.newtonSeconds / seconds;
+    pair.steadyShare = pair.before == StepMemory<Pair>::none || !(pair.newtons > 0.0)
+                           ? 0.0
+                           : std::min(1.0, pairs_.before(pair.before).newtons / pair.newtons);
 }
 
 void LastingContacts::grow() { grains_.resize(2 * grains_.size() + 32); }

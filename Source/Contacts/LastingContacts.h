@@ -32,11 +32,10 @@ public:
     };
 
     [[gnu::always_inline]] Told tell(std::uint64_t key) {
-        if (next_ < countBefore_ && before_[next_].key == key && before_[next_].now == none) {
-            const std::size_t before = next_++;
-            return {add(key, before_[before].now, static_cast<std::int32_t>(before)), true};
-        }
-        return search(key);
+        Record& before = before_[next_]; // behind the last one: without a key
+        if (before.key != key || before.now != none) [[unlikely]]
+            return search(key);
+        return {add(key, before.now, static_cast<std::int32_t>(next_++)), true};
     }
 
     Record& operator[](std::int32_t place) noexcept { return now_[static_cast<std::size_t>(place)]; }
@@ -51,8 +50,9 @@ public:
 
     /// Ends the step: this step's records become those of the last.
     void endStep() {
+        now_[count_].key = 0;
         before_.swap(now_);
-        capacity_ = now_.size();
+        capacity_ = now_.size() - 1;
         countBefore_ = count_;
         clear();
     }
@@ -71,6 +71,7 @@ public:
 
     void reset() noexcept {
         countBefore_ = 0;
+        before_.front().key = 0;
         clear();
     }
 
@@ -91,7 +92,7 @@ private:
     }
     [[gnu::noinline]] void grow() {
         capacity_ = 2 * count_ + 32;
-        now_.resize(capacity_);
+        now_.resize(capacity_ + 1);
     }
 
     [[gnu::noinline]] Told search(std::uint64_t key) {
@@ -122,7 +123,7 @@ private:
         isMapped_ = true;
     }
 
-    std::vector<Record> before_, now_;                       // buffers, of which so many are in use
+    std::vector<Record> before_{1}, now_{1};                 // buffers, of which so many are in use, and one
     std::size_t countBefore_ = 0, count_ = 0, capacity_ = 0; // capacity_: of now_
     std::size_t next_ = 0;                                   // in before_
     IntegerMap placeOf_;                                     // keys of before_, built at the first lookup
@@ -172,7 +173,12 @@ public:
     /// True if points of this pair are to be reported: a surface is rough, and one of the two is a haptic
     /// source.
     bool isRelevant(std::int32_t a, std::int32_t b) const noexcept {
-        return (table_.traits(a) | table_.traits(b)) == (FixtureTable::source | FixtureTable::rough);
+        return isRelevant(table_.traits(a) | table_.traits(b));
+    }
+
+    /// The same from the traits of both.
+    static constexpr bool isRelevant(unsigned traits) noexcept {
+        return traits == (FixtureTable::source | FixtureTable::rough);
     }
 
     /// Only paths along rough surfaces are used.
@@ -243,7 +249,8 @@ private:
     };
 
     void follow(double seconds);
-    double follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path, double seconds);
+    template <SurfacePath LastingPoint::*path>
+    [[gnu::always_inline]] double follow(const Told& told, std::int32_t surface, double seconds);
     void weigh(Pair& pair, double seconds) const noexcept;
     void forgetStep() noexcept;
     void grow();

@@ -240,6 +240,8 @@ public:
     b2Vec2 centreOfFirst() const noexcept { return origin_; } ///< of two discs
     bool isDiscs() const noexcept { return manifold_.type == b2Manifold::e_circles; }
     bool isTurned() const noexcept { return isTurned_; } ///< the face is B's
+    const b2Fixture& first() const noexcept { return first_; }
+    const b2Fixture& second() const noexcept { return second_; }
 
     /// The corner or disc that touches, and the point between the surfaces.
     struct Spot {
@@ -295,55 +297,80 @@ struct SurfaceRun {
 }
 
 /// Reports the points to `lasting`, except those in `collisions` (a bit each), which belong to a collision.
-/// `isTurned`: the face is B's.
-template <bool isTurned>
 [[gnu::always_inline]] inline void tell(const b2Contact& contact, const SolvedContact& solved,
-                                        const SolvedContact::Spot& ofFirst, const b2ContactImpulse& impulse,
+                                        const SolvedContact::Spot& firstSpot, const b2ContactImpulse& impulse,
                                         unsigned collisions, std::int32_t a, std::int32_t b,
                                         LastingContacts& lasting) {
-    const b2Fixture &fixtureA = *contact.GetFixtureA(), &fixtureB = *contact.GetFixtureB();
-    const Side first{isTurned ? fixtureB : fixtureA, lasting.isRough(isTurned ? b : a)},
-        second{isTurned ? fixtureA : fixtureB, lasting.isRough(isTurned ? a : b)};
+    const bool isTurned = solved.isTurned();
+    const Side first{solved.first(), lasting.isRough(isTurned ? b : a)},
+        second{solved.second(), lasting.isRough(isTurned ? a : b)};
     const b2Vec2 normal = solved.normalFromFirst(), tangent = b2Cross(normal, 1.0F);
     for (int i = 0; i < impulse.count; ++i) {
         if (isIn(collisions, i)) continue;
-        const auto [place, at] = i == 0 ? ofFirst : solved.spot(i);
+        const SolvedContact::Spot spot = i == 0 ? firstSpot : solved.spot(i);
         const SurfaceRun run = solved.isDiscs()
-                                   ? alongDiscs(first, second, solved.centreOfFirst(), place, normal)
-                                   : alongFace(first, second, normal, place);
+                                   ? alongDiscs(first, second, solved.centreOfFirst(), spot.place, normal)
+                                   : alongFace(first, second, normal, spot.place);
         const b2Vec2 slip = // where both are turned, so is the tangent: the same
-            second.body.GetLinearVelocityFromWorldPoint(at) - first.body.GetLinearVelocityFromWorldPoint(at);
+            second.body.GetLinearVelocityFromWorldPoint(spot.point) -
+            first.body.GetLinearVelocityFromWorldPoint(spot.point);
         lasting.touch({a, b, featureOf(contact, contact.GetManifold()->points[i]),
                        static_cast<double>(impulse.normalImpulses[i]),
-                       static_cast<double>(b2Dot(slip, tangent)), toVector(at), toVector(run.velocity),
-                       isTurned ? run.second : run.first, isTurned ? run.first : run.second});
+                       static_cast<double>(b2Dot(slip, tangent)), toVector(spot.point),
+                       toVector(run.velocity), isTurned ? run.second : run.first,
+                       isTurned ? run.first : run.second});
     }
 }
 
 } // namespace
 
-// Impulses at new points belong to the collision, if there is one; all others are load.
-void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
+// Impulses at new points belong to the collision, if there is one; all others are load. `isPlain`: no point
+// is new, the usual case.
+template <bool isPlain>
+inline void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, unsigned fresh) {
     CollisionCatcher& catcher = events_.catcher();
     if (!catcher.hasSources()) return;
-    if (fresh == 0 && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
+    if ((isPlain || fresh == 0) &&
+        !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
         return;
     Known* const known = find(contact);
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
-    Collision* const collision = fresh != 0 ? catcher.collision(pair) : nullptr;
-    const bool isRelevant = catcher.isRelevant(pair);
+    const TouchingPairs::Pair& stored = catcher[pair];
+    const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
+    const bool isOfSource = (traits & FixtureTable::source) != 0;
+    const bool isRelevant = isOfSource || stored.last != TouchingPairs::none;
+    Collision* const collision = !isPlain && fresh != 0 ? catcher.collision(pair) : nullptr;
     if (!isRelevant && collision == nullptr) return;
-    const SolvedContact solved{contact};
-    const SolvedContact::Spot first = solved.spot(0);
-    share(impulse, solved.normal(), first.point, pair, fresh, collision, isRelevant);
-    if (!events_.lasting().isRelevant(pair.a, pair.b)) return; // only pairs whose load matters
     const unsigned collisions = collision != nullptr ? fresh : 0U;
-    if (solved.isTurned())
-        tell<true>(contact, solved, first, impulse, collisions, pair.a, pair.b, events_.lasting());
-    else
-        tell<false>(contact, solved, first, impulse, collisions, pair.a, pair.b, events_.lasting());
+    const SolvedContact solved{contact};
+    const b2Vec2 normal = solved.normal(), tangent = b2Cross(normal, 1.0F);
+    b2Vec2 onB{0.0F, 0.0F};
+    bool isLoaded = isPlain;
+    for (int i = 0; i < impulse.count; ++i) {
+        if (!isPlain && isIn(collisions, i)) {
+            collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
+            collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
+        } else {
+            isLoaded = true;
+            onB += impulse.normalImpulses[i] * normal + impulse.tangentImpulses[i] * tangent;
+        }
+    }
+    const SolvedContact::Spot first = solved.spot(0);
+    if (isLoaded && isRelevant)
+        catcher.push(pair, stored, isOfSource, toVector(onB), toVector(first.point));
+    if (LastingContacts::isRelevant(traits)) // only pairs whose load matters
+        tell(contact, solved, first, impulse, collisions, pair.a, pair.b, events_.lasting());
+}
+
+void CollisionFinder::solveNew(const b2Contact& contact, const b2ContactImpulse& impulse) {
+    solve<false>(contact, impulse, fresh_.solved(contact)); // the points are old from the next step on
+}
+
+void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
+    if (fresh_.mayHave(contact)) [[unlikely]]
+        return solveNew(contact, impulse);
+    solve<true>(contact, impulse, 0U);
 }
 
 } // namespace physvib

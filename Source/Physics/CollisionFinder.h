@@ -33,6 +33,9 @@ public:
         return lookCloser(contact, before, now, isStepping);
     }
 
+    /// False is certain: the contact has no new points.
+    bool mayHave(const b2Contact& contact) const noexcept { return names_.mayHave(idOf(contact)); }
+
     /// In PostSolve: the same; marks the points as having an impulse.
     unsigned solved(const b2Contact& contact) noexcept {
         const int known = find(contact);
@@ -99,7 +102,6 @@ private:
         int count;
         bool isSolved;
     };
-    bool mayHave(const b2Contact& contact) const noexcept { return names_.mayHave(idOf(contact)); }
     int find(const b2Contact& contact) const noexcept {
         return mayHave(contact) ? indices_.find(idOf(contact)) : IntegerMap::none;
     }
@@ -180,9 +182,10 @@ private:
     [[gnu::always_inline]] const Pair& pairOf(Known& known) {
         CollisionCatcher& catcher = events_.catcher();
         if (!catcher.isKnown(known.pair)) [[unlikely]]
-            known.pair.number = catcher.know(known.pair.a, known.pair.b);
+            know(known.pair);
         return known.pair;
     }
+    [[gnu::noinline]] void know(Pair& pair) { pair.number = events_.catcher().know(pair.a, pair.b); }
     void passOver(const b2Contact& contact, double approachMetresPerSecond);
     std::int32_t know(const b2Fixture& fixture);
     Known& know(const b2Contact& contact);
@@ -190,22 +193,10 @@ private:
     void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
                   Collision& collision) const;
-    void share(const b2ContactImpulse& impulse, b2Vec2 normal, b2Vec2 point, const Pair& pair, unsigned fresh,
-               Collision* collision, bool isRelevant) {
-        const b2Vec2 tangent = b2Cross(normal, 1.0F);
-        b2Vec2 onB{0.0F, 0.0F};
-        bool isLoaded = false;
-        for (int i = 0; i < impulse.count; ++i) {
-            if (collision != nullptr && (fresh >> i & 1U) != 0) {
-                collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
-                collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
-            } else if (isRelevant) {
-                isLoaded = true;
-                onB += impulse.normalImpulses[i] * normal + impulse.tangentImpulses[i] * tangent;
-            }
-        }
-        if (isLoaded) events_.catcher().push(pair, toVector(onB), toVector(point));
-    }
+    template <bool isPlain>
+    [[gnu::always_inline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                      unsigned fresh);
+    [[gnu::noinline]] void solveNew(const b2Contact& contact, const b2ContactImpulse& impulse);
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 
