@@ -141,7 +141,8 @@ bool EventSorter::grow() noexcept {
     const std::size_t before = held_.size(), count = std::min(capacity_, std::max(least, 2 * before));
     if (before == count) return false;
     try {
-        for (auto* const list : {&order_, &other_}) list->reserve(count);
+        for (auto* const list : {&turns_, &other_}) list->resize(count);
+        for (auto* const list : {&slots_, &shares_}) list->resize(count);
         free_.reserve(count);
         waiting_.reserve(count);
         ends_.reserve(count + 2);
@@ -168,73 +169,65 @@ bool EventSorter::dropWeakest(double amplitude) noexcept {
 }
 
 void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished) {
-    order_.clear();
-    std::size_t kept = 0;
+    std::size_t kept = 0, count = 0;
+    std::int64_t firstNs = beforeNs, lastNs = std::numeric_limits<std::int64_t>::min();
     for (const Waiting& each : waiting_) {
-        if (each.timeNs < beforeNs)
-            order_.push_back(each);
-        else
+        if (each.timeNs >= beforeNs) {
             waiting_[kept++] = each;
+            continue;
+        }
+        firstNs = std::min(firstNs, each.timeNs);
+        lastNs = std::max(lastNs, each.timeNs);
+        const auto fixture = static_cast<std::uint32_t>(each.fixture) ^ 0x80000000U; // in order as unsigned
+        slots_[count] = each.slot;
+        turns_[count] = {each.timeNs, static_cast<std::uint64_t>(fixture) << 32U | count};
+        ++count;
     }
     waiting_.resize(kept);
-    share();
-    sort();
-    for (const Waiting& each : order_) {
-        finished.push_back(held_[each.slot]);
-        free_.push_back(each.slot);
+    share(count, firstNs, lastNs);
+    sort(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t slot = slots_[turns_[i].rank & 0xFFFFFFFFU];
+        finished.push_back(held_[slot]);
+        free_.push_back(slot);
     }
 }
 
 // By time into as many buckets as there are events: grains arrive by hundreds per step, evenly distributed,
 // so each bucket has few.
-void EventSorter::share() {
+void EventSorter::share(std::size_t count, std::int64_t firstNs, std::int64_t lastNs) {
     constexpr std::size_t many = 16;
-    const std::size_t count = order_.size();
     if (count < many) return;
-    std::int64_t first = order_.front().timeNs, last = first;
-    for (const Waiting& each : order_) {
-        first = std::min(first, each.timeNs);
-        last = std::max(last, each.timeNs);
-    }
     const double sharesPerNs =
-        static_cast<double>(count) / (static_cast<double>(last) - static_cast<double>(first) + 1.0);
+        static_cast<double>(count) / (static_cast<double>(lastNs) - static_cast<double>(firstNs) + 1.0);
     ends_.assign(count + 2, 0); // rounding may give one bucket more
-    for (Waiting& each : order_) {
-        each.share = static_cast<std::uint32_t>(
-            static_cast<std::int64_t>(static_cast<double>(each.timeNs - first) * sharesPerNs));
-        ++ends_[each.share + 1];
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto share = static_cast<std::uint32_t>(
+            static_cast<std::int64_t>(static_cast<double>(turns_[i].timeNs - firstNs) * sharesPerNs));
+        shares_[i] = share;
+        ++ends_[share + 1];
     }
     for (std::size_t i = 1; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
-    other_.resize(count);
-    for (std::uint32_t arrival = 0; arrival < count; ++arrival) {
-        const Waiting& each = order_[arrival];
-        Waiting& to = other_[ends_[each.share]++]; // ends_: begins become ends
-        to = each;
-        to.share = arrival;
-    }
-    order_.swap(other_);
+    for (std::size_t i = 0; i < count; ++i) other_[ends_[shares_[i]]++] = turns_[i]; // begins become ends
+    turns_.swap(other_);
 }
 
-// Moves each behind those before it: few steps once they are in buckets, and what is equal stays in order of
-// arrival. Where most have one time, as hits at the start of a step, it gives up.
-void EventSorter::sort() noexcept {
-    std::size_t steps = 128 + 8 * order_.size();
-    for (std::size_t i = 1; i < order_.size(); ++i) {
-        if (!(order_[i] < order_[i - 1])) continue;
-        const Waiting moved = order_[i];
+// Moves each behind those before it: few steps once they are in buckets. Where most have one time, as hits at
+// the start of a step, it gives up.
+void EventSorter::sort(std::size_t count) noexcept {
+    std::size_t steps = 128 + 8 * count;
+    Turn* const turns = turns_.data();
+    for (std::size_t i = 1; i < count; ++i) {
+        if (!(turns[i] < turns[i - 1])) continue;
+        const Turn moved = turns[i];
         std::size_t hole = i;
         do {
-            order_[hole] = order_[hole - 1];
+            turns[hole] = turns[hole - 1];
             --hole;
-        } while (hole > 0 && moved < order_[hole - 1]);
-        order_[hole] = moved;
-        if (i - hole <= steps) {
-            steps -= i - hole;
-            continue;
-        }
-        return std::sort(order_.begin(), order_.end(), [](const Waiting& a, const Waiting& b) {
-            return a < b || (!(b < a) && a.share < b.share); // share: by now the order of arrival
-        });
+        } while (hole > 0 && moved < turns[hole - 1]);
+        turns[hole] = moved;
+        if (i - hole > steps) return std::sort(turns, turns + count);
+        steps -= i - hole;
     }
 }
 

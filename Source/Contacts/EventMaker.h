@@ -34,7 +34,7 @@ public:
         const std::uint32_t slot = free_.back();
         free_.pop_back();
         held_[slot] = event;
-        waiting_.push_back({event.timeNs, event.source.fixture, slot, 0});
+        waiting_.push_back({event.timeNs, event.source.fixture, slot});
     }
 
     /// Moves all events before `beforeNs` to the end of `finished`.
@@ -55,16 +55,19 @@ private:
     struct Waiting {
         std::int64_t timeNs;
         std::int32_t fixture;
-        std::uint32_t slot;  // index in held_
-        std::uint32_t share; // bucket in time, of those being released
-        friend bool operator<(const Waiting& a, const Waiting& b) noexcept {
-            return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.fixture < b.fixture;
+        std::uint32_t slot; // index in held_
+    };
+    struct Turn { // of one that is being released
+        std::int64_t timeNs;
+        std::uint64_t rank; // fixture, then arrival
+        friend bool operator<(const Turn& a, const Turn& b) noexcept {
+            return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.rank < b.rank;
         }
     };
     [[gnu::noinline]] bool grow() noexcept;      // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
-    void share();
-    void sort() noexcept;
+    void share(std::size_t count, std::int64_t firstNs, std::int64_t lastNs);
+    void sort(std::size_t count) noexcept;
     void forget(std::size_t place) noexcept;
 
     std::size_t capacity_;
@@ -72,8 +75,10 @@ private:
     std::vector<CollisionEvent> held_;   // an event stays in its slot until it is released
     std::vector<std::uint32_t> free_;    // free slots
     std::vector<Waiting> waiting_;       // in order of arrival
-    std::vector<Waiting> order_, other_; // of those being released
-    std::vector<std::uint32_t> ends_;    // ends of the buckets
+    // Of those being released, as long as held_: their slots in order of arrival, their buckets in time
+    std::vector<std::uint32_t> slots_, shares_;
+    std::vector<Turn> turns_, other_;
+    std::vector<std::uint32_t> ends_; // ends of the buckets
 };
 
 /// Adds one event per impact and mode (Eq. 5.4). If the source's voice is `both`, both bodies sound, each

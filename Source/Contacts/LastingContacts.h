@@ -26,16 +26,12 @@ template <class Record>
 class StepMemory {
 public:
     static constexpr std::int32_t none = IntegerMap::none;
-    struct Told {
-        std::int32_t place; ///< index of the record in this step
-        bool isFirst;       ///< first report in this step: the record is new
-    };
-
-    [[gnu::always_inline]] Told tell(std::uint64_t key) {
+    /// The index of the record in this step. At the first report in this step it is new: count() grows.
+    [[gnu::always_inline]] std::int32_t tell(std::uint64_t key) {
         Record& before = before_[next_]; // behind the last one: without a key
         if (before.key != key || before.now != none) [[unlikely]]
             return search(key);
-        return {add(key, before.now, static_cast<std::int32_t>(next_++)), true};
+        return add(key, before.now, static_cast<std::int32_t>(next_++));
     }
 
     Record& operator[](std::int32_t place) noexcept { return now_[static_cast<std::size_t>(place)]; }
@@ -95,17 +91,17 @@ private:
         now_.resize(capacity_ + 1);
     }
 
-    [[gnu::noinline]] Told search(std::uint64_t key) {
+    [[gnu::noinline]] std::int32_t search(std::uint64_t key) {
         const std::int32_t before = placeBefore(key);
         if (before != none) {
             std::int32_t& at = before_[static_cast<std::size_t>(before)].now;
-            return at != none ? Told{at, false} : Told{add(key, at, before), true};
+            return at != none ? at : add(key, at, before);
         }
         std::int32_t at = new_.find(key);
-        if (at != none) return {at, false};
+        if (at != none) return at;
         add(key, at, none);
         new_.set(key, at);
-        return {at, true};
+        return at;
     }
     std::int32_t placeBefore(std::uint64_t key) {
         if (next_ < countBefore_ && before_[next_].key == key) return static_cast<std::int32_t>(next_++);
@@ -185,15 +181,18 @@ public:
     bool isRough(std::int32_t slot) const noexcept { return table_.isRough(slot); }
 
     /// Reports a point after the solver, once per step; repeated reports of a point are ignored.
-    [[gnu::always_inline]] void touch(const LastingPoint& point) {
-        if (points_.count() == mostPoints || !isUsable(point.onA) || !isUsable(point.onB) ||
-            !(point.normalNewtonSeconds >= 0.0))
-            return;
-        const auto [at, isFirst] = points_.tell(keyOf(point));
-        if (!isFirst) return;
-        const auto [pairAt, isPairNew] = pairs_.tell(pairKey(point.a, point.b));
+    void touch(const LastingPoint& point) { touch(point, pairKey(point.a, point.b)); }
+    /// The same where the pair's key is known.
+    [[gnu::always_inline]] void touch(const LastingPoint& point, std::uint64_t pairsKey) {
+        if (points_.count() == mostPoints || !isUsable(point)) return;
+        const std::size_t known = points_.count();
+        const std::int32_t at = points_.tell(keyOf(pairsKey, point.feature));
+        if (points_.count() == known) return;
+        const std::size_t pairs = pairs_.count();
+        const std::int32_t pairAt = pairs_.tell(pairsKey);
         Pair& pair = pairs_[pairAt];
-        pair.newtonSeconds = (isPairNew ? 0.0 : pair.newtonSeconds) + point.normalNewtonSeconds;
+        if (pairs_.count() != pairs) pair.newtonSeconds = 0.0;
+        pair.newtonSeconds += point.normalNewtonSeconds;
         Told& told = points_[at];
         told.pair = pairAt;
         told.point = point;
@@ -232,13 +231,16 @@ private:
         double newtonSeconds = 0.0, newtons = 0.0; // of all its points in the step
         double steadyShare = 0.0;                  // of its load: what it had in the last step, 0 to 1
     };
-    static std::uint64_t keyOf(const LastingPoint& point) noexcept {
-        std::uint64_t key = pairKey(point.a, point.b) * 0x9E3779B97F4A7C15U + point.feature;
+    static std::uint64_t keyOf(std::uint64_t pairsKey, std::uint64_t feature) noexcept {
+        std::uint64_t key = pairsKey * 0x9E3779B97F4A7C15U + feature;
         key = (key ^ (key >> 31U)) * 0xBF58476D1CE4E5B9U;
         return key != 0 ? key : 1; // IntegerMap excludes key 0
     }
-    static bool isUsable(const SurfacePath& path) noexcept { // false for NaN
-        return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres;
+    static bool isUsable(const LastingPoint& point) noexcept { // false for NaN
+        const auto isNear = [](const SurfacePath& path) {
+            return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres;
+        };
+        return isNear(point.onA) && isNear(point.onB) && point.normalNewtonSeconds >= 0.0;
     }
     struct Passage { // the grains of one surface that one point passes in this step
         const LastingPoint* point;
@@ -272,23 +274,31 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, Makers&
     const Texture& texture = surface.values.texture;
     const Grains grains{static_cast<std::uint64_t>(surface.id), texture};
     const SurfaceMotion motion = passage.motion;
-    const double power = std::sqrt(static_cast<double>(passage.every)), perSecond = 1.0 / motion.seconds;
-    const double backSeconds = 1.5 * motion.seconds, slipping = std::abs(point.slipMetresPerSecond);
-    const double perSpeed = grainImpulse(texture.roughness, passage.loadNewtons, 1.0),
-                 rolling = texture.rolling;
-    const Vector3 from = point.point, velocity = point.metresPerSecond;
+    struct Constants {
+        double power, perSecond, backSeconds, slipping, perSpeed, rolling;
+        Vector3 from, velocity;
+    } of; // computed at the first grain: many points pass none
     std::size_t passed = 0, felt = 0;
     grains.along(
         motion, passage.every, [&](std::int64_t index, double t) __attribute__((always_inline)) {
             ++passed;
             const double speed = std::abs(motion.speedAt(t));
             if (speed < leastMetresPerSecond) return;
-            const double slip = std::min(speed, slipping);
+            if (felt == 0)
+                of = {std::sqrt(static_cast<double>(passage.every)),
+                      1.0 / motion.seconds,
+                      1.5 * motion.seconds,
+                      std::abs(point.slipMetresPerSecond),
+                      grainImpulse(texture.roughness, passage.loadNewtons, 1.0),
+                      texture.rolling,
+                      point.point,
+                      point.metresPerSecond};
+            const double slip = std::min(speed, of.slipping);
             if (felt == grains_.size()) grow();
-            grains_[felt++] = {span.laterNs(t * perSecond),
-                               power * grains.strengthOf(index) *
-                                   (perSpeed * (slip + rolling * (speed - slip))),
-                               from + static_cast<float>(t - backSeconds) * velocity,
+            grains_[felt++] = {span.laterNs(t * of.perSecond),
+                               of.power * grains.strengthOf(index) *
+                                   (of.perSpeed * (slip + of.rolling * (speed - slip))),
+                               of.from + static_cast<float>(t - of.backSeconds) * of.velocity,
                                slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
         });
     thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);

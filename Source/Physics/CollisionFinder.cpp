@@ -15,6 +15,14 @@ bool isSolid(const b2Contact& contact) {
 const b2Body& bodyA(const b2Contact& contact) { return *contact.GetFixtureA()->GetBody(); }
 const b2Body& bodyB(const b2Contact& contact) { return *contact.GetFixtureB()->GetBody(); }
 
+std::uint64_t partOf(const b2Contact& contact) noexcept {
+    const auto child = [](int index) {
+        return static_cast<std::uint64_t>(static_cast<std::uint32_t>(index));
+    };
+    return (child(contact.GetChildIndexA()) << 40U ^ child(contact.GetChildIndexB()) << 16U) *
+           0x9E3779B97F4A7C15U;
+}
+
 bool isIn(unsigned mask, int point) noexcept { return (mask >> point & 1U) != 0; }
 
 /// The larger factor of the two bodies, computed as in KnownFixture.
@@ -66,7 +74,7 @@ CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair
         knownAt_.set(idOf(contact), at);
     }
     Known& known = known_[static_cast<std::size_t>(at)];
-    known = {&contact, contact.GetFixtureA(), contact.GetFixtureB(), pair};
+    known = {&contact, contact.GetFixtureA(), contact.GetFixtureB(), pair, pairKey(pair.a, pair.b), partOf(contact), 0};
     return known;
 }
 
@@ -204,15 +212,6 @@ struct Side {
     }
 };
 
-std::uint64_t featureOf(const b2Contact& contact, const b2ManifoldPoint& point) {
-    const auto child = [](int index) {
-        return static_cast<std::uint64_t>(static_cast<std::uint32_t>(index));
-    };
-    return (child(contact.GetChildIndexA()) << 40U ^ child(contact.GetChildIndexB()) << 16U) *
-               0x9E3779B97F4A7C15U ^
-           point.id.key;
-}
-
 /// Where a contact's bodies touch after the solver: normal and points as b2WorldManifold has them, to the
 /// bit, each when it is asked for.
 class SolvedContact {
@@ -297,13 +296,13 @@ struct SurfaceRun {
 }
 
 /// Reports the points to `lasting`, except those in `collisions` (a bit each), which belong to a collision.
+template <class Names> // Known, of the contact
 [[gnu::always_inline]] inline void tell(const b2Contact& contact, const SolvedContact& solved,
                                         const SolvedContact::Spot& firstSpot, const b2ContactImpulse& impulse,
-                                        unsigned collisions, std::int32_t a, std::int32_t b,
-                                        LastingContacts& lasting) {
+                                        unsigned collisions, const Names& names, LastingContacts& lasting) {
     const bool isTurned = solved.isTurned();
-    const Side first{solved.first(), lasting.isRough(isTurned ? b : a)},
-        second{solved.second(), lasting.isRough(isTurned ? a : b)};
+    const Side first{solved.first(), lasting.isRough(isTurned ? names.pair.b : names.pair.a)},
+        second{solved.second(), lasting.isRough(isTurned ? names.pair.a : names.pair.b)};
     const b2Vec2 normal = solved.normalFromFirst(), tangent = b2Cross(normal, 1.0F);
     for (int i = 0; i < impulse.count; ++i) {
         if (isIn(collisions, i)) continue;
@@ -314,11 +313,12 @@ struct SurfaceRun {
         const b2Vec2 slip = // where both are turned, so is the tangent: the same
             second.body.GetLinearVelocityFromWorldPoint(spot.point) -
             first.body.GetLinearVelocityFromWorldPoint(spot.point);
-        lasting.touch({a, b, featureOf(contact, contact.GetManifold()->points[i]),
+        lasting.touch({names.pair.a, names.pair.b, names.part ^ contact.GetManifold()->points[i].id.key,
                        static_cast<double>(impulse.normalImpulses[i]),
                        static_cast<double>(b2Dot(slip, tangent)), toVector(spot.point),
                        toVector(run.velocity), isTurned ? run.second : run.first,
-                       isTurned ? run.first : run.second});
+                       isTurned ? run.first : run.second},
+                      names.key);
     }
 }
 
@@ -360,7 +360,7 @@ inline void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpu
     if (isLoaded && isRelevant)
         catcher.push(pair, stored, isOfSource, toVector(onB), toVector(first.point));
     if (LastingContacts::isRelevant(traits)) // only pairs whose load matters
-        tell(contact, solved, first, impulse, collisions, pair.a, pair.b, events_.lasting());
+        tell(contact, solved, first, impulse, collisions, *known, events_.lasting());
 }
 
 void CollisionFinder::solveNew(const b2Contact& contact, const b2ContactImpulse& impulse) {

@@ -165,8 +165,10 @@ private:
     struct alignas(64) Known { // cache, which saves a search for both fixtures in every step
         const b2Contact* contact;
         const b2Fixture *fixtureA, *fixtureB;
-        Pair pair;            // its number: none until it is needed
-        std::size_t next = 0; // the place of the one that was looked for after it: usually the next one again
+        Pair pair;          // its number: none until it is needed
+        std::uint64_t key;  // of the pair
+        std::uint64_t part; // hash of which parts of the two surfaces (segments of a chain) touch
+        std::size_t next;   // the place of the one that was looked for after it: usually the next one again
         bool isOf(const b2Contact& of) const noexcept {
             return contact == &of && fixtureA == of.GetFixtureA() && fixtureB == of.GetFixtureB();
         }
