@@ -151,10 +151,19 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
     ended_.reserve(expectedContacts);
 }
 
+// The smallest of the three before the newest; without branches, which could not be predicted here.
+inline const Vector3& ChainLoads::loadOf(const Contact& contact) noexcept {
+    const auto before = [&contact](unsigned steps) { return &contact.pushed[(contact.newest - steps) % 4]; };
+    const Vector3 *const one = before(1), *const two = before(2), *const three = before(3);
+    const float ofOne = one->lengthSquared(), ofTwo = two->lengthSquared();
+    const Vector3* const newer = ofTwo < ofOne ? two : one;
+    return *(three->lengthSquared() < std::min(ofOne, ofTwo) ? three : newer);
+}
+
 void ChainLoads::settle() {
     for (const Contact& contact : contacts_) {
         if (contact.step != step_ || contact.isUnknown) continue;
-        const Vector3 now = contact.pushed[contact.newest], load = loadOf(contact);
+        const Vector3 &now = contact.pushed[contact.newest], &load = loadOf(contact);
         if (now.lengthSquared() <= load.lengthSquared()) continue;
         const Vector3 beyond = now - load;
         const float size = beyond.length();
@@ -198,13 +207,6 @@ void ChainLoads::forget(std::int32_t slot) noexcept {
         if (contacts_[i].of.a == slot || contacts_[i].of.b == slot) drop(i);
 }
 
-// Without branches, which could not be predicted here.
-Vector3 ChainLoads::loadOf(const Contact& contact) noexcept {
-    const auto before = [&contact](unsigned steps) { return contact.pushed[(contact.newest - steps) % 4]; };
-    const Vector3 one = before(1), two = before(2), three = before(3);
-    const Vector3 newer = two.lengthSquared() < one.lengthSquared() ? two : one;
-    return three.lengthSquared() < newer.lengthSquared() ? three : newer;
-}
 
 ChainLoads::Contact& ChainLoads::meet(const TouchingPairs::Name& pair, bool isUnknown) {
     pairs_[pair.number].load = static_cast<std::int32_t>(contacts_.size());

@@ -165,7 +165,7 @@ private:
         Vector3 point{};
         bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its load
     };
-    static Vector3 loadOf(const Contact& contact) noexcept;
+    static const Vector3& loadOf(const Contact& contact) noexcept;
     [[gnu::noinline]] Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
     /// What it has been pushed by in this step. At the first push what it had becomes history.
     [[gnu::always_inline]] Vector3 open(Contact& contact) noexcept {

@@ -76,6 +76,7 @@ void FixtureTable::noteBody(std::int32_t slot, const BodyFacts& body) noexcept {
 void FixtureTable::noteTraits(std::int32_t slot, bool isCamera, bool isRough) noexcept {
     std::uint8_t& traits = traits_[static_cast<std::size_t>(slot)];
     const bool wasCamera = (traits & source) != 0;
+    ++revision_;
     traits = static_cast<std::uint8_t>((isCamera ? source : 0) | (isRough ? rough : 0));
     if (isCamera == wasCamera) return;
     cameras_ += isCamera ? 1 : -1;

@@ -66,6 +66,8 @@ public:
     bool isCamera(std::int32_t slot) const noexcept { return (traits(slot) & source) != 0; }
     /// By the engine's number, without a search; false is certain.
     bool mayBeCamera(std::uint64_t fixture) const noexcept { return cameraNames_.mayHave(fixture); }
+    /// Another number whenever the values of a fixture have changed.
+    std::uint32_t revision() const noexcept { return revision_; }
     bool isRough(std::int32_t slot) const noexcept { return (traits(slot) & rough) != 0; }
 
     /// Two properties of KnownFixture that are read often.
@@ -95,6 +97,7 @@ private:
     std::vector<std::uint8_t> traits_; // by slot, as the next: read for each contact in each step, so compact
     std::vector<Mobility> mobility_;
     std::int32_t cameras_ = 0;
+    std::uint32_t revision_ = 0;
     NameSketch cameraNames_;
     std::vector<std::int32_t> free_;
     IntegerMap slots_;    // by the engine's fixture number

@@ -76,6 +76,20 @@ struct GrainChance {
     static constexpr double strengthRange = 1.6; ///< from the weakest to the strongest
 };
 
+/// A stretch of a surface within which there is no grain.
+struct GrainGap {
+    double fromMetres = 0.0, toMetres = 0.0;
+
+    /// True if a motion that does not reverse certainly stays within.
+    bool holds(const SurfaceMotion& motion) const noexcept {
+        constexpr double rounding = 1.0e-14; // relative; a hundred times what is lost
+        const double start = motion.startMetres, end = motion.metresAt(motion.seconds);
+        const double margin = rounding * (std::abs(start) + std::abs(end));
+        return motion.metresPerSecond * motion.speedAt(motion.seconds) > 0.0 &&
+               std::min(start, end) - margin > fromMetres && std::max(start, end) + margin < toMetres;
+    }
+};
+
 /// Grains of one surface. Grain `index` lies at (index + 1/2) spacings, +-45 % if random, with a strength of
 /// 0.2 to 1.8 that depends on surface and index alone: moving back passes the same grains, and every run is
 /// the same. Any thread.
@@ -99,14 +113,14 @@ public:
     }
 
     /// Calls `passed(index, t)` for each grain whose index is a multiple of `every`, in the order in which
-    /// they are passed.
+    /// they are passed. Returns where the point is then.
     template <class Passed>
-    [[gnu::always_inline]] void along(const SurfaceMotion& motion, std::int64_t every,
-                                      Passed&& passed) const {
+    [[gnu::always_inline]] GrainGap along(const SurfaceMotion& motion, std::int64_t every,
+                                          Passed&& passed) const {
         double from = 0.0, to = motion.turn();
         for (;;) { // there, and back
-            walk(motion, from, to, every, passed);
-            if (!(to < motion.seconds)) return;
+            const GrainGap gap = walk(motion, from, to, every, passed);
+            if (!(to < motion.seconds)) return gap;
             from = to;
             to = motion.seconds;
         }
@@ -129,26 +143,32 @@ private:
         double metres;
     };
     Grain at(std::int64_t index) const noexcept { return {index, metresOf(index)}; }
-    /// The first grain beyond `metres`, upwards or downwards, whose index is a multiple of `every`.
-    Grain next(double metres, bool isUp, std::int64_t every) const noexcept {
+    /// The first grain beyond `metres`, upwards or downwards, whose index is a multiple of `every`. `behind`
+    /// becomes the one before it, where that is known.
+    Grain next(double metres, bool isUp, std::int64_t every, double& behind) const noexcept {
         const double cell = metres * perMetre_ / static_cast<double>(every);
         auto i = static_cast<std::int64_t>(cell); // rounds towards 0
         if (isUp && cell < static_cast<double>(i)) --i;
         if (!isUp && cell > static_cast<double>(i)) ++i;
         Grain grain = at(i * every); // at most one step before the result
         const std::int64_t step = isUp ? every : -every;
-        while (isUp ? grain.metres <= metres : grain.metres >= metres) grain = at(grain.index + step);
+        while (isUp ? grain.metres <= metres : grain.metres >= metres) {
+            behind = grain.metres;
+            grain = at(grain.index + step);
+        }
         return grain;
     }
 
     template <class Passed>
-    [[gnu::always_inline]] void walk(const SurfaceMotion& motion, double from, double to, std::int64_t every,
-                                     Passed& passed) const {
+    [[gnu::always_inline]] GrainGap walk(const SurfaceMotion& motion, double from, double to,
+                                         std::int64_t every, Passed& passed) const {
         const double start = motion.metresAt(from), end = motion.metresAt(to), speed = motion.speedAt(from);
         const bool isUp = end > start;
         const double sign = isUp ? 1.0 : -1.0;
-        for (Grain grain = next(start, isUp, every); sign * (end - grain.metres) >= 0.0;
-             grain = at(grain.index + (isUp ? every : -every))) {
+        double behind = start;
+        Grain grain = next(start, isUp, every, behind);
+        for (; sign * (end - grain.metres) >= 0.0; grain = at(grain.index + (isUp ? every : -every))) {
+            behind = grain.metres;
             const double far = grain.metres - start;
             // The root of the parabola that begins at `from`, in the form without cancellation.
             const double root = std::sqrt(std::max(0.0, speed * speed + 2.0 * motion.metresPerSecond2 * far));
@@ -156,6 +176,7 @@ private:
             const double t = denominator == 0.0 ? to : from + 2.0 * far / denominator;
             passed(grain.index, std::min(std::max(from, t), to));
         }
+        return isUp ? GrainGap{behind, grain.metres} : GrainGap{grain.metres, behind};
     }
 
     static constexpr std::uint64_t seedFactor = 0xD1342543DE82EF95U;

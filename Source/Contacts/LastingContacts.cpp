@@ -49,7 +49,7 @@ void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts
 
 /// Adds the point's passage along a surface, and returns how many grains that is.
 template <SurfacePath LastingPoint::*path>
-inline double LastingContacts::follow(const Told& told, std::int32_t surface, double seconds) {
+inline double LastingContacts::follow(Told& told, std::int32_t surface, double seconds) {
     const double newtons = pairs_[told.pair].steadyShare * told.point.normalNewtonSeconds / seconds;
     if (newtons <= 0.0) return 0.0;
     const SurfacePath to = told.point.*path;
@@ -64,8 +64,10 @@ inline double LastingContacts::follow(const Told& told, std::int32_t surface, do
     if (perSecond > mostPerSecond)
         every = static_cast<std::int64_t>(
             std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / mostPerSecond))));
-    passages_.push_back({&told.point, surface, newtons, motion, every});
-    return std::abs(motion.metresAt(seconds) - motion.startMetres) / grainMetres / static_cast<double>(every);
+    const double grains =
+        std::abs(motion.metresAt(seconds) - motion.startMetres) / grainMetres / static_cast<double>(every);
+    passages_.push_back({&told, surface, newtons, motion, every, grains});
+    return grains;
 }
 
 // What the step's points pass, thinned together.
@@ -75,7 +77,7 @@ void LastingContacts::follow(double seconds) {
     if (!(seconds > 0.0) || seconds > longestStepSeconds) return forgetStep();
     for (Pair& pair : pairs_.now()) weigh(pair, seconds);
     double grains = 0.0;
-    for (const Told& told : points_.now()) {
+    for (Told& told : points_.now()) {
         if (table_.isRough(told.point.a)) grains += follow<&LastingPoint::onA>(told, told.point.a, seconds);
         if (table_.isRough(told.point.b)) grains += follow<&LastingPoint::onB>(told, told.point.b, seconds);
     }

@@ -196,6 +196,7 @@ public:
         Told& told = points_[at];
         told.pair = pairAt;
         told.point = point;
+        told.inGapOf = FixtureTable::none;
     }
     bool hasHeard() const noexcept { return points_.count() > 0; }
 
@@ -224,6 +225,10 @@ private:
         std::uint64_t key = 0;
         std::int32_t now = 0, before = 0, pair = 0; // as StepMemory needs them; index into pairs_
         LastingPoint point;
+        std::int32_t inGapOf = 0; // the surface of the following; none: it is not known
+        std::uint32_t revision = 0;
+        std::int64_t every = 0;
+        GrainGap gap; // between those of the surface's grains, as the table then had them, in which it is
     };
     struct Pair {
         std::uint64_t key = 0;
@@ -243,19 +248,35 @@ private:
         return isNear(point.onA) && isNear(point.onB) && point.normalNewtonSeconds >= 0.0;
     }
     struct Passage { // the grains of one surface that one point passes in this step
-        const LastingPoint* point;
+        Told* told;
         std::int32_t surface; // slot
         double loadNewtons;
         SurfaceMotion motion;
         std::int64_t every;
+        double grains; // about so many
     };
 
     void follow(double seconds);
     template <SurfacePath LastingPoint::*path>
-    [[gnu::always_inline]] double follow(const Told& told, std::int32_t surface, double seconds);
+    [[gnu::always_inline]] double follow(Told& told, std::int32_t surface, double seconds);
     void weigh(Pair& pair, double seconds) const noexcept;
     void forgetStep() noexcept;
     void grow();
+    static bool isSlow(const Passage& passage) noexcept { return passage.grains < 0.75; }
+    /// True, at little cost, where a slow point surely passes no grain.
+    [[gnu::always_inline]] bool isBetweenGrains(const Passage& passage) noexcept {
+        Told& told = *passage.told;
+        if (!isSlow(passage) || told.before == StepMemory<Told>::none) return false;
+        const Told& before = points_.before(told.before);
+        if (before.inGapOf != passage.surface || before.every != passage.every ||
+            before.revision != table_.revision() || !before.gap.holds(passage.motion))
+            return false;
+        told.inGapOf = before.inGapOf;
+        told.revision = before.revision;
+        told.every = before.every;
+        told.gap = before.gap;
+        return true;
+    }
     template <class Makers>
     void pass(const Passage& passage, const StepSpan& span, Makers& makers);
 
@@ -269,7 +290,9 @@ private:
 
 template <class Makers>
 void LastingContacts::pass(const Passage& passage, const StepSpan& span, Makers& makers) {
-    const LastingPoint& point = *passage.point;
+    if (isBetweenGrains(passage)) return;
+    Told& told = *passage.told;
+    const LastingPoint& point = told.point;
     const KnownFixture& surface = table_[passage.surface];
     const Texture& texture = surface.values.texture;
     const Grains grains{static_cast<std::uint64_t>(surface.id), texture};
@@ -279,7 +302,7 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, Makers&
         Vector3 from, velocity;
     } of; // computed at the first grain: many points pass none
     std::size_t passed = 0, felt = 0;
-    grains.along(
+    const GrainGap gap = grains.along(
         motion, passage.every, [&](std::int64_t index, double t) __attribute__((always_inline)) {
             ++passed;
             const double speed = std::abs(motion.speedAt(t));
@@ -301,6 +324,12 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, Makers&
                                of.from + static_cast<float>(t - of.backSeconds) * of.velocity,
                                slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
         });
+    if (isSlow(passage)) {
+        told.inGapOf = passage.surface;
+        told.revision = table_.revision();
+        told.every = passage.every;
+        told.gap = gap;
+    }
     thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
     const std::span<const SmallImpact> all{grains_.data(), felt};
     if (felt == 0) return;
