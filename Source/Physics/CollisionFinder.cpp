@@ -74,7 +74,9 @@ CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair
         knownAt_.set(idOf(contact), at);
     }
     Known& known = known_[static_cast<std::size_t>(at)];
-    known = {&contact, contact.GetFixtureA(), contact.GetFixtureB(), pair, pairKey(pair.a, pair.b), partOf(contact), 0};
+    known = {&contact, contact.GetFixtureA(),   contact.GetFixtureB(),
+             pair,     pairKey(pair.a, pair.b), partOf(contact),
+             0};
     return known;
 }
 
@@ -327,7 +329,8 @@ template <class Names> // Known, of the contact
 // Impulses at new points belong to the collision, if there is one; all others are load. `isPlain`: no point
 // is new, the usual case.
 template <bool isPlain>
-inline void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, unsigned fresh) {
+inline void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                   unsigned fresh) {
     CollisionCatcher& catcher = events_.catcher();
     if (!catcher.hasSources()) return;
     if ((isPlain || fresh == 0) &&
@@ -357,8 +360,7 @@ inline void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpu
         }
     }
     const SolvedContact::Spot first = solved.spot(0);
-    if (isLoaded && isRelevant)
-        catcher.push(pair, stored, isOfSource, toVector(onB), toVector(first.point));
+    if (isLoaded && isRelevant) catcher.push(pair, stored, isOfSource, toVector(onB), toVector(first.point));
     if (LastingContacts::isRelevant(traits)) // only pairs whose load matters
         tell(contact, solved, first, impulse, collisions, *known, events_.lasting());
 }

@@ -29,7 +29,8 @@ public:
     /// whose end is not known, a point with an impulse is old at once.
     unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
         const b2Manifold& now = *contact.GetManifold();
-        if (isSame(before, now) && !mayHave(contact)) [[likely]] return 0U;
+        if (isSame(before, now) && !mayHave(contact)) [[likely]]
+            return 0U;
         return lookCloser(contact, before, now, isStepping);
     }
 

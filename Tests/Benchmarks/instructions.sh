@@ -1,8 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Instructions per block, per strike and per step of physics, counted by callgrind: the same number however busy the machine
-# is. Callgrind's processor has AVX2 at best. Start-up does not count: blocks are the difference of two runs, steps are counted
-# alone.
+# is. Callgrind's processor has AVX2 at best. Start-up does not count: only the function `counted` of each program does.
 set -eu
 cd "$(dirname "$0")/../.."
 . .ci/packages.sh
@@ -16,19 +15,16 @@ g++ -std=c++20 -O2 -ffp-contract=off -ISource -ITests/Benchmarks Tests/Benchmark
     build/library/lib/libphysvib-contacts.a build/library/lib/libphysvib-core.a -lhwy -lbox2d -o $steps
 
 counted() { # PROGRAM ARGUMENTS...: instructions
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$@" 2>&1 | awk '/Collected/ { print $4 }'
-}
-count() { # CHANNELS STRIKES MODES SECONDS
-    counted $program "$@"
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=counted "$@" 2>&1 | awk '/Collected/ { print $4 }'
 }
 per_step() { # WORLD BODIES OPTION: from the 100th step to the 300th, which alone are counted: exact
-    echo $(($(counted --toggle-collect=counted $steps "$@" 300) / 200))
+    echo $(($(counted $steps "$@" 300) / 200))
 }
 more() { # BEFORE AFTER: in per cent
     awk "BEGIN { printf \"%+.1f %%\", 100 * ($2 / $1 - 1) }"
 }
 per_block() { # CHANNELS STRIKES MODES: in the third second
-    echo $((($(count "$1" "$2" "$3" 3) - $(count "$1" "$2" "$3" 2)) / 750))
+    echo $(($(counted $program "$1" "$2" "$3" 3) / 750))
 }
 echo "| AVX2, whole chain | instructions |"
 echo "| --- | --- |"
