@@ -106,6 +106,22 @@ TEST(Grains, SoundAlikeBelow500HertzThinnedOrNot) {
     }
 }
 
+TEST(Grains, InTheGapThatItIsInAPointPassesNone) {
+    const Grains grains{3, {.grainMetres = 0.02}};
+    GrainGap gap;
+    int held = 0, passed = 0;
+    double at = 0.0;
+    for (int i = 0; i < 4000; ++i, passed = 0) { // to and fro
+        const SurfaceMotion motion{at, 0.9 * std::sin(0.01 * i), 0.3 * std::cos(0.3 * i), 0.01};
+        const bool holds = gap.holds(motion);
+        gap = grains.along(motion, 1, [&](std::int64_t, double) { ++passed; });
+        held += holds ? 1 : 0;
+        EXPECT_TRUE(!holds || passed == 0) << i;
+        at = motion.metresAt(motion.seconds);
+    }
+    EXPECT_GT(held, 1000);
+}
+
 TEST(Textures, WhatCannotBeFeltIsRefused) {
     EXPECT_EQ(faultOf(Texture{}), "");
     EXPECT_EQ(faultOf(Texture{0.002}), "");
