@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What instructions.sh counts: CHANNELS, STRIKES a second on so many MODES; of so many SECONDS the last one, in
-// the function `counted`.
+// What instructions.sh counts: CHANNELS, STRIKES a second on so many MODES; of so many SECONDS the last one,
+// in the function `counted`.
 #include "Rain.h"
 #include <cstdlib>
 
