@@ -72,9 +72,9 @@ private:
 
     std::size_t capacity_;
     std::uint64_t drops_ = 0;
-    std::vector<CollisionEvent> held_;   // an event stays in its slot until it is released
-    std::vector<std::uint32_t> free_;    // free slots
-    std::vector<Waiting> waiting_;       // in order of arrival
+    std::vector<CollisionEvent> held_; // an event stays in its slot until it is released
+    std::vector<std::uint32_t> free_;  // free slots
+    std::vector<Waiting> waiting_;     // in order of arrival
     // Of those being released, as long as held_: their slots in order of arrival, their buckets in time
     std::vector<std::uint32_t> slots_, shares_;
     std::vector<Turn> turns_, other_;
