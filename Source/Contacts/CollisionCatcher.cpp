@@ -207,7 +207,6 @@ void ChainLoads::forget(std::int32_t slot) noexcept {
         if (contacts_[i].of.a == slot || contacts_[i].of.b == slot) drop(i);
 }
 
-
 ChainLoads::Contact& ChainLoads::meet(const TouchingPairs::Name& pair, bool isUnknown) {
     pairs_[pair.number].load = static_cast<std::int32_t>(contacts_.size());
     return contacts_.emplace_back(Contact{.of = pair, .isUnknown = isUnknown});

@@ -161,9 +161,11 @@ private:
     struct Contact {
         TouchingPairs::Name of;
         std::uint32_t step = 0, newest = 0; // step: the number of the last one that pushed; 0: none has
-        std::array<Vector3, 4> pushed{}; // impulses on of.b in that step (at `newest`) and the three before, in turn
+        std::array<Vector3, 4> pushed{}; // impulses on of.b in that step (at `newest`) and the three before,
+                                         // in turn
         Vector3 point{};
-        bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its load
+        bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its
+                                // load
     };
     static const Vector3& loadOf(const Contact& contact) noexcept;
     [[gnu::noinline]] Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
