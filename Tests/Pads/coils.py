@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What controllers with coils are sent, against a second encoder written from the public descriptions alone.
+
+usage: coils.py PHYSVIB PHYSVIB_COIL_REPORTS [SECONDS (600)]
+
+1. SECONDS of simulated time in both formats: each byte, each sample of a known signal, the sequence, CRC, pace, and the device's clock
+   150 ppm off.
+2. `physvib play` on a controller of plain files: found by its number, unplugged and plugged in as another node, silent at the end.
+3. A node that this user may not write to is told in one line."""
+import math
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+
+PHYSVIB, REPORTS = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+SECONDS = int(sys.argv[3]) if len(sys.argv) > 3 else 600
+bad = 0
+
+
+def expect(holds, words):
+    global bad
+    print(("ok    " if holds else "FAIL  ") + words, flush=True)
+    bad += not holds
+
+
+def dualsense(pairs, number):
+    settings = struct.pack("<BB5BBB", 0x91, 7, 0xFE, 0, 0, 0, 0, 0xFF, number % 256)
+    audio = struct.pack("<BB64b", 0x92, 64, *[sample for pair in pairs for sample in pair])
+    body = (bytes([0x32, number % 16 << 4]) + settings + audio).ljust(138, b"\0")
+    return body + struct.pack("<I", zlib.crc32(b"\xa2" + body))
+
+
+def steam(pairs, _):
+    sides = [struct.pack("<15h", *[pair[side] for pair in pairs]).ljust(31, b"\0") for side in (0, 1)]
+    return b"\x88" + bytes([30]) + sides[0] + sides[1]
+
+
+def dualsense_pairs(report):
+    samples = struct.unpack("64b", report[13:77])
+    return list(zip(samples[::2], samples[1::2]))
+
+
+def steam_pairs(report):
+    return list(zip(struct.unpack("<15h", report[2:32]), struct.unpack("<15h", report[33:63])))
+
+
+FORMATS = {  # bytes, Hz, frames, full scale, encoder, decoder
+    "dualsense": (142, 3000, 32, 127, dualsense, dualsense_pairs),
+    "steam": (64, 4000, 15, 32767, steam, steam_pairs),
+}
+
+
+def simulated(name, ppm):
+    size, rate, frames, full, encode, decode = FORMATS[name]
+    data = subprocess.run([REPORTS, name, str(SECONDS), str(ppm)], check=True, stdout=subprocess.PIPE).stdout
+    sent = [(struct.unpack("<q", data[i:i + 8])[0] / 1e9, data[i + 8:i + 8 + size]) for i in range(0, len(data), 8 + size)]
+    expect(all(encode(decode(report), n) == report for n, (_, report) in enumerate(sent)),
+           f"{name}: {len(sent)} reports are byte for byte those of the second encoder, in sequence")
+    wanted = SECONDS * (1 + ppm * 1e-6) * rate / frames
+    expect(abs(len(sent) - wanted) < 3, f"{name}: {len(sent)} reports in {SECONDS} s, {wanted:.1f} expected at {ppm} ppm")
+    gaps = [b[0] - a[0] for a, b in zip(sent[200:], sent[201:])]
+    period = frames / rate
+    # looked at each millisecond; a block that comes later than any in the last two seconds delays a report
+    even = sum(abs(gap - period) < 0.00101 for gap in gaps) / len(gaps)
+    expect(even > 0.99 and max(gaps) < period + 0.004,
+           f"{name}: {1e3 * min(gaps):.1f} to {1e3 * max(gaps):.1f} ms apart, {100 * even:.2f} % within 1 ms of {1e3 * period:.2f}")
+    delay = 6 / (2 * 0.4833 * rate)  # of a sinc of six zeros on each side
+    worst = 0.0
+    for n, (_, report) in list(enumerate(sent))[1:: max(1, len(sent) // 3000)]:
+        for k, pair in enumerate(decode(report)):
+            t = (n * frames + k) / rate - delay
+            tones = lambda *list_of: sum(a * math.sin(2 * math.pi * (hz * t % 1.0)) for a, hz in list_of)
+            if t < 0.02:
+                continue
+            for side, value in enumerate((tones((0.5, 90), (0.3, 310)), tones((0.6, 47), (0.2, 700)))):
+                worst = max(worst, abs(value - pair[side] / full))
+    expect(worst < 0.5 / full + 0.005, f"{name}: samples are the signal within {worst:.4f} of full scale")
+
+
+class Pads:
+    """A folder that looks like /sys/class/hidraw and /dev."""
+
+    def __init__(self):
+        self.folder = tempfile.mkdtemp()
+        os.chmod(self.folder, 0o755)
+
+    def plug(self, number, ident="0005:0000054C:00000CE6", name="Wireless Controller"):
+        place = os.path.join(self.folder, "class", f"hidraw{number}", "device")
+        os.makedirs(place)
+        os.makedirs(os.path.join(self.folder, "dev"), exist_ok=True)
+        with open(os.path.join(place, "uevent"), "w") as file:
+            file.write(f"DRIVER=playstation\nHID_ID={ident}\nHID_NAME={name}\n")
+        open(self.node(number), "wb").close()
+        return self.node(number)
+
+    def pull(self, number):
+        os.rename(self.node(number), self.node(number) + ".gone")
+        shutil.rmtree(os.path.join(self.folder, "class", f"hidraw{number}"))
+
+    def node(self, number):
+        return os.path.join(self.folder, "dev", f"hidraw{number}")
+
+    def play(self, device, seconds, **more):
+        return subprocess.Popen([PHYSVIB, "play", "shake-the-box", "--device", device, "--level", "0", "--seconds", str(seconds)],
+                                env=dict(os.environ, PHYSVIB_HIDRAW=self.folder), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                text=True, **more)
+
+
+def read(path, size=142):
+    data = open(path, "rb").read()
+    expect(len(data) % size == 0, f"{os.path.basename(path)}: whole reports")
+    return [data[i:i + size] for i in range(0, len(data) - size + 1, size)]
+
+
+def live():
+    pads = Pads()
+    pads.plug(0, "0003:0000054C:00000CE6")  # by cable: a sound card, not for this
+    pads.plug(3)
+    program = pads.play("DUALSENSE:auto", 5)
+    time.sleep(2.5)
+    pads.pull(3)
+    time.sleep(0.5)
+    pads.plug(1)
+    text = program.communicate(timeout=30)[0]
+    expect(program.returncode == 0 and "connected 2 times" in text, "play goes on without the controller: " + text.strip().split("\n")[-1])
+    before, after = read(pads.node(3) + ".gone"), read(pads.node(1))
+    expect(not open(pads.node(0), "rb").read(), "nothing goes to a controller on a cable")
+    expect(len(before) > 60 and len(after) > 40, f"{len(before)} reports, unplugged, {len(after)} reports")
+    for part in (before, after):
+        first = part[0][10] if part else 0
+        expect(all(dualsense(dualsense_pairs(r), r[10] + 256 * 16 if n else first)[4:] == r[4:] for n, r in enumerate(part)),
+               "each is the second encoder's")
+    expect(any(any(report[13:77]) for report in before) and not any(after[-1][13:77]), "it vibrates, and the last report is silence")
+    shutil.rmtree(pads.folder)
+
+
+def forbidden():
+    pads = Pads()
+    os.chmod(pads.plug(0), 0)
+    become = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+    program = pads.play("DUALSENSE:auto", 1, cwd="/", **become)
+    text = program.communicate(timeout=30)[0].strip()
+    expect(program.returncode == 1 and "may not write to" in text and text.count("\n") == 0, "one line: " + text)
+    shutil.rmtree(pads.folder)
+
+
+for name in FORMATS:
+    for ppm in (150, -150):
+        simulated(name, ppm)
+live()
+forbidden()
+sys.exit(bad > 0)
