@@ -21,8 +21,8 @@ PhantomPanner panner(const char* preset) {
 
 /// A DualSense's feed, and blocks of 10 ms with one value per channel and frame.
 struct Fed {
-    explicit Fed(const char* preset = "phone2")
-        : feed{std::make_unique<CoilFeed>(kind, dualSenseSamples(), panner(preset))} {}
+    explicit Fed(const char* preset = "phone2", const CoilFormat& format = dualSenseSamples())
+        : feed{std::make_unique<CoilFeed>(kind, format, panner(preset))} {}
     /// Steps of a millisecond; the reports.
     template <class Value>
     std::vector<PadReport> run(int milliseconds, float level, Value value, bool hasBlocks = true) {
@@ -69,6 +69,15 @@ TEST(CoilFeed, SilenceIsCompleteWithinOneReportAndComesBackInARamp) {
     const auto back = fed.run(100, 0.5f, tone);
     EXPECT_LE(std::abs(static_cast<int>(static_cast<std::int8_t>(back[0].bytes[13]))), 7);
     EXPECT_NEAR(peak(back.back(), 0), 127 * 0.4, 2);
+}
+
+TEST(CoilFeed, AReportThatIsShorterThanTheRampIsSilentInTimeAsWell) {
+    Fed fed{"phone2", steamSamples()};
+    fed.run(200, 1.0f, tone);
+    const auto silent = fed.run(50, 0.0f, tone);
+    for (std::size_t i = 0; i < silent.size(); ++i)
+        for (std::size_t k = i == 0 ? 2 + 20 : 2; k < 32; ++k)
+            EXPECT_EQ(silent[i].bytes[k], 0) << i << ' ' << k;
 }
 
 TEST(CoilFeed, ADeviceThatStopsLeavesOneReportOfSilenceAndThenNone) {

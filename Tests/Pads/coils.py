@@ -7,7 +7,8 @@ usage: coils.py PHYSVIB PHYSVIB_COIL_REPORTS [SECONDS (600)]
 1. SECONDS of simulated time in both formats: each byte, each sample of a known signal, the sequence, CRC, pace, and the device's clock
    150 ppm off.
 2. `physvib play` on a controller of plain files: found by its number, unplugged and plugged in as another node, silent at the end.
-3. A node that this user may not write to is told in one line."""
+3. Hits as two tones for Switch controllers: energy, pitch, pace.
+4. A node that this user may not write to is told in one line."""
 import math
 import os
 import shutil
@@ -83,6 +84,55 @@ def simulated(name, ppm):
     expect(worst < 0.5 / full + 0.005, f"{name}: samples are the signal within {worst:.4f} of full scale")
 
 
+# Steps of amplitude as Nintendo's drivers list them, of a thousand: below 0.12 in quarter octaves, then finer.
+SMALL = [0, 10, 12, 14, 17, 20, 24, 28, 33, 40, 47, 56, 67, 80, 95, 112]
+
+
+def amplitude(step):
+    return SMALL[step] / 1e3 if step < 16 else 2 ** (step / 16) / 17 if step < 32 else 2 ** (step / 32) / 8.7
+
+
+def side_of(four):
+    """(low Hz, low, high Hz, high) of one side's bytes."""
+    high = four[0] | (four[1] & 1) << 8
+    return (10 * 2 ** (((four[2] & 0x7F) + 0x40) / 32), amplitude((four[3] - 0x40) * 2 + (four[2] >> 7)),
+            10 * 2 ** ((high / 4 + 0x60) / 32), amplitude(four[1] >> 1))
+
+
+def energy(hit, start):
+    """Mean square within 30 ms, by summing; in place of the closed form."""
+    when, _, decay, size, _ = hit
+    times = [start + 0.03 * (k + 0.5) / 1000 for k in range(1000)]
+    return sum((size * math.exp(-decay * (t - when))) ** 2 for t in times if t >= when) / 1000
+
+
+def switch():
+    seconds = 60
+    data = subprocess.run([REPORTS, "switch", str(seconds), "0"], check=True, stdout=subprocess.PIPE).stdout
+    sent = [(struct.unpack("<q", data[i:i + 8])[0] / 1e9, data[i + 8:i + 18]) for i in range(0, len(data), 18)]
+    expect(all(r[0] == 0x10 and r[1] == n % 16 and r[1] < 16 for n, (_, r) in enumerate(sent)), f"switch: {len(sent)} reports in sequence")
+    expect(min(b[0] - a[0] for a, b in zip(sent, sent[1:])) > 0.0299, "switch: at least 30 ms apart")
+    hits = []
+    for i in range(4 * seconds):
+        hit = (i * 0.25, 60 * 1.13 ** (i % 20), 3 + i % 7 * 5, 0.1 + 0.1 * (i % 10), i % 2)
+        hits += [hit] + ([(hit[0], 2 * hit[1], hit[2], hit[3] / 2, hit[4])] if i % 3 == 0 else [])
+    single = worst = pitch = 0
+    for start, report in sent:
+        for side in (0, 1):
+            low_hz, low, high_hz, high = side_of(report[2 + 4 * side:6 + 4 * side])
+            ringing = [(h[1], energy(h, start)) for h in hits if h[4] == side and start - 3 < h[0] < start + 0.03]
+            total = sum(r[1] for r in ringing)
+            if total > 1e-2 and all(not 0 < tone < 0.12 for tone in (low, high)):
+                worst = max(worst, abs(10 * math.log10((low ** 2 + high ** 2) / min(1, total))))
+            if total > 1e-2 and max(ringing, key=lambda r: r[1])[1] > 0.999 * total:
+                single += 1
+                hz = low_hz if low > high else high_hz
+                pitch = max(pitch, abs(math.log2(hz / max(ringing, key=lambda r: r[1])[0])))
+    # steps of 1/16 octave are 0.38 dB, coarser below 0.12; those of pitch are 3/8 of a semitone
+    expect(worst < 0.3, f"switch: the energy of both tones is that of what rings within {worst:.2f} dB")
+    expect(single > 100 and pitch < 0.02, f"switch: {single} single tones are at their pitch within {12 * pitch:.2f} semitones")
+
+
 class Pads:
     """A folder that looks like /sys/class/hidraw and /dev."""
 
@@ -153,6 +203,7 @@ def forbidden():
 for name in FORMATS:
     for ppm in (150, -150):
         simulated(name, ppm)
+switch()
 live()
 forbidden()
 sys.exit(bad > 0)

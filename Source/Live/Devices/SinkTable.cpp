@@ -6,6 +6,7 @@
 #include "Live/Pads/CoilFeed.h"
 #include "Live/Pads/HidOutput.h"
 #include "Live/Pads/PadOutput.h"
+#include "Live/Pads/ToneFeed.h"
 #include "Live/Session/BoardOutput.h"
 #include <algorithm>
 #include <array>
@@ -32,8 +33,12 @@ std::vector<SinkPlace> gamePads() {
 constexpr std::array dualSenses{HidModel{0x054C, 0x0CE6, PadBus::bluetooth},
                                 HidModel{0x054C, 0x0DF2, PadBus::bluetooth}};
 constexpr std::array steamControllers{HidModel{0x28DE, 0x1302, PadBus::usb}};
+// Nintendo's Joy-Cons, left and right, and Pro Controller, whichever way the kernel's driver has them.
+constexpr std::array switches{HidModel{0x057E, 0x2006, PadBus::other},
+                              HidModel{0x057E, 0x2007, PadBus::other},
+                              HidModel{0x057E, 0x2009, PadBus::other}};
 constexpr HidFeedKind dualSense{dualSenses, "DualSense by Bluetooth"},
-    steam{steamControllers, "Steam Controller (2026)"};
+    steam{steamControllers, "Steam Controller (2026)"}, nintendo{switches, "Switch controller"};
 
 template <const HidFeedKind& kind>
 std::vector<SinkPlace> hidPads() {
@@ -94,6 +99,20 @@ const std::array allKinds{
              false,
              hidPads<steam>,
              coils<steam, steamSamples>},
+    SinkKind{"SWITCH",
+             "Switch controller",
+             "Two tones on either side follow all hits, felt together with the device (Docs/pads.md)",
+             "switch",
+             anyPad,
+             "the first that is there",
+             {},
+             2,
+             {},
+             false,
+             hidPads<nintendo>,
+             [](const std::string& where, const PhantomPanner& panner, bool) -> std::unique_ptr<Sink> {
+                 return std::make_unique<HidOutput>(where, std::make_unique<ToneFeed>(nintendo, panner));
+             }},
 };
 
 // Position where the last sink of `text` starts; npos: there is none.

@@ -37,8 +37,9 @@ public:
     virtual std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) = 0;
     /// A report of silence.
     virtual PadReport rest() = 0;
-    virtual std::uint64_t lost() const noexcept { return 0; } ///< frames or events; any thread
-    virtual double laterSeconds() const noexcept = 0;         ///< than the device, at most, up to the write
+    virtual std::uint64_t lost() const noexcept { return 0; }   ///< frames or events; any thread
+    virtual double leadSeconds() const noexcept { return 0.0; } ///< as Sink::latencySeconds
+    virtual double laterSeconds() const noexcept = 0;           ///< than the device, at most, up to the write
 };
 
 } // namespace physvib

@@ -23,6 +23,7 @@ public:
     ~HidOutput() override;
 
     std::string awaitReady(const std::function<bool()>& keepGoing) override;
+    double latencySeconds() const noexcept override { return feed_->leadSeconds(); }
     void follow(OutputClock* device) override;
     void made(const CollisionEvent& event) noexcept override { feed_->made(event); }
     void posted(const RenderControl& control) noexcept override { feed_->posted(control); }
