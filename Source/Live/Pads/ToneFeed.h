@@ -46,7 +46,7 @@ private:
     const HidFeedKind& kind_;
     const PhantomPanner first_; // the session's first panner
     PhantomPanner grips_;
-    EventQueue<CollisionEvent, 1024> events_; // in session time
+    EventQueue<CollisionEvent, 4096> events_; // in session time
     ControlQueue<256> controls_;
     std::vector<PannerChange> layouts_; // grips, waiting for their time, as the next
     std::vector<std::int64_t> stopsNs_;
