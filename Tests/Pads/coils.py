@@ -172,6 +172,8 @@ def live():
     pads = Pads()
     pads.plug(0, "0003:0000054C:00000CE6")  # by cable: a sound card, not for this
     pads.plug(3)
+    listed = subprocess.run([PHYSVIB, "pads"], env=dict(os.environ, PHYSVIB_HIDRAW=pads.folder), stdout=subprocess.PIPE, text=True).stdout
+    expect(listed.count("--device DUALSENSE:") == 1 and "hidraw3" in listed, "listed: " + listed.strip())
     program = pads.play("DUALSENSE:auto", 5)
     time.sleep(2.5)
     pads.pull(3)
@@ -192,6 +194,8 @@ def live():
 
 def forbidden():
     pads = Pads()
+    text = pads.play("DUALSENSE:auto", 1).communicate(timeout=30)[0].strip()
+    expect(text == "physvib: no DualSense by Bluetooth is there", "one line: " + text)
     os.chmod(pads.plug(0), 0)
     become = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
     program = pads.play("DUALSENSE:auto", 1, cwd="/", **become)

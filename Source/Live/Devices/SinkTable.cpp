@@ -86,7 +86,8 @@ const std::array allKinds{
              {},
              false,
              hidPads<dualSense>,
-             coils<dualSense, dualSenseSamples>},
+             coils<dualSense, dualSenseSamples>,
+             true},
     SinkKind{"STEAM",
              "Steam Controller (2026)",
              "Its coils play the session's samples, up to 8 ms after the device (Docs/pads.md)",
@@ -98,7 +99,8 @@ const std::array allKinds{
              {},
              false,
              hidPads<steam>,
-             coils<steam, steamSamples>},
+             coils<steam, steamSamples>,
+             true},
     SinkKind{"SWITCH",
              "Switch controller",
              "Two tones on either side follow all hits, felt together with the device (Docs/pads.md)",
@@ -112,7 +114,8 @@ const std::array allKinds{
              hidPads<nintendo>,
              [](const std::string& where, const PhantomPanner& panner, bool) -> std::unique_ptr<Sink> {
                  return std::make_unique<HidOutput>(where, std::make_unique<ToneFeed>(nintendo, panner));
-             }},
+             },
+             true},
 };
 
 // Position where the last sink of `text` starts; npos: there is none.
