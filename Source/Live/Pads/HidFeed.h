@@ -38,6 +38,7 @@ public:
     /// A report of silence.
     virtual PadReport rest() = 0;
     virtual std::uint64_t lost() const noexcept { return 0; }   ///< frames or events; any thread
+    virtual bool playsClips() const noexcept { return true; }   ///< as SinkState
     virtual double leadSeconds() const noexcept { return 0.0; } ///< as Sink::latencySeconds
     virtual double laterSeconds() const noexcept = 0;           ///< than the device, at most, up to the write
 };

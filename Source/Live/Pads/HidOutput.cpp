@@ -126,6 +126,7 @@ SinkState HidOutput::state() const {
     state.isReady = pad_ != nullptr;
     state.sent = counts_.reports;
     state.lost = feed_->lost();
+    state.playsClips = feed_->playsClips();
     state.trouble = troubleNow();
     state.where = pad_ ? label() + ", " + pad_->place().node.string() + ": up to " +
                              fixedNumber(1e3 * feed_->laterSeconds(), 0) + " ms after the device"

@@ -24,6 +24,7 @@ public:
     std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) override;
     PadReport rest() override;
     std::uint64_t lost() const noexcept override { return events_.overflows() + controls_.overflows(); }
+    bool playsClips() const noexcept override { return false; }
     double leadSeconds() const noexcept override { return 1e-9 * static_cast<double>(reportNs); }
     double laterSeconds() const noexcept override { return 0.0; }
 

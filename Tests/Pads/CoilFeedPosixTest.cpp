@@ -2,10 +2,13 @@
 // Samples for controllers with coils: silence, the guard, places and rates. coils.py judges the bytes.
 #include "Live/Pads/CoilFeed.h"
 #include "Live/Pads/HidOutput.h"
+#include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <thread>
 
 namespace physvib {
 namespace {
@@ -129,6 +132,57 @@ TEST(CoilFeed, WhatItsRateCannotCarryIsFilteredAtEveryRateOfADevice) {
             EXPECT_GE(peak, least) << rate << ' ' << hz;
             EXPECT_LE(peak, most) << rate << ' ' << hz;
         }
+}
+
+/// A device that asks for 10 ms at a time.
+class Device final : public OutputClock {
+public:
+    Device() { setLevel(1.0f); }
+    void block(std::int64_t sessionNs) { tell({sessionNs, steadyNs(), 0, 48000}); }
+    static std::int64_t steadyNs() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
+};
+
+TEST(HidOutput, FollowsADeviceAndLeavesSilenceBehind) {
+    const auto folder = std::filesystem::path{testing::TempDir()} / "physvib-hidout";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder / "class" / "hidraw0" / "device");
+    std::filesystem::create_directories(folder / "dev");
+    std::ofstream{folder / "class" / "hidraw0" / "device" / "uevent"}
+        << "HID_ID=0003:000028DE:00001302\nHID_NAME=Steam\n";
+    std::ofstream{folder / "dev" / "hidraw0"};
+    setenv("PHYSVIB_HIDRAW", folder.c_str(), 1);
+    static constexpr std::array models{HidModel{0x28DE, 0x1302, PadBus::usb}};
+    static constexpr HidFeedKind steam{models, "Steam Controller"};
+    {
+        HidOutput output{"nothing like it",
+                         std::make_unique<CoilFeed>(steam, steamSamples(), panner("phone2"))};
+        EXPECT_EQ(output.awaitReady([] { return false; }),
+                  "no Steam Controller is called \"nothing like it\"");
+    }
+    HidOutput output{anyPad, std::make_unique<CoilFeed>(steam, steamSamples(), panner("phone2"))};
+    EXPECT_EQ(output.awaitReady([] { return true; }), "");
+    EXPECT_TRUE(output.state().isReady && output.state().playsClips);
+    Device device;
+    output.follow(&device);
+    std::vector<float> samples(480, 0.5f);
+    for (std::size_t n = 0; n < samples.size(); ++n) samples[n] = tone(0, static_cast<std::int64_t>(n));
+    const float* const channels[] = {samples.data(), samples.data()};
+    for (int i = 0; i < 10; ++i, std::this_thread::sleep_for(std::chrono::milliseconds{10})) {
+        device.block(10 * ms * i);
+        output.rendered({channels, 480, 480LL * i, 48000});
+    }
+    output.follow(nullptr);
+    unsetenv("PHYSVIB_HIDRAW");
+    std::ifstream file{folder / "dev" / "hidraw0", std::ios::binary};
+    const std::string sent{std::istreambuf_iterator<char>{file}, {}};
+    const std::size_t reports = output.counts().reports;
+    EXPECT_GE(reports, 10u);
+    EXPECT_EQ(sent.size(), 4 * 4 + 64 * (reports + 1) + 2 * 4) << "on, samples, silence, off";
+    EXPECT_EQ(sent.substr(0, 16), (std::string{"\x86\1\2\0\x86\1\5\0\x86\2\2\1\x86\2\5\1", 16}));
+    EXPECT_EQ(sent.substr(sent.size() - 8), (std::string{"\x86\1\2\0\x86\1\5\0", 8}));
+    EXPECT_EQ(sent.substr(sent.size() - 8 - 62, 62), std::string(62, '\0'));
+    EXPECT_NE(sent.substr(sent.size() - 8 - 64 - 62, 30), std::string(30, '\0'));
+    std::filesystem::remove_all(folder);
 }
 
 TEST(HidDevice, IsFoundByItsNumbersTakenOnceAndGoneWithItsNode) {
