@@ -142,7 +142,7 @@ std::string midiOf(const FeltExport& felt) {
 
 std::vector<std::string_view> feltEndings() {
     std::vector<std::string_view> endings{".mid", ".csv"};
-    endings.insert(endings.end(), clipEndings.begin(), clipEndings.end());
+    endings.insert(endings.end(), writtenEndings.begin(), writtenEndings.end());
     return endings;
 }
 

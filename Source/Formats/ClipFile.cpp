@@ -3,6 +3,7 @@
 #include "Formats/ClipFile.h"
 #include "Formats/AhapFile.h"
 #include "Formats/ClipLimits.h"
+#include "Formats/EnvelopeFile.h"
 #include "Formats/HjifFile.h"
 #include "Formats/MetaHapticFile.h"
 #include "Io/Disk/ReadFile.h"
@@ -52,9 +53,10 @@ std::vector<std::string> monoLosses(const Facts& facts, const FrequencyScale& sc
 
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept {
     const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-    for (std::size_t i = 0; i < clipEndings.size(); ++i)
-        if (path.size() > clipEndings[i].size() &&
-            std::ranges::equal(path.substr(path.size() - clipEndings[i].size()), clipEndings[i], {}, lower))
+    for (std::size_t i = 0; i < writtenEndings.size(); ++i)
+        if (const std::string_view ending = writtenEndings[i];
+            path.size() > ending.size() &&
+            std::ranges::equal(path.substr(path.size() - ending.size()), ending, {}, lower))
             return static_cast<ClipFormat>(i);
     return {};
 }
@@ -64,6 +66,8 @@ Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat 
     switch (format) {
     case ClipFormat::haptic: return readMetaHaptic(bytes, name, scale);
     case ClipFormat::ahap: return readAhap(bytes, name, scale);
+    case ClipFormat::envelope:
+        return Failure{std::string{name} + ": Android's envelopes are written, not read"};
     default: return readHjif(bytes, name);
     }
 }
@@ -78,6 +82,7 @@ std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale&
     switch (format) {
     case ClipFormat::haptic: return metaHapticText(clip.channels.front(), clip.title, scale);
     case ClipFormat::ahap: return ahapText(clip.channels.front(), clip.title, scale);
+    case ClipFormat::envelope: return envelopeText(clip.channels.front(), clip.title, scale);
     default: return hjifText(clip);
     }
 }

@@ -12,22 +12,30 @@
 
 namespace physvib {
 
-enum class ClipFormat { hjif, haptic, ahap };
+enum class ClipFormat { hjif, haptic, ahap, envelope };
 
 struct ClipFormatRow {
     std::string_view ending, owner;
-    bool isMono; ///< one channel only
+    bool isMono;        ///< one channel only
+    bool isRead = true; ///< false: only written
 };
 
 /// The one table of haptic files, indexed by ClipFormat: help, dialogs and errors list what it has.
-inline constexpr std::array<ClipFormatRow, 3> clipFormats{
-    {{".hjif", "MPEG", false}, {".haptic", "Meta", true}, {".ahap", "Apple", true}}};
+inline constexpr std::array<ClipFormatRow, 4> clipFormats{{{".hjif", "MPEG", false},
+                                                           {".haptic", "Meta", true},
+                                                           {".ahap", "Apple", true},
+                                                           {".envelope", "Android", true, false}}};
 
-inline constexpr auto clipEndings = [] {
-    std::array<std::string_view, clipFormats.size()> endings;
-    for (std::size_t i = 0; i < endings.size(); ++i) endings[i] = clipFormats[i].ending;
+template <std::size_t Count>
+inline constexpr auto firstEndings = [] {
+    std::array<std::string_view, Count> endings;
+    for (std::size_t i = 0; i < Count; ++i) endings[i] = clipFormats[i].ending;
     return endings;
 }();
+/// Of files that can be written, and of those that can be read as well, which come first.
+inline constexpr auto& writtenEndings = firstEndings<clipFormats.size()>;
+inline constexpr auto& clipEndings = firstEndings<3>;
+static_assert(clipFormats[clipEndings.size() - 1].isRead && !clipFormats[clipEndings.size()].isRead);
 
 /// By the file's ending, case-insensitive. Any thread.
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept;

@@ -565,7 +565,7 @@ PHYSVIB_API int physvib_pads_free(physvib_pads pads);
 
 /** An event for a controller, at the time at which it is to be felt. Motors are slow, so the model wants it
  * 0.03 s (`lead_s` of the profile) before that; a later one begins at the next pull and is felt as strong.
- * PHYSVIB_ERROR_FULL: 256 are waiting. */
+ * Of more than 256 that wait the weakest is lost; PHYSVIB_ERROR_FULL: it is this one. */
 PHYSVIB_API int physvib_pads_strike(physvib_pads pads, int pad, const physvib_event* event);
 /** Takes a world's events, as physvib_world_take does, for one controller, `later_ns` after their times.
  * Returns how many; those for which there is no room are lost. */

@@ -279,7 +279,7 @@ std::vector<physvib_device> allDevices() {
     for (const SinkKind& kind : sinkKinds())
         for (const SinkPlace& place : kind.places())
             all.push_back(deviceOf(std::string{kind.name} + ":" + place.where, place.about,
-                                   kind.name == "PAD" ? PHYSVIB_DEVICE_PAD : PHYSVIB_DEVICE_BOARD,
+                                   kind.name == "BOARD" ? PHYSVIB_DEVICE_BOARD : PHYSVIB_DEVICE_PAD,
                                    kind.actuators));
     return all;
 }

@@ -33,7 +33,6 @@ PhantomPanner PadMotors::gripsOf(const PhantomPanner& field) noexcept {
 
 bool PadMotors::strike(const CollisionEvent& event, const PhantomPanner& grips) noexcept {
     if (!isPlayable(event) || isClip(event.sound) || event.amplitude == 0.0) return true;
-    if (waits_ == waiting_.size()) return ++lost_, false;
     Voice voice;
     voice.startNs = std::max<std::int64_t>(0, event.timeNs - leadNs());
     voice.endNs = event.durationNs > 0 ? voice.startNs + event.durationNs : 0;
@@ -45,6 +44,13 @@ bool PadMotors::strike(const CollisionEvent& event, const PhantomPanner& grips) 
     voice.toSide = voice.travelNs > 0 ? sideOf(movedAlong(event, 1.0), grips) : voice.fromSide;
     const Energies energies = shared(voice.energy, voice.heavyShare, voice.fromSide);
     voice.low = energies.low, voice.high = energies.high;
+    if (waits_ == waiting_.size()) { // the weakest is lost
+        ++lost_;
+        const auto weakest = std::ranges::min_element(waiting_, {}, &Voice::energy);
+        if (weakest->energy >= voice.energy) return false;
+        std::move(weakest + 1, waiting_.end(), weakest);
+        --waits_;
+    }
     const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(waits_);
     const auto place = std::upper_bound(waiting_.begin(), end, voice.startNs,
                                         [](std::int64_t ns, const Voice& v) { return ns < v.startNs; });

@@ -86,7 +86,8 @@ public:
     static PhantomPanner gripsOf(const PhantomPanner& field) noexcept;
 
     /// Adds an event at the session time at which it is to be felt; late events begin at once. Clips are
-    /// skipped, because their level is not known. False if too many are pending.
+    /// skipped, because their level is not known. If too many are pending, the weakest is lost; false if it
+    /// is this one.
     bool strike(const CollisionEvent& event, const PhantomPanner& grips) noexcept;
 
     /// Ends all voices and discards events before `atNs`; the next command is not earlier.

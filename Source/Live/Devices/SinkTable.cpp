@@ -3,7 +3,10 @@
 #include "Live/Devices/SinkTable.h"
 #include "Core/Limits.h"
 #include "Live/Devices/NoDevice.h"
+#include "Live/Pads/CoilFeed.h"
+#include "Live/Pads/HidOutput.h"
 #include "Live/Pads/PadOutput.h"
+#include "Live/Pads/ToneFeed.h"
 #include "Live/Session/BoardOutput.h"
 #include <algorithm>
 #include <array>
@@ -24,6 +27,29 @@ std::vector<SinkPlace> gamePads() {
         if (std::ranges::find(places, pad.name, &SinkPlace::where) == places.end())
             places.push_back({pad.name, {}, pad.hasMotors});
     return places;
+}
+
+// Sony's DualSense and DualSense Edge; Valve's controller of 2026 by its cable.
+constexpr std::array dualSenses{HidModel{0x054C, 0x0CE6, PadBus::bluetooth},
+                                HidModel{0x054C, 0x0DF2, PadBus::bluetooth}};
+constexpr std::array steamControllers{HidModel{0x28DE, 0x1302, PadBus::usb}};
+// Nintendo's Joy-Cons, left and right, and Pro Controller, whichever way the kernel's driver has them.
+constexpr std::array switches{HidModel{0x057E, 0x2006, PadBus::other},
+                              HidModel{0x057E, 0x2007, PadBus::other},
+                              HidModel{0x057E, 0x2009, PadBus::other}};
+constexpr HidFeedKind dualSense{dualSenses, "DualSense by Bluetooth"},
+    steam{steamControllers, "Steam Controller (2026)"}, nintendo{switches, "Switch controller"};
+
+template <const HidFeedKind& kind>
+std::vector<SinkPlace> hidPads() {
+    std::vector<SinkPlace> places;
+    for (const HidPlace& pad : HidDevice::list(kind.models)) places.push_back({pad.node.string(), pad.name});
+    return places;
+}
+
+template <const HidFeedKind& kind, const CoilFormat& (*format)()>
+std::unique_ptr<Sink> coils(const std::string& where, const PhantomPanner& panner, bool) {
+    return std::make_unique<HidOutput>(where, std::make_unique<CoilFeed>(kind, format(), panner));
 }
 
 const std::array allKinds{
@@ -49,6 +75,47 @@ const std::array allKinds{
              [](const std::string& where, const PhantomPanner& panner, bool) -> std::unique_ptr<Sink> {
                  return std::make_unique<PadOutput>(where, panner);
              }},
+    SinkKind{"DUALSENSE",
+             "DualSense by Bluetooth",
+             "Its two coils play the session's samples, up to 18 ms after the device (Docs/pads.md)",
+             "dualsense",
+             anyPad,
+             "the first that is there",
+             {},
+             2,
+             {},
+             false,
+             hidPads<dualSense>,
+             coils<dualSense, dualSenseSamples>,
+             true},
+    SinkKind{"STEAM",
+             "Steam Controller (2026)",
+             "Its coils play the session's samples, up to 8 ms after the device (Docs/pads.md)",
+             "steam",
+             anyPad,
+             "the first that is there",
+             {},
+             2,
+             {},
+             false,
+             hidPads<steam>,
+             coils<steam, steamSamples>,
+             true},
+    SinkKind{"SWITCH",
+             "Switch controller",
+             "Two tones on either side follow all hits, felt together with the device (Docs/pads.md)",
+             "switch",
+             anyPad,
+             "the first that is there",
+             {},
+             2,
+             {},
+             false,
+             hidPads<nintendo>,
+             [](const std::string& where, const PhantomPanner& panner, bool) -> std::unique_ptr<Sink> {
+                 return std::make_unique<HidOutput>(where, std::make_unique<ToneFeed>(nintendo, panner));
+             },
+             true},
 };
 
 // Position where the last sink of `text` starts; npos: there is none.

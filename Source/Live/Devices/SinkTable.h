@@ -35,6 +35,7 @@ struct SinkKind {
     /// `isAwaited`: Sink::awaitReady is called before the session is prepared. Otherwise the sink assumes how
     /// early it needs the events.
     std::unique_ptr<Sink> (*make)(const std::string& where, const PhantomPanner& panner, bool isAwaited);
+    bool takesReports = false; ///< a controller that is sent raw reports, beside its ordinary motors
 };
 
 /// All entries. Any thread.

@@ -60,7 +60,7 @@ private:
 
     std::string name_;
     bool isProfileGiven_ = false;
-    EventQueue<CollisionEvent, 1024> events_; // in session time
+    EventQueue<CollisionEvent, 4096> events_; // in session time
     ControlQueue<256> controls_;
     std::atomic<double> leadSeconds_{0.0};
 

@@ -26,7 +26,7 @@ inline Result<std::string> dualSenseDevice(const std::vector<AudioDeviceName>& d
                  std::to_string(device.channels) + ": its profile hides the coils (Docs/pads.md)";
     }
     return Failure{narrow.empty() ? "--device dualsense: no sound device of a DualSense is there; it has one "
-                                    "by USB, none by Bluetooth (see physvib devices)"
+                                    "by USB; by Bluetooth: --device DUALSENSE:auto"
                                   : narrow};
 }
 

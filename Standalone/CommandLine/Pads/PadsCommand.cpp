@@ -6,6 +6,7 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Devices/AudioDevice.h"
+#include "Live/Devices/SinkTable.h"
 #include "Live/Pads/PadTrial.h"
 #include "Scene/PadFile.h"
 #include "System/Interrupt.h"
@@ -42,7 +43,8 @@ std::string abilitiesOf(const GamePadInfo& info, const std::vector<AudioDeviceNa
     if (!info.isDualSense) return words;
     const auto sound = dualSenseDevice(sounds);
     return words + (sound ? ", coils at " + sound.value + " (--device dualsense --layout dualsense)"
-                          : ", coils by USB sound (not there)");
+                    : info.bus == PadBus::bluetooth ? ", coils (--device DUALSENSE:auto --layout dualsense)"
+                                                    : ", coils by USB sound (not there)");
 }
 
 int list() {
@@ -57,7 +59,14 @@ int list() {
     for (const GamePadInfo& info : found)
         std::cout << info.name << "  " << busName(info.bus) << ", " << abilitiesOf(info, sounds)
                   << "  profile " << info.profile << '\n';
-    if (found.empty()) tell("no game controller is there");
+    bool isAnyThere = !found.empty();
+    for (const SinkKind& kind : sinkKinds()) // those whose raw reports carry more than two commands
+        for (const SinkPlace& place : kind.takesReports ? kind.places() : std::vector<SinkPlace>{}) {
+            std::cout << place.about << "  " << place.where << "  --device " << kind.name << ':'
+                      << place.where << '\n';
+            isAnyThere = true;
+        }
+    if (!isAnyThere) tell("no game controller is there");
     return exitDone;
 }
 

@@ -101,7 +101,7 @@ int runExport(const OptionTable& command, ExportOptions& options) {
     noteGiven(command, o);
     if (const std::string refusal = refusalOf(o); !refusal.empty()) return leave(exitUsage, refusal);
     const auto format = clipFormatOf(options.to);
-    if (!format) return leave(exitUsage, "--to: " + endingFault(options.to, clipEndings));
+    if (!format) return leave(exitUsage, "--to: " + endingFault(options.to, writtenEndings));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
     o.isEqualised = false; // of the player's own actuators
     if (const std::string refusal = sceneFault(o); !refusal.empty()) return leave(exitUsage, refusal);

@@ -17,7 +17,7 @@ namespace physvib {
 inline const juce::StringArray& hitEndings() {
     static const juce::StringArray all = [] {
         juce::StringArray endings{".wav"}; // what most programs take
-        for (const auto ending : clipEndings) endings.add(ending.data());
+        for (const auto ending : writtenEndings) endings.add(ending.data());
         return endings;
     }();
     return all;

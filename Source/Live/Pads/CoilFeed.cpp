@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// The device's clock decides how many reports there are, a steady clock when each leaves: blocks come in
+// bursts, and a controller wants its reports evenly.
+#include "Live/Pads/CoilFeed.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+constexpr double rampSeconds = 0.005;   // of the master level, as on a device; within a report
+constexpr double watchedSeconds = 2.0;  // over which the reserve is watched
+constexpr double keptSeconds = 0.0015;  // of the reserve, for blocks that come late
+constexpr std::int64_t mostStarved = 4; // periods without samples until silence is sent
+constexpr int usualRateHz = 48000;
+
+} // namespace
+
+CoilFeed::CoilFeed(const HidFeedKind& kind, const CoilFormat& format, const PhantomPanner& panner)
+    : kind_{kind}
+    , format_{format}
+    , channels_{static_cast<std::size_t>(panner.layout().count)}
+    , reducer_{usualRateHz, format.rateHz}
+    , reducedHz_{usualRateHz} {
+    sides_.write(sidesOf(panner.layout()));
+    begin();
+}
+
+CoilFeed::Sides CoilFeed::sidesOf(const EnchanterLayout& layout) noexcept {
+    Sides sides{static_cast<std::size_t>(layout.count), {}};
+    const auto places = std::span{layout.places}.first(static_cast<std::size_t>(layout.count));
+    const auto [left, right] = std::ranges::minmax(places, {}, &EnchanterPlace::xMetres);
+    const double width = right.xMetres - left.xMetres;
+    for (std::size_t j = 0; j < places.size(); ++j) {
+        const double share = width > 0.0 ? (places[j].xMetres - left.xMetres) / width : 0.5,
+                     angle = 0.5 * std::numbers::pi * share;
+        sides.gains[j] = {share < 1.0 ? static_cast<float>(std::cos(angle)) : 0.0f,
+                          static_cast<float>(std::sin(angle))};
+    }
+    return sides;
+}
+
+void CoilFeed::posted(const RenderControl& control) noexcept {
+    if (control.panner != nullptr) sides_.write(sidesOf(control.panner->layout()));
+}
+
+void CoilFeed::rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING {
+    const Sides& sides = sides_.read();
+    const std::size_t count = std::min(sides.count, channels_);
+    rateHz_.store(block.sampleRateHz, std::memory_order_relaxed);
+    for (int n = 0; n < block.frames; ++n)
+        samples_.pushBy([&](CoilFrame& frame) noexcept {
+            frame = {};
+            for (std::size_t j = 0; j < count; ++j)
+                for (std::size_t side = 0; side < 2; ++side)
+                    frame[side] += sides.gains[j][side] * block.channels[j][n];
+        });
+}
+
+void CoilFeed::begin() {
+    for (CoilFrame frame; samples_.pop(frame);) {
+    }
+    reducer_ = RateReducer{reducedHz_, format_.rateHz};
+    level_.prepare(format_.rateHz, rampSeconds, 0.0f);
+    guard_.prepare(format_.rateHz, 2, GuardPlace::last);
+    dueNs_ = 0;
+    leastLeft_ = SIZE_MAX, reports_ = 0;
+    isEarly_ = isStarved_ = false;
+}
+
+void CoilFeed::drain() {
+    if (const int rate = rateHz_.load(std::memory_order_relaxed);
+        rate != reducedHz_ && rate > format_.rateHz) {
+        reducedHz_ = rate;
+        reducer_ = RateReducer{rate, format_.rateHz};
+    }
+    for (CoilFrame frame; samples_.pop(frame);) reducer_.push(frame);
+}
+
+std::optional<PadReport> CoilFeed::next(std::int64_t nowNs, std::int64_t, float level) {
+    drain();
+    if (nowNs < dueNs_) return {};
+    if (reducer_.size() < static_cast<std::size_t>(format_.frames)) {
+        if (!isStarved_) dueNs_ = std::max(dueNs_, nowNs - periodNs());
+        isStarved_ = true;
+        if (isAtRest_ || nowNs - dueNs_ < mostStarved * periodNs()) return {};
+        return rest(); // the device has stopped
+    }
+    // late samples move all that follows; a late thread does not
+    dueNs_ = isStarved_ || dueNs_ == 0 ? nowNs : std::max(dueNs_, nowNs - periodNs());
+    dueNs_ += isEarly_ ? periodNs() * 999 / 1000 : periodNs();
+    isStarved_ = false;
+    const PadReport report = compose(level);
+    watchReserve();
+    return report;
+}
+
+void CoilFeed::watchReserve() {
+    const double rate = format_.rateHz, frames = format_.frames;
+    leastLeft_ = std::min(leastLeft_, reducer_.size());
+    if (frames * static_cast<double>(++reports_) < watchedSeconds * rate) return;
+    isEarly_ = static_cast<double>(leastLeft_) > keptSeconds * rate;
+    for (; static_cast<double>(leastLeft_) > 2.0 * frames; --leastLeft_, ++skipped_)
+        reducer_.pull(); // what a pause of this thread has left
+    leastLeft_ = SIZE_MAX, reports_ = 0;
+}
+
+PadReport CoilFeed::compose(float level) {
+    std::array<std::vector<float>, 2> sides;
+    for (int n = 0; n < format_.frames; ++n) {
+        const CoilFrame frame = reducer_.pull();
+        for (std::size_t side = 0; side < 2; ++side) sides[side].push_back(frame[side]);
+    }
+    std::array<float*, limits::maxEnchanters> io{sides[0].data(), sides[1].data()};
+    level > 0.0f ? level_.moveTo(level) : level_.moveTo(0.0f, format_.frames / 2);
+    level_.apply(io.data(), 2, format_.frames);
+    guard_.process(io.data(), format_.frames);
+    std::vector<CoilFrame> frames;
+    for (std::size_t n = 0; n < sides[0].size(); ++n) frames.push_back({sides[0][n], sides[1][n]});
+    isAtRest_ = std::ranges::all_of(
+        frames, [](const CoilFrame& frame) { return frame[0] == 0.0f && frame[1] == 0.0f; });
+    return format_.encode(frames, number_++);
+}
+
+PadReport CoilFeed::rest() {
+    isAtRest_ = true;
+    const std::vector<CoilFrame> silence(static_cast<std::size_t>(format_.frames));
+    return format_.encode(silence, number_++);
+}
+
+double CoilFeed::laterSeconds() const noexcept { return (1.5 * format_.frames + 6.2) / format_.rateHz; }
+
+} // namespace physvib

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The session's samples for a controller with a coil on either side: panned onto the two, reduced to its
+// rate, at the master level, guarded as at every output, and cut into reports at an even pace.
+#pragma once
+#include "Core/Actuators/GainRamp.h"
+#include "Core/Actuators/OutputGuard.h"
+#include "Core/EventQueue.h"
+#include "Core/PhantomPanner.h"
+#include "Live/Pads/HidFeed.h"
+#include "Live/Pads/RateReducer.h"
+#include <atomic>
+#include <vector>
+
+namespace physvib {
+
+class CoilFeed final : public HidFeed {
+public:
+    /// `panner`: the session's; its actuators are panned onto the two coils by their places from left to
+    /// right, with equal power.
+    CoilFeed(const HidFeedKind& kind, const CoilFormat& format, const PhantomPanner& panner);
+
+    const HidFeedKind& kind() const noexcept override { return kind_; }
+    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override;
+    void posted(const RenderControl& control) noexcept override;
+    void begin() override;
+    std::span<const PadReport> on() const noexcept override { return format_.on; }
+    std::span<const PadReport> off() const noexcept override { return format_.off; }
+    std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) override;
+    PadReport rest() override;
+    std::uint64_t lost() const noexcept override { return samples_.overflows() + skipped_; }
+    double laterSeconds() const noexcept override;
+
+private:
+    /// Gains of each actuator in both coils.
+    struct Sides {
+        std::size_t count = 0;
+        std::array<CoilFrame, limits::maxEnchanters> gains{};
+    };
+    static Sides sidesOf(const EnchanterLayout& layout) noexcept;
+    void drain();
+    PadReport compose(float level);
+    void watchReserve();
+    std::int64_t periodNs() const noexcept { return 1'000'000'000LL * format_.frames / format_.rateHz; }
+
+    const HidFeedKind& kind_;
+    const CoilFormat& format_;
+    const std::size_t channels_; // of the session
+    LatestValue<Sides> sides_;
+    EventQueue<CoilFrame, 16384> samples_;
+    std::atomic<int> rateHz_{0}; // of what is in the queue
+
+    RateReducer reducer_;
+    int reducedHz_; // that the reducer is for
+    GainRamp level_;
+    OutputGuard guard_;
+    std::uint32_t number_ = 0;
+    std::int64_t dueNs_ = 0; // steady time of the next report; 0: as soon as there are samples
+    std::size_t leastLeft_ = 0, reports_ = 0; // frames that stayed behind, over the last reports
+    bool isEarly_ = false;                    // more frames wait than needed: a little faster
+    bool isStarved_ = false;                  // a report was due before its samples were there
+    bool isAtRest_ = true;                    // the last report was all zeros
+    std::atomic<std::uint64_t> skipped_{0};   // frames
+};
+
+} // namespace physvib

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Reports that carry vibration to controllers with coils, byte by byte. Tried on no controller; sources are
+// in Docs/pads.md.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace physvib {
+
+/// A report with its number first.
+struct PadReport {
+    std::array<std::uint8_t, 142> bytes{};
+    std::size_t size = 0;
+    std::span<const std::uint8_t> span() const noexcept { return {bytes.data(), size}; }
+};
+
+/// One frame: left coil, right coil, -1 to 1.
+using CoilFrame = std::array<float, 2>;
+
+/// How a controller takes samples.
+struct CoilFormat {
+    int rateHz; ///< of its frames
+    int frames; ///< of one report
+    /// Frames as a report, `number` counts reports from 0. Any thread.
+    PadReport (*encode)(std::span<const CoilFrame> frames, std::uint32_t number) noexcept;
+    /// Reports that switch samples on or off, in order, `switchSeconds` apart; empty: none needed.
+    std::span<const PadReport> on, off;
+};
+constexpr double switchSeconds = 0.01;
+
+/// DualSense by Bluetooth: report 0x32, 32 frames of signed 8 bits at 3,000 Hz.
+const CoilFormat& dualSenseSamples() noexcept;
+/// Steam Controller (2026): report 0x88, 15 frames of 16 bits at 4,000 Hz, a mode that cable and radio have.
+const CoilFormat& steamSamples() noexcept;
+
+/// Two tones of one actuator of a Switch controller.
+struct TonePair {
+    double lowHz = 160.0, low = 0.0;   ///< 40.9 to 626 Hz; amplitude 0 to 1
+    double highHz = 320.0, high = 0.0; ///< 81.8 to 1,253 Hz
+    bool operator==(const TonePair&) const = default;
+};
+/// Switch controllers: report 0x10, with the tones of both sides. Frequencies and amplitudes out of range
+/// become the nearest. Any thread.
+PadReport switchTones(const TonePair& left, const TonePair& right, std::uint32_t number) noexcept;
+
+} // namespace physvib

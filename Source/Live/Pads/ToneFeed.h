@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The session's events for a controller that plays two tones on either side (HD rumble): each report carries,
+// per side, the two tones that fit what rings until the next one.
+#pragma once
+#include "Core/ControlQueue.h"
+#include "Core/PhantomPanner.h"
+#include "Live/Documents/SessionLog.h"
+#include "Live/Pads/HidFeed.h"
+#include <vector>
+
+namespace physvib {
+
+class ToneFeed final : public HidFeed {
+public:
+    static constexpr std::int64_t reportNs = 30'000'000; ///< as SDL's driver paces them
+
+    /// `panner`: the session's; events go to both sides by their places in its field.
+    ToneFeed(const HidFeedKind& kind, const PhantomPanner& panner);
+
+    const HidFeedKind& kind() const noexcept override { return kind_; }
+    void made(const CollisionEvent& event) noexcept override { events_.push(event); }
+    void posted(const RenderControl& control) noexcept override { controls_.push(control); }
+    void begin() override;
+    std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) override;
+    PadReport rest() override;
+    std::uint64_t lost() const noexcept override { return events_.overflows() + controls_.overflows(); }
+    bool playsClips() const noexcept override { return false; }
+    double leadSeconds() const noexcept override { return 1e-9 * static_cast<double>(reportNs); }
+    double laterSeconds() const noexcept override { return 0.0; }
+
+    /// A decaying sinusoid's share in a report: its frequency, and the mean square of its amplitude.
+    struct Partial {
+        double frequencyHz, energy;
+    };
+    /// The two tones that fit them: divided where both parts are nearest to a tone that can be played, each
+    /// part's energy at its mean pitch. Their energy is at most 1. Any thread.
+    static TonePair fitted(std::vector<Partial> partials);
+
+private:
+    struct Voice {
+        CollisionEvent event;
+        std::array<double, 2> gains; // left, right
+    };
+    void takeAll();
+    TonePair tonesOf(std::size_t side, std::int64_t fromNs, double level) const;
+
+    const HidFeedKind& kind_;
+    const PhantomPanner first_; // the session's first panner
+    PhantomPanner grips_;
+    EventQueue<CollisionEvent, 4096> events_; // in session time
+    ControlQueue<256> controls_;
+    std::vector<PannerChange> layouts_; // grips, waiting for their time, as the next
+    std::vector<std::int64_t> stopsNs_;
+    std::vector<Voice> voices_;
+    std::int64_t dueNs_ = INT64_MIN / 2; // steady time of the next report
+    bool isAtRest_ = true;
+    std::uint32_t number_ = 0;
+};
+
+} // namespace physvib

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Two thousand contacts in one step: what is kept, by which rule, at what cost (Docs/how-it-works.md).
+#include "Support/BegunStructs.h"
+#include "Support/SizedEvents.h"
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace physvib {
+namespace {
+
+constexpr int bodies = 2000;
+constexpr std::size_t room = 1024; // of a step
+
+template <class Work>
+double millisecondsOf(Work work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A floor and 2,000 balls of so many materials above it, which all land in one step, harder and harder.
+struct Storm {
+    explicit Storm(int materials, int hitsPerStep = -1) {
+        physvib_world_settings settings;
+        physvib_world_settings_init(&settings, sizeof settings);
+        settings.hits_per_step = hitsPerStep;
+        EXPECT_EQ(physvib_world_create(&settings, &world), PHYSVIB_OK) << physvib_error();
+        physvib_body body;
+        physvib_body_init(&body, sizeof body);
+        physvib_world_set_body(world, 0, &body);
+        body.is_camera = 1, body.mass_kg = 0.1;
+        for (int i = 1; i <= bodies; ++i) {
+            body.frequency_hz = 60.0 + 0.2 * (i % materials);
+            body.decay_per_s = 20.0;
+            EXPECT_EQ(physvib_world_set_body(world, i, &body), PHYSVIB_OK) << physvib_error();
+        }
+    }
+    ~Storm() { physvib_world_free(world); }
+    Storm(const Storm&) = delete;
+    Storm& operator=(const Storm&) = delete;
+
+    std::vector<physvib_event> land() {
+        physvib_world_begin_step(world, 0.01, 9.81);
+        physvib_world_end_step(world);
+        physvib_contact contact;
+        physvib_contact_init(&contact, sizeof contact);
+        contact.b = 0, contact.normal_y = -1.0;
+        milliseconds = millisecondsOf([&] {
+            physvib_world_begin_step(world, 0.01, 9.81);
+            for (contact.a = 1; contact.a <= bodies; ++contact.a) {
+                contact.x_m = contact.y_m = static_cast<double>(contact.a) / bodies;
+                contact.approach_m_per_s = 0.1 + 0.001 * contact.a;
+                EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
+            }
+            physvib_world_end_step(world);
+        });
+        std::vector<physvib_event> events(2 * bodies, test::sized<physvib_event>());
+        const auto count = physvib_world_take(world, events.data(), 2 * bodies, 1);
+        events.resize(static_cast<std::size_t>(std::max<physvib_int64>(0, count)));
+        return events;
+    }
+    physvib_world_counts counts() const {
+        physvib_world_counts counts;
+        physvib_world_counts_init(&counts, sizeof counts);
+        EXPECT_EQ(physvib_world_get_counts(world, &counts), PHYSVIB_OK);
+        return counts;
+    }
+    physvib_world world = nullptr;
+    double milliseconds = 0.0;
+};
+
+TEST(Storm, TheStrongestThousandOfOneStepBecomeEventsAndAllOfThemArePlayed) {
+    for (const int materials : {3, 2000}) {
+        Storm storm{materials};
+        const auto events = storm.land();
+        EXPECT_EQ(events.size(), room);
+        EXPECT_EQ(storm.counts().dropped, bodies - static_cast<int>(room));
+        for (const physvib_event& event : events)
+            EXPECT_GT(event.fixture, bodies - static_cast<int>(room))
+                << "harder and harder: the last are the strongest";
+        physvib_renderer_settings output;
+        physvib_renderer_settings_init(&output, sizeof output);
+        output.field_width_m = output.field_height_m = 1.0;
+        physvib_renderer renderer = nullptr;
+        ASSERT_EQ(physvib_renderer_create(&output, &renderer), PHYSVIB_OK) << physvib_error();
+        const int channels = output.channels > 0 ? output.channels : output.layout.count;
+        std::vector<float> samples(static_cast<std::size_t>(480 * channels));
+        const auto pull = [&] {
+            EXPECT_EQ(physvib_renderer_pull_interleaved(renderer, samples.data(), channels, 480), PHYSVIB_OK);
+        };
+        pull();
+        for (const physvib_event& event : events)
+            EXPECT_EQ(physvib_renderer_strike(renderer, &event), PHYSVIB_OK) << physvib_error();
+        double first = millisecondsOf(pull), rest = 0.0;
+        float peak = 0.0f;
+        for (int i = 0; i < 10; ++i) {
+            rest = std::max(rest, millisecondsOf(pull));
+            peak = std::max(peak, *std::ranges::max_element(samples));
+        }
+        EXPECT_GT(peak, 0.5f);
+        EXPECT_LE(peak, 1.0f) << "the limiter holds";
+        std::printf(
+            "%d materials: %.1f ms in the step, %.1f ms for the first 10 ms of sound, then up to %.1f\n",
+            materials, storm.milliseconds, first, rest);
+        physvib_renderer_free(renderer);
+    }
+}
+
+TEST(Storm, OfFewerHitsPerStepTheStrongestAreKept) {
+    Storm storm{3, 100};
+    const auto events = storm.land();
+    ASSERT_EQ(events.size(), 100u);
+    EXPECT_EQ(storm.counts().dropped, bodies - 100);
+    for (const physvib_event& event : events) EXPECT_GT(event.fixture, bodies - 101);
+}
+
+TEST(Storm, AControllerKeepsTheStrongestOfWhatWaits) {
+    Storm storm{3};
+    auto events = storm.land();
+    physvib_pads pads = nullptr;
+    ASSERT_EQ(physvib_pads_create(1, 1.0, 1.0, nullptr, &pads), PHYSVIB_OK);
+    for (std::size_t i = 0; i < events.size(); ++i) { // harder and harder: each finds room
+        events[i].time_ns = 1'000'000'000;
+        EXPECT_EQ(physvib_pads_strike(pads, 0, &events[i]), PHYSVIB_OK) << i;
+    }
+    EXPECT_EQ(physvib_pads_strike(pads, 0, &events.front()), PHYSVIB_ERROR_FULL);
+    physvib_pads_free(pads);
+}
+
+} // namespace
+} // namespace physvib

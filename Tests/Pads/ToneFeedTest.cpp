@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Two tones for Switch controllers: known bytes, silence, stops and what a fit chooses. coils.py judges
+// energy and pitch over a minute.
+#include "Live/Pads/ToneFeed.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+constexpr HidFeedKind kind{{}, "test"};
+
+std::vector<int> sideOf(const PadReport& report, std::size_t side) {
+    return {report.bytes.begin() + 2 + 4 * static_cast<std::ptrdiff_t>(side),
+            report.bytes.begin() + 6 + 4 * static_cast<std::ptrdiff_t>(side)};
+}
+const std::vector<int> neutral{0x00, 0x01, 0x40, 0x40};
+
+TEST(SwitchTones, ThePublicDescriptionsExamplesAreWritten) {
+    EXPECT_EQ(sideOf(switchTones({}, {}, 0), 0), neutral);
+    const PadReport report = switchTones({}, {341.4, 0.1894, 794.8, 0.5013}, 0x3A);
+    EXPECT_EQ(report.bytes[0], 0x10);
+    EXPECT_EQ(report.bytes[1], 0xA);
+    EXPECT_EQ(report.size, 10u);
+    EXPECT_EQ(sideOf(report, 0), neutral);
+    EXPECT_EQ(sideOf(report, 1), (std::vector<int>{0xA8, 0x89, 0xE3, 0x4D}));
+    const PadReport beyond = switchTones({5.0, 2.0, 9000.0, 2.0}, {9000.0, NAN, 5.0, -1.0}, 0);
+    EXPECT_EQ(sideOf(beyond, 0), (std::vector<int>{0xFC, 0xC9, 0x01, 0x72})) << "never above full scale";
+    EXPECT_EQ(sideOf(beyond, 1), (std::vector<int>{0x04, 0x00, 0x7F, 0x40}));
+}
+
+TEST(ToneFeed, AFitTakesTheToneThatCanPlayIt) {
+    const auto fit = [](std::vector<ToneFeed::Partial> partials) {
+        return ToneFeed::fitted(std::move(partials));
+    };
+    EXPECT_EQ(fit({}), TonePair{});
+    EXPECT_NEAR(fit({{60.0, 0.25}}).low, 0.5, 1e-9);
+    EXPECT_EQ(fit({{60.0, 0.25}}).high, 0.0);
+    EXPECT_NEAR(fit({{400.0, 0.25}}).highHz, 400.0, 1e-6);
+    const TonePair close = fit({{60.0, 1e-5}, {76.0, 0.04}});
+    EXPECT_NEAR(close.lowHz, 76.0, 0.1) << "the weak one does not force it upon the high tone";
+    const TonePair four = fit({{400.0, 0.01}, {90.0, 0.04}, {100.0, 0.04}, {420.0, 0.01}});
+    EXPECT_NEAR(four.lowHz, std::sqrt(9000.0), 0.01);
+    EXPECT_NEAR(four.highHz, std::sqrt(168000.0), 0.01);
+    EXPECT_NEAR(four.low, std::sqrt(0.08), 1e-9);
+    const TonePair loud = fit({{90.0, 4.0}, {400.0, 4.0}});
+    EXPECT_NEAR(loud.low * loud.low + loud.high * loud.high, 1.0, 1e-9);
+}
+
+TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
+    EnchanterLayout layout;
+    layoutPreset("phone2", layout);
+    ToneFeed feed{kind, {layout, PanningLaw::linear, 1.0, 1.0, 1.0}};
+    CollisionEvent tone;
+    tone.timeNs = 50 * ms;
+    tone.frequencyHz = 100.0;
+    tone.decayPerSecond = 0.1;
+    tone.amplitude = 0.8;
+    tone.x = 1.0;
+    tone.y = 0.5;
+    feed.made(tone);
+    std::int64_t now = 0;
+    const auto last = [&](int milliseconds, float level) {
+        std::optional<PadReport> newest;
+        for (const std::int64_t end = now + milliseconds * ms; now < end; now += ms)
+            if (const auto report = feed.next(1000 * ms + now, now, level)) newest = report;
+        return newest;
+    };
+    EXPECT_FALSE(last(20, 1.0f)) << "nothing rings within the next report";
+    const auto rings = last(100, 1.0f);
+    ASSERT_TRUE(rings);
+    EXPECT_EQ(sideOf(*rings, 0), neutral) << "it is on the right";
+    EXPECT_GE(sideOf(*rings, 1)[3], 0x6C);
+    const auto silent = last(31, 0.0f);
+    ASSERT_TRUE(silent);
+    EXPECT_EQ(sideOf(*silent, 1), neutral);
+    EXPECT_FALSE(last(100, 0.0f)) << "once";
+    EXPECT_NE(sideOf(*last(31, 1.0f), 1), neutral) << "what rings comes back";
+    RenderControl stop;
+    stop.timeNs = now + 10 * ms;
+    feed.posted(stop);
+    EXPECT_EQ(sideOf(*last(61, 1.0f), 1), neutral);
+    EXPECT_FALSE(last(100, 1.0f));
+}
+
+} // namespace
+} // namespace physvib
