@@ -21,7 +21,7 @@ async function play(make, seed) {
         const x = random(19) - 9;
         if (balls.some(ball => Math.abs(ball.x - x) < 0.5)) return;
         const body = engine.create({ radius, massKg: 0.2 + 0.1 * random(5), x, y: 0.3 + 0.1 * random(20), restitution: 0.1 * random(5) });
-        balls.push({ body, x, id: haptics.set(body, source), scale: 1, gap: 1 });
+        balls.push({ body, x, id: haptics.set(body, source), scale: 1, gap: 1, lastGap: 1 });
     };
     const put = ({ body, x }, y, vy) => { engine.put(body, x, y); engine.fling(body, 0, vy); };
     const acts = [ball => put(ball, 0.3 + 0.1 * random(15), 0), ({ body }) => engine.fling(body, 0, random(5) - 2), ({ body }) => engine.mass(body, 0.1 + 0.1 * random(9)),
@@ -36,7 +36,8 @@ async function play(make, seed) {
         for (const ball of balls) {
             const { vy, massKg, y } = engine.get(ball.body), { before } = ball, change = vy - before.vy, newtonSeconds = massKg * (change + g * ball.scale * seconds);
             if (ball.blow?.k === k - 1) { if (change > 0) ball.blow.newtonSeconds += newtonSeconds; } // an engine may let a gap close first, and bounce in the next step
-            else if (change > 3 * threshold && before.vy < -0.5 && before.y - radius > -0.03 && ball.gap > nearMetres) blows.push(ball.blow = { id: ball.id, k, newtonSeconds });
+            else if (change > 3 * threshold && before.vy < -0.5 && before.y - radius > -(engine.sinks ?? 0.03) && (engine.sinks ? ball.lastGap : ball.gap) > nearMetres) blows.push(ball.blow = { id: ball.id, k, newtonSeconds });
+            ball.lastGap = ball.gap;
             ball.gap = Math.min(before.y, y) - radius;
         }
     }

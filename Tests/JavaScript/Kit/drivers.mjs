@@ -140,6 +140,45 @@ async function box2d3(folder, physvib, { gravity }) {
     return driver;
 }
 
+async function cannon(folder, physvib, { gravity }) {
+    const C = await load(folder, 'cannon-es'), { attach } = await load(folder, 'physvib/cannon'), world = new C.World({ gravity: new C.Vec3(0, -gravity, 0) });
+    Object.assign(world.solver, { iterations: 30, tolerance: 0 });
+    Object.assign(world.defaultContactMaterial, { contactEquationRelaxation: 3, contactEquationStiffness: 1e8, friction: 0.3, restitution: 0 });
+    const types = { dynamic: C.Body.DYNAMIC, fixed: C.Body.STATIC, kinematic: C.Body.KINEMATIC }, bouncy = new Map();
+    const materialOf = (restitution, friction) => { // of a pair, the larger
+        const key = `${restitution},${friction}`;
+        if (!bouncy.has(key)) {
+            const made = Object.assign(new C.Material(), { ownRestitution: restitution, ownFriction: friction });
+            for (const other of [made, ...bouncy.values()]) world.addContactMaterial(new C.ContactMaterial(made, other, { ...world.defaultContactMaterial, friction: Math.min(friction, other.ownFriction), restitution: Math.max(restitution, other.ownRestitution) }));
+            bouncy.set(key, made);
+        }
+        return bouncy.get(key);
+    };
+    const driver = {
+        attach: () => attach(physvib, world, field), halfStep: 1, count: () => world.bodies.length, sinks: 0.12, // m: it looks where bodies overlap
+        create(of) {
+            const body = new C.Body({ type: types[of.type ?? 'dynamic'], mass: isDynamic(of) ? of.massKg : 0, position: new C.Vec3(of.x, of.y, 0), velocity: new C.Vec3(of.vx ?? 0, of.vy ?? 0, 0), linearDamping: 0, angularDamping: 0, material: materialOf(of.restitution ?? 0, of.friction ?? 0.3), isTrigger: of.sensor ?? false,
+                shape: of.radius ? new C.Sphere(of.radius) : new C.Box(new C.Vec3(...of.half, isDynamic(of) ? of.half[0] : 5)) });
+            body.ownKg = of.massKg;
+            body.angularFactor.set(0, 0, 1);
+            body.linearFactor.set(1, 1, 0);
+            body.quaternion.setFromAxisAngle(new C.Vec3(0, 0, 1), of.angle ?? 0);
+            if (of.lockTurn) driver.lockTurn(body);
+            world.addBody(body);
+            return body;
+        },
+        get(body) { if (body.world !== world) throw new Error('gone'); const { position: { x, y }, velocity, quaternion: q } = body; return { x, y, vx: velocity.x, vy: velocity.y, angle: 2 * Math.atan2(q.z, q.w), spin: body.angularVelocity.z, massKg: body.type === C.Body.DYNAMIC ? body.mass : 0 }; },
+        put(body, x, y) { body.position.set(x, y, 0); body.aabbNeedsUpdate = true; body.wakeUp(); }, fling(body, vx, vy, spin = 0) { body.velocity.set(vx, vy, 0); body.angularVelocity.set(0, 0, spin); body.wakeUp(); },
+        type(body, type) { body.type = types[type]; body.mass = type === 'dynamic' ? body.ownKg : 0; body.updateMassProperties(); }, mass(body, kg) { body.mass = body.ownKg = kg; body.updateMassProperties(); },
+        lockTurn(body) { body.fixedRotation = true; body.updateMassProperties(); }, gravity: y => world.gravity.set(0, -y, 0), remove: body => world.removeBody(body), sensor: (body, is) => { body.isTrigger = is; },
+        passes: (body, is) => { body.collisionFilterMask = is ? 0 : -1; }, sleep(body) { world.allowSleep = true; body.sleep(); }, moves: (body, vx, vy) => body.velocity.set(vx, vy, 0),
+        grow(body, radius) { body.shapes[0].radius = radius; body.shapes[0].updateBoundingSphereRadius(); body.updateBoundingRadius(); },
+        pin(a, b, x, y) { const from = body => new C.Vec3(x - body.position.x, y - body.position.y, 0); world.addConstraint(new C.PointToPointConstraint(a, from(a), b, from(b))); },
+        step: seconds => world.step(seconds),
+    };
+    return driver;
+}
+
 /** A game's own: circles, and boxes that do not turn. */
 async function velocities(folder, physvib, { gravity }) {
     const { attachVelocities } = await load(folder, 'physvib/velocities'), { apart, stateOf } = await load(folder, 'physvib/velocities').then(() => ({ apart: near, stateOf: null })), bodies = new Set(), pull = { x: 0, y: -gravity };
@@ -178,4 +217,4 @@ async function velocities(folder, physvib, { gravity }) {
     };
 }
 
-export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities };
+export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities, cannon };
