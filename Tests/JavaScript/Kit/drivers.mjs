@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the kit does in each engine: a few verbs. Lengths are metres, y points up; `halfStep` is the share of a step's gravity that a fall from rest begins with, so that
 // the engine's own way of integrating ends on the parabola. An engine without a verb leaves it out: what needs it is not supported there.
+import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { load } from '../installed.mjs';
@@ -179,6 +180,63 @@ async function cannon(folder, physvib, { gravity }) {
     return driver;
 }
 
+let havokModule;
+/** Havok's own package, or through Babylon's layer on an engine that draws nothing. */
+async function havok(isBabylon, folder, physvib, { gravity }) {
+    havokModule ??= await (await load(folder, '@babylonjs/havok')).default({ wasmBinary: readFileSync(join(resolve(folder), 'node_modules/@babylonjs/havok/lib/esm/HavokPhysics.wasm')) });
+    const hk = havokModule, { attach } = await load(folder, 'physvib/havok'), types = { dynamic: hk.MotionType.DYNAMIC, fixed: hk.MotionType.STATIC, kinematic: hk.MotionType.KINEMATIC }, of = (call, ...given) => hk[call](...given)[1], bodies = new Set(), pull = [0, -gravity, 0];
+    let world = isBabylon ? null : of('HP_World_Create'), scene;
+    if (isBabylon) {
+        const B = await load(folder, '@babylonjs/core');
+        B.Logger.LogLevels = B.Logger.NoneLogLevel;
+        scene = new B.Scene(new B.NullEngine());
+        scene.enablePhysics(new B.Vector3(0, -gravity, 0), new B.HavokPlugin(true, hk));
+        ({ world } = scene.getPhysicsEngine().getPhysicsPlugin());
+        Object.assign(scene, { B });
+    } else hk.HP_World_SetGravity(world, pull);
+    const idOf = body => body._pluginData?.hpBodyId ?? body, turned = angle => [0, 0, Math.sin(angle / 2), Math.cos(angle / 2)];
+    const setMass = (id, kg, isLocked) => { const [centre, , moments, turn] = of('HP_Shape_BuildMassProperties', of('HP_Body_GetShape', id)); hk.HP_Body_SetMassProperties(id, [centre, kg, isLocked ? [0, 0, 0] : moments, turn]); }; // moments are those of 1 kg
+    const driver = {
+        attach: () => attach(physvib, isBabylon ? scene : { havok: hk, world, bodies: () => bodies, gravity: () => pull }, field), halfStep: 1 / 4, count: () => bodies.size,
+        create(of3) {
+            let body, id;
+            const shape = of3.radius ? of('HP_Shape_CreateSphere', [0, 0, 0], of3.radius) : of('HP_Shape_CreateBox', [0, 0, 0], [0, 0, 0, 1], [2 * of3.half[0], 2 * of3.half[1], isDynamic(of3) ? 2 * of3.half[0] : 10]);
+            hk.HP_Shape_SetMaterial(shape, [of3.friction ?? 0.3, of3.friction ?? 0.3, of3.restitution ?? 0, hk.MaterialCombine.MINIMUM, hk.MaterialCombine.MAXIMUM]);
+            if (of3.sensor) hk.HP_Shape_SetTrigger(shape, true);
+            if (isBabylon) {
+                const node = new scene.B.TransformNode('', scene);
+                node.position.set(of3.x, of3.y, 0);
+                node.rotationQuaternion = new scene.B.Quaternion(...turned(of3.angle ?? 0));
+                body = new scene.B.PhysicsBody(node, { fixed: 0, kinematic: 1, dynamic: 2 }[of3.type ?? 'dynamic'], false, scene);
+                body.disablePreStep = true;
+                id = idOf(body);
+            } else {
+                body = id = of('HP_Body_Create');
+                hk.HP_Body_SetMotionType(id, types[of3.type ?? 'dynamic']);
+            }
+            hk.HP_Body_SetShape(id, shape);
+            setMass(id, of3.massKg || 1, of3.lockTurn);
+            hk.HP_Body_SetQTransform(id, [[of3.x, of3.y, 0], turned(of3.angle ?? 0)]);
+            hk.HP_Body_SetLinearDamping(id, 0);
+            hk.HP_Body_SetAngularDamping(id, 0);
+            if (!isBabylon) hk.HP_World_AddBody(world, id, false);
+            driver.fling(body, of3.vx ?? 0, of3.vy ?? 0, of3.spin ?? 0);
+            bodies.add(body);
+            return body;
+        },
+        get(body) { if (!bodies.has(body)) throw new Error('gone'); const id = idOf(body), [[x, y], [, , s, c]] = of('HP_Body_GetQTransform', id), [vx, vy] = of('HP_Body_GetLinearVelocity', id); return { x, y, vx, vy, angle: 2 * Math.atan2(s, c), spin: of('HP_Body_GetAngularVelocity', id)[2], massKg: of('HP_Body_GetMotionType', id) === types.dynamic ? of('HP_Body_GetMassProperties', id)[1] : 0 }; },
+        put: (body, x, y) => hk.HP_Body_SetPosition(idOf(body), [x, y, 0]), fling(body, vx, vy, spin = 0) { hk.HP_Body_SetActivationState(idOf(body), hk.ActivationState.ACTIVE); hk.HP_Body_SetLinearVelocity(idOf(body), [vx, vy, 0]); hk.HP_Body_SetAngularVelocity(idOf(body), [0, 0, spin]); },
+        type: (body, type) => hk.HP_Body_SetMotionType(idOf(body), types[type]), mass: (body, kg) => setMass(idOf(body), kg), lockTurn: body => setMass(idOf(body), of('HP_Body_GetMassProperties', idOf(body))[1], true),
+        gravityScale: (body, scale) => hk.HP_Body_SetGravityFactor(idOf(body), scale), gravity(y) { if (isBabylon) scene.getPhysicsEngine().setGravity(new scene.B.Vector3(0, -y, 0)); else { pull[1] = -y; hk.HP_World_SetGravity(world, pull); } },
+        remove(body) { bodies.delete(body); if (isBabylon) { const { transformNode } = body; body.dispose(); transformNode.dispose(); } else { hk.HP_World_RemoveBody(world, body); hk.HP_Body_Release(body); } },
+        sensor: (body, is) => hk.HP_Shape_SetTrigger(of('HP_Body_GetShape', idOf(body)), is), passes: (body, is) => hk.HP_Shape_SetFilterInfo(of('HP_Body_GetShape', idOf(body)), is ? [1, 0] : [0xffffffff, 0xffffffff]),
+        sleep: body => hk.HP_Body_SetActivationState(idOf(body), hk.ActivationState.INACTIVE), moves: (body, vx, vy) => hk.HP_Body_SetLinearVelocity(idOf(body), [vx, vy, 0]), moveTo: (body, x, y) => hk.HP_Body_SetTargetQTransform(idOf(body), [[x, y, 0], [0, 0, 0, 1]]),
+        step(seconds) { hk.HP_World_SetIdealStepTime(world, seconds || 1 / 60); if (isBabylon) scene.getPhysicsEngine()._step(seconds); else hk.HP_World_Step(world, seconds); },
+        end: () => (isBabylon ? scene.dispose() : hk.HP_World_Release(world)),
+    };
+    return driver;
+}
+
 /** A game's own: circles, and boxes that do not turn. */
 async function velocities(folder, physvib, { gravity }) {
     const { attachVelocities } = await load(folder, 'physvib/velocities'), { apart, stateOf } = await load(folder, 'physvib/velocities').then(() => ({ apart: near, stateOf: null })), bodies = new Set(), pull = { x: 0, y: -gravity };
@@ -217,4 +275,4 @@ async function velocities(folder, physvib, { gravity }) {
     };
 }
 
-export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities, cannon };
+export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities, cannon, havok: (...rest) => havok(false, ...rest), babylon: (...rest) => havok(true, ...rest) };

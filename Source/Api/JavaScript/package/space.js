@@ -53,9 +53,10 @@ export class SpaceHaptics extends Haptics {
     #seconds = 0; #lastSeconds = 0; #pull = nowhere; #now = { at: nowhere, v: nowhere, turns: nowhere, inverse: null, isRound: false, isAsleep: false }; #spot = Object.assign(contactOf(), { soft: 1 });
 
     /** `engine`: besides what Haptics asks, bodies(); read(body, to), which writes at (centre of mass), v, turns, inverse (as World.moveInSpace), isAsleep;
-     * contacts(tell, placeOf), which calls tell of each point, and may ask where a body was before; gravity(). Lengths are the engine's. `isSoft`: it takes more than a step for a blow. */
+     * contacts(tell, placeOf), which calls tell of each point, and may ask where a body was before; gravity(). Lengths are the engine's. `isSoft`: it takes more than a step for a blow; `subSteps`:
+     * it moves by such shares of a step. */
     constructor(physvib, engine, options) {
-        super(physvib, { keyOf: body => body, look: () => ({ filters: [] }), isSoft: true, ...engine }, options);
+        super(physvib, { keyOf: body => body, look: () => ({ filters: [] }), isSoft: true, subSteps: 1, ...engine }, options);
         this.#spot.soft = this.engine.isSoft ? 1 : leftOut;
     }
 
@@ -92,13 +93,18 @@ export class SpaceHaptics extends Haptics {
     #after() {
         const moving = [];
         for (const known of this.eachThere()) {
-            if (known.isStatic || !known.at) continue;
+            if (!known.at) continue;
             const { at, v, turns } = this.#read(known.body);
+            if (known.isStatic) { // what is moved by its place has its speed within the step
+                known.v = v;
+                known.turns = turns;
+                continue;
+            }
             this.journal.movedInSpace(known.id, v, turns);
             moving.push([known, at, v]);
         }
         this.engine.contacts(this.#tell, this.#placeOf);
-        for (const [{ stop }, at, v] of moving) stopBehind(stop, at, v, this.#seconds, this.#seconds); // for the next step's contacts
+        for (const [{ stop }, at, v] of moving) stopBehind(stop, at, v, this.#seconds, this.#seconds / this.engine.subSteps); // for the next step's contacts
         this.#lastSeconds = this.#seconds;
     }
 
@@ -113,7 +119,7 @@ export class SpaceHaptics extends Haptics {
         const short = spot.gap + (isPut ? 0 : Math.min(0, lostAt(b, spot) - lostAt(a, spot)));
         meet(spot, pull, seconds);
         if (short < 0 && speed > 0) {
-            spot.fraction = isPut ? 0 : closingOf(short, speed, pull, seconds, this.#lastSeconds, seconds);
+            spot.fraction = isPut ? 0 : closingOf(short, speed, pull, seconds, this.#lastSeconds, seconds / this.engine.subSteps);
             spot.gap = leftOut;
         }
         spot.restitution = Math.min(1, Math.max(0, restitution));
