@@ -237,6 +237,44 @@ async function havok(isBabylon, folder, physvib, { gravity }) {
     return driver;
 }
 
+let joltModule;
+async function jolt(folder, physvib, { gravity }) {
+    const J = joltModule ??= await (await load(folder, 'jolt-physics')).default(), { attach } = await load(folder, 'physvib/jolt'), settings = new J.JoltSettings(), pairs = new J.ObjectLayerPairFilterTable(3), layers = new J.BroadPhaseLayerInterfaceTable(3, 2), [fixed, moving, passing] = [0, 1, 2];
+    Object.assign(settings, { mMaxWorkerThreads: 0, mMaxBodies: 1024, mMaxBodyPairs: 1024, mMaxContactConstraints: 1024 });
+    pairs.EnableCollision(fixed, moving);
+    pairs.EnableCollision(moving, moving);
+    for (const [layer, broad] of [[fixed, 0], [moving, 1], [passing, 1]]) layers.MapObjectToBroadPhaseLayer(layer, new J.BroadPhaseLayer(broad));
+    Object.assign(settings, { mObjectLayerPairFilter: pairs, mBroadPhaseLayerInterface: layers, mObjectVsBroadPhaseLayerFilter: new J.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 3) });
+    const world = new J.JoltInterface(settings), system = world.GetPhysicsSystem(), bodies = system.GetBodyInterface(), v = (x, y, z = 0) => new J.Vec3(x, y, z), at = (x, y) => new J.RVec3(x, y, 0), on = J.EActivation_Activate, there = new Set();
+    const types = { dynamic: J.EMotionType_Dynamic, fixed: J.EMotionType_Static, kinematic: J.EMotionType_Kinematic }, turned = angle => new J.Quat(0, 0, Math.sin(angle / 2), Math.cos(angle / 2));
+    system.SetGravity(v(0, -gravity));
+    const driver = {
+        attach: () => attach(physvib, { Jolt: J, interface: world }, field), halfStep: 1, count: () => there.size,
+        create(of) {
+            const shape = of.radius ? new J.SphereShape(of.radius) : new J.BoxShape(v(of.half[0], of.half[1], isDynamic(of) ? of.half[0] : 5), 0);
+            const made = new J.BodyCreationSettings(shape, at(of.x, of.y), turned(of.angle ?? 0), types[of.type ?? 'dynamic'], of.type === 'fixed' && !of.massKg ? fixed : moving);
+            Object.assign(made, { mRestitution: of.restitution ?? 0, mFriction: of.friction ?? 0.3, mLinearDamping: 0, mAngularDamping: 0, mAllowSleeping: false, mIsSensor: of.sensor ?? false, mAllowDynamicOrKinematic: true, mGravityFactor: 1, mMotionQuality: of.bullet ? J.EMotionQuality_LinearCast : J.EMotionQuality_Discrete,
+                mAllowedDOFs: J.EAllowedDOFs_TranslationX | J.EAllowedDOFs_TranslationY | (of.lockTurn ? 0 : J.EAllowedDOFs_RotationZ), mOverrideMassProperties: J.EOverrideMassProperties_CalculateInertia });
+            made.mMassPropertiesOverride.mMass = of.massKg || 1;
+            const body = bodies.CreateBody(made);
+            bodies.AddBody(body.GetID(), on);
+            const held = { body, id: new J.BodyID(body.GetID().GetIndexAndSequenceNumber()), GetID: () => held.id };
+            there.add(held);
+            driver.fling(held, of.vx ?? 0, of.vy ?? 0, of.spin ?? 0);
+            return held;
+        },
+        get(held) { if (!there.has(held)) throw new Error('gone'); const { body } = held, place = body.GetCenterOfMassPosition(), x = place.GetX(), y = place.GetY(), speed = body.GetLinearVelocity(), vx = speed.GetX(), vy = speed.GetY(), turn = body.GetRotation(); return { x, y, vx, vy, angle: 2 * Math.atan2(turn.GetZ(), turn.GetW()), spin: body.GetAngularVelocity().GetZ(), massKg: body.IsDynamic() ? 1 / body.GetMotionProperties().GetInverseMass() : 0 }; },
+        put: (held, x, y) => bodies.SetPosition(held.id, at(x, y), on), fling(held, x, y, spin = 0) { if (held.body.IsStatic()) return; bodies.SetLinearVelocity(held.id, v(x, y)); bodies.SetAngularVelocity(held.id, v(0, 0, spin)); bodies.ActivateBody(held.id); },
+        type: (held, type) => bodies.SetMotionType(held.id, types[type], on), mass(held, kg) { const motion = held.body.GetMotionProperties(), by = motion.GetInverseMass() * kg, inertia = motion.GetInverseInertiaDiagonal(), [x, y, z] = [inertia.GetX(), inertia.GetY(), inertia.GetZ()]; motion.SetInverseMass(1 / kg); motion.SetInverseInertia(v(x / by, y / by, z / by), new J.Quat(0, 0, 0, 1)); },
+        gravityScale: (held, scale) => bodies.SetGravityFactor(held.id, scale), gravity: y => system.SetGravity(v(0, -y)), remove(held) { there.delete(held); bodies.RemoveBody(held.id); bodies.DestroyBody(held.id); },
+        sensor: (held, is) => held.body.SetIsSensor(is), passes: (held, is) => bodies.SetObjectLayer(held.id, is ? passing : moving), sleep: held => bodies.DeactivateBody(held.id),
+        moves: (held, x, y) => bodies.SetLinearVelocity(held.id, v(x, y)), moveTo: (held, x, y, seconds) => bodies.MoveKinematic(held.id, at(x, y), turned(0), seconds),
+        pin(a, b, x, y) { const joint = new J.PointConstraintSettings(); joint.mPoint1 = joint.mPoint2 = at(x, y); system.AddConstraint(joint.Create(a.body, b.body)); },
+        step: seconds => world.Step(seconds, 1), end: () => J.destroy(world),
+    };
+    return driver;
+}
+
 /** A game's own: circles, and boxes that do not turn. */
 async function velocities(folder, physvib, { gravity }) {
     const { attachVelocities } = await load(folder, 'physvib/velocities'), { apart, stateOf } = await load(folder, 'physvib/velocities').then(() => ({ apart: near, stateOf: null })), bodies = new Set(), pull = { x: 0, y: -gravity };
@@ -275,4 +313,4 @@ async function velocities(folder, physvib, { gravity }) {
     };
 }
 
-export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities, cannon, havok: (...rest) => havok(false, ...rest), babylon: (...rest) => havok(true, ...rest) };
+export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities, cannon, havok: (...rest) => havok(false, ...rest), babylon: (...rest) => havok(true, ...rest), jolt };

@@ -2,31 +2,12 @@
 // Havok: Babylon's scene with HavokPlugin, or the package @babylonjs/havok itself. It tells a bounce in three events whose impulses are not those of its steps, so they
 // say only who touches, and where.
 import { expectEngine } from './haptics.js';
-import { dot, inverseOf, plus, SpaceHaptics, turn } from './space.js';
+import { aroundSteps, dot, inverseOf, plus, SpaceHaptics, turn } from './space.js';
 
 const xyz = ([x, y, z]) => ({ x, y, z }), axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(xyz);
 const numberOf = id => id?.[0]; // Babylon takes it from what it disposes of
 // MaterialCombine, by its number.
 const combined = [(a, b) => Math.sqrt(a * b), Math.min, Math.max, (a, b) => (a + b) / 2, (a, b) => a * b];
-
-// Who is called around each step, by module: whoever steps, a scene or a game, calls the same function.
-const stepped = new WeakMap();
-function around(hk, haptics) {
-    let each = stepped.get(hk);
-    if (each === undefined) {
-        stepped.set(hk, each = new Set());
-        const step = hk.HP_World_Step;
-        hk.HP_World_Step = (world, seconds) => {
-            const mine = [...each].filter(one => one.isOf(world));
-            for (const one of mine) one.before(seconds);
-            const result = step(world, seconds);
-            for (const one of mine) one.after();
-            return result;
-        };
-    }
-    each.add(haptics);
-    return () => each.delete(haptics);
-}
 
 class HavokHaptics extends SpaceHaptics {
     #there = new Map(); #masks = new Map(); #hk; #idOf; #end;
@@ -70,10 +51,9 @@ class HavokHaptics extends SpaceHaptics {
             },
             ...engine,
         }, options);
-        Object.assign(this, { isOf: other => numberOf(other) === numberOf(world) });
         this.#hk = hk;
         this.#idOf = idOf;
-        this.#end = around(hk, this);
+        this.#end = aroundSteps(hk, 'HP_World_Step', this, of => numberOf(of) === numberOf(world));
     }
     // Bodies tell of contacts if they are asked to.
     #listen(body) {

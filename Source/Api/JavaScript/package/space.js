@@ -49,12 +49,30 @@ export function stopBefore(known, free) {
 }
 export const stopBehind = (stop, at, v, seconds, subSeconds) => endOf(stop, at.x, at.y, at.z, v.x, v.y, v.z, seconds, subSeconds);
 
+const stepped = new WeakMap();
+/** `haptics` looks before and behind each step that whoever makes by `object[name]`, as long as what it returns is not called. `isOurs(...given)`: it is of our world;
+ * `secondsOf(...given)`: its length. */
+export function aroundSteps(object, name, haptics, isOurs = () => true, secondsOf = (world, seconds) => seconds) {
+    let each = stepped.get(object);
+    if (each === undefined) {
+        stepped.set(object, each = new Map());
+        const step = object[name];
+        object[name] = function (...given) {
+            const ours = [...each].filter(([, of]) => of.isOurs(...given));
+            for (const [one, of] of ours) one.before(of.secondsOf(...given));
+            try { return step.apply(this, given); } finally { for (const [one] of ours) one.after(); }
+        };
+    }
+    each.set(haptics, { isOurs, secondsOf });
+    return () => each.delete(haptics);
+}
+
 export class SpaceHaptics extends Haptics {
     #seconds = 0; #lastSeconds = 0; #pull = nowhere; #now = { at: nowhere, v: nowhere, turns: nowhere, inverse: null, isRound: false, isAsleep: false }; #spot = Object.assign(contactOf(), { soft: 1 });
 
     /** `engine`: besides what Haptics asks, bodies(); read(body, to), which writes at (centre of mass), v, turns, inverse (as World.moveInSpace), isAsleep;
      * contacts(tell, placeOf), which calls tell of each point, and may ask where a body was before; gravity(). Lengths are the engine's. `isSoft`: it takes more than a step for a blow; `subSteps`:
-     * it moves by such shares of a step. */
+     * it moves by such shares of a step; `looksAhead`: it tells of what will not touch in the step. */
     constructor(physvib, engine, options) {
         super(physvib, { keyOf: body => body, look: () => ({ filters: [] }), isSoft: true, subSteps: 1, ...engine }, options);
         this.#spot.soft = this.engine.isSoft ? 1 : leftOut;
@@ -109,20 +127,21 @@ export class SpaceHaptics extends Haptics {
     }
 
     #placeOf = body => plus(nowhere, this.known(body)?.at ?? nowhere, 1 / this.metresPerUnit);
-    // `gap`: when the engine looked, before it moved anything; `impulse`: of a contact that lasts, if it is known.
-    #tell = (bodyA, bodyB, at, normal, gap, restitution, impulse = leftOut) => {
+    // `gap`: when the engine looked, before it moved anything; it bounces at `least` (m/s) and more; `impulse`: of a contact that lasts, if it is known.
+    #tell = (bodyA, bodyB, at, normal, gap, restitution, least = 0, impulse = leftOut) => {
         const a = this.known(bodyA), b = this.known(bodyB), unit = this.metresPerUnit, spot = this.#spot, seconds = this.#seconds;
         if (!a?.at || !b?.at || a === b || (a.isStatic && b.isStatic)) return;
         spotAt(a, b, plus(nowhere, at, unit), normal, spot);
         const pull = (a.falls - b.falls) * dot(this.#pull, normal), isPut = a.stop?.isPut || b.stop?.isPut, { approach: speed } = spot;
         spot.gap = gap * unit;
+        if (this.engine.looksAhead && spot.gap > Math.max(0, speed + pull * seconds) * seconds + 1e-6) return; // near, and not yet there
         const short = spot.gap + (isPut ? 0 : Math.min(0, lostAt(b, spot) - lostAt(a, spot)));
         meet(spot, pull, seconds);
-        if (short < 0 && speed > 0) {
-            spot.fraction = isPut ? 0 : closingOf(short, speed, pull, seconds, this.#lastSeconds, seconds / this.engine.subSteps);
+        if (short < 0 ? speed > 0 : spot.fraction !== leftOut) {
+            spot.fraction = isPut && short < 0 ? 0 : closingOf(short, speed, pull, seconds, this.#lastSeconds, seconds / this.engine.subSteps);
             spot.gap = leftOut;
         }
-        spot.restitution = Math.min(1, Math.max(0, restitution));
+        spot.restitution = spot.approach < least * unit ? 0 : Math.min(1, Math.max(0, restitution));
         spot.impulse = impulse;
         spot.point = a.isRound || b.isRound ? 0 : -2;
         this.journal.touch(a.id, b.id, spot);
