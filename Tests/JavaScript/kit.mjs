@@ -24,9 +24,9 @@ function gapOf(a, b) {
 
 /** What one engine does in one situation. */
 async function play(make, situation) {
-    const rate = situation.rate ?? 60, gravity = situation.gravity ?? g, driver = await make(folder, physvib, { gravity }), haptics = driver.attach(), second = situation.twice ? driver.attach() : null;
+    const rate = situation.rate ?? 60, gravity = situation.gravity ?? g, driver = await make(folder, physvib, { gravity }), haptics = driver.attach(), second = situation.twice && !driver.isClosed ? driver.attach() : null;
     const all = {}, kinds = new Map(), ids = new Map(), motions = [], lengthOf = situation.steps ?? (() => 1 / rate);
-    const scales = new Map(), rise = massKg => (massKg > 0 ? gravity * driver.halfStep * lengthOf(0) / 2 : 0);
+    const scales = new Map(), rise = massKg => (massKg > 0 ? gravity * Math.min(driver.halfSeconds ?? Infinity, driver.halfStep * lengthOf(0)) / 2 : 0);
     const e = new Proxy(driver, { get(target, name) {
         if (name === 'touchesAll') return target.touchesAll;
         if (name === 'rest') return body => target.fling(body, 0, rise(1));
@@ -39,6 +39,8 @@ async function play(make, situation) {
     function made({ isSource, later, ...of }) {
         const isMoving = (of.type ?? 'dynamic') === 'dynamic', values = { ...of, x: of.x + (situation.x ?? 0), massKg: of.massKg ?? later, vy: (of.vy ?? 0) + (isMoving ? rise(1) : 0) };
         if (of.sensor && !('sensor' in driver)) throw new NotThere('sensor');
+        if (driver.hasNoKinematic && of.type === 'kinematic') throw new NotThere('kinematic');
+        if (driver.isClosed && motions.length > 0) throw new NotThere('make');
         if (of.angle && driver.isUnturned) throw new NotThere('angle');
         const body = driver.create(values);
         kinds.set(body, { ...of });

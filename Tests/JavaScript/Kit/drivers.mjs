@@ -275,6 +275,44 @@ async function jolt(folder, physvib, { gravity }) {
     return driver;
 }
 
+let mujocoModule;
+/** Its model is compiled when the first step comes; bodies move in the plane. By steps of 2 ms at most. */
+async function mujoco(folder, physvib, { gravity }) {
+    const M = mujocoModule ??= await (await load(folder, '@mujoco/mujoco')).default(), { attach } = await load(folder, 'physvib/mujoco'), all = [], waiting = [];
+    let model = null, data = null, haptics = null, options = null;
+    const solref = e => { const log = Math.log(e || 1e-9), ratio = e > 0 ? -log / Math.hypot(Math.PI, log) : 1; return `0.02 ${ratio}`; }; // the first as it is at first
+    const bodyOf = (of, i) => `<body name="b${i}" pos="${of.x} 0 ${of.y}" euler="0 ${-(of.angle ?? 0) * 180 / Math.PI} 0">${isDynamic(of) ? `<joint name="x${i}" type="slide" axis="1 0 0"/><joint name="z${i}" type="slide" axis="0 0 1"/>${of.lockTurn ? '' : `<joint name="w${i}" type="hinge" axis="0 -1 0"/>`}` : ''}
+        <geom type="${of.radius ? 'sphere' : 'box'}" size="${of.radius ?? `${of.half[0]} ${isDynamic(of) ? of.half[0] : 5} ${of.half[1]}`}" mass="${of.massKg || 1}" solref="${solref(of.restitution)}" friction="${of.friction ?? 0.3} 0 0" condim="3" solimp="0.99 0.99 0.001"/></body>`;
+    function compile() {
+        model = M.MjModel.from_xml_string(`<mujoco><option timestep="0.002" gravity="0 0 ${-gravity}" cone="elliptic"/><worldbody>${all.map(bodyOf).join('')}</worldbody></mujoco>`);
+        data = new M.MjData(model);
+        for (const [i, of] of all.entries()) if (isDynamic(of)) { driver.fling(i, of.vx ?? 0, of.vy ?? 0, of.spin ?? 0); }
+        M.mj_forward(model, data);
+        if (options) haptics = attach(physvib, { mujoco: M, model, data }, options);
+        for (const [body, values] of waiting) haptics.set(`b${body}`, values);
+    }
+    // Slide, slide, hinge: three numbers of each moving body, in order.
+    const placeOf = body => all.slice(0, body).reduce((sum, of) => sum + (isDynamic(of) ? 3 - (of.lockTurn ? 1 : 0) : 0), 0);
+    const driver = {
+        hasNoKinematic: true, isClosed: true, halfStep: 1, halfSeconds: 0.002, count: () => all.length, sinks: 0.12,
+        attach() { options = field; return { set(body, values) { waiting.push([body, values]); if (haptics) haptics.set(`b${body}`, values); return body + 1; }, take(atOnce) { const numbers = new Map(all.map((_, i) => [haptics.id(i + 1), i + 1])); return haptics.take(atOnce).map(event => ({ ...event, fixture: numbers.get(event.fixture) })); }, explain: () => haptics?.explain() ?? '', get error() { return haptics?.error ?? null; }, free: () => haptics?.free() }; },
+        create(of) { all.push({ ...of }); return all.length - 1; },
+        get(body) { const of = all[body], at = placeOf(body), q = data?.qpos, v = data?.qvel, isFree = isDynamic(of) && data; return { x: of.x + (isFree ? q[at] : 0), y: of.y + (isFree ? q[at + 1] : 0), vx: isFree ? v[at] : of.vx ?? 0, vy: isFree ? v[at + 1] : of.vy ?? 0, angle: (of.angle ?? 0) + (isFree && !of.lockTurn ? q[at + 2] : 0), spin: isFree && !of.lockTurn ? v[at + 2] : 0, massKg: isDynamic(of) ? data ? model.body_mass[body + 1] : of.massKg : 0 }; },
+        put(body, x, y) { const of = all[body]; if (!data || !isDynamic(of)) { Object.assign(of, { x, y }); if (data) { model.body_pos[3 * body + 3] = x; model.body_pos[3 * body + 5] = y; } return; } const at = placeOf(body); data.qpos[at] = x - of.x; data.qpos[at + 1] = y - of.y; },
+        fling(body, vx, vy, spin = 0) { if (!data) { Object.assign(all[body], { vx, vy, spin }); return; } const at = placeOf(body); data.qvel[at] = vx; data.qvel[at + 1] = vy; if (!all[body].lockTurn) data.qvel[at + 2] = spin; },
+        mass(body, kg) { if (!data) compile(); const by = kg / model.body_mass[body + 1]; model.body_mass[body + 1] = kg; for (let i = 3; i < 6; ++i) model.body_inertia[3 * body + i] *= by; const at = placeOf(body), q = [...data.qpos], v = [...data.qvel]; M.mj_setConst(model, data); q.forEach((value, i) => { data.qpos[i] = value; }); v.forEach((value, i) => { data.qvel[i] = value; }); },
+        gravity(y) { model.opt.gravity[2] = -y; }, passes(body, is) { if (!data) compile(); const geom = model.body_geomadr[body + 1]; model.geom_contype[geom] = model.geom_conaffinity[geom] = is ? 0 : 1; },
+        step(seconds) {
+            if (!data) compile();
+            const count = Math.ceil(seconds / 0.002 - 1e-9);
+            if (count > 0) model.opt.timestep = seconds / count;
+            for (let i = 0; i < count; ++i) haptics.update();
+        },
+        end() { data?.delete(); model?.delete(); },
+    };
+    return driver;
+}
+
 /** A game's own: circles, and boxes that do not turn. */
 async function velocities(folder, physvib, { gravity }) {
     const { attachVelocities } = await load(folder, 'physvib/velocities'), { apart, stateOf } = await load(folder, 'physvib/velocities').then(() => ({ apart: near, stateOf: null })), bodies = new Set(), pull = { x: 0, y: -gravity };
@@ -313,4 +351,4 @@ async function velocities(folder, physvib, { gravity }) {
     };
 }
 
-export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities, cannon, havok: (...rest) => havok(false, ...rest), babylon: (...rest) => havok(true, ...rest), jolt };
+export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities, cannon, havok: (...rest) => havok(false, ...rest), babylon: (...rest) => havok(true, ...rest), jolt, mujoco };

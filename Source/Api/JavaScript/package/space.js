@@ -72,7 +72,8 @@ export class SpaceHaptics extends Haptics {
 
     /** `engine`: besides what Haptics asks, bodies(); read(body, to), which writes at (centre of mass), v, turns, inverse (as World.moveInSpace), isAsleep;
      * contacts(tell, placeOf), which calls tell of each point, and may ask where a body was before; gravity(). Lengths are the engine's. `isSoft`: it takes more than a step for a blow; `subSteps`:
-     * it moves by such shares of a step; `looksAhead`: it tells of what will not touch in the step. */
+     * it moves by such shares of a step; `looksAhead`: it tells of what will not touch in the step;
+     * `tellsImpulses`: of contacts that last; velocities behind the step are not asked. */
     constructor(physvib, engine, options) {
         super(physvib, { keyOf: body => body, look: () => ({ filters: [] }), isSoft: true, subSteps: 1, ...engine }, options);
         this.#spot.soft = this.engine.isSoft ? 1 : leftOut;
@@ -104,14 +105,14 @@ export class SpaceHaptics extends Haptics {
             const { at, v, turns, inverse, isRound, isAsleep } = this.#read(known.body);
             Object.assign(known, { at, v, turns, isRound, falls: known.isStatic || isAsleep ? 0 : known.gravityScale });
             const free = plus(v, this.#pull, known.falls * seconds);
-            stopBefore(known, free);
+            if (!this.engine.tellsImpulses) stopBefore(known, free);
             this.journal.moveInSpace(known.id, at, free, turns, known.isStatic || !inverse ? null : inverse.map(part => part / (unit * unit)));
         }
     }
     #after() {
         const moving = [];
         for (const known of this.eachThere()) {
-            if (!known.at) continue;
+            if (!known.at || this.engine.tellsImpulses) continue;
             const { at, v, turns } = this.#read(known.body);
             if (known.isStatic) { // what is moved by its place has its speed within the step
                 known.v = v;
