@@ -2,7 +2,8 @@
 // Havok: Babylon's scene with HavokPlugin, or the package @babylonjs/havok itself. It tells a bounce in three events whose impulses are not those of its steps, so they
 // say only who touches, and where.
 import { expectEngine } from './haptics.js';
-import { aroundSteps, dot, inverseOf, plus, SpaceHaptics, turn } from './space.js';
+import { dot, inverseOf, plus, SpaceHaptics, turn } from './space.js';
+import { aroundSteps } from './steps.js';
 
 const xyz = ([x, y, z]) => ({ x, y, z }), axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(xyz);
 const numberOf = id => id?.[0]; // Babylon takes it from what it disposes of
@@ -53,7 +54,7 @@ class HavokHaptics extends SpaceHaptics {
         }, options);
         this.#hk = hk;
         this.#idOf = idOf;
-        this.#end = aroundSteps(hk, 'HP_World_Step', this, of => numberOf(of) === numberOf(world));
+        this.#end = aroundSteps(hk, 'HP_World_Step', this, (of, seconds) => seconds, of => numberOf(of) === numberOf(world));
     }
     // Bodies tell of contacts if they are asked to.
     #listen(body) {

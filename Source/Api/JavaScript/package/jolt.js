@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Jolt by jolt-physics: it looks ahead, and its listener of contacts says who may touch before it solves, and no impulses. A game's own listener is called, too.
 import { expectEngine } from './haptics.js';
-import { aroundSteps, dot, plus, SpaceHaptics } from './space.js';
+import { dot, plus, SpaceHaptics } from './space.js';
+import { aroundSteps } from './steps.js';
 
 const xyz = v => ({ x: v.GetX(), y: v.GetY(), z: v.GetZ() }); // it gives the same object again and again
 
@@ -67,7 +68,7 @@ class JoltHaptics extends SpaceHaptics {
         this.#list = new Jolt.BodyIDVector();
         if (!earsOf.has(jolt)) earsOf.set(jolt, new Ears(Jolt, system));
         this.#ears = earsOf.get(jolt);
-        this.#end = aroundSteps(jolt, 'Step', this, undefined, seconds => seconds);
+        this.#end = aroundSteps(jolt, 'Step', this, seconds => seconds);
     }
     before(seconds) {
         this.#contacts.length = 0;

@@ -49,24 +49,6 @@ export function stopBefore(known, free) {
 }
 export const stopBehind = (stop, at, v, seconds, subSeconds) => endOf(stop, at.x, at.y, at.z, v.x, v.y, v.z, seconds, subSeconds);
 
-const stepped = new WeakMap();
-/** `haptics` looks before and behind each step that whoever makes by `object[name]`, as long as what it returns is not called. `isOurs(...given)`: it is of our world;
- * `secondsOf(...given)`: its length. */
-export function aroundSteps(object, name, haptics, isOurs = () => true, secondsOf = (world, seconds) => seconds) {
-    let each = stepped.get(object);
-    if (each === undefined) {
-        stepped.set(object, each = new Map());
-        const step = object[name];
-        object[name] = function (...given) {
-            const ours = [...each].filter(([, of]) => of.isOurs(...given));
-            for (const [one, of] of ours) one.before(of.secondsOf(...given));
-            try { return step.apply(this, given); } finally { for (const [one] of ours) one.after(); }
-        };
-    }
-    each.set(haptics, { isOurs, secondsOf });
-    return () => each.delete(haptics);
-}
-
 export class SpaceHaptics extends Haptics {
     #seconds = 0; #lastSeconds = 0; #pull = nowhere; #now = { at: nowhere, v: nowhere, turns: nowhere, inverse: null, isRound: false, isAsleep: false }; #spot = Object.assign(contactOf(), { soft: 1 });
 
@@ -81,7 +63,7 @@ export class SpaceHaptics extends Haptics {
 
     /** Before a step of the engine, and behind it: for who lets another step it. */
     before(seconds) { this.guarded(() => this.#before(seconds)); }
-    after() { this.finish(() => this.#after()); }
+    after(isDone = true) { this.finish(isDone ? () => this.#after() : undefined); }
     /** `advance` makes the engine's step. */
     step(seconds, advance = () => this.engine.advance(seconds)) { this.around(() => advance(seconds), () => this.#before(seconds), () => this.#after()); }
     update(seconds) { this.step(seconds); }
