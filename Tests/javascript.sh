@@ -22,7 +22,7 @@ cd "$OLDPWD"
 for test in package pads audio silent; do node "Tests/JavaScript/$test.mjs" "$work" "$physvib"; done
 for test in insecure link clock; do node "Tests/JavaScript/$test.mjs"; done
 say "taking the engines from npm"
-(cd "$work" && npm install --silent --no-audit --no-fund "$jspsych" matter-js@0.20 planck@1 @dimforge/rapier2d-compat@0.21 @dimforge/rapier3d-compat@0.21 box2d3-wasm@5.2 cannon-es@0.20 @babylonjs/havok@1 @babylonjs/core@9 jolt-physics@1 @mujoco/mujoco@3 react@19 @react-three/fiber@9 @react-three/rapier@2 @react-three/test-renderer@9 phaser@4 excalibur@0.32 kaplay@3001 melonjs@18 three@0.187 jspsych@8 typescript@5)
+(cd "$work" && npm install --silent --no-audit --no-fund "$jspsych" matter-js@0.20 planck@1 @dimforge/rapier2d-compat@0.21 @dimforge/rapier3d-compat@0.21 box2d3-wasm@5.2 cannon-es@0.20 @babylonjs/havok@1 @babylonjs/core@9 jolt-physics@1 @mujoco/mujoco@3 react@19 @react-three/fiber@9 @react-three/rapier@2 @react-three/test-renderer@9 iwer@2 phaser@4 excalibur@0.32 kaplay@3001 melonjs@18 three@0.187 jspsych@8 typescript@5)
 node Tests/JavaScript/jspsych.mjs "$work"
 node Tests/JavaScript/bodies.mjs "$work"
 node Tests/JavaScript/velocities.mjs "$work"
@@ -30,6 +30,8 @@ node Tests/JavaScript/feel.mjs "$work"
 node Tests/JavaScript/kit.mjs "$work" --table --page Docs/javascript.md
 node Tests/JavaScript/fuzz.mjs "$work"
 node Tests/JavaScript/react.mjs "$work"
+node Tests/JavaScript/space-examples.mjs "$work" Source/Api/JavaScript/examples/space
+node Tests/JavaScript/xr.mjs "$work"
 node Tests/JavaScript/lives.mjs "$work"
 node Tests/JavaScript/cost.mjs "$work" 100
 node Tests/JavaScript/space.mjs "$work"

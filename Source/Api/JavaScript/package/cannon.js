@@ -13,7 +13,7 @@ class CannonHaptics extends SpaceHaptics {
         super(physvib, {
             isSoft: false, bodyOf: thing => (thing?.shapes && thing.world !== undefined ? thing : thing?.body?.shapes ? thing.body : undefined), isThere: body => body.world === world,
             massesOf: body => (isMoving(body) ? { massKg: body.mass, inertia: 0, gravityScale: 1 } : { massKg: 0, inertia: 0, gravityScale: 1 }),
-            bodies: () => world.bodies, gravity: () => world.gravity,
+            bodies: () => world.bodies, gravity: () => world.gravity, advance: seconds => world.step(seconds),
             look: body => ({ isSensor: !body.collisionResponse || body.isTrigger, isAsleep: body.sleepState === asleep, filters: [{ category: body.collisionFilterGroup, mask: body.collisionFilterMask, group: 0 }] }),
             read(body, to) {
                 const { elements: m } = body.invInertiaWorld;
@@ -42,8 +42,6 @@ class CannonHaptics extends SpaceHaptics {
         if (at >= 0) subsystems.splice(at, 1);
         this.#world.removeEventListener('postStep', this.#behind);
     }
-    /** cannon-es' own loop does the work. */
-    step(seconds, advance) { advance(seconds); }
 }
 
 /** `world`: cannon-es' World; its own step() or fixedStep() goes on. */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import type { PhysVib } from 'physvib';
-import type { AttachOptions, Haptics } from './attach.js';
+import type { AttachOptions, SteppedHaptics } from './attach.js';
 
 /** The package @babylonjs/havok without Babylon; bodies are HP_BodyIds. */
 export interface HavokWorld {
@@ -15,4 +15,4 @@ export interface HavokWorld {
 }
 
 /** `engine`: Babylon's scene with HavokPlugin (bodies: a PhysicsBody, a mesh, an aggregate), or the package itself. Who steps it, steps it still. */
-export function attach<Body = any>(physvib: PhysVib, engine: HavokWorld | object, options?: AttachOptions): Haptics<Body>;
+export function attach<Body = any>(physvib: PhysVib, engine: HavokWorld | object, options?: AttachOptions): SteppedHaptics<Body>;

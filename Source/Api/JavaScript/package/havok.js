@@ -18,7 +18,7 @@ class HavokHaptics extends SpaceHaptics {
         const { DYNAMIC } = hk.MotionType, { INACTIVE } = hk.ActivationState, of = (call, id) => hk[call](id)[1];
         const isMoving = id => of('HP_Body_GetMotionType', id) === DYNAMIC, isAsleep = id => of('HP_Body_GetActivationState', id) === INACTIVE, bodyBy = id => this.#there.get(numberOf(id));
         super(physvib, {
-            subSteps: 4, isThere: body => bodyBy(idOf(body)) === body,
+            subSteps: 4, advance: seconds => hk.HP_World_Step(world, seconds), isThere: body => bodyBy(idOf(body)) === body,
             // A body is numbered as one before it was, which has gone: the list says which of them is there.
             bodies: () => {
                 this.#there = new Map([...bodies()].map(body => [numberOf(idOf(body)), body]));
@@ -67,8 +67,6 @@ class HavokHaptics extends SpaceHaptics {
         this.#end();
         for (const [body, before] of this.#masks) if (this.engine.isThere(body)) this.#hk.HP_Body_SetEventMask(this.#idOf(body), before);
     }
-    /** Who calls HP_World_Step does the work. */
-    step(seconds, advance) { advance(seconds); }
 }
 
 // Of a body, a mesh that has one, an aggregate.

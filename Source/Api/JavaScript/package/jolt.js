@@ -75,8 +75,6 @@ class JoltHaptics extends SpaceHaptics {
         this.guarded(() => this.#ears.listen(this));
         super.before(seconds);
     }
-    /** Who calls Step does the work. */
-    step(seconds, advance = () => this.engine.advance(seconds)) { advance(seconds); }
 
     #handleOf(id) {
         const number = id.GetIndexAndSequenceNumber(), known = this.#handles.get(number);

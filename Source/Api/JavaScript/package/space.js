@@ -53,7 +53,7 @@ export class SpaceHaptics extends Haptics {
     #seconds = 0; #lastSeconds = 0; #pull = nowhere; #now = { at: nowhere, v: nowhere, turns: nowhere, inverse: null, isRound: false, isAsleep: false }; #spot = Object.assign(contactOf(), { soft: 1 });
 
     /** `engine`: besides what Haptics asks, bodies(); read(body, to), which writes at (centre of mass), v, turns, inverse (as World.moveInSpace), isAsleep;
-     * contacts(tell, placeOf), which calls tell of each point, and may ask where a body was before; gravity(). Lengths are the engine's. `isSoft`: it takes more than a step for a blow; `subSteps`:
+     * advance(seconds); contacts(tell, placeOf), which calls tell of each point, and may ask where a body was before; gravity(). Lengths are the engine's. `isSoft`: it takes more than a step for a blow; `subSteps`:
      * it moves by such shares of a step; `looksAhead`: it tells of what will not touch in the step;
      * `tellsImpulses`: of contacts that last; velocities behind the step are not asked. */
     constructor(physvib, engine, options) {
@@ -64,8 +64,8 @@ export class SpaceHaptics extends Haptics {
     /** Before a step of the engine, and behind it: for who lets another step it. */
     before(seconds) { this.guarded(() => this.#before(seconds)); }
     after(isDone = true) { this.finish(isDone ? () => this.#after() : undefined); }
-    /** `advance` makes the engine's step. */
-    step(seconds, advance = () => this.engine.advance(seconds)) { this.around(() => advance(seconds), () => this.#before(seconds), () => this.#after()); }
+    /** Who steps the engine is seen; `advance` does it, or engine.advance. */
+    step(seconds, advance = () => this.engine.advance(seconds)) { advance(seconds); }
     update(seconds) { this.step(seconds); }
 
     #read(body) {
