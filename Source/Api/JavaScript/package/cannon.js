@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // cannon-es: it looks where bodies overlap, solves, and moves. It steps itself; what is called within its steps is among its subsystems and its listeners.
 import { expectEngine } from './haptics.js';
-import { dot, plus, SpaceHaptics } from './space.js';
+import { SpaceHaptics } from './reader.js';
+import { dot, plus } from './space.js';
 
 const dynamic = 1, asleep = 2, ball = 1; // Body.DYNAMIC, Body.SLEEPING, Shape.types.SPHERE
 

@@ -2,7 +2,8 @@
 // Havok: Babylon's scene with HavokPlugin, or the package @babylonjs/havok itself. It tells a bounce in three events whose impulses are not those of its steps, so they
 // say only who touches, and where.
 import { expectEngine } from './haptics.js';
-import { dot, inverseOf, plus, SpaceHaptics, turn } from './space.js';
+import { inverseOf, SpaceHaptics } from './reader.js';
+import { dot, plus, turn } from './space.js';
 import { aroundSteps } from './steps.js';
 
 const xyz = ([x, y, z]) => ({ x, y, z }), axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(xyz);

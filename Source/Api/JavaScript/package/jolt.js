@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Jolt by jolt-physics: it looks ahead, and its listener of contacts says who may touch before it solves, and no impulses. A game's own listener is called, too.
 import { expectEngine } from './haptics.js';
-import { dot, plus, SpaceHaptics } from './space.js';
+import { SpaceHaptics } from './reader.js';
+import { dot, plus } from './space.js';
 import { aroundSteps } from './steps.js';
 
 const xyz = v => ({ x: v.GetX(), y: v.GetY(), z: v.GetZ() }); // it gives the same object again and again

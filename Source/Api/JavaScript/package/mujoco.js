@@ -2,7 +2,7 @@
 // MuJoCo 3 by @mujoco/mujoco: its contacts are springs, so a blow is told by its speed and by what its solref gives back. As physvib_mujoco.h does: the field is the plane of
 // x and z, and its z is MuJoCo's -y.
 import { expectEngine } from './haptics.js';
-import { inverseOf, SpaceHaptics } from './space.js';
+import { inverseOf, SpaceHaptics } from './reader.js';
 
 const body = 1, sphere = 2; // mjOBJ_BODY, mjGEOM_SPHERE
 const turned = (list, at) => ({ x: list[at], y: list[at + 2], z: -list[at + 1] });
