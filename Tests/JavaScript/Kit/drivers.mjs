@@ -245,8 +245,8 @@ async function jolt(folder, physvib, { gravity }) {
     pairs.EnableCollision(moving, moving);
     for (const [layer, broad] of [[fixed, 0], [moving, 1], [passing, 1]]) layers.MapObjectToBroadPhaseLayer(layer, new J.BroadPhaseLayer(broad));
     Object.assign(settings, { mObjectLayerPairFilter: pairs, mBroadPhaseLayerInterface: layers, mObjectVsBroadPhaseLayerFilter: new J.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 3) });
-    const world = new J.JoltInterface(settings), system = world.GetPhysicsSystem(), bodies = system.GetBodyInterface(), v = (x, y, z = 0) => new J.Vec3(x, y, z), at = (x, y) => new J.RVec3(x, y, 0), on = J.EActivation_Activate, there = new Set();
-    const types = { dynamic: J.EMotionType_Dynamic, fixed: J.EMotionType_Static, kinematic: J.EMotionType_Kinematic }, turned = angle => new J.Quat(0, 0, Math.sin(angle / 2), Math.cos(angle / 2));
+    const world = new J.JoltInterface(settings), system = world.GetPhysicsSystem(), bodies = system.GetBodyInterface(), vector = new J.Vec3(0, 0, 0), place3 = new J.RVec3(0, 0, 0), v = (x, y, z = 0) => { vector.Set(x, y, z); return vector; }, at = (x, y) => { place3.Set(x, y, 0); return place3; }, on = J.EActivation_Activate, there = new Set();
+    const types = { dynamic: J.EMotionType_Dynamic, fixed: J.EMotionType_Static, kinematic: J.EMotionType_Kinematic }, quat = new J.Quat(0, 0, 0, 1), turned = angle => { quat.Set(0, 0, Math.sin(angle / 2), Math.cos(angle / 2)); return quat; };
     system.SetGravity(v(0, -gravity));
     const driver = {
         attach: () => attach(physvib, { Jolt: J, interface: world }, field), halfStep: 1, count: () => there.size,
@@ -257,6 +257,7 @@ async function jolt(folder, physvib, { gravity }) {
                 mAllowedDOFs: J.EAllowedDOFs_TranslationX | J.EAllowedDOFs_TranslationY | (of.lockTurn ? 0 : J.EAllowedDOFs_RotationZ), mOverrideMassProperties: J.EOverrideMassProperties_CalculateInertia });
             made.mMassPropertiesOverride.mMass = of.massKg || 1;
             const body = bodies.CreateBody(made);
+            J.destroy(made);
             bodies.AddBody(body.GetID(), on);
             const held = { body, id: new J.BodyID(body.GetID().GetIndexAndSequenceNumber()), GetID: () => held.id };
             there.add(held);
@@ -266,7 +267,7 @@ async function jolt(folder, physvib, { gravity }) {
         get(held) { if (!there.has(held)) throw new Error('gone'); const { body } = held, place = body.GetCenterOfMassPosition(), x = place.GetX(), y = place.GetY(), speed = body.GetLinearVelocity(), vx = speed.GetX(), vy = speed.GetY(), turn = body.GetRotation(); return { x, y, vx, vy, angle: 2 * Math.atan2(turn.GetZ(), turn.GetW()), spin: body.GetAngularVelocity().GetZ(), massKg: body.IsDynamic() ? 1 / body.GetMotionProperties().GetInverseMass() : 0 }; },
         put: (held, x, y) => bodies.SetPosition(held.id, at(x, y), on), fling(held, x, y, spin = 0) { if (held.body.IsStatic()) return; bodies.SetLinearVelocity(held.id, v(x, y)); bodies.SetAngularVelocity(held.id, v(0, 0, spin)); bodies.ActivateBody(held.id); },
         type: (held, type) => bodies.SetMotionType(held.id, types[type], on), mass(held, kg) { const motion = held.body.GetMotionProperties(), by = motion.GetInverseMass() * kg, inertia = motion.GetInverseInertiaDiagonal(), [x, y, z] = [inertia.GetX(), inertia.GetY(), inertia.GetZ()]; motion.SetInverseMass(1 / kg); motion.SetInverseInertia(v(x / by, y / by, z / by), new J.Quat(0, 0, 0, 1)); },
-        gravityScale: (held, scale) => bodies.SetGravityFactor(held.id, scale), gravity: y => system.SetGravity(v(0, -y)), remove(held) { there.delete(held); bodies.RemoveBody(held.id); bodies.DestroyBody(held.id); },
+        gravityScale: (held, scale) => bodies.SetGravityFactor(held.id, scale), gravity: y => system.SetGravity(v(0, -y)), remove(held) { there.delete(held); bodies.RemoveBody(held.id); bodies.DestroyBody(held.id); J.destroy(held.id); },
         sensor: (held, is) => held.body.SetIsSensor(is), passes: (held, is) => bodies.SetObjectLayer(held.id, is ? passing : moving), sleep: held => bodies.DeactivateBody(held.id),
         moves: (held, x, y) => bodies.SetLinearVelocity(held.id, v(x, y)), moveTo: (held, x, y, seconds) => bodies.MoveKinematic(held.id, at(x, y), turned(0), seconds),
         pin(a, b, x, y) { const joint = new J.PointConstraintSettings(); joint.mPoint1 = joint.mPoint2 = at(x, y); system.AddConstraint(joint.Create(a.body, b.body)); },
