@@ -79,6 +79,10 @@ test('other engines are known, and what is none is refused', async () => {
     }
     const b2 = await (await import(pathToFileURL(join(folder, 'node_modules/box2d3-wasm/build/dist/es/entry.mjs')))).default();
     worlds.push(['Box2d3Haptics', b2.b2CreateWorld(b2.b2DefaultWorldDef()), { b2 }]);
+    const cannon = await load(folder, 'cannon-es'), havok = await (await load(folder, '@babylonjs/havok')).default({ wasmBinary: readFileSync(join(folder, 'node_modules/@babylonjs/havok/lib/esm/HavokPhysics.wasm')) });
+    worlds.push(['CannonHaptics', new cannon.World()], ['HavokHaptics', { havok, world: havok.HP_World_Create()[1], bodies: () => [] }]);
+    const mujoco = await (await load(folder, '@mujoco/mujoco')).default(), model = mujoco.MjModel.from_xml_string('<mujoco/>');
+    worlds.push(['MujocoHaptics', { mujoco, model, data: new mujoco.MjData(model) }]);
     for (const [name, world, options] of worlds) {
         const felt = await feel(world, options);
         assert.equal(felt.haptics.constructor.name, name);

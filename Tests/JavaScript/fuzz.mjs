@@ -21,7 +21,7 @@ async function play(make, seed) {
         const x = random(19) - 9;
         if (balls.some(ball => Math.abs(ball.x - x) < 0.5)) return;
         const body = engine.create({ radius, massKg: 0.2 + 0.1 * random(5), x, y: 0.3 + 0.1 * random(20), restitution: 0.1 * random(5) });
-        balls.push({ body, x, id: haptics.set(body, source), scale: 1, gap: 1 });
+        balls.push({ body, x, id: haptics.set(body, source), scale: 1, gap: 1, lastGap: 1 });
     };
     const put = ({ body, x }, y, vy) => { engine.put(body, x, y); engine.fling(body, 0, vy); };
     const acts = [ball => put(ball, 0.3 + 0.1 * random(15), 0), ({ body }) => engine.fling(body, 0, random(5) - 2), ({ body }) => engine.mass(body, 0.1 + 0.1 * random(9)),
@@ -30,13 +30,18 @@ async function play(make, seed) {
         ball => put(ball, radius - 0.01 * random(3), -random(4))];
     for (let k = 0; k < steps; ++k) {
         if (k === 0 || random(6) === 0) add();
-        if (balls.length > 0 && random(4) === 0) acts[random(acts.length)](balls[random(balls.length)]);
+        if (balls.length > 0 && random(4) === 0) {
+            const act = acts[random(acts.length)], ball = balls[random(balls.length)];
+            if (ball.blow?.k === k - 1) ball.blow.isDisturbed = true; // the rest of a bounce, of engines that take two steps for it, may be lost
+            act(ball);
+        }
         for (const ball of balls) ball.before = engine.get(ball.body);
         engine.step(seconds, haptics);
         for (const ball of balls) {
             const { vy, massKg, y } = engine.get(ball.body), { before } = ball, change = vy - before.vy, newtonSeconds = massKg * (change + g * ball.scale * seconds);
             if (ball.blow?.k === k - 1) { if (change > 0) ball.blow.newtonSeconds += newtonSeconds; } // an engine may let a gap close first, and bounce in the next step
-            else if (change > 3 * threshold && before.vy < -0.5 && before.y - radius > -0.03 && ball.gap > nearMetres) blows.push(ball.blow = { id: ball.id, k, newtonSeconds });
+            else if (change > 3 * threshold && before.vy < -0.5 && before.y - radius > -(engine.sinks ?? 0.03) && (engine.sinks ? ball.lastGap : ball.gap) > nearMetres) blows.push(ball.blow = { id: ball.id, k, newtonSeconds });
+            ball.lastGap = ball.gap;
             ball.gap = Math.min(before.y, y) - radius;
         }
     }
@@ -45,13 +50,13 @@ async function play(make, seed) {
     haptics.free();
     engine.end?.();
     const found = blows.map(blow => ({ ...blow, hits: hits.filter(hit => hit.id === blow.id && hit.step > blow.k - 1.5 && hit.step < blow.k + 2.05) }));
-    return { blows: blows.length, missed: found.filter(blow => blow.hits.length === 0), strong: found.filter(blow => blow.hits.length > 0 && blow.hits.every(hit => hit.newtonSeconds > 1.35 * blow.newtonSeconds)) };
+    return { blows: blows.length, missed: found.filter(blow => blow.hits.length === 0), strong: found.filter(blow => blow.hits.length > 0 && !blow.isDisturbed && blow.hits.every(hit => hit.newtonSeconds > 1.35 * blow.newtonSeconds)) };
 }
 
 let isBad = false;
 console.log('| engine | games | blows | felt | too strong |\n| --- | --- | --- | --- | --- |');
 for (const [name, make] of Object.entries(drivers)) {
-    if (names.length > 0 && !names.includes(name)) continue;
+    if (names.length > 0 ? !names.includes(name) : name === 'mujoco') continue; // whose bodies are those of its model
     let blows = 0, missed = 0, strong = 0;
     for (let seed = 1; seed <= Number(seeds); ++seed) {
         const of = await play(make, seed);

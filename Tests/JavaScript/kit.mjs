@@ -24,9 +24,9 @@ function gapOf(a, b) {
 
 /** What one engine does in one situation. */
 async function play(make, situation) {
-    const rate = situation.rate ?? 60, gravity = situation.gravity ?? g, driver = await make(folder, physvib, { gravity }), haptics = driver.attach(), second = situation.twice ? driver.attach() : null;
+    const rate = situation.rate ?? 60, gravity = situation.gravity ?? g, driver = await make(folder, physvib, { gravity }), haptics = driver.attach(), second = situation.twice && !driver.isClosed ? driver.attach() : null;
     const all = {}, kinds = new Map(), ids = new Map(), motions = [], lengthOf = situation.steps ?? (() => 1 / rate);
-    const scales = new Map(), rise = massKg => (massKg > 0 ? gravity * driver.halfStep * lengthOf(0) / 2 : 0);
+    const scales = new Map(), rise = massKg => (massKg > 0 ? gravity * Math.min(driver.halfSeconds ?? Infinity, driver.halfStep * lengthOf(0)) / 2 : 0);
     const e = new Proxy(driver, { get(target, name) {
         if (name === 'touchesAll') return target.touchesAll;
         if (name === 'rest') return body => target.fling(body, 0, rise(1));
@@ -39,6 +39,8 @@ async function play(make, situation) {
     function made({ isSource, later, ...of }) {
         const isMoving = (of.type ?? 'dynamic') === 'dynamic', values = { ...of, x: of.x + (situation.x ?? 0), massKg: of.massKg ?? later, vy: (of.vy ?? 0) + (isMoving ? rise(1) : 0) };
         if (of.sensor && !('sensor' in driver)) throw new NotThere('sensor');
+        if (driver.hasNoKinematic && of.type === 'kinematic') throw new NotThere('kinematic');
+        if (driver.isClosed && motions.length > 0) throw new NotThere('make');
         if (of.angle && driver.isUnturned) throw new NotThere('angle');
         const body = driver.create(values);
         kinds.set(body, { ...of });
@@ -129,11 +131,14 @@ function judge(run, situation) {
             if (situation.felt?.length === 0 && hits.length > 0) isOwn = true;
         } else {
             const least = situation.atLeast ?? expected.length, most = situation.most ?? expected.length;
-            if (!situation.first && (hits.length < least || hits.length > most)) why.push(`${hits.length} hits (${list}), due ${least === most ? least : `${least} to ${most}`}${owns.length ? `; its own: ${owns.map(told).join(', ')}` : ''}`);
+            // More than are due: each one an impact of its own motion, as of an engine that throws out what overlaps.
+            const areOwn = !situation.first && hits.length > most && new Set(hits.map(hit => owns.find(each => hit.at > each.at - each.seconds - 1e-3 && hit.at < motionsEnd(run, each) + 1e-3 && strengthOf(hit, each)))).size === hits.length && owns.length >= hits.length;
+            isOwn ||= areOwn;
+            if (!situation.first && !areOwn && (hits.length < least || hits.length > most)) why.push(`${hits.length} hits (${list}), due ${least === most ? least : `${least} to ${most}`}${owns.length ? `; its own: ${owns.map(told).join(', ')}` : ''}`);
             for (const [i, due] of expected.entries()) {
                 const hit = hits[i];
                 if (!hit) { if (i < least) why.push('not felt'); continue; }
-                if (due.any) { if (due.least && !(hit.impulse > 0.98 * due.least && hit.impulse < 1.3 * due.least)) why.push(`${hit.impulse.toFixed(3)} N s, due ${due.least.toFixed(3)}`); if (due.at !== undefined && Math.abs(hit.at - due.at) > 1e-3 * (situation.ms ?? closeMs)) why.push(`at ${(1e3 * hit.at).toFixed(1)} ms, due ${(1e3 * due.at).toFixed(1)}`); continue; }
+                if (due.any) { const pushed = due.least && hit.impulse >= 1.3 * due.least && ownOf(hit).some(own => strengthOf(hit, own)); isOwn ||= pushed; if (due.least && !pushed && !(hit.impulse > 0.98 * due.least && hit.impulse < 1.3 * due.least)) why.push(`${hit.impulse.toFixed(3)} N s, due ${due.least.toFixed(3)}`); if (due.at !== undefined && Math.abs(hit.at - due.at) > 1e-3 * (situation.ms ?? closeMs)) why.push(`at ${(1e3 * hit.at).toFixed(1)} ms, due ${(1e3 * due.at).toFixed(1)}`); continue; }
                 const late = hit.at - due.at, off = hit.impulse / due.newtonSeconds - 1, own = ownOf(hit).find(each => hit.at > each.at - each.seconds - 1e-3 && hit.at < motionsEnd(run, each) + 1e-3);
                 const isOnTime = Math.abs(late) <= 1e-3 * closeMs, isOwnTime = own && Math.abs(offOnset(hit, own)) <= 1e-3 * closeMs, isStrong = Math.abs(off) <= closeShare, isOwnStrong = own && strengthOf(hit, own);
                 if (!isOnTime && !isOwnTime) why.push(`${(1e3 * late).toFixed(2)} ms from paper${own?.onset ? `, ${(1e3 * offOnset(hit, own)).toFixed(2)} ms from its own` : ''}`);
@@ -179,10 +184,9 @@ if (isTable) {
     console.log(`| situation | ${columns.join(' | ')} |\n| --- |${' --- |'.repeat(columns.length)}`);
     for (const [title, row] of table) console.log(`| ${title} | ${columns.map(name => shown[row[name]]).join(' | ')} |`);
 }
-// By groups, as PAGE has it.
-const groups = [...new Set([...table.keys()].map(title => title.split(':')[0]))].map(group => [group, [...table].filter(([title]) => title.startsWith(`${group}:`))]);
-const cell = (rows, name) => { const of = kind => rows.filter(([, row]) => row[name] === kind).length; return [[of('right'), ''], [of('own'), ' own'], [of('wrong'), ' wrong']].filter(([count]) => count > 0).map(([count, word]) => `${count}${word}`).join(', ') || '-'; };
-const rows = groups.map(([group, of]) => `| ${group}: ${of.length} | ${columns.map(name => cell(of, name)).join(' | ')} |`);
+// As PAGE has it.
+const titles = { matter: 'Matter 0.20', planck: 'Planck 1.4', rapier2d: 'Rapier 2D 0.21', rapier3d: 'Rapier 3D 0.21', box2d3: 'Box2D 3 (wasm 5.2)', velocities: '`physvib/velocities`', cannon: 'cannon-es 0.20', havok: 'Havok 1.3', babylon: 'Babylon 9', jolt: 'Jolt 1.1', mujoco: 'MuJoCo 3.14' };
+const rows = Object.entries(counts).map(([name, of]) => `| ${titles[name]} | ${of.right} | ${of.own} | ${of.wrong} | ${of['not there']} |`);
 if (page) {
     const text = readFileSync(page, 'utf8'), missing = rows.filter(row => !text.includes(row));
     for (const row of rows) console.log(row);

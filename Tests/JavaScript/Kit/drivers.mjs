@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the kit does in each engine: a few verbs. Lengths are metres, y points up; `halfStep` is the share of a step's gravity that a fall from rest begins with, so that
 // the engine's own way of integrating ends on the parabola. An engine without a verb leaves it out: what needs it is not supported there.
+import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { load } from '../installed.mjs';
@@ -140,6 +141,179 @@ async function box2d3(folder, physvib, { gravity }) {
     return driver;
 }
 
+async function cannon(folder, physvib, { gravity }) {
+    const C = await load(folder, 'cannon-es'), { attach } = await load(folder, 'physvib/cannon'), world = new C.World({ gravity: new C.Vec3(0, -gravity, 0) });
+    Object.assign(world.solver, { iterations: 30, tolerance: 0 });
+    Object.assign(world.defaultContactMaterial, { contactEquationRelaxation: 3, contactEquationStiffness: 1e8, friction: 0.3, restitution: 0 });
+    const types = { dynamic: C.Body.DYNAMIC, fixed: C.Body.STATIC, kinematic: C.Body.KINEMATIC }, bouncy = new Map();
+    const materialOf = (restitution, friction) => { // of a pair, the larger
+        const key = `${restitution},${friction}`;
+        if (!bouncy.has(key)) {
+            const made = Object.assign(new C.Material(), { ownRestitution: restitution, ownFriction: friction });
+            for (const other of [made, ...bouncy.values()]) world.addContactMaterial(new C.ContactMaterial(made, other, { ...world.defaultContactMaterial, friction: Math.min(friction, other.ownFriction), restitution: Math.max(restitution, other.ownRestitution) }));
+            bouncy.set(key, made);
+        }
+        return bouncy.get(key);
+    };
+    const driver = {
+        attach: () => attach(physvib, world, field), halfStep: 1, count: () => world.bodies.length, sinks: 0.12, // m: it looks where bodies overlap
+        create(of) {
+            const body = new C.Body({ type: types[of.type ?? 'dynamic'], mass: isDynamic(of) ? of.massKg : 0, position: new C.Vec3(of.x, of.y, 0), velocity: new C.Vec3(of.vx ?? 0, of.vy ?? 0, 0), linearDamping: 0, angularDamping: 0, material: materialOf(of.restitution ?? 0, of.friction ?? 0.3), isTrigger: of.sensor ?? false,
+                shape: of.radius ? new C.Sphere(of.radius) : new C.Box(new C.Vec3(...of.half, isDynamic(of) ? of.half[0] : 5)) });
+            body.ownKg = of.massKg;
+            body.angularFactor.set(0, 0, 1);
+            body.linearFactor.set(1, 1, 0);
+            body.quaternion.setFromAxisAngle(new C.Vec3(0, 0, 1), of.angle ?? 0);
+            if (of.lockTurn) driver.lockTurn(body);
+            world.addBody(body);
+            return body;
+        },
+        get(body) { if (body.world !== world) throw new Error('gone'); const { position: { x, y }, velocity, quaternion: q } = body; return { x, y, vx: velocity.x, vy: velocity.y, angle: 2 * Math.atan2(q.z, q.w), spin: body.angularVelocity.z, massKg: body.type === C.Body.DYNAMIC ? body.mass : 0 }; },
+        put(body, x, y) { body.position.set(x, y, 0); body.aabbNeedsUpdate = true; body.wakeUp(); }, fling(body, vx, vy, spin = 0) { body.velocity.set(vx, vy, 0); body.angularVelocity.set(0, 0, spin); body.wakeUp(); },
+        type(body, type) { body.type = types[type]; body.mass = type === 'dynamic' ? body.ownKg : 0; body.updateMassProperties(); }, mass(body, kg) { body.mass = body.ownKg = kg; body.updateMassProperties(); },
+        lockTurn(body) { body.fixedRotation = true; body.updateMassProperties(); }, gravity: y => world.gravity.set(0, -y, 0), remove: body => world.removeBody(body), sensor: (body, is) => { body.isTrigger = is; },
+        passes: (body, is) => { body.collisionFilterMask = is ? 0 : -1; }, sleep(body) { world.allowSleep = true; body.sleep(); }, moves: (body, vx, vy) => body.velocity.set(vx, vy, 0),
+        grow(body, radius) { body.shapes[0].radius = radius; body.shapes[0].updateBoundingSphereRadius(); body.updateBoundingRadius(); },
+        pin(a, b, x, y) { const from = body => new C.Vec3(x - body.position.x, y - body.position.y, 0); world.addConstraint(new C.PointToPointConstraint(a, from(a), b, from(b))); },
+        step: seconds => world.step(seconds),
+    };
+    return driver;
+}
+
+let havokModule;
+/** Havok's own package, or through Babylon's layer on an engine that draws nothing. */
+async function havok(isBabylon, folder, physvib, { gravity }) {
+    havokModule ??= await (await load(folder, '@babylonjs/havok')).default({ wasmBinary: readFileSync(join(resolve(folder), 'node_modules/@babylonjs/havok/lib/esm/HavokPhysics.wasm')) });
+    const hk = havokModule, { attach } = await load(folder, 'physvib/havok'), types = { dynamic: hk.MotionType.DYNAMIC, fixed: hk.MotionType.STATIC, kinematic: hk.MotionType.KINEMATIC }, of = (call, ...given) => hk[call](...given)[1], bodies = new Set(), pull = [0, -gravity, 0];
+    let world = isBabylon ? null : of('HP_World_Create'), scene;
+    if (isBabylon) {
+        const B = await load(folder, '@babylonjs/core');
+        B.Logger.LogLevels = B.Logger.NoneLogLevel;
+        scene = new B.Scene(new B.NullEngine());
+        scene.enablePhysics(new B.Vector3(0, -gravity, 0), new B.HavokPlugin(true, hk));
+        ({ world } = scene.getPhysicsEngine().getPhysicsPlugin());
+        Object.assign(scene, { B });
+    } else hk.HP_World_SetGravity(world, pull);
+    const idOf = body => body._pluginData?.hpBodyId ?? body, turned = angle => [0, 0, Math.sin(angle / 2), Math.cos(angle / 2)];
+    const setMass = (id, kg, isLocked) => { const [centre, , moments, turn] = of('HP_Shape_BuildMassProperties', of('HP_Body_GetShape', id)); hk.HP_Body_SetMassProperties(id, [centre, kg, isLocked ? [0, 0, 0] : moments, turn]); }; // moments are those of 1 kg
+    const driver = {
+        attach: () => attach(physvib, isBabylon ? scene : { havok: hk, world, bodies: () => bodies, gravity: () => pull }, field), halfStep: 1 / 4, count: () => bodies.size,
+        create(of3) {
+            let body, id;
+            const shape = of3.radius ? of('HP_Shape_CreateSphere', [0, 0, 0], of3.radius) : of('HP_Shape_CreateBox', [0, 0, 0], [0, 0, 0, 1], [2 * of3.half[0], 2 * of3.half[1], isDynamic(of3) ? 2 * of3.half[0] : 10]);
+            hk.HP_Shape_SetMaterial(shape, [of3.friction ?? 0.3, of3.friction ?? 0.3, of3.restitution ?? 0, hk.MaterialCombine.MINIMUM, hk.MaterialCombine.MAXIMUM]);
+            if (of3.sensor) hk.HP_Shape_SetTrigger(shape, true);
+            if (isBabylon) {
+                const node = new scene.B.TransformNode('', scene);
+                node.position.set(of3.x, of3.y, 0);
+                node.rotationQuaternion = new scene.B.Quaternion(...turned(of3.angle ?? 0));
+                body = new scene.B.PhysicsBody(node, { fixed: 0, kinematic: 1, dynamic: 2 }[of3.type ?? 'dynamic'], false, scene);
+                body.disablePreStep = true;
+                id = idOf(body);
+            } else {
+                body = id = of('HP_Body_Create');
+                hk.HP_Body_SetMotionType(id, types[of3.type ?? 'dynamic']);
+            }
+            hk.HP_Body_SetShape(id, shape);
+            setMass(id, of3.massKg || 1, of3.lockTurn);
+            hk.HP_Body_SetQTransform(id, [[of3.x, of3.y, 0], turned(of3.angle ?? 0)]);
+            hk.HP_Body_SetLinearDamping(id, 0);
+            hk.HP_Body_SetAngularDamping(id, 0);
+            if (!isBabylon) hk.HP_World_AddBody(world, id, false);
+            driver.fling(body, of3.vx ?? 0, of3.vy ?? 0, of3.spin ?? 0);
+            bodies.add(body);
+            return body;
+        },
+        get(body) { if (!bodies.has(body)) throw new Error('gone'); const id = idOf(body), [[x, y], [, , s, c]] = of('HP_Body_GetQTransform', id), [vx, vy] = of('HP_Body_GetLinearVelocity', id); return { x, y, vx, vy, angle: 2 * Math.atan2(s, c), spin: of('HP_Body_GetAngularVelocity', id)[2], massKg: of('HP_Body_GetMotionType', id) === types.dynamic ? of('HP_Body_GetMassProperties', id)[1] : 0 }; },
+        put: (body, x, y) => hk.HP_Body_SetPosition(idOf(body), [x, y, 0]), fling(body, vx, vy, spin = 0) { hk.HP_Body_SetActivationState(idOf(body), hk.ActivationState.ACTIVE); hk.HP_Body_SetLinearVelocity(idOf(body), [vx, vy, 0]); hk.HP_Body_SetAngularVelocity(idOf(body), [0, 0, spin]); },
+        type: (body, type) => hk.HP_Body_SetMotionType(idOf(body), types[type]), mass: (body, kg) => setMass(idOf(body), kg), lockTurn: body => setMass(idOf(body), of('HP_Body_GetMassProperties', idOf(body))[1], true),
+        gravityScale: (body, scale) => hk.HP_Body_SetGravityFactor(idOf(body), scale), gravity(y) { if (isBabylon) scene.getPhysicsEngine().setGravity(new scene.B.Vector3(0, -y, 0)); else { pull[1] = -y; hk.HP_World_SetGravity(world, pull); } },
+        remove(body) { bodies.delete(body); if (isBabylon) { const { transformNode } = body; body.dispose(); transformNode.dispose(); } else { hk.HP_World_RemoveBody(world, body); hk.HP_Body_Release(body); } },
+        sensor: (body, is) => hk.HP_Shape_SetTrigger(of('HP_Body_GetShape', idOf(body)), is), passes: (body, is) => hk.HP_Shape_SetFilterInfo(of('HP_Body_GetShape', idOf(body)), is ? [1, 0] : [0xffffffff, 0xffffffff]),
+        sleep: body => hk.HP_Body_SetActivationState(idOf(body), hk.ActivationState.INACTIVE), moves: (body, vx, vy) => hk.HP_Body_SetLinearVelocity(idOf(body), [vx, vy, 0]), moveTo: (body, x, y) => hk.HP_Body_SetTargetQTransform(idOf(body), [[x, y, 0], [0, 0, 0, 1]]),
+        step(seconds) { hk.HP_World_SetIdealStepTime(world, seconds || 1 / 60); if (isBabylon) scene.getPhysicsEngine()._step(seconds); else hk.HP_World_Step(world, seconds); },
+        end: () => (isBabylon ? scene.dispose() : hk.HP_World_Release(world)),
+    };
+    return driver;
+}
+
+let joltModule;
+async function jolt(folder, physvib, { gravity }) {
+    const J = joltModule ??= await (await load(folder, 'jolt-physics')).default(), { attach } = await load(folder, 'physvib/jolt'), settings = new J.JoltSettings(), pairs = new J.ObjectLayerPairFilterTable(3), layers = new J.BroadPhaseLayerInterfaceTable(3, 2), [fixed, moving, passing] = [0, 1, 2];
+    Object.assign(settings, { mMaxWorkerThreads: 0, mMaxBodies: 1024, mMaxBodyPairs: 1024, mMaxContactConstraints: 1024 });
+    pairs.EnableCollision(fixed, moving);
+    pairs.EnableCollision(moving, moving);
+    for (const [layer, broad] of [[fixed, 0], [moving, 1], [passing, 1]]) layers.MapObjectToBroadPhaseLayer(layer, new J.BroadPhaseLayer(broad));
+    Object.assign(settings, { mObjectLayerPairFilter: pairs, mBroadPhaseLayerInterface: layers, mObjectVsBroadPhaseLayerFilter: new J.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 3) });
+    const world = new J.JoltInterface(settings), system = world.GetPhysicsSystem(), bodies = system.GetBodyInterface(), vector = new J.Vec3(0, 0, 0), place3 = new J.RVec3(0, 0, 0), v = (x, y, z = 0) => { vector.Set(x, y, z); return vector; }, at = (x, y) => { place3.Set(x, y, 0); return place3; }, on = J.EActivation_Activate, there = new Set();
+    const types = { dynamic: J.EMotionType_Dynamic, fixed: J.EMotionType_Static, kinematic: J.EMotionType_Kinematic }, quat = new J.Quat(0, 0, 0, 1), turned = angle => { quat.Set(0, 0, Math.sin(angle / 2), Math.cos(angle / 2)); return quat; };
+    system.SetGravity(v(0, -gravity));
+    const driver = {
+        attach: () => attach(physvib, { Jolt: J, interface: world }, field), halfStep: 1, count: () => there.size,
+        create(of) {
+            const shape = of.radius ? new J.SphereShape(of.radius) : new J.BoxShape(v(of.half[0], of.half[1], isDynamic(of) ? of.half[0] : 5), 0);
+            const made = new J.BodyCreationSettings(shape, at(of.x, of.y), turned(of.angle ?? 0), types[of.type ?? 'dynamic'], of.type === 'fixed' && !of.massKg ? fixed : moving);
+            Object.assign(made, { mRestitution: of.restitution ?? 0, mFriction: of.friction ?? 0.3, mLinearDamping: 0, mAngularDamping: 0, mAllowSleeping: false, mIsSensor: of.sensor ?? false, mAllowDynamicOrKinematic: true, mGravityFactor: 1, mMotionQuality: of.bullet ? J.EMotionQuality_LinearCast : J.EMotionQuality_Discrete,
+                mAllowedDOFs: J.EAllowedDOFs_TranslationX | J.EAllowedDOFs_TranslationY | (of.lockTurn ? 0 : J.EAllowedDOFs_RotationZ), mOverrideMassProperties: J.EOverrideMassProperties_CalculateInertia });
+            made.mMassPropertiesOverride.mMass = of.massKg || 1;
+            const body = bodies.CreateBody(made);
+            J.destroy(made);
+            bodies.AddBody(body.GetID(), on);
+            const held = { body, id: new J.BodyID(body.GetID().GetIndexAndSequenceNumber()), GetID: () => held.id };
+            there.add(held);
+            driver.fling(held, of.vx ?? 0, of.vy ?? 0, of.spin ?? 0);
+            return held;
+        },
+        get(held) { if (!there.has(held)) throw new Error('gone'); const { body } = held, place = body.GetCenterOfMassPosition(), x = place.GetX(), y = place.GetY(), speed = body.GetLinearVelocity(), vx = speed.GetX(), vy = speed.GetY(), turn = body.GetRotation(); return { x, y, vx, vy, angle: 2 * Math.atan2(turn.GetZ(), turn.GetW()), spin: body.GetAngularVelocity().GetZ(), massKg: body.IsDynamic() ? 1 / body.GetMotionProperties().GetInverseMass() : 0 }; },
+        put: (held, x, y) => bodies.SetPosition(held.id, at(x, y), on), fling(held, x, y, spin = 0) { if (held.body.IsStatic()) return; bodies.SetLinearVelocity(held.id, v(x, y)); bodies.SetAngularVelocity(held.id, v(0, 0, spin)); bodies.ActivateBody(held.id); },
+        type: (held, type) => bodies.SetMotionType(held.id, types[type], on), mass(held, kg) { const motion = held.body.GetMotionProperties(), by = motion.GetInverseMass() * kg, inertia = motion.GetInverseInertiaDiagonal(), [x, y, z] = [inertia.GetX(), inertia.GetY(), inertia.GetZ()]; motion.SetInverseMass(1 / kg); motion.SetInverseInertia(v(x / by, y / by, z / by), new J.Quat(0, 0, 0, 1)); },
+        gravityScale: (held, scale) => bodies.SetGravityFactor(held.id, scale), gravity: y => system.SetGravity(v(0, -y)), remove(held) { there.delete(held); bodies.RemoveBody(held.id); bodies.DestroyBody(held.id); J.destroy(held.id); },
+        sensor: (held, is) => held.body.SetIsSensor(is), passes: (held, is) => bodies.SetObjectLayer(held.id, is ? passing : moving), sleep: held => bodies.DeactivateBody(held.id),
+        moves: (held, x, y) => bodies.SetLinearVelocity(held.id, v(x, y)), moveTo: (held, x, y, seconds) => bodies.MoveKinematic(held.id, at(x, y), turned(0), seconds),
+        pin(a, b, x, y) { const joint = new J.PointConstraintSettings(); joint.mPoint1 = joint.mPoint2 = at(x, y); system.AddConstraint(joint.Create(a.body, b.body)); },
+        step: seconds => world.Step(seconds, 1), end: () => J.destroy(world),
+    };
+    return driver;
+}
+
+let mujocoModule;
+/** Its model is compiled when the first step comes; bodies move in the plane. By steps of 2 ms at most. */
+async function mujoco(folder, physvib, { gravity }) {
+    const M = mujocoModule ??= await (await load(folder, '@mujoco/mujoco')).default(), { attach } = await load(folder, 'physvib/mujoco'), all = [], waiting = [];
+    let model = null, data = null, haptics = null, options = null;
+    const solref = e => { const log = Math.log(e || 1e-9), ratio = e > 0 ? -log / Math.hypot(Math.PI, log) : 1; return `0.02 ${ratio}`; }; // the first as it is at first
+    const bodyOf = (of, i) => `<body name="b${i}" pos="${of.x} 0 ${of.y}" euler="0 ${-(of.angle ?? 0) * 180 / Math.PI} 0">${isDynamic(of) ? `<joint name="x${i}" type="slide" axis="1 0 0"/><joint name="z${i}" type="slide" axis="0 0 1"/>${of.lockTurn ? '' : `<joint name="w${i}" type="hinge" axis="0 -1 0"/>`}` : ''}
+        <geom type="${of.radius ? 'sphere' : 'box'}" size="${of.radius ?? `${of.half[0]} ${isDynamic(of) ? of.half[0] : 5} ${of.half[1]}`}" mass="${of.massKg || 1}" solref="${solref(of.restitution)}" friction="${of.friction ?? 0.3} 0 0" condim="3" solimp="0.99 0.99 0.001"/></body>`;
+    function compile() {
+        model = M.MjModel.from_xml_string(`<mujoco><option timestep="0.002" gravity="0 0 ${-gravity}" cone="elliptic"/><worldbody>${all.map(bodyOf).join('')}</worldbody></mujoco>`);
+        data = new M.MjData(model);
+        for (const [i, of] of all.entries()) if (isDynamic(of)) { driver.fling(i, of.vx ?? 0, of.vy ?? 0, of.spin ?? 0); }
+        M.mj_forward(model, data);
+        if (options) haptics = attach(physvib, { mujoco: M, model, data }, options);
+        for (const [body, values] of waiting) haptics.set(`b${body}`, values);
+    }
+    // Slide, slide, hinge: three numbers of each moving body, in order.
+    const placeOf = body => all.slice(0, body).reduce((sum, of) => sum + (isDynamic(of) ? 3 - (of.lockTurn ? 1 : 0) : 0), 0);
+    const driver = {
+        hasNoKinematic: true, isClosed: true, halfStep: 1, halfSeconds: 0.002, count: () => all.length, sinks: 0.12,
+        attach() { options = field; return { set(body, values) { waiting.push([body, values]); if (haptics) haptics.set(`b${body}`, values); return body + 1; }, take(atOnce) { const numbers = new Map(all.map((_, i) => [haptics.id(i + 1), i + 1])); return haptics.take(atOnce).map(event => ({ ...event, fixture: numbers.get(event.fixture) })); }, explain: () => haptics?.explain() ?? '', get error() { return haptics?.error ?? null; }, free: () => haptics?.free() }; },
+        create(of) { all.push({ ...of }); return all.length - 1; },
+        get(body) { const of = all[body], at = placeOf(body), q = data?.qpos, v = data?.qvel, isFree = isDynamic(of) && data; return { x: of.x + (isFree ? q[at] : 0), y: of.y + (isFree ? q[at + 1] : 0), vx: isFree ? v[at] : of.vx ?? 0, vy: isFree ? v[at + 1] : of.vy ?? 0, angle: (of.angle ?? 0) + (isFree && !of.lockTurn ? q[at + 2] : 0), spin: isFree && !of.lockTurn ? v[at + 2] : 0, massKg: isDynamic(of) ? data ? model.body_mass[body + 1] : of.massKg : 0 }; },
+        put(body, x, y) { const of = all[body]; if (!data || !isDynamic(of)) { Object.assign(of, { x, y }); if (data) { model.body_pos[3 * body + 3] = x; model.body_pos[3 * body + 5] = y; } return; } const at = placeOf(body); data.qpos[at] = x - of.x; data.qpos[at + 1] = y - of.y; },
+        fling(body, vx, vy, spin = 0) { if (!data) { Object.assign(all[body], { vx, vy, spin }); return; } const at = placeOf(body); data.qvel[at] = vx; data.qvel[at + 1] = vy; if (!all[body].lockTurn) data.qvel[at + 2] = spin; },
+        mass(body, kg) { if (!data) compile(); const by = kg / model.body_mass[body + 1]; model.body_mass[body + 1] = kg; for (let i = 3; i < 6; ++i) model.body_inertia[3 * body + i] *= by; const at = placeOf(body), q = [...data.qpos], v = [...data.qvel]; M.mj_setConst(model, data); q.forEach((value, i) => { data.qpos[i] = value; }); v.forEach((value, i) => { data.qvel[i] = value; }); },
+        gravity(y) { model.opt.gravity[2] = -y; }, passes(body, is) { if (!data) compile(); const geom = model.body_geomadr[body + 1]; model.geom_contype[geom] = model.geom_conaffinity[geom] = is ? 0 : 1; },
+        step(seconds) {
+            if (!data) compile();
+            const count = Math.ceil(seconds / 0.002 - 1e-9);
+            if (count > 0) model.opt.timestep = seconds / count;
+            for (let i = 0; i < count; ++i) haptics.update();
+        },
+        end() { data?.delete(); model?.delete(); },
+    };
+    return driver;
+}
+
 /** A game's own: circles, and boxes that do not turn. */
 async function velocities(folder, physvib, { gravity }) {
     const { attachVelocities } = await load(folder, 'physvib/velocities'), { apart, stateOf } = await load(folder, 'physvib/velocities').then(() => ({ apart: near, stateOf: null })), bodies = new Set(), pull = { x: 0, y: -gravity };
@@ -178,4 +352,4 @@ async function velocities(folder, physvib, { gravity }) {
     };
 }
 
-export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities };
+export const drivers = { matter, planck, rapier2d: (...rest) => rapier('2d', ...rest), rapier3d: (...rest) => rapier('3d', ...rest), box2d3, velocities, cannon, havok: (...rest) => havok(false, ...rest), babylon: (...rest) => havok(true, ...rest), jolt, mujoco };

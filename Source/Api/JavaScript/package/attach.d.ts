@@ -36,4 +36,11 @@ export interface SteppedHaptics<Body = any> extends Haptics<Body> {
     update(seconds: number): void;
 }
 
+/** Of engines that another, a scene say, may step. */
+export interface SpaceHaptics<Body = any> extends SteppedHaptics<Body> {
+    /** Before a step of so many seconds that another makes, and behind it. */
+    before(seconds: number): void;
+    after(): void;
+}
+
 export function attach<Body = any>(physvib: PhysVib, world: object, options?: AttachOptions): SteppedHaptics<Body>;

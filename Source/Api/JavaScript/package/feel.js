@@ -18,6 +18,10 @@ const kinds = [
     [engine => engine.narrowPhase && engine.gravity.z !== undefined, rapier3d],
     [engine => engine.narrowPhase, rapier2d],
     [(engine, { b2 }) => b2 && engine.index1 > 0, box2d3],
+    [engine => engine.subsystems && engine.contacts, (...given) => import('./cannon.js').then(({ attach }) => attach(...given))], // those that few pages need
+    [engine => engine.getPhysicsEngine || engine.havok, (...given) => import('./havok.js').then(({ attach }) => attach(...given))],
+    [engine => engine.Jolt && engine.interface, (...given) => import('./jolt.js').then(({ attach }) => attach(...given))],
+    [engine => engine.mujoco && engine.model, (...given) => import('./mujoco.js').then(({ attach }) => attach(...given))],
     [engine => typeof engine.bodies === 'function' && engine.read, attachVelocities],
 ];
 const gestures = ['pointerdown', 'keydown', 'touchend'], early = { capture: true };
@@ -69,9 +73,9 @@ class Felt {
 
 export async function feel(engine, { physvib, pixelsPerMetre, metresPerUnit = pixelsPerMetre ? 1 / pixelsPerMetre : undefined, fieldWidth = 1, fieldHeight = fieldWidth, layout, outputs, level, latency, worklet, context, profile, phone, ...settings } = {}) {
     const kind = kinds.find(([isOne]) => isOne(Object(engine), settings));
-    expectThat(kind !== undefined, 'feel', "an engine's world (of Matter, Planck, Rapier, box2d3-wasm with b2, or { bodies, read })", engine);
+    expectThat(kind !== undefined, 'feel', "an engine's world (of Matter, Planck, Rapier, box2d3-wasm with b2, cannon-es, Babylon's scene, { havok, world, bodies }, { Jolt, interface }, { mujoco, model, data }, or { bodies, read })", engine);
     physvib ??= await load();
-    const haptics = kind[1](physvib, engine, { fullScaleImpulse: 'automatic', ...settings, fieldWidth, fieldHeight, ...(metresPerUnit && { metresPerUnit }) });
+    const haptics = await kind[1](physvib, engine, { fullScaleImpulse: 'automatic', ...settings, fieldWidth, fieldHeight, ...(metresPerUnit && { metresPerUnit }) });
     const field = { fieldWidth, fieldHeight }, given = Object.fromEntries(Object.entries({ layout, outputs, level, latency, worklet }).filter(([, value]) => value !== undefined));
     try {
         const pads = globalThis.navigator?.getGamepads ? rumble(physvib, { ...field, ...(profile && { profile }), ...(phone !== undefined && { phone }), ...(latency && { latency }) }) : null;

@@ -3,6 +3,7 @@
 // by momentum.
 import { byPlace, contactOf, leftOut } from './journal.js';
 import { expectEngine, Haptics, meet, motionAt } from './haptics.js';
+import { aroundSteps } from './steps.js';
 import { closingOf, endOf, startOf, stopOf } from './stops.js';
 
 const nearMetres = 0.005; // what lies within goes on touching, though Rapier pushes it in some steps only
@@ -13,9 +14,13 @@ const ownerOf = collider => collider.parent() ?? collider;
 // Pairs that touched in the step before: small whole numbers, which a set keeps without allocating, as long as there are few bodies.
 const keyOf = (a, b) => (a < 2 ** 15 && b < 2 ** 15 ? a << 15 | b : 2 ** 53 - 1 - a * 2 ** 26 - b);
 
+// Rapier before 0.20 does not say it of a pair: the later rule of both counts (average, least, product, most).
+const combined = [(a, b) => (a + b) / 2, Math.min, (a, b) => a * b, Math.max];
+const bounceOf = (a, b) => combined[Math.max(a.restitutionCombineRule(), b.restitutionCombineRule())](a.restitution(), b.restitution());
+
 /** What both have; physvib/rapier3d says otherwise what space changes. */
 export class RapierHaptics extends Haptics {
-    #engine; #touching = new Set(); #was = new Set(); #kept = new Map(); #pass = 0; #seconds = 0; #fresh = null; #one = null; #other = null; #pairs = null; #slack = 0; #lastSeconds = 0; #v = undefined; #normal = undefined; #gravity = undefined;
+    #engine; #end; #touching = new Set(); #was = new Set(); #kept = new Map(); #pass = 0; #seconds = 0; #fresh = null; #one = null; #other = null; #pairs = null; #slack = 0; #lastSeconds = 0; #v = undefined; #normal = undefined; #gravity = undefined;
     /** Of a contact as it is looked at. */
     spot = Object.assign(contactOf(), { soft: 1 });
 
@@ -35,12 +40,17 @@ export class RapierHaptics extends Haptics {
             },
         }, options);
         this.#engine = engine;
+        this.#end = aroundSteps(engine, 'step', this, () => engine.timestep);
     }
+    detach() { this.#end(); }
 
-    /** `advance` steps the engine by `seconds`; without it, we do. */
+    /** Around the world's step, whoever makes it: a game, or a component of React. */
+    before(seconds) { this.guarded(() => this.#before(seconds)); }
+    after(isDone) { this.finish(isDone ? () => this.#after(this.#seconds) : undefined); }
+    /** `advance` calls the world's step; without it, we do. */
     step(seconds, advance = () => this.#engine.step()) {
         this.#engine.timestep = seconds;
-        this.around(() => advance(seconds), () => this.#before(seconds), () => this.#after(seconds));
+        advance(seconds);
     }
     #before(seconds) {
         const { gravity } = this.#engine, pull = this.size(gravity) * this.metresPerUnit;
@@ -246,7 +256,7 @@ export class RapierHaptics extends Haptics {
             this.lookAt(manifold, i, isFlipped ? other : one, isFlipped ? one : other, m, turn, a, b);
             if (!(impulse > 0) && !(spot.gap < nearMetres && Math.abs(spot.approach) < this.#slack)) continue;
             if (spot.gap > nearMetres + (this.#slack + Math.max(0, spot.approach)) * seconds) continue; // Rapier keeps impulses of pairs that touch no more
-            if (bounce < 0) bounce = Math.min(1, Math.max(0, manifold.restitution()));
+            if (bounce < 0) bounce = Math.min(1, Math.max(0, manifold.restitution?.() ?? bounceOf(one.collider, other.collider)));
             this.#touching.add(key);
             this.#fresh?.push(key);
             spot.impulse = Math.max(0, impulse * unit);

@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rapier 3D: as Rapier 2D, with places, normals and motions in space.
 import { expectRapier, RapierHaptics } from './rapier2d.js';
-import { endOf, startOf, stopOf } from './stops.js';
-
-const plus = (a, b, times = 1) => ({ x: a.x + times * b.x, y: a.y + times * b.y, z: a.z + times * b.z });
-const dot = (a, b) => a.x * b.x + a.y * b.y + a.z * b.z;
-const cross = (a, b) => ({ x: a.y * b.z - a.z * b.y, y: a.z * b.x - a.x * b.z, z: a.x * b.y - a.y * b.x });
-const nowhere = { x: 0, y: 0, z: 0 };
-/** A point turned by a quaternion. */
-const turn = (q, p) => {
-    const t = cross(q, p);
-    return plus(plus(p, t, 2 * q.w), cross(q, t), 2);
-};
+import { dot, lostAt, nowhere, plus, spotAt, stopBefore, stopBehind, turn } from './space.js';
 
 class RapierHaptics3D extends RapierHaptics {
     inertiaOf(body) { return dot(body.principalInertia(), { x: 1, y: 1, z: 1 }) / 3; }
@@ -25,16 +15,13 @@ class RapierHaptics3D extends RapierHaptics {
         Object.assign(known, { at: plus(nowhere, body.worldCom(), unit), v: plus(nowhere, this.velocityOf(known), unit), turns: body.angvel() });
         known.inverse = inverse;
         const { at, v } = known, free = plus(v, gravity, pull);
-        if (!known.isStatic) startOf(known.stop ??= stopOf(), at.x, at.y, at.z, v.x, v.y, v.z, free.x, free.y, free.z);
+        stopBefore(known, free);
         this.journal.moveInSpace(known.id, at, free, known.turns, inverse);
     }
     ended({ stop, body }, seconds, subSeconds) {
-        const at = plus(nowhere, body.worldCom(), this.metresPerUnit), v = plus(nowhere, body.linvel(), this.metresPerUnit);
-        endOf(stop, at.x, at.y, at.z, v.x, v.y, v.z, seconds, subSeconds);
+        stopBehind(stop, plus(nowhere, body.worldCom(), this.metresPerUnit), plus(nowhere, body.linvel(), this.metresPerUnit), seconds, subSeconds);
     }
-    lostAt({ stop, at, turns }, { x, y, z, normalX, normalY, normalZ }) {
-        return stop ? dot(plus({ x: stop.toX, y: stop.toY, z: stop.toZ }, cross(turns, plus({ x, y, z }, at, -1)), stop.turn), { x: normalX, y: normalY, z: normalZ }) : 0;
-    }
+    lostAt(known, spot) { return lostAt(known, spot); }
     observeAgain(known) { this.journal.moveInSpace(known.id, known.at, known.v, known.turns, known.inverse); }
     movedAgain(known) { this.journal.movedInSpace(known.id, known.v, known.turns); }
     observeStill(known, at) {
@@ -48,20 +35,8 @@ class RapierHaptics3D extends RapierHaptics {
         const place = ({ at, turned, radius }, side, local) => plus(at, radius > 0 ? plus(nowhere, m, side * radius) : turn(turned, local));
         const first = place(one, 1, one.radius > 0 ? null : manifold.localContactPoint1(i)), second = place(other, -1, other.radius > 0 ? null : manifold.localContactPoint2(i));
         const isFirst = one.radius > 0 || (other.radius === 0 && (way > 0 ? !a.isStatic && b.isStatic : !b.isStatic && a.isStatic)), at = plus(nowhere, isFirst ? first : second, unit); // the point of what moves
-        const va = plus(a.v, cross(a.turns, plus(at, a.at, -1))), vb = plus(b.v, cross(b.turns, plus(at, b.at, -1)));
-        const point = b.isRound ? b.v : a.isRound ? a.v : b.isStatic ? va : vb; // goes with a round body's centre, or with the corner of what moves
-        const across = v => plus(v, n, -dot(v, n)), ua = across(plus(point, va, -1)), ub = across(plus(point, vb, -1));
-        const along = this.size(ua) > this.size(ub) ? ua : ub, length = this.size(along) || 1; // in which grains are passed
-        spot.x = at.x;
-        spot.y = at.y;
-        spot.z = at.z;
-        spot.normalX = n.x;
-        spot.normalY = n.y;
-        spot.normalZ = n.z;
         spot.gap = unit * dot(plus(second, first, -1), m);
-        spot.approach = dot(plus(va, vb, -1), n);
-        spot.alongA = dot(ua, along) / length;
-        spot.alongB = dot(ub, along) / length;
+        spotAt(a, b, at, n, spot);
     }
 }
 

@@ -6,16 +6,19 @@ const slop = 0.005; // m; and the share of its path that a body may be short of
 /** Of a body: where it was, what it would have without contacts, and what it lost. Lengths are metres; in a plane, z is 0. */
 export const stopOf = () => ({ x: 0.5, y: 0.5, z: 0.5, vx: 0.5, vy: 0.5, vz: 0.5, freeX: 0.5, freeY: 0.5, freeZ: 0.5, toX: 0.5, toY: 0.5, toZ: 0.5, turn: 0.5, isPut: true });
 
-/** Before a step, with the velocity that gravity makes of it. */
-export function startOf(stop, x, y, z, vx, vy, vz, freeX, freeY, freeZ) {
-    stop.isPut = !(stop.x === x && stop.y === y && stop.z === z);
-    if (stop.isPut || !(stop.vx === vx && stop.vy === vy && stop.vz === vz)) stop.toX = stop.toY = stop.toZ = stop.turn = 0;
+function keep(stop, x, y, z, vx, vy, vz) {
     stop.x = x;
     stop.y = y;
     stop.z = z;
     stop.vx = vx;
     stop.vy = vy;
     stop.vz = vz;
+}
+/** Before a step, with the velocity that gravity makes of it. */
+export function startOf(stop, x, y, z, vx, vy, vz, freeX, freeY, freeZ) {
+    stop.isPut = !(stop.x === x && stop.y === y && stop.z === z);
+    if (stop.isPut || !(stop.vx === vx && stop.vy === vy && stop.vz === vz)) stop.toX = stop.toY = stop.toZ = stop.turn = 0;
+    keep(stop, x, y, z, vx, vy, vz);
     stop.freeX = freeX;
     stop.freeY = freeY;
     stop.freeZ = freeZ;
@@ -29,12 +32,7 @@ export function endOf(stop, x, y, z, vx, vy, vz, seconds, subSeconds) {
     stop.toY = share * toY;
     stop.toZ = share * toZ;
     stop.turn = share * seconds;
-    stop.x = x;
-    stop.y = y;
-    stop.z = z;
-    stop.vx = vx;
-    stop.vy = vy;
-    stop.vz = vz;
+    keep(stop, x, y, z, vx, vy, vz);
 }
 
 /** When a gap closes, in steps of `seconds` after the start of this one; below 0: it has in the one before, of `lastSeconds`. Of a body that is faster by half a small step's gravity, as it moves so. */

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Engines that whoever may step: a game, a scene, a component. What attaches looks before and behind each step, by whomever it is made.
+const stepped = new WeakMap();
+
+/** `haptics.before(seconds)` and `haptics.after(isDone)` around each call of `object[name]`, until what it returns is called. `isOurs(...given)`: it steps our world; `secondsOf(...given)`:
+ * how far. */
+export function aroundSteps(object, name, haptics, secondsOf, isOurs = () => true) {
+    let each = stepped.get(object);
+    if (each === undefined) {
+        stepped.set(object, each = new Map());
+        const step = object[name];
+        object[name] = function (...given) {
+            const ours = [...each].filter(([, of]) => of.isOurs(...given));
+            let isDone = false;
+            for (const [one, of] of ours) one.before(of.secondsOf(...given));
+            try {
+                const result = step.apply(this, given);
+                isDone = true;
+                return result;
+            } finally {
+                for (const [one] of ours) one.after(isDone);
+            }
+        };
+    }
+    each.set(haptics, { isOurs, secondsOf });
+    return () => { each.delete(haptics); };
+}
