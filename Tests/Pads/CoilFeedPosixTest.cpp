@@ -14,7 +14,6 @@ namespace physvib {
 namespace {
 
 constexpr std::int64_t ms = 1'000'000;
-constexpr HidFeedKind kind{{}, "test"};
 
 PhantomPanner panner(const char* preset) {
     EnchanterLayout layout;
@@ -26,6 +25,8 @@ PhantomPanner panner(const char* preset) {
 struct Fed {
     explicit Fed(const char* preset = "phone2", const CoilFormat& format = dualSenseSamples())
         : feed{std::make_unique<CoilFeed>(kind, format, panner(preset))} {}
+    // of its own: what a kind has had is remembered
+    const HidFeedKind kind{{}, testing::UnitTest::GetInstance()->current_test_info()->name()};
     /// Steps of a millisecond; the reports.
     template <class Value>
     std::vector<PadReport> run(int milliseconds, float level, Value value, bool hasBlocks = true) {
@@ -101,6 +102,22 @@ TEST(CoilFeed, DirectCurrentIsTurnedDownAsAtEveryOutput) {
     for (std::size_t i = reports.size() - 23; i < reports.size(); ++i) // 250 ms
         for (std::size_t n = 0; n < 32; ++n) sum += static_cast<std::int8_t>(reports[i].bytes[13 + 2 * n]);
     EXPECT_LE(std::abs(sum) / (23 * 32 * 127), limits::guardShare);
+}
+
+TEST(CoilFeed, OpeningAnewIsNoWayAroundTheGuard) {
+    GuardMemory::now = [] { return GuardMemory::Clock::time_point{std::chrono::hours{1}}; };
+    double sum = 0.0;
+    int reports = 0;
+    for (int opening = 0; opening < 40; ++opening) {
+        Fed fed;
+        for (const PadReport& report : fed.run(50, 1.0f, [](std::size_t, std::int64_t) { return 1.0f; })) {
+            if (opening < 20) continue; // a second
+            ++reports;
+            for (std::size_t n = 0; n < 32; ++n) sum += static_cast<std::int8_t>(report.bytes[13 + 2 * n]);
+        }
+    }
+    GuardMemory::now = GuardMemory::Clock::now;
+    EXPECT_LE(std::abs(sum) / (reports * 32 * 127), limits::guardShare);
 }
 
 TEST(CoilFeed, ActuatorsArePannedByTheirPlaceFromLeftToRight) {

@@ -63,7 +63,8 @@ void CoilFeed::begin() {
     }
     reducer_ = RateReducer{reducedHz_, format_.rateHz};
     level_.prepare(format_.rateHz, rampSeconds, 0.0f);
-    guard_.prepare(format_.rateHz, 2, GuardPlace::last);
+    guard_.begin(std::string{kind_.name}, {0, 1}, format_.rateHz);
+    for (const int side : {0, 1}) guard_.follow(side, side);
     dueNs_ = 0;
     leastLeft_ = SIZE_MAX, reports_ = 0;
     isEarly_ = isStarved_ = false;

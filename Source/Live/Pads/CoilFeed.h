@@ -3,9 +3,9 @@
 // rate, at the master level, guarded as at every output, and cut into reports at an even pace.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
-#include "Core/Actuators/OutputGuard.h"
 #include "Core/EventQueue.h"
 #include "Core/PhantomPanner.h"
+#include "Live/Devices/DeviceGuard.h"
 #include "Live/Pads/HidFeed.h"
 #include "Live/Pads/RateReducer.h"
 #include <atomic>
@@ -52,7 +52,7 @@ private:
     RateReducer reducer_;
     int reducedHz_; // that the reducer is for
     GainRamp level_;
-    OutputGuard guard_;
+    DeviceGuard guard_; // remembers what a controller of this kind has had, as a sound device's does
     std::uint32_t number_ = 0;
     std::int64_t dueNs_ = 0; // steady time of the next report; 0: as soon as there are samples
     std::size_t leastLeft_ = 0, reports_ = 0; // frames that stayed behind, over the last reports
