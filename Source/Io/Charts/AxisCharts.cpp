@@ -170,7 +170,9 @@ struct LineDrawing {
         if (series.isFaint)
             svg.path(d, "none", {"#aaa", 0.8});
         else
-            svg.path(d, "none", {seriesColour(series.style), 2.0, seriesDash(series.style)});
+            svg.path(d, "none",
+                     series.isThin ? Stroke{seriesColour(series.style), 1.0}
+                                   : Stroke{seriesColour(series.style), 2.0, seriesDash(series.style)});
     }
     void draw(const LineSeries& series) const {
         if (series.points.empty()) return;
