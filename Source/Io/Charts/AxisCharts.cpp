@@ -152,7 +152,9 @@ std::vector<LegendItem> legendOf(const LineChart& chart) {
     for (const LineSeries& series : chart.series)
         if (!series.name.empty())
             items.push_back({series.name, series.style,
-                             series.isMarked ? LegendItem::Kind::marker : LegendItem::Kind::dashes});
+                             series.isMarked ? LegendItem::Kind::marker
+                             : series.isThin ? LegendItem::Kind::solid
+                                             : LegendItem::Kind::dashes});
     return items;
 }
 
