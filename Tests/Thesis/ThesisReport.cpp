@@ -109,10 +109,10 @@ void RehearsalPage::tellBlur() {
 }
 
 std::string RehearsalPage::besideChart(const std::string& title, const std::string& words,
-                                    const std::vector<std::string>& groups,
-                                    const std::vector<std::optional<double>>& printed,
-                                    const std::vector<std::optional<double>>& rehearsed,
-                                    std::optional<double> most) {
+                                       const std::vector<std::string>& groups,
+                                       const std::vector<std::optional<double>>& printed,
+                                       const std::vector<std::optional<double>>& rehearsed,
+                                       std::optional<double> most) {
     const auto bars = [](const std::vector<std::optional<double>>& values) {
         std::vector<std::optional<ChartValue>> all;
         for (const auto& value : values)

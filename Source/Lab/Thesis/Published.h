@@ -63,25 +63,6 @@ inline constexpr std::array counts{
                                           2.97, 2.62, 3.56, 2.29, 3.90, 3.24, 4.05, 3.45}},
 };
 
-/// Table 5.1: what falls.
-struct Body {
-    std::string_view name;
-    double size = 0.0, height = 0.0;  ///< m; without a height a circle of radius `size`
-    double density = 0.0, mass = 0.0; ///< kg/m^2, kg as printed
-};
-inline constexpr std::array bodies{Body{"rubber ball, small", 0.15, 0.0, 120, 8.48},
-                                   Body{"rubber ball, medium", 0.3, 0.0, 120, 33.92},
-                                   Body{"rubber ball, large", 0.45, 0.0, 120, 76.32},
-                                   Body{"wooden sphere, small", 0.15, 0.0, 850, 59.08},
-                                   Body{"wooden sphere, medium", 0.3, 0.0, 850, 238.73},
-                                   Body{"wooden sphere, large", 0.45, 0.0, 850, 537.15},
-                                   Body{"steel can, small", 0.157, 0.3, 1193, 56.71},
-                                   Body{"steel can, medium", 0.314, 0.6, 1193, 226.85},
-                                   Body{"steel can, large", 0.471, 0.9, 1193, 510.41},
-                                   Body{"concrete block", 2.9, 0.3, 1000, 870},
-                                   Body{"wooden board", 2.9, 0.3, 850, 739.5},
-                                   Body{"steel plate", 2.9, 0.3, 7820, 6803.4}};
-
 inline constexpr double modelChosenPercent = 59.0; ///< 5.2.2, all votes
 
 /// 5.3.2: three of the eight methods are printed.

@@ -10,18 +10,19 @@ namespace physvib {
 
 /// Sections, equations, figures, tables or studies of the thesis that one call reproduces.
 struct ThesisRow {
-    std::string at;      ///< "Fig. 3.4, Eq. 3.1"
-    std::string what;    ///< in a few words
-    std::string run;     ///< the call; empty: none
-    std::string needs;   ///< what no program has: hands, hardware, participants; empty: nothing
-    std::string differs; ///< from the print, and why; empty: no difference is known
+    std::string at;       ///< "Fig. 3.4, Eq. 3.1"
+    std::string what;     ///< in a few words
+    std::string run;      ///< the call; empty: none
+    std::string needs;    ///< what no program has: hands, hardware, participants; empty: nothing
+    std::string misprint; ///< what the print cannot mean; empty: nothing
+    std::string differs;  ///< how PhysVib does it otherwise; empty: no difference is known
 };
 
 /// All rows, in the order of the thesis; those of studies tell the deviations that their version as published
 /// has left. Made on first use; any thread.
 const std::vector<ThesisRow>& thesisRows();
 
-/// at,what,run,needs,differs. Any thread (allocates).
+/// at,what,run,needs,misprint,differs. Any thread (allocates).
 std::string thesisRowsCsv();
 
 /// A page about the thesis under construction, with the files beside it.

@@ -22,8 +22,7 @@ struct ThesisOptions {
     std::string place, folder; ///< empty: all, none
 };
 
-constexpr int figureRateHz = 5000;    // r_v of the thesis
-constexpr std::size_t motorStyle = 5; // dashed
+constexpr int figureRateHz = 5000; // r_v of the thesis
 constexpr double hitsApartSeconds = 0.22, firstHitSeconds = 0.02;
 using ThreeHits = std::array<std::size_t, 3>;
 
@@ -75,10 +74,10 @@ std::vector<double> played(const FeltStimulus& felt, const ThreeHits& hits) {
     return samples;
 }
 
-LineSeries curve(std::string name, const std::vector<double>& samples, std::size_t style) {
+LineSeries curve(std::string name, const std::vector<double>& samples, std::size_t style, bool isThin) {
     LineSeries series{std::move(name), {}};
     series.isMarked = false;
-    series.isThin = style != motorStyle;
+    series.isThin = isThin;
     series.style = style;
     for (std::size_t n = 0; n < samples.size(); ++n)
         series.points.push_back(
@@ -90,21 +89,26 @@ std::string drawEightMethods(ThesisPage& out) {
     const auto methods = methodsOf("steel-steel");
     if (!methods) return methods.error;
     const ThreeHits hits = threeHits(methods.value.at("AV-FV-DRV").stimulus.events);
+    const auto varied = played(methods.value.at("AV-FV-DRV"), hits);
+    const double strongestG = 1.2 * std::ranges::max(varied);
     std::vector<std::string> charts;
     for (const auto& [name, felt] : methods.value) {
+        const bool isFixed = name.starts_with("AF");
         LineChart chart{{"method" + std::to_string(charts.size()), name, false},
                         "time (ms)",
                         "acceleration (g)",
-                        {curve({}, played(felt, hits), name.starts_with("AV") ? 0u : 4u)}};
-        chart.yRange = {-2.0, 2.0};
+                        {curve({}, played(felt, hits), isFixed ? 4u : 0u, true)}};
+        const double most = isFixed ? 2.0 : strongestG;
+        chart.yRange = {-most, most};
         chart.width = 335.0;
         chart.height = 240.0;
         charts.push_back(lineChart(chart));
     }
     out.page.heading("Eight methods (Fig. 5.12)");
-    out.addFigure("fig5-12", charts,
-                  "Three hits of eight-methods-thesis, steel can on steel wall, set 220 ms apart, as an "
-                  "actuator of 2 g plays them. Printed: AF 1.5 g, FF 250 Hz, DRF 20 ms.");
+    out.addFigure(
+        "fig5-12", charts,
+        "Three hits of eight-methods-thesis, steel can on steel wall, set 220 ms apart, as an "
+        "actuator of 2 g plays them; axes of AF and AV differ. Printed: AF 1.5 g, FF 250 Hz, DRF 20 ms.");
     return {};
 }
 
@@ -113,7 +117,7 @@ std::string drawOnOff(ThesisPage& out) {
     if (!methods) return methods.error;
     const FeltStimulus& felt = methods.value.at("AV-FV-DRV");
     std::vector<double> wave = played(felt, threeHits(felt.stimulus.events)), motor;
-    const double peak = std::abs(*std::ranges::max_element(wave, {}, [](double x) { return std::abs(x); }));
+    const double peak = std::ranges::max(wave); // a decay's first half wave
     OnOffSteps steps{figureRateHz, OnOffSteps::thesisThreshold};
     for (double& sample : wave) {
         sample /= peak;
@@ -124,19 +128,22 @@ std::string drawOnOff(ThesisPage& out) {
         {"commands", "Commands for a wideband actuator and for a motor that is on or off", false},
         "time (ms)",
         "share of full scale",
-        {curve("wideband actuator", wave, 4), curve("on or off, threshold 0.1", motor, motorStyle)}};
+        {curve("wideband actuator", wave, 0, true), curve("on or off, threshold 0.1", motor, 4, false)}};
     chart.yRange = {-1.0, 1.0};
     out.page.heading("Both commands (Fig. 5.4)");
-    out.addFigure("fig5-4", {lineChart(chart)},
-                  "Three hits of wood on wood, 220 ms apart, the strongest at full scale. A motor is told "
-                  "each 10 ms, for the 10 ms before. physvib render --pattern writes the same of a scene.");
+    out.addFigure(
+        "fig5-4", {lineChart(chart)},
+        "Three hits of wood on wood, 220 ms apart, the strongest at full scale. A motor gets its word "
+        "each 10 ms, for the 10 ms before. physvib render --pattern writes the same of a scene.");
     return {};
 }
 
 std::string textOf(const ThesisRow& row) {
     std::string text = row.at + ": " + row.what + "\n";
-    for (const auto& [words, cell] :
-         {std::pair{"    ", &row.run}, {"    needs: ", &row.needs}, {"    differs: ", &row.differs}})
+    for (const auto& [words, cell] : {std::pair{"    ", &row.run},
+                                      {"    needs: ", &row.needs},
+                                      {"    misprint: ", &row.misprint},
+                                      {"    differs: ", &row.differs}})
         if (!cell->empty()) text += words + *cell + "\n";
     return text;
 }
