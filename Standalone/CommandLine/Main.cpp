@@ -18,15 +18,15 @@ namespace physvib {
 Command scenesCommand(), renderCommand(), exportCommand(), beatsCommand(), playCommand(), analyseCommand(),
     reportCommand(), stimulusCommand(), boardCommand(), studyCommand(), materialCommand(),
     attenuationCommand(), couplingCommand(), actuatorsCommand(), devicesCommand(), padsCommand(),
-    calibrateCommand();
+    calibrateCommand(), thesisCommand();
 
 namespace {
 
 /// In the order of --help; each is in its own file.
 constexpr Command (*commands[])() = {
-    scenesCommand,   renderCommand,    exportCommand,  beatsCommand, playCommand,     analyseCommand,
-    reportCommand,   stimulusCommand,  boardCommand,   studyCommand, materialCommand, attenuationCommand,
-    couplingCommand, actuatorsCommand, devicesCommand, padsCommand,  calibrateCommand};
+    scenesCommand,   renderCommand,    exportCommand,  beatsCommand, playCommand,      analyseCommand,
+    reportCommand,   stimulusCommand,  boardCommand,   studyCommand, materialCommand,  attenuationCommand,
+    couplingCommand, actuatorsCommand, devicesCommand, padsCommand,  calibrateCommand, thesisCommand};
 
 int writeOwnReference(const OptionTable& app, const char* folder) {
     const std::string error = writeReference(app, folder);

@@ -75,8 +75,24 @@ TEST_F(Isolation, AFolderOfConditionsIsATableOfGammaWithCurves) {
     const std::string all = read("all.csv");
     EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 9) << all;
     const std::string picture = read("gamma.svg");
-    for (const char* words : {"<title>Isolation, axis x</title>", ">0030-15, 3 mm<"})
+    for (const char* words :
+         {"<title>Isolation, axis x</title>", ">0030-15, 3 mm<", "Gamma by frequency (Hz)", "Gamma by axis"})
         EXPECT_NE(picture.find(words), std::string::npos) << words;
+}
+
+TEST_F(Isolation, ASoftenerIsAFactorOfItsOwn) {
+    recordLayers();
+    std::string table = read("study/conditions.csv");
+    for (std::size_t at = 0; (at = table.find(",0030-15,", at)) != table.npos; at += 9)
+        table.replace(at, 9, table[at - 5] == '1' ? ",0030,5," : ",0030,15,"); // FILE-1.wav, FILE-2.wav
+    for (std::size_t at = 0; (at = table.find(",reference,", at)) != table.npos; at += 11)
+        table.insert(at + 10, ",");
+    write("study/conditions.csv", table.replace(table.find("material,"), 9, "material,softener_percent,"));
+    const auto outcome = call("attenuation study --picture gamma.svg");
+    EXPECT_TRUE(outcome.out.starts_with("material,softener_percent,thickness_mm,"))
+        << outcome.out << outcome.err;
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 9) << outcome.out;
+    EXPECT_NE(read("gamma.svg").find("Gamma by softener (%)"), std::string::npos);
 }
 
 TEST_F(Isolation, WhatIsMissingOfAStudyIsTold) {

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Tables of Docs are what their scripts print: tables.py ROOT PHYSVIB. Where a page names `Tests/figures/NAME.sh PHYSVIB`, a script that needs nothing else, the script is run with the program, and each line
-of the tables from there to the next heading has to be one that it prints, and each that it prints has to be there (timings.sh has more); the table of deviations from the thesis is compared with the list in the source. Prints what
+of the tables from there to the next heading has to be one that it prints, and each that it prints has to be there (timings.sh has more); the table of deviations from the thesis is compared with the list in the source, and misprints with the rows of `physvib thesis`. Prints what
 differs; exit code 1 if anything does."""
+import json
 import re
 import subprocess
 import sys
@@ -43,7 +44,7 @@ for script, rows in told.items():
 cell = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # the formatter may have cut a text in two
 source = (root / "Source/Lab/Study/ThesisDeviations.h").read_text()
 page = (root / "Docs/studies-thesis.md").read_text()
-deviations = re.findall(r"ThesisDeviation\{\s*" + r",\s*".join([cell] * 5) + r"(?:,\s*ThesisEdit::\w+)?\}", source)
+deviations = re.findall(r"ThesisDeviation\{\s*" + r",\s*".join([cell] * 5) + r"(?:,\s*Thesis\w+::\w+)*\}", source)
 lines = {f"| `{protocol}` {section} | {thesis} | {here} | {change or '-'} |" for protocol, section, thesis, here, change in ([re.sub(r'"\s*"', "", text.strip())[1:-1] for text in one] for one in deviations)}
 for line in sorted(lines):
     if line not in page.split("\n"):
@@ -51,6 +52,10 @@ for line in sorted(lines):
 for line in re.findall(r"^\| `[a-z-]+` \d.*\|$", page, re.M):
     if line not in lines:
         bad.append(f"Docs/studies-thesis.md: a deviation that Source/Lab/Study/ThesisDeviations.h does not have: {line}")
+
+thesis = {f"| {row['at']} | {row['misprint']} |" for row in json.loads((root / "Source/Lab/Thesis/thesis.json").read_text()) if "misprint" in row}
+shown = set(re.findall(r"^\| .* \|$", (root / "Docs/thesis.md").read_text().split("## Misprints")[1], re.M)) - {"| thesis | cannot be |", "| --- | --- |"}
+bad += [f"Docs/thesis.md beside Source/Lab/Thesis/thesis.json: {line}" for line in sorted(thesis ^ shown)]
 
 if bad or not deviations:
     sys.exit("\n".join(bad or ["no deviations were read"]))

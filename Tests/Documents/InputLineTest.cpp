@@ -25,6 +25,19 @@ TEST(InputLine, AHandHoldsABodyAndLetsItGo) {
               "to_m: expected 2 numbers, found 1 items");
 }
 
+TEST(InputLine, ALayoutIsAPresetByItsNameOrWhole) {
+    const std::string after = R"(, "law": "linear", "exponent": 1, "field_m": [6.4, 3.6]}})";
+    const auto read =
+        readInputLine(R"({"control": "layout", "panning": {"layout": "phone2")" + after, materials, 4);
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_EQ(std::get<OwnedControl>(read.value).panner->channels(), 2);
+    EXPECT_NE(faultOf(R"({"control": "layout", "panning": {"layout": "phone9")" + after)
+                  .find("panning.layout: expected one of phone1, "),
+              std::string::npos);
+    EXPECT_EQ(faultOf(R"({"control": "layout", "layout": "phone2"})"),
+              "unknown field \"layout\": expected panning, control");
+}
+
 TEST(InputLine, ASurfaceBecomesRough) {
     EXPECT_EQ(
         read(R"({"input": "texture", "material": "wood", "grain_m": 0.008, "grain_pattern": "regular"})"),

@@ -4,8 +4,8 @@
 #include "Lab/Study/Identification.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/Summaries.h"
+#include "Lab/Thesis/Published.h"
 #include "Thesis/PlaceBlur.h"
-#include "Thesis/Published.h"
 #include <array>
 #include <cmath>
 #include <cstdio>

@@ -9,11 +9,10 @@
 #include "Lab/Report/ReportPage.h"
 #include "Lab/Report/StudyReport.h"
 #include "Lab/Study/Identification.h"
-#include "Lab/Study/PercentCounts.h"
 #include "Lab/Study/Places.h"
 #include "Lab/Study/SimulatedObserver.h"
+#include "Lab/Thesis/Published.h"
 #include "Thesis/PlaceBlur.h"
-#include "Thesis/Published.h"
 #include <algorithm>
 #include <cmath>
 
@@ -40,12 +39,10 @@ ReportTrials rehearse(const std::string& name, const std::string& observer, int 
     return readReportTrials(texts, {}, protocol).value;
 }
 
-class ThesisPage {
+class RehearsalPage {
 public:
     std::map<std::string, std::string> files() {
-        tellTransfer();
         tellBlur();
-        tellCounts();
         tellRehearsals();
         page_.heading("Files");
         std::vector<std::string> names;
@@ -64,9 +61,7 @@ private:
         files_[name] = table.text();
         page_.table(table.text(), name, mostRows);
     }
-    void tellTransfer();
     void tellBlur();
-    void tellCounts();
     void tellRehearsals();
     void compareIdentification(const ReportTrials& trials, std::string_view study);
     void comparePlaces(const ReportTrials& trials);
@@ -77,66 +72,14 @@ private:
                             const std::vector<std::optional<double>>& printed,
                             const std::vector<std::optional<double>>& rehearsed, std::optional<double> most);
 
-    ReportPage page_{"The thesis again: what is printed, what follows from it, and five rehearsals", false,
+    ReportPage page_{"The thesis rehearsed: what is printed beside five rehearsals", false,
                      "Printed figures are the thesis'. Everything called rehearsed is SIMULATED: an observer "
                      "fitted to the printed figures answered, not a person."};
     std::map<std::string, std::string> files_;
     int charts_ = 0;
 };
 
-void ThesisPage::tellTransfer() {
-    page_.paragraph("The printed tests are computed again in R: Tests/Thesis/printed-tests.R. What cannot be "
-                    "had again from the "
-                    "print: F from means, as no mean has its deviation beside it, and information transfer "
-                    "from counts, as "
-                    "no confusion matrix is printed; there are bounds below, and the rehearsals.");
-    page_.heading("Information transfer as printed (Fig. 3.11, 4.2)");
-    page_.paragraph(
-        "The most that so many stimuli can transfer is log2 of their number. The least is Fano's inequality "
-        "for the printed percent correct: an IT below it cannot have that percent correct.");
-    ExportTable table{
-        "thesis-transfer", false,
-        "study,condition,criterion,stimuli,it_bits,most_bits,percent_correct,least_bits,two_to_it,possible"};
-    BarChart chart{{chartName(), "Information transfer of phantoms on grids, as printed", false},
-                   "condition",
-                   "IT (bit)",
-                   {},
-                   {{"exact, printed", {}},
-                    {"least, by Fano", {}},
-                    {"tolerance 1, printed", {}},
-                    {"least, by Fano (tolerance)", {}}}};
-    for (const thesis::Identification& one : thesis::identifications) {
-        const double most = std::log2(static_cast<double>(one.stimuli));
-        const auto add = [&](const char* criterion, double bits, double percentCorrect) {
-            if (bits <= 0.0) return;
-            const double least =
-                percentCorrect > 0.0 ? fanoBits(most, percentCorrect / 100.0, one.stimuli) : 0.0;
-            table.cell(one.study).cell(one.condition).cell(criterion).cell(one.stimuli).cell(bits).cell(most);
-            if (percentCorrect > 0.0)
-                table.cell(percentCorrect).cell(least);
-            else
-                table.cell("").cell("");
-            table.cell(std::exp2(bits))
-                .cell(bits <= most && bits >= least ? "yes" : "NO: below what its percent correct allows");
-            table.endRow();
-            if (one.study != "phantom-grids") return;
-            const std::size_t at = std::string_view{criterion} == "exact" ? 0 : 2;
-            chart.series[at].bars.push_back(ChartValue{bits, bits, bits});
-            chart.series[at + 1].bars.push_back(ChartValue{least, least, least});
-        };
-        add("exact", one.bits, one.percentCorrect);
-        add("tolerance 1", one.bitsTolerance, one.percentTolerance);
-        if (one.study != "phantom-grids") continue;
-        chart.groups.emplace_back(one.condition);
-        chart.ceilings.push_back(most);
-    }
-    chart.ceilingWords = "most possible";
-    page_.figure({barChart(chart)}, "Printed IT beside the bounds of the printed percent correct. RING-5x5 "
-                                    "with tolerance is printed as 2.62 bit: impossible with 83.5 % correct.");
-    addTable("transfer.csv", table);
-}
-
-void ThesisPage::tellBlur() {
+void RehearsalPage::tellBlur() {
     page_.heading("Percent correct as printed (Fig. 4.3), and one blur that explains it");
     page_.paragraph("One normal blur of places per configuration, fitted to the exact shares of three grids, "
                     "predicts the shares with tolerance that it was not shown.");
@@ -165,47 +108,11 @@ void ThesisPage::tellBlur() {
     addTable("blur.csv", table);
 }
 
-void ThesisPage::tellCounts() {
-    page_.heading("Percent counts as printed (Fig. 4.9), merged again");
-    page_.paragraph("Neighbouring rows and columns are merged until every cell reaches 1.42. The figure's "
-                    "tables are in another order than its captions: sample standard deviations tell which is "
-                    "which. The abstract's 6 x 5 and 6 x 4 for RING contradict them.");
-    ExportTable table{"thesis-percent-counts", false,
-                      "condition,sum,deviation_printed,deviation,grid_printed,grid,ties"};
-    std::vector<PercentCounts> all;
-    std::vector<std::string> charts;
-    for (const thesis::Counts& printed : thesis::counts) {
-        PercentCounts counts{std::string(printed.condition),
-                             thesis::countRows,
-                             thesis::countColumns,
-                             {printed.percent.begin(), printed.percent.end()}};
-        const PerceptualResolution resolution = perceptualResolution(counts);
-        table.cell(printed.condition)
-            .cell(counts.sum())
-            .cell(printed.deviation)
-            .cell(counts.standardDeviation());
-        table.cell(std::to_string(printed.columns) + " x " + std::to_string(printed.rows))
-            .cell(std::to_string(resolution.columns) + " x " + std::to_string(resolution.rows))
-            .cell(resolution.ties.size());
-        table.endRow();
-        charts.push_back(countsChart({chartName(),
-                                      counts.condition + ": " + std::to_string(resolution.columns) + " x " +
-                                          std::to_string(resolution.rows),
-                                      false},
-                                     counts));
-        all.push_back(std::move(counts));
-    }
-    page_.figure(charts, "Percent counts as printed (framed: below 1.42 %) and the largest grid that merging "
-                         "makes of them, columns x rows.");
-    addTable("resolutions.csv", table);
-    files_["percent-counts.csv"] = percentCountsCsv(all, {PHYSVIB_VERSION, {{"source", "thesis-Fig-4.9"}}});
-}
-
-std::string ThesisPage::besideChart(const std::string& title, const std::string& words,
-                                    const std::vector<std::string>& groups,
-                                    const std::vector<std::optional<double>>& printed,
-                                    const std::vector<std::optional<double>>& rehearsed,
-                                    std::optional<double> most) {
+std::string RehearsalPage::besideChart(const std::string& title, const std::string& words,
+                                       const std::vector<std::string>& groups,
+                                       const std::vector<std::optional<double>>& printed,
+                                       const std::vector<std::optional<double>>& rehearsed,
+                                       std::optional<double> most) {
     const auto bars = [](const std::vector<std::optional<double>>& values) {
         std::vector<std::optional<ChartValue>> all;
         for (const auto& value : values)
@@ -221,7 +128,7 @@ std::string ThesisPage::besideChart(const std::string& title, const std::string&
     return barChart(chart);
 }
 
-void ThesisPage::compareIdentification(const ReportTrials& trials, std::string_view study) {
+void RehearsalPage::compareIdentification(const ReportTrials& trials, std::string_view study) {
     const std::string text = trialsCsv(trials, "");
     const NamedText file{text, "rehearsal"};
     const auto data = readIdentification({&file, 1});
@@ -254,7 +161,7 @@ void ThesisPage::compareIdentification(const ReportTrials& trials, std::string_v
     }
 }
 
-void ThesisPage::comparePlaces(const ReportTrials& trials) {
+void RehearsalPage::comparePlaces(const ReportTrials& trials) {
     const std::string text = trialsCsv(trials, "");
     const NamedText file{text, "rehearsal"};
     const auto data = readLocations({&file, 1});
@@ -277,7 +184,7 @@ void ThesisPage::comparePlaces(const ReportTrials& trials) {
     addTable("resolutions-rehearsed.csv", table);
 }
 
-void ThesisPage::compareChoices(const ReportTrials& trials) {
+void RehearsalPage::compareChoices(const ReportTrials& trials) {
     const std::string text = trialsCsv(trials, "");
     const NamedText file{text, "rehearsal"};
     const auto data = readChoices({&file, 1});
@@ -288,7 +195,7 @@ void ThesisPage::compareChoices(const ReportTrials& trials) {
     addTable("choices-rehearsed.csv", table);
 }
 
-void ThesisPage::compareRatings(const ReportTrials& trials) {
+void RehearsalPage::compareRatings(const ReportTrials& trials) {
     const std::string text = trialsCsv(trials, "");
     const NamedText file{text, "rehearsal"};
     const auto data = readRatings({&file, 1});
@@ -308,7 +215,7 @@ void ThesisPage::compareRatings(const ReportTrials& trials) {
                  "chance alone.");
 }
 
-void ThesisPage::tellRehearsals() {
+void RehearsalPage::tellRehearsals() {
     page_.heading("Five rehearsals (SIMULATED)");
     page_.paragraph(
         std::string(
@@ -336,6 +243,6 @@ void ThesisPage::tellRehearsals() {
 
 } // namespace
 
-std::map<std::string, std::string> thesisReport() { return ThesisPage{}.files(); }
+std::map<std::string, std::string> thesisReport() { return RehearsalPage{}.files(); }
 
 } // namespace physvib

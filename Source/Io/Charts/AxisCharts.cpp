@@ -152,7 +152,9 @@ std::vector<LegendItem> legendOf(const LineChart& chart) {
     for (const LineSeries& series : chart.series)
         if (!series.name.empty())
             items.push_back({series.name, series.style,
-                             series.isMarked ? LegendItem::Kind::marker : LegendItem::Kind::dashes});
+                             series.isMarked ? LegendItem::Kind::marker
+                             : series.isThin ? LegendItem::Kind::solid
+                                             : LegendItem::Kind::dashes});
     return items;
 }
 
@@ -170,7 +172,9 @@ struct LineDrawing {
         if (series.isFaint)
             svg.path(d, "none", {"#aaa", 0.8});
         else
-            svg.path(d, "none", {seriesColour(series.style), 2.0, seriesDash(series.style)});
+            svg.path(d, "none",
+                     series.isThin ? Stroke{seriesColour(series.style), 1.0}
+                                   : Stroke{seriesColour(series.style), 2.0, seriesDash(series.style)});
     }
     void draw(const LineSeries& series) const {
         if (series.points.empty()) return;

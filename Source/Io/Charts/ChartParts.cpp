@@ -47,7 +47,8 @@ void drawLegend(Svg& svg, const std::vector<LegendItem>& items, ChartPoint corne
             svg.bar({left, middle - 6.0}, 20.0, 12.0, item.style);
         else
             svg.line({left, middle}, {left + 20.0, middle},
-                     {seriesColour(item.style), 2.0, seriesDash(item.style)});
+                     {seriesColour(item.style), 2.0,
+                      item.kind == LegendItem::Kind::solid ? std::string_view{} : seriesDash(item.style)});
         if (item.kind == LegendItem::Kind::marker) svg.marker({left + 10.0, middle}, item.style);
         svg.text({left + keyWidth, middle + 4.0}, item.words, {labelSize});
     });

@@ -159,7 +159,7 @@ constexpr double titleSize = 14.0, labelSize = 12.0, smallSize = 11.0;
 struct LegendItem {
     std::string words;
     std::size_t style = 0;
-    enum class Kind { bar, marker, dashes } kind = Kind::bar;
+    enum class Kind { bar, marker, dashes, solid } kind = Kind::bar;
 };
 
 /// Height of a legend with rows of at most `width`.

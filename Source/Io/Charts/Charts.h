@@ -52,6 +52,7 @@ struct LineSeries {
     std::vector<LinePoint> points;
     bool isDrawnThrough = true, isMarked = true;
     bool isFaint = false; ///< thin and grey: one of many
+    bool isThin = false;  ///< thin and without dashes: a waveform
     std::size_t style = 0;
 };
 

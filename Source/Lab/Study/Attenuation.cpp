@@ -41,7 +41,7 @@ std::map<Drive, GammaSums> referencesIn(const std::vector<IsolationMeasurement>&
 
 IsolationStudy summariseIsolation(const std::vector<IsolationMeasurement>& measurements) {
     const auto references = referencesIn(measurements);
-    std::map<std::tuple<std::string, std::string, Drive>, IsolationResult> results;
+    std::map<std::tuple<std::string, std::string, std::string, Drive>, IsolationResult> results;
     for (const IsolationMeasurement& m : measurements) {
         if (m.isReference) continue;
         const auto reference = references.find(driveOf(m.condition));
@@ -53,8 +53,8 @@ IsolationStudy summariseIsolation(const std::vector<IsolationMeasurement>& measu
                 {}};
         if (std::ranges::any_of(reference->second.levels, [](double level) { return !(level > 0.0); }))
             return {m.source + ": expected a reference that vibrates on every channel", {}};
-        IsolationResult& result =
-            results[{m.condition.material, m.condition.thickness, driveOf(m.condition)}];
+        IsolationResult& result = results[{m.condition.material, m.condition.softener, m.condition.thickness,
+                                           driveOf(m.condition)}];
         result.condition = m.condition;
         result.gammas.push_back(combinedAttenuation(attenuationRatios(m.levels, reference->second.levels)));
     }

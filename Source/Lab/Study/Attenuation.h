@@ -8,8 +8,8 @@ namespace physvib {
 
 /// A layer and its drive signal. All but the frequency are labels that are compared, not computed with.
 struct IsolationCondition {
-    std::string material, thickness; ///< of the layer; a reference has none
-    std::string voltage, axis;       ///< of the drive
+    std::string material, softener, thickness; ///< of the layer; a reference has none
+    std::string voltage, axis;                 ///< of the drive
     double frequencyHz = 0.0;
 };
 
@@ -30,7 +30,8 @@ struct IsolationResult {
 
 struct IsolationStudy {
     std::string fault;                    ///< error in one line; if set, the results are invalid
-    std::vector<IsolationResult> results; ///< sorted by material, thickness, axis, voltage and frequency
+    std::vector<IsolationResult> results; ///< sorted by material, softener, thickness, axis, voltage and
+                                          ///< frequency
 };
 
 /// Any thread (allocates).

@@ -130,14 +130,18 @@ int readChannel(const JsonField& field, int channels) {
 void expectFields(const JsonField& json, std::vector<std::string_view> known, std::string_view other) {
     known.push_back("control");
     if (!other.empty()) known.push_back(other);
-    json.expectOnly(known);
+    for (const std::string& name : json.names())
+        if (std::ranges::find(known, name) == known.end())
+            json.fail("unknown field " + inQuotes(name) + ": expected " + listed(known));
 }
 
 } // namespace
 
 PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescription>& kind) {
     json.expectObject({"layout", "law", "exponent", "field_m", "grain_law", "part_law"});
-    kind.described = readKind(json["layout"], Own<LayoutDescription>{});
+    const JsonField described = json["layout"]; // whole, or a preset by its name
+    kind.described = described.isText() ? presetLayout(layoutPresetNames[described.oneOf(layoutPresetNames)])
+                                        : readKind(described, Own<LayoutDescription>{});
     const auto& layout = kind.described.geometry;
     if (layout.count > kind.channels)
         json["layout"].fail("expected at most " + std::to_string(kind.channels) +

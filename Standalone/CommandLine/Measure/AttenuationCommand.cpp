@@ -6,6 +6,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Study/Coupling.h"
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -49,8 +50,9 @@ Result<std::vector<IsolationMeasurement>> measurementsIn(const std::string& fold
         m.source = list.value.path(row);
         const auto hz = list.value.frequencyHz(row);
         if (!hz) return Failure{hz.error};
-        m.condition = {list.value.cell(row, "material"), list.value.cell(row, "thickness_mm"),
-                       list.value.cell(row, "voltage_v"), list.value.cell(row, "axis"), hz.value};
+        m.condition = {list.value.cell(row, "material"),     list.value.cell(row, "softener_percent"),
+                       list.value.cell(row, "thickness_mm"), list.value.cell(row, "voltage_v"),
+                       list.value.cell(row, "axis"),         hz.value};
         m.isReference = m.condition.material == referenceWord;
         auto levels = axisLevels(m.source);
         if (!levels) return Failure{levels.error};
@@ -60,24 +62,40 @@ Result<std::vector<IsolationMeasurement>> measurementsIn(const std::string& fold
     return all;
 }
 
-std::string conditionCells(const IsolationCondition& c) {
-    std::string line;
-    for (const std::string& cell : {c.material, c.thickness, numberText(c.frequencyHz), c.voltage, c.axis}) {
-        appendCell(line, cell);
-        line += ',';
+/// The conditions' cells of a table; the softener has a column where a recording names one.
+class ConditionColumns {
+public:
+    explicit ConditionColumns(const std::vector<IsolationResult>& results)
+        : hasSoftener_{
+              std::ranges::any_of(results, [](const auto& r) { return !r.condition.softener.empty(); })} {}
+    std::string names() const {
+        return std::string{"material,"} + (hasSoftener_ ? "softener_percent," : "") +
+               "thickness_mm,frequency_hz,voltage_v,axis,";
     }
-    return line;
-}
+    std::string cells(const IsolationCondition& c) const {
+        std::string line;
+        const auto add = [&](const std::string& cell) {
+            appendCell(line, cell);
+            line += ',';
+        };
+        add(c.material);
+        if (hasSoftener_) add(c.softener);
+        for (const std::string& cell : {c.thickness, numberText(c.frequencyHz), c.voltage, c.axis}) add(cell);
+        return line;
+    }
 
-constexpr const char* conditionColumns = "material,thickness_mm,frequency_hz,voltage_v,axis,";
+private:
+    bool hasSoftener_;
+};
 
 /// One row per repetition, as input of statistical tests.
 std::string repetitionTable(const std::vector<IsolationResult>& results) {
-    std::string table = std::string(conditionColumns) + "repetition,gamma\n";
+    const ConditionColumns columns{results};
+    std::string table = columns.names() + "repetition,gamma\n";
     for (const IsolationResult& r : results)
         for (std::size_t k = 0; k < r.gammas.size(); ++k)
             table +=
-                conditionCells(r.condition) + std::to_string(k + 1) + "," + numberText(r.gammas[k]) + "\n";
+                columns.cells(r.condition) + std::to_string(k + 1) + "," + numberText(r.gammas[k]) + "\n";
     return table;
 }
 
@@ -90,9 +108,10 @@ int runFolder(const AttenuationOptions& o) {
         {StudyFile{o.exportPath, [&] { return repetitionTable(study.results); }},
          StudyFile{o.picturePath, [&] { return chartSheet(isolationCharts(study.results)); }}});
     if (code != exitDone) return code;
-    std::cout << conditionColumns << "repetitions,gamma,standard_deviation\n";
+    const ConditionColumns columns{study.results};
+    std::cout << columns.names() << "repetitions,gamma,standard_deviation\n";
     for (const IsolationResult& r : study.results)
-        std::cout << conditionCells(r.condition) << r.gammas.size() << ',' << numberText(r.mean) << ','
+        std::cout << columns.cells(r.condition) << r.gammas.size() << ',' << numberText(r.mean) << ','
                   << numberText(r.deviation) << '\n';
     return exitDone;
 }
@@ -106,7 +125,9 @@ void declareAttenuation(OptionTable& command, AttenuationOptions& o) {
         .required();
     command.add("reference", o.referencePath, "the same drive recorded without it").as("REFERENCE.wav");
     command.add("--export", o.exportPath, "of a folder: a row per repetition").written("FILE.csv");
-    command.add("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer")
+    command
+        .add("--picture", o.picturePath,
+             "of a folder: mean gamma by factor, and over the frequency with a curve per layer")
         .writtenAs("FILE.svg");
 }
 

@@ -2,18 +2,25 @@
 // The command `physvib material`: measures frequency and decay of a recorded contact, and their confidence.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/RecordingList.h"
+#include "CommandLine/Study/StudyOutput.h"
+#include "Io/Charts/Charts.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/MaterialExtractor.h"
+#include "Measure/Spectrum.h"
 #include "Measure/TextureExtractor.h"
 #include "Scene/MaterialTable.h"
 #include "Scene/SceneFields.h"
 #include "System/ExitCode.h"
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -58,6 +65,7 @@ struct MaterialOptions {
     std::string band = "20-1000"; ///< "LO-HI" in Hz
     std::string rule = "fit";     ///< or "two-peaks"
     bool lists = false;           ///< list the built-in materials
+    std::string picturePath;      ///< empty: none
     std::string texturePath;      ///< a scrape recording, instead of an impact
     std::optional<double> speedMetresPerSecond;
     double loadNewtons = 1.0, massKg = 1.0;
@@ -91,11 +99,60 @@ std::string howSure(const ContactSound& s) {
            (s.isConfident() ? "high" : "low");
 }
 
+/// Each scaled to a peak of 1, as in thesis Fig. 5.7.
+void scale(std::vector<double>& values) {
+    const double most = std::abs(*std::ranges::max_element(values, {}, [](double x) { return std::abs(x); }));
+    for (double& value : values) value /= most > 0.0 ? most : 1.0;
+}
+
+/// The contact from its start to where its mode has fallen to a hundredth.
+std::string pictureOf(const std::vector<float>& samples, double rateHz, const ContactSound& sound,
+                      const ExtractionBand& band) {
+    constexpr double mostSeconds = 0.5;
+    const auto from = static_cast<std::size_t>(std::max(0.0, sound.beginSeconds) * rateHz);
+    const double seconds = std::min(mostSeconds, std::log(100.0) / std::max(1.0, sound.decayPerSecond));
+    std::vector<double> contact, mode;
+    for (std::size_t n = 0; from + n < samples.size() && static_cast<double>(n) < seconds * rateHz; ++n) {
+        const double t = static_cast<double>(n) / rateHz;
+        contact.push_back(static_cast<double>(samples[from + n]));
+        mode.push_back(std::sin(2.0 * std::numbers::pi * sound.frequencyHz * t) *
+                       std::exp(-sound.decayPerSecond * t));
+    }
+    LineChart wave{{"wave", "Waveform", false}, "time (ms)", "share of the peak", {}},
+        bins{{"bins", "Spectrum", false}, "frequency (Hz)", "share of the peak", {}};
+    for (auto& [words, values, style] : {std::tuple{"recorded", &contact, 0u}, {"its mode", &mode, 4u}}) {
+        std::vector<double> spectrum = magnitudes(*values);
+        const double binHz = 0.5 * rateHz / static_cast<double>(spectrum.size() - 1);
+        scale(*values);
+        scale(spectrum);
+        LineSeries waveform{words, {}}, magnitude{words, {}};
+        for (std::size_t n = 0; n < values->size(); ++n)
+            waveform.points.push_back(
+                {1000.0 * static_cast<double>(n) / rateHz, ChartValue::around((*values)[n])});
+        for (std::size_t k = 0; k < spectrum.size() && static_cast<double>(k) * binHz <= 2.0 * band.highHz;
+             ++k)
+            magnitude.points.push_back({static_cast<double>(k) * binHz, ChartValue::around(spectrum[k])});
+        for (auto [series, chart] : {std::pair{&waveform, &wave}, {&magnitude, &bins}}) {
+            series->isMarked = false;
+            series->isThin = true;
+            series->style = style;
+            chart->series.push_back(std::move(*series));
+        }
+    }
+    bins.threshold = ChartValue{sound.frequencyHz, band.lowHz, band.highHz};
+    bins.thresholdWords = fixedNumber(sound.frequencyHz, 1) + " Hz, in the band";
+    return chartSheet({lineChart(wave), lineChart(bins)});
+}
+
 void declareMaterial(OptionTable& command, MaterialOptions& o) {
     command.add("recording", o.path, "one contact; of several, the strongest is taken").as("FILE.wav");
     command.add("--band", o.band, "Hz within which the frequency is looked for").as("LO-HI");
     command.add("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks")
         .oneOf({"fit", "two-peaks"});
+    command
+        .add("--picture", o.picturePath,
+             "waveform and spectrum of the contact, and of the mode that was found, with the band")
+        .writtenAs("FILE.svg");
     command.add("--texture", o.texturePath, "a scrape at a steady speed: grains instead of one contact")
         .as("FILE.wav");
     command.add("--speed", o.speedMetresPerSecond, "m/s at which it was scraped").as("V").in(0.001, 100.0);
@@ -107,6 +164,8 @@ void declareMaterial(OptionTable& command, MaterialOptions& o) {
 int runMaterial(const MaterialOptions& o) {
     if ((o.lists ? 1 : 0) + (o.path.empty() ? 0 : 1) + (o.texturePath.empty() ? 0 : 1) != 1)
         return leave(exitUsage, "material: give either FILE.wav or --list or --texture FILE");
+    if (!o.picturePath.empty() && o.path.empty())
+        return leave(exitUsage, "material: --picture goes with FILE.wav");
     if (o.texturePath.empty() == o.speedMetresPerSecond.has_value())
         return leave(exitUsage, "material: --texture and --speed go together");
     // range checks accept nan
@@ -124,6 +183,12 @@ int runMaterial(const MaterialOptions& o) {
                                        {band->lowHz, band->highHz},
                                        o.rule == "fit" ? MaterialRule::fit : MaterialRule::twoPeaks);
     if (!sound) return leave(exitFailed, o.path + ": " + sound.error);
+    const int code = writeStudyFiles(
+        {StudyFile{o.picturePath, [&] {
+                       return pictureOf(loudestOf(recording.value.channels), recording.value.sampleRateHz,
+                                        sound.value, {band->lowHz, band->highHz});
+                   }}});
+    if (code != exitDone) return code;
     std::cout << "frequency_hz,decay_per_s\n"
               << numberText(sound.value.frequencyHz) << ',' << numberText(sound.value.decayPerSecond) << '\n';
     std::cerr << "physvib: " << howSure(sound.value) << '\n';

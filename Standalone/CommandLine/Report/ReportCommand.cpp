@@ -51,26 +51,6 @@ private:
     std::vector<std::filesystem::path> made_;
 };
 
-int write(const std::filesystem::path& folder, const std::map<std::string, std::string>& files,
-          const std::vector<std::string>& inputs) {
-    std::vector<StudyFile> outputs;
-    std::vector<std::string> paths;
-    for (const auto& [name, text] : files) {
-        paths.push_back((folder / name).string());
-        outputs.emplace_back(paths.back(), text);
-    }
-    MadeFolders folders;
-    for (const std::string& path : paths)
-        if (auto fault = folders.make(std::filesystem::path{path}.parent_path()); !fault.empty())
-            return leave(exitFailed, fault);
-    if (const std::string clash = fileClash(paths, inputs); !clash.empty()) return leave(exitUsage, clash);
-    if (const std::string fault = keptScriptFault(folder / analysisScriptName); !fault.empty())
-        return leave(exitFailed, fault);
-    if (const int code = writeStudyFiles(outputs); code != exitDone) return code;
-    folders.keep();
-    return exitDone;
-}
-
 void declareReport(OptionTable& command, ReportOptions& o) {
     command.add("files", o.job.files, "the trial files of one study").required().as("TRIALS.csv...");
     command.add("--out", o.job.folder, "the folder: index.html, tables, analysis.R").required().as("FOLDER");
@@ -112,7 +92,7 @@ int runReport(ReportOptions& o) {
     if (!o.protocol.empty()) inputs.push_back(o.protocol);
     if (!o.job.peoplePath.empty()) inputs.push_back(o.job.peoplePath);
     if (!o.job.planPath.empty()) inputs.push_back(o.job.planPath);
-    if (const int code = write(o.job.folder, report.value.files, inputs); code != exitDone) return code;
+    if (const int code = writeFolder(o.job.folder, report.value.files, inputs); code != exitDone) return code;
     for (const std::string& note : report.value.notes) warn(note);
     if (const std::string& fault = report.value.scriptFault; !fault.empty()) return leave(exitFailed, fault);
     tellIfSimulated(report.value.isSimulated);
@@ -151,6 +131,26 @@ public:
 };
 
 } // namespace
+
+int writeFolder(const std::filesystem::path& folder, const StudyFiles& files,
+                const std::vector<std::string>& inputs) {
+    std::vector<StudyFile> outputs;
+    std::vector<std::string> paths;
+    for (const auto& [name, text] : files) {
+        paths.push_back((folder / name).string());
+        outputs.emplace_back(paths.back(), text);
+    }
+    MadeFolders folders;
+    for (const std::string& path : paths)
+        if (auto fault = folders.make(std::filesystem::path{path}.parent_path()); !fault.empty())
+            return leave(exitFailed, fault);
+    if (const std::string clash = fileClash(paths, inputs); !clash.empty()) return leave(exitUsage, clash);
+    if (const std::string fault = keptScriptFault(folder / analysisScriptName); !fault.empty())
+        return leave(exitFailed, fault);
+    if (const int code = writeStudyFiles(outputs); code != exitDone) return code;
+    folders.keep();
+    return exitDone;
+}
 
 Result<StudyFiles> runAnalysisScript(const StudyFiles& files) {
     if (!hasProgram("Rscript")) return StudyFiles{};

@@ -5,6 +5,7 @@
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Report/AnalysisScript.h"
 #include "System/ExitCode.h"
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -44,6 +45,11 @@ inline int writeStudyFiles(const std::vector<StudyFile>& files) {
         if (const auto& error = file->commit(); !error.empty()) return leave(exitFailed, error);
     return exitDone;
 }
+
+/// Writes all files into a folder, which is made, or none; refuses to write over `inputs`. Returns an exit
+/// code.
+int writeFolder(const std::filesystem::path& folder, const StudyFiles& files,
+                const std::vector<std::string>& inputs);
 
 /// Runs analysis.R in a folder of its own, where R is there; else returns no files. Message thread.
 Result<StudyFiles> runAnalysisScript(const StudyFiles& files);

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Each call of `physvib thesis` runs, in the order of the table, in an empty folder: rows.py PHYSVIB. Recordings and music, which only people have, are tones here. Each file that a call names is there afterwards,
+and each equation, figure, table and section of chapters 3 to 6 has a row. Prints what is not so; exit code 1 if anything is."""
+import csv
+import math
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import wave
+from pathlib import Path
+
+bad = []
+
+
+def tone(path: Path, seconds: float, at) -> None:
+    rate = 8000
+    with wave.open(str(path), "wb") as out:
+        channels = len(at(0.0))
+        out.setparams((channels, 2, rate, 0, "NONE", ""))
+        out.writeframes(b"".join(struct.pack("<h", round(32000 * x)) for n in range(round(seconds * rate)) for x in at(n / rate)))
+
+
+def isolation(folder: Path) -> None:
+    folder.mkdir()
+    lines = ["file,material,softener_percent,thickness_mm,frequency_hz,voltage_v,axis"]
+    for number, (material, softener, thickness, hz, axis) in enumerate((m, s, t, f, a) for m, s, t in (("reference", "", ""), ("0010", "15", "3"), ("0030", "5", "3"), ("0030", "15", "3"), ("0030", "15", "6"))
+                                                                      for f in (50, 150, 250, 350, 450) for a in "xz"):
+        passed = 1.0 if material == "reference" else (0.35 if material == "0010" else 0.2) * (60 / (hz + 10)) ** 0.5 * (1.2 if softener == "5" else 1.0) * (3 / float(thickness)) ** 0.5
+        tone(folder / f"{number}.wav", 0.4, lambda t: [0.5 * share * passed * math.sin(2 * math.pi * hz * t) for share in (1.0, 0.6, 0.3)])
+        lines.append(f"{number}.wav,{material},{softener},{thickness},{hz},1.8,{axis}")
+    (folder / "conditions.csv").write_text("\n".join(lines) + "\n")
+
+
+def parts() -> list:
+    figures = [f"Fig. {chapter}.{n}" for chapter, most in ((3, 12), (4, 9), (5, 14), (6, 1)) for n in range(1, most + 1)]
+    equations = [f"Eq. {chapter}.{n}" for chapter, most in ((3, 2), (4, 5), (5, 7), (6, 2)) for n in range(1, most + 1)]
+    sections = "3.1 3.1.1 3.1.2 3.2.1 3.2.2 3.2.3 4.1 4.1.2 4.2 4.2.2 5.1.1 5.1.2 5.1.3 5.1.4 5.1.6 5.2 5.2.1 5.2.2 5.3 5.3.2 6.1 6.2.1 6.3".split()
+    return figures + equations + ["Table 4.1", "Table 5.1"] + sections
+
+
+def run(call: str, folder: Path) -> None:
+    done = subprocess.run(["sh", "-c", call], cwd=folder, capture_output=True, encoding="utf-8")
+    if done.returncode != 0:
+        bad.append(f"{call}: exit code {done.returncode}: {done.stderr.strip()[-300:]}")
+    for name in re.findall(r"--(?:out|events|picture|counts|pattern|export|render) (\S+)", call):
+        if not (folder / name).exists():
+            bad.append(f"{call}: expected {name} afterwards")
+
+
+physvib = Path(sys.argv[1]).resolve()
+os.environ["PATH"] = f"{physvib.parent}:{os.environ['PATH']}"
+with tempfile.TemporaryDirectory() as name:
+    folder = Path(name)
+    isolation(folder / "isolation")
+    tone(folder / "song.wav", 4.0, lambda t: [0.9 * math.sin(2 * math.pi * 80 * t) * math.exp(-20 * (t % 0.5))])
+    subprocess.run([physvib, "thesis", "--out", "thesis"], cwd=folder, check=True, capture_output=True)
+    with open(folder / "thesis/thesis.csv") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    for row in rows:
+        if not row["run"] and not row["needs"]:
+            bad.append(f"{row['at']}: expected a call, or what it needs")
+        if not row["run"].startswith("Rscript") or shutil.which("Rscript"):
+            run(row["run"], folder)
+    told = ", ".join(row["at"] for row in rows)
+    bad += [f"expected a row of {part}" for part in parts() if not re.search(rf"(?:^|, ){re.escape(part)}(?:[, ]|$)", told)]
+    if keep := os.environ.get("PHYSVIB_KEEP"):  # to look at what was drawn
+        shutil.copytree(folder, keep)
+if bad:
+    sys.exit("\n".join(bad))
+print(f"{len(rows)} rows, {sum(bool(row['run']) for row in rows)} calls")
