@@ -29,6 +29,7 @@ OscUse oscUseNamed(const juce::String& name) {
 
 constexpr const char* chosenSetting = "device-chosen"; // the user has chosen a device, or none
 constexpr const char* silentSetting = "silent";
+constexpr const char* orderSetting = "mode";          // and which panels are unfolded; none: to play
 constexpr const char* folderSetting = "files-folder"; // of recordings and documents; empty: UserFolder's own
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system reports
 /// Size of borders and title bar; the exact size is known only after the window exists.
@@ -87,6 +88,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
 MixerWindow::~MixerWindow() {
     stopTimer();
     files_.settings().setValue(silentSetting, model_->isSilent());
+    keepOrder();
     files_.setLimits(limits());
     files_.setExposureToday(model_->exposure().squareGSeconds(), true);
     rendering_.reset();
@@ -100,6 +102,7 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
     const bool wasSilent = model_ ? model_->isSilent() : files_.settings().getBoolValue(silentSetting);
     const bool wasAsked = view_ && view_->question() != nullptr;
     const double exposure = model_ ? model_->exposure().squareGSeconds() : files_.exposureToday();
+    if (view_) keepOrder();
     asked_.reset();
     clearContentComponent();
     view_.reset();
@@ -140,6 +143,7 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
     model_->setDisplayWidth(1e-3 * files_.settings().getDoubleValue(displayWidthSetting));
     view_->setTheme(files_.settings().getValue("look") == "light" ? Theme::light : Theme::dark);
     view_->setDividers(Dividers::of(files_.settings().getValue("panels")));
+    view_->setOrder(files_.settings().getValue(orderSetting));
     view_->grabKeyboardFocus();
     nameWindow();
     if (wasAsked) offerRecovery();
@@ -228,11 +232,16 @@ void MixerWindow::timerCallback() {
     settings.setValue("marker", device_.marker + 1);
     settings.setValue("clip-ending", hitEndings()[dragged_->ending()]);
     settings.setValue(silentSetting, model_->isSilent());
-    settings.setValue("panels", view_->dividers().text());
+    keepOrder();
     files_.setLimits(limits());
     files_.setExposureToday(model_->exposure().squareGSeconds());
     offerMonitor();
     model_->reportFault(files_.keep(*model_, isChanged()));
+}
+
+void MixerWindow::keepOrder() {
+    files_.settings().setValue("panels", view_->dividers().text());
+    files_.settings().setValue(orderSetting, view_->order());
 }
 
 Mix MixerWindow::firstMix() {
