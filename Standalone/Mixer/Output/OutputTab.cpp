@@ -313,7 +313,9 @@ void OutputTab::refresh(const MixerMoment& moment) {
                                                 : juce::String{moment.device.deviceXruns}},
         {"Opened again", juce::String{moment.device.losses} + " times"}};
     std::ranges::move(sinkFacts(), std::back_inserter(facts));
-    facts.push_back({"Messages", osc, oscShade});
+    facts.insert(facts.begin() +
+                     (model_.inputs().status() ? 1 : static_cast<std::ptrdiff_t>(facts.size())), // in sight
+                 {"Messages", osc, oscShade});
     facts_.set(std::move(facts));
 }
 
@@ -333,7 +335,9 @@ void OutputTab::resized() {
     for (const auto& sink : sinks_) {
         const juce::String title{sink->kind.title.data()};
         const bool fits = text::pixels(sink->name.getFont(), title) <= each;
-        sink->name.setText(fits ? title : titleOf(std::string{sink->kind.name}), juce::dontSendNotification);
+        const auto shorter = titleOf(std::string{sink->kind.name});
+        sink->name.setText(fits ? title : shorter.substring(0, 1) + shorter.substring(1).toLowerCase(),
+                           juce::dontSendNotification);
     }
     placeRow(area, first);
     placeRow(area, {{oscName_, osc_, 2 * fifth},
@@ -421,6 +425,19 @@ void OutputTab::showOsc() {
     phone_.setSelectedItemIndex(static_cast<int>(hold - phoneHolds.begin()), juce::dontSendNotification);
 }
 
+namespace {
+
+/// Where others reach this computer, in place of 0.0.0.0, which nobody can type in.
+juce::String reachedAt(const std::string& address) {
+    const auto words = utf8(address), port = words.fromLastOccurrenceOf(":", true, false);
+    if (!words.startsWith("0.0.0.0")) return words;
+    juce::StringArray all;
+    for (const auto& own : ownAddresses()) all.add(utf8(own) + port);
+    return all.isEmpty() ? words : all.joinIntoString(" or ");
+}
+
+} // namespace
+
 juce::String OutputTab::oscState(Shade& state) const {
     const auto osc = model_.inputs().status();
     state = osc ? Shade::text : Shade::muted;
@@ -430,8 +447,8 @@ juce::String OutputTab::oscState(Shade& state) const {
     if (c.wrong() + c.lost + c.late + osc->unsent > 0) state = Shade::now;
     juce::StringArray parts;
     if (!osc->address.empty())
-        parts.add(utf8(osc->address) + ": " + count(c.messages - c.refused) + " good, " + count(c.wrong()) +
-                  " bad, " + count(c.late) + " late" +
+        parts.add(reachedAt(osc->address) + ": " + count(c.messages - c.refused) + " good, " +
+                  count(c.wrong()) + " bad, " + count(c.late) + " late" +
                   (c.lost > 0 ? ", " + count(c.lost) + " lost" : juce::String{}));
     if (!model_.inputs().choice().receiver.empty())
         parts.add("to " + utf8(model_.inputs().choice().receiver) + ": " + count(osc->sent) + " sent" +

@@ -219,7 +219,7 @@ public:
     void paint(juce::Graphics& g) override {
         if (const auto* stop = stopButton(*getParentComponent()))
             g.excludeClipRegion(getLocalArea(stop, stop->getLocalBounds()));
-        g.fillAll(shade(*this, Shade::ground).withAlpha(0.45f));
+        g.fillAll(shade(*this, Shade::ground).withAlpha(0.6f));
     }
     bool hitTest(int x, int y) override {
         const auto* stop = stopButton(*getParentComponent());

@@ -308,11 +308,11 @@ void FirstStart::resized() {
     title_.setBounds(area.removeFromTop(30));
     words_.setBounds(area.removeFromTop(48));
     auto row = area.removeFromBottom(34);
-    play_.setBounds(row.withWidth(130));
-    without_.setBounds(row.withTrimmedLeft(142).withWidth(170));
+    play_.setBounds(row.withLeft(row.getRight() - 130));
+    without_.setBounds(row.withTrimmedRight(142).withLeft(row.getRight() - 312));
     for (auto* button : {&felt_, &louder_, &notFelt_})
-        button->setBounds(row.removeFromLeft(110)), row.removeFromLeft(gap);
-    done_.setBounds(row.removeFromRight(110));
+        button->setBounds(row.removeFromRight(110)), row.removeFromRight(gap);
+    done_.setBounds(row.removeFromLeft(110));
     for (auto& choice : rows_) choice->setBounds(area.removeFromTop(34)), area.removeFromTop(5);
 }
 

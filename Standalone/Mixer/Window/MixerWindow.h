@@ -108,6 +108,9 @@ private:
     void setTheme(Theme theme);
     void applyZoom();
     static int zoomStepOf(const juce::KeyPress& key);
+    juce::PopupMenu fileMenu();
+    juce::PopupMenu editMenu();
+    juce::PopupMenu worldMenu();
     juce::PopupMenu viewMenu();
     void setDisplayWidth(double mm);
     void askDisplayWidth();

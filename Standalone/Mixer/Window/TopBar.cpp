@@ -140,6 +140,8 @@ void TopBar::mixChanged() {
 
 void TopBar::setRecording(bool isRecording) {
     record_.setToggleState(isRecording, juce::dontSendNotification);
+    isRecording_ = isRecording;
+    recordedFromNs_ = -1;
     record_.setButtonText(disc + (isRecording ? "Recording" : "Record"));
 }
 
@@ -147,6 +149,10 @@ void TopBar::refresh(const MixerMoment& moment) {
     const int turn = looks_++ % looksPerNumbers; // numbers that change 30 times a second are illegible
     if (turn % looksPerTime == 0) time_.setText(clock(moment.session.sessionNs), juce::dontSendNotification);
     if (turn != 0) return;
+    if (isRecording_) {
+        if (recordedFromNs_ < 0) recordedFromNs_ = moment.session.sessionNs;
+        record_.setButtonText(disc + clock(moment.session.sessionNs - recordedFromNs_).dropLastCharacters(3));
+    }
     const auto& output = model_.output();
     const auto name = juce::String::fromUTF8(output.device().c_str());
     const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");

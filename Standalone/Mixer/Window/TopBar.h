@@ -19,7 +19,7 @@ public:
     std::function<void()> onRecord, onSave, onOpenScene;
     std::function<void(const juce::File&)> onOwnScene;
     void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below the built-in ones
-    void setRecording(bool isRecording);
+    void setRecording(bool isRecording);                     ///< counts its seconds
     /// Only the button that silences is left.
     void setShow(bool isShow);
     /// Without the controls of an engineer.
@@ -46,6 +46,8 @@ private:
 
     MixerModel& model_;
     int looks_ = 0;
+    bool isRecording_ = false;
+    std::int64_t recordedFromNs_ = -1; // not seen yet
     juce::TextButton menu_{"Menu"}, slow_, record_, mode_, silence_{"SILENCE  Esc"};
     juce::ComboBox scene_;
     SignButton pause_{Sign::pause, "Pause the world"}, step_{Sign::step, "One step of the world"},

@@ -109,7 +109,8 @@ private:
     MixerModel& model_;
     WorldView& view_;
     DrawTool tool_ = DrawTool::hand;
-    int material_ = -1; // at first, the first material with a frequency
+    int material_ = 0;
+    std::shared_ptr<const Scene> scene_; // the usual material is of
     int rainCount_ = 50;
     Rain rain_;
     bool snaps_ = false, isDrawing_ = false;

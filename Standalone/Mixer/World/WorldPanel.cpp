@@ -66,7 +66,6 @@ WorldPanel::WorldPanel(MixerModel& model)
     view_.onMenu = pane_.onMenu = [this](juce::Point<float> place) { showMenu(place); };
     sentence_.setTitle("Strongest hit");
     sentence_.setFont(text::font(text::medium));
-    sentence_.setMinimumHorizontalScale(0.8f);
     law_.setFont(text::font(text::small));
     law_.setJustificationType(juce::Justification::centredRight);
     tilt_.onValueChange = [this] {
@@ -150,9 +149,11 @@ void WorldPanel::showTools() {
     placeInspector();
 }
 
-// It stays where it is until another place covers half as much of what is selected and of the badges.
+// At what is selected. It stays where it is until another place covers half as much of that and of the
+// badges.
 void WorldPanel::placeInspector() {
     if (!body_.isVisible()) return;
+    constexpr int beside = 8;
     const auto room = getLocalBounds()
                           .withTrimmedLeft(bar_.getRight())
                           .withTrimmedTop(40)
@@ -173,14 +174,15 @@ void WorldPanel::placeInspector() {
         juce::Rectangle<int>{BodyPanel::wide, body_.wantedHeight()}.withPosition(body_.getPosition());
     auto best = now;
     int least = room.contains(now) ? (covered(now) + 1) / 2 : std::numeric_limits<int>::max();
-    constexpr int places = 6; // along each side
-    for (int y = 0; y < places; ++y)
-        for (int x = places - 1; x >= 0; --x) {
-            const auto place =
-                now.withPosition(room.getX() + x * (room.getWidth() - now.getWidth()) / (places - 1),
-                                 room.getY() + y * (room.getHeight() - now.getHeight()) / (places - 1));
-            if (const int pixels = covered(place); pixels < least) least = pixels, best = place;
-        }
+    const auto& body = inTheWay.front();
+    for (const juce::Point<int> corner : {juce::Point<int>{body.getRight() + beside, body.getY()},
+                                          {body.getX() - beside - now.getWidth(), body.getY()},
+                                          {body.getX(), body.getBottom() + beside},
+                                          {body.getX(), body.getY() - beside - now.getHeight()},
+                                          room.getTopRight()}) {
+        const auto place = now.withPosition(corner).constrainedWithin(room);
+        if (const int pixels = covered(place); pixels < least) least = pixels, best = place;
+    }
     body_.setBounds(best);
 }
 
