@@ -39,12 +39,12 @@ TEST(Arrangement, PanelsFillTheWindowWithoutOverlapAtEverySizeAndDivider) {
                                        juce::String{share} + (mode == Mode::play ? " play " : " engineer ") +
                                        (panels.hasDrawer ? "drawer " : "") + (panels.hasLower ? "lower" : "");
                     int covered = 0;
-                    const auto panels = panelsOf(a);
-                    for (std::size_t i = 0; i < panels.size(); ++i) {
-                        EXPECT_TRUE(area.contains(panels[i])) << where << " panel " << i;
-                        covered += panels[i].getWidth() * panels[i].getHeight();
+                    const auto placed = panelsOf(a);
+                    for (std::size_t i = 0; i < placed.size(); ++i) {
+                        EXPECT_TRUE(area.contains(placed[i])) << where << " panel " << i;
+                        covered += placed[i].getWidth() * placed[i].getHeight();
                         for (std::size_t k = 0; k < i; ++k)
-                            EXPECT_TRUE(panels[i].getIntersection(panels[k]).isEmpty())
+                            EXPECT_TRUE(placed[i].getIntersection(placed[k]).isEmpty())
                                 << where << " " << i << " " << k;
                     }
                     EXPECT_EQ(covered, area.getWidth() * area.getHeight()) << where;

@@ -47,15 +47,17 @@ drag() { # X Y X Y in metres, in steps as of a hand
 click() { xdotool mousemove "$(x "$1")" "$(y "$2")" sleep 0.1 click 1 sleep 0.3; }
 key() { xdotool key "$1" sleep 0.3; }
 picture() { ffmpeg -loglevel error -y -f x11grab -video_size 1440x900 -i "$DISPLAY" -frames:v 1 "$out/$1.png"; }
-menu() { # Down|Up COUNT: the item that so many presses choose
+menu() { # NUMBER Down|Up COUNT: of that menu the item that so many presses choose, from its first
     xdotool mousemove 1100 500    # not over the menu
     key F10
-    for k in $(seq "$2"); do xdotool key "$1" sleep 0.1; done
+    for k in $(seq "$1"); do xdotool key Down sleep 0.1; done
+    key Right
+    for k in $(seq "$3"); do xdotool key "$2" sleep 0.1; done
     key Return
     sleep 1
 }
 share() {
-    menu Up 8
+    menu 1 Up 3
     picture share
     for k in 1 2 3 4; do xdotool key Tab sleep 0.1; done # Address, Link, Copy the link, Open it
     key Return

@@ -389,6 +389,7 @@ void MaterialsTab::paintOverChildren(juce::Graphics& g) {
 void MaterialsTab::resized() {
     auto area = getLocalBounds();
     headArea_ = area.removeFromTop(headPixels);
+    new_->setBounds(headArea_.withLeft(headArea_.getRight() - 48));
     const bool isTall = area.getHeight() >= tallPixels;
     const int line = isTall ? rowHeight : rowHeight - 4, between = isTall ? 6 : 4;
     const int controls = 3 * line + 4 * between, least = isTall ? 3 * rowPixels : 5 * rowPixels / 2,
@@ -414,8 +415,6 @@ void MaterialsTab::resized() {
     feel_.setBounds(row.removeFromLeft(70));
     row.removeFromLeft(gap);
     browse_->setBounds(row.removeFromRight(84));
-    row.removeFromRight(4);
-    new_->setBounds(row.removeFromRight(50));
     row.removeFromRight(4);
     const int each = (row.getWidth() - gap) / 2;
     place(spotXName_, spotX_, 12, each);

@@ -228,9 +228,10 @@ public:
 
 private:
     static const juce::Component* stopButton(const juce::Component& in) {
-        if (in.getProperties()[stopProperty] && in.isShowing()) return &in;
+        if (in.getProperties()[stopProperty]) return &in;
         for (const auto* child : in.getChildren())
-            if (const auto* found = stopButton(*child)) return found;
+            if (child->isVisible())
+                if (const auto* found = stopButton(*child)) return found;
         return nullptr;
     }
 };

@@ -49,6 +49,7 @@ MixerView::MixerView(MixerModel& model)
     , bar_{model}
     , world_{model}
     , strips_{model} {
+    juce::Font::setDefaultMinimumHorizontalScaleFactor(1.0f); // letters keep their width
     setLookAndFeel(&look_);
     setOpaque(true);
     setTitle("PhysVib mixer");

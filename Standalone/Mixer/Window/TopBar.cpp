@@ -161,10 +161,14 @@ void TopBar::refresh(const MixerMoment& moment) {
     if (!moment.device.isRunning)
         device_.set("No sound", model_.device().trouble(), Shade::limit);
     else
-        device_.set(
-            dotted({isNone ? juce::String{"No device"} : name, numbers, juce::String{output.blockFrames()}}),
-            "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) + " ms after the contact",
-            isNone ? Shade::now : Shade::text);
+        device_.set(isPlay_ && isNone ? juce::String{"No device"}
+                    : isPlay_         ? name
+                                      : dotted({isNone ? juce::String{"No device"} : name, numbers,
+                                                juce::String{output.blockFrames()}}),
+                    isPlay_ && isNone ? juce::String{"seen, not felt"}
+                                      : "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) +
+                                            " ms after the contact",
+                    isNone ? Shade::now : Shade::text);
     device_.setTooltip(name);
     const bool hadLoad = isToldOfLoad_, hadBoard = hasBoard_;
     const auto& r = moment.session.render;
@@ -198,6 +202,7 @@ void TopBar::setPlay(bool isPlay) {
     mode_.setButtonText(isPlay ? "Engineer" : "Play");
     mode_.setTooltip(isPlay ? "Strips, lanes, events, materials, outputs and studies as well (F2)"
                             : "The world, and what one needs to play (F2)");
+    looks_ = 0; // its figures are of the mode
     showControls();
 }
 

@@ -53,8 +53,11 @@ void DrawBar::show() {
 }
 
 namespace {
-constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1;
-}
+constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1, groupGap = 8;
+
+/// Hands, shapes, joints, and what takes away.
+int groupOf(int button) { return button < 2 ? 0 : button < 8 ? 1 : button < 13 ? 2 : 3; }
+} // namespace
 
 int DrawBar::highFor(int height) {
     return height + between >= buttonCount * (high + between) ? high : lowHigh;
@@ -69,11 +72,13 @@ int DrawBar::widthFor(int height) {
 
 void DrawBar::resized() {
     const int rows = perColumn(getHeight()), each = highFor(getHeight());
+    const int apart = getHeight() >= buttonCount * (each + between) + 3 * groupGap ? groupGap : 0;
     for (int k = 0; k <= static_cast<int>(tools_.size()); ++k) {
         auto& button = k < static_cast<int>(tools_.size())
                            ? static_cast<juce::Component&>(*tools_[static_cast<std::size_t>(k)])
                            : snap_;
-        button.setBounds(k / rows * (wide + between), k % rows * (each + between), wide, each);
+        button.setBounds(k / rows * (wide + between), k % rows * (each + between) + groupOf(k) * apart, wide,
+                         each);
     }
 }
 

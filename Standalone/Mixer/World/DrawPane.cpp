@@ -12,13 +12,12 @@ namespace physvib {
 
 namespace {
 
-/// That of the last body that moves and sounds; else the first one that sounds.
-int usualMaterial(const Scene& scene) {
+/// Of what moves, that of the last body that does; else the first one that sounds.
+int usualMaterial(const Scene& scene, DrawTool tool) {
     const auto sounds = [](const Material& m) { return m.frequencyHz > 0.0; };
-    for (auto body = scene.bodies.rbegin(); body != scene.bodies.rend(); ++body)
-        if (const int its = body->fixtures[0].material;
-            body->type == BodyType::dynamicBody && sounds(scene.materials[static_cast<std::size_t>(its)]))
-            return its;
+    if (tool != DrawTool::wall && tool != DrawTool::line)
+        for (auto body = scene.bodies.rbegin(); body != scene.bodies.rend(); ++body)
+            if (body->type == BodyType::dynamicBody) return body->fixtures[0].material;
     return static_cast<int>(std::ranges::find_if(scene.materials, sounds) - scene.materials.begin());
 }
 
@@ -40,6 +39,7 @@ void DrawPane::use(DrawTool tool) {
     setMouseCursor(tool == DrawTool::choose ? juce::MouseCursor::NormalCursor
                                             : juce::MouseCursor::CrosshairCursor);
     if (tool != DrawTool::choose) chosen_.clear();
+    if (!isPicked_) material_ = usualMaterial(drawing().drawn(), tool);
     if (onChange) onChange();
     repaint();
 }
@@ -47,6 +47,7 @@ void DrawPane::use(DrawTool tool) {
 // What has just been drawn keeps its material: the next one gets this.
 void DrawPane::setMaterial(int material) {
     material_ = material;
+    isPicked_ = true;
     if (tool_ == DrawTool::choose)
         changeChosen("Material", [material](const Scene&, BodyDescription& body) {
             for (auto& fixture : body.fixtures) fixture.material = material;
@@ -79,7 +80,8 @@ void DrawPane::mixChanged() {
     const auto& materials = drawing().drawn().materials;
     if (scene_ != model_.mix().scene) {
         scene_ = model_.mix().scene;
-        material_ = usualMaterial(drawing().drawn());
+        isPicked_ = false;
+        material_ = usualMaterial(drawing().drawn(), tool_);
     }
     if (material_ >= static_cast<int>(materials.size())) material_ = 0;
     if (before != chosen_.size() && onChange) onChange();

@@ -110,7 +110,8 @@ private:
     WorldView& view_;
     DrawTool tool_ = DrawTool::hand;
     int material_ = 0;
-    std::shared_ptr<const Scene> scene_; // the usual material is of
+    bool isPicked_ = false;              // the material, by a person
+    std::shared_ptr<const Scene> scene_; // in which it was
     int rainCount_ = 50;
     Rain rain_;
     bool snaps_ = false, isDrawing_ = false;
