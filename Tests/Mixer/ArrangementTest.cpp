@@ -41,6 +41,7 @@ TEST(Arrangement, PanelsFillTheWindowWithoutOverlapAtEverySizeAndDivider) {
                     int covered = 0;
                     const auto placed = panelsOf(a);
                     for (std::size_t i = 0; i < placed.size(); ++i) {
+                        if (placed[i].isEmpty()) continue; // folded
                         EXPECT_TRUE(area.contains(placed[i])) << where << " panel " << i;
                         covered += placed[i].getWidth() * placed[i].getHeight();
                         for (std::size_t k = 0; k < i; ++k)

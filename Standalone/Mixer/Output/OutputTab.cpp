@@ -74,7 +74,7 @@ OutputTab::OutputTab(MixerModel& model)
     rate_.addItem("device default", 1);
     for (const int hz : rates) rate_.addItem(juce::String{hz} + " Hz", hz);
     block_.addItem("device default", 1);
-    for (const int frames : blocks) block_.addItem(juce::String{frames} + " frames", frames);
+    for (const int frames : blocks) block_.addItem(juce::String{frames}, frames);
     scan_ = quietButton("Rescan", "Rescan devices");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
@@ -331,20 +331,22 @@ void OutputTab::resized() {
     for (const auto& sink : sinks_) first.push_back({sink->name, sink->box, 0});
     const int cells = static_cast<int>(first.size());
     const int each = (area.getWidth() - (cells - 1) * gap) / cells;
-    for (Cell& cell : first) cell.width = each;
+    const int wider = sinks_.empty() ? 0 : gap; // rates and blocks have longer words than places
+    for (int k = 0; k < cells; ++k)
+        first[static_cast<std::size_t>(k)].width = k < 2 ? each + wider : each - 2 * wider / (cells - 2);
     for (const auto& sink : sinks_) {
         const juce::String title{sink->kind.title.data()};
-        const bool fits = text::pixels(sink->name.getFont(), title) <= each;
+        const bool fits = text::pixels(sink->name.getFont(), title) <= each - 2 * wider;
         const auto shorter = titleOf(std::string{sink->kind.name});
         sink->name.setText(fits ? title : shorter.substring(0, 1) + shorter.substring(1).toLowerCase(),
                            juce::dontSendNotification);
     }
     placeRow(area, first);
     placeRow(area, {{oscName_, osc_, 2 * fifth},
-                    {hitsName_, hits_, 2 * fifth - gap},
-                    {phoneName_, phone_, fifth + gap}});
-    placeRow(area, {{monitorName_, monitor_, 2 * quarter},
-                    {monitorLevelName_, monitorLevel_, quarter},
+                    {hitsName_, hits_, 2 * fifth - 3 * gap},
+                    {phoneName_, phone_, fifth + 3 * gap}});
+    placeRow(area, {{monitorName_, monitor_, 2 * quarter - 2 * gap},
+                    {monitorLevelName_, monitorLevel_, quarter + 2 * gap},
                     {marksName_, marks_, quarter}});
     area.removeFromTop(12);
     facts_.setBounds(area);

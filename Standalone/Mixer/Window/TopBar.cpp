@@ -237,7 +237,7 @@ void TopBar::resized() {
                                                                                 {&save_, button, tight},
                                                                                 {&undo_, button, tight},
                                                                                 {&redo_, button, between},
-                                                                                {&scene_, 150, between},
+                                                                                {&scene_, 144, between},
                                                                                 {&pause_, button, tight},
                                                                                 {&step_, button, tight},
                                                                                 {&slow_, button, tight},
@@ -245,9 +245,9 @@ void TopBar::resized() {
                                                                                 {&seed_, 66, 0},
                                                                                 {&time_, 82, 0},
                                                                                 {&record_, 96, between},
-                                                                                {&mode_, 80, between}}) {
+                                                                                {&mode_, 72, between}}) {
         if (!component->isVisible()) continue;
-        component->setBounds(area.removeFromLeft(width));
+        component->setBounds(area.removeFromLeft(area.getWidth() < width ? 0 : width)); // whole, or not at all
         area.removeFromLeft(after);
     }
     placeStates(isOneLine ? area : states);

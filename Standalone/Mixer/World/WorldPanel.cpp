@@ -173,7 +173,10 @@ void WorldPanel::placeInspector() {
     const auto now =
         juce::Rectangle<int>{BodyPanel::wide, body_.wantedHeight()}.withPosition(body_.getPosition());
     auto best = now;
-    int least = room.contains(now) ? (covered(now) + 1) / 2 : std::numeric_limits<int>::max();
+    const auto name = utf8(pane_.chosen().empty() ? std::string{} : pane_.chosen().front());
+    const bool isOther = body_.getName() != name;
+    body_.setName(name);
+    int least = room.contains(now) && !isOther ? (covered(now) + 1) / 2 : std::numeric_limits<int>::max();
     const auto& body = inTheWay.front();
     for (const juce::Point<int> corner : {juce::Point<int>{body.getRight() + beside, body.getY()},
                                           {body.getX() - beside - now.getWidth(), body.getY()},
