@@ -247,7 +247,8 @@ void TopBar::resized() {
                                                                                 {&record_, 96, between},
                                                                                 {&mode_, 72, between}}) {
         if (!component->isVisible()) continue;
-        component->setBounds(area.removeFromLeft(area.getWidth() < width ? 0 : width)); // whole, or not at all
+        component->setBounds(area.removeFromLeft(area.getWidth() < width ? 0 : width)); // whole, or not at
+                                                                                        // all
         area.removeFromLeft(after);
     }
     placeStates(isOneLine ? area : states);
