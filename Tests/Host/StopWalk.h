@@ -129,7 +129,8 @@ private:
         auto* const peer = window.getPeer();
         if (peer == nullptr) return;
         timeMs = std::max(timeMs + 600, juce::Time::currentTimeMillis()); // no press is the second of two
-        peer->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at,
+        peer->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse,
+                               at * window.getDesktopScaleFactor(), // of a zoom that the walk has chosen
                                juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs);
     }
     static void press(juce::Component& c, int buttons, int times = 1) {

@@ -38,8 +38,8 @@ def press(key):
     hand("mousemove", "720", "20", "key", key)
 
 
-def attach():
-    hand("mousemove", "1170", "140", "click", "1")  # the module of the tab: something to keep a copy of
+def draw():
+    hand("mousemove", "720", "300", "key", "b", "click", "1")  # a ball: something to keep a copy of
 
 
 def window(seconds):
@@ -79,7 +79,7 @@ def first_copy():
         assert window(60), "the mixer does not start"
         time.sleep(1)
         for _ in range(30):
-            attach()
+            draw()
             time.sleep(3)
             if whole():
                 return open(next(iter(whole()))).read()
@@ -110,7 +110,7 @@ for crash in range(crashes):
         time.sleep(random.uniform(0, 1))
         while time.time() < end:
             act = random.choice(("Return", "Return", "Right", None))
-            press(act) if act else attach()
+            press(act) if act else draw()
             time.sleep(random.uniform(0, 1.5))
     for run in runs:
         run.kill()

@@ -17,33 +17,44 @@ constexpr std::array<std::pair<int, int>, 6> sizes{{{MixerView::minWidth, MixerV
                                                     {2560, 1440},
                                                     {3840, 2160}}};
 
+constexpr std::array<std::pair<Mode, Panels>, 6> orders{{{Mode::play, {}},
+                                                         {Mode::play, {false, true}},
+                                                         {Mode::play, {true, true}},
+                                                         {Mode::engineer, {}},
+                                                         {Mode::engineer, {false, true}},
+                                                         {Mode::engineer, {true, true}}}};
+
 std::vector<juce::Rectangle<int>> panelsOf(const Arrangement& a) {
     return {a.world, a.tabs, a.scope, a.strips, a.side, a.lower, a.between};
 }
 
 TEST(Arrangement, PanelsFillTheWindowWithoutOverlapAtEverySizeAndDivider) {
     for (const auto& [width, height] : sizes)
-        for (const double aspect : {0.5, 1.0, 1.78, 4.0})
+        for (const auto& [mode, panels] : orders)
             for (const int strips : {300, 760, 9000})
                 for (const double share : {0.0, 0.05, 0.5, 0.95}) {
-                    const juce::Rectangle<int> area{12, 64, width - 24, height - 102};
-                    const auto a = arrange(area, {aspect, strips / 2, strips}, {share, share, share});
-                    const auto where = juce::String{width} + " aspect " + juce::String{aspect} + " strips " +
-                                       juce::String{strips} + " at " + juce::String{share};
+                    const juce::Rectangle<int> area{4, 64, width - 8, height - 102};
+                    const auto a = arrange(area, {strips / 2, strips}, {share, share, share}, mode, panels);
+                    const auto where = juce::String{width} + " strips " + juce::String{strips} + " at " +
+                                       juce::String{share} + (mode == Mode::play ? " play " : " engineer ") +
+                                       (panels.hasDrawer ? "drawer " : "") + (panels.hasLower ? "lower" : "");
                     int covered = 0;
-                    const auto panels = panelsOf(a);
-                    for (std::size_t i = 0; i < panels.size(); ++i) {
-                        EXPECT_TRUE(area.contains(panels[i])) << where << " panel " << i;
-                        covered += panels[i].getWidth() * panels[i].getHeight();
+                    const auto placed = panelsOf(a);
+                    for (std::size_t i = 0; i < placed.size(); ++i) {
+                        if (placed[i].isEmpty()) continue; // folded
+                        EXPECT_TRUE(area.contains(placed[i])) << where << " panel " << i;
+                        covered += placed[i].getWidth() * placed[i].getHeight();
                         for (std::size_t k = 0; k < i; ++k)
-                            EXPECT_TRUE(panels[i].getIntersection(panels[k]).isEmpty())
+                            EXPECT_TRUE(placed[i].getIntersection(placed[k]).isEmpty())
                                 << where << " " << i << " " << k;
                     }
                     EXPECT_EQ(covered, area.getWidth() * area.getHeight()) << where;
-                    EXPECT_GE(a.scope.getHeight(), Arrangement::minLower) << where;
+                    const int folded = mode == Mode::play ? 0 : TabPanel::folded;
                     EXPECT_GE(a.world.getHeight(), Arrangement::minWorldHeight) << where;
-                    EXPECT_GE(a.tabs.getWidth(), Arrangement::minSide) << where;
                     EXPECT_GE(a.world.getWidth(), Arrangement::minSide) << where;
+                    EXPECT_GE(a.tabs.getWidth(), panels.hasDrawer ? Arrangement::minSide : folded) << where;
+                    EXPECT_GE(a.scope.getHeight(), panels.hasLower ? Arrangement::minLower : folded) << where;
+                    if (!panels.hasLower) continue;
                     EXPECT_GE(a.strips.getWidth(), Arrangement::minStrips) << where;
                     EXPECT_GE(a.scope.getWidth(), Arrangement::minScope) << where;
                 }
@@ -51,7 +62,7 @@ TEST(Arrangement, PanelsFillTheWindowWithoutOverlapAtEverySizeAndDivider) {
 
 TEST(Arrangement, TheWorldGetsTheLargestPart) {
     for (const auto& [width, height] : sizes) {
-        const auto a = arrange({width, height}, {1.78, 514, 760}, {});
+        const auto a = arrange({width, height}, {514, 760}, {}, Mode::engineer, {true, true});
         const auto area = [](const juce::Rectangle<int>& r) { return r.getWidth() * r.getHeight(); };
         for (const auto& other : {a.tabs, a.scope, a.strips}) EXPECT_GT(area(a.world), area(other)) << width;
     }
@@ -59,7 +70,7 @@ TEST(Arrangement, TheWorldGetsTheLargestPart) {
 
 TEST(Arrangement, ManyStripsLeaveTheScopeItsPart) {
     for (const auto& [width, height] : sizes) {
-        const auto a = arrange({width, height}, {1.78, 4500, 9000}, {});
+        const auto a = arrange({width, height}, {4500, 9000}, {}, Mode::engineer, {false, true});
         EXPECT_LE(a.strips.getWidth(), std::max(width * 70 / 100, Arrangement::minStrips)) << width;
     }
 }
@@ -80,6 +91,78 @@ struct Window {
         model.dispatchPendingMessages();
     }
 };
+
+// Of the whole window, with its bar.
+TEST(Arrangement, TheWorldHasTheRoom) {
+    Window w;
+    for (const auto& [width, height, engineer, play] :
+         {std::tuple{1024, 700, 0.45, 0.85}, {1280, 800, 0.55, 0.85}, {1440, 900, 0.55, 0.85}}) {
+        w.view.setSize(width, height);
+        for (const auto& [mode, least] : {std::pair{Mode::engineer, engineer}, {Mode::play, play}}) {
+            w.view.setMode(mode);
+            const double share =
+                1.0 * w.view.world().getWidth() * w.view.world().getHeight() / (width * height);
+            EXPECT_GE(share, least) << width << (mode == Mode::play ? " to play" : " engineer");
+        }
+    }
+}
+
+TEST(Arrangement, ToPlayThereIsTheWorldAndWhatSilencesLimitsAndWarns) {
+    Window w;
+    w.view.setSize(1280, 800);
+    const auto isThere = [&](const char* title) {
+        return find(w.view, title)->isShowing() || find(w.view, title)->isVisible();
+    };
+    const auto areThere = [&](std::initializer_list<const char*> titles, bool are) {
+        for (const char* title : titles) EXPECT_EQ(isThere(title), are) << title;
+    };
+    const std::initializer_list<const char*> engineers{"Tabs", "Scope", "Drag strength", "Seed",
+                                                       "Slow motion"};
+    areThere(engineers, true);
+    w.view.keyPressed(juce::KeyPress{juce::KeyPress::F2Key});
+    ASSERT_EQ(w.view.mode(), Mode::play);
+    areThere(engineers, false);
+    areThere({"Silence", "Record", "Tools", "Master gain, in a row", "Strongest hit", "Device state", "Mode"},
+             true);
+    areThere({"Mixer"}, false);
+    w.view.keyPressed(juce::KeyPress{juce::KeyPress::F3Key});
+    areThere({"Mixer", "Scope"}, true);
+    areThere({"Master in a row"}, false);
+    w.view.keyPressed(juce::KeyPress{juce::KeyPress::F4Key});
+    areThere({"Tabs"}, true);
+    w.model.report("a fault");
+    w.model.dispatchPendingMessages();
+    areThere({"Trouble"}, true);
+    w.view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    EXPECT_TRUE(w.model.isSilent());
+    const auto order = w.view.order();
+    w.view.setMode(Mode::engineer);
+    EXPECT_EQ(w.view.panels(), (Panels{false, true})) << "each mode keeps its own";
+    w.view.setOrder(order);
+    EXPECT_EQ(w.view.mode(), Mode::play);
+    EXPECT_EQ(w.view.panels(), (Panels{true, true}));
+    for (const char* nonsense : {"", "engineer", "play x 1 77"}) w.view.setOrder(nonsense);
+    EXPECT_EQ(w.view.mode(), Mode::play) << "a first start";
+}
+
+TEST(Arrangement, APressOnTheNameOfAPageOpensAndFoldsIt) {
+    Window w;
+    const auto press = [&](const char* title) {
+        auto* button = dynamic_cast<juce::Button*>(find(w.view.tabs(), title));
+        button->setToggleState(true, juce::dontSendNotification);
+        button->onClick();
+    };
+    EXPECT_FALSE(w.view.panels().hasDrawer);
+    const int wide = w.view.world().getWidth();
+    press("Output");
+    EXPECT_TRUE(w.view.panels().hasDrawer);
+    EXPECT_TRUE(w.view.tabs().find<OutputTab>()->isVisible());
+    EXPECT_LT(w.view.world().getWidth(), wide);
+    press("Output");
+    EXPECT_FALSE(w.view.panels().hasDrawer);
+    EXPECT_FALSE(w.view.tabs().find<OutputTab>()->isVisible()) << "a folded page shows and hears nothing";
+    EXPECT_EQ(w.view.world().getWidth(), wide);
+}
 
 TEST(Arrangement, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
     Window w;
@@ -104,6 +187,7 @@ TEST(Arrangement, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
 TEST(Arrangement, ADividerIsDraggedMovedByKeysAndMadeAutomatic) {
     Window w;
     w.view.setSize(1440, 900);
+    w.view.setPanels({true, true});
     auto* divider = dynamic_cast<Divider*>(find(w.view, "Divider of world and tabs"));
     auto* tabs = find(w.view, "Tabs");
     ASSERT_NE(divider, nullptr);
@@ -203,7 +287,7 @@ TEST(Arrangement, AShowIsTheWorldAndTheButtonThatSilences) {
     w.view.setShow(false);
     for (const char* title : {"Tabs", "Scope", "Mixer", "Tools", "Record", "Drag strength"})
         EXPECT_TRUE(find(w.view, title)->isVisible()) << title;
-    EXPECT_LT(w.view.world().getWidth(), 1000);
+    EXPECT_LT(w.view.world().getWidth(), w.view.getWidth());
 }
 
 TEST(Arrangement, APageWithoutRoomScrolls) {

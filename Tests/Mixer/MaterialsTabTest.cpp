@@ -46,6 +46,35 @@ struct Materials : testing::Test {
     }
 };
 
+TEST_F(Materials, OneOfOnesOwnIsACopyWithANameAndNoNameIsThereTwice) {
+    const auto all = [&]() -> const std::vector<Material>& {
+        return model.world().drawing().drawn().materials;
+    };
+    const auto before = all().size();
+    const auto make = [&](const char* name) {
+        dynamic_cast<juce::Button&>(
+            *find(tab, "A material of one's own: a copy of the chosen one, with a name"))
+            .onClick();
+        ASSERT_NE(view.question(), nullptr);
+        view.question()->setValue("Name", name);
+        view.question()->answer("Make it");
+        ASSERT_TRUE(runUntil([&] { return view.card() == nullptr; }));
+    };
+    make("my wood");
+    ASSERT_TRUE(runUntil([&] { return all().size() == before + 1; }));
+    Material expected = all()[wood];
+    expected.name = "my wood";
+    EXPECT_EQ(all().back(), expected);
+    slider("Frequency").setValue(205.0, juce::sendNotificationSync);
+    EXPECT_EQ(model.world().scene().materials.back().frequencyHz, 205.0) << "it is the chosen one";
+    make("my wood");
+    EXPECT_TRUE(runUntil([&] { return model.trouble().contains("my wood"); })) << model.trouble();
+    EXPECT_EQ(all().size(), before + 1);
+    model.undoManager().undo();
+    model.undoManager().undo();
+    EXPECT_EQ(all().size(), before);
+}
+
 TEST_F(Materials, AreSetWhileTheyArePlayedAndTakenBack) {
     slider("Frequency").setValue(205.0, juce::sendNotificationSync);
     slider("Decay").setValue(30.0, juce::sendNotificationSync);

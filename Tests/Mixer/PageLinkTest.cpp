@@ -65,6 +65,13 @@ TEST(PageLink, ABrowserGetsTheLinkToTheLetterAndAShellNothing) {
     }
 }
 
+TEST(PageLink, AnAddressOfThisComputerAloneIsKnown) {
+    for (const char* alone : {"http://127.0.0.1:8000/", "http://localhost/", "https://[::1]:80/"})
+        EXPECT_TRUE(isLoopback(alone)) << alone;
+    for (const char* reached : {"http://192.168.1.5:8000/", "https://example.org/127."})
+        EXPECT_FALSE(isLoopback(reached)) << reached;
+}
+
 TEST(PageLink, WhatALinkCannotHoldIsSaid) {
     Mix mix = MixerModel::firstMix();
     mix.exponent = 2.0;

@@ -23,7 +23,7 @@ key Left; key Left; sleep 0.7; key Right; key Right; sleep 0.5; key Down; sleep 
 key ctrl+shift+r; sleep 0.5
 picture 4-script
 key ctrl+r; sleep 1
-menu Down 8                       # New, Open, Save, Save as, Undo, New scene, Scene, Save as scene
+menu 3 Down 2                     # World: New scene, Open a scene, Save as scene
 picture 6-save
 key Return; sleep 1               # under the name and in the folder that are suggested
 picture 7-saved

@@ -35,7 +35,7 @@ picture 3-tilted
 key ctrl+r
 key space
 key ctrl+s; sleep 1; key Return; sleep 1 # under the name and in the folder that are suggested
-menu Up 9                         # Save movie
+menu 1 Up 4                       # Save movie
 picture 4-movie
 key Tab; xdotool type 600        # all of it
 key Return; sleep 1

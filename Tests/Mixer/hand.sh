@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced by draw-a-world.sh and film.sh: a hand at the real window, in a home of its own; needs $build, $out and $here. The places are
-# those of a field of 6 m by 3 m in a window of 1440 x 900.
+# those of a field of 6 m by 3 m in a window of 1440 x 900, to play.
 for program in xvfb-run xdotool ffmpeg; do command -v $program >/dev/null || { echo "needs the packages xvfb, xauth, xdotool and ffmpeg" >&2; exit 1; }; done
 mkdir -p "$out"
 out=$(realpath "$out") bin=$here/../../$build/bin
@@ -35,8 +35,8 @@ end_mixer() {
     pid=""
 }
 
-x() { awk "BEGIN { print int(122.5 + 115.4 * ($1)) }"; }
-y() { awk "BEGIN { print int(485.5 - 115.4 * ($1)) }"; }
+x() { awk "BEGIN { print int(71 + 220 * ($1)) }"; }
+y() { awk "BEGIN { print int(793.6 - 220 * ($1)) }"; }
 drag() { # X Y X Y in metres, in steps as of a hand
     xdotool mousemove "$(x "$1")" "$(y "$2")" sleep 0.1 mousedown 1 sleep 0.1
     for k in 1 2 3 4 5 6 7 8; do
@@ -47,17 +47,19 @@ drag() { # X Y X Y in metres, in steps as of a hand
 click() { xdotool mousemove "$(x "$1")" "$(y "$2")" sleep 0.1 click 1 sleep 0.3; }
 key() { xdotool key "$1" sleep 0.3; }
 picture() { ffmpeg -loglevel error -y -f x11grab -video_size 1440x900 -i "$DISPLAY" -frames:v 1 "$out/$1.png"; }
-menu() { # Down|Up COUNT: the item that so many presses choose
+menu() { # NUMBER Down|Up COUNT: of that menu the item that so many presses choose, from its first
     xdotool mousemove 1100 500    # not over the menu
     key F10
-    for k in $(seq "$2"); do xdotool key "$1" sleep 0.1; done
+    for k in $(seq "$1"); do xdotool key Down sleep 0.1; done
+    key Right
+    for k in $(seq "$3"); do xdotool key "$2" sleep 0.1; done
     key Return
     sleep 1
 }
 share() {
-    menu Up 8
+    menu 1 Up 3
     picture share
-    for k in 1 2 3 4; do xdotool key Tab sleep 0.1; done # Address, Link, Copy the link, Open it
+    for k in 1 2 3; do xdotool key Tab sleep 0.1; done # from Address to Link, Cancel, Open it
     key Return
     sleep 1
     [ -s link ] || { echo "no link was opened; see $out" >&2; exit 1; }
@@ -74,7 +76,7 @@ draw_things() {
     key r; drag 5.2 1.6 5.2 2.7   # on a rope from the field
     picture 1-drawn
     key s; click 5.2 1.4          # the bell is chosen
-    xdotool mousemove 202 105 click 1 sleep 0.5 # and becomes steel: the second material of the palette
+    xdotool mousemove 155 97 click 1 sleep 0.5 # and becomes steel: the second material of the palette
     picture 2-steel
     key h
 }

@@ -22,10 +22,16 @@ void Fader::setUp(double least, double most, const juce::String& title, double b
     setWantsKeyboardFocus(true);
 }
 
+void Fader::lieDown() {
+    setSliderStyle(LinearHorizontal);
+    getProperties().remove(faderProperty);
+}
+
 void Fader::resized() {
     juce::Slider::resized();
-    const int margins = 2 * getLookAndFeel().getSliderThumbRadius(*this); // that JUCE keeps at the ends
-    setMouseDragSensitivity(std::max(1, getHeight() - margins));          // the handle follows the pointer
+    const int margins = 2 * getLookAndFeel().getSliderThumbRadius(*this), // that JUCE keeps at the ends
+        length = isHorizontal() ? getWidth() : getHeight();
+    setMouseDragSensitivity(std::max(1, length - margins)); // the handle follows the pointer
 }
 
 PeakMeter::PeakMeter(const juce::String& title) { setTitle(title); }

@@ -34,6 +34,7 @@ class Fader final : public juce::Slider {
 public:
     /// M.
     void setUp(double leastDb, double mostDb, const juce::String& title, double defaultDb = 0.0);
+    void lieDown(); ///< from left to right, as a plain slider. M.
     void resized() override;
 };
 

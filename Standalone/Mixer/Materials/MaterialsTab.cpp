@@ -6,6 +6,7 @@
 #include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/SceneLimits.h"
+#include "Scene/SceneValidation.h"
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +16,7 @@ namespace {
 constexpr int rowPixels = 28, headPixels = 20;
 constexpr int tallPixels = 300; // of the tab; in a lower tab, half a row shows that the list can scroll
 constexpr double arrowRatio = 1.01;
+constexpr double usualHz = 165.0, usualDecay = 22.0; // of a material that begins as a silent one
 
 } // namespace
 
@@ -86,12 +88,14 @@ MaterialsTab::MaterialsTab(MixerModel& model, WorldView& world)
     describe(feel_, "Feel the material at the spot",
              "Plays one hit of the material at the cross in the world; a click in the world plays it there");
     feel_.onClick = [this] { feelAt(spot_); };
+    new_ = quietButton("New" + dots(), "A material of one's own: a copy of the chosen one, with a name");
+    new_->onClick = [this] { copyChosen(); };
     browse_ = quietButton(
         juce::String::fromUTF8("Recording\xe2\x80\xa6"),
         "Measure frequency and decay from a recording of one hit; it can be dropped here as well");
     browse_->onClick = [this] { browse(); };
     addAll(*this, {&list_, &frequencyName_, &frequency_, &decayName_, &decay_, &texture_, &feel_, &spotXName_,
-                   &spotX_, &spotYName_, &spotY_, browse_.get(), &spectrum_, &course_});
+                   &spotX_, &spotYName_, &spotY_, new_.get(), browse_.get(), &spectrum_, &course_});
     showSpot();
     mixChanged();
 }
@@ -234,6 +238,64 @@ void MaterialsTab::browse() {
                [this](const juce::File& file) { measure(file); });
 }
 
+bool MaterialsTab::changeList(const juce::String& name,
+                              const std::function<void(std::vector<Material>&)>& change) {
+    Scene scene = model_.world().drawing().drawn();
+    change(scene.materials);
+    if (const auto fault = validate(scene); !fault.empty()) return model_.report(utf8(fault)), false;
+    model_.change(name, [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
+    model_.dispatchPendingMessages();
+    return true;
+}
+
+void MaterialsTab::copyChosen() {
+    const auto* material = chosen();
+    if (material == nullptr) return;
+    askForValues(
+        *this, "A material of one's own", "Make it", {{"Name", "own " + utf8(material->name)}},
+        [this, index = chosenIndex()](const juce::StringArray& values) {
+            int last = 0;
+            const bool isMade = changeList("New material", [&](std::vector<Material>& all) {
+                Material own = all[static_cast<std::size_t>(index)];
+                own.name = values[0].toStdString();
+                if (own.frequencyHz <= 0.0) own.frequencyHz = usualHz, own.decayPerSecond = usualDecay;
+                last = static_cast<int>(all.size());
+                all.push_back(own);
+            });
+            if (isMade) choose(last);
+        },
+        "It begins as a copy of " + utf8(material->name) +
+            ": set its frequency, decay and surface, or measure a recording. The world begins anew.");
+}
+
+void MaterialsTab::renameChosen() {
+    const auto* material = chosen();
+    if (material == nullptr) return;
+    askForValues(
+        *this, "Rename the material", "Rename", {{"Name", utf8(material->name)}},
+        [this, index = chosenIndex()](const juce::StringArray& values) {
+            if (changeList("Rename", [&](std::vector<Material>& all) {
+                    all[static_cast<std::size_t>(index)].name = values[0].toStdString();
+                }))
+                choose(index);
+        },
+        "The world begins anew.");
+}
+
+void MaterialsTab::showMenu() {
+    const juce::Component::SafePointer<MaterialsTab> safe{this};
+    const auto item = [safe](void (MaterialsTab::*act)()) {
+        return [safe, act] {
+            if (safe != nullptr) (safe->*act)();
+        };
+    };
+    juce::PopupMenu menu;
+    menu.addItem("Copy" + dots(), item(&MaterialsTab::copyChosen));
+    menu.addItem("Rename" + dots(), item(&MaterialsTab::renameChosen));
+    menu.setLookAndFeel(&getLookAndFeel());
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withMousePosition());
+}
+
 void MaterialsTab::measure(const juce::File& file) {
     const auto* material = chosen();
     if (material == nullptr || !(material->frequencyHz > 0.0))
@@ -327,6 +389,7 @@ void MaterialsTab::paintOverChildren(juce::Graphics& g) {
 void MaterialsTab::resized() {
     auto area = getLocalBounds();
     headArea_ = area.removeFromTop(headPixels);
+    new_->setBounds(headArea_.withLeft(headArea_.getRight() - 48));
     const bool isTall = area.getHeight() >= tallPixels;
     const int line = isTall ? rowHeight : rowHeight - 4, between = isTall ? 6 : 4;
     const int controls = 3 * line + 4 * between, least = isTall ? 3 * rowPixels : 5 * rowPixels / 2,
@@ -386,7 +449,8 @@ juce::String MaterialsTab::Rows::getNameForRow(int row) {
 }
 
 void MaterialsTab::Rows::listBoxItemClicked(int, const juce::MouseEvent& e) {
-    if (e.mods.isPopupMenu() || !tab_.feel_.isEnabled()) return;
+    if (e.mods.isPopupMenu()) return tab_.showMenu();
+    if (!tab_.feel_.isEnabled()) return;
     if (MaterialColumns{e.eventComponent->getLocalBounds()}.sign.contains(e.getPosition()))
         tab_.feelAt(tab_.spot_);
 }

@@ -81,6 +81,11 @@ private:
     void showChosen();
     void showSpot();
     void browse();
+    /// The world begins anew with another list of materials.
+    bool changeList(const juce::String& name, const std::function<void(std::vector<Material>&)>& change);
+    void copyChosen();
+    void renameChosen();
+    void showMenu();
     void measureNext();
     void handleAsyncUpdate() override;
     void finish(const Job& job, const Result<RecordedHit>& hit);
@@ -100,7 +105,7 @@ private:
     juce::Slider spotX_, spotY_;
     Caption frequencyName_{"Frequency"}, decayName_{"Decay"}, spotXName_{"x"}, spotYName_{"y"};
     juce::TextButton feel_{juce::String::fromUTF8("Feel it \xe2\x96\xb8")};
-    std::unique_ptr<juce::TextButton> browse_;
+    std::unique_ptr<juce::TextButton> new_, browse_;
     std::optional<ShownHit> shown_;
     SpectrumPlot spectrum_;
     CoursePlot course_;

@@ -23,6 +23,15 @@ double stripDb(float gain) {
 
 } // namespace
 
+std::vector<std::string> ownAddresses() {
+    std::vector<std::string> all;
+    for (const auto& address : juce::IPAddress::getAllAddresses(false))
+        if (const auto words = address.toString().toStdString();
+            !words.starts_with("127.") && !words.starts_with("0."))
+            all.push_back(words);
+    return all;
+}
+
 std::string MixerInputs::use(const OscChoice& choice) {
     const OscChoice before = std::exchange(choice_, choice);
     std::string error = open();

@@ -23,6 +23,9 @@ class MixerModel;
 /// Whose messages are accepted.
 enum class OscUse { off, thisComputer, anyComputer };
 
+/// Addresses at which others reach this computer, "192.168.1.5"; empty without a network. Any thread.
+std::vector<std::string> ownAddresses();
+
 struct OscChoice {
     OscUse use = OscUse::off;
     std::string receiver{};   ///< HOST:PORT that receives impacts and status; empty: none

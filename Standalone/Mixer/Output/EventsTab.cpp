@@ -124,6 +124,7 @@ void EventsTab::listRecent() {
                                                     (now - before) * eventRowPixels);
     describeChoice();
     list_.repaint();
+    repaint(0, 0, getWidth(), eventHeadPixels); // a scroll bar moves the columns
 }
 
 void EventsTab::listChosen() {

@@ -74,7 +74,7 @@ OutputTab::OutputTab(MixerModel& model)
     rate_.addItem("device default", 1);
     for (const int hz : rates) rate_.addItem(juce::String{hz} + " Hz", hz);
     block_.addItem("device default", 1);
-    for (const int frames : blocks) block_.addItem(juce::String{frames} + " frames", frames);
+    for (const int frames : blocks) block_.addItem(juce::String{frames}, frames);
     scan_ = quietButton("Rescan", "Rescan devices");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
@@ -313,7 +313,9 @@ void OutputTab::refresh(const MixerMoment& moment) {
                                                 : juce::String{moment.device.deviceXruns}},
         {"Opened again", juce::String{moment.device.losses} + " times"}};
     std::ranges::move(sinkFacts(), std::back_inserter(facts));
-    facts.push_back({"Messages", osc, oscShade});
+    facts.insert(facts.begin() +
+                     (model_.inputs().status() ? 1 : static_cast<std::ptrdiff_t>(facts.size())), // in sight
+                 {"Messages", osc, oscShade});
     facts_.set(std::move(facts));
 }
 
@@ -329,18 +331,22 @@ void OutputTab::resized() {
     for (const auto& sink : sinks_) first.push_back({sink->name, sink->box, 0});
     const int cells = static_cast<int>(first.size());
     const int each = (area.getWidth() - (cells - 1) * gap) / cells;
-    for (Cell& cell : first) cell.width = each;
+    const int wider = sinks_.empty() ? 0 : gap; // rates and blocks have longer words than places
+    for (int k = 0; k < cells; ++k)
+        first[static_cast<std::size_t>(k)].width = k < 2 ? each + wider : each - 2 * wider / (cells - 2);
     for (const auto& sink : sinks_) {
         const juce::String title{sink->kind.title.data()};
-        const bool fits = text::pixels(sink->name.getFont(), title) <= each;
-        sink->name.setText(fits ? title : titleOf(std::string{sink->kind.name}), juce::dontSendNotification);
+        const bool fits = text::pixels(sink->name.getFont(), title) <= each - 2 * wider;
+        const auto shorter = titleOf(std::string{sink->kind.name});
+        sink->name.setText(fits ? title : shorter.substring(0, 1) + shorter.substring(1).toLowerCase(),
+                           juce::dontSendNotification);
     }
     placeRow(area, first);
     placeRow(area, {{oscName_, osc_, 2 * fifth},
-                    {hitsName_, hits_, 2 * fifth - gap},
-                    {phoneName_, phone_, fifth + gap}});
-    placeRow(area, {{monitorName_, monitor_, 2 * quarter},
-                    {monitorLevelName_, monitorLevel_, quarter},
+                    {hitsName_, hits_, 2 * fifth - 3 * gap},
+                    {phoneName_, phone_, fifth + 3 * gap}});
+    placeRow(area, {{monitorName_, monitor_, 2 * quarter - 2 * gap},
+                    {monitorLevelName_, monitorLevel_, quarter + 2 * gap},
                     {marksName_, marks_, quarter}});
     area.removeFromTop(12);
     facts_.setBounds(area);
@@ -421,6 +427,19 @@ void OutputTab::showOsc() {
     phone_.setSelectedItemIndex(static_cast<int>(hold - phoneHolds.begin()), juce::dontSendNotification);
 }
 
+namespace {
+
+/// Where others reach this computer, in place of 0.0.0.0, which nobody can type in.
+juce::String reachedAt(const std::string& address) {
+    const auto words = utf8(address), port = words.fromLastOccurrenceOf(":", true, false);
+    if (!words.startsWith("0.0.0.0")) return words;
+    juce::StringArray all;
+    for (const auto& own : ownAddresses()) all.add(utf8(own) + port);
+    return all.isEmpty() ? words : all.joinIntoString(" or ");
+}
+
+} // namespace
+
 juce::String OutputTab::oscState(Shade& state) const {
     const auto osc = model_.inputs().status();
     state = osc ? Shade::text : Shade::muted;
@@ -430,8 +449,8 @@ juce::String OutputTab::oscState(Shade& state) const {
     if (c.wrong() + c.lost + c.late + osc->unsent > 0) state = Shade::now;
     juce::StringArray parts;
     if (!osc->address.empty())
-        parts.add(utf8(osc->address) + ": " + count(c.messages - c.refused) + " good, " + count(c.wrong()) +
-                  " bad, " + count(c.late) + " late" +
+        parts.add(reachedAt(osc->address) + ": " + count(c.messages - c.refused) + " good, " +
+                  count(c.wrong()) + " bad, " + count(c.late) + " late" +
                   (c.lost > 0 ? ", " + count(c.lost) + " lost" : juce::String{}));
     if (!model_.inputs().choice().receiver.empty())
         parts.add("to " + utf8(model_.inputs().choice().receiver) + ": " + count(osc->sent) + " sent" +

@@ -43,10 +43,9 @@ private:
     juce::String heardWords() const;
 
     juce::ComboBox device_, rate_, block_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;
-    Caption deviceName_{"Device"}, rateName_{"Rate"}, blockName_{"Block"}, oscName_{"Messages by OSC"},
-        hitsName_{"Hits by OSC to"}, phoneName_{"A phone's top is"},
-        monitorName_{"Monitor: what is felt, on headphones"}, monitorLevelName_{"Monitor level"},
-        marksName_{"Trigger output"};
+    Caption deviceName_{"Device"}, rateName_{"Rate"}, blockName_{"Block of"}, oscName_{"Messages by OSC"},
+        hitsName_{"Hits by OSC to"}, phoneName_{"A phone's top is"}, monitorName_{"Monitor, on headphones"},
+        monitorLevelName_{"Monitor level"}, marksName_{"Trigger output"};
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;

@@ -247,15 +247,17 @@ void StripView::resized() {
     fader_.setBounds(area.withX(left + 24).withWidth(32).expanded(0, 8));
 }
 
-MasterStrip::MasterStrip(MixerModel& model)
-    : model_{model} {
-    setTitle("Master");
-    fader_.setUp(leastStripDb, 0.0, "Master gain", safeStartDecibels);
+MasterStrip::MasterStrip(MixerModel& model, bool isFlat)
+    : model_{model}
+    , isFlat_{isFlat} {
+    setTitle(isFlat ? "Master in a row" : "Master");
+    fader_.setUp(leastStripDb, 0.0, isFlat ? "Master gain, in a row" : "Master gain", safeStartDecibels);
+    if (isFlat) fader_.lieDown();
     onSlide(fader_, [this](bool continuesEdit) {
         model_.change(
             "Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, continuesEdit);
     });
-    addAndMakeVisible(meter_);
+    if (!isFlat) addAndMakeVisible(meter_);
     addAndMakeVisible(fader_);
     mixChanged();
 }
@@ -276,7 +278,33 @@ void MasterStrip::refresh(const MixerMoment& moment) {
     repaint();
 }
 
+juce::String MasterStrip::limiterWords() const {
+    return (isGuard_ ? "guard " : "limiter ") + number(limiterDb_ < -0.05f ? limiterDb_ : 0.0, 1);
+}
+
+double MasterStrip::mostG() const {
+    double most = 0.0;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(model_.mix().count()); ++j)
+        most = std::max(most, maxG(model_, j));
+    return most;
+}
+
+// While something is held back, that stands in place of the most that can come.
+void MasterStrip::paintFlat(juce::Graphics& g) const {
+    const bool isHeld = limiterDb_ < -0.05f;
+    auto words = getLocalBounds().withRight(fader_.getX());
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(text::font(text::small, juce::Font::bold));
+    g.drawText("Master " + number(model_.mix().levelDb, 1) + " dB", words.removeFromTop(getHeight() / 2),
+               juce::Justification::centredLeft, false);
+    g.setColour(shade(*this, isHeld ? Shade::limit : Shade::muted));
+    g.setFont(text::font(text::small));
+    g.drawText(isHeld ? limiterWords() : "at most " + inG(mostG()) + " g", words,
+               juce::Justification::centredLeft, false);
+}
+
 void MasterStrip::paint(juce::Graphics& g) {
+    if (isFlat_) return paintFlat(g);
     g.setColour(shade(*this, Shade::text));
     g.setFont(text::font(text::medium, juce::Font::bold));
     g.drawText("Master", getLocalBounds().withTrimmedTop(8).removeFromTop(20), juce::Justification::centred,
@@ -294,19 +322,16 @@ void MasterStrip::paint(juce::Graphics& g) {
                                    std::max(3.0f, reduction * static_cast<float>(limiterBar_.getHeight()))),
                                3.0f);
     g.setColour(shade(*this, limiterDb_ < -0.05f ? Shade::limit : Shade::muted));
-    g.drawText((isGuard_ ? "guard " : "limiter ") + number(limiterDb_ < -0.05f ? limiterDb_ : 0.0, 1),
-               limiterText_, juce::Justification::centred, false);
+    g.drawText(limiterWords(), limiterText_, juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::muted));
     g.drawText("at most", ceilingName_, juce::Justification::centred, false);
-    double most = 0.0;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(model_.mix().count()); ++j)
-        most = std::max(most, maxG(model_, j));
     g.setColour(shade(*this, Shade::text));
     g.setFont(text::font(text::small, juce::Font::bold));
-    g.drawText(inG(most) + " g", ceiling_, juce::Justification::centred, false);
+    g.drawText(inG(mostG()) + " g", ceiling_, juce::Justification::centred, false);
 }
 
 void MasterStrip::resized() {
+    if (isFlat_) return fader_.setBounds(getLocalBounds().withTrimmedLeft(flatWords));
     auto area = getLocalBounds().withTrimmedTop(metersTop);
     ceiling_ = area.removeFromBottom(22);
     ceilingName_ = area.removeFromBottom(22);

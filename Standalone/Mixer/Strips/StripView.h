@@ -53,16 +53,22 @@ private:
 /// Strip of the total output: level, limiter, ceiling.
 class MasterStrip final : public juce::Component {
 public:
-    static constexpr int width = 90;
+    static constexpr int width = 90, flatWords = 112;
 
-    explicit MasterStrip(MixerModel& model);
+    /// `isFlat`: in one row without a meter, for where there are no strips.
+    explicit MasterStrip(MixerModel& model, bool isFlat = false);
     void mixChanged();
     void refresh(const MixerMoment& moment);
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
+    void paintFlat(juce::Graphics& g) const;
+    juce::String limiterWords() const;
+    double mostG() const;
+
     MixerModel& model_;
+    const bool isFlat_;
     PeakMeter meter_{"Master level"};
     Fader fader_;
     float limiterDb_ = 0.0f; // or of the guard

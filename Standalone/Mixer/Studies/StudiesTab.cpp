@@ -431,17 +431,16 @@ void StudiesTab::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::now));
     auto room = levelArea_;
     for (const juce::String& words : advice())
-        if (room.getHeight() >= line)
-            g.drawFittedText(words, room.removeFromTop(line), juce::Justification::centredLeft, 1, 0.7f);
+        if (const int lines = text::pixels(g.getCurrentFont(), words) > room.getWidth() ? 2 : 1;
+            room.getHeight() >= lines * line)
+            g.drawFittedText(words, room.removeFromTop(lines * line), juce::Justification::centredLeft, lines,
+                             1.0f);
     g.setColour(shade(*this, wordsShade_));
     g.drawFittedText(words_, wordsArea_, juce::Justification::centredLeft, 3, 1.0f);
 }
 
 void StudiesTab::resized() {
-    constexpr int controlsHeight = 326; // in a small window the controls stay; texts are hidden first, then
-                                        // captions
-    const bool isSmall = getHeight() < controlsHeight;
-    const int captionHeight = isSmall ? 0 : 18, space = isSmall ? 5 : 8;
+    constexpr int captionHeight = 18, space = 8; // in a small window the controls stay, without the texts
     auto area = getLocalBounds();
     const auto caption = [&area, captionHeight](juce::Label& label) {
         label.setBounds(area.removeFromTop(captionHeight));

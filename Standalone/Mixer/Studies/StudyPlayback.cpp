@@ -76,14 +76,22 @@ Result<FeltStimulus> StudySound::make(MixerModel& model, const TrialJob& job, co
     return stimulus;
 }
 
+namespace {
+
+std::string tooFew(const std::string& layout, int wanted, int there) {
+    return layout + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " +
+           std::to_string(there) + "; Actuators has presets";
+}
+
+} // namespace
+
 std::string StudySound::refusal(const MixerModel& model, const FeltStimulus& stimulus) {
     const int wanted = stimulus.layout.geometry.count, there = model.mix().count();
     if (const auto mute = model.device().withoutClips(); !stimulus.recordings.empty() && mute.isNotEmpty())
         return "--method SV: expected a mixer without the " + mute.toStdString() +
                ", which plays no recordings";
     if (wanted <= there) return {};
-    return stimulus.layout.name + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " +
-           std::to_string(there);
+    return tooFew(stimulus.layout.name, wanted, there);
 }
 
 std::string StudySound::play(const FeltStimulus& stimulus) {
@@ -271,8 +279,7 @@ std::string StudyWorld::refusal(const MixerModel& model, const FeltWorld& world)
         return "a world: expected a mixer without the " + beside.front().name +
                ", which follows one session only";
     if (wanted <= there) return {};
-    return world.layout.name + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " +
-           std::to_string(there);
+    return tooFew(world.layout.name, wanted, there);
 }
 
 std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesystem::path& file) {

@@ -2,6 +2,7 @@
 // Finds the window's host of cards, and closes a card before its answer is used.
 #include "Mixer/Widgets/Cards.h"
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace physvib {
@@ -228,7 +229,7 @@ void FileCard::resized() {
 // Layout of a question: text, and answer buttons in rows of three.
 
 namespace {
-constexpr int edgeX = 24, edgeY = 20;
+constexpr int edgeX = 24, edgeY = 20, titleHigh = 30;
 }
 
 /// A field with its title.
@@ -304,7 +305,13 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
 // The title, the words and the rows; beside them a picture.
 void QuestionCard::fit() {
     const int rows = (static_cast<int>(answers_.size()) + perRow - 1) / perRow;
-    const int high = (words_.getText().isEmpty() ? 110 : 174) + rows * (rowHigh + gap) +
+    const int room = wide - 2 * edgeX - words_.getBorderSize().getLeftAndRight();
+    juce::AttributedString said{words_.getText()};
+    said.setFont(words_.getFont());
+    juce::TextLayout lines;
+    lines.createLayout(said, static_cast<float>(room - 4));
+    const int high = 2 * edgeY + titleHigh + rows * (rowHigh + gap) +
+                     (words_.getText().isEmpty() ? 0 : 18 + static_cast<int>(std::ceil(lines.getHeight()))) +
                      static_cast<int>(inputs_.size()) * (rowHeight + gap);
     if (picture_.isNull()) return setSize(wide, high);
     setSize(wide + edgeX + picture_.getWidth(), std::max(high, picture_.getHeight() + 2 * edgeY));
@@ -363,13 +370,14 @@ void QuestionCard::paint(juce::Graphics& g) {
 void QuestionCard::resized() {
     auto area = getLocalBounds().reduced(edgeX, edgeY);
     if (!picture_.isNull()) area.removeFromRight(picture_.getWidth() + edgeX);
-    title_.setBounds(area.removeFromTop(30));
+    title_.setBounds(area.removeFromTop(titleHigh));
     const int width = (area.getWidth() - (perRow - 1) * gap) / perRow;
     auto rows = area.removeFromBottom(
         static_cast<int>(buttons_.size() + perRow - 1) / perRow * (rowHigh + gap) - gap);
     for (std::size_t k = 0; k < buttons_.size(); ++k) {
         const auto at = static_cast<int>(k);
-        buttons_[k]->setBounds(rows.getX() + at % perRow * (width + gap),
+        buttons_[k]->setBounds(rows.getRight() - width - at % perRow * (width + gap), // the first at the
+                                                                                      // right
                                rows.getY() + at / perRow * (rowHigh + gap), width, rowHigh);
     }
     area.removeFromBottom(gap);

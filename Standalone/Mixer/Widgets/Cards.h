@@ -219,7 +219,7 @@ public:
     void paint(juce::Graphics& g) override {
         if (const auto* stop = stopButton(*getParentComponent()))
             g.excludeClipRegion(getLocalArea(stop, stop->getLocalBounds()));
-        g.fillAll(shade(*this, Shade::ground).withAlpha(0.45f));
+        g.fillAll(shade(*this, Shade::ground).withAlpha(0.6f));
     }
     bool hitTest(int x, int y) override {
         const auto* stop = stopButton(*getParentComponent());
@@ -228,9 +228,10 @@ public:
 
 private:
     static const juce::Component* stopButton(const juce::Component& in) {
-        if (in.getProperties()[stopProperty] && in.isShowing()) return &in;
+        if (in.getProperties()[stopProperty]) return &in;
         for (const auto* child : in.getChildren())
-            if (const auto* found = stopButton(*child)) return found;
+            if (child->isVisible())
+                if (const auto* found = stopButton(*child)) return found;
         return nullptr;
     }
 };

@@ -328,13 +328,20 @@ public:
         setClickingTogglesState(true);
     }
     void paintButton(juce::Graphics& g, bool isOver, bool) override {
-        const bool isChosen = getToggleState();
+        const bool isChosen = isOpen && getToggleState();
+        auto area = getLocalBounds();
+        if (isUpright) {
+            g.addTransform(juce::AffineTransform::rotation(juce::MathConstants<float>::halfPi)
+                               .translated(static_cast<float>(getWidth()), 0.0f));
+            area = {getHeight(), getWidth()};
+        }
         g.setColour(shade(*this, isChosen || isOver ? Shade::text : Shade::muted));
         g.setFont(text::font(text::medium, isChosen ? juce::Font::bold : juce::Font::plain));
-        g.drawText(getName(), getLocalBounds().withTrimmedBottom(4), juce::Justification::centred, false);
+        g.drawText(getName(), area.withTrimmedBottom(isOpen ? 4 : 0), juce::Justification::centred, false);
         g.setColour(isChosen ? shade(*this, Shade::accent) : juce::Colours::transparentBlack);
-        g.fillRect(getLocalBounds().removeFromBottom(2));
+        g.fillRect(area.removeFromBottom(2));
     }
+    bool isOpen = true, isUpright = false;
 };
 
 TabPanel::TabPanel(const juce::String& title) { setTitle(title); }
@@ -342,7 +349,9 @@ TabPanel::~TabPanel() = default;
 
 void TabPanel::add(const juce::String& name, std::unique_ptr<Tab> tab) {
     auto button = std::make_unique<Name>(name);
-    button->onClick = [this, name] { choose(name); };
+    button->onClick = [this, name, at = pages_.size()] {
+        at == chosen_&& fold_ == Fold::none&& onOpen ? onOpen(false) : choose(name);
+    };
     addAndMakeVisible(*button);
     auto view = std::make_unique<juce::Viewport>();
     view->setViewedComponent(tab.get(), false);
@@ -359,8 +368,20 @@ void TabPanel::choose(const juce::String& name) {
         const bool isChosen = pages_[i].name->getName() == name;
         if (isChosen) chosen_ = i;
         pages_[i].name->setToggleState(isChosen, juce::dontSendNotification);
-        pages_[i].view->setVisible(isChosen);
-        pages_[i].tab->setVisible(isChosen);
+    }
+    setFold(fold_);
+    if (onOpen) onOpen(true);
+}
+
+void TabPanel::setFold(Fold fold) {
+    fold_ = fold;
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+        const bool isShown = i == chosen_ && fold == Fold::none;
+        pages_[i].view->setVisible(isShown);
+        pages_[i].tab->setVisible(isShown);
+        pages_[i].name->isOpen = fold == Fold::none;
+        pages_[i].name->isUpright = fold == Fold::column;
+        pages_[i].name->repaint();
     }
     resized();
 }
@@ -376,7 +397,7 @@ void TabPanel::mixChanged() {
 }
 
 void TabPanel::refresh(const MixerMoment& moment) {
-    if (chosen_ >= pages_.size()) return;
+    if (chosen_ >= pages_.size() || fold_ != Fold::none) return;
     const auto& page = pages_[chosen_];
     page.tab->refresh(moment);
     if (page.tab->minHeight(page.view->getWidth()) != page.least) resized(); // it says more, or less
@@ -385,7 +406,13 @@ void TabPanel::refresh(const MixerMoment& moment) {
 void TabPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
 
 void TabPanel::resized() {
-    auto area = getLocalBounds().reduced(panelInset, 8);
+    if (fold_ == Fold::column) {
+        auto column = getLocalBounds().reduced(0, panelInset);
+        for (auto& page : pages_)
+            page.name->setBounds(column.removeFromTop(widthOf(page.name->getName()) + 24));
+        return;
+    }
+    auto area = getLocalBounds().reduced(panelInset, fold_ == Fold::row ? 0 : 8);
     auto names = area.removeFromTop(32);
     if (pages_.empty()) return;
     int rest = names.getWidth();
@@ -394,6 +421,7 @@ void TabPanel::resized() {
     for (auto& page : pages_)
         page.name->setBounds(names.removeFromLeft(widthOf(page.name->getName()) + rest)
                                  .withTrimmedRight(std::max(0, rest / 3)));
+    if (fold_ == Fold::row) return;
     area.removeFromTop(10);
     for (auto& page : pages_) {
         page.view->setBounds(area);

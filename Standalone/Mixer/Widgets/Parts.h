@@ -196,14 +196,20 @@ public:
     virtual int minHeight(int) const { return 0; } ///< at a width; a panel that has less lets it scroll
 };
 
-/// Panel with tabs: a row of names, and the page of the selected one.
+/// Panel with tabs: a row of names, and the page of the selected one. It folds to its names alone: a press on
+/// one opens its page, a press on that of the open page folds it.
 class TabPanel final : public juce::Component {
 public:
+    enum class Fold { none, column, row }; ///< of the names
+    static constexpr int folded = 30;      ///< pixels across the names
+
     /// `title` for screen readers.
     explicit TabPanel(const juce::String& title);
     ~TabPanel() override;
     void add(const juce::String& name, std::unique_ptr<Tab> tab);
-    void choose(const juce::String& name);
+    void choose(const juce::String& name); ///< also opens it
+    void setFold(Fold fold);
+    std::function<void(bool isOpen)> onOpen; ///< a page is wanted, or none
     juce::StringArray names() const;
     /// The tab of that class; null: there is none.
     template <class T>
@@ -227,6 +233,7 @@ private:
     };
     std::vector<Page> pages_;
     std::size_t chosen_ = 0;
+    Fold fold_ = Fold::none;
 };
 
 } // namespace physvib

@@ -30,6 +30,28 @@ bool isForEars(const std::string& device) {
     return false;
 }
 
+/// One of a list of choices: it looks like that, not like a button.
+class Row final : public juce::Button {
+public:
+    explicit Row(const juce::String& words)
+        : juce::Button{words} {
+        setTitle(words);
+    }
+    void paintButton(juce::Graphics& g, bool isOver, bool) override {
+        auto area = getLocalBounds();
+        const bool isChosen = getToggleState();
+        g.setColour(shade(*this, Shade::accent).withAlpha(isChosen ? 0.2f : isOver ? 0.08f : 0.0f));
+        g.fillRoundedRectangle(area.toFloat(), 6.0f);
+        const auto ring = area.removeFromLeft(40).toFloat().withSizeKeepingCentre(14.0f, 14.0f);
+        g.setColour(shade(*this, isChosen ? Shade::accent : Shade::muted));
+        g.drawEllipse(ring, 1.5f);
+        if (isChosen) g.fillEllipse(ring.reduced(3.5f));
+        g.setColour(shade(*this, Shade::text));
+        g.setFont(text::font(text::medium));
+        g.drawText(getName(), area, juce::Justification::centredLeft, true);
+    }
+};
+
 } // namespace
 
 void fitLayoutTo(int outputs, Mix& mix, std::string_view device) {
@@ -102,10 +124,9 @@ FirstStart::FirstStart(MixerModel& model, std::vector<FeltChoice> choices)
     words_.setJustificationType(juce::Justification::topLeft);
     words_.setMinimumHorizontalScale(1.0f); // it has space for two lines
     for (int i = 0; i < std::min(mostRows, static_cast<int>(choices_.size())); ++i) {
-        auto& row = *rows_.emplace_back(
-            std::make_unique<juce::TextButton>(choices_[static_cast<std::size_t>(i)].title +
-                                               (i == 0 && choices_.size() > 1 ? "  (likely)" : "")));
-        row.setTitle(row.getButtonText());
+        auto& row =
+            *rows_.emplace_back(std::make_unique<Row>(choices_[static_cast<std::size_t>(i)].title +
+                                                      (i == 0 && choices_.size() > 1 ? "  (likely)" : "")));
         row.onClick = [this, i] { choose(i); };
         addChildComponent(row);
     }
@@ -308,11 +329,11 @@ void FirstStart::resized() {
     title_.setBounds(area.removeFromTop(30));
     words_.setBounds(area.removeFromTop(48));
     auto row = area.removeFromBottom(34);
-    play_.setBounds(row.withWidth(130));
-    without_.setBounds(row.withTrimmedLeft(142).withWidth(170));
+    play_.setBounds(row.withLeft(row.getRight() - 130));
+    without_.setBounds(row.withTrimmedRight(142).withLeft(row.getRight() - 312));
     for (auto* button : {&felt_, &louder_, &notFelt_})
-        button->setBounds(row.removeFromLeft(110)), row.removeFromLeft(gap);
-    done_.setBounds(row.removeFromRight(110));
+        button->setBounds(row.removeFromRight(110)), row.removeFromRight(gap);
+    done_.setBounds(row.removeFromLeft(110));
     for (auto& choice : rows_) choice->setBounds(area.removeFromTop(34)), area.removeFromTop(5);
 }
 

@@ -77,7 +77,7 @@ private:
 
     MixerModel& model_;
     std::vector<FeltChoice> choices_;
-    std::vector<std::unique_ptr<juce::TextButton>> rows_;
+    std::vector<std::unique_ptr<juce::Button>> rows_;
     juce::Label title_, words_;
     juce::TextButton play_{"Play here"}, without_{"Without a device"}, felt_{"Felt"}, louder_{"Louder"},
         notFelt_{"Not felt"}, done_{"Done"};

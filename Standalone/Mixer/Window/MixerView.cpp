@@ -17,7 +17,7 @@
 namespace physvib {
 namespace {
 
-constexpr int dismissWidth = 90;
+constexpr int dismissWidth = 90, edge = 4;
 
 /// A tab beside the world, or else below it.
 struct TabEntry {
@@ -49,14 +49,24 @@ MixerView::MixerView(MixerModel& model)
     , bar_{model}
     , world_{model}
     , strips_{model} {
+    juce::Font::setDefaultMinimumHorizontalScaleFactor(1.0f); // letters keep their width
     setLookAndFeel(&look_);
     setOpaque(true);
     setTitle("PhysVib mixer");
     setWantsKeyboardFocus(true);
     for (const TabEntry& tab : tabEntries)
         (tab.isBesideWorld ? tabs_ : scope_).add(tab.name, tab.make(model, world_.view()));
-    world_.onOutput = [this](int enchanter) { strips_.showOutputs(enchanter); };
-    world_.onProfile = [this](int enchanter) { tabs_.find<EnchantersTab>()->editRow(enchanter); };
+    tabs_.onOpen = [this](bool isOpen) { setPanels({isOpen, panels().hasLower}); };
+    scope_.onOpen = [this](bool isOpen) { setPanels({panels().hasDrawer, isOpen}); };
+    bar_.onMode = [this] { setMode(mode_ == Mode::play ? Mode::engineer : Mode::play); };
+    world_.onOutput = [this](int enchanter) {
+        setPanels({panels().hasDrawer, true});
+        strips_.showOutputs(enchanter);
+    };
+    world_.onProfile = [this](int enchanter) {
+        tabs_.choose("Actuators");
+        tabs_.find<EnchantersTab>()->editRow(enchanter);
+    };
     trouble_.setTitle("Trouble");
     trouble_.setFont(text::font(text::medium));
     dismiss_ = quietButton("Dismiss", "Dismiss the message");
@@ -85,6 +95,7 @@ MixerView::MixerView(MixerModel& model)
     model_.addChangeListener(this);
     addMouseListener(this, true);
     mixChanged();
+    showPanels();
     setSize(1440, 900);
     startTimerHz(framesPerSecond);
 }
@@ -133,7 +144,7 @@ void MixerView::mixChanged() {
 // The handle moves with the panels, so each call starts from their present places.
 void MixerView::moveDivider(double Dividers::*which, int pixels, int whole, int now) {
     dividers_.*which = static_cast<double>(now + pixels) /
-                       (whole - (which == &Dividers::lower ? bar_.getHeight() : 0) - 2 * gap);
+                       (whole - (which == &Dividers::lower ? bar_.getHeight() : 0) - 2 * edge);
     resized();
 }
 
@@ -144,12 +155,53 @@ void MixerView::setDividers(const Dividers& dividers) {
 
 void MixerView::setShow(bool isShow) {
     isShow_ = isShow;
-    for (juce::Component* c :
-         std::initializer_list<juce::Component*>{&tabs_, &scope_, &strips_, &side_, &lower_, &between_})
-        c->setVisible(!isShow);
     bar_.setShow(isShow);
     bar_.setAlwaysOnTop(isShow); // no message and no card may cover the button that silences
     world_.setShow(isShow);
+    showPanels();
+}
+
+void MixerView::setMode(Mode mode) {
+    mode_ = mode;
+    bar_.setPlay(mode == Mode::play);
+    showPanels();
+}
+
+void MixerView::setPanels(const Panels& panels) {
+    panels_[static_cast<std::size_t>(mode_)] = panels;
+    showPanels();
+}
+
+juce::String MixerView::order() const {
+    juce::String words{mode_ == Mode::play ? "play" : "engineer"};
+    for (const Panels& panels : panels_)
+        words << " " << (panels.hasDrawer ? 1 : 0) << (panels.hasLower ? 1 : 0);
+    return words;
+}
+
+void MixerView::setOrder(const juce::String& order) {
+    const auto words = juce::StringArray::fromTokens(order, " ", {});
+    for (int k = 0; k < 2; ++k)
+        if (words[k + 1].length() == 2)
+            panels_[static_cast<std::size_t>(k)] = {words[k + 1][0] == '1', words[k + 1][1] == '1'};
+    setMode(words[0] == "engineer" ? Mode::engineer : Mode::play);
+}
+
+void MixerView::showPanels() {
+    using Fold = TabPanel::Fold;
+    const auto [hasDrawer, hasLower] = panels();
+    const bool isEngineer = mode_ == Mode::engineer;
+    tabs_.setFold(hasDrawer ? Fold::none : Fold::column);
+    scope_.setFold(hasLower ? Fold::none : Fold::row);
+    world_.setPlay(!isEngineer, !hasLower);
+    for (const auto& [panel, isThere] :
+         std::initializer_list<std::pair<juce::Component*, bool>>{{&tabs_, hasDrawer || isEngineer},
+                                                                  {&side_, hasDrawer},
+                                                                  {&scope_, hasLower || isEngineer},
+                                                                  {&strips_, hasLower},
+                                                                  {&lower_, hasLower},
+                                                                  {&between_, hasLower}})
+        panel->setVisible(isThere && !isShow_ && screen_ == nullptr);
     resized();
     repaint();
 }
@@ -179,11 +231,9 @@ void MixerView::refresh() {
     look();
     latest_.meters.peaks = std::exchange(peaks_, {});
     bar_.refresh(latest_);
-    if (!isShow_) {
-        tabs_.refresh(latest_);
-        scope_.refresh(latest_);
-        strips_.refresh(latest_);
-    }
+    for (auto* panel : {&tabs_, &scope_})
+        if (panel->isVisible()) panel->refresh(latest_);
+    if (strips_.isVisible()) strips_.refresh(latest_);
     keepPace();
 }
 
@@ -269,7 +319,7 @@ void MixerView::setScreen(juce::Component* screen) {
         if (child) child->setVisible(true);
     hidden_.clear();
     screen_ = screen;
-    if (screen == nullptr) return;
+    if (screen == nullptr) return showPanels(); // as they have been ordered meanwhile
     for (auto* child : getChildren())
         if (child->isVisible()) hidden_.emplace_back(child);
     screen->setBounds(getLocalBounds());
@@ -305,6 +355,9 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
     if (screen_ != nullptr && screen_->keyPressed(key)) return true;
     setHint(false);
     if (key == KeyPress::escapeKey) return model_.setSilent(true), true;
+    if (key == KeyPress::F2Key) return bar_.onMode(), true;
+    if (key == KeyPress::F3Key) return setPanels({panels().hasDrawer, !panels().hasLower}), true;
+    if (key == KeyPress::F4Key) return setPanels({!panels().hasDrawer, panels().hasLower}), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
     if (key == KeyPress{'.'}) return model_.session().world().stepOnce(), true;
     if (key == KeyPress{'a', juce::ModifierKeys::noModifiers, 0}) return world_.compare().toggle(), true;
@@ -327,7 +380,7 @@ void MixerView::paintOverChildren(juce::Graphics& g) {
     static const juce::StringArray lines{
         "Hold the actuators: they start quietly, a quarter of full scale.",
         "Drag a ball to throw it. The bar at the left draws balls, walls and joints.",
-        "Esc silences everything. More is in the menu, at the top left."};
+        "Esc silences everything. F2: the engineer's strips, materials, outputs, studies."};
     const auto font = text::font(text::medium);
     const auto at = world_.getBounds().withSizeKeepingCentre(590, 34 + 26 * lines.size());
     g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));
@@ -346,11 +399,10 @@ void MixerView::resized() {
         world_.setBounds(area);
         bar_.setBounds(area.removeFromTop(TopBar::lineHeight).removeFromRight(TopBar::showWidth));
     } else {
-        bar_.setBounds(area.removeFromTop(TopBar::heightFor(getWidth())));
-        const auto a = arrange(area.reduced(gap),
-                               {world_.fieldAspect(), strips_.widthFor(StripView::width),
-                                strips_.widthFor(StripView::mostWidth)},
-                               dividers_);
+        bar_.setBounds(area.removeFromTop(bar_.heightFor(getWidth())));
+        const auto a = arrange(area.reduced(edge),
+                               {strips_.widthFor(StripView::width), strips_.widthFor(StripView::mostWidth)},
+                               dividers_, mode_, panels());
         for (const auto& [panel, bounds] :
              std::initializer_list<std::pair<juce::Component*, juce::Rectangle<int>>>{{&world_, a.world},
                                                                                       {&tabs_, a.tabs},
@@ -374,7 +426,7 @@ void MixerView::resized() {
 
 void MixerView::placeCards() {
     curtain_.setBounds(getLocalBounds());
-    const auto middle = getLocalBounds().withTrimmedTop(TopBar::heightFor(getWidth())).getCentre();
+    const auto middle = getLocalBounds().withTrimmedTop(bar_.heightFor(getWidth())).getCentre();
     if (firstStart_) firstStart_->setCentrePosition(middle);
     if (card_) card_->setCentrePosition(middle);
     if (progress_ != nullptr)
@@ -411,30 +463,34 @@ Dividers Dividers::of(const juce::String& text) {
     return {share(0), share(1), share(2)};
 }
 
-Arrangement arrange(juce::Rectangle<int> area, const Wanted& wanted, const Dividers& dividers) {
+Arrangement arrange(juce::Rectangle<int> area, const Wanted& wanted, const Dividers& dividers, Mode mode,
+                    const Panels& panels) {
     using A = Arrangement;
     Arrangement a;
-    const int width = area.getWidth(), height = area.getHeight();
-    const int side = between(A::minSide, shareOr(dividers.side, width, std::min(640, width * 39 / 100)),
-                             width - A::minSide - gap);
-    // more height than this leaves bars above and below the field
-    const auto useful =
-        juce::roundToInt((width - side - gap - WorldPanel::besideField) / wanted.fieldAspect) +
-        WorldPanel::aboveAndBelowField;
-    const int automatic = between(std::min(292, height * 42 / 100), height - gap - useful, height * 42 / 100);
+    const int width = area.getWidth(), height = area.getHeight(),
+              names = mode == Mode::engineer ? TabPanel::folded : 0;
+    const int side = panels.hasDrawer
+                         ? between(A::minSide, shareOr(dividers.side, width, std::min(560, width * 30 / 100)),
+                                   width - A::minSide - A::seam)
+                         : names;
     const int lower =
-        between(A::minLower, shareOr(dividers.lower, height, automatic), height - A::minWorldHeight - gap);
+        panels.hasLower
+            ? between(A::minLower, shareOr(dividers.lower, height, std::min(340, height * 30 / 100)),
+                      height - A::minWorldHeight - A::seam)
+            : names;
     const int fair = std::min(std::max(wanted.minStrips, width * 45 / 100), wanted.maxStrips);
     const int strips =
         between(A::minStrips, shareOr(dividers.strips, width, std::min(fair, width * 70 / 100)),
-                width - A::minScope - gap);
+                width - A::minScope - A::seam);
     auto bottom = area.removeFromBottom(lower);
-    a.lower = area.removeFromBottom(gap);
+    a.lower = area.removeFromBottom(lower > 0 ? A::seam : 0);
     a.tabs = area.removeFromRight(side);
-    a.side = area.removeFromRight(gap);
+    a.side = area.removeFromRight(side > 0 ? A::seam : 0);
     a.world = area;
-    a.strips = bottom.removeFromRight(strips);
-    a.between = bottom.removeFromRight(gap);
+    if (panels.hasLower) {
+        a.strips = bottom.removeFromRight(strips);
+        a.between = bottom.removeFromRight(A::seam);
+    }
     a.scope = bottom;
     return a;
 }

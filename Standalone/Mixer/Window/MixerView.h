@@ -9,11 +9,11 @@
 #include "Mixer/Window/FirstStart.h"
 #include "Mixer/Window/TopBar.h"
 #include "Mixer/World/WorldPanel.h"
+#include <array>
 #include <juce_gui_basics/juce_gui_basics.h>
 
 namespace physvib {
 
-/// Places of the window's panels: pure arithmetic, so that every size can be tested without a window.
 /// Places of the dividers as shares of the width or height that they divide; 0: automatic.
 struct Dividers {
     double side = 0.0;   ///< width of the tabs beside the world
@@ -27,22 +27,33 @@ struct Dividers {
 
 /// What the panels would like to have.
 struct Wanted {
-    double fieldAspect = 1.0; ///< width of the world's field by its height
-    int minStrips = 0;        ///< width at which all strips are in sight
-    int maxStrips = 0;        ///< width at which they are as wide as they may be
+    int minStrips = 0; ///< width at which all strips are in sight
+    int maxStrips = 0; ///< width at which they are as wide as they may be
 };
 
-/// Places in pixels of the window, below the bar.
+/// What a person sees: the world and what one needs to play, or all of it.
+enum class Mode { play, engineer };
+
+/// Which panels are unfolded: the drawer beside the world, and the strips with their pages below it. Folded,
+/// an engineer sees their names.
+struct Panels {
+    bool hasDrawer = false, hasLower = false;
+    bool operator==(const Panels&) const = default;
+};
+
+/// Places of the window's panels in pixels, below the bar: pure arithmetic, so that every size can be tested
+/// without a window.
 struct Arrangement {
     juce::Rectangle<int> world, tabs, scope, strips;
     juce::Rectangle<int> side, lower, between; ///< the dividers' handles
 
-    static constexpr int minLower = 248, minWorldHeight = 240, minSide = 400, minStrips = 300, minScope = 360;
+    static constexpr int seam = 8, minLower = 240, minWorldHeight = 240, minSide = 400, minStrips = 300,
+                         minScope = 360;
 };
 
-/// Divides `area`. The world gets what its field can use; the lower panels get the rest, up to a share of the
-/// height. Any thread.
-Arrangement arrange(juce::Rectangle<int> area, const Wanted& wanted, const Dividers& dividers);
+/// Divides `area`. The world gets what the unfolded panels leave. Any thread.
+Arrangement arrange(juce::Rectangle<int> area, const Wanted& wanted, const Dividers& dividers, Mode mode,
+                    const Panels& panels);
 
 struct StudyCall;
 
@@ -65,6 +76,13 @@ public:
     Theme theme() const noexcept { return look_.theme(); }
     const Dividers& dividers() const noexcept { return dividers_; }
     void setDividers(const Dividers& dividers);
+    /// Each mode keeps its own panels. Not while a study has the screen.
+    void setMode(Mode mode);
+    Mode mode() const noexcept { return mode_; }
+    const Panels& panels() const noexcept { return panels_[static_cast<std::size_t>(mode_)]; }
+    void setPanels(const Panels& panels); ///< of the present mode
+    juce::String order() const;           ///< mode and panels, for the settings
+    void setOrder(const juce::String& order);
     /// Shows the world alone, with the button that silences.
     void setShow(bool isShow);
     bool isShow() const noexcept { return isShow_; }
@@ -115,6 +133,7 @@ private:
     void moveDivider(double Dividers::*which, int pixels, int whole, int now);
     static void releaseAtRightClick(const juce::MouseEvent& e);
     void raiseCard();
+    void showPanels();
     void placeCards();
     void mixChanged();
     void showLetters();
@@ -127,6 +146,8 @@ private:
     TabPanel tabs_{"Tabs"}, scope_{"Scope"};
     StripsPanel strips_;
     Dividers dividers_;
+    Mode mode_ = Mode::engineer;
+    std::array<Panels, 2> panels_{{{}, {false, true}}}; // of each mode
     Divider side_{"Divider of world and tabs", true}, lower_{"Divider of upper and lower panels", false},
         between_{"Divider of scope and strips", true};
     juce::Label trouble_; // over the world

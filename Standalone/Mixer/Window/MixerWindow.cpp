@@ -29,6 +29,7 @@ OscUse oscUseNamed(const juce::String& name) {
 
 constexpr const char* chosenSetting = "device-chosen"; // the user has chosen a device, or none
 constexpr const char* silentSetting = "silent";
+constexpr const char* orderSetting = "mode";          // and which panels are unfolded; none: to play
 constexpr const char* folderSetting = "files-folder"; // of recordings and documents; empty: UserFolder's own
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system reports
 /// Size of borders and title bar; the exact size is known only after the window exists.
@@ -87,6 +88,7 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
 MixerWindow::~MixerWindow() {
     stopTimer();
     files_.settings().setValue(silentSetting, model_->isSilent());
+    keepOrder();
     files_.setLimits(limits());
     files_.setExposureToday(model_->exposure().squareGSeconds(), true);
     rendering_.reset();
@@ -100,6 +102,7 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
     const bool wasSilent = model_ ? model_->isSilent() : files_.settings().getBoolValue(silentSetting);
     const bool wasAsked = view_ && view_->question() != nullptr;
     const double exposure = model_ ? model_->exposure().squareGSeconds() : files_.exposureToday();
+    if (view_) keepOrder();
     asked_.reset();
     clearContentComponent();
     view_.reset();
@@ -140,6 +143,7 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
     model_->setDisplayWidth(1e-3 * files_.settings().getDoubleValue(displayWidthSetting));
     view_->setTheme(files_.settings().getValue("look") == "light" ? Theme::light : Theme::dark);
     view_->setDividers(Dividers::of(files_.settings().getValue("panels")));
+    view_->setOrder(files_.settings().getValue(orderSetting));
     view_->grabKeyboardFocus();
     nameWindow();
     if (wasAsked) offerRecovery();
@@ -228,11 +232,16 @@ void MixerWindow::timerCallback() {
     settings.setValue("marker", device_.marker + 1);
     settings.setValue("clip-ending", hitEndings()[dragged_->ending()]);
     settings.setValue(silentSetting, model_->isSilent());
-    settings.setValue("panels", view_->dividers().text());
+    keepOrder();
     files_.setLimits(limits());
     files_.setExposureToday(model_->exposure().squareGSeconds());
     offerMonitor();
     model_->reportFault(files_.keep(*model_, isChanged()));
+}
+
+void MixerWindow::keepOrder() {
+    files_.settings().setValue("panels", view_->dividers().text());
+    files_.settings().setValue(orderSetting, view_->order());
 }
 
 Mix MixerWindow::firstMix() {
@@ -340,77 +349,119 @@ bool MixerWindow::keyPressed(const juce::KeyPress& key) {
     return view_->keyPressed(key);
 }
 
+namespace {
+
+void add(juce::PopupMenu& menu, const juce::String& name, const juce::String& keys, std::function<void()> act,
+         bool isEnabled = true, bool isTicked = false) {
+    juce::PopupMenu::Item item{name};
+    item.shortcutKeyDescription = keys;
+    item.action = std::move(act);
+    item.isEnabled = isEnabled;
+    item.isTicked = isTicked;
+    menu.addItem(item);
+}
+
+constexpr const char* shortcuts =
+    "Esc: silence. Space: pause. Full stop: one step.\n"
+    "F2: play or engineer. F3: strips and what is below. F4: the drawer. F10: menu. F11: full screen.\n"
+    "Arrow keys: tilt. Shift and a drag: hold. A: the other of A and B.\n"
+    "H hand, S select, B ball, X box, P polygon, L line, W wall, N rain, I pin, R rope, K spring, D slider, "
+    "M motor, E eraser, G grid, Return: one in the middle.\n"
+    "Selected: arrow keys move, [ and ] turn, + and - size, Delete, Ctrl+C, V, D, A.\n"
+    "Ctrl+Z, Ctrl+Shift+Z: undo, redo. Ctrl+R: record. Ctrl+Shift+R: record hands. Ctrl+E: render.\n"
+    "Ctrl+N, O, S, Shift+S: new, open, save, save as. Ctrl++, Ctrl+-, Ctrl+0: zoom. Ctrl+Q: quit.\n"
+    "In a strip: T test pulse, Shift+T sweep, G group. Tab: the next control.";
+
+} // namespace
+
 void MixerWindow::showMenu(juce::Component& from) {
-    auto& undo = model_->undoManager();
-    juce::PopupMenu menu, look, recent;
-    const auto item = [&menu](const juce::String& name, const juce::String& keys, std::function<void()> act,
-                              bool isEnabled = true) {
-        juce::PopupMenu::Item i{name};
-        i.shortcutKeyDescription = keys;
-        i.action = std::move(act);
-        i.isEnabled = isEnabled;
-        menu.addItem(i);
-    };
+    juce::PopupMenu menu, help;
+    add(help, "First steps", {}, [this] { view_->setHint(true); });
+    add(help, "Keys" + dots(), {}, [this] {
+        const juce::KeyPress escape{juce::KeyPress::escapeKey};
+        view_->setQuestion(std::make_unique<QuestionCard>(
+            "Keys", shortcuts,
+            std::vector<QuestionCard::Answer>{{"Close", [this] { view_->setCard(nullptr); }, true, escape}}));
+    });
+    menu.addSubMenu("File", fileMenu());
+    menu.addSubMenu("Edit", editMenu());
+    menu.addSubMenu("World", worldMenu());
+    menu.addSubMenu("View", viewMenu());
+    menu.addSubMenu("Help", help);
+    menu.setLookAndFeel(&view_->getLookAndFeel());
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from).withMinimumWidth(120));
+}
+
+juce::PopupMenu MixerWindow::fileMenu() {
+    juce::PopupMenu menu, recent;
     for (int k = 0; k < files_.recent().getNumFiles(); ++k) {
         const auto file = files_.recent().getFile(k);
         recent.addItem(file.getFileName(), [this, file] { openDocument(file); });
     }
-    item("New", "Ctrl+N", [this] { newDocument(); });
-    item("Open" + dots(), "Ctrl+O", [this] { openDocument(); });
+    add(menu, "New", "Ctrl+N", [this] { newDocument(); });
+    add(menu, "Open" + dots(), "Ctrl+O", [this] { openDocument(); });
     menu.addSubMenu("Recent", recent, recent.getNumItems() > 0);
-    item("Save", "Ctrl+S", [this] { save(); });
-    item("Save as" + dots(), "Ctrl+Shift+S", [this] { saveAs(); });
-    item(
-        "Sessions left behind" + dots(), {}, [this] { offerRecovery(); },
+    add(menu, "Save", "Ctrl+S", [this] { save(); });
+    add(menu, "Save as" + dots(), "Ctrl+Shift+S", [this] { saveAs(); });
+    add(
+        menu, "Sessions left behind" + dots(), {}, [this] { offerRecovery(); },
         !files_.copies().leftBehind().empty());
     menu.addSeparator();
-    item(
-        undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z",
+    add(menu, model_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R",
+        [this] { record(); });
+    add(menu, "Render" + dots(), "Ctrl+E", [this] { renderOffline(); });
+    add(menu, "Save movie" + dots(), {}, [this] { saveMovie(); });
+    add(menu, "Share" + dots(), {}, [this] { share(); });
+    add(menu, "Folder of recordings" + dots(), {}, [this] { chooseFolder(); });
+    menu.addSeparator();
+    add(menu, "Quit", "Ctrl+Q", [this] { requestQuit(); });
+    return menu;
+}
+
+juce::PopupMenu MixerWindow::editMenu() {
+    juce::PopupMenu menu;
+    auto& undo = model_->undoManager();
+    auto& ab = view_->world().compare();
+    add(
+        menu, undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z",
         [&undo] { undo.undo(); }, undo.canUndo());
-    item(
-        undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z",
+    add(
+        menu, undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z",
         [&undo] { undo.redo(); }, undo.canRedo());
     menu.addSeparator();
-    juce::PopupMenu fresh;
+    add(
+        menu, "Levels of the file", {}, [this] { useAskedLevels(); }, asked_.has_value());
+    menu.addSeparator();
+    add(menu,
+        ab.isOn() ? juce::String{"Play "} + (ab.shown() == 'A' ? "B" : "A")
+                  : juce::String{"Compare: make B, a copy of what plays"},
+        "A", [&ab] { ab.toggle(); });
+    add(
+        menu, "Keep what plays", {},
+        [this] {
+            view_->world().compare().end();
+            model_->sendChangeMessage();
+        },
+        ab.isOn());
+    return menu;
+}
+
+juce::PopupMenu MixerWindow::worldMenu() {
+    juce::PopupMenu menu, fresh;
     fresh.addItem("Empty", [this] { newScene(SceneGround::empty); });
     fresh.addItem("Box", [this] { newScene(SceneGround::box); });
     fresh.addItem("Floor", [this] { newScene(SceneGround::floor); });
     menu.addSubMenu("New scene", fresh);
-    item("Scene" + dots(), {}, [this] { import("Scene"); });
-    item("Save as scene" + dots(), {}, [this] { saveScene(false); });
-    item("Save as scene, bodies as they are now" + dots(), {}, [this] { saveScene(true); });
-    item(model_->script().isRecording() ? "End the recording of hands" : "Record hands as the scene's script",
-         "Ctrl+Shift+R", [this] { recordScript(); });
-    item("Layout" + dots(), {}, [this] { import("Layout of actuators"); });
-    item("Save the layout" + dots(), {}, [this] { exportLayout(); });
-    if (asked_) item("Levels of the file", {}, [this] { useAskedLevels(); });
+    add(menu, "Open a scene" + dots(), {}, [this] { import("Scene"); });
+    add(menu, "Save as scene" + dots(), {}, [this] { saveScene(false); });
+    add(menu, "Save as scene, bodies as they are now" + dots(), {}, [this] { saveScene(true); });
+    add(menu,
+        model_->script().isRecording() ? "End the recording of hands" : "Record hands as the scene's script",
+        "Ctrl+Shift+R", [this] { recordScript(); });
     menu.addSeparator();
-    item(model_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });
-    item("Render" + dots(), "Ctrl+E", [this] { renderOffline(); });
-    item("Save movie" + dots(), {}, [this] { saveMovie(); });
-    item("Share" + dots(), {}, [this] { share(); });
-    menu.addSeparator();
-    const auto isLight = view_->theme() == Theme::light;
-    look.addItem("Dark", true, !isLight, [this] { setTheme(Theme::dark); });
-    look.addItem("Light", true, isLight, [this] { setTheme(Theme::light); });
-    menu.addSubMenu("Look", look);
-    item("Folder of recordings" + dots(), {}, [this] { chooseFolder(); });
-    menu.addSubMenu("View", viewMenu());
-    juce::PopupMenu compare;
-    auto& ab = view_->world().compare();
-    compare.addItem(ab.isOn() ? juce::String{"Play "} + (ab.shown() == 'A' ? "B" : "A") + " (A)"
-                              : juce::String{"Make B, a copy of what plays (A)"},
-                    [&ab] { ab.toggle(); });
-    compare.addItem("Keep what plays", ab.isOn(), false, [this] {
-        view_->world().compare().end();
-        model_->sendChangeMessage();
-    });
-    menu.addSubMenu("Compare laws, layouts, mixes", compare);
-    item("Width of the display" + dots(), {}, [this] { askDisplayWidth(); });
-    item("Hint", {}, [this] { view_->setHint(true); });
-    item("Quit", "Ctrl+Q", [this] { requestQuit(); });
-    menu.setLookAndFeel(&view_->getLookAndFeel());
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from).withMinimumWidth(240));
+    add(menu, "Open a layout" + dots(), {}, [this] { import("Layout of actuators"); });
+    add(menu, "Save the layout" + dots(), {}, [this] { exportLayout(); });
+    return menu;
 }
 
 // Opens and saves sessions, scenes and layouts; records and renders; asks before unsaved changes are lost.
@@ -421,10 +472,10 @@ constexpr const char* sessionEnding = ".json";
 constexpr double minMovieSeconds = 1.0, usualMovieSeconds = 60.0;
 constexpr double longestRender = 86'400.0; // the limit of `physvib render`
 
+juce::String tenths(double seconds) { return juce::String{std::ceil(10.0 * seconds) / 10.0, 1}; }
+
 // without thousands separators
-QuestionCard::Field secondsField(double seconds) {
-    return {"Seconds", juce::String{std::ceil(10.0 * seconds) / 10.0, 1}, "0123456789."};
-}
+QuestionCard::Field secondsField(double seconds) { return {"Seconds", tenths(seconds), "0123456789."}; }
 
 std::string pathOf(const juce::File& file) { return file.getFullPathName().toStdString(); }
 
@@ -489,6 +540,10 @@ void MixerWindow::useAskedLevels() {
 
 // A file on the command line is not an edit, so there is nothing to save yet.
 void MixerWindow::start(const juce::File& file) {
+    if (file.isDirectory()) {
+        play(firstMix(), {});
+        return say(file.getFullPathName() + ": expected a file, found a folder");
+    }
     if (!file.existsAsFile()) return play(firstMix(), file);
     if (fileKind(pathOf(file)) == FileKind::session) return void(load(file, file));
     const auto mix = mixWith(firstMix(), file);
@@ -636,7 +691,7 @@ void MixerWindow::askSeconds(const juce::String& title, const juce::String& word
             say(what + ": expected " + number(limits.getStart(), limits.getStart() < 1.0 ? 1 : 0) + " to " +
                 number(limits.getEnd(), 0));
         },
-        "It was played for " + number(playedSeconds(), 1) + " s. " + words);
+        "It was played for " + tenths(playedSeconds()) + " s. " + words);
 }
 
 void MixerWindow::renderOffline() {
@@ -840,6 +895,7 @@ constexpr const char* ownPage = "http://127.0.0.1:8000/"; // where Docs/web.md s
 
 void MixerWindow::share() {
     const auto link = pageLink(model_->mix(), model_->world().drawing().drawn());
+    const auto here = ownAddresses();
     if (!link) return say(utf8(link.error));
     const auto page = files_.settings().getValue(pageSetting, ownPage);
     const auto at = [behind = utf8(link.value)](const juce::String& address) {
@@ -853,11 +909,13 @@ void MixerWindow::share() {
     };
     const auto show = [at](QuestionCard& card, const juce::String& address) {
         card.setValue(linkField, at(address));
-        card.setPicture(qrPicture(at(address).toStdString()));
+        card.setPicture(isLoopback(address) ? juce::Image{} : qrPicture(at(address).toStdString()));
     };
     ask("Share the world",
         "Who opens the link in the page gets the same world and samples. It stands behind the #, so no "
-        "server gets it. A phone needs an address that it can reach.",
+        "server gets it. 127.0.0.1 is this computer alone; for a phone, and a code that it reads, put an "
+        "address that it can reach" +
+            (here.empty() ? juce::String{"."} : ": this computer is " + utf8(here.front()) + "."),
         {{"Copy the link",
           [this, whole] {
               const auto words = whole();
@@ -946,17 +1004,39 @@ void MixerWindow::setShow(bool isShow) {
 }
 
 juce::PopupMenu MixerWindow::viewMenu() {
-    juce::PopupMenu menu;
-    menu.addSectionHeader("Zoom: Ctrl++ and Ctrl+-");
-    menu.addItem("Zoom: by the display (Ctrl+0)", true, zoom() == 0, [this] { setZoom(0); });
-    for (const int percent : zooms)
-        menu.addItem("Zoom: " + juce::String{percent} + " %", fits(percent, displayRoom()), zoom() == percent,
-                     [this, percent] { setZoom(percent); });
+    juce::PopupMenu menu, zoomMenu;
+    const bool isPlay = view_->mode() == Mode::play, isLight = view_->theme() == Theme::light;
+    const Panels panels = view_->panels();
+    add(
+        menu, "Play", "F2", [this] { view_->setMode(Mode::play); }, true, isPlay);
+    add(
+        menu, "Engineer", "F2", [this] { view_->setMode(Mode::engineer); }, true, !isPlay);
     menu.addSeparator();
-    menu.addItem("Full screen for a show (F11)", true, view_->isShow(),
-                 [this] { setShow(!view_->isShow()); });
-    menu.addItem("Automatic panels", view_->dividers() != Dividers{}, false,
-                 [this] { view_->setDividers({}); });
+    add(
+        menu, "Strips, and what is played", "F3",
+        [this, panels] {
+            view_->setPanels({panels.hasDrawer, !panels.hasLower});
+        },
+        true, panels.hasLower);
+    for (const auto& name : view_->tabs().names())
+        add(menu, name, name == "Actuators" ? "F4" : "", [this, name] { view_->tabs().choose(name); });
+    add(
+        menu, "Automatic panels", {}, [this] { view_->setDividers({}); }, view_->dividers() != Dividers{});
+    menu.addSeparator();
+    add(
+        menu, "Dark", {}, [this] { setTheme(Theme::dark); }, true, !isLight);
+    add(
+        menu, "Light", {}, [this] { setTheme(Theme::light); }, true, isLight);
+    add(
+        zoomMenu, "By the display", "Ctrl+0", [this] { setZoom(0); }, true, zoom() == 0);
+    for (const int percent : zooms)
+        add(
+            zoomMenu, juce::String{percent} + " %", {}, [this, percent] { setZoom(percent); },
+            fits(percent, displayRoom()), zoom() == percent);
+    menu.addSubMenu("Zoom", zoomMenu);
+    add(
+        menu, "Full screen for a show", "F11", [this] { setShow(!view_->isShow()); }, true, view_->isShow());
+    add(menu, "Width of the display" + dots(), {}, [this] { askDisplayWidth(); });
     return menu;
 }
 

@@ -100,6 +100,7 @@ private:
     void showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at);
     void recover(const std::filesystem::path& copy);
     void offerMonitor();
+    void keepOrder(); ///< of the panels, in the settings
     /// With the default levels, but no louder than the loudest actuator was left; on outputs that were in
     /// use, and not on the monitor's.
     Mix firstMix();
@@ -107,6 +108,9 @@ private:
     void setTheme(Theme theme);
     void applyZoom();
     static int zoomStepOf(const juce::KeyPress& key);
+    juce::PopupMenu fileMenu();
+    juce::PopupMenu editMenu();
+    juce::PopupMenu worldMenu();
     juce::PopupMenu viewMenu();
     void setDisplayWidth(double mm);
     void askDisplayWidth();

@@ -77,6 +77,11 @@ Result<std::string> pageLink(const Mix& mix, const Scene& drawn) {
     return link;
 }
 
+bool isLoopback(const juce::String& address) {
+    const auto host = address.fromFirstOccurrenceOf("://", false, false);
+    return host.startsWith("127.") || host.startsWith("[::1]") || host.startsWithIgnoreCase("localhost");
+}
+
 // juce::URL would escape what separates the parts behind the #. A shell reads the words on some systems.
 void openLink(juce::String link) {
     for (const char c : std::string_view{"\"$`\\ "})

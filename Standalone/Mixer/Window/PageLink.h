@@ -11,6 +11,9 @@ namespace physvib {
 /// what a link cannot hold. Places are rounded to thousandths of the field, as the page does. Any thread.
 Result<std::string> pageLink(const Mix& mix, const Scene& drawn);
 
+/// Whether an address of a page is of this computer alone.
+bool isLoopback(const juce::String& address);
+
 /// In the system's browser, to the letter. Message thread.
 void openLink(juce::String link);
 

@@ -55,8 +55,6 @@ TopBar::TopBar(MixerModel& model)
         model_.setSlowness(at + 1 < paces.end() ? at[1] : 1);
     };
     restart_.onClick = [this] { model_.restart(model_.mix().seed); };
-    seedName_.setText("seed", juce::dontSendNotification);
-    seedName_.setFont(text::font(text::small));
     describe(seed_, "Seed", "Seed of the scene: another seed is another course");
     seed_.setFont(text::font(text::medium));
     seed_.setEditable(true);
@@ -73,13 +71,18 @@ TopBar::TopBar(MixerModel& model)
     record_.onClick = [this] {
         if (onRecord) onRecord();
     };
+    mode_.setTitle("Mode");
+    mode_.onClick = [this] {
+        if (onMode) onMode();
+    };
     silence_.getProperties().set(stopProperty, true);
     silence_.setMouseClickGrabsKeyboardFocus(false); // an open card keeps it
     describe(silence_, "Silence", "Silence every actuator at once (Esc); a press lifts the silence");
     silence_.onClick = [this] { model_.setSilent(!model_.isSilent()); };
-    addAll(*this, {&menu_, &save_, &undo_, &redo_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_,
-                   &seed_, &time_, &record_, &device_, &board_, &load_, &silence_});
+    addAll(*this, {&menu_, &save_, &undo_, &redo_, &scene_, &pause_, &step_, &slow_, &restart_, &seed_,
+                   &time_, &record_, &mode_, &device_, &board_, &load_, &silence_});
     setRecording(false);
+    setPlay(false);
     mixChanged();
 }
 
@@ -118,7 +121,7 @@ void TopBar::chooseScene() {
 void TopBar::mixChanged() {
     const auto& mix = model_.mix();
     scene_.setText(titleOf(mix.scene->name), juce::dontSendNotification);
-    seed_.setText(juce::String{static_cast<juce::int64>(mix.seed)}, juce::dontSendNotification);
+    seed_.setText("seed " + juce::String{static_cast<juce::int64>(mix.seed)}, juce::dontSendNotification);
     const int slowness = model_.session().world().slowness();
     pause_.setSign(slowness == 0 ? Sign::play : Sign::pause,
                    slowness == 0 ? "Let the world go on (Space)" : "Pause the world (Space)");
@@ -128,7 +131,6 @@ void TopBar::mixChanged() {
     slow_.setToggleState(slowness > 1, juce::dontSendNotification);
     silence_.setToggleState(model_.isSilent(), juce::dontSendNotification);
     silence_.setButtonText(model_.isSilent() ? "SILENT: press" : "SILENCE  Esc");
-    seedName_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     const auto& history = model_.undoManager();
     undo_.setEnabled(history.canUndo());
     redo_.setEnabled(history.canRedo());
@@ -138,6 +140,8 @@ void TopBar::mixChanged() {
 
 void TopBar::setRecording(bool isRecording) {
     record_.setToggleState(isRecording, juce::dontSendNotification);
+    isRecording_ = isRecording;
+    recordedFromNs_ = -1;
     record_.setButtonText(disc + (isRecording ? "Recording" : "Record"));
 }
 
@@ -145,6 +149,10 @@ void TopBar::refresh(const MixerMoment& moment) {
     const int turn = looks_++ % looksPerNumbers; // numbers that change 30 times a second are illegible
     if (turn % looksPerTime == 0) time_.setText(clock(moment.session.sessionNs), juce::dontSendNotification);
     if (turn != 0) return;
+    if (isRecording_) {
+        if (recordedFromNs_ < 0) recordedFromNs_ = moment.session.sessionNs;
+        record_.setButtonText(disc + clock(moment.session.sessionNs - recordedFromNs_).dropLastCharacters(3));
+    }
     const auto& output = model_.output();
     const auto name = juce::String::fromUTF8(output.device().c_str());
     const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
@@ -153,16 +161,22 @@ void TopBar::refresh(const MixerMoment& moment) {
     if (!moment.device.isRunning)
         device_.set("No sound", model_.device().trouble(), Shade::limit);
     else
-        device_.set(
-            dotted({isNone ? juce::String{"No device"} : name, numbers, juce::String{output.blockFrames()}}),
-            "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) + " ms after the contact",
-            isNone ? Shade::now : Shade::text);
+        device_.set(isPlay_ && isNone ? juce::String{"No device"}
+                    : isPlay_         ? name
+                                      : dotted({isNone ? juce::String{"No device"} : name, numbers,
+                                                juce::String{output.blockFrames()}}),
+                    isPlay_ && isNone ? juce::String{"seen, not felt"}
+                                      : "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) +
+                                            " ms after the contact",
+                    isNone ? Shade::now : Shade::text);
     device_.setTooltip(name);
+    const bool hadLoad = isToldOfLoad_, hadBoard = hasBoard_;
     const auto& r = moment.session.render;
     const auto lost = model_.session().world().drops() + r.untold;
     load_.set("Load " + number(100.0 * moment.device.load, 1) + " %",
               dotted({count(r.late, "late"), count(lost, "dropped")}),
               r.late + lost > 0 ? Shade::now : Shade::text);
+    isToldOfLoad_ = r.late + lost > 0;
     const auto sinks = model_.session().sinks().states();
     const bool areReady = std::ranges::all_of(sinks, &SinkState::isReady);
     const auto sink = sinks.empty() ? juce::String{"Board"} : titleOf(sinks.front().name);
@@ -174,11 +188,33 @@ void TopBar::refresh(const MixerMoment& moment) {
         sinks.empty() ? Shade::muted
         : areReady    ? Shade::accent
                       : Shade::limit);
+    hasBoard_ = !sinks.empty();
+    if (hadLoad != isToldOfLoad_ || hadBoard != hasBoard_) showControls();
 }
 
 void TopBar::setShow(bool isShow) {
     isShow_ = isShow;
-    for (auto* child : getChildren()) child->setVisible(!isShow || child == &silence_);
+    showControls();
+}
+
+void TopBar::setPlay(bool isPlay) {
+    isPlay_ = isPlay;
+    mode_.setButtonText(isPlay ? "Engineer" : "Play");
+    mode_.setTooltip(isPlay ? "Strips, lanes, events, materials, outputs and studies as well (F2)"
+                            : "The world, and what one needs to play (F2)");
+    looks_ = 0; // its figures are of the mode
+    showControls();
+}
+
+// To play, a load and a board are seen when they have something to say.
+void TopBar::showControls() {
+    for (auto* child : getChildren()) child->setVisible(!isShow_ || child == &silence_);
+    if (isShow_ || !isPlay_) return resized();
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&step_, &slow_, &seed_, &time_})
+        c->setVisible(false);
+    load_.setVisible(isToldOfLoad_);
+    board_.setVisible(hasBoard_);
+    resized();
 }
 
 void TopBar::paint(juce::Graphics& g) {
@@ -190,36 +226,37 @@ void TopBar::resized() {
     const bool isOneLine = getHeight() <= lineHeight;
     auto states = isOneLine ? juce::Rectangle<int>{} : area.removeFromBottom(secondLine);
     area.setHeight(lineHeight - 18);
-    const int between = isOneLine ? gap : 8, tight = isOneLine ? 6 : 2;
-    constexpr int button = 36;
-    silence_.setBounds(area.removeFromRight(isOneLine ? 150 : 140));
+    constexpr int button = 36, between = 8, tight = 2;
+    silence_.setBounds(area.removeFromRight(140));
     area.removeFromRight(between);
     struct Control {
         juce::Component* component;
         int width, after;
     };
-    for (const auto& [component, width, after] : std::initializer_list<Control>{{&menu_, 76, between},
+    for (const auto& [component, width, after] : std::initializer_list<Control>{{&menu_, 64, between},
                                                                                 {&save_, button, tight},
                                                                                 {&undo_, button, tight},
                                                                                 {&redo_, button, between},
-                                                                                {&scene_, 150, between},
+                                                                                {&scene_, 144, between},
                                                                                 {&pause_, button, tight},
                                                                                 {&step_, button, tight},
                                                                                 {&slow_, button, tight},
                                                                                 {&restart_, button, between},
-                                                                                {&seedName_, 36, 0},
-                                                                                {&seed_, 44, 0},
-                                                                                {&time_, 86, 0},
-                                                                                {&record_, 92, between}}) {
-        component->setBounds(area.removeFromLeft(width));
+                                                                                {&seed_, 66, 0},
+                                                                                {&time_, 82, 0},
+                                                                                {&record_, 96, between},
+                                                                                {&mode_, 72, between}}) {
+        if (!component->isVisible()) continue;
+        component->setBounds(area.removeFromLeft(area.getWidth() < width ? 0 : width)); // whole, or not at
+                                                                                        // all
         area.removeFromLeft(after);
     }
     placeStates(isOneLine ? area : states);
 }
 
 void TopBar::placeStates(juce::Rectangle<int> area) {
-    load_.setBounds(area.removeFromRight(112));
-    board_.setBounds(area.removeFromRight(108));
+    if (load_.isVisible()) load_.setBounds(area.removeFromRight(112));
+    if (board_.isVisible()) board_.setBounds(area.removeFromRight(108));
     device_.setBounds(area.withTrimmedRight(8));
 }
 

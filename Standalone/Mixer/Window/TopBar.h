@@ -19,33 +19,41 @@ public:
     std::function<void()> onRecord, onSave, onOpenScene;
     std::function<void(const juce::File&)> onOwnScene;
     void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below the built-in ones
-    void setRecording(bool isRecording);
+    void setRecording(bool isRecording);                     ///< counts its seconds
     /// Only the button that silences is left.
     void setShow(bool isShow);
+    /// Without the controls of an engineer.
+    void setPlay(bool isPlay);
+    std::function<void()> onMode; ///< the other mode is wanted
 
     static constexpr int lineHeight = 52, showWidth = WorldPanel::silenceWidth;
     /// One line, or two in a narrow window.
-    static int heightFor(int width) { return width >= minOneLine ? lineHeight : lineHeight + secondLine; }
+    int heightFor(int width) const {
+        return isPlay_ || width >= minOneLine ? lineHeight : lineHeight + secondLine;
+    }
 
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
-    static constexpr int minOneLine = 1400, secondLine = 38; // the states need their room in one line, too
+    static constexpr int minOneLine = 1400, secondLine = 34; // the states need their room in one line, too
     void placeStates(juce::Rectangle<int> area);
-    bool isShow_ = false;
+    void showControls();
+    bool isShow_ = false, isPlay_ = false, isToldOfLoad_ = false, hasBoard_ = false;
     void chooseScene();
     void listScenes();
     juce::Array<juce::File> own_;
 
     MixerModel& model_;
     int looks_ = 0;
-    juce::TextButton menu_{"Menu"}, slow_, record_, silence_{"SILENCE  Esc"};
+    bool isRecording_ = false;
+    std::int64_t recordedFromNs_ = -1; // not seen yet
+    juce::TextButton menu_{"Menu"}, slow_, record_, mode_, silence_{"SILENCE  Esc"};
     juce::ComboBox scene_;
     SignButton pause_{Sign::pause, "Pause the world"}, step_{Sign::step, "One step of the world"},
         restart_{Sign::restart, "Start the scene anew"}, save_{Sign::save, "Save the session (Ctrl+S)"},
         undo_{Sign::undo, "Undo"}, redo_{Sign::redo, "Redo"};
-    juce::Label seedName_, seed_, time_;
+    juce::Label seed_, time_;
     TwoLines device_{"Device state"}, board_{"Board state"}, load_{"Load"};
 };
 

@@ -53,8 +53,11 @@ void DrawBar::show() {
 }
 
 namespace {
-constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1;
-}
+constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1, groupGap = 8;
+
+/// Hands, shapes, joints, and what takes away.
+int groupOf(int button) { return button < 2 ? 0 : button < 8 ? 1 : button < 13 ? 2 : 3; }
+} // namespace
 
 int DrawBar::highFor(int height) {
     return height + between >= buttonCount * (high + between) ? high : lowHigh;
@@ -69,11 +72,13 @@ int DrawBar::widthFor(int height) {
 
 void DrawBar::resized() {
     const int rows = perColumn(getHeight()), each = highFor(getHeight());
+    const int apart = getHeight() >= buttonCount * (each + between) + 3 * groupGap ? groupGap : 0;
     for (int k = 0; k <= static_cast<int>(tools_.size()); ++k) {
         auto& button = k < static_cast<int>(tools_.size())
                            ? static_cast<juce::Component&>(*tools_[static_cast<std::size_t>(k)])
                            : snap_;
-        button.setBounds(k / rows * (wide + between), k % rows * (each + between), wide, each);
+        button.setBounds(k / rows * (wide + between), k % rows * (each + between) + groupOf(k) * apart, wide,
+                         each);
     }
 }
 
@@ -101,10 +106,19 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
         slider->setSliderStyle(juce::Slider::LinearHorizontal);
         // read when the text box is created
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
-        slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 62, 20);
+        slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 94, 20);
     }
     describe(density_, "Density", "Density, in kg per square metre; the mass follows from it");
     density_.setRange(1.0, 20'000.0, 1.0);
+    density_.textFromValueFunction = [](double kg) {
+        return number(kg, 0) + (kg < 200.0 ? " light" : kg < 2000.0 ? " medium" : " heavy");
+    };
+    bounce_.textFromValueFunction = [](double b) {
+        return number(b, 2) + (b < 0.2 ? " dead" : b < 0.7 ? " lively" : " bouncy");
+    };
+    density_.valueFromTextFunction = bounce_.valueFromTextFunction = [](const juce::String& words) {
+        return words.retainCharacters("0123456789.").getDoubleValue();
+    };
     density_.setSkewFactorFromMidPoint(800.0);
     onSlide(density_, [this, change](bool continuesEdit) {
         change(
@@ -156,7 +170,7 @@ void BodyPanel::stiffen(bool continuesEdit) {
 void BodyPanel::show() {
     const auto& chosen = pane_.chosen();
     const auto* body = chosen.empty() ? nullptr : model_.world().drawing().find(chosen[0]);
-    setVisible(body != nullptr && pane_.tool() == DrawTool::choose);
+    setVisible(body != nullptr && pane_.tool() != DrawTool::hand);
     if (body == nullptr) return;
     const Scene& scene = model_.world().drawing().drawn();
     const auto* motor = chosen.size() == 1 ? motorOf(scene, chosen[0]) : nullptr;
@@ -174,20 +188,40 @@ void BodyPanel::show() {
     spring_.setVisible(spring != nullptr);
     if (spring && !spring_.isMouseButtonDown())
         spring_.setValue(springHzOf(*spring), juce::dontSendNotification);
-    const auto material = utf8(scene.materials[static_cast<std::size_t>(body->fixtures[0].material)].name);
+    const auto differ = [&](auto what) {
+        return std::ranges::any_of(chosen, [&](const std::string& name) {
+            const auto* other = model_.world().drawing().find(name);
+            return other != nullptr && what(*other) != what(*body);
+        });
+    };
+    const auto bounceOf = [&scene](const BodyDescription& b) {
+        const auto& f = b.fixtures[0];
+        return f.restitution.value_or(scene.materials[static_cast<std::size_t>(f.material)].restitution);
+    };
+    const auto isSource = [](const BodyDescription& b) {
+        return std::ranges::any_of(b.fixtures, &FixtureDescription::isCamera);
+    };
+    const auto isMoving = [](const BodyDescription& b) { return b.type == BodyType::dynamicBody; };
+    const auto marked = [](const char* words, bool isMarked) {
+        return words + (isMarked ? " " + juce::String::charToString(0x2260) : juce::String{}); // not equal
+    };
+    densityName_.setText(marked("density", differ([&](const auto& b) { return densityOf(scene, b); })),
+                         juce::dontSendNotification);
+    bounceName_.setText(marked("bounce", differ(bounceOf)), juce::dontSendNotification);
+    moves_.setButtonText(marked("moves", differ(isMoving)));
+    source_.setButtonText(marked("haptic source", differ(isSource)));
+    const auto material =
+        differ([](const auto& b) { return b.fixtures[0].material; })
+            ? juce::String{"several materials"}
+            : utf8(scene.materials[static_cast<std::size_t>(body->fixtures[0].material)].name);
     name_.setText(
         (chosen.size() == 1 ? utf8(chosen[0]) : juce::String{static_cast<int>(chosen.size())} + " bodies") +
             " " + juce::String::charToString(0x00b7) + " " + material,
         juce::dontSendNotification);
-    moves_.setToggleState(body->type == BodyType::dynamicBody, juce::dontSendNotification);
-    source_.setToggleState(std::ranges::any_of(body->fixtures, &FixtureDescription::isCamera),
-                           juce::dontSendNotification);
-    const auto& fixture = body->fixtures[0];
+    moves_.setToggleState(isMoving(*body), juce::dontSendNotification);
+    source_.setToggleState(isSource(*body), juce::dontSendNotification);
     if (!density_.isMouseButtonDown()) density_.setValue(densityOf(scene, *body), juce::dontSendNotification);
-    if (!bounce_.isMouseButtonDown())
-        bounce_.setValue(fixture.restitution.value_or(
-                             scene.materials[static_cast<std::size_t>(fixture.material)].restitution),
-                         juce::dontSendNotification);
+    if (!bounce_.isMouseButtonDown()) bounce_.setValue(bounceOf(*body), juce::dontSendNotification);
 }
 
 void BodyPanel::paint(juce::Graphics& g) {
@@ -208,7 +242,7 @@ void BodyPanel::resized() {
                                         {&springName_, &spring_}}) {
         if (!slider->isVisible()) continue;
         row = area.removeFromTop(rowHigh);
-        label->setBounds(row.removeFromLeft(50));
+        label->setBounds(row.removeFromLeft(66));
         slider->setBounds(row);
     }
 }

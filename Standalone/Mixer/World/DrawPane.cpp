@@ -10,6 +10,19 @@
 
 namespace physvib {
 
+namespace {
+
+/// Of what moves, that of the last body that does; else the first one that sounds.
+int usualMaterial(const Scene& scene, DrawTool tool) {
+    const auto sounds = [](const Material& m) { return m.frequencyHz > 0.0; };
+    if (tool != DrawTool::wall && tool != DrawTool::line)
+        for (auto body = scene.bodies.rbegin(); body != scene.bodies.rend(); ++body)
+            if (body->type == BodyType::dynamicBody) return body->fixtures[0].material;
+    return static_cast<int>(std::ranges::find_if(scene.materials, sounds) - scene.materials.begin());
+}
+
+} // namespace
+
 DrawPane::DrawPane(MixerModel& model, WorldView& view)
     : model_{model}
     , view_{view}
@@ -26,15 +39,19 @@ void DrawPane::use(DrawTool tool) {
     setMouseCursor(tool == DrawTool::choose ? juce::MouseCursor::NormalCursor
                                             : juce::MouseCursor::CrosshairCursor);
     if (tool != DrawTool::choose) chosen_.clear();
+    if (!isPicked_) material_ = usualMaterial(drawing().drawn(), tool);
     if (onChange) onChange();
     repaint();
 }
 
+// What has just been drawn keeps its material: the next one gets this.
 void DrawPane::setMaterial(int material) {
     material_ = material;
-    changeChosen("Material", [material](const Scene&, BodyDescription& body) {
-        for (auto& fixture : body.fixtures) fixture.material = material;
-    });
+    isPicked_ = true;
+    if (tool_ == DrawTool::choose)
+        changeChosen("Material", [material](const Scene&, BodyDescription& body) {
+            for (auto& fixture : body.fixtures) fixture.material = material;
+        });
     if (onChange) onChange();
 }
 
@@ -61,10 +78,11 @@ void DrawPane::mixChanged() {
     const auto before = chosen_.size();
     std::erase_if(chosen_, [&](const std::string& name) { return drawing().find(name) == nullptr; });
     const auto& materials = drawing().drawn().materials;
-    if (material_ < 0)
-        material_ = static_cast<int>(
-            std::ranges::find_if(materials, [](const Material& m) { return m.frequencyHz > 0.0; }) -
-            materials.begin());
+    if (scene_ != model_.mix().scene) {
+        scene_ = model_.mix().scene;
+        isPicked_ = false;
+        material_ = usualMaterial(drawing().drawn(), tool_);
+    }
     if (material_ >= static_cast<int>(materials.size())) material_ = 0;
     if (before != chosen_.size() && onChange) onChange();
     repaint();
@@ -103,6 +121,7 @@ std::optional<BodyPlace> DrawPane::placeNow(const std::string& name) const {
 void DrawPane::mouseDown(const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu()) return onMenu ? onMenu(e.position) : void();
     to_ = at(e);
+    if (tool_ != DrawTool::choose) choose({});
     if (tool_ == DrawTool::polygon) {
         stroke_.push_back(to_);
         isDrawing_ = true;
@@ -191,7 +210,17 @@ Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
     const Vector from = stroke_.empty() ? to_ : stroke_[0];
     const bool isClick = between(from, to_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
     const double x = 0.15 * scene.fieldWidthMetres, y = 0.15 * scene.fieldHeightMetres;
-    if (!isClick) return drawnRain(from, to_, rainCount_);
+    if (!isClick) { // of a flat drag, which has no room, a taller place
+        Vector low{std::min(from.x, to_.x), std::min(from.y, to_.y)},
+            high{std::max(from.x, to_.x), std::max(from.y, to_.y)};
+        auto rain = drawnRain(low, high, rainCount_);
+        for (double more = 0.01; !rain && more < 0.5; more *= 2.0) {
+            const Vector by{high.x - low.x < 2.0 * x ? more * scene.fieldWidthMetres : 0.0,
+                            high.y - low.y < 2.0 * y ? more * scene.fieldHeightMetres : 0.0};
+            rain = drawnRain({low.x - by.x, low.y - by.y}, {high.x + by.x, high.y + by.y}, rainCount_);
+        }
+        return rain;
+    }
     const Vector at{std::clamp(from.x, x, scene.fieldWidthMetres - x),
                     std::clamp(from.y, y, scene.fieldHeightMetres - y)};
     return drawnRain({at.x - x, at.y - y}, {at.x + x, at.y + y}, rainCount_);
@@ -234,6 +263,7 @@ void DrawPane::add(Result<std::vector<BodyDescription>> bodies) {
     for (auto& body : bodies.value) actions.push_back(SpawnAction{std::move(body), {}});
     edit("Draw a " + juce::String{wordsOf(tool_).name}.toLowerCase(), std::move(actions));
     hintOnBody(model_, first);
+    if (drawing().find(first) != nullptr) choose({first}); // its panel is there while the next one is drawn
 }
 
 void DrawPane::closePolygon() {
@@ -512,7 +542,7 @@ bool DrawPane::handleKey(const juce::KeyPress& key) {
     const double step = model_.world().scene().fieldHeightMetres / gridsPerField;
     const Vector beside{2.0 * step, 2.0 * step};
     if (key == KeyPress{'v', command, 0} && hasCopy()) return paste(copied_, beside), true;
-    if (key == KeyPress::tabKey || chosen_.empty()) return false;
+    if (key == KeyPress::tabKey || tool_ != DrawTool::choose || chosen_.empty()) return false;
     if (key == KeyPress::deleteKey || key == KeyPress::backspaceKey) return eraseAll(chosen_), true;
     if (key == KeyPress{'c', command, 0}) return copy(chosen_), true;
     if (key == KeyPress{'d', command, 0}) return paste(copied(drawing(), chosen_), beside), true;

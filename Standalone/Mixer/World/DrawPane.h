@@ -109,7 +109,9 @@ private:
     MixerModel& model_;
     WorldView& view_;
     DrawTool tool_ = DrawTool::hand;
-    int material_ = -1; // at first, the first material with a frequency
+    int material_ = 0;
+    bool isPicked_ = false;              // the material, by a person
+    std::shared_ptr<const Scene> scene_; // in which it was
     int rainCount_ = 50;
     Rain rain_;
     bool snaps_ = false, isDrawing_ = false;

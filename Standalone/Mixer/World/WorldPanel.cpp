@@ -17,9 +17,14 @@ constexpr double handMs = 10.0;      // between inputs of a hand that holds; mic
                                      // thousand times a second
 constexpr double handSeconds = 0.02; // for each way: the next input comes before it has ended, and the hand
                                      // does not stop between
-constexpr int lawNeeds = 700; // pixels of the panel; else there is no room for what the tab says as well
+// pixels of the panel; else there is no room for what the tab says as well, and for a knob beside the master
+constexpr int lawNeeds = 700, masterNeeds = 260, knobNeeds = 820;
 const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
 const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
+
+juce::String strengthWords(double g) {
+    return g < 0.02 ? "hardly felt" : g < 0.1 ? "felt softly" : g < 0.4 ? "felt" : "felt strongly";
+}
 
 } // namespace
 
@@ -61,7 +66,6 @@ WorldPanel::WorldPanel(MixerModel& model)
     view_.onMenu = pane_.onMenu = [this](juce::Point<float> place) { showMenu(place); };
     sentence_.setTitle("Strongest hit");
     sentence_.setFont(text::font(text::medium));
-    sentence_.setMinimumHorizontalScale(0.8f);
     law_.setFont(text::font(text::small));
     law_.setJustificationType(juce::Justification::centredRight);
     tilt_.onValueChange = [this] {
@@ -91,6 +95,7 @@ WorldPanel::WorldPanel(MixerModel& model)
     compare_.onClick = [this] { ab_.toggle(); };
     addAll(*this,
            {&view_, &pane_, &bar_, &sentence_, &law_, &compare_, &tilt_, &tiltName_, &drag_, &dragName_});
+    addChildComponent(master_);
     addChildComponent(palette_);
     addChildComponent(body_);
     addChildComponent(script_);
@@ -113,6 +118,7 @@ void WorldPanel::mixChanged() {
     pane_.mixChanged();
     showTools();
     view_.show(mix.layout, mix.panner());
+    master_.mixChanged();
     view_.setDisplayWidth(model_.displayWidthMetres());
     law_.setText(juce::String{nameOf(mix.panner().law()).data()} + " law" + dot + "exponent " +
                      number(mix.exponent, 1),
@@ -143,9 +149,11 @@ void WorldPanel::showTools() {
     placeInspector();
 }
 
-// It stays where it is until another place covers half as much of what is selected and of the badges.
+// At what is selected. It stays where it is until another place covers half as much of that and of the
+// badges.
 void WorldPanel::placeInspector() {
     if (!body_.isVisible()) return;
+    constexpr int beside = 8;
     const auto room = getLocalBounds()
                           .withTrimmedLeft(bar_.getRight())
                           .withTrimmedTop(40)
@@ -165,21 +173,20 @@ void WorldPanel::placeInspector() {
     const auto now =
         juce::Rectangle<int>{BodyPanel::wide, body_.wantedHeight()}.withPosition(body_.getPosition());
     auto best = now;
-    int least = room.contains(now) ? (covered(now) + 1) / 2 : std::numeric_limits<int>::max();
-    constexpr int places = 6; // along each side
-    for (int y = 0; y < places; ++y)
-        for (int x = places - 1; x >= 0; --x) {
-            const auto place =
-                now.withPosition(room.getX() + x * (room.getWidth() - now.getWidth()) / (places - 1),
-                                 room.getY() + y * (room.getHeight() - now.getHeight()) / (places - 1));
-            if (const int pixels = covered(place); pixels < least) least = pixels, best = place;
-        }
+    const auto name = utf8(pane_.chosen().empty() ? std::string{} : pane_.chosen().front());
+    const bool isOther = body_.getName() != name;
+    body_.setName(name);
+    int least = room.contains(now) && !isOther ? (covered(now) + 1) / 2 : std::numeric_limits<int>::max();
+    const auto& body = inTheWay.front();
+    for (const juce::Point<int> corner : {juce::Point<int>{body.getRight() + beside, body.getY()},
+                                          {body.getX() - beside - now.getWidth(), body.getY()},
+                                          {body.getX(), body.getBottom() + beside},
+                                          {body.getX(), body.getY() - beside - now.getHeight()},
+                                          room.getTopRight()}) {
+        const auto place = now.withPosition(corner).constrainedWithin(room);
+        if (const int pixels = covered(place); pixels < least) least = pixels, best = place;
+    }
     body_.setBounds(best);
-}
-
-double WorldPanel::fieldAspect() const {
-    const auto& scene = model_.world().scene();
-    return scene.fieldWidthMetres / std::max(scene.fieldHeightMetres, 1e-6);
 }
 
 juce::Rectangle<int> WorldPanel::bannerArea() const {
@@ -191,10 +198,15 @@ juce::Rectangle<int> WorldPanel::bannerArea() const {
 void WorldPanel::setShow(bool isShow) {
     isShow_ = isShow;
     if (isShow) pane_.use(DrawTool::hand);
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&bar_, &sentence_, &compare_, &tilt_,
-                                                                      &tiltName_, &drag_, &dragName_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&bar_, &sentence_, &tilt_, &tiltName_})
         c->setVisible(!isShow);
     showTools();
+    resized();
+}
+
+void WorldPanel::setPlay(bool isPlay, bool hasMaster) {
+    isPlay_ = isPlay;
+    hasMaster_ = hasMaster;
     resized();
 }
 
@@ -295,6 +307,7 @@ juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = model_.world().scene();
     const auto name = materialName(scene, hit), place = placeText(scene, hit);
     if (isClip(hit.sound)) return inLines({name, place});
+    if (isPlay_) return inLines({name, strengthWords(strongestOf(model_.mix(), hit).levelG) + " " + place});
     const auto hz = number(hit.frequencyHz, 0) + " Hz",
                felt = number(strongestOf(model_.mix(), hit).levelG, 2) + " g " + place;
     const auto tau = juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s";
@@ -326,6 +339,7 @@ void WorldPanel::refresh(const MixerMoment& moment) {
             hitAtMs_ = now;
             sentence_.setText(sentenceOn(hit), juce::dontSendNotification);
         }
+    if (hasMaster_) master_.refresh(moment);
     lookAfterPlayer();
     moveHand();
     pane_.spawnDueBodies();
@@ -344,11 +358,22 @@ void WorldPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
 void WorldPanel::resized() {
     auto area = getLocalBounds().reduced(panelInset, 10);
     auto row = area.removeFromBottom(38);
-    law_.setVisible(!isShow_ && getWidth() >= lawNeeds);
-    compare_.setBounds(row.removeFromRight(46).reduced(2, 5));
+    const bool isEngineer = !isShow_ && !isPlay_;
+    law_.setVisible(isEngineer && getWidth() >= lawNeeds + (hasMaster_ ? masterNeeds : 0));
+    compare_.setVisible(isEngineer);
+    master_.setVisible(!isShow_ && hasMaster_);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&drag_, &dragName_})
+        c->setVisible(isEngineer && (!hasMaster_ || getWidth() >= knobNeeds));
+    if (hasMaster_) {
+        master_.setBounds(row.removeFromRight(getWidth() >= knobNeeds ? masterNeeds : 200));
+        row.removeFromRight(gap);
+    }
+    if (isEngineer) compare_.setBounds(row.removeFromRight(46).reduced(2, 5));
     if (law_.isVisible()) law_.setBounds(row.removeFromRight(174));
-    dragName_.setBounds(row.removeFromRight(104));
-    drag_.setBounds(row.removeFromRight(38));
+    if (drag_.isVisible()) {
+        dragName_.setBounds(row.removeFromRight(104));
+        drag_.setBounds(row.removeFromRight(38));
+    }
     tiltName_.setBounds(row.removeFromRight(58));
     tilt_.setBounds(row.removeFromRight(38));
     sentence_.setBounds(row);

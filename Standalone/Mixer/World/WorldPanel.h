@@ -5,6 +5,7 @@
 #include "Host/Views/WorldView.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Mixer/Model/MixerWorld.h"
+#include "Mixer/Strips/StripView.h"
 #include "Mixer/Widgets/Parts.h"
 #include "Mixer/World/DrawBar.h"
 #include "Scene/World/ScenePlayer.h"
@@ -56,15 +57,14 @@ public:
     void tilt(double degrees) { tilt_.turnTo(degrees); } ///< turns gravity to that angle
     /// The field and its actuators alone.
     void setShow(bool isShow);
+    /// Without an engineer's figures and knobs; with the master, where there are no strips.
+    void setPlay(bool isPlay, bool hasMaster);
     /// What a right click there offers. `place` in pixels of the view.
     juce::PopupMenu menuAt(juce::Point<float> place);
-    double fieldAspect() const; ///< width by height
     /// Where a message lies over this panel: beside the tools, above the field.
     juce::Rectangle<int> bannerArea() const;
 
     static constexpr int silenceWidth = 174; ///< of the button that silences, in the corner of a show
-    /// Pixels of the panel that the field does not fill.
-    static constexpr int besideField = 104, aboveAndBelowField = 134;
 
     // Menu commands on an actuator that other panels carry out.
     std::function<void(int enchanter)> onOutput, onProfile;
@@ -107,6 +107,7 @@ private:
     MixerCompare ab_{model_};
     TiltKnob tilt_;
     juce::Slider drag_;
+    MasterStrip master_{model_, true};
     std::optional<ScenePlayer> player_; // for a scene with a player
     std::optional<double> pointed_;     // place of the held mouse on the field, m
     std::vector<Action> first_;      // input that takes over from the script, until the world has restarted
@@ -114,7 +115,7 @@ private:
     std::optional<GripAction> hand_; // position since the last moveHand()
     double handAtMs_ = 0.0;
     bool isMoving_ = false; // a badge is being moved since the mouse was pressed
-    bool isShow_ = false;
+    bool isShow_ = false, isPlay_ = false, hasMaster_ = false;
     double hitAtMs_ = 0.0;
     CollisionEvent shownHit_;
     std::shared_ptr<const Scene> shown_;

@@ -191,6 +191,10 @@ std::vector<State> mixerStates() {
          4.5,
          [](MixerModel&, MixerView& v) { v.tabs().choose("Output"); },
          {{"BOARD", "/dev/ttyACM0"}}},
+        {"play", 1280, 800, 4.0,
+         [](MixerModel& d, MixerView& v) {
+             v.setMode(Mode::play), d.change("Level", [](Mix& m) { m.levelDb = -3.0; });
+         }},
         {"small", MixerView::minWidth, MixerView::minHeight, 3.0, [](MixerModel&, MixerView&) {}},
         {"lanes", 1440, 900, 6.0, showLanes},
         {"light", 1440, 900, 4.0, [](MixerModel&, MixerView& v) { v.setTheme(Theme::light); }},
@@ -207,6 +211,7 @@ std::vector<State> mixerStates() {
                  m.strips[2].isMuted = true, m.strips[3].isInverted = true, m.strips[1].delayMs = 5.0;
              });
              d.dispatchPendingMessages();
+             v.tabs().choose("Actuators");
              if (auto* list = dynamic_cast<juce::ListBox*>(find(v, "List of actuators"))) list->selectRow(4);
              if (auto* maps = dynamic_cast<juce::Button*>(find(v, "Map of the chosen actuator")))
                  maps->setToggleState(true, juce::sendNotificationSync);

@@ -35,6 +35,7 @@ public:
     /// Waits for what the display tells of a new window: a click before that is lost now and then.
     explicit Hand(MixerWindow& window)
         : window_{window} {
+        window.view().setMode(Mode::engineer); // has every control
         runFor(0.3);
     }
     void press(juce::Point<float> at) { send(at, juce::ModifierKeys::leftButtonModifier); }
@@ -1023,18 +1024,24 @@ TEST(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     const auto menu = [] { return juce::Component::getCurrentlyModalComponent(); };
-    const auto choose = [&](int fromTheEnd) {
+    const auto choose = [&](int menuFromTheEnd, int fromTheEnd) {
         hand.click(*find(window.view(), "Menu"));
         ASSERT_TRUE(runUntil([&] { return menu() != nullptr; }));
         menu()->getPeer()->toFront(true); // as a press on an item does: the window loses the keys
         runFor(0.3);
-        for (int k = 0; k < fromTheEnd; ++k)
-            menu()->getPeer()->handleKeyPress(juce::KeyPress{juce::KeyPress::upKey});
+        const auto up = [&](int times) {
+            for (int k = 0; k < times; ++k)
+                menu()->getPeer()->handleKeyPress(juce::KeyPress{juce::KeyPress::upKey});
+        };
+        up(menuFromTheEnd);
+        menu()->getPeer()->handleKeyPress(juce::KeyPress{juce::KeyPress::rightKey});
+        runFor(0.1);
+        up(fromTheEnd); // the first item is chosen as it opens
         menu()->getPeer()->handleKeyPress(juce::KeyPress{juce::KeyPress::returnKey});
         ASSERT_TRUE(runUntil([&] { return menu() == nullptr; }));
         runFor(0.3);
     };
-    choose(3); // Width of the display
+    choose(2, 1); // View: Width of the display
     ASSERT_NE(window.view().card(), nullptr);
     EXPECT_TRUE(window.view().card()->hasKeyboardFocus(true)) << "though the menu gives them back late";
     hand.key(juce::KeyPress::returnKey);
@@ -1044,7 +1051,7 @@ TEST(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
     hand.key(juce::KeyPress::spaceKey);
     EXPECT_EQ(menu(), nullptr);
     EXPECT_EQ(window.model().session().world().slowness(), 0) << "Space is the world's";
-    choose(2); // Hint
+    choose(1, 0); // Help: First steps
     EXPECT_TRUE(window.view().isHintShown());
     hand.key(juce::KeyPress::spaceKey);
     EXPECT_EQ(menu(), nullptr);

@@ -29,7 +29,7 @@ has_copy() { ls "$folder"/physvib/recovery-*.json; }
 pid=$!
 wait_for 30 xdotool search --name "PhysVib mixer"
 sleep 1
-xdotool mousemove 1170 140 click 1 # a new enchanter, by a click on the module of the tab
+xdotool mousemove 720 450 key F4 sleep 1 mousemove 1200 132 click 1 # a new enchanter, by a click on the module of the drawer
 wait_for 30 has_copy
 sleep 3
 kill -9 "$pid"
