@@ -298,7 +298,7 @@ try_dialogs() {
     [ -n "$display" ] || { echo "dialogs: skipped, there is no display"; return 0; }
     export XDG_CONFIG_HOME="$folder"
     mkdir -p physvib
-    echo '<?xml version="1.0"?><PROPERTIES><VALUE name="osc" val="this-computer"/><VALUE name="hint-seen" val="1"/></PROPERTIES>' >physvib/mixer.settings
+    echo '<?xml version="1.0"?><PROPERTIES><VALUE name="osc" val="this-computer"/><VALUE name="hint-seen" val="1"/><VALUE name="mode" val="engineer 00 11"/></PROPERTIES>' >physvib/mixer.settings
     begin_server 48000
     as_in_a_terminal env DISPLAY="$display" "$bin/physvib-mixer" still.json --device JACK:system >out 2>err & victim=$!
     playing="$victim $listener"
@@ -313,11 +313,11 @@ try_dialogs() {
     stop_in "list of scenes" at 316 26
     stop_in "list of outputs" output_list
     stop_in "list of protocols" protocol_list
-    stop_in "text field" at 640 26
+    stop_in "text field" at 537 25
     stop_in "Open (Save the session?)" x key ctrl+o
     stop_in "Open" open_chooser
     stop_in "Render" x key ctrl+e
-    stop_in "Width of the display" x key F10 sleep 0.3 key Up key Up key Up key Return
+    stop_in "Width of the display" x key F10 sleep 0.3 key Up key Up key Right sleep 0.3 key Up key Return
     x key F10 sleep 0.5; t=$(now); x keydown Escape sleep 1.2 keyup Escape; zero "Esc, held down" "main menu" "$t" 150; stays "Esc, held down"
     told "$mixer_door"
     ended
@@ -331,8 +331,8 @@ over() {
     x mousemove $((X + $1)) $((Y + $2)) sleep 0.1
 }
 at() { over "$1" "$2"; x click 1; }
-output_list() { at 1204 85; sleep 0.2; at 1060 146; }
-protocol_list() { at 1322 85; sleep 0.2; at 1060 146; }
+output_list() { at 1275 77; sleep 0.2; at 1131 138; }
+protocol_list() { at 1367 77; sleep 0.2; at 1131 138; }
 open_chooser() { x key ctrl+o sleep 0.5 key d; } # do not save
 # stop_in STATE HOW...: brings it about; Esc, which closes it as well; then again, and a press.
 mixer_door='mixer: SILENCE, Esc, whatever is open'
