@@ -90,7 +90,7 @@ kill_mixers() {
     n=0 copies=0
     while [ $n -lt "$kills" ]; do
         n=$((n + 1))
-        (sleep 2 && xdotool mousemove 1170 140 click 1) 2>/dev/null & # a new enchanter: something to keep a copy of
+        (sleep 2 && xdotool mousemove 720 300 key b click 1) 2>/dev/null & # a ball: something to keep a copy of
         kill_within 9 "$bin/physvib-mixer" --device "None:no device"
         for copy in physvib/recovery-*.json; do
             [ -e "$copy" ] || continue
