@@ -6,7 +6,7 @@
 set -eu
 cd "$(dirname "$0")/../.."
 kept=Tests/Engines/passed.txt
-sum=$(find Source/Api/C Source/Api/CSharp Source/Api/Engines Source/Api/Live Source/Api/Lua Tests/Api Tests/Engines Tests/Live/love \
+sum=$(find Source/Api/C Source/Api/CSharp Source/Api/Engines Source/Api/Live Source/Api/Lua Source/Contacts Tests/Api Tests/Engines Tests/Live/love \
     Docs/csharp.md Docs/engines.md Docs/lua.md -type f ! -name '*.pyc' ! -path "$kept" -exec sha256sum {} + | LC_ALL=C sort -k 2 | sha256sum | cut -d ' ' -f 1)
 if [ "${1:-}" = --keep ]; then
     echo "$sum" >"$kept"
