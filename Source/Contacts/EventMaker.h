@@ -172,7 +172,7 @@ private:
     double gain_ = 0.0;
     bool isMuted_ = false;
     // Of its current partner:
-    bool hasMet_ = false, hasOwnSound_ = false; // the source's own, whoever the partner is
+    bool hasMet_ = false, hasOwnSound_ = false; // the source's own, for any partner
     std::int32_t other_ = FixtureTable::none;
     double pairGain_ = 1.0;
     int modeCount_ = 0;

@@ -78,7 +78,8 @@ struct GrainChance {
 
 /// A stretch of a surface within which there is no grain.
 struct GrainGap {
-    double fromMetres = 0.0, toMetres = 0.0;
+    double fromMetres = 0.0; ///< along the path, as SurfaceMotion's metres
+    double toMetres = 0.0;   ///< its other end
 
     /// True if a motion that does not reverse certainly stays within.
     bool holds(const SurfaceMotion& motion) const noexcept {

@@ -229,7 +229,7 @@ TEST_F(ExportCommand, FeelsChannelsWithoutPlacesOneOnEachEnchanter) {
 TEST_F(ExportCommand, RefusesInOneLine) {
     refuses("export", 2, "--to is required");
     refuses("export drop --to a.wav", 2,
-            "--to: expected a name that ends in .hjif, .haptic or .ahap, found \"a.wav\"");
+            "--to: expected a name that ends in .hjif, .haptic, .ahap or .envelope, found \"a.wav\"");
     refuses("export --to a.hjif", 2, "export: give a scene");
     refuses("export nowhere --to a.hjif", 2, "nowhere");
     refuses("export drop --limiter off --to a.hjif", 2, "--limiter: says how something is played");

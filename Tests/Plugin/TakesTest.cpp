@@ -2,6 +2,7 @@
 // What takes owe each other: nothing is cut, settings travel inside, ended ones are used again, none is made
 // in the way of others.
 #include "PluginTesting.h"
+#include "Session/FakeHost.h"
 #include "Support/Growth.h"
 #include "Support/RendererMemory.h"
 #include "Support/SlowFigures.h"
@@ -322,9 +323,7 @@ TEST(Takes, WithoutMemoryForAnotherTheHostPlaysOnAndItIsSaid) {
 
 TEST(Takes, ASessionWithoutMemoryForItsRendererIsNoSilentOne) {
     if (!ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
-    SessionSetup setup;
-    setup.hasWorld = false;
-    Session session{setup};
+    Session session{shakeTheBoxSetup(0.02)};
     beforeMemory = [](std::size_t) { return false; };
     EXPECT_THROW(session.prepare(48000, 480), std::bad_alloc);
     beforeMemory = nullptr;

@@ -327,21 +327,24 @@ void OutputTab::resized() {
     row.removeFromRight(gap);
     device_.setBounds(row);
     const int all = area.getWidth() - 2 * gap, quarter = all / 4, fifth = all / 5;
-    std::vector<Cell> first{{rateName_, rate_, 0}, {blockName_, block_, 0}};
-    for (const auto& sink : sinks_) first.push_back({sink->name, sink->box, 0});
-    const int cells = static_cast<int>(first.size());
-    const int each = (area.getWidth() - (cells - 1) * gap) / cells;
-    const int wider = sinks_.empty() ? 0 : gap; // rates and blocks have longer words than places
-    for (int k = 0; k < cells; ++k)
-        first[static_cast<std::size_t>(k)].width = k < 2 ? each + wider : each - 2 * wider / (cells - 2);
+    std::vector<Cell> first{{rateName_, rate_, 0}, {blockName_, block_, 0}}, second;
+    for (const auto& sink : sinks_)
+        (sink->kind.takesReports ? second : first).push_back({sink->name, sink->box, 0});
+    for (auto* const cells : {&first, &second}) {
+        const int count = static_cast<int>(cells->size());
+        for (Cell& cell : *cells) cell.width = (area.getWidth() - (count - 1) * gap) / std::max(1, count);
+    }
+    const int wider = first.size() == 4 ? gap : 0; // rates and blocks have longer words than places
+    for (std::size_t k = 0; k < first.size(); ++k) first[k].width += k < 2 ? wider : -wider;
+    placeRow(area, first);
+    placeRow(area, second);
     for (const auto& sink : sinks_) {
         const juce::String title{sink->kind.title.data()};
-        const bool fits = text::pixels(sink->name.getFont(), title) <= each - 2 * wider;
+        const bool fits = text::pixels(sink->name.getFont(), title) <= sink->name.getWidth();
         const auto shorter = titleOf(std::string{sink->kind.name});
         sink->name.setText(fits ? title : shorter.substring(0, 1) + shorter.substring(1).toLowerCase(),
                            juce::dontSendNotification);
     }
-    placeRow(area, first);
     placeRow(area, {{oscName_, osc_, 2 * fifth},
                     {hitsName_, hits_, 2 * fifth - 3 * gap},
                     {phoneName_, phone_, fifth + 3 * gap}});

@@ -4,6 +4,7 @@
 #pragma once
 #include "Host/Views/StripParts.h"
 #include "Mixer/Model/MixerModel.h"
+#include "Mixer/Widgets/MasterStrip.h"
 #include "Mixer/Widgets/Parts.h"
 
 namespace physvib {
@@ -48,32 +49,6 @@ private:
     SignButton sweep_;
     bool isPlaced_ = false;   // its output, as shown
     bool isDropping_ = false; // a clip is being dragged over it
-};
-
-/// Strip of the total output: level, limiter, ceiling.
-class MasterStrip final : public juce::Component {
-public:
-    static constexpr int width = 90, flatWords = 112;
-
-    /// `isFlat`: in one row without a meter, for where there are no strips.
-    explicit MasterStrip(MixerModel& model, bool isFlat = false);
-    void mixChanged();
-    void refresh(const MixerMoment& moment);
-    void paint(juce::Graphics& g) override;
-    void resized() override;
-
-private:
-    void paintFlat(juce::Graphics& g) const;
-    juce::String limiterWords() const;
-    double mostG() const;
-
-    MixerModel& model_;
-    const bool isFlat_;
-    PeakMeter meter_{"Master level"};
-    Fader fader_;
-    float limiterDb_ = 0.0f; // or of the guard
-    bool isGuard_ = false;
-    juce::Rectangle<int> limiterBar_, limiterText_, ceilingName_, ceiling_;
 };
 
 } // namespace physvib

@@ -5,7 +5,7 @@
 #include "Host/Views/WorldView.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Mixer/Model/MixerWorld.h"
-#include "Mixer/Strips/StripView.h"
+#include "Mixer/Widgets/MasterStrip.h"
 #include "Mixer/Widgets/Parts.h"
 #include "Mixer/World/DrawBar.h"
 #include "Scene/World/ScenePlayer.h"

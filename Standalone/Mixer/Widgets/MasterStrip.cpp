@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Controls and picture of the total output.
+#include "Mixer/Widgets/MasterStrip.h"
+#include "Mixer/Widgets/Parts.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+
+double gOf(const MixerModel& model, std::size_t strip, float peak) {
+    return peak * masterGain(model.mix()) * model.mix().layout.enchanters[strip].fullScaleG;
+}
+double maxG(const MixerModel& model, std::size_t strip) {
+    return gOf(model, strip, ceilingOf(model.mix().strips[strip]));
+}
+juce::String inG(double g) { return number(g, g < 9.995 ? 2 : 1); }
+
+MasterStrip::MasterStrip(MixerModel& model, bool isFlat)
+    : model_{model}
+    , isFlat_{isFlat} {
+    setTitle(isFlat ? "Master in a row" : "Master");
+    fader_.setUp(leastStripDb, 0.0, isFlat ? "Master gain, in a row" : "Master gain", safeStartDecibels);
+    if (isFlat) fader_.lieDown();
+    onSlide(fader_, [this](bool continuesEdit) {
+        model_.change(
+            "Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, continuesEdit);
+    });
+    if (!isFlat) addAndMakeVisible(meter_);
+    addAndMakeVisible(fader_);
+    mixChanged();
+}
+
+void MasterStrip::mixChanged() {
+    if (!fader_.isMouseButtonDown()) fader_.setValue(model_.mix().levelDb, juce::dontSendNotification);
+    repaint();
+}
+
+void MasterStrip::refresh(const MixerMoment& moment) {
+    meter_.set(moment.masterPeak, moment.masterPeak);
+    const auto& meters = moment.meters;
+    const bool isGuard = meters.guardGain < meters.limiterGain;
+    const float db = juce::Decibels::gainToDecibels(std::min(meters.guardGain, meters.limiterGain), -60.0f);
+    if (std::abs(db - limiterDb_) < 0.05f && isGuard == isGuard_) return;
+    isGuard_ = isGuard;
+    limiterDb_ = db;
+    repaint();
+}
+
+juce::String MasterStrip::limiterWords() const {
+    return (isGuard_ ? "guard " : "limiter ") + number(limiterDb_ < -0.05f ? limiterDb_ : 0.0, 1);
+}
+
+double MasterStrip::mostG() const {
+    double most = 0.0;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(model_.mix().count()); ++j)
+        most = std::max(most, maxG(model_, j));
+    return most;
+}
+
+// While something is held back, that stands in place of the most that can come.
+void MasterStrip::paintFlat(juce::Graphics& g) const {
+    const bool isHeld = limiterDb_ < -0.05f;
+    auto words = getLocalBounds().withRight(fader_.getX());
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(text::font(text::small, juce::Font::bold));
+    g.drawText("Master " + number(model_.mix().levelDb, 1) + " dB", words.removeFromTop(getHeight() / 2),
+               juce::Justification::centredLeft, false);
+    g.setColour(shade(*this, isHeld ? Shade::limit : Shade::muted));
+    g.setFont(text::font(text::small));
+    g.drawText(isHeld ? limiterWords() : "at most " + inG(mostG()) + " g", words,
+               juce::Justification::centredLeft, false);
+}
+
+void MasterStrip::paint(juce::Graphics& g) {
+    if (isFlat_) return paintFlat(g);
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(text::font(text::medium, juce::Font::bold));
+    g.drawText("Master", getLocalBounds().withTrimmedTop(8).removeFromTop(20), juce::Justification::centred,
+               false);
+    g.setFont(text::font(text::small));
+    g.setColour(shade(*this, Shade::muted));
+    g.drawText(number(model_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(28).removeFromTop(18),
+               juce::Justification::centred, false);
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(limiterBar_.toFloat(), 3.0f);
+    const float reduction = juce::jlimit(0.0f, 1.0f, -limiterDb_ / 20.0f);
+    g.setColour(shade(*this, Shade::limit));
+    if (reduction > 0.004f)
+        g.fillRoundedRectangle(limiterBar_.toFloat().withHeight(
+                                   std::max(3.0f, reduction * static_cast<float>(limiterBar_.getHeight()))),
+                               3.0f);
+    g.setColour(shade(*this, limiterDb_ < -0.05f ? Shade::limit : Shade::muted));
+    g.drawText(limiterWords(), limiterText_, juce::Justification::centred, false);
+    g.setColour(shade(*this, Shade::muted));
+    g.drawText("at most", ceilingName_, juce::Justification::centred, false);
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(text::font(text::small, juce::Font::bold));
+    g.drawText(inG(mostG()) + " g", ceiling_, juce::Justification::centred, false);
+}
+
+void MasterStrip::resized() {
+    if (isFlat_) return fader_.setBounds(getLocalBounds().withTrimmedLeft(flatWords));
+    auto area = getLocalBounds().withTrimmedTop(metersTop);
+    ceiling_ = area.removeFromBottom(22);
+    ceilingName_ = area.removeFromBottom(22);
+    area.removeFromBottom(4);
+    limiterText_ = area.removeFromBottom(22);
+    area.removeFromBottom(32);
+    meter_.setBounds(area.withX(10).withWidth(14));
+    limiterBar_ = area.withX(31).withWidth(8);
+    fader_.setBounds(area.withX(46).withWidth(40).expanded(0, 8));
+}
+
+} // namespace physvib

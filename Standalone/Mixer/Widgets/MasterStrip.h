@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The total output: level, limiter, ceiling; as a strip, or in a row beside the world. Levels in g.
+#pragma once
+#include "Host/Views/StripParts.h"
+#include "Mixer/Model/MixerModel.h"
+
+namespace physvib {
+
+/// Felt level in g of a strip's peak after the master level. M.
+double gOf(const MixerModel& model, std::size_t strip, float peak);
+/// The most that can be felt of a strip, by its ceiling, in g. M.
+double maxG(const MixerModel& model, std::size_t strip);
+/// A level in g with the digits that it is worth.
+juce::String inG(double g);
+
+/// Strip of the total output: level, limiter, ceiling.
+class MasterStrip final : public juce::Component {
+public:
+    static constexpr int width = 90, flatWords = 112;
+    static constexpr int metersTop = 56; ///< of a strip, too
+
+    /// `isFlat`: in one row without a meter, for where there are no strips.
+    explicit MasterStrip(MixerModel& model, bool isFlat = false);
+    void mixChanged();
+    void refresh(const MixerMoment& moment);
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    void paintFlat(juce::Graphics& g) const;
+    juce::String limiterWords() const;
+    double mostG() const;
+
+    MixerModel& model_;
+    const bool isFlat_;
+    PeakMeter meter_{"Master level"};
+    Fader fader_;
+    float limiterDb_ = 0.0f; // or of the guard
+    bool isGuard_ = false;
+    juce::Rectangle<int> limiterBar_, limiterText_, ceilingName_, ceiling_;
+};
+
+} // namespace physvib
