@@ -19,8 +19,8 @@ lines() { cpp "$@" | xargs cat | wc -l; }
 bytes() { cpp "$@" | xargs cat | tr -d ' \t\n\r\f\v' | wc -c; }
 
 say "products: lines of C++" "$(lines $products)" 115150
-say "products: files of C++" "$(cpp $products | wc -l)" 781
-say "products: bytes without white space" "$(bytes $products)" 4012500
+say "products: files of C++" "$(cpp $products | wc -l)" 783
+say "products: bytes without white space" "$(bytes $products)" 4013500
 say "tests: lines of C++" "$(lines Tests)" 80000
 say "tests: files of C++" "$(cpp Tests | wc -l)" 572
 if [ -n "$bin" ]; then
