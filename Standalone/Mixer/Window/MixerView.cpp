@@ -231,9 +231,9 @@ void MixerView::refresh() {
     look();
     latest_.meters.peaks = std::exchange(peaks_, {});
     bar_.refresh(latest_);
-    for (auto* panel : {&tabs_, &scope_})
-        if (panel->isVisible()) panel->refresh(latest_);
-    if (strips_.isVisible()) strips_.refresh(latest_);
+    tabs_.refresh(latest_); // folded or not: a study goes on there, takes and lanes are followed
+    scope_.refresh(latest_);
+    strips_.refresh(latest_);
     keepPace();
 }
 
