@@ -53,7 +53,7 @@ public:
     juce::Rectangle<int> adviceArea() const noexcept { return levelArea_; }
 
     void mixChanged() override;
-    int minHeight(int) const override { return controlsHeight; } // and a line of advice
+    int minHeight(int) const override { return controlsHeight; }
     /// The check of the protocol; none while it is made. It is made while the tab is seen.
     const std::optional<StudyCheck>& check() const noexcept { return check_; }
 
@@ -67,7 +67,7 @@ public:
     void resized() override;
 
 private:
-    static constexpr int controlsHeight = 326;
+    static constexpr int controlsHeight = 344; // with a line of advice
     void pickProtocol();
     void browseProtocol();
     void browseFolder();
