@@ -63,29 +63,30 @@ def without_a_place(rows: list[Break]) -> list[str]:
 
 
 class Overlay:
-    """What the breaks change of a build, compiled and linked anew in a folder: the build's own commands, of what depends on a broken file."""
+    """What the breaks change of a build, compiled and linked anew in a folder: the build's own commands, on a copy of all sources that has the breaks."""
 
     def __init__(self, build: pathlib.Path, folder: pathlib.Path, rows: list[Break]):
-        self.build, self.folder = build, folder
+        self.build, self.folder, self.tree = build, folder, folder / "sources"
         self.source = pathlib.Path(re.search(r"CMAKE_HOME_DIRECTORY:INTERNAL=(.*)", (build / "CMakeCache.txt").read_text())[1])
-        self.files: dict[str, pathlib.Path] = {}  # of the build's sources: with its breaks
         self.outputs: dict[str, str] = {}  # of the build, relative to it: made anew
-        texts: dict[str, str] = {}
+        broken: dict[str, str] = {}
         for row in rows:
-            texts[row.file] = row.put_into(texts.get(row.file) or (ROOT / row.file).read_text())
-        for file, text in texts.items():
-            self.write(str(self.source / file), text)
+            broken[row.file] = row.put_into(broken.get(row.file) or (ROOT / row.file).read_text())
+        known = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+        for file in filter(None, known.split("\0")):
+            if (ROOT / file).is_file():
+                self.write(self.tree / file, broken[file].encode() if file in broken else (ROOT / file).read_bytes())
         places = build / "Tests/Places/TestPlaces.h"  # which programs the tests call
-        self.write(str(places), places.read_text().replace(f"{build}/bin", f"{folder}/bin"))
-        (folder / "Switch.h").write_text(SWITCH)
+        self.write(self.tree / "Places/TestPlaces.h", places.read_text().replace(f"{build}/bin", f"{folder}/bin").encode())
+        self.write(folder / "Switch.h", SWITCH.encode())
+        self.changed = {str(self.source / file): self.tree / file for file in broken} | {str(places): self.tree / "Places/TestPlaces.h"}
         self.deps = self.read_deps()
 
-    def write(self, name: str, text: str) -> None:
-        path = self.folder / "sources" / pathlib.Path(name).relative_to("/")
+    @staticmethod
+    def write(path: pathlib.Path, data: bytes) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
-        if not path.exists() or path.read_text() != text:
-            path.write_text(text)
-        self.files[name] = path
+        if not path.exists() or path.read_bytes() != data:
+            path.write_bytes(data)
 
     def read_deps(self) -> dict[str, set[str]]:
         found: dict[str, set[str]] = {}
@@ -97,29 +98,27 @@ class Overlay:
                 found[output] = set()
         return found
 
+    def moved(self, text: str) -> str:
+        """The sources' paths in a command or a file that is compiled, those of the copy."""
+        text = text.replace(f"{self.build}/Tests/Places", f"{self.tree}/Places")
+        return re.sub(rf"{re.escape(str(self.source))}(?!{re.escape(str(self.build)[len(str(self.source)) :])})(?=[/\"]|$)", str(self.tree), text)
+
     def compile(self, words: list[str]) -> None:
         at = words.index("-o")
         output, source = words[at + 1], words[words.index("-c") + 1]
-        if not self.deps.get(output, set()) & self.files.keys() and source not in self.files:
+        needs = self.deps.get(output, set()) | {source}
+        if not needs & self.changed.keys():
             return
-        if "/Unity/" in source:  # names the files that are compiled together
-            text = pathlib.Path(source).read_text()
-            for name, path in self.files.items():
-                text = text.replace(f'"{name}"', f'"{path}"')
-            self.write(source, text)
         new = self.folder / output
         new.parent.mkdir(parents=True, exist_ok=True)
         self.outputs[output] = str(new)
-        roots = [word[2:] for word in words if word.startswith("-I/")]
-        shadows = [f"-I{shadow}" for root in roots if (shadow := self.folder / "sources" / root[1:]).exists()]
-        flags = [word for word in words[:at] if word != "-Werror" and not word.startswith("-W")]
-        beside = f"-iquote{pathlib.Path(source).parent}"
-        around = sorted({f"-iquote{pathlib.Path(name).parent}" for name in self.files if name.endswith(".h")})  # what a broken header finds beside it
-        if "/Unity/" in source:
-            beside = "-DPHYSVIB_BREAKS"
-        if not new.exists() or any(path.stat().st_mtime > new.stat().st_mtime for name, path in self.files.items() if name in self.deps.get(output, set()) or name == source):
-            call = [*flags[:1], *shadows, *flags[1:], "-O0", "-w", beside, *around, "-include", str(self.folder / "Switch.h"), "-o", str(new), "-c", str(self.files.get(source, source))]
-            self.calls.append((call, output))
+        read = pathlib.Path(self.moved(source))
+        if "/Unity/" in source:  # names the files that are compiled together
+            read = self.folder / "Unity" / pathlib.Path(source).relative_to(self.build)
+            self.write(read, self.moved(pathlib.Path(source).read_text()).encode())
+        flags = [self.moved(word) for word in words[:at] if word != "-Werror" and not word.startswith("-W")]
+        if not new.exists() or any(self.changed[name].stat().st_mtime > new.stat().st_mtime for name in needs & self.changed.keys()):
+            self.calls.append(([*flags, "-O0", "-w", "-include", str(self.folder / "Switch.h"), "-o", str(new), "-c", str(read)], output))
 
     def link(self, words: list[str]) -> None:
         output = words[words.index("-o") + 1] if "-o" in words else words[words.index("qc") + 1]

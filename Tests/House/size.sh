@@ -24,7 +24,7 @@ say "products: bytes without white space" "$(bytes $products)" 4013500
 say "tests: lines of C++" "$(lines Tests)" 80000
 say "tests: files of C++" "$(cpp Tests | wc -l)" 572
 if [ -n "$bin" ]; then
-    say "tests: programs" "$(find "$bin" -maxdepth 1 -name 'physvib-*-tests' | wc -l)" 18
+    say "tests: programs" "$(find "$bin" -maxdepth 1 -name 'physvib-*-tests' | wc -l)" 12
     if [ -x "$bin/physvib-session-tests" ]; then
         told=$("$bin/physvib-session-tests" --gtest_filter='SessionMemory.*' | sed -n 's/^sizeof RenderControl \([0-9]*\), PartPanners \([0-9]*\).* session \([0-9]*\) bytes$/\1 \2 \3/p')
         set -- $told

@@ -32,7 +32,7 @@ struct SlowUser final : DeviceUser {
     }
 };
 
-class AlsaDriverTest : public ::testing::Test {
+class AlsaDriverInRealTime : public ::testing::Test {
 protected:
     void SetUp() override {
         folder = std::filesystem::temp_directory_path() / ("physvib-alsa-" + std::to_string(getpid()));
@@ -89,7 +89,7 @@ protected:
     SlowUser user;
 };
 
-TEST_F(AlsaDriverTest, DevicesAreNamedByTheirDescriptions) {
+TEST_F(AlsaDriverInRealTime, DevicesAreNamedByTheirDescriptions) {
     const auto names = driver->deviceNames(false);
     const auto has = [&](const std::string& name) { return std::ranges::count(names, name) == 1; };
     EXPECT_TRUE(has("Short hands"));
@@ -98,7 +98,7 @@ TEST_F(AlsaDriverTest, DevicesAreNamedByTheirDescriptions) {
     EXPECT_EQ(driver->create("Hands", false), nullptr);
 }
 
-TEST_F(AlsaDriverTest, ADeviceWithFloatsGetsTheUsersSamplesToTheBit) {
+TEST_F(AlsaDriverInRealTime, ADeviceWithFloatsGetsTheUsersSamplesToTheBit) {
     ASSERT_NO_FATAL_FAILURE(play("Hands (1)"));
     const auto samples = written<float>("floats");
     ASSERT_GT(samples.size(), 3 * 8192U);
@@ -115,7 +115,7 @@ TEST_F(AlsaDriverTest, ADeviceWithFloatsGetsTheUsersSamplesToTheBit) {
     }
 }
 
-TEST_F(AlsaDriverTest, ADeviceWithoutFloatsGetsThemRoundedAndNeverWrapped) {
+TEST_F(AlsaDriverInRealTime, ADeviceWithoutFloatsGetsThemRoundedAndNeverWrapped) {
     ASSERT_NO_FATAL_FAILURE(play("Linear"));
     const auto samples = written<std::int16_t>("shorts");
     std::size_t first = 0;
@@ -129,7 +129,7 @@ TEST_F(AlsaDriverTest, ADeviceWithoutFloatsGetsThemRoundedAndNeverWrapped) {
     }
 }
 
-TEST_F(AlsaDriverTest, InputsAreThoseOfTheSameName) {
+TEST_F(AlsaDriverInRealTime, InputsAreThoseOfTheSameName) {
     const std::vector<float> recorded(3 * 48'000, 0.5f);
     std::ofstream{folder / "input", std::ios::binary}.write(reinterpret_cast<const char*>(recorded.data()),
                                                             std::streamsize(sizeof(float) * recorded.size()));
@@ -144,7 +144,7 @@ TEST_F(AlsaDriverTest, InputsAreThoseOfTheSameName) {
     EXPECT_EQ(user.loudest, 0.5f);
 }
 
-TEST_F(AlsaDriverTest, WhatCannotBeOpenedIsNoDevice) {
+TEST_F(AlsaDriverInRealTime, WhatCannotBeOpenedIsNoDevice) {
     const auto listed = listAudioDevices(systemAudioDrivers);
     const auto has = [&](const std::string& name) {
         return std::ranges::find(listed, name, &AudioDeviceName::name) != listed.end();
@@ -158,7 +158,7 @@ TEST_F(AlsaDriverTest, WhatCannotBeOpenedIsNoDevice) {
     EXPECT_EQ(findAudioDevice(systemAudioDrivers, "ALSA:Unplugged").device, nullptr);
 }
 
-TEST_F(AlsaDriverTest, NothingLeadsToJackAndToPulseOnlyWithoutJack) {
+TEST_F(AlsaDriverInRealTime, NothingLeadsToJackAndToPulseOnlyWithoutJack) {
     const auto has = [&](AudioDriver& of, const std::string& name) {
         of.scan();
         const auto names = of.deviceNames(false);
@@ -175,7 +175,7 @@ TEST_F(AlsaDriverTest, NothingLeadsToJackAndToPulseOnlyWithoutJack) {
     EXPECT_FALSE(has(with, "Pulsed"));
 }
 
-TEST_F(AlsaDriverTest, ThreeHundredOpensAndCloses) {
+TEST_F(AlsaDriverInRealTime, ThreeHundredOpensAndCloses) {
     for (int i = 0; i < 300; ++i) {
         const auto device = driver->create("Hands (2)", false);
         ASSERT_EQ(device->open({}, {0}, 0, 0), "") << i;

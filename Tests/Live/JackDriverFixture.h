@@ -13,7 +13,7 @@ inline std::unique_ptr<AudioDevice> systemDevice() {
     return driver->create("system", false);
 }
 
-class JackDriverTest : public ::testing::Test {
+class JackDriverInRealTime : public ::testing::Test {
 protected:
     void SetUp() override {
         if (!server.start(48000, 256, 64)) GTEST_SKIP() << "expected jackd to start";

@@ -20,7 +20,7 @@ std::vector<std::string> connectionsOf(const std::string& port) {
     return names;
 }
 
-TEST_F(JackDriverTest, PortsGetTheUsersSamplesToTheBit) {
+TEST_F(JackDriverInRealTime, PortsGetTheUsersSamplesToTheBit) {
     for (const int channels : {1, 4, 64}) {
         const auto device = systemDevice();
         ASSERT_NE(device, nullptr);
@@ -50,7 +50,7 @@ TEST_F(JackDriverTest, PortsGetTheUsersSamplesToTheBit) {
     }
 }
 
-TEST_F(JackDriverTest, OutputsAreConnectedToThoseOfTheSameNumber) {
+TEST_F(JackDriverInRealTime, OutputsAreConnectedToThoseOfTheSameNumber) {
     const auto device = systemDevice();
     ASSERT_EQ(device->open({}, {1, 5, 70}, 0, 0), "");
     device->start(user);
@@ -63,7 +63,7 @@ TEST_F(JackDriverTest, OutputsAreConnectedToThoseOfTheSameNumber) {
     EXPECT_GT(device->deviceLatencyFrames(), 0);
 }
 
-TEST_F(JackDriverTest, ConnectionsOfOthersAreFollowed) {
+TEST_F(JackDriverInRealTime, ConnectionsOfOthersAreFollowed) {
     const auto device = systemDevice();
     ASSERT_EQ(device->open({}, {0, 1}, 0, 0), "");
     device->start(user);
@@ -97,7 +97,7 @@ struct Listener final : DeviceUser {
     }
 };
 
-TEST_F(JackDriverTest, InputsComeFromTheOutputsOfTheSameClient) {
+TEST_F(JackDriverInRealTime, InputsComeFromTheOutputsOfTheSameClient) {
     auto* other = jack_client_open("other", JackNoStartServer, nullptr);
     static jack_port_t* ports[2];
     for (auto*& port : ports)
@@ -124,7 +124,7 @@ TEST_F(JackDriverTest, InputsComeFromTheOutputsOfTheSameClient) {
     jack_client_close(other);
 }
 
-TEST_F(JackDriverTest, SeveralDevicesPlayAtOnceAndAreNoDevicesThemselves) {
+TEST_F(JackDriverInRealTime, SeveralDevicesPlayAtOnceAndAreNoDevicesThemselves) {
     const auto first = systemDevice(), second = systemDevice();
     ASSERT_EQ(first->open({}, {0}, 0, 0), "");
     ASSERT_EQ(second->open({}, {1}, 0, 0), "");
@@ -140,7 +140,7 @@ TEST_F(JackDriverTest, SeveralDevicesPlayAtOnceAndAreNoDevicesThemselves) {
     EXPECT_TRUE(comes([&] { return other.blocks > before + 3; }));
 }
 
-TEST_F(JackDriverTest, WhatOlderVersionsSavedOfAlsasWayToJackIsJacksSystem) {
+TEST_F(JackDriverInRealTime, WhatOlderVersionsSavedOfAlsasWayToJackIsJacksSystem) {
     const auto found = findAudioDevice(systemAudioDrivers, "ALSA:JACK Audio Connection Kit");
     ASSERT_NE(found.device, nullptr);
     EXPECT_EQ(found.fullName(), "JACK:system");

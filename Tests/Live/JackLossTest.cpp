@@ -8,9 +8,9 @@
 namespace physvib::test {
 namespace {
 
-using JackLossTest = JackDriverTest;
+using JackLossInRealTime = JackDriverInRealTime;
 
-TEST_F(JackLossTest, AKilledServerComesBackAtAnotherRateTenTimes) {
+TEST_F(JackLossInRealTime, AKilledServerComesBackAtAnotherRateTenTimes) {
     for (int i = 0; i < 10; ++i) {
         auto device = systemDevice();
         ASSERT_NE(device, nullptr) << i;
@@ -31,7 +31,7 @@ TEST_F(JackLossTest, AKilledServerComesBackAtAnotherRateTenTimes) {
 }
 
 // JACK's library frees what lost its server at the next opening; nothing may be freed or called again.
-TEST_F(JackLossTest, DevicesOutliveTheirServerAndAnOpening) {
+TEST_F(JackLossInRealTime, DevicesOutliveTheirServerAndAnOpening) {
     auto first = systemDevice(), second = systemDevice();
     ASSERT_EQ(first->open({}, {0}, 0, 0), "");
     ASSERT_EQ(second->open({}, {1}, 0, 0), "");
@@ -51,7 +51,7 @@ TEST_F(JackLossTest, DevicesOutliveTheirServerAndAnOpening) {
     third->close();
 }
 
-TEST_F(JackLossTest, ThreadsMayOpenDevicesWhileTheServerDies) {
+TEST_F(JackLossInRealTime, ThreadsMayOpenDevicesWhileTheServerDies) {
     std::atomic<bool> isOver{false};
     std::atomic<int> played{0};
     std::vector<std::thread> threads;
@@ -77,7 +77,7 @@ TEST_F(JackLossTest, ThreadsMayOpenDevicesWhileTheServerDies) {
     for (auto& thread : threads) thread.join();
 }
 
-TEST_F(JackLossTest, ManyOpensAndClosesLeaveNothing) {
+TEST_F(JackLossInRealTime, ManyOpensAndClosesLeaveNothing) {
     server.end(SIGTERM);
     ASSERT_TRUE(server.start(48000, 64, 4)) << "each change of the graph takes a block";
     for (int i = 0; i < 150; ++i) {

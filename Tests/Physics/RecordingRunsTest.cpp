@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The judge of the recordings is judged: it finds each kind of break, and none where there is none.
-#include "RecordingRuns.h"
+#include "Live/RecordingRuns.h"
 #include "Support/ClosedForm.h"
 #include <gtest/gtest.h>
 
