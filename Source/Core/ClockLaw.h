@@ -89,4 +89,11 @@ struct ClockLaw {
 constexpr double messageTimerGapSeconds = 0.026;
 constexpr double driverThreadGapSeconds = 0.001;
 
+/// A thread wakes at most so often; a finer world takes several steps at a time.
+constexpr int mostWakesPerSecond = 1000;
+constexpr double threadGapSeconds(int stepsPerSecond) noexcept {
+    const double wake = 1.0 / mostWakesPerSecond, step = 1.0 / stepsPerSecond;
+    return driverThreadGapSeconds + (wake > step ? wake - step : 0.0);
+}
+
 } // namespace physvib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measures how long after its contact a collision comes out of a JACK server: a session on it, and in the
 // same process a client that records what it plays and notes which frame of the session each cycle is. Prints
-// a row of a table. Usage: physvib-latency-meter message|thread SECONDS
+// a row of a table. Usage: physvib-latency-meter message|thread STEPS_PER_SECOND SECONDS
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/SimulationDriver.h"
@@ -18,11 +18,11 @@ using namespace physvib;
 
 namespace {
 
-SessionSetup setupFor(const std::string& driver) {
+SessionSetup setupFor(const std::string& driver, int stepsPerSecond) {
     SessionSetup s;
     s.scene = *findBuiltInScene("shake-the-box");
-    s.stepsPerSecond = driver == "thread" ? 1000 : 100;
-    s.longestGapSeconds = driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
+    s.stepsPerSecond = stepsPerSecond;
+    s.longestGapSeconds = driver == "thread" ? threadGapSeconds(stepsPerSecond) : messageTimerGapSeconds;
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
     s.panner = {layout, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
@@ -32,10 +32,10 @@ SessionSetup setupFor(const std::string& driver) {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 3) return 2;
+    if (argc != 4) return 2;
     const std::string driverName = argv[1];
-    const double seconds = std::atof(argv[2]);
-    const SessionSetup setup = setupFor(driverName);
+    const double seconds = std::atof(argv[3]);
+    const SessionSetup setup = setupFor(driverName, std::atoi(argv[2]));
     Session session{setup};
     AudioOutput output{session, systemAudioDrivers};
     if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty())
@@ -59,13 +59,14 @@ int main(int argc, char** argv) {
     const auto ms = [&](std::int64_t frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
     const std::int64_t measured = client.firstFrame + result.offset,
                        law = session.timeline().outputLatencyFrames();
-    std::printf("| `%s` | %d | %lld (%.1f ms) | %lld (%.1f ms) | %d (%.1f ms) | %.1f ms | %llu of %llu | "
-                "%lld of %lld |\n",
-                driverName.c_str(), client.block, static_cast<long long>(law), ms(law),
-                static_cast<long long>(measured), ms(measured), client.playbackLatencyFrames(),
-                ms(client.playbackLatencyFrames()), ms(measured + client.playbackLatencyFrames()),
-                static_cast<unsigned long long>(session.status().render.late),
-                static_cast<unsigned long long>(session.status().render.played),
-                static_cast<long long>(result.equal), static_cast<long long>(result.blocks));
+    std::printf(
+        "| `%s`, %d steps/s | %d | %lld (%.1f ms) | %lld (%.1f ms) | %d (%.1f ms) | %.1f ms | %llu of %llu | "
+        "%lld of %lld |\n",
+        driverName.c_str(), setup.stepsPerSecond, client.block, static_cast<long long>(law), ms(law),
+        static_cast<long long>(measured), ms(measured), client.playbackLatencyFrames(),
+        ms(client.playbackLatencyFrames()), ms(measured + client.playbackLatencyFrames()),
+        static_cast<unsigned long long>(session.status().render.late),
+        static_cast<unsigned long long>(session.status().render.played), static_cast<long long>(result.equal),
+        static_cast<long long>(result.blocks));
     return measured == law ? 0 : 1;
 }

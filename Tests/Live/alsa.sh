@@ -20,7 +20,7 @@ pcm.hands {
 END
 "$bin/physvib" devices | tee "$folder/devices"
 grep -q "^ALSA:Hands " "$folder/devices"
-LD_PRELOAD="$paced" "$bin/physvib" play shake-the-box --device ALSA:Hands --level 0 --seconds "$seconds" | tee "$folder/report"
+LD_PRELOAD="$paced" "$bin/physvib" play shake-the-box --device ALSA:Hands --driver message --level 0 --seconds "$seconds" | tee "$folder/report"
 "$bin/physvib" render shake-the-box --rate 44100 --seconds "$seconds" --out "$folder/render.wav" >/dev/null
 tail -c +"$(($(grep -abo data "$folder/render.wav" | head -n 1 | cut -d: -f1) + 9))" "$folder/render.wav" >"$folder/render.raw"
 # The device is faded out before it is closed: its last two blocks are not the render's.

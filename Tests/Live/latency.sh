@@ -8,10 +8,10 @@ bin=${1:-$(dirname "$0")/../../build/release/bin} seconds=${2:-6} blocks=${3:-64
 echo "| driver | block | L, by the law | contact to port, measured | the device's own | sum | late events | equal blocks |"
 echo "| --- | --- | --- | --- | --- | --- | --- | --- |"
 failed=0
-for driver in message thread; do
+for driver in "message 100" "thread 100" "thread 1000" "thread 4000"; do
     for block in $blocks; do
         serve 48000 "$block" 8
-        "$bin/physvib-latency-meter" "$driver" "$seconds" || failed=1
+        "$bin/physvib-latency-meter" $driver "$seconds" || failed=1
         close_server
     done
 done

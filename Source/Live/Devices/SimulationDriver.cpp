@@ -8,7 +8,7 @@ namespace physvib {
 
 ThreadDriver::ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* ends)
     : session_{session}
-    , step_{1'000'000'000 / stepsPerSecond}
+    , step_{1'000'000'000 / std::min(stepsPerSecond, mostWakesPerSecond)}
     , ends_{ends}
     , thread_{[this] { run(); }} {}
 

@@ -7,13 +7,12 @@
 #include <thread>
 
 namespace physvib {
-/// A thread with absolute deadlines, one per step, so that delays do not add up (driverThreadGapSeconds). It
+/// A thread with absolute deadlines, one per step, so that delays do not add up (threadGapSeconds). It
 /// runs at realtime priority where the system permits, because an ordinary thread is sometimes late on a
 /// loaded machine. It steps the session from construction to destruction, or until `ends` (may be null) is
 /// true; then at most one more step follows. One driver at a time per session. Created and destroyed on M.
 class ThreadDriver {
 public:
-    /// `stepsPerSecond` up to 1000.
     ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* ends = nullptr);
     ~ThreadDriver();
     ThreadDriver(const ThreadDriver&) = delete;

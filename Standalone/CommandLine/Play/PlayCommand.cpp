@@ -34,7 +34,7 @@ struct PlayOptions {
     double threshold = OnOffSteps::thesisThreshold; ///< of these motors, as a share of full scale
     std::string noise;                              ///< outputs for pink noise, as in map; empty: none
     double noiseDb = PinkNoise::safeDb;             ///< root mean square, dB of full scale
-    std::string driver = "message";                 ///< or "thread"
+    std::string driver = "thread";                  ///< or "message"
     std::string recordPath;                         ///< WAV of the output; empty: none
     std::string savePath;                           ///< the session as JSON; empty: none
     bool listens = false, keepsPlaying = false, hasHands = false, isDirect = false; ///< listens: to standard
@@ -78,7 +78,8 @@ SessionSetup setupOf(const PlayOptions& o, const LoadedRender& job) {
     if (!o.scene.contactSound.empty()) setup.contactSound = job.recordings;
     setup.marks = o.scene.marks();
     if (o.isDirect) setup.direct = Direct::told;
-    setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
+    setup.longestGapSeconds =
+        o.driver == "thread" ? threadGapSeconds(setup.stepsPerSecond) : messageTimerGapSeconds;
     if (!o.beatInputs.empty())
         setup.longestGapSeconds =
             std::max(setup.longestGapSeconds, LiveBeats::knownAfterSeconds - 2.0 / setup.stepsPerSecond);
@@ -114,7 +115,7 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
         .as("NAME")
         .single();
     command.add("--map", o.map, "device outputs of the actuators, from 1").as("1,2,3,4");
-    command.add("--driver", o.driver, "who steps the world: message or thread").oneOf({"message", "thread"});
+    command.add("--driver", o.driver, "who steps the world: thread or message").oneOf({"thread", "message"});
     command.add("--level", o.levelDb, "master level in dB").in(-90.0, 0.0);
     command
         .add("--ceiling", o.ceilings,
@@ -244,8 +245,6 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     } else if (const int code = takeScene(job); code != exitDone)
         return code;
     if (o.hasHands) job.scene = sceneForHands(std::move(*job.scene));
-    if (o.driver == "thread" && o.scene.stepsPerSecond > 1000)
-        return leave(exitUsage, "--driver thread: at most 1000 steps per second");
     auto layout = layoutNamed(o.scene.layout);
     if (!layout) return leave(exitFailed, layout.error);
     auto calibrated = calibratedLayout(o.scene, std::move(layout.value));
