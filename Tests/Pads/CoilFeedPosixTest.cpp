@@ -5,10 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <fcntl.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <sys/stat.h>
 #include <thread>
+#include <unistd.h>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -159,38 +163,56 @@ public:
     static std::int64_t steadyNs() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 };
 
-TEST(HidOutput, FollowsADeviceAndLeavesSilenceBehind) {
-    const auto folder = std::filesystem::path{testing::TempDir()} / "physvib-hidout";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder / "class" / "hidraw0" / "device");
-    std::filesystem::create_directories(folder / "dev");
-    std::ofstream{folder / "class" / "hidraw0" / "device" / "uevent"}
-        << "HID_ID=0003:000028DE:00001302\nHID_NAME=Steam\n";
-    std::ofstream{folder / "dev" / "hidraw0"};
-    setenv("PHYSVIB_HIDRAW", folder.c_str(), 1);
+/// A Steam controller's files, where the outputs made meanwhile look.
+struct SteamNode {
+    SteamNode() {
+        std::filesystem::remove_all(folder);
+        std::filesystem::create_directories(folder / "class" / "hidraw0" / "device");
+        std::filesystem::create_directories(folder / "dev");
+        std::ofstream{folder / "class" / "hidraw0" / "device" / "uevent"}
+            << "HID_ID=0003:000028DE:00001302\nHID_NAME=Steam\n";
+        setenv("PHYSVIB_HIDRAW", folder.c_str(), 1);
+    }
+    ~SteamNode() {
+        unsetenv("PHYSVIB_HIDRAW");
+        std::filesystem::remove_all(folder);
+    }
+    static std::unique_ptr<CoilFeed> feed() {
+        return std::make_unique<CoilFeed>(kind, steamSamples(), panner("phone2"));
+    }
+    /// Ten blocks of 10 ms of a tone.
+    static void play(Device& device, HidOutput& output, std::int64_t first = 0) {
+        std::vector<float> samples(480);
+        for (std::size_t n = 0; n < samples.size(); ++n) samples[n] = tone(0, static_cast<std::int64_t>(n));
+        const float* const channels[] = {samples.data(), samples.data()};
+        for (std::int64_t i = first; i < first + 10; ++i) {
+            device.block(10 * ms * i);
+            output.rendered({channels, 480, 480 * i, 48000});
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        }
+    }
     static constexpr std::array models{HidModel{0x28DE, 0x1302, PadBus::usb}};
-    static constexpr HidFeedKind steam{models, "Steam Controller"};
+    static constexpr HidFeedKind kind{models, "Steam Controller"};
+    const std::filesystem::path folder{std::filesystem::path{testing::TempDir()} / "physvib-hidout"};
+    const std::filesystem::path node = folder / "dev" / "hidraw0";
+};
+
+TEST(HidOutput, FollowsADeviceAndLeavesSilenceBehind) {
+    const SteamNode steam;
+    std::ofstream{steam.node};
     {
-        HidOutput output{"nothing like it",
-                         std::make_unique<CoilFeed>(steam, steamSamples(), panner("phone2"))};
+        HidOutput output{"nothing like it", SteamNode::feed()};
         EXPECT_EQ(output.awaitReady([] { return false; }),
                   "no Steam Controller is called \"nothing like it\"");
     }
-    HidOutput output{anyPad, std::make_unique<CoilFeed>(steam, steamSamples(), panner("phone2"))};
+    HidOutput output{anyPad, SteamNode::feed()};
     EXPECT_EQ(output.awaitReady([] { return true; }), "");
     EXPECT_TRUE(output.state().isReady && output.state().playsClips);
     Device device;
     output.follow(&device);
-    std::vector<float> samples(480, 0.5f);
-    for (std::size_t n = 0; n < samples.size(); ++n) samples[n] = tone(0, static_cast<std::int64_t>(n));
-    const float* const channels[] = {samples.data(), samples.data()};
-    for (int i = 0; i < 10; ++i, std::this_thread::sleep_for(std::chrono::milliseconds{10})) {
-        device.block(10 * ms * i);
-        output.rendered({channels, 480, 480LL * i, 48000});
-    }
+    SteamNode::play(device, output);
     output.follow(nullptr);
-    unsetenv("PHYSVIB_HIDRAW");
-    std::ifstream file{folder / "dev" / "hidraw0", std::ios::binary};
+    std::ifstream file{steam.node, std::ios::binary};
     const std::string sent{std::istreambuf_iterator<char>{file}, {}};
     const std::size_t reports = output.counts().reports;
     EXPECT_GE(reports, 10u);
@@ -199,7 +221,39 @@ TEST(HidOutput, FollowsADeviceAndLeavesSilenceBehind) {
     EXPECT_EQ(sent.substr(sent.size() - 8), (std::string{"\x86\1\2\0\x86\1\5\0", 8}));
     EXPECT_EQ(sent.substr(sent.size() - 8 - 62, 62), std::string(62, '\0'));
     EXPECT_NE(sent.substr(sent.size() - 8 - 64 - 62, 30), std::string(30, '\0'));
-    std::filesystem::remove_all(folder);
+}
+
+TEST(HidOutput, AControllerThatTakesNothingHoldsUpNobody) {
+    const SteamNode steam;
+    ASSERT_EQ(mkfifo(steam.node.c_str(), 0600), 0);
+    const int reader = open(steam.node.c_str(), O_RDWR | O_NONBLOCK);
+    ASSERT_GE(fcntl(reader, F_SETPIPE_SZ, 4096), 4096); // holds some 60 reports, and then a write waits
+    HidOutput output{anyPad, SteamNode::feed()};
+    ASSERT_EQ(output.awaitReady([] { return true; }), "");
+    Device device;
+    output.follow(&device);
+    std::uint64_t before = 1, now = 0;
+    for (std::int64_t first = 0; first < 1000 && now != before; first += 10) {
+        before = std::exchange(now, output.counts().reports);
+        SteamNode::play(device, output, first);
+    }
+    ASSERT_GE(now, 50u);
+    EXPECT_TRUE(output.state().isReady);
+    EXPECT_FALSE(output.summary([] { return true; }).empty());
+    output.follow(nullptr);
+    std::array<char, 8192> rest;
+    std::atomic<bool> isOver{false};
+    std::thread reads{[&] {
+        for (; !isOver; std::this_thread::sleep_for(std::chrono::milliseconds{1}))
+            while (read(reader, rest.data(), rest.size()) > 0) {
+            }
+    }}; // or its thread would wait for ever
+    for (int i = 0; i < 1000 && output.counts().reports == now; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    EXPECT_GT(output.counts().reports, now) << "it takes them again";
+    isOver = true;
+    reads.join();
+    close(reader);
 }
 
 TEST(HidDevice, IsFoundByItsNumbersTakenOnceAndGoneWithItsNode) {

@@ -12,6 +12,7 @@ constexpr std::int64_t msNs = 1'000'000;
 constexpr std::int64_t lookNs = 250 * msNs; // search interval for a newly connected controller
 constexpr std::int64_t jumpNs = 70 * msNs;  // session time that goes back so far means a pause or a restart
 constexpr std::int64_t patienceNs = 500 * msNs;
+constexpr std::chrono::milliseconds mostRest{250}; // reports of silence and off are written within 20 ms
 
 } // namespace
 
@@ -30,33 +31,27 @@ std::string HidOutput::awaitReady(const std::function<bool()>& keepGoing) {
     const std::int64_t endNs = steadyNs() + patienceNs;
     for (;; std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
         const std::lock_guard lock{mutex_};
-        if (pad_) return {};
+        if (!node_.empty()) return {};
         if (!keepGoing() || steadyNs() > endNs) return troubleNow();
     }
 }
 
 void HidOutput::follow(OutputClock* device) {
-    const std::lock_guard lock{mutex_};
+    std::unique_lock lock{mutex_};
     if (device == device_) return;
-    rest();
     device_ = device;
     clock_ = {};
-    playedNs_ = 0;
-    feed_->begin();
+    beginsAnew_ = true;
+    rested_.wait_for(lock, mostRest, [this] { return !beginsAnew_; });
 }
 
 void HidOutput::run() {
-    while (!stop_) {
-        {
-            const std::lock_guard lock{mutex_};
-            connect();
-            feedPad(steadyNs());
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    for (; !stop_; std::this_thread::sleep_for(std::chrono::milliseconds{1})) {
+        connect();
+        beginAnew();
+        if (const auto report = due(steadyNs())) write(*report);
     }
-    const std::lock_guard lock{mutex_};
     rest();
-    pad_.reset();
 }
 
 void HidOutput::connect() {
@@ -64,30 +59,57 @@ void HidOutput::connect() {
     if (pad_ || nowNs < looksNs_) return;
     looksNs_ = nowNs + lookNs;
     auto found = HidDevice::open(feed_->kind().models, where_);
+    const std::lock_guard lock{mutex_};
     refusal_ = found.error;
     if (!found) return;
     pad_ = std::move(found.value);
-    lastName_ = pad_->place().name;
     hasSent_ = false;
+    node_ = pad_->place().node.string();
+    lastName_ = pad_->place().name;
     ++counts_.connections;
 }
 
-void HidOutput::feedPad(std::int64_t nowNs) {
-    if (device_ == nullptr) return;
+void HidOutput::beginAnew() {
+    {
+        const std::lock_guard lock{mutex_};
+        if (!beginsAnew_) return;
+    }
+    rest();
+    feed_->begin();
+    playedNs_ = 0;
+    {
+        const std::lock_guard lock{mutex_};
+        beginsAnew_ = false;
+    }
+    rested_.notify_all();
+}
+
+std::optional<PadReport> HidOutput::due(std::int64_t nowNs) {
+    const std::lock_guard lock{mutex_};
+    if (device_ == nullptr || beginsAnew_) return {};
     if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) clock_.add(felt);
-    if (!clock_.isReady()) return;
+    if (!clock_.isReady()) return {};
     const std::int64_t sessionNs = nowNs - clock_.steadyAt(0);
     if (sessionNs + jumpNs < playedNs_) feed_->begin();
     playedNs_ = sessionNs;
-    const auto report = feed_->next(nowNs, sessionNs, device_->isSilent() ? 0.0f : device_->level());
-    if (!report || !pad_) return;
+    return feed_->next(nowNs, sessionNs, device_->isSilent() ? 0.0f : device_->level());
+}
+
+void HidOutput::write(const PadReport& report) {
+    if (!pad_) return;
     if (!hasSent_) sendAll(feed_->on());
     hasSent_ = true;
-    if (send(*report)) ++counts_.reports;
+    if (!send(report)) return;
+    const std::lock_guard lock{mutex_};
+    ++counts_.reports;
 }
 
 bool HidOutput::send(const PadReport& report) {
-    if (pad_ && !pad_->write(report.span())) pad_.reset();
+    if (pad_ && !pad_->write(report.span())) {
+        pad_.reset();
+        const std::lock_guard lock{mutex_};
+        node_.clear();
+    }
     return pad_ != nullptr;
 }
 
@@ -106,7 +128,7 @@ void HidOutput::rest() {
 }
 
 std::string HidOutput::troubleNow() const {
-    if (pad_) return {};
+    if (!node_.empty()) return {};
     if (!lastName_.empty()) return lastName_ + " is gone; it is looked for";
     if (refusal_ == "none is there")
         return where_ == anyPad ? "no " + label() + " is there"
@@ -123,14 +145,14 @@ SinkState HidOutput::state() const {
     const std::lock_guard lock{mutex_};
     SinkState state;
     state.name = "controller";
-    state.isReady = pad_ != nullptr;
+    state.isReady = !node_.empty();
     state.sent = counts_.reports;
     state.lost = feed_->lost();
     state.playsClips = feed_->playsClips();
     state.trouble = troubleNow();
-    state.where = pad_ ? label() + ", " + pad_->place().node.string() + ": up to " +
-                             fixedNumber(1e3 * feed_->laterSeconds(), 0) + " ms after the device"
-                       : state.trouble;
+    state.where = state.isReady ? label() + ", " + node_ + ": up to " +
+                                      fixedNumber(1e3 * feed_->laterSeconds(), 0) + " ms after the device"
+                                : state.trouble;
     state.facts = {{"Controller", state.where, !state.isReady},
                    {"Reports", std::to_string(counts_.reports), false}};
     return state;

@@ -5,6 +5,7 @@
 #include "Live/Pads/HidFeed.h"
 #include "Live/Session/OutputClock.h"
 #include <atomic>
+#include <condition_variable>
 #include <mutex>
 #include <thread>
 
@@ -15,7 +16,8 @@ struct HidCounts {
     std::uint64_t reports = 0, connections = 0;
 };
 
-/// Its own thread writes to the controller; only M waits for that thread.
+/// Its own thread owns the controller and writes to it without a lock, as the system may hold a write for
+/// seconds. M waits for that thread in the destructor, and for its silence, a moment at most, in follow().
 class HidOutput final : public Sink {
 public:
     /// `where`: anyPad, or part of a controller's name or node. M.
@@ -38,7 +40,9 @@ public:
 private:
     void run();
     void connect();
-    void feedPad(std::int64_t nowNs);
+    void beginAnew();
+    std::optional<PadReport> due(std::int64_t nowNs);
+    void write(const PadReport& report);
     bool send(const PadReport& report);
     void sendAll(std::span<const PadReport> reports);
     void rest();
@@ -48,13 +52,17 @@ private:
     const std::string where_;
     const std::unique_ptr<HidFeed> feed_;
 
-    mutable std::mutex mutex_; // guards the members below, used by the thread and M
-    OutputClock* device_ = nullptr;
-    std::unique_ptr<HidDevice> pad_;
-    std::string lastName_, refusal_{"none is there"};
-    SessionClock clock_;
+    std::unique_ptr<HidDevice> pad_;          // the thread's alone, as the next two lines
     std::int64_t looksNs_ = 0, playedNs_ = 0; // steady clock; session time
     bool hasSent_ = false;                    // since it was switched on
+
+    mutable std::mutex mutex_; // guards the members below, used by the thread and M
+    std::condition_variable rested_;
+    OutputClock* device_ = nullptr;
+    bool beginsAnew_ = false; // the device is another one: first what was sent before ends
+    std::string node_;        // of the controller; empty: there is none
+    std::string lastName_, refusal_{"none is there"};
+    SessionClock clock_;
     HidCounts counts_;
 
     std::atomic<bool> stop_{false};
