@@ -39,8 +39,6 @@ inline constexpr std::array thesisDeviations{
                     ThesisEdit::noBreakBefore},
     ThesisDeviation{"patterns", "3.2.1", "answers on a tablet's touch screen",
                     "on the mixer's screen, by mouse or touch", ""},
-    ThesisDeviation{"patterns", "3.2.1", "icons: red, green, purple; 250 ms left, 100 ms right",
-                    "blue, green, orange; 100 ms above, 250 ms below", ""},
     ThesisDeviation{"phantom-grids", "4.1.1", "orders of all six conditions by Latin squares",
                     "the conditions of PHONE and of RING stay together: with 18 participants places are "
                     "balanced, 24 of 30 successions occur",
