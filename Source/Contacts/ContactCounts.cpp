@@ -44,6 +44,7 @@ ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
     muted += other.muted;
     settling += other.settling;
     dropped += other.dropped;
+    handedOn += other.handedOn;
     if (other.events > 0) {
         made(other.leastX, other.leastY);
         made(other.mostX, other.mostY);
@@ -86,7 +87,7 @@ std::string describe(const ContactCounts& counts, const OutputFacts* output) {
                 counts.belowThreshold) +
            line("no haptic source:", counts.withoutSource) + line("unplayable:", counts.unplayable) +
            line("muted:", counts.muted + counts.settling) + line("dropped:", counts.dropped) +
-           line("events:", counts.events);
+           line("handed on by movable sources:", counts.handedOn) + line("events:", counts.events);
 }
 
 std::string threeDigits(double value) {

@@ -25,6 +25,8 @@ struct ContactCounts {
     std::uint64_t settling = 0; ///< impacts in the first ImpactSettings::settlingSeconds
     std::uint64_t dropped = 0;  ///< more than there is room for, or than ImpactSettings::hitsPerStep
     std::uint64_t events = 0;   ///< events created
+    std::uint64_t handedOn = 0; ///< impacts that a movable source passed between its neighbours: push and
+                                ///< reaction cancel (Eq. 5.4), so it has no event
     double leastX = 0.0, leastY = 0.0, mostX = 0.0, mostY = 0.0; ///< bounds of the events' places, m of the
                                                                  ///< field
     double thresholdMetresPerSecond = 0.0; ///< effective value: at least 1.5 g dt of the last step

@@ -75,7 +75,7 @@ private:
 /// World thread (M) only.
 class OnsetImpacts {
 public:
-    OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph);
+    OnsetImpacts(CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph);
 
     /// Appends the impacts that the step, now settled, has completed.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
@@ -110,7 +110,7 @@ private:
     static HandedOn handOn(std::int32_t camera, const StrikeCauses::Found& found,
                            const ChainLoads::Passed& passed) noexcept;
 
-    const CollisionCatcher& catcher_;
+    CollisionCatcher& catcher_;
     const FixtureTable& table_;
     ContactGraph& graph_;
     StrikeCauses strikes_, before_; // of this step and of the last

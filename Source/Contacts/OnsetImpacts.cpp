@@ -5,7 +5,7 @@
 #include <utility>
 
 namespace physvib {
-OnsetImpacts::OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph)
+OnsetImpacts::OnsetImpacts(CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph)
     : catcher_(catcher)
     , table_(table)
     , graph_(graph) {
@@ -90,7 +90,11 @@ void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& 
         main.other == FixtureTable::none ? camera : table_.mobility(main.other);
     const double lighter = std::min(camera.movableMassKg, other.movableMassKg);
     const float gravityScale = std::max(camera.gravityScale, other.gravityScale);
-    if (!span.isStrike(whole, lighter, gravityScale)) return;
+    if (!span.isStrike(whole, lighter, gravityScale)) {
+        catcher_.tally().handedOn +=
+            span.isStrike(static_cast<double>(main.strongest), lighter, gravityScale) ? 1 : 0;
+        return;
+    }
     const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
     if (span.isStrike(impulse, lighter, gravityScale))
         impacts.push_back(

@@ -3,14 +3,17 @@
 // frequencies into the actuators' band, then the level.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
+#include "Core/Actuators/GuardLaw.h"
 #include "Core/CollisionEvent.h"
 #include "Core/NameNumbers.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <string_view>
+#include <vector>
 
 namespace physvib {
 
@@ -229,6 +232,40 @@ private:
     }
 };
 
+// A tone that ends in mid-period, or decays within a few, has a mean. Hit after hit it adds up to direct
+// current, and the guard would turn down hits that follow (decision 54).
+
+/// Integral of an event over its length, in seconds at full scale; `seconds`: until it ends. Any thread.
+inline double areaOf(const CollisionEvent& e, double seconds) noexcept {
+    const double turn = 2.0 * std::numbers::pi * e.frequencyHz, decay = e.decayPerSecond,
+                 end = std::cos(turn * seconds) * turn + std::sin(turn * seconds) * decay;
+    return e.amplitude * (turn - std::exp(-decay * seconds) * end) / (turn * turn + decay * decay);
+}
+
+/// Whether the event is what meanOff() has added to a hit. Any thread.
+inline bool isMeanOff(const CollisionEvent& e) noexcept {
+    return e.amplitude < 0.0 && e.decayPerSecond == 0.0 &&
+           std::abs(2e-9 * e.frequencyHz * static_cast<double>(e.durationNs) - 1.0) < 1e-6;
+}
+
+/// Half a sine over the length of a hit (a decay: until a tenth, at most 0.1 s) that takes its mean away:
+/// slower than what is felt of the hit, which stays as it is. Amplitude 0: its mean is less than a tenth of
+/// what the guard lets pass. Any thread.
+inline CollisionEvent meanOff(CollisionEvent hit) noexcept {
+    constexpr double longest = 0.5 / limits::slowestToneHz;
+    const double decay = hit.decayPerSecond, length = hit.durationNs > 0
+                                                          ? 1e-9 * static_cast<double>(hit.durationNs)
+                                                          : std::numbers::ln10 / decay;
+    const double area = areaOf(hit, length), seconds = std::min(length, longest);
+    const bool passes = isClip(hit.sound) || area <= 0.1 * limits::guardShare * limits::guardSeconds;
+    hit.durationNs = std::llround(1e9 * seconds);
+    hit.frequencyHz = 0.5e9 / static_cast<double>(hit.durationNs);
+    hit.decayPerSecond = 0.0;
+    hit.sound = 0;
+    hit.amplitude = passes ? 0.0 : -0.5 * std::numbers::pi * area / seconds;
+    return hit;
+}
+
 /// The same for all impacts of one world, in time order. Stateful, because a held fixed level depends on
 /// earlier impacts. One thread at a time.
 class EventShaper {
@@ -238,6 +275,20 @@ public:
     CollisionEvent operator()(const CollisionEvent& collision) noexcept {
         return shaping_.shaped(collision,
                                [this](CollisionEvent& event) { event = level_(event, shaping_.method); });
+    }
+    /// All from `first` on, in place. Where each hit has the fixed amplitude, its meanOff() follows it.
+    /// Allocates.
+    void shape(std::vector<CollisionEvent>& events, std::size_t first = 0) {
+        std::transform(events.begin() + static_cast<std::ptrdiff_t>(first), events.end(),
+                       events.begin() + static_cast<std::ptrdiff_t>(first), std::ref(*this));
+        if (!shaping_.method.fixesAmplitude || shaping_.method.holdsLevel) return;
+        std::vector<CollisionEvent> all;
+        for (std::size_t k = 0; k < events.size(); ++k) {
+            all.push_back(events[k]);
+            if (const CollisionEvent off = meanOff(events[k]); k >= first && isMeanOff(off))
+                all.push_back(off);
+        }
+        events.swap(all);
     }
     void forget() noexcept { level_.forget(); }
 

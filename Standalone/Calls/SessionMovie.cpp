@@ -31,7 +31,7 @@ std::vector<CollisionEvent> eventsOf(const SavedSession& session, const MoviePar
                                      const StepWatch& keepGoing) {
     auto events = sessionEvents(session, part.endNs, keepGoing).events;
     std::erase_if(events, [&](const CollisionEvent& e) { return e.timeNs < part.fromNs; });
-    std::ranges::transform(events, events.begin(), EventShaper{session.shaping});
+    EventShaper{session.shaping}.shape(events);
     for (CollisionEvent& event : events) event.timeNs -= part.fromNs;
     return events;
 }

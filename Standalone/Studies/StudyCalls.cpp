@@ -47,7 +47,7 @@ Result<FeltStimulus> ofScene(const RenderJob& o) {
     Patience patience{Patience::usualSeconds}; // fixed, since the call may be untrusted
     if (job.scene) job.made = runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
     if (auto fault = patience.fault(); !fault.empty()) return Failure{fault};
-    std::ranges::transform(job.made.events, job.made.events.begin(), EventShaper{job.shaping()});
+    EventShaper{job.shaping()}.shape(job.made.events);
     if (auto fault = takeRecordings(job, job.made.events, o.scene); !fault.empty()) return Failure{fault};
     return FeltStimulus{{job.made.events, job.panner(), job.seconds()},
                         job.layout,

@@ -280,6 +280,16 @@ TEST_F(Study, AFixedLevelPeaksAtOneAndAHalfGInEveryTrialOfEightMethodsAndNoLimit
               std::string::npos);
 }
 
+TEST_F(Study, WhatLimiterAndGuardChangeAsPublishedIsAcceptedOrRefused) {
+    const auto refused = call("study check eight-methods-thesis");
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.err.find("expected --accept-deviations"), std::string::npos) << refused.err;
+    const auto accepted = call("study check eight-methods-thesis --accept-deviations");
+    EXPECT_EQ(accepted.exitCode, 0) << accepted.err;
+    EXPECT_EQ(accepted.out, refused.out) << "what is accepted is read before";
+    EXPECT_EQ(call("study check patterns-thesis").exitCode, 0);
+}
+
 TEST_F(Study, BadCallsAndFilesAreRefused) {
     refuses("study run patterns", 2, "--observer");
     refuses("study run patterns --observer GLOVE", 2, "--observer");

@@ -22,10 +22,12 @@ TEST(ContactCounts, AreTheLinesThatArePromised) {
     counts.unplayable = 1;
     counts.muted = 4;
     counts.dropped = 5;
+    counts.handedOn = 7;
     counts.events = 6;
     const std::string text = describe(counts);
     const std::string lines = "contacts 10\nbelow the threshold of 0.15 m/s: 3\nno haptic source: "
-                              "2\nunplayable: 1\nmuted: 4\ndropped: 5\nevents: 6\n";
+                              "2\nunplayable: 1\nmuted: 4\ndropped: 5\nhanded on by movable sources: "
+                              "7\nevents: 6\n";
     ASSERT_GT(text.size(), lines.size());
     EXPECT_EQ(text.substr(text.size() - lines.size()), lines);
 }

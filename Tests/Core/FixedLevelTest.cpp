@@ -66,6 +66,28 @@ TEST(FixedLevel, ACrowdOfHitsIsNeverAboveItAndReachesIt) {
     }
 }
 
+TEST(FixedLevel, OfEachHitHasNoMeanWhereTheGuardWouldAct) {
+    for (const char* method : {"AF-FV-DRV", "AF-FV-DRF"}) {
+        EventShaping each = heldAt(0.75, method);
+        each.method.holdsLevel = false;
+        each.truncation = 0.1;
+        const CollisionEvent rubber = hitAt(0.1, 80.0, 34.13);
+        std::vector<CollisionEvent> hits{rubber, hitAt(0.0, 349.0, 106.99), rubber, hitAt(0.2, 430.0, 11.97)};
+        EventShaper{each}.shape(hits, 1);
+        ASSERT_EQ(hits.size(), 5U) << "rubber alone, and not before `first`";
+        EXPECT_EQ(hits[2], each(rubber)) << "the hit itself stays";
+        EXPECT_TRUE(isMeanOff(hits[3]) && hits[3].timeNs == rubber.timeNs);
+        double area = 0.0;
+        for (double t = 0.0; t < 1e-9 * static_cast<double>(hits[2].durationNs); t += 1e-6)
+            for (const CollisionEvent& e : {hits[2], hits[3]})
+                area += 1e-6 * e.amplitude * std::sin(2.0 * std::numbers::pi * e.frequencyHz * t) *
+                        std::exp(-e.decayPerSecond * t);
+        EXPECT_NEAR(area, 0.0, 1e-5) << method << ", of 0.0016 and 0.0027";
+        EventShaper{heldAt(0.75, method)}.shape(hits);
+        EXPECT_EQ(hits.size(), 5U) << "what is held is as it was";
+    }
+}
+
 TEST(FixedLevel, StrikesAndVariedLevelsAreLeftAlone) {
     EventShaper shaper{heldAt(1.0, "AF-FV-DRV")}, varied{heldAt(1.0, "AV-FV-DRV")};
     CollisionEvent strike = hitAt(0.0, 200.0, 50.0);

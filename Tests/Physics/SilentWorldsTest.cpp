@@ -83,6 +83,17 @@ TEST_F(SilentBoxes, NameWhatTheImpactsLack) {
     expect(fall(3.0F), "event was made, at x 0.5");
 }
 
+TEST_F(SilentBoxes, NameAMovableSourceBetweenOthers) {
+    world.SetGravity({0.0F, -9.81F});
+    floor();
+    EXPECT_TRUE(attachment.set(box(0.0F, 0.0F, 0.0F), camera));
+    (void)ball(0.0F, 0.8F, 0.0F, 0.0F); // comes to rest on it
+    EXPECT_FALSE(run(100).empty());
+    (void)attachment.explain();
+    (void)ball(0.0F, 1.4F, 0.0F, -3.0F);
+    expect(after(20), "push and reaction cancel");
+}
+
 TEST_F(SilentBoxes, NameTheOutput) {
     source();
     EnchanterLayout layout;

@@ -52,6 +52,24 @@ def run(call: str, folder: Path) -> None:
             bad.append(f"{call}: expected {name} afterwards")
 
 
+def scenes(folder: Path, gains: str) -> None:
+    """Each hit of twelve scenes has the amplitude of Eq. 5.4 and 5.7 with one m_h, times the drive_gain that the row tells (1 is what is left), and the length of Eq. 5.5."""
+    pairs = [f"{scene} --set pair={pair}" for scene in ("drop", "box-study") for pair in ("rubber-concrete", "wood-wood", "steel-steel")]
+    for call in ["shake-the-box", "fruit-basket", "driving", "marbles", "drawing", "drop --set height=3", *pairs]:
+        run(f"physvib render {call} --timing release --gamma 0.1 --seconds 6 --out scene.wav --events scene.csv", folder)
+        scene = call.split()[0]
+        gain = re.search(rf"{scene} ([\d.]+)", gains)
+        lines = (folder / "scene.csv").read_text().splitlines()
+        width = float(re.search(r"field_m=([\d.]+),", lines[0])[1])
+        hits = [hit for hit in csv.DictReader(lines[1:]) if hit.get("contact", "hit") in ("", "hit")]
+        masses = [float(gain[1] if gain else 1) * float(hit["impulse_ns"]) / float(hit["amplitude"]) / (2 * width) - float(hit["mass_kg"]) for hit in hits]
+        heaviest = max(float(hit["mass_kg"]) for hit in hits)
+        if len(hits) < 5 or min(masses) < heaviest * 0.99 or max(masses) - min(masses) > 1e-3 * max(masses):
+            bad.append(f"{call}: expected a drive_gain as the row tells and one m_h, found m_h of {min(masses)} to {max(masses)} kg")
+        if any(abs(float(hit["duration_s"]) - math.log(10) / float(hit["decay_per_s"])) > 2e-9 for hit in hits):
+            bad.append(f"{call}: expected lengths by Eq. 5.5")
+
+
 physvib = Path(sys.argv[1]).resolve()
 os.environ["PATH"] = f"{physvib.parent}:{os.environ['PATH']}"
 with tempfile.TemporaryDirectory() as name:
@@ -66,6 +84,7 @@ with tempfile.TemporaryDirectory() as name:
             bad.append(f"{row['at']}: expected a call, or what it needs")
         if not row["run"].startswith("Rscript") or shutil.which("Rscript"):
             run(row["run"], folder)
+    scenes(folder, next(row["differs"] for row in rows if row["at"].startswith("Eq. 5.4")))
     told = ", ".join(row["at"] for row in rows)
     bad += [f"expected a row of {part}" for part in parts() if not re.search(rf"(?:^|, ){re.escape(part)}(?:[, ]|$)", told)]
     if keep := os.environ.get("PHYSVIB_KEEP"):  # to look at what was drawn

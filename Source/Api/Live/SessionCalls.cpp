@@ -127,7 +127,7 @@ physvib_int64 physvib_session_events(physvib_session name, physvib_int64 endNs, 
             return nothingThere("events: expected a place for them");
         if (!isWithinADay(endNs)) return nothingThere("end: expected nothing to a day");
         auto all = sessionEvents(session, endNs).events;
-        std::ranges::transform(all, all.begin(), EventShaper{session.shaping});
+        EventShaper{session.shaping}.shape(all);
         const std::int64_t written = writeEvents(all, events, capacity);
         return written < 0 ? written : std::ssize(all);
     });

@@ -57,14 +57,6 @@ void tellTransfer(ThesisPage& out) {
     ExportTable table{
         "thesis-transfer", false,
         "study,condition,criterion,stimuli,it_bits,most_bits,percent_correct,least_bits,two_to_it,possible"};
-    BarChart chart{{"transfer", "Information transfer of phantoms on grids, as printed", false},
-                   "condition",
-                   "IT (bit)",
-                   {},
-                   {{"exact, printed", {}},
-                    {"least, by Fano", {}},
-                    {"tolerance 1, printed", {}},
-                    {"least, by Fano (tolerance)", {}}}};
     for (const thesis::Identification& one : thesis::identifications) {
         const double most = std::log2(static_cast<double>(one.stimuli));
         const auto add = [&](std::size_t criterion, double bits, double percent) {
@@ -78,20 +70,10 @@ void tellTransfer(ThesisPage& out) {
                 table.cells("", "");
             table.row(std::exp2(bits),
                       bits <= most && bits >= least ? "yes" : "NO: below what its percent correct allows");
-            if (one.study != "phantom-grids") return;
-            chart.series[2 * criterion].bars.emplace_back(ChartValue::around(bits));
-            chart.series[2 * criterion + 1].bars.emplace_back(ChartValue::around(least));
         };
         add(0, one.bits, one.percentCorrect);
         add(1, one.bitsTolerance, one.percentTolerance);
-        if (one.study != "phantom-grids") continue;
-        chart.groups.emplace_back(one.condition);
-        chart.ceilings.push_back(most);
     }
-    chart.ceilingWords = "most possible";
-    out.addFigure("transfer", {barChart(chart)},
-                  "Printed IT beside the bounds of the printed percent correct. RING-5x5 with tolerance is "
-                  "printed as 2.62 bit: impossible with 83.5 % correct.");
     out.addTable("transfer.csv", table.text());
 }
 

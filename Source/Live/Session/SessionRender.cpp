@@ -24,7 +24,7 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
                                                          static_cast<double>(endNs));
                   }).events;
     if (!keepGoing) return false;
-    std::ranges::transform(events, events.begin(), EventShaper{session.shaping});
+    EventShaper{session.shaping}.shape(events);
     const auto controls = recordings.with(controlsOf(session.log, true, session.channels));
     const std::int64_t frames = std::llround(extent.seconds * extent.sampleRateHz);
     std::int64_t done = 0;

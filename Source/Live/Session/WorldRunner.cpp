@@ -315,10 +315,8 @@ void SessionWorld::step(std::vector<CollisionEvent>& made) {
     world_->step(made);
     world_->forgetDone();
     ++steps_;
-    for (std::size_t i = before; i < made.size(); ++i) {
-        made[i].timeNs += originNs_;
-        made[i] = shaper_(made[i]);
-    }
+    for (std::size_t i = before; i < made.size(); ++i) made[i].timeNs += originNs_;
+    shaper_.shape(made, before);
 }
 
 void SessionWorld::standStill(std::int64_t lengthNs) {

@@ -73,7 +73,7 @@ Result<std::vector<std::string>> makeEvents(LoadedRender& job) {
         job.made = std::move(made.value);
     }
     auto warnings = remapWarnings(job.shaping().remap, job.made.events, job.layout, job.options);
-    std::ranges::transform(job.made.events, job.made.events.begin(), EventShaper{job.shaping()});
+    EventShaper{job.shaping()}.shape(job.made.events);
     return warnings;
 }
 

@@ -48,7 +48,8 @@ inline std::string peakWords(const LoadedRender& job, const WaveformEnvelope& wh
 /// that gets most of it.
 inline std::string collisionWords(const LoadedRender& job) {
     constexpr double step = 1.0 / 128.0; // of full scale: the board's converters
-    const auto& events = job.made.events;
+    auto events = job.made.events;
+    std::erase_if(events, isMeanOff);
     std::string words = counted(events.size(), "collision");
     if (events.empty()) return words;
     const PhantomPanner panner = job.panner();

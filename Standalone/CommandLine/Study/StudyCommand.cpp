@@ -15,6 +15,7 @@
 #include "Studies/StudyCalls.h"
 #include "Studies/StudyCheck.h"
 #include "System/Process.h"
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -36,6 +37,7 @@ struct StudyOptions {
     std::string levelsPath;          ///< levels: output file
     std::string pagePath;            ///< check: HTML output; empty: none
     std::string planPath;            ///< plan: output file; empty: none
+    bool acceptsDeviations = false;  ///< check: limiter and guard may change what is published
     double paceSeconds = 0.0;        ///< delay per trial, to watch or interrupt it
 };
 
@@ -144,6 +146,14 @@ int run(const StudyOptions& o) {
     return exitDone;
 }
 
+/// Whether limiter or guard change a study as published.
+bool isChangedAsPublished(const Protocol& protocol) {
+    return protocol.name.ends_with(thesisSuffix) &&
+           std::ranges::any_of(deviationsOf(protocol), [](const ThesisDeviation& one) {
+               return one.part == ThesisPart::limiter || one.part == ThesisPart::guard;
+           });
+}
+
 int check(const StudyOptions& o) {
     auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
@@ -156,6 +166,10 @@ int check(const StudyOptions& o) {
         code != exitDone)
         return code;
     std::cout << textOf(found, protocol.value);
+    if (!o.acceptsDeviations && isChangedAsPublished(protocol.value))
+        return leave(exitFailed,
+                     "study check: limiter and guard change what is published, as deviations above "
+                     "say: expected --accept-deviations");
     return found.errors.empty() ? exitDone : exitFailed;
 }
 
@@ -230,6 +244,7 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
     run.add("--participants", o.participants, "how many, one after the other").in(1, 1000);
     check.add("--page", o.pagePath, "the check as a page of HTML").written("FILE.html");
     check.add("--participants", o.participants, "whose orders are looked at").in(1, 1000);
+    check.add("--accept-deviations", o.acceptsDeviations, "limiter and guard may change what is published");
     for (OptionTable* const one : {&run, &check})
         addSounds(*one, o.sounds,
                   "for a protocol that calls render --method SV: the recorded contact of the material of "

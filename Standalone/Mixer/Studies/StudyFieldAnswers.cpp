@@ -4,6 +4,7 @@
 #include "Mixer/Studies/StudyParts.h"
 #include "Stimuli/PulsePattern.h"
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -181,11 +182,15 @@ std::unique_ptr<StudyAnswer> makePlaceAnswer(const LayoutDescription& layout) {
 }
 
 // Answer for patterns in two clicks: the first pulse's actuator, then an icon of the whole pattern (thesis
-// 3.2.2). Icons show the order by colour and number, and the actuator by place.
+// 3.2.1, Fig. 3.9 and 3.10). Icons show the order by colour and number, and the actuator by place.
 
 namespace {
 
-juce::Colour orderColour(int pulse) { return palette::ramp(1 + 2 * pulse); } // from cool to warm colours
+/// Red, green, purple, as printed; light enough for the dark number on it.
+juce::Colour orderColour(int pulse) {
+    constexpr std::array<palette::Argb, 3> colours{0xffff6b6b, 0xff5fd07a, 0xffc38bff};
+    return juce::Colour{colours[static_cast<std::size_t>(pulse)]};
+}
 
 void drawPulse(juce::Graphics& g, juce::Point<float> at, float radius, int pulse, float light) {
     const auto disc = juce::Rectangle<float>{2.0f * radius, 2.0f * radius}.withCentre(at);
@@ -304,7 +309,7 @@ public:
         if (first_ < 0)
             g.drawText(say_("Choose the first pulse's place."), iconsArea_, juce::Justification::centred,
                        true);
-        for (const auto& [ms, row] : rows_)
+        for (const auto& [ms, row] : captions_)
             g.drawText(say_("Pulses of {n} ms", {{"n", juce::String{ms}}}), row,
                        juce::Justification::centredLeft, true);
     }
@@ -346,26 +351,27 @@ private:
             if (icon->isVisible()) return icon->grabKeyboardFocus();
     }
 
-    /// One row group per duration, with the icons of one, two and three pulses.
+    /// One group per duration, the longest at the left, with the icons of one, two and three pulses.
     void placeIcons() {
-        std::map<int, std::vector<PatternIcon*>> shown;
+        std::map<int, std::vector<PatternIcon*>, std::greater<>> shown;
         for (auto& icon : icons_)
             if (icon->isVisible())
                 shown[juce::roundToInt(1e3 * icon->pattern.pulseSeconds)].push_back(icon.get());
-        rows_.clear();
+        captions_.clear();
         if (shown.empty()) return;
-        constexpr int across = 7, captionHeight = 26, space = 6;
-        int lines = 0;
-        for (const auto& [ms, some] : shown) lines += (static_cast<int>(some.size()) + across - 1) / across;
+        constexpr int captionHeight = 26, space = 6, least = 60;
         auto area = iconsArea_;
-        const int free = area.getHeight() - captionHeight * static_cast<int>(shown.size());
-        const int height = std::clamp(free / lines - space, 28, 110); // equal in all rows
-        const int width = std::clamp(area.getWidth() / across - space, 60, 150);
+        const int wide = area.getWidth() / static_cast<int>(shown.size());
+        const int across = std::clamp(wide / (least + space), 1, 7);
+        const int width = std::min(wide / across - space, 150);
         for (const auto& [ms, some] : shown) {
-            rows_.emplace_back(ms, area.removeFromTop(captionHeight));
+            auto group = area.removeFromLeft(wide);
+            captions_.emplace_back(ms, group.removeFromTop(captionHeight));
+            const int lines = (static_cast<int>(some.size()) + across - 1) / across;
+            const int height = std::clamp(group.getHeight() / lines - space, 28, 110);
             juce::Rectangle<int> row;
             for (std::size_t i = 0; i < some.size(); ++i) {
-                if (i % across == 0) row = area.removeFromTop(height + space);
+                if (static_cast<int>(i) % across == 0) row = group.removeFromTop(height + space);
                 some[i]->setBounds(
                     row.removeFromLeft(width + space).withTrimmedRight(space).withTrimmedBottom(space));
             }
@@ -383,7 +389,7 @@ private:
     std::vector<std::unique_ptr<PatternIcon>> icons_;
     juce::Rectangle<int> firstHeading_, iconHeading_, iconsArea_;
     juce::Rectangle<float> field_;
-    std::vector<std::pair<int, juce::Rectangle<int>>> rows_; // duration in ms, and area of its caption
+    std::vector<std::pair<int, juce::Rectangle<int>>> captions_; // duration in ms, and its area
     int first_ = -1;
 };
 
