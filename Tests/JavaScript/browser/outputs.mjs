@@ -31,7 +31,7 @@ const parts = {
                 await sounded();
                 peaks.push(await ask('heard'));
             }
-            rows.push({ count, wish, peaks, facts: { isDirect: output.isDirect, max: context.destination.maxChannelCount } });
+            rows.push({ count, wish, peaks, facts: { isDirect: output.isDirect, max: context.destination.maxChannelCount, state: output.state, skipped: output.skipped, ...output.status } });
             output.close();
             await context.close();
         }
