@@ -102,8 +102,9 @@ const parts = {
         const again = context.currentTime;
         hit();
         await until(() => output.left?.(again, context.currentTime)[1].peak > 0, 10000);
+        const heard = context.currentTime;
         await later(300);
-        return { states, gone, why, back: output.left?.(again, context.currentTime)[1], backWhy: world.explain(output) };
+        return { states, gone, why, back: output.left?.(again, heard)[1], backWhy: world.explain(output) };
     },
 
     // ---- in the page
