@@ -34,8 +34,8 @@ physvib_pico_linux_guest="busybox-static kmod usbip alsa-utils usbutils usb.ids 
 # Of tests with the label engines alone: physics engines and languages of others (Tests/Engines/passed.sh says when).
 physvib_engine_packages="love mono-mcs libchipmunk-dev libbullet-dev libode-dev libmujoco-dev"
 # Of Standalone/Web/build-web.sh, Source/Api/JavaScript/build-package.sh, Tests/web.sh and Tests/javascript.sh alone.
-physvib_web_packages="binaryen clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev"
-physvib_web_test_packages="$physvib_web_packages chromium python3 zbar-tools"
+physvib_web_packages="binaryen clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev python3"
+physvib_web_test_packages="$physvib_web_packages chromium zbar-tools"
 # Of Tests/JavaScript/bundlers.sh, browsers.sh and outputs.sh alone; WebKitGTK brings its MiniBrowser. What the latter two unpack, and never install.
 physvib_browser_packages="chromium firefox-esr libwebkit2gtk-4.1-0 gstreamer1.0-plugins-good xvfb xauth"
 physvib_sound_files="pulseaudio pulseaudio-utils libtdb1 libwrap0 libltdl7 libspeexdsp1 libsoxr0"

@@ -69,9 +69,7 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
     foreach(format vst3 lv2) # where hosts look
         string(TOUPPER ${format} module)
         if(PHYSVIB_INSTALL AND TARGET ${target}_${module}) # its folder is there before it is built
-            install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${target}_${module}>\")
-                message(FATAL_ERROR \"${file}.${format} is not built yet: cmake --build comes before cmake --install\")
-            endif()" COMPONENT plugins)
+            physvib_installs(plugins $<TARGET_FILE:${target}_${module}>)
             install(DIRECTORY ${plugins}/${file}.${format} DESTINATION lib/${format} COMPONENT plugins USE_SOURCE_PERMISSIONS)
         endif()
     endforeach()

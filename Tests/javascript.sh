@@ -9,10 +9,11 @@ physvib=$(realpath "${1:-build/release/bin/physvib}")
 . .ci/packages.sh
 Source/Api/JavaScript/build-package.sh
 # What a page loads that reads no clips; inline.js is instead of physvib.wasm, no page loads types; feel.js and what few engines need come when they are called.
-later='--exclude=feel.js --exclude=reader.js --exclude=cannon.js --exclude=havok.js --exclude=jolt.js --exclude=mujoco.js --exclude=react.js --exclude=xr.js'
+later='--exclude=THIRD-PARTY.txt --exclude=feel.js --exclude=reader.js --exclude=cannon.js --exclude=havok.js --exclude=jolt.js --exclude=mujoco.js --exclude=react.js --exclude=xr.js'
 # shellcheck disable=SC2086 # a list of words
 bytes=$(tar -C build/web/javascript/package --exclude=files.wasm --exclude=inline.js --exclude='*.d.ts' $later -cz . | wc -c)
 [ "$bytes" -lt 173500 ] || { say "the package: expected less than 173.5 KB compressed, found $bytes bytes"; exit 1; }
+python3 Standalone/Packaging/sbom.py --opened build/web/*.tgz
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 package=$(ls "$PWD"/build/web/physvib-*.tgz)

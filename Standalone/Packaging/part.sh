@@ -5,6 +5,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 . .ci/packages.sh
 pack() { python3 Standalone/Packaging/pack.py "$@"; }
+licences() { cp LICENSES/MIT.txt $into/LICENSE && python3 Standalone/Packaging/sbom.py --licences "$1" >$into/THIRD-PARTY.txt; }
 built=$PWD/obj-$(dpkg-architecture -qDEB_HOST_GNU_TYPE) # by packages: what wheel and addon are made of as well
 
 packages() {
@@ -62,7 +63,7 @@ firmware() {
         cmake --build build/f334/$line
         cp build/f334/$line/physvib-f334.bin $into/physvib-f334-$line.bin
     done
-    cp LICENSES/MIT.txt $into/LICENSE
+    licences firmware
     pack $into "$OUT/physvib-$RELEASE-firmware.zip"
 }
 
@@ -77,13 +78,12 @@ foreign() {
     libraries
     house -DPHYSVIB_TESTS=OFF -DPHYSVIB_SESSION=OFF
     into=physvib-$system
-    mkdir -p "$into/include/physvib" "$into/LICENSES"
+    mkdir -p "$into/include/physvib"
     (cd "$folder/house" && "$strip" --strip-unneeded "$1" bin/physvib-render*)
     cp -P "$folder"/house/bin/physvib-render* "$into"
     for file in "$@"; do cp -P "$folder/house/$file" "$into"; done
     cp "$folder/house/include/physvib/physvib.h" "$into/include/physvib"
-    cp LICENSES/MIT.txt "$into/LICENSE"
-    for package in libbox2d-dev libhwy-dev nlohmann-json3-dev libcli11-dev; do cp /usr/share/doc/$package/copyright "$into/LICENSES/$package.txt"; done
+    licences "$system"
 }
 
 windows() {

@@ -48,5 +48,7 @@ version=$(cat -- * | sha256sum | cut -c1-16)
 files=$(printf "'%s', " ./ *.html *.css *.js *.svg *.png *.wasm *.webmanifest | sed "s/'service-worker.js', //; s/'card.png', //; s/, \$//")
 sed -i -e "s|@VERSION@|$version|" -e "s|'@FILES@'|$files|" service-worker.js
 cd ../../..
+cp LICENSES/MIT.txt build/web/page/LICENSE
+python3 Standalone/Packaging/sbom.py --licences page >build/web/page/THIRD-PARTY.txt
 bytes=$(tar -C build/web -cz page | wc -c)
 say "build/web/page: $bytes bytes compressed"

@@ -213,6 +213,12 @@ class Package(unittest.TestCase):
         with self.assertRaises(physvib.PhysVibError):
             closed.take()
 
+    def test_without_the_library_of_devices_it_says_so_in_a_line(self) -> None:
+        os.environ["PHYSVIB_LIVE_LIBRARY"] = "/nowhere/libphysvib-live.so.1"
+        self.addCleanup(os.environ.pop, "PHYSVIB_LIVE_LIBRARY")
+        with self.assertRaisesRegex(physvib.PhysVibError, r"^expected /nowhere/.*, the library with devices.*\Z"):
+            physvib.Live()
+
     def test_why_nothing_is_felt_is_counted_and_said(self) -> None:
         world = physvib.World(normalisation_s_per_m=1.0, hand_mass_kg=0.0)
         world.set_body(0)

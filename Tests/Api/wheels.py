@@ -40,6 +40,7 @@ class Wheel(unittest.TestCase):
         with zipfile.ZipFile(made) as archive:
             names = archive.namelist()
             archive.extractall(self.folder / "here")
+        subprocess.run([sys.executable, root / "Standalone/Packaging/sbom.py", "--opened", made], check=True)
         for name in wheel.needed(library):
             self.assertIn(f"physvib/{name}", names)
         code = "import physvib; print(physvib.render(physvib.events(0.0, frequency_hz=200, decay_per_s=30), 0.1).shape, physvib._library.library.path)"

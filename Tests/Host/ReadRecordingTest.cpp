@@ -135,6 +135,10 @@ TEST_F(ReadRecording, ReadsSamplesThatHaveMoreRoom) {
               "expected blocks of 6 bytes, found 7");
     EXPECT_EQ(fault(wavBytes({.format = 3, .bits = 32, .frameBytes = 8}, std::string(8000, '\1'))),
               "expected blocks of 4 bytes, found 8");
+    const std::string negative = numberBytes(0x00ff'0001, 4), positive = numberBytes(0x1234, 4);
+    EXPECT_EQ(fault(wavBytes({.bits = 24, .frameBytes = 4}, positive + negative)),
+              "expected the upper or the lower 24 bits, found others")
+        << "what is above them is not their sign";
     EXPECT_EQ(fault(wavBytes({.channels = 2, .frameBytes = 2}, std::string(8000, '\1'))), "")
         << "too small for its samples: a slip of who wrote it";
 }
@@ -154,14 +158,17 @@ TEST_F(ReadRecording, ReadsAllOrTellsWhy) {
     EXPECT_EQ(fault(told(3'000'000'000)),
               "expected 3000000000 bytes of samples, as its header says, found 2000: it ends early")
         << "no length that is unknown";
-    EXPECT_EQ(fault(told(200)),
-              "expected 200 bytes of samples, as its header says, found 1800 more, which are no chunks");
+    EXPECT_EQ(
+        fault(told(200)),
+        "expected 200 bytes of samples, as its header says, found 1800 more, which are no other chunks");
     const std::string list = "LIST"s + numberBytes(3, 4) + "abc\0"s;
     for (const std::string& behind :
          {list, list + list, list.substr(0, 11), std::string(500, '\0'), "TAG" + std::string(125, 'x')})
         EXPECT_EQ(fault(whole + behind), "") << behind;
     EXPECT_EQ(fault(whole + "more"),
-              "expected 2000 bytes of samples, as its header says, found 4 more, which are no chunks");
+              "expected 2000 bytes of samples, as its header says, found 4 more, which are no other chunks");
+    EXPECT_EQ(fault(whole + "data" + numberBytes(2, 4) + "ab"),
+              "expected 2000 bytes of samples, as its header says, found 10 more, which are no other chunks");
     EXPECT_EQ(fault(wavBytes({.before = "ds64"s + numberBytes(28, 4) + std::string(28, '\1')}, samples)), "")
         << "means nothing in RIFF";
     for (const char* kind : {"RF64", "BW64"}) {
@@ -173,8 +180,9 @@ TEST_F(ReadRecording, ReadsAllOrTellsWhy) {
             EXPECT_EQ(readBytes(sized(unknown)).value.channels.at(0).size(), 1000u) << unknown;
         EXPECT_EQ(fault(sized(5'000'000'000)),
                   "expected 5000000000 bytes of samples, as its header says, found 2000: it ends early");
-        EXPECT_EQ(fault(sized(200)),
-                  "expected 200 bytes of samples, as its header says, found 1800 more, which are no chunks");
+        EXPECT_EQ(
+            fault(sized(200)),
+            "expected 200 bytes of samples, as its header says, found 1800 more, which are no other chunks");
     }
     EXPECT_EQ(fault("ID3\4\0\0\0\0\1\0"s + std::string(128, '\0') + whole), "");
 }
@@ -192,7 +200,7 @@ TEST_F(ReadRecording, TellsThatASizeHasWrappedAtFourGigabytes) {
     Counter counter;
     EXPECT_EQ(streamRecording(path, counter),
               path.string() + ": expected 96000 bytes of samples, as its header says, found 4294967296 more, "
-                              "which are no chunks");
+                              "which are no other chunks");
     std::fstream{path, std::ios::in | std::ios::out | std::ios::binary}.seekp(40).write("\0\0\0\0", 4);
     EXPECT_EQ(streamRecording(path, counter), path.string() + ": expected at most 4 GiB of samples, or RF64");
 }

@@ -55,6 +55,18 @@ test('a game at a variable rate is felt with constant latency, as render has it'
     assert.equal(context.isAlive, false);
 });
 
+test('an output of a context that runs for a while already is felt at once', async () => {
+    const context = new Context(4);
+    context.frame = 1000 * quantum;
+    const output = await play(physvib, context, { layout: 'phone4', fieldWidth: 1, fieldHeight: 1 });
+    context.run(20);
+    output.impact({ x: 0.5, y: 0.5, strength: 0.8 });
+    context.run(20);
+    const onset = context.recorded[0].findIndex(sample => sample !== 0) - output.latencyFrames;
+    assert.ok(onset >= 20 * quantum && onset < 22 * quantum, `${onset / quantum} blocks`);
+    output.close();
+});
+
 test('two outputs: a stereo monitor, each actuator at its place; gains, mutes and silence arrive', async () => {
     const context = new Context(2), output = await play(physvib, context, { layout: 'phone2', fieldWidth: 1, fieldHeight: 1 });
     assert.ok(!output.isDirect);

@@ -67,10 +67,10 @@ const isAt = (peaks, output) => peaks.every((peak, i) => (i === output ? peak > 
 
 for (const browser of browsers) {
     acts.plug();
-    const { rows = [] } = await told(browser, 'package-outputs', 300);
+    const { rows = [] } = await told(browser, 'package-outputs', 600);
     for (const { count, wish, facts = {}, peaks, error } of rows) {
         const order = wish ?? peaks.map((_, j) => j + 1), isRight = !error && peaks.every((found, j) => isAt(found, order[j] - 1));
-        expect(isRight, `${browser}: ${count} actuators${wish ? `, outputs ${wish}` : ''} of ${facts.max} outputs, isDirect ${facts.isDirect}${isRight ? `: each at its own, ${order}` : `: ${error ?? ''}\n${peaks.map(found => `         ${words(found)}`).join('\n')}`}`);
+        expect(isRight, `${browser}: ${count} actuators${wish ? `, outputs ${wish}` : ''} of ${facts.max} outputs, isDirect ${facts.isDirect}${isRight ? `: each at its own, ${order}` : `: ${error ?? JSON.stringify(facts)}\n${peaks.map(found => `         ${words(found)}`).join('\n')}`}`);
     }
     const { buzzes = [] } = await told(browser, 'page-buzz');
     expect(buzzes.length === 5 && buzzes.every((found, j) => isAt(found, j)), `${browser}, the page's Buzz with five actuators: ${buzzes.map(words).join(' | ')}`);

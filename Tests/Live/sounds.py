@@ -139,7 +139,7 @@ def sizes():
     for told in (2403, 3000, 10**6, 10**9, 3 * 10**9):
         case(f"told {told}", wave(form, data, told=told), rf"expected {told} bytes of samples, as its header says, found \d+: it ends early")
     for told in (2, 100, 1000, 2000, 2390):
-        case(f"told {told}", wave(form, data, told=told), rf"expected {told} bytes of samples, as its header says, found \d+ more, which are no chunks")
+        case(f"told {told}", wave(form, data, told=told), rf"expected {told} bytes of samples, as its header says, found \d+ more, which are no other chunks")
     for kind in (b"RF64", b"BW64"):
         for told in (0, 1 << 60, (1 << 64) - 1):
             case(f"{kind} {told:x}", wave(form, data, kind, long_told=told), wanted)

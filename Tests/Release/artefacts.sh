@@ -24,6 +24,7 @@ done
 ensure_packages debootstrap $physvib_cross_packages
 step() { echo "artefacts: $*"; }
 (cd "$release" && sha256sum --quiet -c SHA256SUMS)
+python3 Standalone/Packaging/sbom.py --opened "$release"/*.whl "$release"/*.tgz "$release"/*-page.zip "$release"/*-firmware.zip "$release"/*-windows-*.zip "$release"/*-arm64.tar.gz "$release"/*-godot.zip
 base=$(echo "$release"/physvib-*.changes.md)
 base=${base%.changes.md}
 

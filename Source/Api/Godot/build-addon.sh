@@ -60,8 +60,7 @@ for system in "$@"; do
     "$strip" --strip-unneeded "$made"/*/*
     cp -r "$made"/. "$bin"
 done
-cp /usr/share/doc/libhwy1/copyright "$bin/libhwy-LICENSE"
-cp /usr/share/doc/nlohmann-json3-dev/copyright "$bin/nlohmann-json-LICENSE"
+python3 Standalone/Packaging/sbom.py --licences godot >"$bin/THIRD-PARTY.txt"
 version=$(sed -n 's/^version="\(.*\)"/\1/p' "$work/addons/physvib/plugin.cfg")
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git show -s --format=%ct)} python3 Standalone/Packaging/pack.py "$work/addons" "$work/physvib-$version.zip"
 say "build/godot/physvib-$version.zip: $(wc -c <"$work/physvib-$version.zip") bytes"

@@ -34,6 +34,7 @@ for (const file of [`${folder}/package.json`, `${folder}/../jspsych/package.json
 }
 writeFileSync(`${folder}/inline.js`, bare(text).replace(/'{(.*?)}'/g, (_, name) => `'${readFileSync(`${folder}/${name}`).toString('base64')}'`));
 END
+python3 Standalone/Packaging/sbom.py --licences npm >"$work/package/THIRD-PARTY.txt"
 rm -f build/web/*.tgz
 mkdir -p "$work/again"
 for package in package jspsych; do
@@ -44,7 +45,7 @@ for package in package jspsych; do
 done
 for file in build/web/*.tgz; do cmp "$file" "$work/again/$(basename "$file")" || { say "expected npm pack to give the same bytes twice"; exit 1; }; done
 # What a page loads that reads no clips; inline.js is instead of physvib.wasm, no page loads types; feel.js and what few engines need come when they are called.
-later='--exclude=feel.js --exclude=reader.js --exclude=cannon.js --exclude=havok.js --exclude=jolt.js --exclude=mujoco.js --exclude=react.js --exclude=xr.js'
+later='--exclude=THIRD-PARTY.txt --exclude=feel.js --exclude=reader.js --exclude=cannon.js --exclude=havok.js --exclude=jolt.js --exclude=mujoco.js --exclude=react.js --exclude=xr.js'
 # shellcheck disable=SC2086 # a list of words
 bytes=$(tar -C "$work/package" --exclude=files.wasm --exclude=inline.js --exclude='*.d.ts' $later -cz . | wc -c)
 file=$(ls build/web/physvib-*.tgz)

@@ -54,9 +54,9 @@ def tag_of(libraries: list[Path]) -> str:
     return "py3-none-manylinux_{}_{}_{}".format(*max(glibc_of(library) for library in libraries), platform.machine())
 
 
-def make(library: Path, folder: Path) -> Path:
-    package = Path(__file__).parent / "physvib"
-    version = re.sub(r"-(\w+)\.", r"\1", (Path(__file__).parents[3] / "VERSION.txt").read_text().strip())  # 1.0.0rc1, as wheels write it
+def make(library: Path, folder: Path, isGivenAway: bool = True) -> Path:
+    package, root = Path(__file__).parent / "physvib", Path(__file__).parents[3]
+    version = re.sub(r"-(\w+)\.", r"\1", (root / "VERSION.txt").read_text().strip())  # 1.0.0rc1, as wheels write it
     others = needed(library)
     tag = tag_of([library, *others.values()])
     files = {f"physvib/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.suffix in (".py", ".typed")}
@@ -66,6 +66,9 @@ def make(library: Path, folder: Path) -> Path:
     about = f"physvib-{version}.dist-info"
     files[f"{about}/METADATA"] = (f"Metadata-Version: 2.1\nName: physvib\nVersion: {version}\nSummary: Collisions one can feel\nLicense: MIT\n"
                                   "Requires-Python: >=3.9\nRequires-Dist: numpy\nProvides-Extra: pandas\nRequires-Dist: pandas; extra == 'pandas'\n").encode()
+    files[f"{about}/LICENSE"] = (root / "LICENSES/MIT.txt").read_bytes()
+    if isGivenAway:
+        files[f"{about}/THIRD-PARTY.txt"] = output(sys.executable, str(root / "Standalone/Packaging/sbom.py"), "--licences", "wheel").encode()
     files[f"{about}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: physvib\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     rows = [f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}" for name, data in files.items()]
     files[f"{about}/RECORD"] = "\n".join([*rows, f"{about}/RECORD,,", ""]).encode()
@@ -83,7 +86,7 @@ def build_wheel(folder: str, config_settings: object = None, metadata_directory:
     with tempfile.TemporaryDirectory() as build:
         for command in (["cmake", "--preset", "library", "-B", build], ["cmake", "--build", build, "--target", "physvib-c"]):
             subprocess.run(command, check=True, cwd=root)
-        return make(next(Path(build).glob("lib/libphysvib.so.1")), Path(folder)).name
+        return make(next(Path(build).glob("lib/libphysvib.so.1")), Path(folder), isGivenAway=False).name
 
 
 def build_sdist(folder: str, config_settings: object = None) -> str:

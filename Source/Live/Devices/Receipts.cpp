@@ -3,6 +3,7 @@
 #include "Live/Devices/Receipts.h"
 #include "Core/ClockLaw.h"
 #include <algorithm>
+#include <utility>
 
 namespace physvib {
 
@@ -30,11 +31,10 @@ static_assert(limits::maxEnchanters <= 64, "a bit for each");
 } // namespace
 
 Receipts::Receipts(int actuators)
-    : actuators_{actuators}
-    , count_{static_cast<std::size_t>(actuators)}
+    : count_{static_cast<std::size_t>(actuators)}
     , bins_{std::make_unique<Bin[]>(static_cast<std::size_t>(mostBins))}
-    , levels_{std::make_unique<Level[]>(static_cast<std::size_t>(mostBins * actuators))}
-    , totals_{std::make_unique<SharedTotal[]>(static_cast<std::size_t>(actuators))} {
+    , levels_{std::make_unique<Level[]>(static_cast<std::size_t>(mostBins) * count_)}
+    , totals_{std::make_unique<SharedTotal[]>(count_)} {
     const TileKernel* const best = tileKernel(InstructionSet::best);
     measure_ = best != nullptr ? best->measure : measure;
     join_ = best != nullptr ? best->join : join;
@@ -115,7 +115,7 @@ void Receipts::publish() noexcept {
 }
 
 Receipts::Total Receipts::all(int actuator) const noexcept {
-    if (actuator < 0 || actuator >= actuators_) return {};
+    if (actuator < 0 || std::cmp_greater_equal(actuator, count_)) return {};
     const SharedTotal& total = totals_[static_cast<std::size_t>(actuator)];
     return {total.seconds.load(std::memory_order_relaxed),
             static_cast<double>(total.peak.load(std::memory_order_relaxed))};
@@ -142,7 +142,7 @@ Receipt Receipts::left(std::int64_t fromNs, std::int64_t untilNs, int actuator,
     Receipt all;
     fromNs = std::clamp<std::int64_t>(fromNs, 0, limits::maxTimeNs);
     untilNs = std::clamp<std::int64_t>(untilNs, 0, limits::maxTimeNs);
-    if (actuator < 0 || actuator >= actuators_) return all;
+    if (actuator < 0 || std::cmp_greater_equal(actuator, count_)) return all;
     const std::int64_t written = written_.load(std::memory_order_acquire);
     double squares = 0.0;
     bool isWhole = true, isBegun = false;

@@ -84,7 +84,8 @@ private:
     bool read(std::int64_t bin, Place& place) const noexcept;
     bool read(std::int64_t bin, int actuator, Measured& sum) const noexcept;
     Level& level(std::int64_t bin, int actuator) const noexcept {
-        return levels_[static_cast<std::size_t>(bin % mostBins * actuators_ + actuator)];
+        return levels_[static_cast<std::size_t>(bin % mostBins) * count_ +
+                       static_cast<std::size_t>(actuator)];
     }
     bool isExpectedAnew() const noexcept {
         return edgeFromNs_ != fromNs_.load(std::memory_order_relaxed) ||
@@ -93,8 +94,7 @@ private:
     void setEdge() noexcept;
     void publish() noexcept;
 
-    const int actuators_;
-    const std::size_t count_; // the same
+    const std::size_t count_; // actuators
     decltype(TileKernel::measure) measure_;
     decltype(TileKernel::join) join_;
     const std::unique_ptr<Bin[]> bins_;

@@ -189,6 +189,8 @@ std::string survey(std::FILE& file, const SoundHead& sound, std::int64_t mostSec
         }
         frames += count;
     }
+    if (sound.isLowRather && isBetween && !fitsLow)
+        return "expected the upper or the lower " + std::to_string(sound.bits) + " bits, found others";
     if (fitsLow && (isBetween || sound.isLowRather)) gain = 1.0f / most;
     shape.frames = frames;
     return {};

@@ -71,13 +71,13 @@ private:
         if (head.size() < 8) return {};
         return {head.substr(0, 4), at + 8, number(std::string_view{head}.substr(4), isBig)};
     }
-    /// True if chunks reach from `at` to the end, or to a few zeros or a tag of MP3 there. The last one may
-    /// lack the byte that makes it even.
+    /// True if chunks, of which none has samples, reach from `at` to the end, or to a few zeros or a tag of
+    /// MP3 there. The last one may lack the byte that makes it even.
     bool areChunks(std::int64_t at, bool isBig) {
         for (int i = 0; i < mostParts && at < bytes_; ++i) {
             const Chunk chunk = chunkAt(at, isBig);
             const bool isName = std::ranges::all_of(chunk.name, [](char c) { return c >= ' ' && c <= '~'; });
-            if (chunk.name.empty() || !isName || chunk.end() > bytes_ + 1) break;
+            if (chunk.name.empty() || !isName || chunk.end() > bytes_ + 1 || chunk.name == "data") break;
             at = chunk.end();
         }
         constexpr std::int64_t sector = 65536, tagBytes = 128;
@@ -104,7 +104,7 @@ private:
         const std::int64_t end = data.begin + bytes;
         return areChunks(end + (bytes & 1), isBig) || areChunks(end, isBig)
                    ? ""
-                   : expected + std::to_string(bytes_ - end) + " more, which are no chunks";
+                   : expected + std::to_string(bytes_ - end) + " more, which are no other chunks";
     }
 
     /// The chunks before the samples.
@@ -137,8 +137,7 @@ private:
                    tag = field(0, 2) == extensible && format.size() == 40 ? field(24, 2) : field(0, 2);
         std::int64_t room = width;
         if (channels > 0 && tag == pcm && width >= 1 && width <= 4) {
-            // Smaller blocks are a slip of who wrote them, as samples have no room in them; larger ones are
-            // not.
+            // Smaller blocks, in which samples have no room, are a slip; larger ones are not.
             if (block > channels * width && width > 1 && block % channels == 0)
                 room = std::min<std::int64_t>(block / channels, 4);
             head_.format = types[static_cast<std::size_t>(room) - 1];
@@ -162,8 +161,7 @@ private:
         return head_.shape.frames > 0 ? "" : noSamples;
     }
 
-    /// A description of our own, without the length: what is there is read and then compared. The other
-    /// blocks are passed over.
+    /// A description of our own, without the length, which is compared later; no other blocks.
     std::string readFlac(std::int64_t at) {
         std::string description;
         bool isLast = false;

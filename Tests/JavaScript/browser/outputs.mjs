@@ -8,6 +8,8 @@ async function until(holds, ms = 15000) {
     for (const began = performance.now(); performance.now() - began < ms; await later(50)) if (await holds()) return true;
     return false;
 }
+/** Until the device has heard something, on a machine with other work as well, and the third of a second after it. */
+const sounded = async () => { await until(async () => (await ask('heard')).some(peak => peak > 0.02), 10000); await later(300); };
 const row = count => ({ extentWidth: count, extentHeight: 1, places: Array.from({ length: count }, (_, j) => ({ x: j + 0.5, y: 0.5 })) });
 async function opened(options = {}) {
     const [{ load }, { play }] = await Promise.all([import('physvib'), import('physvib/audio')]), context = new AudioContext();
@@ -26,10 +28,10 @@ const parts = {
             for (let j = 0; j < count; ++j) {
                 await ask('hear');
                 output.impact({ x: j + 0.5, y: 0.5, strength: 0.8 });
-                await later(600);
+                await sounded();
                 peaks.push(await ask('heard'));
             }
-            rows.push({ count, wish, peaks, facts: { isDirect: output.isDirect, max: context.destination.maxChannelCount } });
+            rows.push({ count, wish, peaks, facts: { isDirect: output.isDirect, max: context.destination.maxChannelCount, state: output.state, skipped: output.skipped, ...output.status } });
             output.close();
             await context.close();
         }
@@ -99,8 +101,10 @@ const parts = {
         await later(2500);
         const again = context.currentTime;
         hit();
-        await later(900);
-        return { states, gone, why, back: output.left?.(again, again + 0.5)[1], backWhy: world.explain(output) };
+        await until(() => output.left?.(again, context.currentTime)[1].peak > 0, 10000);
+        const heard = context.currentTime;
+        await later(300);
+        return { states, gone, why, back: output.left?.(again, heard)[1], backWhy: world.explain(output) };
     },
 
     // ---- in the page

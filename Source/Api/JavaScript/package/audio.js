@@ -45,13 +45,13 @@ class Output extends EventTarget {
         this.#outputs = outputs;
         this.#size = physvib.sizes;
         this.#node = new AudioWorkletNode(context, 'physvib', { numberOfInputs: 0, outputChannelCount: [channels],
-            processorOptions: { module: physvib.module, settings: bytes, channels, eventBytes: this.#size.event, statusBytes: this.#size.renderer_status } });
+            processorOptions: { module: physvib.module, settings: bytes, channels, eventBytes: this.#size.event, timeAt: this.#size.timeAt, statusBytes: this.#size.renderer_status } });
         this.opened = new Promise((done, failed) => {
             this.#node.onprocessorerror = () => failed(this.#ended('it stopped'));
             this.#node.port.onmessage = ({ data }) => {
                 if (data.error !== undefined) failed(this.#ended(data.error));
                 else if (data.status) this.#note(data);
-                else if (data.refused) console.error(`PhysVib: ${data.refused} was refused: expected fewer changes while the context stands still`);
+                else if (data.refused) console.error(`PhysVib: ${data.refused} was refused: expected values in their range, and fewer changes while the context stands still`);
                 else if (data.hasArrived) this.#arrivals.shift().done();
                 else if (data.isOpen) {
                     this.latencyFrames = data.latencyFrames;

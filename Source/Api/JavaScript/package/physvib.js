@@ -85,8 +85,8 @@ export class PhysVib {
     }
     /** Settings as the audio worklet hands them to its own instance. */
     settingsBytes(settings) { return withSettings(this.#module, settings, (at, size) => ({ bytes: this.#module.bytes(at, size).slice(), channels: channelsOf(this.#module, at) })); }
-    /** Of structures that worklets are sent, in bytes. */
-    get sizes() { return { event: this.#module.sizeOf('event'), renderer_status: this.#module.sizeOf('renderer_status') }; }
+    /** Of structures that worklets are sent, in bytes; and where in an event its time is. */
+    get sizes() { return { event: this.#module.sizeOf('event'), timeAt: this.#module.placeOf('event', 'timeNs'), renderer_status: this.#module.sizeOf('renderer_status') }; }
     statusOf(bytes) { return this.#module.withBytes(bytes, at => this.#module.get('renderer_status', at)); }
     eventBytes(events) { return this.#module.withEvents(events, at => this.#module.bytes(at, events.length * this.#module.sizeOf('event')).slice()); }
 }

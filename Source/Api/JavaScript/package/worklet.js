@@ -4,7 +4,7 @@
 const mostSkipped = 32; // quanta that are made up for in one: 1 ms of work
 
 class PhysVibProcessor extends AudioWorkletProcessor {
-    constructor({ processorOptions: { module, code, settings, channels, eventBytes, statusBytes } }) {
+    constructor({ processorOptions: { module, code, settings, channels, eventBytes, timeAt, statusBytes } }) {
         super();
         const compiled = module ?? new WebAssembly.Module(code); // not every browser sends modules to this thread
         const system = new Proxy({}, { get: () => () => 52 }), { exports } = new WebAssembly.Instance(compiled, { physvib: { fail: () => { throw new Error('internal'); } }, wasi_snapshot_preview1: system });
@@ -12,6 +12,7 @@ class PhysVibProcessor extends AudioWorkletProcessor {
         this.lib._initialize();
         this.channels = channels;
         this.eventBytes = eventBytes;
+        this.timeAt = timeAt;
         this.quantum = 0; // frames that there is room for
         const at = this.lib.malloc(4);
         this.given(settings, from => this.lib.physvib_renderer_create(from, at));
@@ -72,9 +73,9 @@ class PhysVibProcessor extends AudioWorkletProcessor {
 
     strike(at, count, after) {
         for (let i = 0; i < count; ++i) {
-            const event = at + i * this.eventBytes, view = new DataView(this.lib.memory.buffer);
-            view.setBigInt64(event, after(Number(view.getBigInt64(event, true))), true); // time_ns is the first member
-            this.lib.physvib_renderer_strike(this.renderer, event);
+            const event = at + i * this.eventBytes, time = event + this.timeAt, view = new DataView(this.lib.memory.buffer);
+            view.setBigInt64(time, after(Number(view.getBigInt64(time, true))), true);
+            if (this.lib.physvib_renderer_strike(this.renderer, event) === -2) this.port.postMessage({ refused: 'an event' });
         }
     }
 

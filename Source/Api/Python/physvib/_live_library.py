@@ -17,7 +17,11 @@ _long = frozenset({"live_devices", "live_open", "live_close", "session_load", "s
 def live_library() -> SimpleNamespace:
     """PHYSVIB_LIVE_LIBRARY, or libphysvib-live.so.1 beside the other one or where the system finds it."""
     beside = Path(library.path).parent / "libphysvib-live.so.1"
-    return load(os.environ.get("PHYSVIB_LIVE_LIBRARY") or (str(beside) if beside.exists() else "libphysvib-live.so.1"), signatures, _long)
+    path = os.environ.get("PHYSVIB_LIVE_LIBRARY") or (str(beside) if beside.exists() else "libphysvib-live.so.1")
+    try:
+        return load(path, signatures, _long)
+    except OSError as fault:
+        raise PhysVibError(f"expected {path}, the library with devices (Docs/python.md says whence): {fault}", -4) from None
 
 
 def live_call(name: str, *arguments: object) -> int:
