@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The function by which a format's wrapper creates a plug-in instance; each build defines its name and its
 // buses.
-#include "Entry.h"
 #include "PluginProcessor.h"
 
 namespace physvib {

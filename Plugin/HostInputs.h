@@ -11,6 +11,42 @@
 
 namespace physvib {
 
+/// What a format says of one note beside MIDI. As it is here, it says nothing.
+struct NoteTouch {
+    int id = -1;                        ///< the host's; -1: none
+    double semitones = 0.0, gain = 1.0; ///< tuning; 0 to 4
+    double pan = 0.0, brightness = 0.0; ///< -1 to 1, of the field; -1/2 to 1/2, as CC 74 less 64
+};
+
+/// A message of MIDI, or what is said of notes that sound.
+struct NoteEvent {
+    enum class Kind { midi, off, tuning, volume, pan, brightness, pressure };
+    Kind kind = Kind::midi;
+    int frame = 0;
+    std::array<std::uint8_t, 3> midi{};     ///< padded with zeros; of that kind alone
+    int id = -1, channel = -1, number = -1; ///< the notes that are meant, from 1 and 0; -1: any
+    double value = 0.0;                     ///< as NoteTouch has it; of a note-on, its tuning
+
+    void tell(NoteTouch& touch) const noexcept {
+        if (!std::isfinite(value)) return;
+        if (kind == Kind::tuning) touch.semitones = std::clamp(value, -120.0, 120.0);
+        if (kind == Kind::volume) touch.gain = std::clamp(value, 0.0, 4.0);
+        if (kind == Kind::pan) touch.pan = std::clamp(value, -1.0, 1.0);
+        if (kind == Kind::brightness) touch.brightness = std::clamp(value, -0.5, 0.5);
+    }
+    bool isOn() const noexcept { return kind == Kind::midi && (midi[0] & 0xf0) == 0x90 && midi[2] > 0; }
+};
+
+/// The events of a block as a format hands them over, in the order of frames. R, wait-free; valid until that
+/// block has been rendered.
+class NoteSource {
+public:
+    virtual bool next(NoteEvent& event) noexcept = 0; ///< false: there are no more
+
+protected:
+    ~NoteSource() = default;
+};
+
 /// What a held note sounds like at one moment.
 struct NoteSound {
     double frequencyHz = 0.0;
@@ -28,10 +64,17 @@ public:
     static constexpr double minStrikeSeconds = 0.004; ///< of whole periods, one at least
 
     struct Note {
-        int channel = 0, number = 0;                 ///< 1 to 16; 0 to 127
-        double velocity = 0.0;                       ///< 0 to 1
-        std::int64_t onsetFrame = 0;                 ///< of the session
+        int channel = 0, number = 0; ///< 1 to 16; 0 to 127
+        double velocity = 0.0;       ///< 0 to 1
+        std::int64_t onsetFrame = 0; ///< of the session
+        NoteTouch touch{};
         double pressure = 0.0, masterPressure = 0.0; ///< 0 to 1, of the finger; what MPE's master adds
+
+        /// Whether that key is meant, by its id where the host gives it one.
+        bool is(int byId, int byChannel, int byNumber) const noexcept {
+            return (byId < 0 || touch.id < 0 || byId == touch.id) &&
+                   (byChannel < 0 || byChannel == channel) && (byNumber < 0 || byNumber == number);
+        }
     };
 
     void forget() noexcept {
@@ -41,7 +84,7 @@ public:
 
     void start(const Note& note) noexcept {
         const auto rank = [&note](const Voice& voice) { // the same key's, a free one, the oldest
-            const bool isSame = voice.note.channel == note.channel && voice.note.number == note.number;
+            const bool isSame = voice.note.is(note.touch.id, note.channel, note.number);
             return !voice.isOn ? std::int64_t{-1} : isSame ? std::int64_t{-2} : voice.note.onsetFrame;
         };
         *std::ranges::min_element(voices_, {}, rank) = {note, 0, true, true};
@@ -54,9 +97,9 @@ public:
             if (voice.isOn) act(voice.note);
     }
 
-    void stop(int channel, int number) noexcept {
+    void stop(int id, int channel, int number) noexcept {
         for (Voice& voice : voices_)
-            if (voice.note.channel == channel && voice.note.number == number) voice.isDown = false;
+            if (voice.note.is(id, channel, number)) voice.isDown = false;
     }
     void stopAll() noexcept {
         for (Voice& voice : voices_) voice.isDown = false;

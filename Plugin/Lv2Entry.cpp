@@ -4,7 +4,6 @@
 // for the usual one, takes no notice of deactivate and activate, of what sets a parameter within a block it
 // knows no frame, and has no control ports.
 #ifdef PHYSVIB_LV2_ENTRY
-#include "Entry.h"
 #include "Lv2Defaults.h"
 #include "Lv2Parts.h"
 #include "PluginProcessor.h"
@@ -15,6 +14,7 @@
 #include <lv2/atom/util.h>
 #include <lv2/buf-size/buf-size.h>
 #include <lv2/core/lv2.h>
+#include <lv2/midi/midi.h>
 #include <lv2/options/options.h>
 #include <lv2/patch/patch.h>
 #include <lv2/state/state.h>
@@ -33,36 +33,44 @@ namespace {
 /// What names a parameter's value in a block's events, as the host numbers it.
 struct Names {
     LV2_URID object = 0, set = 0, subject = 0, property = 0, value = 0, urid = 0, number = 0, plugin = 0;
-    LV2_URID text = 0, ports = 0; // of a state
+    LV2_URID text = 0, ports = 0, midi = 0; // of a state; of an event
     std::array<LV2_URID, parameterCount> parameters{};
 };
 
 Names namesOf(const LV2_URID_Map& map) {
     const auto idOf = [&map](const std::string& uri) { return map.map(map.handle, uri.c_str()); };
-    Names names{idOf(LV2_ATOM__Object),
-                idOf(LV2_PATCH__Set),
-                idOf(LV2_PATCH__subject),
-                idOf(LV2_PATCH__property),
-                idOf(LV2_PATCH__value),
-                idOf(LV2_ATOM__URID),
-                idOf(LV2_ATOM__Float),
-                idOf(JucePlugin_LV2URI),
-                idOf(LV2_ATOM__String),
-                idOf(JucePlugin_LV2URI ":Ports"),
-                {}};
+    Names names{idOf(LV2_ATOM__Object),    idOf(LV2_PATCH__Set),
+                idOf(LV2_PATCH__subject),  idOf(LV2_PATCH__property),
+                idOf(LV2_PATCH__value),    idOf(LV2_ATOM__URID),
+                idOf(LV2_ATOM__Float),     idOf(JucePlugin_LV2URI),
+                idOf(LV2_ATOM__String),    idOf(JucePlugin_LV2URI ":Ports"),
+                idOf(LV2_MIDI__MidiEvent), {}};
     for (std::size_t p = 0; p < parameterCount; ++p)
         names.parameters[p] = idOf(JucePlugin_LV2URI ":" + std::string{allParameters()[p].id});
     return names;
 }
 
-/// The events of a block that set parameters. R, wait-free.
-class Lv2Points final : public PointSource {
+/// The events of a block: those that set parameters, and MIDI. R, wait-free.
+class Lv2Points final : public PointSource, public NoteSource {
 public:
     Lv2Points(const LV2_Atom_Sequence& events, const Names& names, PluginProcessor& processor) noexcept
         : events_{events}
         , names_{names}
         , processor_{processor} {
         at_.fill(lv2_atom_sequence_begin(&events.body));
+        processor.expectPoints(*this);
+        processor.expectNotes(*this);
+    }
+    bool next(NoteEvent& note) noexcept override {
+        while (!lv2_atom_sequence_is_end(&events_.body, events_.atom.size, midiAt_)) {
+            const auto* const event = std::exchange(midiAt_, lv2_atom_sequence_next(midiAt_));
+            if (event->body.type != names_.midi || event->body.size < 1 || event->body.size > 3) continue;
+            note = {};
+            note.frame = static_cast<int>(event->time.frames);
+            std::memcpy(note.midi.data(), event + 1, event->body.size);
+            return true;
+        }
+        return false;
     }
     bool next(std::size_t parameter, ParameterPoint& point) noexcept override {
         for (auto*& at = at_[parameter]; !lv2_atom_sequence_is_end(&events_.body, events_.atom.size, at);) {
@@ -98,6 +106,7 @@ private:
     const Names& names_;
     PluginProcessor& processor_;
     std::array<const LV2_Atom_Event*, parameterCount> at_{};
+    const LV2_Atom_Event* midiAt_ = lv2_atom_sequence_begin(&events_.body);
 };
 
 // Ports in order: music, channels, and of JUCE's wrapper events, what is told, latency, free-wheeling,
@@ -225,7 +234,6 @@ void run(LV2_Handle handle, std::uint32_t frames) {
     if (!instance.told) juces->connect_port(handle, eventPort + 1, instance.sink->empty());
     if (!instance.events) return juces->run(handle, frames);
     Lv2Points points{*instance.events, instance.names, *instance.processor};
-    instance.processor->expectPoints(points);
     juces->run(handle, frames);
     if (instance.told) dropProperties(*instance.told, instance.names);
 }

@@ -107,6 +107,7 @@ void MixStrip::askDelay() {
     for (const double ms : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
         menu.addItem(number(ms, ms < 1.0 && ms > 0.0 ? 1 : 0) + " ms", true, strip_.delayMs == ms,
                      [this, ms] { change([ms](Strip& s) { s.delayMs = ms; }); });
+    menu.setLookAndFeel(&getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_).withDeletionCheck(*this));
 }
 
@@ -131,6 +132,7 @@ void MixStrip::askActuator() {
     const auto profile = findActuator(enchanter_.actuator);
     const bool canBe = isEqualised_ || (profile && equaliserFault(profile.value).empty());
     menu.addItem("Equalised: flat in its band", canBe, isEqualised_, [this] { equalise(!isEqualised_); });
+    menu.setLookAndFeel(&getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(actuator_).withDeletionCheck(*this));
 }
 

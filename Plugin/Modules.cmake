@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 get_target_property(juce_modules juce::juce_core INTERFACE_JUCE_MODULE_PATH)
-set_source_files_properties(${juce_modules}/juce_audio_plugin_client/juce_audio_plugin_client_LV2.cpp PROPERTIES
-    COMPILE_DEFINITIONS "lv2_descriptor=juceLv2Descriptor;lv2ui_descriptor=juceLv2UiDescriptor")
 set_source_files_properties(Lv2Entry.cpp Lv2Window.cpp PROPERTIES COMPILE_DEFINITIONS PHYSVIB_LV2_ENTRY)
 set(physvib_entry_points ${CMAKE_CURRENT_LIST_DIR}/entry-points.map)
 include(${CMAKE_CURRENT_LIST_DIR}/vst3-header.cmake)
@@ -59,7 +57,7 @@ function(physvib_plugin target name code lv2uri buses channels music_ports)
     endif()
     if(TARGET ${target}_LV2)
         set_target_properties(${target}_LV2 PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY "${plugins}/${file}.lv2")
-        target_sources(${target}_LV2 PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Entry.cpp
+        target_sources(${target}_LV2 PRIVATE ${physvib_lv2_wrapper} ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Entry.cpp
             ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Window.cpp)
         add_dependencies(${target}_LV2 physvib-lv2-ports)
         add_custom_command(TARGET ${target}_LV2 POST_BUILD VERBATIM # after JUCE's command, which writes it
@@ -88,4 +86,14 @@ if(NOT PHYSVIB_SANITIZE) # a sanitized module would need a sanitized host
     physvib_plugin(PhysVib8 "PhysVib 8" Phy8 urn:physvib:plugin:8 oneBus 8 0 LV2)
     physvib_plugin(PhysVib16 "PhysVib 16" PhyG urn:physvib:plugin:16 oneBus 16 0 LV2)
     physvib_plugin(PhysVibMusic "PhysVib Music" PhyM urn:physvib:plugin:music oneBus 4 2 VST3 LV2 AU) # nor has it ports that are off: decision 143
+endif()
+
+if(PHYSVIB_CLAP_HEADERS AND NOT PHYSVIB_SANITIZE) # four channels
+    add_library(PhysVibPlugin_CLAP MODULE Clap.cpp)
+    target_include_directories(PhysVibPlugin_CLAP SYSTEM PRIVATE ${PHYSVIB_CLAP_HEADERS})
+    target_compile_definitions(PhysVibPlugin_CLAP PRIVATE PHYSVIB_VERSION="${PHYSVIB_VERSION}")
+    target_link_libraries(PhysVibPlugin_CLAP PRIVATE physvib-plugin physvib-warnings)
+    target_link_options(PhysVibPlugin_CLAP PRIVATE LINKER:--version-script=${physvib_entry_points} LINKER:-z,nodelete)
+    set_target_properties(PhysVibPlugin_CLAP PROPERTIES PREFIX "" OUTPUT_NAME PhysVib SUFFIX .clap LINK_DEPENDS ${physvib_entry_points}
+        LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/plugins)
 endif()

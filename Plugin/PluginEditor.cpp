@@ -78,8 +78,10 @@ ParameterControl::ParameterControl(HostParameter& parameter)
 
 // Its parts pass on what they hear.
 void ParameterControl::mouseDown(const juce::MouseEvent& e) {
-    if (e.mods.isPopupMenu() && onMenu) onMenu(parameter_);
+    if (e.mods.isPopupMenu() && onMenu) onMenu(*this);
 }
+
+void ParameterControl::type() { knob_.showTextBox(); }
 
 void ParameterControl::rename(int choice, const juce::String& text) {
     if (list_.getItemText(choice) == text) return;
@@ -156,7 +158,7 @@ void PluginEditor::fillGroups() {
                                  .controls;
             controls.push_back(std::make_unique<ParameterControl>(plugin_.parameter(which)));
             addAndMakeVisible(*controls.back());
-            controls.back()->onMenu = [this](HostParameter& parameter) { showMenu(parameter); };
+            controls.back()->onMenu = [this](ParameterControl& control) { showMenu(control); };
             if (which == Parameter::material || which == Parameter::noteMaterial)
                 materials_.push_back(controls.back().get());
         }
@@ -319,7 +321,7 @@ void PluginEditor::stateChanged() {
         const auto shown = words(name);
         box.setText(shown.isEmpty() ? juce::String{"(no name)"} : shown, juce::dontSendNotification);
     };
-    select(scene_, state_.scene.name);
+    select(scene_, shownName(state_.scene.name));
     select(layout_, state_.layout.name);
     steps_.setText(juce::String{state_.stepsPerSecond} + " /s", juce::dontSendNotification);
     seed_.setText(juce::String{static_cast<juce::int64>(state_.seed)}, false);
@@ -496,8 +498,16 @@ void PluginEditor::resized() {
     mix_.setBounds(area.removeFromRight(std::min(mix_.wishedWidth(), area.getWidth() / 2)));
     area.removeFromRight(panelGap);
     world_.setBounds(area);
-    firstSteps_.setBounds(area.withSizeKeepingCentre(area.getWidth(), 90));
-    midiPanel_.setBounds(area);
+    // beside a row of actuators, not over it
+    const auto& places = state_.layout.geometry;
+    const bool isRow =
+        places.count > 2 &&
+        std::ranges::all_of(
+            std::span{places.places}.first(static_cast<std::size_t>(places.count)),
+            [&](const auto& at) { return std::abs(at.yMetres / places.extentHeightMetres - 0.5) < 0.1; });
+    firstSteps_.setBounds(
+        (isRow ? area.removeFromTop(area.getHeight() / 2) : area).withSizeKeepingCentre(area.getWidth(), 90));
+    midiPanel_.setBounds(world_.getBounds());
 }
 
 std::vector<PluginEditor::Group::Column> PluginEditor::Group::columns() const {

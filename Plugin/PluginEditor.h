@@ -16,12 +16,14 @@ class ParameterControl final : public juce::Component {
 public:
     explicit ParameterControl(HostParameter& parameter);
     void rename(int choice, const juce::String& words); ///< of a list, from 0
-    std::function<void(HostParameter&)> onMenu;         ///< a right click, anywhere on it
+    std::function<void(ParameterControl&)> onMenu;      ///< a right click, anywhere on it
+    void type();                                        ///< opens the box of a knob's value
     void mouseDown(const juce::MouseEvent& e) override;
     void resized() override;
     void lookAndFeelChanged() override;
     bool isList() const noexcept { return listAttachment_ != nullptr; }
     int shares() const noexcept { return isList() ? 3 : 2; } ///< of the width
+    HostParameter& parameter() const noexcept { return parameter_; }
     Parameter which() const noexcept { return parameter_.row().parameter; }
 
 private:
@@ -93,7 +95,7 @@ private:
     void askSave(const juce::String& title, const juce::File& initial, const juce::String& endings,
                  void (PluginEditor::*save)(const juce::File&));
     void showFiles();
-    void showMenu(HostParameter& parameter);
+    void showMenu(ParameterControl& control);
     void forgetController(const std::string& parameter);
     void followLearning();
     void silence();

@@ -19,7 +19,8 @@ void PluginEditor::fillPresets() {
     for (int i = worlds; i < static_cast<int>(presets.size()); ++i)
         scene_.addItem(words(presets[static_cast<std::size_t>(i)]), i + 1);
     scene_.addSectionHeading("Worlds");
-    for (int i = 0; i < worlds; ++i) scene_.addItem(words(presets[static_cast<std::size_t>(i)]), i + 1);
+    for (int i = 0; i < worlds; ++i)
+        scene_.addItem(words(shownName(presets[static_cast<std::size_t>(i)])), i + 1);
     presets_ = presetFiles(presetFolder());
     if (!presets_.empty()) scene_.addSectionHeading("Your presets");
     for (int id = firstOwnPreset; const auto& file : presets_)
@@ -102,13 +103,20 @@ void PluginEditor::exportFeltAs(const juce::File& file) {
 }
 
 // What the host has for this parameter, and below it what is ours.
-void PluginEditor::showMenu(HostParameter& parameter) {
+void PluginEditor::showMenu(ParameterControl& control) {
+    HostParameter& parameter = control.parameter();
     juce::PopupMenu menu;
     std::unique_ptr<juce::HostProvidedContextMenu> hosts;
     if (auto* const context = getHostContext()) hosts = context->getContextMenuForParameter(&parameter);
     if (hosts) menu = hosts->getEquivalentPopupMenu();
     if (menu.getNumItems() > 0) menu.addSeparator();
     const Parameter which = parameter.row().parameter;
+    menu.addItem("Back to " + parameter.getText(parameter.getDefaultValue(), 0), [&parameter] {
+        parameter.beginChangeGesture();
+        parameter.setValueNotifyingHost(parameter.getDefaultValue());
+        parameter.endChangeGesture();
+    });
+    if (!control.isList()) menu.addItem("Type a value", [&control] { control.type(); });
     menu.addItem("Learn a controller: move it now", true, learning_ == static_cast<int>(which),
                  [this, which] { learn(which); });
     const std::string id{parameter.row().id};

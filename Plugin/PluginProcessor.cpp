@@ -325,6 +325,11 @@ void PluginProcessor::timerCallback() {
     for (auto* p : parameters_) p->notifyHost();
     if (const auto now = noteKnobs(); now != tailKnobs_)
         tailSeconds_ = tailSeconds(state(), tailKnobs_ = now);
+    if (const int wanted = wantedProgram_.exchange(-1), before = program_; wanted >= 0) {
+        setCurrentProgram(wanted);
+        if (program_ != before)
+            updateHostDisplay(ChangeDetails{}.withNonParameterStateChanged(true).withProgramChanged(true));
+    }
     publish(); // the timing may have changed
     const bool plays = std::exchange(blocksTold_, takes_.blocks()) != blocksTold_;
     if (const int wanted = plays ? tellsEveryMs : sleepsMs; wanted != getTimerInterval()) startTimer(wanted);
@@ -348,7 +353,7 @@ void PluginProcessor::setCurrentProgram(int index) {
 const juce::String PluginProcessor::getProgramName(int index) {
     const auto& names = presetNames();
     return index >= 0 && index < static_cast<int>(names.size())
-               ? juce::String{names[static_cast<std::size_t>(index)]}
+               ? juce::String{shownName(names[static_cast<std::size_t>(index)])}
                : juce::String{};
 }
 

@@ -69,6 +69,12 @@ public:
     /// have their value all block long. R.
     void expectPoints(PointSource& source) noexcept { source_ = &source; }
 
+    /// What the host says of notes within it, beside its messages of MIDI; it outlives that block. R.
+    void expectNotes(NoteSource& source) noexcept { noteSource_ = &source; }
+
+    /// What sounds ends with the next block. R.
+    void silenceNext() noexcept { owesSilence_ = true; }
+
     /// A key of the window: with a velocity it is struck in the next block, 0 lets it go. M, one writer.
     void play(int note, int velocity) noexcept { keys_.push({note, velocity}); }
 
@@ -180,11 +186,14 @@ private:
     void stopAll(int frame) noexcept;
     void silence(int frame) noexcept;
     void playKeys(int frame) noexcept;
-    void receive(const juce::MidiMessageMetadata& message, int frame) noexcept;
+    void readNote() noexcept;
+    void takeNotes(int at, int first, int frames) noexcept;
+    void express(const NoteEvent& event) noexcept;
+    void receive(const juce::MidiMessageMetadata& message, int frame, const NoteTouch& touch = {}) noexcept;
     void press(int channel, int note, double pressure) noexcept;
-    void strike(int channel, int note, int velocity, int frame) noexcept;
+    void strike(int channel, int note, int velocity, int frame, const NoteTouch& touch) noexcept;
     NoteSound soundOf(const HeldNotes::Note& note) const noexcept;
-    CollisionEvent placed(CollisionEvent strike, int channel) const noexcept;
+    CollisionEvent placed(CollisionEvent strike, int channel, const NoteTouch& touch) const noexcept;
     void sustain(int first, int end) noexcept;
     void hear(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept;
     void strikeBeat(Session& session, const BandOnset& onset, int frame) noexcept;
@@ -220,6 +229,7 @@ private:
     NoteKnobs tailKnobs_;          // M: what the tail was told for
     std::atomic<std::uint64_t> prepares_{0};
     std::atomic<std::uint32_t> lastController_{0};
+    std::atomic<int> wantedProgram_{-1}; // by MIDI
     LatestValue<ChannelMeters> meters_;
     Takes takes_;
     BusMap outputs_;
@@ -238,6 +248,9 @@ private:
     std::atomic<bool> isStopped_{false};
     ChannelMeters measured_;
     PointSource* source_ = nullptr;
+    NoteSource *noteSource_ = nullptr, *notes_ = nullptr; // of the coming block, of this one
+    NoteEvent note_;                                      // the next, if there is one
+    bool hasNote_ = false;
     ParameterPoints points_;
     std::array<float, parameterCount> normals_{}; // at the frame that is being made
     std::array<double, parameterCount> sent_{};   // what the playing take has taken
@@ -247,5 +260,12 @@ private:
     HeldNotes held_;
     ChannelExpression expression_;
 };
+
+/// Between a format's entry and the instance that its wrapper makes meanwhile, on the same thread.
+struct Making {
+    int usualBlockFrames = 0;            ///< if the entry was told, for the instance; 0: not told
+    PluginProcessor* instance = nullptr; ///< the newest, for the entry
+};
+Making& making() noexcept; ///< of this thread
 
 } // namespace physvib

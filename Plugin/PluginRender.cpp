@@ -41,8 +41,14 @@ void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juc
 void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi,
                              bool bypassed) noexcept {
     const int frames = buffer.getNumSamples();
+    notes_ = std::exchange(noteSource_, nullptr);
+    readNote();
     if (blockFrames_ == 0 || frames == 0) {
         source_ = nullptr;
+        if (blockFrames_ > 0) { // a host tells what happened while it renders nothing
+            for (const auto message : midi) receive(message, 0);
+            takeNotes(0, 0, 1);
+        }
         return buffer.clear();
     }
     points_.begin(std::exchange(source_, nullptr), frames);
@@ -98,7 +104,9 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
             if ((*message).samplePosition >= frames) ++displaced_;
             receive(*message, at - first);
         }
+        takeNotes(at, first, frames);
         int next = std::min(end, points_.next());
+        if (hasNote_) next = std::min(next, std::clamp(note_.frame, first, frames - 1));
         if (message != midi.end()) next = std::min(next, frameOf(*message));
         sustain(at - first, next - first);
         hear(buffer, first, at - first, next - first); // what comes in goes by its frame
@@ -233,15 +241,52 @@ void PluginProcessor::playKeys(int frame) noexcept {
     }
 }
 
-void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int frame) noexcept {
+void PluginProcessor::readNote() noexcept {
+    note_ = {};
+    hasNote_ = notes_ && notes_->next(note_);
+}
+
+// Up to frame `at` of a block of so many frames, of which a part begins at `first`. What is said of a note at
+// its onset is true of it from there on, also where it is fixed then.
+void PluginProcessor::takeNotes(int at, int first, int frames) noexcept {
+    const auto frame = [&] { return std::clamp(note_.frame, first, frames - 1); };
+    while (hasNote_ && frame() <= at) {
+        if (note_.frame >= frames) ++displaced_;
+        const auto event = note_;
+        const int onset = frame();
+        NoteTouch touch{.id = event.id, .semitones = event.isOn() ? event.value : 0.0};
+        for (readNote();
+             hasNote_ && event.isOn() && event.id >= 0 && note_.id == event.id && frame() == onset &&
+             note_.kind >= NoteEvent::Kind::tuning && note_.kind < NoteEvent::Kind::pressure;
+             readNote())
+            note_.tell(touch);
+        if (event.kind == NoteEvent::Kind::midi)
+            receive({event.midi.data(), 3, 0}, at - first, touch);
+        else
+            express(event);
+    }
+}
+
+void PluginProcessor::express(const NoteEvent& event) noexcept {
+    if (event.kind == NoteEvent::Kind::off) return held_.stop(event.id, event.channel, event.number);
+    held_.each([&](HeldNotes::Note& held) {
+        if (!held.is(event.id, event.channel, event.number)) return;
+        if (event.kind != NoteEvent::Kind::pressure) return event.tell(held.touch);
+        if (std::isfinite(event.value)) held.pressure = std::clamp(event.value, 0.0, 1.0);
+    });
+}
+
+void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int frame,
+                              const NoteTouch& touch) noexcept {
     if (message.numBytes < 2) return;
     const int kind = message.data[0] & 0xf0, channel = (message.data[0] & 0x0f) + 1;
     if (kind == 0xd0) press(channel, -1, message.data[1] / 127.0);
+    if (kind == 0xc0) wantedProgram_ = message.data[1]; // the timer chooses it
     if (message.numBytes < 3) return;
     if (kind == 0xa0) press(channel, message.data[1], message.data[2] / 127.0);
     const bool isOn = kind == 0x90 && message.data[2] > 0;
-    if (isOn) strike(channel, message.data[1], message.data[2], frame);
-    if (!isOn && (kind == 0x80 || kind == 0x90)) held_.stop(channel, message.data[1]);
+    if (isOn) strike(channel, message.data[1], message.data[2], frame, touch);
+    if (!isOn && (kind == 0x80 || kind == 0x90)) held_.stop(touch.id, channel, message.data[1]);
     if (kind == 0xe0)
         expression_.bend(channel,
                          static_cast<float>((message.data[2] * 128 + message.data[1]) - 8192) / 16384.0f);
@@ -256,7 +301,8 @@ void PluginProcessor::press(int channel, int note, double pressure) noexcept {
     });
 }
 
-void PluginProcessor::strike(int channel, int note, int velocity, int frame) noexcept {
+void PluginProcessor::strike(int channel, int note, int velocity, int frame,
+                             const NoteTouch& touch) noexcept {
     Session* const session = takes_.session();
     if (!session) return;
     const auto& midi = takes_.settings().midi;
@@ -270,9 +316,9 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
     if (event.frequencyHz <= 0.0) return;
     const double loudness = midi.loudnessOf(velocity, now);
     if (midi.isHeld(note, now))
-        return held_.start({channel, note, loudness, session->timeline().framesRendered() + frame});
-    event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * loudness;
-    session->callback().strike(placed(event, channel), frame);
+        return held_.start({channel, note, loudness, session->timeline().framesRendered() + frame, touch});
+    event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * loudness * touch.gain;
+    session->callback().strike(placed(event, channel, touch), frame);
 }
 
 NoteKnobs PluginProcessor::knobs() const noexcept {
@@ -280,22 +326,27 @@ NoteKnobs PluginProcessor::knobs() const noexcept {
 }
 
 // Where the strike's own place, shifts, bend and slide put it, and as loud as the voice wants it there.
-CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel) const noexcept {
+CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel,
+                                       const NoteTouch& touch) const noexcept {
     const auto& settings = takes_.settings();
     const auto& midi = settings.midi;
     const double bend = expression_.bendOf(channel), master = expression_.masterBendOf(channel),
                  semitones = midi.bendSemitones(knobs());
-    const double shift = 2.0 * (bend * semitones + master * ChannelExpression::masterSemitones);
+    double shift = touch.semitones;
+    if (semitones > 0.0) shift += 2.0 * (bend * semitones + master * ChannelExpression::masterSemitones);
     const auto shifted = [](double at, double by, double size) {
         return std::clamp(at + by * size, 0.0, size);
     };
-    if (semitones > 0.0)
+    if (shift != 0.0)
         strike.frequencyHz = std::clamp(strike.frequencyHz * std::exp2(shift / 12.0), limits::slowestToneHz,
                                         limits::maxFrequencyHz);
-    strike.x = shifted(strike.x, value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend + master),
-                       midi.fieldWidthMetres());
-    strike.y = shifted(strike.y, value(Parameter::strikeY) * 0.01 + expression_.slideOf(channel),
-                       midi.fieldHeightMetres());
+    strike.x =
+        shifted(strike.x,
+                value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend + master) + 0.5 * touch.pan,
+                midi.fieldWidthMetres());
+    strike.y =
+        shifted(strike.y, value(Parameter::strikeY) * 0.01 + expression_.slideOf(channel) + touch.brightness,
+                midi.fieldHeightMetres());
     if (!midi.voice().isLoudest) return strike;
     PhantomPanner::Gains gains{};
     PhantomPanner{settings.layout, lawOf(value(Parameter::law)), value(Parameter::exponent),
@@ -310,9 +361,9 @@ CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel) const
 NoteSound PluginProcessor::soundOf(const HeldNotes::Note& note) const noexcept {
     const auto& settings = takes_.settings();
     CollisionEvent event = settings.midi.strikeOf(note.number, knobs(), settings.layout);
-    event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) *
+    event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * note.touch.gain *
                       std::max({note.velocity, note.pressure, note.masterPressure});
-    event = placed(event, note.channel);
+    event = placed(event, note.channel, note.touch);
     return {event.frequencyHz, event.amplitude, event.x, event.y};
 }
 

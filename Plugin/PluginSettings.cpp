@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -362,6 +363,13 @@ const std::vector<std::string>& presetNames() {
         return all;
     }();
     return names;
+}
+
+std::string shownName(std::string name) {
+    if (std::ranges::find(builtInScenes(), name, &Scene::name) == builtInScenes().end()) return name;
+    std::ranges::replace(name, '-', ' ');
+    name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
+    return name;
 }
 
 // Scenes of today's name may have been others when a session was saved.

@@ -56,6 +56,9 @@ std::string faultOfParameters(const PluginState& state);
 /// have no bodies. M only.
 const std::vector<std::string>& presetNames();
 
+/// A preset's name in words: built-in worlds are named as their files are. Any thread.
+std::string shownName(std::string name);
+
 /// The place of the preset that a state plays; its own are shown as the first. Any thread.
 int presetOf(const PluginState& state);
 

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every point that a VST3 host sends of a parameter: JUCE's wrapper reads the last of a block alone. Included
-// by the header of that wrapper which vst3-header.cmake writes, where the host's block is made into ours;
-// VST3's own headers come before it.
+// Every point that a VST3 host sends of a parameter, and its notes with their ids, tuning and expression:
+// JUCE's wrapper reads the last point of a block alone, and of notes what MIDI has. Included by the header of
+// that wrapper which vst3-header.cmake writes, where the host's block is made into ours; VST3's own headers
+// come before it.
 #pragma once
 #undef Complex // X11's: as of JUCE 9 its headers come before this one
 #include "PluginProcessor.h"
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <compare>
 #include <cstdint>
+#include <limits>
+#include <pluginterfaces/vst/ivstnoteexpression.h>
+#include <string_view>
 
 namespace physvib {
 
@@ -21,6 +28,164 @@ inline const std::array<Steinberg::Vst::ParamID, parameterCount> vst3ParameterId
     }
     return ids;
 }();
+
+/// What hosts may draw for each note: they offer what they are told of. The wrapper's controller is one. Any
+/// thread.
+class Vst3Expressions : public Steinberg::Vst::INoteExpressionController {
+public:
+    Steinberg::int32 PLUGIN_API getNoteExpressionCount(Steinberg::int32 bus, Steinberg::int16) override {
+        return bus == 0 ? static_cast<Steinberg::int32>(kinds.size()) : 0;
+    }
+    Steinberg::tresult PLUGIN_API
+    getNoteExpressionInfo(Steinberg::int32 bus, Steinberg::int16, Steinberg::int32 index,
+                          Steinberg::Vst::NoteExpressionTypeInfo& info) override {
+        if (bus != 0 || index < 0 || index >= static_cast<Steinberg::int32>(kinds.size()))
+            return Steinberg::kInvalidArgument;
+        const auto& kind = kinds[static_cast<std::size_t>(index)];
+        info = {};
+        info.typeId = kind.id;
+        for (auto* const title : {info.title, info.shortTitle})
+            std::copy_n(kind.title.data(), kind.title.size(), title);
+        info.unitId = -1;
+        info.valueDesc = {kind.initial, 0.0, 1.0, 0};
+        info.flags = kind.initial == 0.5 ? Steinberg::Vst::NoteExpressionTypeInfo::kIsBipolar : 0;
+        return Steinberg::kResultOk;
+    }
+    Steinberg::tresult PLUGIN_API getNoteExpressionStringByValue(Steinberg::int32, Steinberg::int16,
+                                                                 Steinberg::Vst::NoteExpressionTypeID,
+                                                                 Steinberg::Vst::NoteExpressionValue,
+                                                                 Steinberg::Vst::String128) override {
+        return Steinberg::kNotImplemented; // hosts write these kinds as they do everywhere
+    }
+    Steinberg::tresult PLUGIN_API getNoteExpressionValueByString(
+        Steinberg::int32, Steinberg::int16, Steinberg::Vst::NoteExpressionTypeID,
+        const Steinberg::Vst::TChar*, Steinberg::Vst::NoteExpressionValue&) override {
+        return Steinberg::kNotImplemented;
+    }
+
+protected:
+    ~Vst3Expressions() = default;
+
+private:
+    struct Kind {
+        Steinberg::Vst::NoteExpressionTypeID id;
+        std::u16string_view title;
+        double initial;
+    };
+    static constexpr std::array<Kind, 4> kinds{{{Steinberg::Vst::kVolumeTypeID, u"Volume", 0.25},
+                                                {Steinberg::Vst::kPanTypeID, u"Pan", 0.5},
+                                                {Steinberg::Vst::kTuningTypeID, u"Tuning", 0.5},
+                                                {Steinberg::Vst::kBrightnessTypeID, u"Brightness", 0.5}}};
+};
+
+/// A block's events, in the order of frames also where the host's are not. As above.
+class Vst3Notes final : public NoteSource {
+public:
+    Vst3Notes(const juce::AudioProcessor* instance, Steinberg::Vst::IEventList* events) noexcept
+        : events_{events} {
+        if (!instance || !events) return;
+        count_ = events->getEventCount();
+        Steinberg::Vst::Event event{};
+        for (Steinberg::int32 i = 0, before = 0; i < count_ && isSorted_; ++i, before = event.sampleOffset)
+            isSorted_ =
+                events->getEvent(i, event) != Steinberg::kResultOk || i == 0 || event.sampleOffset >= before;
+        static_cast<PluginProcessor*>(const_cast<juce::AudioProcessor*>(instance))->expectNotes(*this);
+    }
+    Vst3Notes(const Vst3Notes&) = delete;
+    Vst3Notes& operator=(const Vst3Notes&) = delete;
+
+    bool next(NoteEvent& note) noexcept override {
+        for (Steinberg::Vst::Event event{}; take(event);) {
+            note = {};
+            note.frame = event.sampleOffset;
+            if (read(event, note)) return true;
+        }
+        return false;
+    }
+
+private:
+    struct Place {
+        Steinberg::int32 frame = std::numeric_limits<Steinberg::int32>::min(), index = -1;
+        auto operator<=>(const Place&) const = default;
+    };
+    bool take(Steinberg::Vst::Event& event) noexcept {
+        if (isSorted_) {
+            while (++last_.index < count_)
+                if (events_->getEvent(last_.index, event) == Steinberg::kResultOk) return true;
+            return false;
+        }
+        if (at_ == ordered_) order();
+        if (at_ == ordered_) return false;
+        last_ = order_[at_++];
+        return events_->getEvent(last_.index, event) == Steinberg::kResultOk;
+    }
+    // The next ones after the last, as many as there is room for.
+    void order() noexcept {
+        at_ = ordered_ = 0;
+        Steinberg::Vst::Event event{};
+        for (Steinberg::int32 i = 0; i < count_; ++i) {
+            if (events_->getEvent(i, event) != Steinberg::kResultOk) continue;
+            const Place place{event.sampleOffset, i};
+            if (place <= last_) continue;
+            if (ordered_ == order_.size()) {
+                if (place >= order_.front()) continue;
+                std::pop_heap(order_.begin(), order_.end());
+                --ordered_;
+            }
+            order_[ordered_++] = place;
+            std::push_heap(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(ordered_));
+        }
+        std::sort_heap(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(ordered_));
+    }
+    static std::uint8_t byte(double value, double most) noexcept {
+        return static_cast<std::uint8_t>(std::clamp(value, 0.0, most) + 0.5);
+    }
+    static bool read(const Steinberg::Vst::Event& event, NoteEvent& note) noexcept {
+        using namespace Steinberg::Vst;
+        const auto message = [&note](int kind, int channel, int pitch, double value, int id) {
+            note.midi = {static_cast<std::uint8_t>(kind | byte(channel, 15.0)), byte(pitch, 127.0),
+                         byte(value > 0.0 ? 127.0 * value : 0.0, 127.0)};
+            note.id = id;
+            return true;
+        };
+        if (event.type == Event::kNoteOnEvent) {
+            const auto& on = event.noteOn;
+            if (std::isfinite(on.tuning)) note.value = 0.01 * static_cast<double>(on.tuning);
+            return message(0x90, on.channel, on.pitch, static_cast<double>(on.velocity), on.noteId);
+        }
+        if (event.type == Event::kNoteOffEvent)
+            return message(0x80, event.noteOff.channel, event.noteOff.pitch, 0.0, event.noteOff.noteId);
+        if (event.type == Event::kPolyPressureEvent) {
+            const auto& press = event.polyPressure;
+            return message(0xa0, press.channel, press.pitch, static_cast<double>(press.pressure),
+                           press.noteId);
+        }
+        return event.type == Event::kNoteExpressionValueEvent && express(event.noteExpressionValue, note);
+    }
+    static bool express(const Steinberg::Vst::NoteExpressionValueEvent& event, NoteEvent& note) noexcept {
+        using Kind = NoteEvent::Kind;
+        note.id = event.noteId;
+        if (note.id < 0) return false; // of no note
+        switch (event.typeId) {
+        case Steinberg::Vst::kVolumeTypeID: note.kind = Kind::volume, note.value = 4.0 * event.value; break;
+        case Steinberg::Vst::kPanTypeID: note.kind = Kind::pan, note.value = 2.0 * event.value - 1.0; break;
+        case Steinberg::Vst::kTuningTypeID:
+            note.kind = Kind::tuning, note.value = 240.0 * event.value - 120.0;
+            break;
+        case Steinberg::Vst::kBrightnessTypeID:
+            note.kind = Kind::brightness, note.value = event.value - 0.5;
+            break;
+        default: return false;
+        }
+        return true;
+    }
+    Steinberg::Vst::IEventList* const events_;
+    Steinberg::int32 count_ = 0;
+    bool isSorted_ = true;
+    Place last_;
+    std::array<Place, 512> order_; // of a host that does not keep it
+    std::size_t at_ = 0, ordered_ = 0;
+};
 
 /// Lives as long as the host's block. R, wait-free as the host's own queues are.
 class Vst3Points final : public PointSource {

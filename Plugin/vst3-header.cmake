@@ -22,6 +22,17 @@ function(physvib_mend purpose found written)
     set(text "${mended}" PARENT_SCOPE)
 endfunction()
 
+# physvib_write(FILE): `text`, where it is another; or all wrappers would be compiled whenever CMake runs.
+function(physvib_write file)
+    set(written "")
+    if(EXISTS ${file})
+        file(READ ${file} written)
+    endif()
+    if(NOT "${text}" STREQUAL "${written}")
+        file(WRITE ${file} "${text}")
+    endif()
+endfunction()
+
 string(FIND "${text}" "const auto& mapping = map[busIndex];" place)
 if(place EQUAL -1)
     physvib_mend("blocks that take no memory" "const auto mapping = map[busIndex];" "const auto& mapping = map[busIndex];")
@@ -29,17 +40,11 @@ endif()
 physvib_mend("points of parameters" "\nnamespace juce\n{" "\n#include \"Vst3Points.h\"\n\nnamespace juce\n{")
 physvib_mend("points of parameters" "    void updateFromProcessor (const AudioProcessor& processor)\n    {\n"
     "    const AudioProcessor* physvibInstance = nullptr;\n    void updateFromProcessor (const AudioProcessor& processor)\n    {\n        physvibInstance = &processor;\n")
-physvib_mend("points of parameters" "                                hostData)\n    {}\n" "                                hostData)\n    { physvibPoints.emplace (mapperIn.physvibInstance, hostData.inputParameterChanges); }\n")
+physvib_mend("points of parameters" "                                hostData)\n    {}\n" "                                hostData)\n    { physvibPoints.emplace (mapperIn.physvibInstance, hostData.inputParameterChanges); physvibNotes.emplace (mapperIn.physvibInstance, hostData.inputEvents); }\n")
 physvib_mend("points of parameters" "    AudioBuffer<FloatType> buffer;\n\nprivate:\n    void copyToHostOutputBuses"
-    "    AudioBuffer<FloatType> buffer;\n    std::optional<physvib::Vst3Points> physvibPoints;\n\nprivate:\n    void copyToHostOutputBuses")
+    "    AudioBuffer<FloatType> buffer;\n    std::optional<physvib::Vst3Points> physvibPoints;\n    std::optional<physvib::Vst3Notes> physvibNotes;\n\nprivate:\n    void copyToHostOutputBuses")
 
-set(written "")
-if(EXISTS ${physvib_vst3_headers}/${header})
-    file(READ ${physvib_vst3_headers}/${header} written)
-endif()
-if(NOT "${text}" STREQUAL "${written}") # or all wrappers would be compiled whenever CMake runs
-    file(WRITE ${physvib_vst3_headers}/${header} "${text}")
-endif()
+physvib_write(${physvib_vst3_headers}/${header})
 
 # MIDI controllers come to VST3 as parameters that stand for them: JUCE makes 2,080, one for each controller of each channel. The plug-in tells
 # channels apart for bend, pressure, slide (CC 74) and pedal (CC 64) alone; the stand-ins of the others are those of the first channel, for all of
@@ -59,12 +64,26 @@ physvib_mend("fewer stand-ins of controllers" "                midiControllerToP
 "                const bool physvibHasOwn = c == 0 || i == Vst::kAfterTouch || i == Vst::kPitchBend || i == 74 || i == 64;
                 midiControllerToParameter[c][i] = physvibHasOwn ? ${number} : midiControllerToParameter[0][i]")
 physvib_mend("fewer stand-ins of controllers" "                parameters.addParameter (new Vst::Parameter (toString (\"MIDI CC \"" "                if (physvibHasOwn)\n                parameters.addParameter (new Vst::Parameter (toString (\"MIDI CC \"")
-set(written "")
-if(EXISTS ${physvib_vst3_wrapper})
-    file(READ ${physvib_vst3_wrapper} written)
-endif()
-if(NOT "${text}" STREQUAL "${written}")
-    file(WRITE ${physvib_vst3_wrapper} "${text}")
-endif()
+physvib_mend("notes with all that is said of them" "MidiEventList::toMidiBuffer (midiBuffer, *data.inputEvents);" "{} // Vst3Points.h reads them")
+physvib_mend("notes with all that is said of them" "                               public Vst::IMidiMapping," "                               public Vst::IMidiMapping,\n                               public physvib::Vst3Expressions,")
+physvib_mend("notes with all that is said of them" "UniqueBase<Vst::IMidiMapping>{}," "UniqueBase<Vst::IMidiMapping>{},\n                                             UniqueBase<Vst::INoteExpressionController>{},")
+physvib_mend("blocks without a lock, for we suspend nothing" "const ScopedLock sl (pluginInstance->getCallbackLock());" "")
+physvib_write(${physvib_vst3_wrapper})
 set_source_files_properties(${juce_modules}/juce_audio_plugin_client/juce_audio_plugin_client_VST3.cpp PROPERTIES HEADER_FILE_ONLY TRUE) # which includes JUCE's
 set_source_files_properties(${physvib_vst3_wrapper} PROPERTIES COMPILE_OPTIONS "-w;-I${juce_modules}/juce_audio_plugin_client/VST3") # where it looks for what stands beside it
+
+# LV2's wrapper takes that lock as well, and copies MIDI into a buffer that takes memory in a flood: Lv2Entry.cpp reads it where it lies.
+set(mended_file ${juce_modules}/juce_audio_plugin_client/LV2/juce_LV2_Client.cpp)
+if(NOT EXISTS ${mended_file}) # as of JUCE 8
+    set(mended_file ${juce_modules}/juce_audio_plugin_client/juce_audio_plugin_client_LV2.cpp)
+endif()
+set(physvib_lv2_wrapper ${CMAKE_CURRENT_BINARY_DIR}/vst3/physvib_LV2_Client.cpp)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${mended_file})
+file(READ ${mended_file} text)
+string(REPLACE "\r\n" "\n" text "${text}")
+physvib_mend("blocks without a lock" "const ScopedLock lock { processor->getCallbackLock() };" "")
+physvib_mend("blocks that take no memory" "midi.addEvent (event + 1, static_cast<int> (event->body.size), static_cast<int> (event->time.frames));" "{}")
+physvib_write(${physvib_lv2_wrapper})
+set_source_files_properties(${juce_modules}/juce_audio_plugin_client/juce_audio_plugin_client_LV2.cpp PROPERTIES HEADER_FILE_ONLY TRUE)
+set_source_files_properties(${physvib_lv2_wrapper} PROPERTIES COMPILE_OPTIONS "-w;-I${juce_modules}/juce_audio_plugin_client/LV2"
+    COMPILE_DEFINITIONS "lv2_descriptor=juceLv2Descriptor;lv2ui_descriptor=juceLv2UiDescriptor")

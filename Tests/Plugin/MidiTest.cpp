@@ -277,5 +277,119 @@ TEST(Midi, NonsenseIsIgnored) {
     EXPECT_TRUE(host.log().empty());
 }
 
+/// Of one block.
+struct SaidOfNotes final : NoteSource {
+    std::vector<NoteEvent> events;
+    std::size_t at = 0;
+    bool next(NoteEvent& event) noexcept override {
+        return at < events.size() && (event = events[at++], true);
+    }
+    void note(int id, juce::uint8 status, int number, juce::uint8 velocity = 100, double semitones = 0.0) {
+        events.push_back(
+            {.midi = {status, static_cast<juce::uint8>(number), velocity}, .id = id, .value = semitones});
+    }
+    void tell(int id, NoteEvent::Kind kind, double value) {
+        events.push_back({.kind = kind, .id = id, .value = value});
+    }
+};
+
+/// What was struck in the last of some blocks, of which the first has those events.
+std::vector<CollisionEvent> struckBy(QuietHost& host, SaidOfNotes said, int blocks = 4) {
+    host.plugin->expectNotes(said);
+    std::vector<CollisionEvent> struck;
+    for (int b = 0; b < blocks + 10; ++b) { // and what is known later
+        host.block(480);
+        for (const auto& event : host.log()) struck.push_back(event.played.event);
+    }
+    return struck;
+}
+
+TEST(Midi, WhatIsSaidOfANoteIsTrueOfItAlone) {
+    QuietHost host;
+    auto state = host.plugin->state();
+    state.notes.clear();
+    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle, .isHeld = true};
+    ASSERT_TRUE(host.plugin->apply(state));
+    host.prepare(48000, 480);
+    using enum NoteEvent::Kind;
+    SaidOfNotes both;
+    both.note(1, 0x90, 57), both.note(2, 0x90, 57); // one key twice, as two notes
+    const auto before = struckBy(host, both);
+    ASSERT_GT(before.size(), 4u);
+    for (const auto& event : before) EXPECT_NEAR(event.frequencyHz, 220.0, 1e-6);
+    SaidOfNotes second;
+    second.note(1, 0x80, 57), second.tell(2, tuning, 7.0), second.tell(2, pan, 1.0);
+    second.tell(2, brightness, 0.25), second.tell(2, volume, 0.5), second.tell(2, pressure, 1.0);
+    const auto after = struckBy(host, second);
+    ASSERT_GT(after.size(), 2u) << "the second sounds on";
+    const auto& now = after.back();
+    EXPECT_NEAR(now.frequencyHz, 220.0 * std::exp2(7.0 / 12.0), 1e-6);
+    EXPECT_EQ(now.x, state.scene.fieldWidthMetres);
+    EXPECT_NEAR(now.y, before.back().y + 0.25 * state.scene.fieldHeightMetres, 1e-9);
+    EXPECT_NEAR(now.amplitude, 0.5 * gainOfLevel(-6.0), 1e-6) << "half of what a pressed key has";
+    SaidOfNotes wild;
+    for (const auto kind : {tuning, volume, pan, brightness, pressure})
+        wild.tell(-1, kind, std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(struckBy(host, wild).back().frequencyHz, now.frequencyHz);
+    SaidOfNotes end;
+    end.note(2, 0x80, 57);
+    struckBy(host, end);
+    EXPECT_TRUE(struckBy(host, {}).empty());
+}
+
+TEST(Midi, ADecayingNoteHasWhatIsSaidAtItsOnset) {
+    QuietHost host;
+    auto state = host.plugin->state();
+    state.notes.clear();
+    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle};
+    ASSERT_TRUE(host.plugin->apply(state));
+    host.prepare(48000, 480);
+    SaidOfNotes said;
+    said.note(5, 0x90, 57, 127, 1.0);
+    said.tell(5, NoteEvent::Kind::pan, -1.0), said.tell(5, NoteEvent::Kind::volume, 0.5);
+    said.note(6, 0x90, 57, 127);
+    const auto struck = struckBy(host, said);
+    ASSERT_EQ(struck.size(), 2u);
+    EXPECT_NEAR(struck[0].frequencyHz, 220.0 * std::exp2(1.0 / 12.0), 1e-6) << "the note's own tuning";
+    EXPECT_EQ(struck[0].x, 0.0);
+    EXPECT_NEAR(struck[0].amplitude, 0.5 * struck[1].amplitude, 1e-9);
+    EXPECT_NEAR(struck[1].frequencyHz, 220.0, 1e-6);
+}
+
+TEST(Midi, ABlockOfNoFramesIsHeard) {
+    QuietHost host;
+    auto state = host.plugin->state();
+    state.notes.clear();
+    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle, .isHeld = true};
+    ASSERT_TRUE(host.plugin->apply(state));
+    host.prepare(48000, 480);
+    SaidOfNotes on;
+    on.note(-1, 0x90, 57);
+    EXPECT_GT(struckBy(host, on).size(), 2u);
+    juce::MidiBuffer off;
+    off.addEvent(Message::noteOff(1, 57), 0);
+    host.block(0, off);
+    struckBy(host, {});
+    EXPECT_TRUE(struckBy(host, {}).empty()) << "the key was let go while nothing was rendered";
+}
+
+TEST(Midi, AProgramChangeChoosesThatPreset) {
+    TestHost host;
+    host.prepare(48000, 480, false);
+    const int last = host.plugin->getNumPrograms() - 1;
+    for (const int program : {last, 127, 9}) {
+        juce::MidiBuffer midi;
+        midi.addEvent(Message::programChange(1, program), 0);
+        host.block(480, midi);
+        const int expected = program == 127 ? last : program;
+        for (int i = 0; i < 150 && (i < 10 || host.plugin->getCurrentProgram() != expected); ++i) {
+            host.block(480); // who renders nothing is looked after every two seconds
+            runFor(0.02);
+        }
+        EXPECT_EQ(host.plugin->getCurrentProgram(), expected) << program;
+    }
+    EXPECT_TRUE(host.plugin->can(PluginProcessor::Step::undo));
+}
+
 } // namespace
 } // namespace physvib

@@ -181,10 +181,10 @@ TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenesAndBehindThemInstruments) {
     const int worlds = static_cast<int>(builtInScenes().size()), count = host.plugin->getNumPrograms();
     ASSERT_EQ(count, worlds + 12);
     // saved projects know them by their places: new ones come at the end
-    ASSERT_EQ(host.plugin->getProgramName(4), "box-study");
+    ASSERT_EQ(host.plugin->getProgramName(4), "Box study");
     for (int i = 0; i < count; ++i) {
         host.plugin->setCurrentProgram(i);
-        EXPECT_EQ(host.plugin->getProgramName(i).toStdString(), host.plugin->state().scene.name);
+        EXPECT_EQ(host.plugin->getProgramName(i).toStdString(), shownName(host.plugin->state().scene.name));
         EXPECT_EQ(host.plugin->getTailLengthSeconds() == std::numeric_limits<double>::infinity(), i < worlds)
             << "a world goes on by itself";
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The finished VST3 modules under guard, in a bare host with every bus on: JUCE's wrapper around the render
-// call takes no memory either. (It does lock: a mutex that nobody else holds while a host plays.)
+// call takes no memory either.
 #include "Plugin/Formats/RawVst3.h"
 #include "Plugin/PluginTesting.h"
 #include "Realtime/RealtimeGuard.h"
@@ -55,6 +55,37 @@ void expectNoMemoryTaken(const std::string& name, std::size_t musicChannels) {
 TEST(RealtimeModule, TakesNoMemoryWithEveryBusOn) {
     for (const char* name : {"PhysVib", "PhysVib-Pairs"})
         for (const std::size_t musicChannels : {0u, 1u, 2u}) expectNoMemoryTaken(name, musicChannels);
+}
+
+// Floods, with expression, by ids, not in their order.
+TEST(RealtimeModule, TakesNoMemoryHoweverManyNotesComeInABlock) {
+    RawVst3 host{PHYSVIB_PLUGINS "/PhysVib.vst3", "PhysVib"};
+    ASSERT_TRUE(host.isLoaded());
+    host.call = guarded;
+    host.mode = vst::kRealtime;
+    host.start(256);
+    host.process();
+    Random random{11};
+    for (int b = 0; b < 10; ++b) {
+        for (int n = 0; n < 10'000; ++n) {
+            host.note(random.below(128), b % 2 == 0 ? n * 256 / 10'000 : random.below(256));
+            auto& event = host.event();
+            event.noteOn.noteId = n;
+            if (n % 3 == 0) event.type = vst::Event::kNoteOffEvent;
+            if (n % 3 != 1) continue;
+            event.type = vst::Event::kNoteExpressionValueEvent;
+            event.noteExpressionValue = {vst::kTuningTypeID, n - 1, random.uniform(0, 1)};
+        }
+        RealtimeGuard::forget();
+        const auto began = std::chrono::steady_clock::now();
+        ASSERT_TRUE(host.process());
+        std::printf(
+            "10,000 events, %s: %.1f ms\n", b % 2 == 0 ? "in order" : "in none",
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count());
+        for (const auto which : {RealtimeGuard::allocates, RealtimeGuard::frees, RealtimeGuard::locks})
+            EXPECT_EQ(RealtimeGuard::count(which), 0u) << RealtimeGuard::names[which];
+    }
+    host.stop();
 }
 
 } // namespace

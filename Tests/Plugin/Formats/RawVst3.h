@@ -15,6 +15,7 @@
 #include <pluginterfaces/vst/ivstevents.h>
 #include <pluginterfaces/vst/ivstmessage.h>
 #include <pluginterfaces/vst/ivstmidicontrollers.h>
+#include <pluginterfaces/vst/ivstnoteexpression.h>
 #include <pluginterfaces/vst/ivstparameterchanges.h>
 #include <pluginterfaces/vst/ivstprocesscontext.h>
 #include <pluginterfaces/vst/vstspeaker.h>
@@ -210,6 +211,7 @@ public:
         event.noteOn.noteId = -1;
         notes_.events.push_back(event);
     }
+    vst::Event& event() { return notes_.events.back(); } ///< what note() made, to become another
     bool process() {
         std::vector<std::vector<float*>> pointers;
         std::vector<vst::AudioBusBuffers> outputs(channels.size());
@@ -259,6 +261,7 @@ public:
     std::vector<std::u16string> names, shortNames;      ///< of the parameters
     std::array<std::vector<vst::ParamID>, 16> standIns; ///< [MIDI channel][controller], bends and pressure as
                                                         ///< VST3 numbers them; 0: none that is listed
+    std::vector<vst::NoteExpressionTypeID> expressions;
     vst::IComponent* component = nullptr;
     vst::IAudioProcessor* processor = nullptr;
     Steinberg::int32 mode = vst::kOffline;
@@ -297,6 +300,14 @@ private:
                     id = 0;
             }
         if (mapping) mapping->release();
+        vst::INoteExpressionController* expression = nullptr;
+        controller->queryInterface(vst::INoteExpressionController_iid, reinterpret_cast<void**>(&expression));
+        for (Steinberg::int32 i = 0; expression && i < expression->getNoteExpressionCount(0, 0); ++i) {
+            vst::NoteExpressionTypeInfo info{};
+            expression->getNoteExpressionInfo(0, 0, i, info);
+            expressions.push_back(info.typeId);
+        }
+        if (expression) expression->release();
         one->disconnect(other);
         other->disconnect(one);
         one->release();

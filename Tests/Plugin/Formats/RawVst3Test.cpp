@@ -245,5 +245,58 @@ TEST(RawVst3, TwentyInstances) {
     for (auto& host : hosts) host->stop();
 }
 
+/// The loudest of each channel, of blocks of which the first has what `say` adds.
+template <class Say>
+std::vector<float> peaksAfter(RawVst3& host, Say say) {
+    say();
+    std::vector<float> peaks(host.channels.front().size());
+    for (int b = 0; b < 40; ++b) {
+        EXPECT_TRUE(host.process());
+        for (std::size_t c = 0; c < peaks.size(); ++c)
+            for (const float x : host.channels.front()[c]) peaks[c] = std::max(peaks[c], std::abs(x));
+    }
+    return peaks;
+}
+
+TEST(RawVst3, ExpressionOfANoteIsHeardAndUnsortedEventsAreSorted) {
+    RawVst3 host{oneBus, "PhysVib"};
+    EXPECT_EQ(host.expressions,
+              (std::vector<vst::NoteExpressionTypeID>{vst::kVolumeTypeID, vst::kPanTypeID, vst::kTuningTypeID,
+                                                      vst::kBrightnessTypeID}));
+    auto state = strikeAt(0, 2);
+    state.notes.clear();
+    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle, .isHeld = true};
+    ASSERT_TRUE(host.setState(pluginStateJson(state)));
+    host.start(512);
+    const auto strike = [&](int id, int frame) {
+        host.note(57, frame);
+        host.event().noteOn.noteId = id;
+    };
+    const auto middle = peaksAfter(host, [&] { strike(7, 0); });
+    EXPECT_NEAR(middle[0], middle[1], 1e-3f);
+    EXPECT_GT(middle[0], 0.01f);
+    const auto pan = [&](int id, double to, int frame) {
+        host.note(57, frame);
+        host.event().type = vst::Event::kNoteExpressionValueEvent;
+        host.event().noteExpressionValue = {vst::kPanTypeID, id, to};
+    };
+    pan(7, 0.0, 0), host.process();
+    for (int b = 0; b < 20; ++b) host.process();
+    const auto left = peaksAfter(host, [&] { pan(8, 1.0, 0); });
+    EXPECT_GT(left[0], 10.0f * left[1]) << "another note's pan moves nothing";
+    const auto off = peaksAfter(host, [&] { // the off comes later, and is said first
+        host.note(57, 300), host.event().type = vst::Event::kNoteOffEvent;
+        host.event().noteOff.noteId = 9;
+        strike(9, 100);
+        host.note(57, 0), host.event().type = vst::Event::kNoteOffEvent;
+        host.event().noteOff.noteId = 7;
+    });
+    EXPECT_GT(off[1], 0.01f) << "the new note is felt in the middle";
+    for (int b = 0; b < 200; ++b) host.process();
+    const auto silent = peaksAfter(host, [] {});
+    EXPECT_LT(silent[0] + silent[1], 1e-4f) << "nothing hangs";
+    host.stop();
+}
+
 } // namespace
 } // namespace physvib

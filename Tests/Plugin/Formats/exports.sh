@@ -12,4 +12,5 @@ expect() { # what every module FOLDER has to show
 }
 for module in "$1"/*.vst3/Contents/*/*.so; do expect "GetPluginFactory ModuleEntry ModuleExit" "$module"; done
 for module in "$1"/*.lv2/*.so; do expect "lv2_descriptor lv2ui_descriptor" "$module"; done
+[ ! -e "$1/PhysVib.clap" ] || expect clap_entry "$1/PhysVib.clap"
 exit $failed
