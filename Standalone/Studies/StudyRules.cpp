@@ -193,7 +193,7 @@ private:
         if (s.quest) judgeReference(at + "quest: ", s, *s.quest, s.quest->mostDb);
         if (s.roveDb > 0.0)
             for (const ConditionPlan& c : protocol_.conditions)
-                if (const auto moved = movedBesideStrength(c); !moved.empty()) {
+                if (const auto moved = movedBesideStrength(c, true); !moved.empty()) {
                     warn(at + "rove_db moves " + listed(moved) + " of condition " + printable(c.name) +
                          " by a factor of up to " + fixedNumber(fromDecibels(s.roveDb), 2) +
                          ", and not how strong it is alone");

@@ -68,8 +68,8 @@ protected:
 
 TEST_F(ReportFields, EveryPlantedFieldHasItsSentence) {
     plant("phantom-grids", 4, "0,-3,-30,JACK:system");
-    write("people.csv", "participant,age,sex,handedness,excluded\nP01,21,female,right,\nP02,25,male,left,"
-                        "\nP03,26,female,right,\nP04,60,male,right,took off the headphones\n");
+    write("people.csv", "participant,age,sex,handedness,excluded,group\nP01,21,female,right,,a\nP02,25,male,"
+                        "left,,b\nP03,26,female,right,,b\nP04,60,male,right,took off the headphones,a\n");
     const std::string call = "report phantom-grids-P01.csv phantom-grids-P02.csv phantom-grids-P03.csv "
                              "phantom-grids-P04.csv --out out";
     const std::string
@@ -80,6 +80,7 @@ TEST_F(ReportFields, EveryPlantedFieldHasItsSentence) {
         "Age: mean 24.0 years, standard deviation 2.6, 21 to 26 (3 of 3 known).",
         "Sex: 2 female, 1 male.",
         "Handedness: 1 left, 2 right.",
+        "Groups: 1 a, 2 b.",
         "participant P04 is excluded, with all trials: took off the headphones",
         "Ethics: Approved by the board, no. 7.",
         "Consent: All signed.",
@@ -95,6 +96,7 @@ TEST_F(ReportFields, EveryPlantedFieldHasItsSentence) {
     }
     EXPECT_FALSE(has(read("out/trials.csv"), "\nP04,")) << "excluded from every analysis";
     EXPECT_TRUE(has(read("out/participants.csv"), "excluded")) << read("out/participants.csv");
+    EXPECT_TRUE(has(read("out/participants.csv"), ",,b\nP03")) << "which analysis.R compares";
     EXPECT_TRUE(has(read("out/orders.csv"), "P01,1,")) << read("out/orders.csv");
     EXPECT_TRUE(has(whole, " of 30 successions of two conditions occurred."));
     EXPECT_TRUE(has(whole, "4.1.1: orders of all six conditions by Latin squares; here: "));

@@ -39,6 +39,9 @@ TEST(BidsDataset, EveryColumnIsDescribed) {
     for (const char* column : {"observer", "condition", "trial", "response", "response_time", "realism"})
         EXPECT_TRUE(sidecar.at(column).contains("Description")) << column;
     EXPECT_EQ(sidecar.at("response_time").at("Units"), "s");
+    EXPECT_EQ(sidecar.at("realism").at("Description"), "Column realism of the tables that were read");
+    const auto told = bidsDataset(trials(), {"s", "t", "0", {}, false, {{"realism", "Rating from 1 to 7"}}});
+    EXPECT_NE(told.at("task-t_beh.json").find("\"Rating from 1 to 7\""), std::string::npos);
     const auto description = nlohmann::json::parse(files.at("dataset_description.json"));
     EXPECT_EQ(description.at("BIDSVersion"), "1.8.0");
     EXPECT_NE(description.at("Name").get<std::string>().find("SIMULATED"), std::string::npos);

@@ -7,6 +7,7 @@
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyRun.h"
 #include "Lab/Study/Summaries.h"
@@ -234,6 +235,97 @@ TEST(ProtocolLanguage, ConstantStimuliMoveOneAlternativeAndHaveARightOne) {
     for (const PlannedStimulus& s : plannedStimuli(protocol)) levels.insert(s.levelDb);
     EXPECT_EQ(*levels.begin(), -3.0);
     EXPECT_EQ(*levels.rbegin(), 3.0);
+}
+
+/// A study of an example by the simulated observer, which `look` sees trial by trial; its rows are read back.
+std::vector<TrialRecord> ranThrough(const Protocol& protocol,
+                                    const std::function<void(const Experiment&)>& look = {}) {
+    EXPECT_EQ(readProtocol(protocolJson(protocol), "again").value, protocol);
+    Experiment experiment{protocol, {}}, again{protocol, {}};
+    const SimulatedObserver observer{ObserverSettings{}, protocol, {}};
+    std::string rows = trialHeader(protocol, {}, "0");
+    std::vector<TrialRecord> records;
+    while (!experiment.isDone()) {
+        if (look) look(experiment);
+        rows += trialRow(protocol, {}, records.emplace_back(experiment.take(observer.answer(experiment))));
+    }
+    for (const TrialRecord& record : readTrialLog(rows, "rows.csv", protocol, {}).value.records)
+        EXPECT_EQ(again.redo(record), "");
+    EXPECT_TRUE(again.isDone()) << rows;
+    return records;
+}
+
+TEST(ProtocolLanguage, AQuestionnaireIsAskedOncePerConditionAndFeelsNothing) {
+    const Protocol protocol = example("task-load");
+    int asked = 0;
+    for (const TrialRecord& record : ranThrough(protocol))
+        if (record.trial.task == StudyTask::rate) {
+            ++asked;
+            EXPECT_TRUE(record.trial.stimulus.empty() && jobsOf(protocol, record).empty());
+            EXPECT_TRUE(TrialProgress(protocol.sessions[1], record.trial).canAnswer());
+        }
+    EXPECT_EQ(asked, 2) << "conditions";
+    EXPECT_EQ(mostTrialsOf(protocol.sessions[1], 14), 1);
+}
+
+TEST(ProtocolLanguage, PointsAreWholeNumbers) {
+    ranThrough(example("likert-seven"), [](const Experiment& experiment) {
+        for (const auto& [score, fits] :
+             {std::pair{0.0, false}, {1.0, true}, {3.5, false}, {7.0, true}, {8.0, false}}) {
+            Answer answer;
+            answer.scores = {score, 4.0};
+            EXPECT_EQ(experiment.refusal(answer).empty(), fits) << score;
+        }
+    });
+}
+
+TEST(ProtocolLanguage, SideBySideTheReferenceComesOpenlyAndHidden) {
+    const Protocol protocol = example("side-by-side");
+    std::set<std::string> orders;
+    for (const TrialRecord& record : ranThrough(protocol)) {
+        const auto calls = wordsOf(protocol, record);
+        ASSERT_EQ(calls.size(), 5u);
+        EXPECT_TRUE(holds(calls[0], "--frequency 200 "));
+        EXPECT_EQ(std::ranges::count(calls, calls[0]), 2);
+        EXPECT_EQ(record.answer.scores.size(), 4u);
+        orders.insert(callsOf(protocol, record).substr(calls[0].size()));
+    }
+    EXPECT_GT(orders.size(), 4u);
+}
+
+TEST(ProtocolLanguage, PairsAreEveryTwoStimuliInBothOrders) {
+    const Protocol protocol = example("pairs-similarity");
+    std::set<std::string> all;
+    for (const TrialRecord& record : ranThrough(protocol)) {
+        const auto calls = wordsOf(protocol, record);
+        ASSERT_EQ(calls.size(), 2u);
+        EXPECT_NE(calls[0], calls[1]);
+        EXPECT_TRUE(all.insert(callsOf(protocol, record)).second);
+    }
+    EXPECT_EQ(all.size(), 30u);
+}
+
+TEST(ProtocolLanguage, AnswersAreOfOneIntervalAndAVariableRovesAlone) {
+    const Protocol sides = example("left-right");
+    std::set<std::string> given;
+    for (const TrialRecord& record : ranThrough(sides)) {
+        EXPECT_EQ(wordsOf(sides, record).size(), 1u);
+        EXPECT_FALSE(isCorrect(sides, record));
+        given.insert(record.answer.response);
+    }
+    EXPECT_EQ(given, (std::set<std::string>{"left", "right"}));
+    const Protocol roved = example("frequency-roved");
+    std::set<double> levels;
+    for (const TrialRecord& record : ranThrough(roved)) {
+        const auto calls = wordsOf(roved, record);
+        const auto g = [](const std::string& call) { return call.substr(call.find("--level-g")); };
+        EXPECT_EQ(g(calls[0]), g(calls[1]));
+        const auto standard = std::ranges::find(record.trial.parts, "standard") - record.trial.parts.begin();
+        EXPECT_TRUE(holds(calls[static_cast<std::size_t>(standard)], "--frequency 150 "));
+        levels.insert(record.trial.roveDb);
+    }
+    EXPECT_GT(levels.size(), 10u);
+    EXPECT_TRUE(movedBesideStrength(roved.conditions[0], true).empty()) << "what roves is the strength";
 }
 
 TEST(ProtocolLanguage, PracticeEndsAfterSoManyRightAnswersInARow) {

@@ -73,27 +73,6 @@ TEST(ResponseMap, SingularAndSparseTargetsBorrowThePooledCovarianceAndSaySo) {
     EXPECT_NEAR(made.counts.sum(), 100.0, 1e-9);
 }
 
-TEST(ResponseMap, FewBlurredResponsesLeaveTheNumberOfCellsToChance) {
-    SeededRandom random{6};
-    std::vector<LocationTrial> sure, blurred;
-    for (int column = 1; column <= 4; ++column)
-        for (int row = 1; row <= 3; ++row) {
-            for (const auto& trial :
-                 cloud(column, row, 0.25 * column - 0.125, row / 3.0 - 1.0 / 6.0, 0.01, 10, random))
-                sure.push_back(trial);
-            for (const auto& trial :
-                 cloud(column, row, 0.25 * column - 0.125, row / 3.0 - 1.0 / 6.0, 0.25, 10, random))
-                blurred.push_back(trial);
-        }
-    const CellSpread none = cellSpread(sure, defaultPercentThreshold, 50),
-                     wide = cellSpread(blurred, defaultPercentThreshold, 50);
-    EXPECT_EQ(none.mean, 12.0);
-    EXPECT_EQ(none.deviation, 0.0);
-    EXPECT_GT(wide.deviation, 0.3);
-    EXPECT_LT(wide.mean, 12.0);
-    EXPECT_EQ(cellSpread(blurred, defaultPercentThreshold, 50).mean, wide.mean) << "the same seed";
-}
-
 /// Trials of a person at a grid of 8 x 6 with that blur.
 std::vector<LocationTrial> pointing(const std::string& who, double blur, int each, SeededRandom& random) {
     std::vector<LocationTrial> trials;

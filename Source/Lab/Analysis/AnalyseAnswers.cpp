@@ -5,6 +5,8 @@
 #include "Lab/Study/Psychometric.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <sstream>
 
 namespace physvib {
@@ -98,11 +100,13 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
                       "condition,scale,trials,participants,mean,standard_deviation,half_interval"};
     AnalysisReport report{{}, data.isSimulated, data.warnings};
     std::ostringstream out;
-    bool hasIntervals = false;
+    std::set<bool> intervals; // true: over participants
     for (const auto& summary : summaries) {
-        hasIntervals |= std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; });
+        if (std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; }))
+            intervals.insert(summary.participants > 1);
         out << wholeLabel(summary.condition) << ": " << counted(summary.trials, "trial");
         for (std::size_t s = 0; s < scales.size(); ++s) {
+            if (std::isnan(summary.means[s])) continue;
             out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
             if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
             table.row(summary.condition, scales[s], summary.trials, summary.participants, summary.means[s],
@@ -110,9 +114,12 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
         }
         out << '\n';
     }
-    if (hasIntervals)
+    if (!intervals.empty())
         out << "+-: half of the 95 % interval over "
-            << (summaries.front().participants > 1 ? "participants" : "trials, of one participant") << '\n';
+            << (intervals.size() > 1       ? "participants, or trials where there was one"
+                : intervals.contains(true) ? "participants"
+                                           : "trials, of one participant")
+            << '\n';
     report.words = out.str();
     report.table = table.text();
     report.picture = [scales = scales, summaries, isSimulated = report.isSimulated] {

@@ -124,12 +124,6 @@ void tell(std::ostream& out, const PercentCounts& counts, const PerceptualResolu
         << fixedNumber(counts.standardDeviation(), 2) << '\n';
 }
 
-/// "21.6 +- 2.2 cells": bootstrap over the responses of one condition, which says nothing of differences.
-std::string spreadWords(const CellSpread& spread) {
-    return fixedNumber(spread.mean, 1) + " +- " + fixedNumber(spread.deviation, 1) +
-           " cells (responses drawn again 200 times)";
-}
-
 std::set<std::pair<int, int>> targetsOf(const std::vector<LocationTrial>& trials) {
     std::set<std::pair<int, int>> targets;
     for (const LocationTrial& trial : trials) targets.emplace(trial.targetRow, trial.targetColumn);
@@ -216,12 +210,7 @@ AnalysisReport analyseResolution(const AnalysisJob& o) {
         counts.push_back(one.counts);
         exportNormals(table, one);
     }
-    for (std::size_t c = 0; c < made.size(); ++c) {
-        tell(out, made[c].counts, made[c].resolution, o.thresholdPercent);
-        if (!made[c].resolution.ties.empty())
-            out << "  by chance "
-                << spreadWords(cellSpread(data.value.conditions[c].trials, o.thresholdPercent)) << '\n';
-    }
+    for (const ConditionResolution& one : made) tell(out, one.counts, one.resolution, o.thresholdPercent);
     tellChance(out, data.value, o.thresholdPercent);
     Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
     if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
@@ -253,8 +242,6 @@ AnalysisReport analysePercentCounts(const AnalysisJob& o) {
         warnOfSum(counts, report.warnings);
         made.push_back({counts.condition, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
         tell(out, counts, made.back().resolution, o.thresholdPercent);
-        out << "  by chance: shares do not say of how many responses they are; analyse resolution of the "
-               "trials does\n";
         exportMerged(table, counts, made.back().resolution);
     }
     report.words = out.str();

@@ -49,6 +49,7 @@ constexpr ColumnMeaning meanings[] = {
     {"choice", "choice", "Alternative that was chosen", ""},
     {"value", "value", "Level that was set (dB) or number that was given", ""},
     {"correct", "correct", "1 if the answer was right, 0 if not, where there is a right one", ""},
+    {"group", "group", "Group of the participant, who is compared with those of others", ""},
     {"replays", "replays", "How often the stimulus was felt again", ""},
     {"response_s", "response_time", "From the first press of play to the answer", "s"},
     {"level_db", "level_db", "Level of the trial, relative to its condition's", "dB"},
@@ -83,11 +84,12 @@ std::string sidecar(const CsvTable& trials, std::size_t participant, const BidsW
         if (c == participant) continue;
         const auto* const known = meaningOf(trials.columns[c]);
         OrderedJson& own = json[bidsName(trials.columns[c])];
+        const auto scale = words.columns.find(trials.columns[c]);
         own["Description"] =
-            known ? std::string{known->description} +
-                        (known->ours == trialColumns::task ? listed(studyTaskNames, " or ") : "")
-                  : "Column " + cellOf(trials.columns[c]) +
-                        " of the trial file: a rating scale from 0 to 100, or a column of another program";
+            scale != words.columns.end() ? cellOf(scale->second)
+            : known                      ? std::string{known->description} +
+                          (known->ours == trialColumns::task ? listed(studyTaskNames, " or ") : "")
+                    : "Column " + cellOf(trials.columns[c]) + " of the tables that were read";
         if (known && !known->units.empty()) own["Units"] = known->units;
     }
     return jsonLines(json);

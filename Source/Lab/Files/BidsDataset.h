@@ -14,6 +14,7 @@ struct BidsWords {
     std::string version;                         ///< of the program
     std::map<std::string, std::string> source{}; ///< further facts, as keys and values
     bool isSimulated = false;
+    std::map<std::string, std::string> columns{}; ///< what the scales of the protocol mean
 };
 
 /// Paths and contents of the dataset's files: dataset_description.json, participants.tsv,

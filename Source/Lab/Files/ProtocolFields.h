@@ -50,6 +50,7 @@ void visitFields(auto& v, FieldsOf<StudyFactor>) {
 void visitFields(auto& v, FieldsOf<StudyVariable>) {
     v.field("name", &StudyVariable::name, anyText, Need::required);
     v.field("at_0_db", &StudyVariable::at0Db, Bounds{1e-6, 1e6}, Need::required);
+    v.field("roves", &StudyVariable::roves, {}, Need::optional);
 }
 
 template <class Set>
@@ -156,8 +157,13 @@ void visitFields(auto& v, FieldsOf<SessionPlan>) {
     v.field("break_s", &S::breakSeconds, studyBounds::rest, Need::optional);
     v.field("alternatives", &S::alternatives, studyBounds::names, Need::optional);
     v.field("both_orders", &S::bothOrders, {}, Need::optional);
+    v.field("answers", &S::answers, studyBounds::names, Need::optional);
     v.field("objects", &S::objects, studyBounds::names, Need::optional);
     v.field("scales", &S::scales, studyBounds::names, Need::optional);
+    v.field("reference", &S::reference, anyText, Need::optional);
+    v.field("points", &S::points, upTo(11.0), Need::optional);
+    v.field("once", &S::isOnce, {}, Need::optional);
+    v.field("pairs", &S::comparesPairs, {}, Need::optional);
     v.field("definitions", &S::definitions, studyBounds::names, Need::optional);
     v.field("anchors", &S::anchors, studyBounds::names, Need::optional);
     v.field("show_numbers", &S::showsNumbers, {}, Need::optional);

@@ -241,9 +241,13 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     if (!ratings.scales.empty() && ratings.scales != names)
         throw StudyFault{rows.table().name + ": expected the scales of the files before"};
     ratings.scales = names;
+    const bool isOwn = rows.optional(trialColumns::task).has_value();
     return rows.each(AnswerKind::scores, [&](const CsvRow& row) {
         RatingTrial trial{StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), {}};
-        for (const auto c : scales) trial.scores.push_back(rows.number(row, c, 0.0, 100.0));
+        // a session has its own scales
+        for (const auto c : scales)
+            trial.scores.push_back(isOwn && row.cells[c].empty() ? std::nan("")
+                                                                 : rows.number(row, c, 0.0, 100.0));
         conditionNamed(rows, ratings.data, {}).push_back(std::move(trial));
     });
 }
@@ -349,7 +353,9 @@ private:
 std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data,
                              const LevelAnswerColumns& columns) {
     constexpr double largestLevel = 1e6;
-    const auto measure = rows.required(columns.measure);
+    // "choice=left": 1 where it is so
+    const std::size_t words = rows.optional(columns.measure) ? std::string::npos : columns.measure.find('=');
+    const auto measure = rows.required(columns.measure.substr(0, words));
     const auto level = LevelSource::of(rows.table(), columns.level);
     if (!level) rows.required(columns.level);
     const auto condition = rows.optional("condition"), participant = rows.optional("participant");
@@ -377,7 +383,9 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
                                                 level->expected() + " that is a number from -1e6 to 1e6")};
         ++taken;
         const double answer = columns.isMagnitude ? rows.number(row, measure, leastEstimate, mostEstimate)
-                                                  : rows.wholeNumber(row, measure, 0, 1);
+                              : words != std::string::npos
+                                  ? row.cells[measure] == columns.measure.substr(words + 1)
+                                  : rows.wholeNumber(row, measure, 0, 1);
         conditionNamed(rows, data, StudyRows::textIf(row, condition))
             .push_back({StudyRows::textIf(row, participant), *at, answer, isAdaptive});
     });

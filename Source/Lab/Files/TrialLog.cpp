@@ -82,7 +82,7 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     if (answer.left) cells[columns::left] = *answer.left ? "1" : "0";
     if (answer.left) cells[columns::again] = std::to_string(answer.again);
     for (std::size_t s = 0; s < answer.scores.size(); ++s)
-        cells[session.scales[s]] = numberText(answer.scores[s]);
+        cells[session.scores()[s]] = numberText(answer.scores[s]);
     return cells;
 }
 
@@ -139,7 +139,7 @@ public:
             record.answer.left = rows_.wholeNumber(row, *left, 0, 1) == 1;
             record.answer.again = rows_.wholeNumber(row, rows_.required(columns::again), 0, 1'000'000);
         }
-        for (const auto& scale : session.scales)
+        for (const auto& scale : session.answer() == AnswerKind::scores ? session.scores() : session.scales)
             record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
         return record;
     }

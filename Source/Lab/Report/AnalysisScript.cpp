@@ -41,9 +41,11 @@ std::string vectorInR(const std::vector<std::string>& words) {
 
 } // namespace
 
-std::string analysisScript(const std::string& study, const std::vector<std::string>& scales) {
+std::string analysisScript(const std::string& study, const std::vector<std::string>& scales,
+                           const std::vector<std::string>& points) {
     std::string text{embeddedScript().front().text};
-    text += "study(" + inR(study) + ", " + vectorInR(scales) + ")\n";
+    text += "study(" + inR(study) + ", " + vectorInR(scales) +
+            (points.empty() ? "" : ", " + vectorInR(points)) + ")\n";
     return std::string{firstWords} + contentHash(text) + ": " + cleanLine(study) + "\n" + text;
 }
 

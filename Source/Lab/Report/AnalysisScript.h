@@ -16,6 +16,8 @@ namespace physvib {
 inline constexpr const char* analysisScriptName = "analysis.R";
 inline constexpr const char* testsTable = "tests.csv";
 inline constexpr const char* testsWords = "tests.txt";
+/// Where stimuli were compared in pairs: mean scores as a matrix, and a map of them.
+inline constexpr const char *pairsTable = "similarity.csv", *mapTable = "mds.csv";
 
 /// Files by name.
 using StudyFiles = std::map<std::string, std::string>;
@@ -25,7 +27,9 @@ using StudyFiles = std::map<std::string, std::string>;
 using ScriptRunner = std::function<Result<StudyFiles>(const StudyFiles&)>;
 
 /// The script. `study`: what it is of, one line. Equal input gives equal bytes. Any thread (allocates).
-std::string analysisScript(const std::string& study, const std::vector<std::string>& scales);
+/// `points`: the scales whose scores are ranks.
+std::string analysisScript(const std::string& study, const std::vector<std::string>& scales,
+                           const std::vector<std::string>& points = {});
 
 /// Names of the tests in testsTable that have a p, each once. Any thread (allocates).
 std::vector<std::string> testsIn(const std::string& table);

@@ -75,7 +75,8 @@ std::string setWords(const CallSet& set) {
                        }) +
            joinedWords(set.variables, "", [](const StudyVariable& variable) {
                return "; " + variable.name + " is " + numberText(variable.at0Db) +
-                      " at a level of 0 dB, and 10 times as large at 20 dB";
+                      (variable.roves ? " where rove_db is 0, and follows it alone"
+                                      : " at a level of 0 dB, and 10 times as large at 20 dB");
            });
 }
 
@@ -132,21 +133,39 @@ std::string roveWords(double db, const std::vector<std::string>& moved) {
                      ") up or down, at random";
 }
 
+std::string anchorWords(const SessionPlan& session, std::size_t end) {
+    return spoken(end < session.anchors.size() ? session.anchors[end] : std::string{usualAnchors[end]});
+}
+
 std::string scaleWords(const SessionPlan& session) {
-    std::string words = "; scales from 0 to 100: ";
+    std::string words = session.points > 0 ? "; scales of " + std::to_string(session.points) + " points: "
+                                           : "; scales from 0 to 100: ";
+    if (session.scales.empty())
+        words += "one of each object, side by side" +
+                 (session.reference.empty()
+                      ? std::string{}
+                      : ", after " + session.reference + " as the reference, which is among them unnamed");
     for (std::size_t i = 0; i < session.scales.size(); ++i)
         words.append(i ? ", " : "")
             .append(session.scales[i])
             .append(i < session.definitions.size() ? " (" + spoken(session.definitions[i]) + ")"
                                                    : std::string{});
-    const auto anchor = [&](std::size_t i) {
-        return spoken(i < session.anchors.size() ? session.anchors[i] : std::string{usualAnchors[i]});
-    };
-    words += ", between " + anchor(0) + " and " + anchor(1);
+    words += ", between " + anchorWords(session, 0) + " and " + anchorWords(session, 1);
     return words + (session.showsNumbers ? ", with their numbers" : "");
 }
 
 } // namespace
+
+std::string scoreWords(const SessionPlan& session, const std::string& scale) {
+    const auto at =
+        static_cast<std::size_t>(std::ranges::find(session.scales, scale) - session.scales.begin());
+    return "Rating from " + std::to_string(session.points > 0 ? 1 : 0) + ", " + anchorWords(session, 0) +
+           ", to " + std::to_string(session.points > 0 ? session.points : 100) + ", " +
+           anchorWords(session, 1) +
+           (session.scales.empty()            ? " of " + scale + ", beside others"
+            : at < session.definitions.size() ? ": " + session.definitions[at]
+                                              : std::string{});
+}
 
 std::vector<std::string> protocolSentences(const Protocol& protocol) {
     std::vector<std::string> sentences{
@@ -183,10 +202,10 @@ std::string conditionWords(const ConditionPlan& condition) {
     return words;
 }
 
-std::vector<std::string> movedBesideStrength(const Protocol& protocol) {
+std::vector<std::string> movedBesideStrength(const Protocol& protocol, bool byRove) {
     std::vector<std::string> all;
     for (const ConditionPlan& condition : protocol.conditions)
-        for (std::string& name : movedBesideStrength(condition))
+        for (std::string& name : movedBesideStrength(condition, byRove))
             if (std::ranges::find(all, name) == all.end()) all.push_back(std::move(name));
     return all;
 }
@@ -209,7 +228,12 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     if (!session.objects.empty())
         words += "; objects " +
                  joinedWords(session.objects, ", ", [](const std::string& object) { return object; });
-    if (!session.scales.empty()) words += scaleWords(session);
+    if (session.answer() == AnswerKind::scores) words += scaleWords(session);
+    if (!session.answers.empty())
+        words +=
+            "; answers " + joinedWords(session.answers, ", ", [](const std::string& one) { return one; });
+    if (session.comparesPairs) words += "; each trial has two of the stimuli, every two of them";
+    if (session.isOnce) words += "; on the condition as a whole, with nothing felt";
     if (session.adjustment) words += adjustmentWords(*session.adjustment);
     if (session.staircase) words += staircaseWords(*session.staircase);
     if (session.quest) words += questClause(*session.quest);
@@ -224,7 +248,7 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     if (!session.correct.empty()) words += "; " + session.correct + " is right";
     if (session.untilCorrect > 0)
         words += "; until " + std::to_string(session.untilCorrect) + " right answers in a row, or all trials";
-    if (session.roveDb > 0.0) words += roveWords(session.roveDb, movedBesideStrength(protocol));
+    if (session.roveDb > 0.0) words += roveWords(session.roveDb, movedBesideStrength(protocol, true));
     if (!session.modulus.empty())
         words += "; each trial begins with " + session.modulus + ", which counts as " +
                  numberText(session.modulusNumber);

@@ -9,6 +9,10 @@
 #include <vector>
 
 namespace physvib {
+/// What a score of a session's scale, or of an object that is rated side by side, means. Any thread
+/// (allocates).
+std::string scoreWords(const SessionPlan& session, const std::string& scale);
+
 /// Sentences on the protocol as a whole. Message thread only.
 std::vector<std::string> protocolSentences(const Protocol& protocol);
 
@@ -20,7 +24,7 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol);
 
 /// What a level in dB moves in the protocol's calls besides how strong they are; empty: nothing. Any thread
 /// (allocates).
-std::vector<std::string> movedBesideStrength(const Protocol& protocol);
+std::vector<std::string> movedBesideStrength(const Protocol& protocol, bool byRove = false);
 
 /// One line per recording that calls with --method SV play. Any thread (allocates).
 std::vector<std::string> soundLines(const Protocol& protocol);

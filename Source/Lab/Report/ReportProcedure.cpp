@@ -162,14 +162,17 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
     const Moments moments{ages};
     if (!ages.empty())
         report.page.paragraph(
-            "Age: mean " + fixedNumber(moments.mean, 1) + " years, standard deviation " +
-            fixedNumber(moments.deviation, 1) + ", " + numberText(*std::ranges::min_element(ages)) + " to " +
-            numberText(*std::ranges::max_element(ages)) + " (" + std::to_string(ages.size()) + " of " +
-            std::to_string(people.size() + strangers) + " known).");
-    if (const std::string words = countsOf(people, strangers, &PersonFacts::sex); !words.empty())
-        report.page.paragraph("Sex: " + words + ".");
-    if (const std::string words = countsOf(people, strangers, &PersonFacts::handedness); !words.empty())
-        report.page.paragraph("Handedness: " + words + ".");
+            (ages.size() == 1 ? "Age: " + numberText(ages.front()) + " years ("
+                              : "Age: mean " + fixedNumber(moments.mean, 1) + " years, standard deviation " +
+                                    fixedNumber(moments.deviation, 1) + ", " +
+                                    numberText(*std::ranges::min_element(ages)) + " to " +
+                                    numberText(*std::ranges::max_element(ages)) + " (") +
+            std::to_string(ages.size()) + " of " + std::to_string(people.size() + strangers) + " known).");
+    for (const auto& [name, field] : {std::pair{"Sex: ", &PersonFacts::sex},
+                                      {"Handedness: ", &PersonFacts::handedness},
+                                      {"Groups: ", &PersonFacts::group}})
+        if (const std::string words = countsOf(people, strangers, field); !words.empty())
+            report.page.paragraph(name + words + ".");
     if (!facts.ethics.empty()) report.page.paragraph("Ethics: " + facts.ethics);
     if (!facts.consent.empty()) report.page.paragraph("Consent: " + facts.consent);
     if (facts.people.empty())
@@ -196,10 +199,12 @@ void tellParticipants(ReportBuilder& report) {
     report.page.heading("Participants");
     const auto people = attendance(report.trials);
     const StudyFacts& facts = report.trials.facts;
+    const bool hasGroups =
+        std::ranges::any_of(facts.people, [](const PersonFacts& one) { return !one.group.empty(); });
     ExportTable table{
         "participants", report.isSimulated(),
         std::string{"participant,number,observer,trials,training_trials,unanswered,median_response_s"} +
-            (facts.people.empty() ? "" : ",age,sex,handedness,excluded")};
+            (facts.people.empty() ? "" : ",age,sex,handedness,excluded") + (hasGroups ? ",group" : "")};
     std::size_t most = 0;
     for (const auto& [code, own] : people) {
         table.cells(code, own.number, own.observer, own.main, own.training, own.unanswered,
@@ -209,6 +214,7 @@ void tellParticipants(ReportBuilder& report) {
             const PersonFacts one = person != nullptr ? *person : PersonFacts{};
             table.cells(one.ageYears ? numberText(*one.ageYears) : std::string{}, one.sex, one.handedness,
                         one.excluded);
+            if (hasGroups) table.cells(one.group);
         }
         table.endRow();
         if (!facts.isExcluded(code)) most = std::max(most, own.main);

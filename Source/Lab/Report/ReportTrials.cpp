@@ -198,8 +198,8 @@ std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) 
 
 namespace {
 
-constexpr std::array<std::string_view, 5> peopleColumns{"participant", "age", "sex", "handedness",
-                                                        "excluded"};
+constexpr std::array<std::string_view, 6> peopleColumns{"participant", "age",   "sex",
+                                                        "handedness",  "group", "excluded"};
 constexpr double oldestYears = 130.0;
 
 } // namespace
@@ -221,7 +221,8 @@ Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_v
     for (const std::string& column : table.columns)
         if (std::ranges::find(peopleColumns, column) == peopleColumns.end())
             return Failure{table.name +
-                           ": expected the columns participant, age, sex, handedness, excluded, found " +
+                           ": expected the columns participant, age, sex, handedness, group, excluded, "
+                           "found " +
                            inQuotes(column)};
     if (!table.column("participant"))
         return Failure{table.name + ": expected a column participant, found none"};
@@ -232,7 +233,8 @@ Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_v
             const auto at = table.column(column);
             return at ? row.cells[*at] : std::string{};
         };
-        PersonFacts facts{cell("participant"), {}, cell("sex"), cell("handedness"), cell("excluded")};
+        PersonFacts facts{cell("participant"), {},           cell("sex"), cell("handedness"),
+                          cell("excluded"),    cell("group")};
         if (facts.participant.empty() || !codes.insert(facts.participant).second)
             return Failure{
                 table.fault(row, *table.column("participant"), "a code of its own for each participant")};

@@ -27,6 +27,7 @@ struct PersonFacts {
     std::optional<double> ageYears;
     std::string sex, handedness;
     std::string excluded; ///< why all trials are excluded; empty: they count
+    std::string group{};  ///< compared with the other groups
     bool operator==(const PersonFacts&) const = default;
 };
 
@@ -43,8 +44,8 @@ struct StudyFacts {
     bool isExcluded(std::string_view participant) const noexcept;
 };
 
-/// A table with the column participant and any of age, sex, handedness, excluded; or one line `people.csv:3:
-/// column age: expected ...`. Any thread.
+/// A table with the column participant and any of age, sex, handedness, group, excluded; or one line
+/// `people.csv:3: column age: expected ...`. Any thread.
 Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_view name);
 
 struct TrialFile {

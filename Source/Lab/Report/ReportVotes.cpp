@@ -44,24 +44,31 @@ void tellTwoFactors(ReportBuilder& report, std::vector<ChoiceTrial> trials) {
 
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.
 void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
-    const auto data = readLevelAnswers({&file, 1}, {"stimulus", "correct", false});
-    if (!data || !report.trials.knowTasks()) return;
     AnalysisJob fit = report.optionsFor(trialsTable);
     fit.level = "stimulus";
-    if (report.trials.protocol)
-        for (const SessionPlan& session : report.trials.protocol->sessions)
-            if (!session.correct.empty()) fit.model.guess = session.guessRate();
+    std::string measure = "correct";
+    const auto sessions =
+        report.trials.protocol ? report.trials.protocol->sessions : std::vector<SessionPlan>{};
+    for (const SessionPlan& session : sessions) {
+        if (!session.correct.empty()) fit.model.guess = session.guessRate();
+        if (session.answers.size() == 2) // of one interval: half way is subjective equality
+            fit.model.guess = 0.0, measure = fit.measure = "choice=" + session.answers.back();
+    }
+    const auto data = readLevelAnswers({&file, 1}, {"stimulus", measure, false});
+    if (!data || !report.trials.knowTasks()) return;
     report.page.subheading("Psychometric functions");
     if (const auto words = report.analysis("psychometric", fit, "psychometric-stimuli.csv");
         !words.error.empty())
         return;
+    const std::string answers =
+        measure == "correct" ? "right answers" : "answers " + measure.substr(measure.find('=') + 1);
     std::vector<std::string> charts;
     for (const auto& condition : data.value.conditions)
-        charts.push_back(psychometricChart(report.frame("Right answers: " + condition.name), condition.trials,
-                                           fit.model, fitWords(report.trials.columns, fit.level)));
-    report.page.figure(
-        charts, "Share of right answers by stimulus. Circles: all participants' trials; thin lines: the "
-                "function of each participant; thick: their mean threshold and width.");
+        charts.push_back(psychometricChart(report.frame(answers + ": " + condition.name), condition.trials,
+                                           fit.model, fitWords(report.trials.columns, fit.level, measure)));
+    report.page.figure(charts, "Share of " + answers +
+                                   " by stimulus. Circles: all participants' trials; thin lines: the "
+                                   "function of each participant; thick: their mean threshold and width.");
 }
 
 } // namespace

@@ -69,6 +69,16 @@ std::vector<std::string> scalesOf(const CsvTable& all, const std::vector<std::st
     return scales;
 }
 
+/// Scales of so many points, whose scores have an order and no distances.
+std::vector<std::string> inPoints(const ReportTrials& trials) {
+    std::vector<std::string> scales;
+    if (trials.protocol)
+        for (const SessionPlan& session : trials.protocol->sessions)
+            if (session.points > 0)
+                scales.insert(scales.end(), session.scores().begin(), session.scores().end());
+    return scales;
+}
+
 /// What analysis.R finds, if it can be run here, and how else to run it.
 void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run) {
     report.page.heading("Tests");
@@ -88,12 +98,13 @@ void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run
     }
     if (ran.value.empty())
         return report.page.paragraph("It has not run: type `Rscript analysis.R` in this folder.");
-    const std::string& table = ran.value[testsTable];
+    const std::string table = ran.value[testsTable];
     made.tests = testsIn(table);
     report.page.paragraph("By " + table.substr(std::min<std::size_t>(2, table.size()), table.find('\n') - 2) +
                           (made.tests.empty() ? ": nothing to compare." : ":"));
     report.page.lines(ran.value[testsWords]);
-    made.files[testsTable] = table;
+    ran.value.erase(testsWords);
+    made.files.merge(ran.value);
 }
 
 } // namespace
@@ -117,7 +128,8 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
         report.page.table(report.tableText(trialsTable), trialsTable);
     }
     if (report.people() > 1) {
-        made.files[analysisScriptName] = analysisScript(studyWords(trials), scalesOf(trials.all, kinds));
+        made.files[analysisScriptName] =
+            analysisScript(studyWords(trials), scalesOf(trials.all, kinds), inPoints(trials));
         tellTests(report, made, script);
     }
     if (!trials.facts.plan.empty()) {
@@ -142,6 +154,11 @@ void addBids(StudyReport& report, const ReportTrials& trials) {
                     {},
                     trials.isSimulated};
     if (words.task.empty()) words.task = trials.files.front().name;
+    if (trials.protocol)
+        for (const SessionPlan& session : trials.protocol->sessions)
+            if (session.answer() == AnswerKind::scores)
+                for (const std::string& scale : session.scores())
+                    words.columns[scale] = scoreWords(session, scale);
     for (const char* key : {"hash", "seed", "version"})
         if (const std::string value = trials.common(key); !value.empty()) words.source[key] = value;
     for (auto& [name, text] : bidsDataset(trials.all, words)) report.files["bids/" + name] = std::move(text);

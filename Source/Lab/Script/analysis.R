@@ -310,8 +310,41 @@ across <- function(tests) {
     if (length(at) > 1) cat("over all scales, ", effect, ": Holm's p = ", paste(signif(results$p_across[at], 4), collapse = ", "), "\n", sep = "")
   }
 }
-# All tests of a report's folder. `scales`: the columns of ratings.
-study <- function(study, scales = character()) {
+# Objects that were rated side by side are levels of a factor; one that was also felt openly, the hidden reference, is looked at.
+side.by.side <- function(own, objects, words) {
+  long <- do.call(rbind, lapply(objects, function(o) cbind(own[intersect(names(own), c("participant", "group", "condition", "stimulus"))], object = o, score = own[[o]])))
+  compare(paste0("scores of objects", words), long, "score", columns = c("group", "condition", "stimulus", "object"))
+  first <- unique(sub("[|].*", "", own$parts))
+  if (length(first) != 1 || any(lengths(strsplit(own$parts, "|", fixed = TRUE)) == length(objects))) return(invisible())
+  below <- tapply(as.numeric(own[[first]]) < 90, own$participant, mean)
+  who <- names(below)[below > 0.15]
+  if (length(who) > 0) result(paste0("hidden reference", words), "factors", "", NA, NA, length(below), note = paste0(first,
+    " unnamed was rated below 90 in more than 15 % of trials by ", paste(who, collapse = ", "), ", whom ITU-R BS.1534 would exclude: not excluded here"))
+}
+# Stimuli that were compared in pairs: means over people as a matrix, and a map by classical scaling. Scores whose scale begins with "dis" or "diff"
+# are distances; of others what they lack of the largest mean is.
+similarity <- data.frame(); places <- data.frame()
+in.pairs <- function(own, scale, words) for (one in split(own, if ("condition" %in% names(own)) factor(own$condition, unique(own$condition)) else rep("", nrow(own)))) {
+  two <- do.call(rbind, strsplit(one$stimulus, " & ", fixed = TRUE)); all <- in.order(c(two)); condition <- c(one$condition[1], "")[1]
+  means <- aggregate(y ~ id + a + b, data.frame(y = as.numeric(one[[scale]]), id = one$participant, a = two[, 1], b = two[, 2]), mean)
+  means <- aggregate(y ~ a + b, means, mean)
+  m <- matrix(NA, length(all), length(all), dimnames = list(all, all))
+  m[cbind(means$a, means$b)] <- means$y; m[cbind(means$b, means$a)] <- means$y
+  similarity <<- rbind(similarity, data.frame(scale, condition, stimulus = all, m, check.names = FALSE, row.names = NULL))
+  cat("means of ", scale, words, " in pairs", if (condition != "") paste0(", ", condition), "\n", sep = "")
+  attempt(paste0("map of ", scale, words), condition, {
+    if (length(all) < 3) stop("expected three stimuli or more")
+    d <- if (grepl("^(dis|diff)", scale)) m else max(m, na.rm = TRUE) - m
+    diag(d) <- 0
+    map <- cmdscale(as.dist(d), k = 2, eig = TRUE)
+    if (ncol(map$points) < 2) stop("the stimuli lie on a line")
+    stress <- sqrt(sum((dist(map$points) - as.dist(d))^2) / sum(as.dist(d)^2))
+    cat("  map in two dimensions: stress-1 ", signif(stress, 3), "\n", sep = "")
+    places <<- rbind(places, data.frame(scale, condition, stimulus = all, x = map$points[, 1], y = map$points[, 2], stress))
+  })
+}
+# All tests of a report's folder. `scales`: the columns of ratings; `points`: those of them whose scores are ranks.
+study <- function(study, scales = character(), points = character()) {
   d <- table.of("trials.csv")
   if (!("participant" %in% names(d))) return(finish(study))
   is.told <- "task" %in% names(d)
@@ -344,7 +377,20 @@ study <- function(study, scales = character()) {
     for (a in if (length(names) == 2) names[1] else names) compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks")
   })
   before <- unique(results$test)
-  for (scale in scales) each("rate", scale, function(own, words) compare(paste0(scale, words), own, scale))
+  aside <- character() # sessions whose scales are objects
+  if (is.told && "parts" %in% names(d)) for (s in unique(d$session[d$task == "rate"])) {
+    own <- d[d$task == "rate" & d$session == s, ]
+    objects <- intersect(scales, unlist(strsplit(own$parts, "|", fixed = TRUE)))
+    objects <- Filter(function(o) all(own[[o]] != ""), objects)
+    if (length(objects) > 1) { aside <- c(aside, s); side.by.side(own, objects, if (length(unique(d$session[d$task == "rate"])) > 1) paste(" in", s) else "") }
+  }
+  for (scale in scales) each("rate", scale, function(own, words) {
+    if (is.told && own$session[1] %in% aside) return()
+    if (all(grepl(" & ", own$stimulus, fixed = TRUE))) {
+      in.pairs(own, scale, words)
+      compare(paste0(scale, words), own, scale, columns = c("group", "condition"))
+    } else compare(paste0(scale, words), own, scale, if (scale %in% points) "ranks" else "scores")
+  })
   if (length(scales) > 1) across(setdiff(unique(results$test), before))
   if (file.exists("thresholds.csv")) {
     own <- table.of("thresholds.csv")
@@ -359,6 +405,10 @@ study <- function(study, scales = character()) {
 finish <- function(study) {
   lme4 <- if (any(grepl("mixed model", results$effect))) paste(", lme4", packageVersion("lme4")) else ""
   writeLines(paste0("# ", study, ", ", R.version.string, lme4), "tests.csv")
+  for (table in list(list(similarity, "similarity.csv"), list(places, "mds.csv"))) if (nrow(table[[1]]) > 0) {
+    writeLines(paste0("# ", study, ", ", R.version.string), table[[2]])
+    write.table(table[[1]], table[[2]], append = TRUE, sep = ",", row.names = FALSE, na = "", qmethod = "double")
+  }
   if (nrow(results) > 0) write.table(results, "tests.csv", append = TRUE, sep = ",", row.names = FALSE, na = "", qmethod = "double")
   cat("tests.csv  ", nrow(results), " lines\n", sep = "")
 }

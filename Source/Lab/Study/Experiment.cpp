@@ -10,7 +10,10 @@
 namespace physvib {
 namespace {
 
-bool isScore(double score) noexcept { return score >= 0.0 && score <= 100.0; }
+bool isScore(const SessionPlan& s, double score) noexcept {
+    return s.points > 0 ? score >= 1.0 && score <= s.points && score == std::floor(score)
+                        : score >= 0.0 && score <= 100.0;
+}
 
 bool isOnField(const std::optional<FieldPlace>& place) noexcept {
     return place && place->x >= 0.0 && place->x <= 1.0 && place->y >= 0.0 && place->y <= 1.0;
@@ -20,7 +23,7 @@ bool isOnField(const std::optional<FieldPlace>& place) noexcept {
 
 TrialProgress::TrialProgress(const SessionPlan& session, const Trial& trial)
     : session_{session}
-    , parts_(std::max<std::size_t>(1, trial.parts.size())) {}
+    , parts_(session.isOnce ? 0 : std::max<std::size_t>(1, trial.parts.size())) {}
 
 bool TrialProgress::canPlay(std::size_t part) const noexcept {
     return part < parts_.size() && (session_.mostPlays == 0 || parts_[part].plays < session_.mostPlays);
@@ -69,7 +72,7 @@ SeededRandom Experiment::randomFor(const std::string& purpose) const {
 }
 
 void Experiment::beginSession() {
-    items_ = stimuliOf(protocol_.conditions[conditionIndex()]);
+    items_ = itemsOf(plan(), protocol_.conditions[conditionIndex()]);
     inSession_ = inARow_ = 0;
     explored_.clear();
     isEnded_ = false;
@@ -139,6 +142,12 @@ Trial Experiment::nextTrial() {
     if (!s.objects.empty()) {
         trial.parts = s.objects;
         random.shuffle(trial.parts);
+        if (!s.reference.empty()) trial.parts.insert(trial.parts.begin(), s.reference);
+    }
+    if (s.comparesPairs) {
+        const std::size_t at = trial.stimulus.find(betweenPair);
+        trial.parts = {trial.stimulus.substr(0, at), trial.stimulus.substr(at + betweenPair.size())};
+        if (planned.isSwapped) std::ranges::reverse(trial.parts);
     }
     return trial;
 }
@@ -166,6 +175,7 @@ void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
         rovedDb = std::round(10.0 * s.roveDb *
                              (2.0 * randomFor("rove " + std::to_string(trial.number)).uniform() - 1.0)) /
                   10.0;
+    if (rovesApart(protocol_.conditions[trial.condition])) trial.roveDb = std::exchange(rovedDb, 0.0);
     for (const Alternative& button : buttons) {
         double db = rovedDb + button.levelDb + (button.name == moved ? trial.levelDb : 0.0);
         if (!s.levelsFrom.empty()) {
@@ -189,7 +199,8 @@ void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
 }
 
 std::string Experiment::choiceRefusal(const Answer& answer) const {
-    const bool isThere = std::ranges::find(trial_->parts, answer.response) != trial_->parts.end();
+    const auto& words = session().answers.empty() ? trial_->parts : session().answers;
+    const bool isThere = std::ranges::find(words, answer.response) != words.end();
     return isThere ? "" : "expected one of the alternatives, found " + answer.response;
 }
 
@@ -209,9 +220,11 @@ std::string Experiment::refusal(const Answer& answer) const {
     case AnswerKind::place: return isOnField(answer.place) ? "" : "expected a place on the field";
     case AnswerKind::choice: return choiceRefusal(answer);
     case AnswerKind::scores:
-        return answer.scores.size() == s.scales.size() && std::ranges::all_of(answer.scores, isScore)
+        return answer.scores.size() == s.scores().size() &&
+                       std::ranges::all_of(answer.scores, [&](double score) { return isScore(s, score); })
                    ? ""
-                   : "expected a score from 0 to 100 per scale";
+                   : "expected a score from " + std::string(s.points > 0 ? "1" : "0") + " to " +
+                         std::to_string(s.points > 0 ? s.points : 100) + " per scale";
     case AnswerKind::level:
         return answer.value >= s.adjustment->leastDb && answer.value <= s.adjustment->mostDb
                    ? ""
@@ -313,8 +326,8 @@ struct JobMaker {
     TrialJob operator()(const CallSet& set, const Part& part) const {
         const auto items = stimuliOf(condition);
         const auto item = std::ranges::find(items, label(), &StimulusItem::label);
-        return WrittenCall{withSounds(
-            protocol, callOf(set, item != items.end() ? *item : StimulusItem{}, part.name, part.levelDb))};
+        return WrittenCall{withSounds(protocol, callOf(set, item != items.end() ? *item : StimulusItem{},
+                                                       part.name, part.levelDb, record.trial.roveDb))};
     }
 };
 
@@ -338,16 +351,22 @@ std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record
     const JobMaker maker{protocol, condition, record};
     const SessionPlan& session = protocol.sessions[record.trial.session];
     std::vector<TrialJob> jobs;
-    TrialRecord first = record;
-    first.trial.stimulus = session.modulus;
-    if (!session.modulus.empty() && record.trial.parts.size() == 2) // the modulus, and the stimulus
-        for (const TrialRecord& one : {std::cref(first), std::cref(record)})
+    if (session.isOnce) return jobs;
+    const bool hasModulus = !session.modulus.empty() && record.trial.parts.size() == 2;
+    if (hasModulus || (session.comparesPairs && !record.trial.parts.empty())) { // parts are stimuli
+        TrialRecord one = record;
+        for (std::size_t i = 0; i < record.trial.parts.size(); ++i) {
+            one.trial.stimulus = !hasModulus ? record.trial.parts[i]
+                                 : i == 0    ? session.modulus
+                                             : record.trial.stimulus;
             jobs.push_back(std::visit(
                 [&](const auto& set) {
                     return JobMaker{protocol, condition, one}(set, Part{});
                 },
                 condition.stimuli));
-    if (!jobs.empty()) return jobs;
+        }
+        return jobs;
+    }
     const auto add = [&](const Part& part) {
         jobs.push_back(std::visit([&](const auto& set) { return maker(set, part); }, condition.stimuli));
     };

@@ -36,6 +36,7 @@ struct Trial {
     std::vector<std::string> parts; ///< parts played separately: alternatives in the order of their buttons,
                                     ///< or objects
     std::vector<double> partLevelsDb; ///< levels of the alternatives
+    double roveDb = 0.0;              ///< of the variable that roves, if there is one; else 0
     double levelDb = 0.0;             ///< of the alternative that is moved, or was matched before; else 0
     std::size_t staircase = 0;        ///< from 1, where several are mixed; else 0
     double restSeconds = 0.0;         ///< break before it

@@ -210,26 +210,6 @@ ConditionResolution resolveCondition(std::string condition, const std::vector<Lo
     return made;
 }
 
-CellSpread cellSpread(const std::vector<LocationTrial>& trials, double thresholdPercent, int draws,
-                      std::uint64_t seed) {
-    std::map<std::pair<int, int>, std::vector<std::size_t>> ofTarget;
-    for (std::size_t i = 0; i < trials.size(); ++i)
-        ofTarget[{trials[i].targetRow, trials[i].targetColumn}].push_back(i);
-    SeededRandom random{seed, "cells of responses drawn again"};
-    double sum = 0.0, squares = 0.0;
-    for (int draw = 0; draw < draws; ++draw) {
-        std::vector<LocationTrial> drawn;
-        for (const auto& [target, own] : ofTarget)
-            for (std::size_t i = 0; i < own.size(); ++i)
-                drawn.push_back(trials[own[random.below(own.size())]]);
-        const double cells = cellsOf(drawn, thresholdPercent);
-        sum += cells;
-        squares += cells * cells;
-    }
-    const double mean = sum / draws;
-    return {mean, std::sqrt(std::max(0.0, squares / draws - mean * mean) * draws / std::max(1, draws - 1))};
-}
-
 CellChance cellChance(const std::vector<std::vector<LocationTrial>>& conditions, double thresholdPercent,
                       int draws, std::uint64_t seed) {
     std::map<std::string, Exchange> byPerson;

@@ -61,17 +61,6 @@ struct ConditionResolution {
     PerceptualResolution resolution;
 };
 
-/// Sampling variability of the number of cells: bootstrap over each target's responses.
-struct CellSpread {
-    double mean = 0.0, deviation = 0.0; ///< cells
-};
-
-/// Precondition: the trials' distributions have no error. The same seed gives identical bits. Any thread
-/// (allocates).
-CellSpread cellSpread(const std::vector<LocationTrial>& trials,
-                      double thresholdPercent = defaultPercentThreshold, int draws = 200,
-                      std::uint64_t seed = 1);
-
 /// Any thread (allocates).
 ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
                                      double thresholdPercent = defaultPercentThreshold);

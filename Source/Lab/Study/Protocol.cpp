@@ -36,15 +36,20 @@ std::string taskFault(const SessionPlan& s) {
     using Kind = AnswerKind;
     const Kind answer = s.answer();
     const bool compares = answer == Kind::choice || answer == Kind::level;
-    if (compares && s.alternatives.size() < 2)
+    if (!s.answers.empty() && (answer != Kind::choice || s.answers.size() < 2 || !s.alternatives.empty() ||
+                               s.adaptedAlternative() || s.roveDb > 0.0))
+        return "answers: expected two or more of the task choose, in place of alternatives";
+    if (sharesNames(s.answers, [](const auto& word) { return word; }))
+        return "answers: expected no two alike";
+    if (compares && s.answers.empty() && s.alternatives.size() < 2)
         return "alternatives: expected two or more, found " + std::to_string(s.alternatives.size());
     if (!compares && !s.alternatives.empty())
         return "alternatives: expected them of " + tasksThatAnswer({Kind::choice, Kind::level}) + " only";
     if (sharesNames(s.alternatives, [](const auto& a) { return a.name; }))
         return "alternatives: expected a name of its own for each";
-    if (s.bothOrders && (answer != Kind::choice || s.alternatives.size() != 2))
-        return "both_orders: expected it of two alternatives to choose from";
-    if ((answer == Kind::scores) == s.scales.empty())
+    if (s.bothOrders && !s.comparesPairs && (answer != Kind::choice || s.alternatives.size() != 2))
+        return "both_orders: expected it of two alternatives to choose from, or of pairs";
+    if ((answer == Kind::scores) == s.scales.empty() && !(answer == Kind::scores && s.objects.size() > 1))
         return "scales: expected them of " + tasksThatAnswer({Kind::scores}) + ", and of no other";
     if (!s.definitions.empty() && s.definitions.size() != s.scales.size())
         return "definitions: expected one of each scale";
@@ -52,8 +57,17 @@ std::string taskFault(const SessionPlan& s) {
         return "anchors: expected two, of the left end and of the right";
     if (sharesNames(s.scales, [](const auto& scale) { return scale; }))
         return "scales: expected a name of its own for each";
-    if (answer != Kind::scores && !s.objects.empty())
-        return "objects: expected them of " + tasksThatAnswer({Kind::scores}) + " only";
+    if (answer != Kind::scores && (!s.objects.empty() || s.points > 0 || s.comparesPairs))
+        return "objects, points, pairs: expected them of " + tasksThatAnswer({Kind::scores}) + " only";
+    if (s.points == 1) return "points: expected 2 or more, found 1";
+    if (s.comparesPairs && !s.objects.empty()) return "pairs: expected them without objects";
+    if (!s.reference.empty() &&
+        (!s.ratesSideBySide() || std::ranges::find(s.objects, s.reference) == s.objects.end()))
+        return "reference: expected one of the objects, which are rated side by side, without scales";
+    if (s.isOnce && ((answer != Kind::scores && answer != Kind::words) || !s.objects.empty() ||
+                     s.comparesPairs || s.mostPlays > 0 || s.leastSeconds > 0.0))
+        return "once: expected it of " + tasksThatAnswer({Kind::scores, Kind::words}) +
+               ", where nothing is felt";
     if ((answer == Kind::level) != s.adjustment.has_value())
         return "adjustment: expected it of " + tasksThatAnswer({Kind::level}) + ", and of no other";
     if (s.adjustment && !hasAlternative(s, s.adjustment->alternative))
@@ -76,7 +90,8 @@ std::string taskFault(const SessionPlan& s) {
         return "task: expected " + std::string{describe(s.task).name} + " in a training session only";
     if (s.givesFeedback && !s.hasCorrectAnswers())
         return "feedback: expected it where answers are right or wrong: of a label, a staircase or QUEST+";
-    if (s.intervalSeconds > 0.0 && s.alternatives.size() < 2 && s.objects.size() < 2 && s.modulus.empty())
+    if (s.intervalSeconds > 0.0 && s.alternatives.size() < 2 && s.objects.size() < 2 && s.modulus.empty() &&
+        !s.comparesPairs)
         return "interval_s: expected two or more alternatives or objects, or a modulus, which follow one "
                "another";
     if (!s.correct.empty() &&
@@ -162,6 +177,8 @@ std::string stimulusFault(const ConditionPlan& c, const SessionPlan& s) {
         s.roveDb > 0.0 && calls != nullptr && calls->variables.empty() &&
         calls->call.find("{level_db}") == std::string::npos)
         return "call: expected {level_db} or a variable in it, which rove_db moves";
+    if (s.comparesPairs && (stimulusCount(c) < 2 || std::holds_alternative<WorldSet>(c.stimuli)))
+        return "stimuli: expected two or more to compare, and no world";
     const auto items = stimuliOf(c);
     if (!s.modulus.empty() && std::ranges::find(items, s.modulus, &StimulusItem::label) == items.end())
         return "stimuli: expected the modulus of session " + s.name + " among them, " + s.modulus;
@@ -274,7 +291,7 @@ bool namesParts(const ConditionPlan& condition) {
     return calls != nullptr && namesPartsIn(*calls);
 }
 
-std::vector<std::string> movedBesideStrength(const ConditionPlan& condition) {
+std::vector<std::string> movedBesideStrength(const ConditionPlan& condition, bool byRove) {
     std::vector<std::string> moved;
     const CallSet* const calls = callSetOf(condition.stimuli);
     if (calls == nullptr) return moved;
@@ -282,9 +299,16 @@ std::vector<std::string> movedBesideStrength(const ConditionPlan& condition) {
         const std::string word = "{" + name + "}";
         if (countOf(option + word, calls->call) < countOf(word, calls->call)) moved.push_back(name);
     };
-    look("level_db", "--level-db ");
-    for (const StudyVariable& variable : calls->variables) look(variable.name, "--level-g ");
+    const bool isApart = rovesApart(condition);
+    if (!byRove || !isApart) look("level_db", "--level-db ");
+    for (const StudyVariable& variable : calls->variables)
+        if (variable.roves == (byRove && isApart)) look(variable.name, "--level-g ");
     return moved;
+}
+
+bool rovesApart(const ConditionPlan& condition) noexcept {
+    const CallSet* const calls = callSetOf(condition.stimuli);
+    return calls != nullptr && std::ranges::any_of(calls->variables, &StudyVariable::roves);
 }
 
 std::string levelsFault(const Protocol& p) {
@@ -357,7 +381,7 @@ std::string picturePath(const MaterialPictureFile& picture, const std::string& p
 std::vector<std::string> scalesOf(const Protocol& protocol) {
     std::vector<std::string> scales;
     for (const auto& session : protocol.sessions)
-        for (const auto& scale : session.scales)
+        for (const auto& scale : session.answer() == AnswerKind::scores ? session.scores() : session.scales)
             if (std::ranges::find(scales, scale) == scales.end()) scales.push_back(scale);
     return scales;
 }
@@ -372,7 +396,8 @@ std::set<std::string> callPartsOf(const Protocol& p) {
     return parts;
 }
 
-std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb) {
+std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb,
+                   double roveDb) {
     std::string words = set.call;
     for (const auto& [name, value] : item.values) {
         const StudyFactor& factor = *std::ranges::find(set.factors, name, &StudyFactor::name);
@@ -383,12 +408,24 @@ std::string callOf(const CallSet& set, const StimulusItem& item, const std::stri
     replaceAll(words, "{object}", part);
     replaceAll(words, "{level_db}", numberWord(levelDb));
     for (const StudyVariable& variable : set.variables)
-        replaceAll(words, "{" + variable.name + "}", numberWord(variable.at(levelDb)));
+        replaceAll(words, "{" + variable.name + "}",
+                   numberWord(variable.at(variable.roves ? roveDb : levelDb)));
     return words;
 }
 
 std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition) {
     return std::visit([](const auto& set) { return itemsOf(set); }, condition.stimuli);
+}
+
+std::vector<StimulusItem> itemsOf(const SessionPlan& session, const ConditionPlan& condition) {
+    if (session.isOnce) return {{}};
+    auto items = stimuliOf(condition);
+    if (!session.comparesPairs) return items;
+    std::vector<StimulusItem> pairs;
+    for (std::size_t b = 1; b < items.size(); ++b)
+        for (std::size_t a = 0; a < b; ++a)
+            pairs.push_back({items[a].label + std::string{betweenPair} + items[b].label, {}});
+    return pairs;
 }
 
 double stimulusCount(const ConditionPlan& condition) noexcept {

@@ -54,6 +54,7 @@ struct StudyFactor {
 struct StudyVariable {
     std::string name; ///< with its unit, e.g. "decay_per_s"
     double at0Db = 1.0;
+    bool roves = false; ///< follows a trial's rove_db instead, which then moves nothing else
     bool operator==(const StudyVariable&) const = default;
     double at(double levelDb) const noexcept;
 };
@@ -169,8 +170,13 @@ struct SessionPlan {
     double breakSeconds = 0.0;
     std::vector<Alternative> alternatives; ///< choose, adjust
     bool bothOrders = false; ///< choose: each order of the two alternatives once, instead of a random order
+    std::vector<std::string> answers;     ///< choose: of one stimulus, in place of alternatives
     std::vector<std::string> objects;     ///< rate: parts of every trial, in random order
-    std::vector<std::string> scales;      ///< rate
+    std::vector<std::string> scales;      ///< rate; empty: a score of each object, side by side
+    std::string reference;                ///< of those an object that is also felt openly, before them
+    int points = 0;                       ///< rate: scores from 1 to so many; 0: from 0 to 100
+    bool isOnce = false;                  ///< rate, describe: on the condition as a whole, with nothing felt
+    bool comparesPairs = false;           ///< rate: the parts of a trial are two of the stimuli
     std::vector<std::string> definitions; ///< description of each scale, shown beside it; may be empty
     std::vector<std::string> anchors;     ///< labels of the scale ends; empty: usualAnchors
     bool showsNumbers = false;            ///< rate: show the score as a number
@@ -188,6 +194,9 @@ struct SessionPlan {
     bool operator==(const SessionPlan&) const = default;
 
     AnswerKind answer() const noexcept { return describe(task).answer; }
+    /// Names of the scores of `rate`.
+    const std::vector<std::string>& scores() const noexcept { return scales.empty() ? objects : scales; }
+    bool ratesSideBySide() const noexcept { return scales.empty() && !objects.empty(); }
     /// The alternative whose level a staircase or QUEST+ controls; null if there is none.
     const std::string* adaptedAlternative() const noexcept {
         return staircase ? &staircase->alternative : quest ? &quest->alternative : nullptr;
@@ -233,6 +242,9 @@ std::string picturePath(const MaterialPictureFile& picture, const std::string& p
 /// All scales of a protocol, in the order of their first mention. Any thread (allocates).
 std::vector<std::string> scalesOf(const Protocol& protocol);
 
+/// Between the labels of two stimuli that are compared.
+constexpr std::string_view betweenPair = " & ";
+
 /// A stimulus of a condition: its label and, for a CallSet, the values of its factors.
 struct StimulusItem {
     std::string label;
@@ -242,17 +254,25 @@ struct StimulusItem {
 /// All stimuli of a condition, in a fixed order. Any thread (allocates).
 std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition);
 
+/// What the trials of a session are of: these stimuli, every two of them ("200 & 250"), or one without a
+/// label that stands for the whole condition. Any thread (allocates).
+std::vector<StimulusItem> itemsOf(const SessionPlan& session, const ConditionPlan& condition);
+
+/// True if a variable of the condition's calls follows rove_db alone. Any thread.
+bool rovesApart(const ConditionPlan& condition) noexcept;
+
 /// The call of a stimulus with all names replaced; `part` is the alternative or object. Any thread
 /// (allocates).
-std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb);
+std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb,
+                   double roveDb = 0.0);
 
 /// True if the condition's calls name the alternative or object. Any thread (allocates).
 bool namesParts(const ConditionPlan& condition);
 
 /// What a trial's level changes in the condition's calls other than the strength of the stimulus: variables
 /// that are used elsewhere than right after --level-g, and level_db if it is used elsewhere than right after
-/// --level-db. Any thread (allocates).
-std::vector<std::string> movedBesideStrength(const ConditionPlan& condition);
+/// --level-db. `byRove`: what rove_db changes. Any thread (allocates).
+std::vector<std::string> movedBesideStrength(const ConditionPlan& condition, bool byRove = false);
 
 /// All alternatives and objects that can be put into calls; if there are none, one empty name. Any thread
 /// (allocates).

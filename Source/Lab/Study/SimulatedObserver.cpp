@@ -100,10 +100,16 @@ Answer SimulatedObserver::answer(const Experiment& experiment) const {
             feltPlace(std::get<GridSet>(condition.stimuli).grid().place(*targetOf(condition, trial)),
                       blurOf(condition), random);
         break;
-    case AnswerKind::choice: answer.response = chosen(session, trial, random); break;
+    case AnswerKind::choice:
+        answer.response = session.answers.empty() ? chosen(session, trial, random)
+                                                  : answered(session, condition, trial, random);
+        break;
     case AnswerKind::scores:
-        for (std::size_t s = 0; s < session.scales.size(); ++s)
-            answer.scores.push_back(scored(trial, random));
+        for (std::size_t s = 0; s < session.scores().size(); ++s) {
+            const double score = scored(trial, random);
+            answer.scores.push_back(session.points > 0 ? 1.0 + std::round(0.01 * score * (session.points - 1))
+                                                       : score);
+        }
         break;
     case AnswerKind::level:
         answer.value =
@@ -193,6 +199,17 @@ std::string SimulatedObserver::chosen(const SessionPlan& session, const Trial& t
     if (!session.correct.empty() && random.chance(0.5)) return session.correct; // knows half of them
     if (random.chance(settings_.firstAlternativePreference)) return session.alternatives.front().name;
     return session.alternatives[1 + random.below(session.alternatives.size() - 1)].name;
+}
+
+/// The later a stimulus stands, the later an answer.
+std::string SimulatedObserver::answered(const SessionPlan& session, const ConditionPlan& condition,
+                                        const Trial& trial, SeededRandom& random) {
+    const auto items = stimuliOf(condition);
+    const auto at =
+        static_cast<double>(std::ranges::find(items, trial.stimulus, &StimulusItem::label) - items.begin());
+    const double share = (at + 0.5) / static_cast<double>(items.size()) + 0.2 * random.normal();
+    return session.answers[static_cast<std::size_t>(std::clamp(share, 0.0, 0.999) *
+                                                    static_cast<double>(session.answers.size()))];
 }
 
 /// Words that a table, a page and a spreadsheet must leave as they are; now and then none, where that is

@@ -57,6 +57,8 @@ private:
     double blurOf(const ConditionPlan& condition) const noexcept;
     FieldPlace feltPlace(const FieldPlace& place, double blur, SeededRandom& random) const;
     std::string chosen(const SessionPlan& session, const Trial& trial, SeededRandom& random) const;
+    static std::string answered(const SessionPlan& session, const ConditionPlan& condition,
+                                const Trial& trial, SeededRandom& random);
     static std::string described(const SessionPlan& session, SeededRandom& random);
     double scored(const Trial& trial, SeededRandom& random) const;
     double magnitude(const ConditionPlan& condition, const Trial& trial, SeededRandom& random) const;

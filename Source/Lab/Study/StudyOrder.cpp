@@ -63,8 +63,9 @@ std::vector<PlannedTrial> sessionOrder(const SessionPlan& session, std::size_t s
     for (int repetition = 0; repetition < session.repetitions; ++repetition) {
         std::vector<PlannedTrial> block;
         for (std::size_t s = 0; s < stimuli; ++s) {
-            block.push_back({s, !session.bothOrders && session.alternatives.size() == 2 &&
-                                    session.answer() == AnswerKind::choice && random.chance(0.5)});
+            const bool isOfTwo = session.comparesPairs ||
+                                 (session.alternatives.size() == 2 && session.answer() == AnswerKind::choice);
+            block.push_back({s, !session.bothOrders && isOfTwo && random.chance(0.5)});
             if (session.bothOrders) block.push_back({s, true});
         }
         if (session.order == SessionPlan::Order::blocks) random.shuffle(block);

@@ -89,12 +89,13 @@ std::map<std::string, Levels> partsOf(const Protocol& protocol, const SessionPla
         for (const double db : levelsOf(protocol, session, alternative)) {
             Levels& levels = parts[alternative.name];
             levels.insert(db);
+            if (std::ranges::any_of(protocol.conditions, rovesApart)) continue;
             for (int tenth = 1; tenth <= std::lround(10.0 * session.roveDb); ++tenth)
                 levels.insert(
                     {std::round((db - 0.1 * tenth) * 1e6) / 1e6, std::round((db + 0.1 * tenth) * 1e6) / 1e6});
         }
     for (const std::string& object : session.objects) parts[object] = {0.0};
-    if (parts.empty()) parts[{}] = {0.0};
+    if (parts.empty() && !session.isOnce) parts[{}] = {0.0};
     return parts;
 }
 
@@ -119,10 +120,13 @@ std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s) {
             PlannedSession& planned =
                 all.emplace_back(PlannedSession{s, c, mostTrialsOf(protocol.sessions[s], items.size()), {}});
-            const double each = static_cast<double>(planned.trials) / static_cast<double>(items.size());
+            const double each = static_cast<double>(planned.trials) / static_cast<double>(items.size()) *
+                                (protocol.sessions[s].comparesPairs ? 2.0 : 1.0);
             for (const StimulusItem& item : items)
                 for (const auto& [part, levels] : partsOf(protocol, protocol.sessions[s]))
-                    planned.felt.push_back({c, item.label, part, each});
+                    planned.felt.push_back(
+                        {c, item.label, part,
+                         !part.empty() && part == protocol.sessions[s].reference ? 2.0 * each : each});
             if (const std::string& modulus = protocol.sessions[s].modulus; !modulus.empty())
                 planned.felt.push_back({c, modulus, {}, static_cast<double>(planned.trials)});
         }
@@ -133,7 +137,9 @@ std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
 } // namespace
 
 int mostTrialsOf(const SessionPlan& session, std::size_t stimuli) {
-    const auto count = static_cast<int>(stimuli);
+    const auto count = static_cast<int>(session.isOnce          ? 1
+                                        : session.comparesPairs ? stimuli * (stimuli - 1) / 2
+                                                                : stimuli);
     if (session.answer() == AnswerKind::wish)
         return session.fewestTouches > 0 ? session.fewestTouches : count;
     if (session.quest) return session.quest->trials;
@@ -151,6 +157,8 @@ TrialJob PlannedStimulus::job(const Protocol& protocol) const {
         record.trial.parts = {part};
         record.trial.partLevelsDb = {levelDb};
         record.answer.value = levelDb; // an adjustment plays its answered level
+        if (rovesApart(protocol.conditions[condition]))
+            record.trial.roveDb = protocol.sessions[session].roveDb;
     }
     return jobsOf(protocol, record).front();
 }

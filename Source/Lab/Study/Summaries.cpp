@@ -109,7 +109,8 @@ using Chosen = std::vector<const RatingTrial*>;
 
 std::vector<double> participantMeans(const Chosen& trials, std::size_t scale) {
     std::map<std::string, std::vector<double>> scores;
-    for (const auto* trial : trials) scores[trial->participant].push_back(trial->scores[scale]);
+    for (const auto* trial : trials)
+        if (!std::isnan(trial->scores[scale])) scores[trial->participant].push_back(trial->scores[scale]);
     std::vector<double> means;
     for (const auto& [participant, own] : scores) means.push_back(Moments(own).mean);
     return means;
@@ -119,11 +120,12 @@ RatingSummary summarise(const std::string& condition, const Chosen& trials) {
     RatingSummary summary{condition, trials.size(), 0, {}, {}, {}};
     for (std::size_t scale = 0; scale < trials.front()->scores.size(); ++scale) {
         std::vector<double> scores;
-        for (const auto* trial : trials) scores.push_back(trial->scores[scale]);
+        for (const auto* trial : trials)
+            if (!std::isnan(trial->scores[scale])) scores.push_back(trial->scores[scale]);
         const Moments moments{scores};
         const auto means = participantMeans(trials, scale);
-        summary.participants = means.size();
-        summary.means.push_back(moments.mean);
+        summary.participants = std::max(summary.participants, means.size());
+        summary.means.push_back(scores.empty() ? std::nan("") : moments.mean);
         summary.deviations.push_back(moments.deviation);
         summary.halfIntervals.push_back(Moments(means.size() > 1 ? means : scores).halfInterval());
     }

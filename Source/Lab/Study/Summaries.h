@@ -116,14 +116,14 @@ std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& tria
 /// One rating trial: a score per scale.
 struct RatingTrial {
     std::string participant, condition;
-    std::vector<double> scores;
+    std::vector<double> scores; ///< NaN: a scale that was not asked
 };
 
 struct RatingSummary {
     std::string condition;
     std::size_t trials = 0, participants = 0;
     std::vector<double> means, deviations; ///< per scale: over trials; sample standard deviation, 0 for one
-                                           ///< trial
+                                           ///< trial; NaN: not asked
     std::vector<double> halfIntervals;     ///< 95 %: t interval over participants' means, or over trials if
                                            ///< participants are unknown; 0 for one value
 };

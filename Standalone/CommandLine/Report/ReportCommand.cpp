@@ -108,15 +108,21 @@ int runReport(ReportOptions& o) {
     return exitDone;
 }
 
-/// A folder that nobody else had, which goes with its contents.
+/// A folder that nobody else had, which goes with its contents; where its process was killed, with the next.
 class OwnFolder {
 public:
     OwnFolder() {
         std::random_device random;
-        std::error_code fault;
+        std::error_code fault, ignored;
         const auto root = std::filesystem::temp_directory_path(fault);
+        const std::string before = "physvib-tests-";
+        for (const auto& entry : std::filesystem::directory_iterator{root, ignored}) {
+            const auto age = std::filesystem::file_time_type::clock::now() - entry.last_write_time(ignored);
+            if (entry.path().filename().string().starts_with(before) && age > std::chrono::hours{1})
+                std::filesystem::remove_all(entry.path(), ignored); // R has ten minutes
+        }
         for (int tries = 0; tries < 10 && path.empty() && !fault; ++tries) {
-            const auto named = root / ("physvib-" + std::to_string(random()) + std::to_string(random()));
+            const auto named = root / (before + std::to_string(random()) + std::to_string(random()));
             if (std::filesystem::create_directory(named, fault)) path = named;
         }
         std::filesystem::permissions(path, std::filesystem::perms::owner_all, fault);
@@ -166,7 +172,9 @@ Result<StudyFiles> runAnalysisScript(const StudyFiles& files) {
     if (!said) return Failure{said.error};
     if (!said.value.empty()) return Failure{said.value};
     StudyFiles made;
-    for (const char* name : {testsTable, testsWords}) {
+    for (const char* name : {testsTable, testsWords, pairsTable, mapTable}) {
+        if (name != testsTable && name != testsWords && !std::filesystem::exists(folder.path / name))
+            continue;
         auto text = readFile((folder.path / name).string(), limits::maxTableBytes);
         if (!text) return Failure{text.error};
         made[name] = std::move(text.value);

@@ -253,6 +253,13 @@ StudyRun StudiesTab::run() const {
             pathOf(folder_.getText())};
 }
 
+bool StudiesTab::isDone(const StudyRun& run, const std::vector<TrialRecord>& records) {
+    Experiment experiment{run.protocol, run.participant, true};
+    for (const TrialRecord& record : records)
+        if (!experiment.redo(record).empty()) return false;
+    return experiment.isDone();
+}
+
 /// Shows whether the trial file exists and can be continued.
 void StudiesTab::look() {
     if (!protocol_) return;
@@ -269,8 +276,12 @@ void StudiesTab::look() {
     const auto text = readFile(path, limits::maxTableBytes);
     const auto log = text ? readTrialLog(text.value, path.string(), chosen.protocol, chosen.participant)
                           : Result<TrialLog>{Failure{text.error}};
-    begin_.setButtonText("Go on");
-    if (log)
+    const bool isFinished = log && isDone(chosen, log.value.records);
+    begin_.setButtonText(isFinished ? "Begin" : "Go on");
+    if (isFinished)
+        begin_.setEnabled(false),
+            say(utf8(path.filename().string()) + " has all its trials: expected another code", Shade::muted);
+    else if (log)
         say(utf8(path.filename().string()) + " has " +
                 juce::String{static_cast<int>(log.value.records.size())} + " trials: it goes on behind them" +
                 exposureWords(log.value.records),

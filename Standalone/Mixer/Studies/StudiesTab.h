@@ -71,6 +71,7 @@ private:
     void pickProtocol();
     void browseProtocol();
     void browseFolder();
+    static bool isDone(const StudyRun& run, const std::vector<TrialRecord>& records);
     void look();
     void listNoise();
     void pickWords();

@@ -120,13 +120,12 @@ juce::Rectangle<int> column(juce::Rectangle<int> area, int width, int height) {
 /// One button per label.
 class LabelAnswer final : public ChosenAnswer {
 public:
-    LabelAnswer(const ConditionPlan& condition, const StudyWords& say) {
+    LabelAnswer(std::vector<std::string> labels, const StudyWords& say)
+        : labels_{std::move(labels)} {
         setTitle("Stimuli");
-        for (const StimulusItem& item : stimuliOf(condition)) {
-            auto& button =
-                buttons_.emplace_back(std::make_unique<BigButton>(say(item.label), utf8(item.label)));
-            labels_.push_back(item.label);
-            button->onClick = [this, label = item.label] { choose(label); };
+        for (const std::string& label : labels_) {
+            auto& button = buttons_.emplace_back(std::make_unique<BigButton>(say(label), utf8(label)));
+            button->onClick = [this, label] { choose(label); };
             addAndMakeVisible(*button);
         }
     }
@@ -154,7 +153,7 @@ private:
             buttons_[i]->setToggleState(labels_[i] == response, juce::dontSendNotification);
     }
     std::vector<std::unique_ptr<BigButton>> buttons_;
-    std::vector<std::string> labels_;
+    const std::vector<std::string> labels_;
 };
 
 /// One button per part, by number; the names of the parts are hidden.
@@ -194,28 +193,37 @@ private:
     std::vector<std::unique_ptr<BigButton>> buttons_;
 };
 
-/// One slider per scale, with its definition. A slider that was not moved has no answer. The score is hidden
-/// unless the session shows numbers, because visible numbers bias ratings.
+/// One slider per scale, with its definition, or per object in the order of its button. A slider that was not
+/// moved has no answer. The score is hidden unless the session shows numbers, because visible numbers bias
+/// ratings.
 class RatingAnswer final : public StudyAnswer {
 public:
-    RatingAnswer(const SessionPlan& session, const StudyWords& say)
+    RatingAnswer(const SessionPlan& session, const Trial& trial, const StudyWords& say)
         : say_{say}
         , anchors_{session.anchors.empty()
                        ? std::vector<std::string>{usualAnchors.begin(), usualAnchors.end()}
                        : session.anchors}
+        , points_{session.points}
         , showsNumbers_{session.showsNumbers} {
         setTitle("Ratings");
-        for (std::size_t i = 0; i < session.scales.size(); ++i) {
+        const std::size_t open = session.reference.empty() ? 0 : 1;
+        for (std::size_t i = 0; i < session.scores().size(); ++i) {
             auto& scale = scales_.emplace_back(std::make_unique<Scale>());
-            const auto title = utf8(session.scales[i]), name = say(session.scales[i]);
+            const auto own = session.ratesSideBySide() ? partLetter(i) : utf8(session.scales[i]);
+            const auto title = own, name = session.ratesSideBySide() ? own : say(session.scales[i]);
+            places_.push_back(
+                session.ratesSideBySide()
+                    ? static_cast<std::size_t>(std::ranges::find(session.objects, trial.parts[open + i]) -
+                                               session.objects.begin())
+                    : i);
             scale->name = name.substring(0, 1).toUpperCase() + name.substring(1);
             if (i < session.definitions.size()) scale->meaning = say(session.definitions[i]);
             scale->slider.setTitle(title.substring(0, 1).toUpperCase() + title.substring(1));
             scale->slider.setDescription(scale->meaning);
             scale->slider.setSliderStyle(juce::Slider::LinearHorizontal);
             scale->slider.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
-            scale->slider.setRange(0.0, 100.0, 1.0);
-            scale->slider.setValue(50.0, juce::dontSendNotification);
+            scale->slider.setRange(points_ > 0 ? 1.0 : 0.0, points_ > 0 ? points_ : 100.0, 1.0);
+            scale->slider.setValue(points_ > 0 ? (1 + points_) / 2 : 50.0, juce::dontSendNotification);
             scale->slider.setWantsKeyboardFocus(true);
             scale->slider.getProperties().set(tintProperty,
                                               static_cast<juce::int64>(palette::muted.getARGB()));
@@ -226,7 +234,9 @@ public:
     }
     Answer answer() const override {
         Answer answer;
-        for (const auto& scale : scales_) answer.scores.push_back(scale->slider.getValue());
+        answer.scores.resize(scales_.size());
+        for (std::size_t i = 0; i < scales_.size(); ++i)
+            answer.scores[places_[i]] = scales_[i]->slider.getValue();
         return answer;
     }
     bool isComplete() const override {
@@ -243,6 +253,10 @@ public:
             g.setColour(shade(*this, Shade::muted));
             g.setFont(text::font(text::medium));
             g.drawText(scale->meaning, words, juce::Justification::centredLeft, true);
+            for (int point = 1; point <= points_; ++point)
+                g.fillEllipse(juce::Rectangle<float>{8.0f, 8.0f}.withCentre(
+                    {static_cast<float>(scale->slider.getX()) + scale->slider.getPositionOfValue(point),
+                     static_cast<float>(scale->slider.getBounds().getCentreY())}));
             const auto ends = row.withTrimmedTop(30).removeFromTop(22);
             g.drawText(say_(anchors_[0]), ends, juce::Justification::centredLeft, true);
             g.drawText(say_(anchors_[1]), ends, juce::Justification::centredRight, true);
@@ -278,7 +292,9 @@ private:
     }
     const StudyWords& say_;
     const std::vector<std::string> anchors_;
+    const int points_; // 0: from 0 to 100
     const bool showsNumbers_;
+    std::vector<std::size_t> places_; // of each slider, among the session's scores
     std::vector<std::unique_ptr<Scale>> scales_;
 };
 
@@ -422,7 +438,9 @@ std::unique_ptr<StudyAnswer> labelled(const ConditionPlan& condition, const Layo
     if (std::holds_alternative<PatternSet>(condition.stimuli))
         return makePatternAnswer(condition, layout, words);
     if (const auto* grid = std::get_if<GridSet>(&condition.stimuli)) return makeCellAnswer(*grid, layout);
-    return std::make_unique<LabelAnswer>(condition, words);
+    std::vector<std::string> labels;
+    for (StimulusItem& item : stimuliOf(condition)) labels.push_back(std::move(item.label));
+    return std::make_unique<LabelAnswer>(std::move(labels), words);
 }
 
 } // namespace
@@ -436,8 +454,10 @@ std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const
                                          : labelled(experiment.condition(), layout, words);
     case AnswerKind::label: return labelled(experiment.condition(), layout, words);
     case AnswerKind::place: return makePlaceAnswer(layout);
-    case AnswerKind::choice: return std::make_unique<ChoiceAnswer>(experiment.trial(), words);
-    case AnswerKind::scores: return std::make_unique<RatingAnswer>(session, words);
+    case AnswerKind::choice:
+        if (!session.answers.empty()) return std::make_unique<LabelAnswer>(session.answers, words);
+        return std::make_unique<ChoiceAnswer>(experiment.trial(), words);
+    case AnswerKind::scores: return std::make_unique<RatingAnswer>(session, experiment.trial(), words);
     case AnswerKind::level:
         return std::make_unique<AdjustAnswer>(*session.adjustment, experiment.trial().levelDb, words);
     case AnswerKind::number: return std::make_unique<NumberAnswer>();

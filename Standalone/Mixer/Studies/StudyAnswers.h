@@ -82,6 +82,11 @@ private:
 std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout,
                                              const StudyWords& words);
 
+/// A, B, C ...: what is rated side by side has no other name. Any thread.
+inline juce::String partLetter(std::size_t part) {
+    return juce::String::charToString(static_cast<juce::juce_wchar>('A' + part));
+}
+
 // Implemented in files of their own:
 std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition,
                                                const LayoutDescription& layout, const StudyWords& words);

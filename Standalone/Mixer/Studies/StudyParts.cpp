@@ -227,9 +227,10 @@ juce::String StudyWords::instruction(const SessionPlan& session, const Condition
     if (session.fewestTouches > 0)
         return say("Touch the field anywhere and feel that place.") + "\n" +
                say("Go on for as long as you like; Next ends the training.");
+    if (session.isOnce) return {};
     const bool saysPlays = session.answer() != AnswerKind::wish && session.alternatives.empty();
-    return (saysPlays ? feel(session) : juce::String{}) +
-           lines(describe(session.task).instruction, condition);
+    const StudyTask task = session.answers.empty() ? session.task : StudyTask::identify;
+    return (saysPlays ? feel(session) : juce::String{}) + lines(describe(task).instruction, condition);
 }
 
 juce::String StudyWords::ordinal(int part) const {

@@ -179,11 +179,13 @@ void StudyScreen::showTrial() {
     exploring_.reset();
     wanted_.reset();
     sessions_.clear();
-    felt_.assign(std::max<std::size_t>(1, experiment().trial().parts.size()), {});
+    const bool isOnce = experiment().session().isOnce; // nothing is felt
+    felt_.assign(isOnce ? 0 : std::max<std::size_t>(1, experiment().trial().parts.size()), {});
     unlike_.assign(felt_.size(), 0);
     isLost_ = false;
     part_ = 0;
-    counted_ = firstFeltMs_ = 0.0;
+    counted_ = 0.0;
+    firstFeltMs_ = isOnce ? nowMs() : 0.0;
     auto answer = makeStudyAnswer(experiment(), layout_, say_);
     answer->onAnswer = [this] { asked(); };
     answer->onChange = [this] { refresh(); };
@@ -212,7 +214,7 @@ void StudyScreen::previewWorld() {
 
 void StudyScreen::showParts() {
     parts_.clear();
-    if (isExploring()) return;
+    if (isExploring() || experiment().session().isOnce) return;
     const auto count = std::max<std::size_t>(1, experiment().trial().parts.size());
     for (std::size_t i = 0; i < count; ++i) {
         auto& button = parts_.emplace_back(std::make_unique<BigButton>(
@@ -449,7 +451,7 @@ void StudyScreen::submit(Answer answer) {
     answer.limiterDb = std::exchange(limiterDb_, 0.0);
     answer.exposure = exposure();
     answer.plays = std::max(1, progress_->plays());
-    if (!hasNoDevice(model_))
+    if (!hasNoDevice(model_) && !felt_.empty())
         answer.left = std::ranges::all_of(unlike_, [](int plays) { return plays < maxUnlike; });
     answer.again = progress_->again();
     answer.seconds = std::round(nowMs() - firstFeltMs_) * 1e-3;
@@ -551,7 +553,11 @@ void StudyScreen::updateParts() {
         const bool isPlaying = isFeeling() && part_ == i, wasFelt = progress_->plays(i) > 0;
         juce::String words = parts_.size() == 1 ? say_(wasFelt ? "Feel it again" : "Feel it")
                                                 : juce::String{static_cast<int>(i) + 1};
-        if (!session.objects.empty() && worldSet() == nullptr) words += "   " + say_(trial.parts[i]);
+        const std::size_t open = session.reference.empty() ? 0 : 1;
+        if (session.ratesSideBySide())
+            words = i < open ? say_("Reference") : partLetter(i - open);
+        else if (!session.objects.empty() && worldSet() == nullptr)
+            words += "   " + say_(trial.parts[i]);
         if (session.adjustment && session.adjustment->alternative == trial.parts[i])
             words += "   " + say_("to be matched");
         if (i == 0 && !session.modulus.empty()) words += "   = " + utf8(numberText(session.modulusNumber));

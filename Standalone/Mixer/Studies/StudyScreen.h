@@ -68,7 +68,9 @@ private:
     bool isExploring() const;
     bool canAnswer() const;
     const WorldSet* worldSet() const {
-        return page_ == Page::trial ? std::get_if<WorldSet>(&experiment().condition().stimuli) : nullptr;
+        return page_ == Page::trial && !experiment().session().isOnce
+                   ? std::get_if<WorldSet>(&experiment().condition().stimuli)
+                   : nullptr;
     }
     bool hasHands() const { return worldSet() != nullptr && worldSet()->hasHands; }
     bool isAnswerSeen() const;

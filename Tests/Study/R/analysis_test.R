@@ -156,5 +156,49 @@ for (sizes in list(c(6, 6), c(4, 7), c(5, 3, 6))) {
   same(paste(words, "ranks"), line(told(pairs.test("t", "trials.csv", "y", between = "group", by = "ranks")), "group: g1 - g2")$p,
        wilcox.test(all[group == "g1"], all[group == "g2"])$p.value)
 }
+# People who lack levels, in a mixed model of all: the likelihood ratios of lmer's own formulas, with factors within and between.
+if (requireNamespace("lme4", quietly = TRUE)) {
+  d <- expand.grid(trial = 1:2, condition = c("x", "y", "z"), participant = person(14), stringsAsFactors = FALSE)
+  d$group <- ifelse(as.integer(d$participant) <= 6, "a", "b"); d$y <- rnorm(nrow(d)) + rnorm(14)[as.integer(d$participant)] + 0.7 * (d$condition == "z")
+  d <- d[!(d$participant %in% c("03", "09") & d$condition == "y"), ]; rows(d)
+  for (between in list(character(), "group")) {
+    ours <- told(anova.test("t", "trials.csv", "y", "condition", between = between)); m <- aggregate(y ~ ., d[names(d) != "trial"], mean)
+    chi <- function(all, without) 2 * as.numeric(logLik(lme4::lmer(all, m, REML = FALSE)) - logLik(lme4::lmer(without, m, REML = FALSE)))
+    same("mixed model", line(ours, "condition mixed model")$value, if (length(between) == 0) chi(y ~ condition + (1 | participant), y ~ 1 + (1 | participant)) else {
+      x <- model.matrix(~ condition * group, m, list(condition = "contr.sum", group = "contr.sum")); at <- attr(x, "assign")
+      chi(y ~ 0 + x + (1 | participant), y ~ 0 + x[, at != 1] + (1 | participant)) })
+    if (length(between) > 0) same("mixed interaction", line(ours, "condition:group mixed model")$value, chi(y ~ condition * group + (1 | participant), y ~ condition + group + (1 | participant)))
+    if (line(ours, "condition mixed model")$n != 14 || line(ours, "left out")$n != 12) fault("who is in which model")
+  }
+} else cat("lme4 is not here: its models were not tried\n")
+# Objects side by side are a factor; a hidden reference that is rated low is told; points are ranks; groups stand in the table of people.
+whole <- function(d, scales, points = character(), people = NULL) {
+  unlink(c("similarity.csv", "mds.csv", "participants.csv")); rows(d); if (!is.null(people)) rows(people, "participants.csv")
+  results <<- similarity <<- places <<- data.frame(); capture.output(study("of a test", scales, points)); results
+}
+d <- expand.grid(trial = 1:3, participant = person(8), stringsAsFactors = FALSE)
+d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$condition <- "c"; d$stimulus <- "s"; d$parts <- "ref|low|ref|mid"
+d$ref <- ifelse(d$participant == "05", 70, 97); d$low <- round(20 + 9 * rnorm(24)); d$mid <- round(60 + 9 * rnorm(24))
+ours <- whole(d, c("low", "mid", "ref"))
+if (!any(ours$effect == "object" & ours$p < 0.001)) fault("objects side by side are not compared")
+if (!any(grepl("by 05, whom", ours$note))) fault("a low hidden reference is not told")
+own <- aggregate(cbind(low, mid, ref) ~ participant, d, mean)
+same("objects", line(ours, "object: low - mid")$p, t.test(own$low, own$mid, paired = TRUE)$p.value)
+d <- expand.grid(trial = 1:2, participant = person(8), condition = c("c1", "c2", "c3"), stringsAsFactors = FALSE)
+d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$stimulus <- ""; d$parts <- ""; d$effort <- sample(1:7, nrow(d), TRUE)
+ours <- whole(d, "effort", "effort", data.frame(participant = person(8), group = rep(c("g", "h"), 4)))
+wide <- tapply(as.numeric(d$effort), list(d$participant, d$condition), mean)
+same("seven points", line(ours, "condition")$p, friedman.test(wide)$p.value)
+same("groups of the table of people", line(ours, "group")$p, kruskal.test(rowMeans(wide), rep(c("g", "h"), 4))$p.value)
+if (any(grepl("variance", ours$test))) fault("points are taken as scores")
+# Pairs: the matrix of means, and a map that has the distances of points in a plane.
+at <- cbind(c(0, 3, 0, 5), c(0, 0, 4, 5)); two <- combn(4, 2); names(at) <- NULL
+d <- expand.grid(pair = 1:6, participant = person(3), stringsAsFactors = FALSE)
+d$stimulus <- paste(letters[two[1, d$pair]], "&", letters[two[2, d$pair]]); d$difference <- apply(at[two[1, d$pair], ] - at[two[2, d$pair], ], 1, function(x) sqrt(sum(x^2)))
+d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$condition <- "c"; d$parts <- sub(" & ", "|", d$stimulus)
+whole(d, "difference")
+map <- read.csv("mds.csv", comment.char = "#"); m <- read.csv("similarity.csv", comment.char = "#")
+same("a matrix", m$b[m$stimulus == "a"], 3)
+if (max(abs(dist(map[c("x", "y")]) - dist(at))) > 1e-9 || map$stress[1] > 1e-9) fault("the map is another one")
 cat(faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)
