@@ -22,7 +22,7 @@ physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohm
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 # Of the four-channel board's image and its virtual board.
 physvib_board_packages="gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
-physvib_test_packages="$physvib_run_packages git locales fonts-nanum jackd2 xvfb xauth xdotool zbar-tools clang libclang-rt-dev clang-format-14 \
+physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool zbar-tools clang libclang-rt-dev clang-format-14 \
     liblo-tools python3-numpy python3-pandas r-base-core luajit doxygen cmark-gfm \
     $physvib_board_packages"
 # Of .ci/pico-sources.sh alone, and of Tests/Firmware/pico.sh.
