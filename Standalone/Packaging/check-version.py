@@ -4,6 +4,7 @@
 RELEASE: a folder that release.sh made, whose files have it too."""
 import json
 import re
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -26,7 +27,7 @@ def first(file: str, pattern: str) -> str:
     return found[1] if (found := re.search(pattern, (root / file).read_text(), re.M)) else "nothing"
 
 
-tags = subprocess.run(["git", "-C", root, "tag", "--points-at", "HEAD", "v*"], capture_output=True, text=True).stdout.split() if (root / ".git").exists() else []
+tags = subprocess.run(["git", "-C", root, "tag", "--points-at", "HEAD", "v*"], capture_output=True, text=True).stdout.split() if (root / ".git").exists() and shutil.which("git") else []
 for tag in tags:
     expect("tag", tag, f"v{version}")
 expect("CHANGELOG.md", first("CHANGELOG.md", r"^## (\S+)" + ("$" if tags else "")), version)

@@ -3,12 +3,13 @@
 """What a page names is there: named.py ROOT. In README, CONTRIBUTING, SECURITY and Docs, decisions apart: paths of the source, headers, CMake options, environment variables,
 programs, link targets, options of the command line, and identifiers of C. Prints each that is not, with its page; exit code 1 if any is."""
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 root = Path(sys.argv[1]).resolve()
-names = [name for name in subprocess.run(["git", "-C", str(root), "ls-files"], capture_output=True, encoding="utf-8").stdout.split("\n") if name] or \
+names = ([name for name in subprocess.run(["git", "-C", str(root), "ls-files"], capture_output=True, encoding="utf-8").stdout.split("\n") if name] if shutil.which("git") else []) or \
         [path.relative_to(root).as_posix() for path in root.rglob("*") if path.is_file() and path.relative_to(root).parts[0] not in ("build", "out", ".git")]
 tops = {name.split("/")[0] for name in names}
 pages = [name for name in names if re.fullmatch(r"(README|CONTRIBUTING|SECURITY|Docs/[\w-]+|Docs/tutorials/[\w-]+)\.md", name) and (root / name).exists()]

@@ -67,7 +67,7 @@ private:
         const bool isDown = juce::Desktop::getInstance().getNumComponents() > 0 && isEscapeDown();
         if (isDown && !isHeld_ && target != nullptr) silence(*target);
         isHeld_ = isDown;
-        juce::MessageManager::callAsync(takeWhatWasReadAhead); // by then no list of listeners is walked
+        juce::MessageManager::callAsync(&takeWhatWasReadAhead); // by then no list of listeners is walked
     }
     void globalFocusChanged(juce::Component*) override { listen(); }
     void mouseUp(const juce::MouseEvent&) override { listen(); }

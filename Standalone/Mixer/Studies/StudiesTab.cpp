@@ -453,17 +453,15 @@ void StudiesTab::paint(juce::Graphics& g) {
 void StudiesTab::resized() {
     constexpr int captionHeight = 18, space = 8; // in a small window the controls stay, without the texts
     auto area = getLocalBounds();
-    const auto caption = [&area, captionHeight](juce::Label& label) {
-        label.setBounds(area.removeFromTop(captionHeight));
-    };
+    const auto caption = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };
     caption(choiceName_);
     auto first = area.removeFromTop(rowHeight);
     findings_->setBounds(first.removeFromRight(100));
     choice_.setBounds(first.withTrimmedRight(gap));
     area.removeFromTop(space);
     aboutArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - 42, 0, 98));
-    const auto pair = [&area, captionHeight](juce::Label& leftName, juce::Component& left,
-                                             juce::Label& rightName, juce::Component& right) {
+    const auto pair = [&area](juce::Label& leftName, juce::Component& left, juce::Label& rightName,
+                              juce::Component& right) {
         auto names = area.removeFromTop(captionHeight), row = area.removeFromTop(rowHeight);
         const int wide = row.getWidth() * 3 / 5;
         leftName.setBounds(names.removeFromLeft(wide));
