@@ -88,6 +88,11 @@ void CollisionCatcher::passOver(std::int32_t a, std::int32_t b, double metresPer
         ++tally_.immovable;
 }
 
+bool CollisionCatcher::wasStruck(std::int32_t slot) const noexcept {
+    const std::uint64_t fixture = table_[slot].fixture;
+    return struckNames_.mayHave(fixture) && std::ranges::find(struck_, fixture) != struck_.end();
+}
+
 double CollisionCatcher::aftermath(std::int32_t pair) const noexcept {
     const std::int32_t last = pairs_[pair].last;
     return last == TouchingPairs::none
@@ -180,7 +185,12 @@ void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSecon
     Passed& passed = passed_[index];
     if (passed.other == FixtureTable::none) receivers_.push_back(slot);
     passed.newtonSeconds += newtonSeconds;
-    if (size <= passed.strongest) return;
+    const auto isGround = [this](std::int32_t of) {
+        return !std::isfinite(table_.mobility(of).movableMassKg);
+    };
+    const bool isRanked =
+        feelsSqueezes_ && passed.other != FixtureTable::none && isGround(passed.other) != isGround(other);
+    if (isRanked ? isGround(other) : size <= passed.strongest) return;
     passed.strongest = size;
     passed.other = other;
     passed.point = point;

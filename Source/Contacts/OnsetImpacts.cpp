@@ -84,7 +84,9 @@ void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& 
                             const StepSpan& span, std::vector<Impact>& impacts) const {
     if (!table_.isCamera(handedOn.camera)) return;
     const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
-    const auto whole = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
+    const float sum = (handedOn.passed.newtonSeconds + now.newtonSeconds).length();
+    const auto whole =
+        static_cast<double>(catcher_.loads().feelsSqueezes() ? std::max(sum, main.strongest) : sum);
     const FixtureTable::Mobility& camera = table_.mobility(handedOn.camera);
     const FixtureTable::Mobility& other =
         main.other == FixtureTable::none ? camera : table_.mobility(main.other);

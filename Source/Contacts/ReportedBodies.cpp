@@ -75,6 +75,12 @@ void ReportedBodies::forgetLargest(const Body& body) noexcept {
     if (body.told.massKg > 0.0 && body.told.massKg >= largestMassKg_) isLargestKnown_ = false;
 }
 
+bool ReportedBodies::stands(std::int32_t id) const {
+    const Body& body = at(idOf(id));
+    return !(body.told.massKg > 0.0) && lengthOf(body.motion.metresPerSecond) == 0.0 &&
+           lengthOf(body.motion.radiansPerSecond) == 0.0;
+}
+
 double ReportedBodies::largestMassKg() {
     if (!isLargestKnown_) {
         largestMassKg_ = 0.0;

@@ -85,6 +85,8 @@ public:
     void endStep() noexcept { isAnyAfter_ = false, ++age_; }
     const FedBody& told(std::int32_t id) const { return at(idOf(id)).told; }
     bool has(std::int32_t id) const noexcept { return slots_.find(idOf(id)) != IntegerMap::none; }
+    /// True of one that nothing moves, as ground does.
+    bool stands(std::int32_t id) const;
 
     /// The largest mass of a movable body, kg (m_max of Eq. 5.7).
     double largestMassKg();
@@ -302,6 +304,7 @@ private:
     }
     bool isNewPoint(Pair& pair, const FedContact& contact);
     bool isKick(Pair& pair, const FedContact& contact, bool isNew);
+    bool isHeldUp(std::int32_t struck, std::int32_t ground);
     static FedContact beyondLoad(Pair& pair, FedContact contact);
     void tell(Pair& pair, const FedContact& contact, bool isNew, bool isNewPoint);
     void judgeKicks(Pair& pair);
