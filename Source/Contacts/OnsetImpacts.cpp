@@ -84,14 +84,17 @@ void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& 
                             const StepSpan& span, std::vector<Impact>& impacts) const {
     if (!table_.isCamera(handedOn.camera)) return;
     const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
-    const float sum = (handedOn.passed.newtonSeconds + now.newtonSeconds).length();
-    const auto whole =
-        static_cast<double>(catcher_.loads().feelsSqueezes() ? std::max(sum, main.strongest) : sum);
     const FixtureTable::Mobility& camera = table_.mobility(handedOn.camera);
     const FixtureTable::Mobility& other =
         main.other == FixtureTable::none ? camera : table_.mobility(main.other);
     const double lighter = std::min(camera.movableMassKg, other.movableMassKg);
     const float gravityScale = std::max(camera.gravityScale, other.gravityScale);
+    constexpr double clearly = 2.5; // a row that rests may tremble
+    const auto sum = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
+    const auto part = static_cast<double>(main.strongest);
+    const bool isSqueezed =
+        catcher_.loads().feelsSqueezes() && span.isStrike(part / clearly, lighter, gravityScale);
+    const double whole = isSqueezed ? std::max(sum, part) : sum;
     if (!span.isStrike(whole, lighter, gravityScale)) return;
     const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
     if (span.isStrike(impulse, lighter, gravityScale))

@@ -91,12 +91,10 @@ public:
     /// The largest mass of a movable body, kg (m_max of Eq. 5.7).
     double largestMassKg();
 
-    /// Speed at which B approaches A at a point, m/s, from the reported motions; the normal points from A to
-    /// B.
-    double approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const;
-
-    /// The same after the solver.
-    double approachAfter(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const;
+    /// Speed at which B approaches A at a point, m/s, from the reported motions before or after the solver;
+    /// the normal points from A to B.
+    double approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
+                    bool isAfter = false) const;
 
     /// Upper bound of the speed at which the contact point moves along the two surfaces, m/s: the sum of each
     /// body's motion and rotation across the normal.
