@@ -91,12 +91,11 @@ void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& 
     const float gravityScale = std::max(camera.gravityScale, other.gravityScale);
     constexpr double clearly = 2.5; // a row that rests may tremble
     const auto sum = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
-    const auto part = static_cast<double>(main.strongest);
-    const bool isSqueezed =
-        catcher_.loads().feelsSqueezes() && span.isStrike(part / clearly, lighter, gravityScale);
-    const double whole = isSqueezed ? std::max(sum, part) : sum;
-    if (!span.isStrike(whole, lighter, gravityScale)) return;
-    const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
+    const double part = catcher_.loads().feelsSqueezes() ? static_cast<double>(main.strongest) : 0.0;
+    if (!span.isStrike(std::max(sum, part), lighter, gravityScale)) return;
+    const double most = handedOn.causedNewtonSeconds + later(), squeezed = std::min(part, most);
+    const bool isSqueezed = span.isStrike(squeezed / clearly, lighter, gravityScale);
+    const double impulse = isSqueezed ? std::max(std::min(sum, most), squeezed) : std::min(sum, most);
     if (span.isStrike(impulse, lighter, gravityScale))
         impacts.push_back(
             {handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse, main.point});
