@@ -185,12 +185,7 @@ void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSecon
     Passed& passed = passed_[index];
     if (passed.other == FixtureTable::none) receivers_.push_back(slot);
     passed.newtonSeconds += newtonSeconds;
-    const auto isGround = [this](std::int32_t of) {
-        return !std::isfinite(table_.mobility(of).movableMassKg);
-    };
-    const bool isRanked =
-        feelsSqueezes_ && passed.other != FixtureTable::none && isGround(passed.other) != isGround(other);
-    if (isRanked ? isGround(other) : size <= passed.strongest) return;
+    if (size <= passed.strongest) return;
     passed.strongest = size;
     passed.other = other;
     passed.point = point;

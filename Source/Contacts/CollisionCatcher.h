@@ -157,11 +157,6 @@ public:
     /// The slot is freed or reassigned: drops its contacts.
     void forget(std::int32_t slot) noexcept;
 
-    /// From now on what passes through a source counts, too, where its other neighbours push back as much,
-    /// and ground transmits nothing that anything else does. The thesis counts the sum.
-    void feelSqueezes() noexcept { feelsSqueezes_ = true; }
-    bool feelsSqueezes() const noexcept { return feelsSqueezes_; }
-
 private:
     struct Contact {
         TouchingPairs::Name of;
@@ -194,7 +189,6 @@ private:
     std::vector<Passed> passed_; // by slot
     std::vector<std::int32_t> receivers_, ended_;
     std::uint32_t step_ = 1; // a number for each
-    bool feelsSqueezes_ = false;
 };
 
 /// Updates the contact graph and records the collisions of each step (`Collision`). A collision needs parts
@@ -322,7 +316,6 @@ public:
     /// True if the fixture collided in the last step.
     bool wasStruck(std::int32_t slot) const noexcept;
     const ChainLoads& loads() const noexcept { return loads_; }
-    void feelSqueezes() noexcept { loads_.feelSqueezes(); }
 
     /// Collisions dropped so far because the arrays were full.
     std::uint64_t drops() const noexcept { return drops_; }

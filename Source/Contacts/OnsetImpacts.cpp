@@ -84,18 +84,14 @@ void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& 
                             const StepSpan& span, std::vector<Impact>& impacts) const {
     if (!table_.isCamera(handedOn.camera)) return;
     const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
+    const auto whole = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
     const FixtureTable::Mobility& camera = table_.mobility(handedOn.camera);
     const FixtureTable::Mobility& other =
         main.other == FixtureTable::none ? camera : table_.mobility(main.other);
     const double lighter = std::min(camera.movableMassKg, other.movableMassKg);
     const float gravityScale = std::max(camera.gravityScale, other.gravityScale);
-    constexpr double clearly = 2.5; // a row that rests may tremble
-    const auto sum = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
-    const double part = catcher_.loads().feelsSqueezes() ? static_cast<double>(main.strongest) : 0.0;
-    if (!span.isStrike(std::max(sum, part), lighter, gravityScale)) return;
-    const double most = handedOn.causedNewtonSeconds + later(), squeezed = std::min(part, most);
-    const bool isSqueezed = span.isStrike(squeezed / clearly, lighter, gravityScale);
-    const double impulse = isSqueezed ? std::max(std::min(sum, most), squeezed) : std::min(sum, most);
+    if (!span.isStrike(whole, lighter, gravityScale)) return;
+    const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
     if (span.isStrike(impulse, lighter, gravityScale))
         impacts.push_back(
             {handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse, main.point});

@@ -8,9 +8,7 @@
 
 namespace physvib {
 ReportedContacts::ReportedContacts(const ImpactSettings& settings)
-    : events_(bodies_, settings) {
-    events_.catcher().feelSqueezes();
-}
+    : events_(bodies_, settings) {}
 
 void ReportedContacts::beginStep(std::int64_t endNs, double gravityMetresPerSecond2) {
     lastStepSeconds_ = events_.stepSeconds();

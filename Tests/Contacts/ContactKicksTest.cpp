@@ -221,20 +221,6 @@ TEST_P(Kicks, WhatTheGroundGivesBackToABlowIsNoSecondOne) {
     EXPECT_EQ(row.felt().size(), 2U) << "the falling one and what it falls on";
 }
 
-// The ground pushes back as much as the blow: forces at the table add up to nothing, and still it is struck.
-TEST_P(Kicks, ATableFeelsWhatFallsOnACrateOnIt) {
-    Row row = this->row({0.0, 8.0, 1.0, 0.3});
-    rest(row);
-    row.setPlace(3, 1.5);
-    row.run(0.8, [](double) { return 0.0; });
-    double table = 0.0;
-    for (const auto& event : row.felt())
-        if (event.source.fixture == 1) table += event.source.impulseNewtonSeconds;
-    const double blow = 0.3 * std::sqrt(2.0 * g * 0.9);
-    // Speeds alone do not say what goes through a crate within a step.
-    EXPECT_NEAR(table, telling == Telling::speeds ? 0.0 : blow, 0.1 * blow + 0.3 * g * row.dt());
-}
-
 TEST_P(Kicks, WhatRestsRidesOrIsCarriedIsSilent) {
     Row stack = this->row({0.0, 1.0, 2.0, 0.5, 1.0});
     rest(stack);
