@@ -88,6 +88,11 @@ void CollisionCatcher::passOver(std::int32_t a, std::int32_t b, double metresPer
         ++tally_.immovable;
 }
 
+bool CollisionCatcher::wasStruck(std::int32_t slot) const noexcept {
+    const std::uint64_t fixture = table_[slot].fixture;
+    return struckNames_.mayHave(fixture) && std::ranges::find(struck_, fixture) != struck_.end();
+}
+
 double CollisionCatcher::aftermath(std::int32_t pair) const noexcept {
     const std::int32_t last = pairs_[pair].last;
     return last == TouchingPairs::none

@@ -313,6 +313,8 @@ public:
     double aftermath(std::int32_t pair) const noexcept;
     /// Contacts that ended in this step or since the last one.
     const std::vector<ContactEnd>& ends() const noexcept { return ends_; }
+    /// True if the fixture collided in the last step.
+    bool wasStruck(std::int32_t slot) const noexcept;
     const ChainLoads& loads() const noexcept { return loads_; }
 
     /// Collisions dropped so far because the arrays were full.

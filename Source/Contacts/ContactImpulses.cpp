@@ -127,7 +127,7 @@ std::size_t MomentumImpulses::add(const ReportedBodies& bodies, std::int32_t a, 
         return of.perKg + of.turning.between(lever, lever);
     };
     made.perNewtonSecond = ease(made.a, made.leverA) + ease(made.b, made.leverB);
-    made.change = bodies.approach(a, b, point, normal) - bodies.approachAfter(a, b, point, normal);
+    made.change = bodies.approach(a, b, point, normal) - bodies.approach(a, b, point, normal, true);
     isInPlane_ = isInPlane_ && isInPlane(made);
     points_.push_back(made);
     return points_.size() - 1;

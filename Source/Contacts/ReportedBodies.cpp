@@ -75,6 +75,12 @@ void ReportedBodies::forgetLargest(const Body& body) noexcept {
     if (body.told.massKg > 0.0 && body.told.massKg >= largestMassKg_) isLargestKnown_ = false;
 }
 
+bool ReportedBodies::stands(std::int32_t id) const {
+    const Body& body = at(idOf(id));
+    return !(body.told.massKg > 0.0) && lengthOf(body.motion.metresPerSecond) == 0.0 &&
+           lengthOf(body.motion.radiansPerSecond) == 0.0;
+}
+
 double ReportedBodies::largestMassKg() {
     if (!isLargestKnown_) {
         largestMassKg_ = 0.0;
@@ -84,19 +90,13 @@ double ReportedBodies::largestMassKg() {
     return largestMassKg_;
 }
 
-double ReportedBodies::approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
-    const Body &bodyA = at(idOf(a)), &bodyB = at(idOf(b));
-    const Vector3 nearing =
-        velocityAt(bodyA.motion, point - bodyA.centre) - velocityAt(bodyB.motion, point - bodyB.centre);
-    return dot(nearing, normal);
-}
-
-double ReportedBodies::approachAfter(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
-    const auto after = [&](const Body& body) { return body.told.massKg > 0.0 ? body.after : body.motion; };
-    const Body &bodyA = at(idOf(a)), &bodyB = at(idOf(b));
-    const Vector3 nearing =
-        velocityAt(after(bodyA), point - bodyA.centre) - velocityAt(after(bodyB), point - bodyB.centre);
-    return dot(nearing, normal);
+double ReportedBodies::approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
+                                bool isAfter) const {
+    const auto velocity = [&](const Body& body) {
+        const bool isSolved = isAfter && body.told.massKg > 0.0;
+        return velocityAt(isSolved ? body.after : body.motion, point - body.centre);
+    };
+    return dot(velocity(at(idOf(a))) - velocity(at(idOf(b))), normal);
 }
 
 double ReportedBodies::slide(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {

@@ -119,7 +119,8 @@ bool ReportedContacts::isNewPoint(Pair& pair, const FedContact& contact) {
 
 // A flipper under a resting ball, a platform that jerks: what touches is struck without having parted, faster
 // than gravity explains. In its first step, since what drives it may push on, unless that was a small part,
-// as where an engine passes an impact on over several; what still has to come there is no kick yet.
+// as where an engine passes an impact on over several; what still has to come there is no kick yet. Ground
+// gives back no second impact.
 bool ReportedContacts::isKick(Pair& pair, const FedContact& contact, bool isNew) {
     if (contact.impulseNewtonSeconds && !contact.isSoft)
         pair.load = contact.isImpulseOfPair ? *contact.impulseNewtonSeconds
@@ -132,7 +133,14 @@ bool ReportedContacts::isKick(Pair& pair, const FedContact& contact, bool isNew)
     const double beyond = speed - gravity_ * seconds * std::abs(static_cast<double>(gravityScale));
     if (!events_.catcher().isCollision(gravityScale, beyond / clearly)) return false;
     pair.approach = std::max(pair.approach, speed);
-    return !isNew && speed > 2.0 * pair.lastApproach;
+    return !isNew && speed > 2.0 * pair.lastApproach && !isHeldUp(contact.a, contact.b) &&
+           !isHeldUp(contact.b, contact.a);
+}
+
+// An engine that solves each contact once lets what was struck reach the ground a step later.
+bool ReportedContacts::isHeldUp(std::int32_t struck, std::int32_t ground) {
+    return bodies_.stands(ground) && !events_.fixtures().isCamera(slotOf(ground)) &&
+           events_.catcher().wasStruck(slotOf(struck));
 }
 
 // Without what the pair has passed on in the step before.

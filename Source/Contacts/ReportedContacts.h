@@ -85,16 +85,16 @@ public:
     void endStep() noexcept { isAnyAfter_ = false, ++age_; }
     const FedBody& told(std::int32_t id) const { return at(idOf(id)).told; }
     bool has(std::int32_t id) const noexcept { return slots_.find(idOf(id)) != IntegerMap::none; }
+    /// True of one that nothing moves, as ground does.
+    bool stands(std::int32_t id) const;
 
     /// The largest mass of a movable body, kg (m_max of Eq. 5.7).
     double largestMassKg();
 
-    /// Speed at which B approaches A at a point, m/s, from the reported motions; the normal points from A to
-    /// B.
-    double approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const;
-
-    /// The same after the solver.
-    double approachAfter(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const;
+    /// Speed at which B approaches A at a point, m/s, from the reported motions before or after the solver;
+    /// the normal points from A to B.
+    double approach(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
+                    bool isAfter = false) const;
 
     /// Upper bound of the speed at which the contact point moves along the two surfaces, m/s: the sum of each
     /// body's motion and rotation across the normal.
@@ -302,6 +302,7 @@ private:
     }
     bool isNewPoint(Pair& pair, const FedContact& contact);
     bool isKick(Pair& pair, const FedContact& contact, bool isNew);
+    bool isHeldUp(std::int32_t struck, std::int32_t ground);
     static FedContact beyondLoad(Pair& pair, FedContact contact);
     void tell(Pair& pair, const FedContact& contact, bool isNew, bool isNewPoint);
     void judgeKicks(Pair& pair);

@@ -106,6 +106,19 @@ func lever():
 	await end()
 
 
+# What a signal's handler does to a velocity is no part of the hit that it answers.
+func bumper():
+	var ball = made("RigidBody", at(0, 1.1), 0.1, true)
+	ball.contact_monitor = true
+	ball.max_contacts_reported = 4
+	ball.body_entered.connect(func(_other): ball.linear_velocity = along(0, 6))
+	await begin([])
+	for node in [made("StaticBody", at(0, -0.5), Vector2(20, 1)), ball]: scene.add_child(node)
+	await ticks(int(0.6 * Engine.physics_ticks_per_second))
+	check(hits.size() == 1 and absf(hits[0].strength_n_s / sqrt(2 * 9.8) - 1) < 0.1, named("a ball that body_entered shoots up as it lands, 4.43 N s"))
+	await end()
+
+
 # Balls that touch in a row, on a table that is smooth.
 func breaks():
 	var balls := []
@@ -208,7 +221,7 @@ func _initialize():
 		if word.begins_with("space="): space = int(word.substr(6))
 		if word.begins_with("hz="): Engine.physics_ticks_per_second = int(word.substr(3))
 	await ticks(2)
-	for act in [platforms, flipper, lever, breaks, freed, words]: await act.call()
+	for act in [platforms, flipper, lever, bumper, breaks, freed, words]: await act.call()
 	if space == 3:
 		await ragdoll()
 		for floor_name in ["boxes", "gridmap"]: for speed in [1.0, 2.0, 4.0, 7.0]: await seams(floor_name, speed)

@@ -76,6 +76,12 @@ const std::vector<Method> methods{
          worldOf(instance).finishStep();
          return Value();
      }},
+    {"_solved", GDEXTENSION_VARIANT_TYPE_NIL,
+     [](Instance& instance, const Value&) {
+         worldOf(instance).solved();
+         return Value();
+     },
+     "Object"},
     {"_added", GDEXTENSION_VARIANT_TYPE_NIL,
      [](Instance& instance, const Value& node) {
          worldOf(instance).added(node);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace physvib::godot {
 Value HapticWorld::server() const { return singleton(isSpace ? "PhysicsServer3D" : "PhysicsServer2D"); }
@@ -61,16 +62,24 @@ void HapticWorld::moveBefore(Watched& each) {
                                            each.spin.data(), inverse.data()));
 }
 
+// body_entered and _integrate_forces come body by body, and may set any body's velocity: all are read before.
+void HapticWorld::solved() {
+    if (!isOpen || std::exchange(isSolved, true)) return;
+    for (auto& [id, each] : watched) {
+        each.state = {};
+        if (each.isRigid && isThere(each)) moveAfter(each);
+    }
+}
+
 void HapticWorld::finishStep() {
+    solved();
     if (!isOpen) return;
-    isOpen = false;
+    isOpen = isSolved = false;
     bounces.clear();
     std::vector<const Watched*> rigid; // contacts add bodies, and leave these where they are
     for (auto& [id, each] : watched) {
+        if (!each.isRigid || !isThere(each)) each.state = {};
         each.isMet = false;
-        each.state = {};
-        if (!each.isRigid || !isThere(each)) continue;
-        moveAfter(each);
         if (each.state) rigid.push_back(&each);
     }
     for (const Watched* each : rigid) touchAll(*each);
@@ -407,7 +416,11 @@ Watched* HapticWorld::watch(std::uint64_t id, std::uint64_t rid, const HapticBod
     added.isNode = added.body.call("is_class", "Node").isTrue();
     added.isRigid = isRigidBody(added.body, isSpace);
     added.slides = added.body.call("is_class", isSpace ? "CharacterBody3D" : "CharacterBody2D").isTrue();
-    if (added.isRigid) added.rid = added.body.call("get_rid").rid();
+    if (added.isRigid) {
+        added.rid = added.body.call("get_rid").rid();
+        server().call("body_set_force_integration_callback", Value(GDEXTENSION_VARIANT_TYPE_RID, &added.rid),
+                      Value::callable(object, "_solved"));
+    }
     objects[added.number] = key;
     describe(added);
     return &added;

@@ -50,7 +50,8 @@ public:
     void changed() override { isStale = areOutputsStale = true; }
     std::vector<std::string> warnings() const override;
 
-    void finishStep();             ///< at the start of the next tick, before any script: the solver is done
+    void solved();                 ///< the solver is done, and no signal or script has changed a body yet
+    void finishStep();             ///< at the start of the next tick, before any script but those
     void added(const Value& node); ///< to the tree
     Value explain() const;         ///< why nothing is felt, in one sentence
     Value left() const;            ///< the peak of each actuator that left in the last second
@@ -97,7 +98,7 @@ private:
     Value server() const;
 
     double seconds = 0.0; ///< of the step
-    bool isSpace, isStale = true, areOutputsStale = true, isOpen = false;
+    bool isSpace, isStale = true, areOutputsStale = true, isOpen = false, isSolved = false;
     physvib_world world = nullptr;
     double unit = 1.0;
     Vector corner{};         ///< the field's lower left one, in Godot's units
