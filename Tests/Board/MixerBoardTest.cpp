@@ -99,11 +99,3 @@ TEST(MixerBoard, ThatDoesNotAnswerIsTold) {
 
 } // namespace
 } // namespace physvib
-
-int main(int argc, char** argv) {
-    juce::JUCEApplicationBase::createInstance = [] {
-        return static_cast<juce::JUCEApplicationBase*>(nullptr);
-    };
-    testing::InitGoogleTest(&argc, argv);
-    return RUN_ALL_TESTS();
-}

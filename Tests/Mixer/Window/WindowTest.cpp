@@ -1199,10 +1199,6 @@ TEST(Display, AClickThatWasReadAheadIsHeardAtOnce) {
 } // namespace physvib
 
 int main(int argc, char** argv) {
-    // as in a program of its own, JUCE bears errors of X
-    juce::JUCEApplicationBase::createInstance = [] {
-        return static_cast<juce::JUCEApplicationBase*>(nullptr);
-    };
     testing::InitGoogleTest(&argc, argv);
     const physvib::test::TestFolder home; // of what the windows record
     setenv("HOME", home.folder.getFullPathName().toRawUTF8(), 1);
