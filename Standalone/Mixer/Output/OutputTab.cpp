@@ -339,11 +339,13 @@ void OutputTab::resized() {
     placeRow(area, first);
     placeRow(area, second);
     for (const auto& sink : sinks_) {
-        const juce::String title{sink->kind.title.data()};
-        const bool fits = text::pixels(sink->name.getFont(), title) <= sink->name.getWidth();
-        const auto shorter = titleOf(std::string{sink->kind.name});
-        sink->name.setText(fits ? title : shorter.substring(0, 1) + shorter.substring(1).toLowerCase(),
-                           juce::dontSendNotification);
+        auto words = juce::StringArray::fromTokens(sink->kind.title.data(), false); // as many as fit
+        while (words.size() > 1 && text::pixels(sink->name.getFont(), words.joinIntoString(" ")) +
+                                           sink->name.getBorderSize().getLeftAndRight() >
+                                       sink->name.getWidth())
+            words.remove(words.size() - 1);
+        if (words.size() > 1 && words.strings.getLast() == "by") words.remove(words.size() - 1);
+        sink->name.setText(words.joinIntoString(" "), juce::dontSendNotification);
     }
     placeRow(area, {{oscName_, osc_, 2 * fifth},
                     {hitsName_, hits_, 2 * fifth - 3 * gap},

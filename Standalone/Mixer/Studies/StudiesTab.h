@@ -71,6 +71,8 @@ private:
     void pickProtocol();
     void browseProtocol();
     void browseFolder();
+    void offerLayout();
+    void chooseNoise(const std::vector<int>& outputs);
     void look();
     void listNoise();
     void pickWords();
