@@ -71,9 +71,9 @@ OutputTab::OutputTab(MixerModel& model)
     device_.setTitle("Device");
     rate_.setTitle("Rate");
     block_.setTitle("Block");
-    rate_.addItem("device default", 1);
+    rate_.addItem("default", 1);
     for (const int hz : rates) rate_.addItem(juce::String{hz} + " Hz", hz);
-    block_.addItem("device default", 1);
+    block_.addItem("default", 1);
     for (const int frames : blocks) block_.addItem(juce::String{frames}, frames);
     scan_ = quietButton("Rescan", "Rescan devices");
     scan_->onClick = [this] { scan(); };
@@ -362,8 +362,7 @@ void OutputTab::resized() {
 namespace {
 
 // in the order of OscUse
-constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer",
-                                             "from any computer, and phones"};
+constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer", "from phones, too"};
 struct PhoneHold {
     const char* words;
     double turnDegrees;
@@ -372,6 +371,15 @@ struct PhoneHold {
 constexpr std::array<PhoneHold, 4> phoneHolds{
     {{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
 constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // item ids of the list of receivers
+
+/// Where others reach this computer, in place of 0.0.0.0, which nobody can type in.
+juce::String reachedAt(const std::string& address) {
+    const auto words = utf8(address), port = words.fromLastOccurrenceOf(":", true, false);
+    if (!words.startsWith("0.0.0.0")) return words;
+    juce::StringArray all;
+    for (const auto& own : ownAddresses()) all.add(utf8(own) + port);
+    return all.isEmpty() ? words : all.joinIntoString(" or ");
+}
 
 } // namespace
 
@@ -396,6 +404,9 @@ void OutputTab::listen() {
     if (const int hold = phone_.getSelectedItemIndex(); hold >= 0)
         choice.turnDegrees = phoneHolds[static_cast<std::size_t>(hold)].turnDegrees;
     useOsc(choice, "Messages by OSC: ");
+    if (const auto osc = model_.inputs().status(); osc && choice.use == OscUse::anyComputer)
+        model_.announce("A phone sends its messages to " + reachedAt(osc->address)); // the state may be out
+                                                                                     // of sight
 }
 
 void OutputTab::sendHitsTo(const juce::String& receiver) {
@@ -431,19 +442,6 @@ void OutputTab::showOsc() {
     const auto hold = std::ranges::find(phoneHolds, choice.turnDegrees, &PhoneHold::turnDegrees);
     phone_.setSelectedItemIndex(static_cast<int>(hold - phoneHolds.begin()), juce::dontSendNotification);
 }
-
-namespace {
-
-/// Where others reach this computer, in place of 0.0.0.0, which nobody can type in.
-juce::String reachedAt(const std::string& address) {
-    const auto words = utf8(address), port = words.fromLastOccurrenceOf(":", true, false);
-    if (!words.startsWith("0.0.0.0")) return words;
-    juce::StringArray all;
-    for (const auto& own : ownAddresses()) all.add(utf8(own) + port);
-    return all.isEmpty() ? words : all.joinIntoString(" or ");
-}
-
-} // namespace
 
 juce::String OutputTab::oscState(Shade& state) const {
     const auto osc = model_.inputs().status();

@@ -75,7 +75,10 @@ Card::Card(int width)
     words_.setFont(text::font(text::medium));
     words_.setJustificationType(juce::Justification::topLeft);
     words_.setMinimumHorizontalScale(1.0f); // it has space for all lines
-    for (auto* label : {&title_, &words_}) addAndMakeVisible(label);
+    for (auto* label : {&title_, &words_}) {
+        label->setBorderSize({0, 0, 0, 0}); // one line with the fields
+        addAndMakeVisible(label);
+    }
 }
 
 void Card::say(const juce::String& title, const juce::String& words) {
@@ -105,8 +108,7 @@ void Card::fit() {
     juce::AttributedString said{words()};
     said.setFont(words_.getFont());
     juce::TextLayout lines;
-    lines.createLayout(said,
-                       static_cast<float>(width_ - 2 * edgeX - words_.getBorderSize().getLeftAndRight() - 4));
+    lines.createLayout(said, static_cast<float>(width_ - 2 * edgeX - 4));
     const int lineHigh = words().isEmpty() ? 0 : 18 + static_cast<int>(std::ceil(lines.getHeight()));
     const int high = 2 * edgeY + titleHigh + lineHigh + contentHigh() + gap + answersHigh();
     const auto beside = aside();

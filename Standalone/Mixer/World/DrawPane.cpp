@@ -5,6 +5,7 @@
 #include "Mixer/Widgets/Parts.h"
 #include "Pictures/ShapeOutline.h"
 #include "Scene/Drawing/BodyEdits.h"
+#include "Scene/Drawing/BodyMotion.h"
 #include <algorithm>
 #include <cmath>
 
@@ -183,11 +184,6 @@ void DrawPane::mouseDoubleClick(const juce::MouseEvent&) {
 namespace {
 
 double between(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
-
-Vector turned(double x, double y, double radians) {
-    const double c = std::cos(radians), s = std::sin(radians);
-    return {c * x - s * y, s * x + c * y};
-}
 
 } // namespace
 
@@ -402,8 +398,7 @@ std::optional<DrawPane::Handles> DrawPane::handles() const {
     if (!place) return std::nullopt;
     const Reach reach = reachOf(*body);
     const auto on = [&](double x, double y) {
-        const Vector by = turned(x, y, place->angleRadians);
-        return view_.placeOfMetres({place->metres.x + by.x, place->metres.y + by.y});
+        return view_.placeOfMetres(detail::Motion{{}, *place}({x, y}));
     };
     const double above = reach.most.y + 26.0 / static_cast<double>(view_.pixelsPerMetre());
     return Handles{{on(reach.least.x, reach.least.y), on(reach.most.x, reach.least.y),
@@ -456,7 +451,7 @@ BodyDescription DrawPane::sizedNow() const {
     const auto place = placeNow(chosen_[0]);
     if (!place || stroke_.empty()) return body;
     const auto local = [&](const Vector& p) {
-        const Vector in = turned(p.x - place->metres.x, p.y - place->metres.y, -place->angleRadians);
+        const Vector in = detail::Motion{*place, {}}(p);
         return Vector{std::abs(in.x), std::abs(in.y)};
     };
     const Vector before = local(stroke_[0]), now = local(to_);
@@ -564,9 +559,7 @@ Vector DrawPane::carried(const Vector& point, const std::string& name) const {
     const auto* body = drawing().find(name);
     const auto place = placeNow(name);
     if (body == nullptr || !place) return point;
-    const Vector by = turned(point.x - body->positionMetres.x, point.y - body->positionMetres.y,
-                             place->angleRadians - body->angleRadians);
-    return {place->metres.x + by.x, place->metres.y + by.y};
+    return detail::Motion{detail::placeOf(*body), *place}(point);
 }
 
 juce::Line<float> DrawPane::lineNow(const JointDescription& joint) const {
