@@ -66,6 +66,7 @@ WorldPanel::WorldPanel(MixerModel& model)
     view_.onMenu = pane_.onMenu = [this](juce::Point<float> place) { showMenu(place); };
     sentence_.setTitle("Strongest hit");
     sentence_.setFont(text::font(text::medium));
+    law_.setBorderSize({0, 0, 0, 6});
     law_.setJustificationType(juce::Justification::centredRight);
     tilt_.onValueChange = [this] {
         if (player_ && player_->moves())
