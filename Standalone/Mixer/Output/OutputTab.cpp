@@ -344,7 +344,9 @@ void OutputTab::resized() {
                                            sink->name.getBorderSize().getLeftAndRight() >
                                        sink->name.getWidth())
             words.remove(words.size() - 1);
-        if (words.size() > 1 && words.strings.getLast() == "by") words.remove(words.size() - 1);
+        if (words.size() > 1 && words[words.size() - 1] == "by") words.remove(words.size() - 1);
+        if (words.size() == 1 && !sink->kind.takesReports) // "Game" says nothing
+            words = titleOf(juce::String{sink->kind.name.data()}.toLowerCase().toStdString());
         sink->name.setText(words.joinIntoString(" "), juce::dontSendNotification);
     }
     placeRow(area, {{oscName_, osc_, 2 * fifth},

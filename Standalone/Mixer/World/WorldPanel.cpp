@@ -67,6 +67,7 @@ WorldPanel::WorldPanel(MixerModel& model)
     sentence_.setTitle("Strongest hit");
     sentence_.setFont(text::font(text::medium));
     law_.setBorderSize({0, 0, 0, 6});
+    for (auto* name : {&tiltName_, &dragName_}) name->setBorderSize({0, 5, 0, 0});
     law_.setJustificationType(juce::Justification::centredRight);
     tilt_.onValueChange = [this] {
         if (player_ && player_->moves())
