@@ -42,7 +42,7 @@ TEST(FileCard, WhatIsSaidBeforeItIsShownHasTheColoursOfTheWindow) {
     MixerView view{model};
     Asked asked{true};
     asked.card->enter(asked.folder("inner"));
-    EXPECT_TRUE(asked.card->words().startsWith("No folders")) << asked.card->words();
+    EXPECT_TRUE(asked.card->fault().startsWith("No folders")) << asked.card->fault();
     const auto& words = *find(*asked.card, "What is wrong");
     view.setCard(std::move(asked.card));
     EXPECT_EQ(words.findColour(juce::Label::textColourId), shade(view, Shade::muted));
@@ -54,7 +54,7 @@ TEST(FileCard, AFileIsReplacedAtTheSecondPressOnly) {
     Asked asked{true, "there"};
     asked.card->accept();
     EXPECT_EQ(asked.taken, juce::File{});
-    EXPECT_TRUE(asked.card->words().contains("there.json exists")) << asked.card->words();
+    EXPECT_TRUE(asked.card->fault().contains("there.json exists")) << asked.card->fault();
     asked.card->setName("there"); // typed again: asked again
     asked.card->setName("other");
     asked.card->setName("there");
@@ -70,10 +70,10 @@ TEST(FileCard, ListsFoldersAndFilesOfTheEndingAndOpensOnlyWhatIsThere) {
     EXPECT_EQ(asked.list().getModel()->getNumRows(), 2);
     EXPECT_EQ(asked.list().getModel()->getNameForRow(1), "there.json");
     asked.card->accept();
-    EXPECT_EQ(asked.card->words(), "Expected a name");
+    EXPECT_EQ(asked.card->fault(), "Expected a name");
     asked.card->setName("gone");
     asked.card->accept();
-    EXPECT_TRUE(asked.card->words().contains("gone.json: expected")) << asked.card->words();
+    EXPECT_TRUE(asked.card->fault().contains("gone.json: expected")) << asked.card->fault();
     EXPECT_EQ(asked.taken, juce::File{});
     asked.list().selectRow(1);
     EXPECT_EQ(asked.card->name(), "there");
@@ -88,7 +88,7 @@ TEST(FileCard, SavesInAFolderThatIsThereOnly) {
     asked.card->setName("missing/mine");
     asked.card->accept();
     EXPECT_EQ(asked.taken, juce::File{});
-    EXPECT_TRUE(asked.card->words().contains("expected a folder")) << asked.card->words();
+    EXPECT_TRUE(asked.card->fault().contains("expected a folder")) << asked.card->fault();
     asked.card->setName("inner/mine.json");
     asked.card->accept();
     EXPECT_EQ(asked.taken, asked.folder("inner").getChildFile("mine.json"));

@@ -62,8 +62,9 @@ TEST(CutTexts, AreOnNoPageAtAnySize) {
     for (const auto& [width, height, actuators] : {Case{MixerView::minWidth, MixerView::minHeight, 1},
                                                    {MixerView::minWidth, MixerView::minHeight, 64},
                                                    {1024, 700, 4},
-                                                   {1280, 720, 16},
+                                                   {1280, 800, 16},
                                                    {1440, 900, 64},
+                                                   {1920, 1080, 16},
                                                    {2560, 1440, 4}}) {
         CutTexts texts{width - 240, height, actuators};
         for (auto* panel : {&texts.view.tabs(), &texts.view.scope()})
@@ -74,6 +75,22 @@ TEST(CutTexts, AreOnNoPageAtAnySize) {
         texts.view.setSize(width, height);
         texts.view.setMode(Mode::play);
         texts.expectWhole("to play", 8);
+        texts.view.world().drawing().use(DrawTool::choose);
+        texts.view.world().drawing().choose({texts.model.world().drawing().drawn().bodies.back().name});
+        texts.expectWhole("a chosen body", 8);
+        texts.view.world().drawing().use(DrawTool::hand);
+        texts.view.setFirstStart(std::make_unique<FirstStart>(
+            texts.model, std::vector<FeltChoice>{{"Four-channel board: /dev/ttyACM0  ST-Link", noDevice, 4},
+                                                 {"No device: seen, not felt", noDevice, 0}}));
+        texts.expectWhole("first start", 8);
+        texts.view.firstStart()->test(4);
+        texts.expectWhole("test of the first start", 8);
+        texts.view.setFirstStart(nullptr);
+        TestFolder folder;
+        texts.view.setCard(
+            std::make_unique<FileCard>(FileCard::Choice{"Save", ".json", folder.folder, true}));
+        texts.expectWhole("files", 8);
+        texts.view.setCard(nullptr);
     }
 }
 

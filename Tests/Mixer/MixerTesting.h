@@ -9,6 +9,12 @@
 
 namespace physvib::test {
 
+/// As in a program of its own, JUCE bears errors of X: a display without a window manager lacks properties.
+inline const bool isProgram = (
+    juce::JUCEApplicationBase::createInstance =
+        [] { return static_cast<juce::JUCEApplicationBase*>(nullptr); },
+    true);
+
 inline const DeviceChoice noDevice{std::string{noDeviceType} + ":" + noDeviceName, 48000, 128};
 
 /// A folder that is gone afterwards.

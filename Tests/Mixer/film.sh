@@ -37,7 +37,7 @@ key space
 key ctrl+s; sleep 1; key Return; sleep 1 # under the name and in the folder that are suggested
 menu 1 Up 4                       # Save movie
 picture 4-movie
-key Tab; xdotool type 600        # all of it
+xdotool type 600                  # all of it: the field has the keys, and its text is selected
 key Return; sleep 1
 picture 5-file
 made=$(date +%s)

@@ -71,9 +71,9 @@ OutputTab::OutputTab(MixerModel& model)
     device_.setTitle("Device");
     rate_.setTitle("Rate");
     block_.setTitle("Block");
-    rate_.addItem("device default", 1);
+    rate_.addItem("default", 1);
     for (const int hz : rates) rate_.addItem(juce::String{hz} + " Hz", hz);
-    block_.addItem("device default", 1);
+    block_.addItem("default", 1);
     for (const int frames : blocks) block_.addItem(juce::String{frames}, frames);
     scan_ = quietButton("Rescan", "Rescan devices");
     scan_->onClick = [this] { scan(); };
@@ -339,11 +339,15 @@ void OutputTab::resized() {
     placeRow(area, first);
     placeRow(area, second);
     for (const auto& sink : sinks_) {
-        const juce::String title{sink->kind.title.data()};
-        const bool fits = text::pixels(sink->name.getFont(), title) <= sink->name.getWidth();
-        const auto shorter = titleOf(std::string{sink->kind.name});
-        sink->name.setText(fits ? title : shorter.substring(0, 1) + shorter.substring(1).toLowerCase(),
-                           juce::dontSendNotification);
+        auto words = juce::StringArray::fromTokens(sink->kind.title.data(), false); // as many as fit
+        while (words.size() > 1 && text::pixels(sink->name.getFont(), words.joinIntoString(" ")) +
+                                           sink->name.getBorderSize().getLeftAndRight() >
+                                       sink->name.getWidth())
+            words.remove(words.size() - 1);
+        if (words.size() > 1 && words[words.size() - 1] == "by") words.remove(words.size() - 1);
+        if (words.size() == 1 && !sink->kind.takesReports) // "Game" says nothing
+            words = titleOf(juce::String{sink->kind.name.data()}.toLowerCase().toStdString());
+        sink->name.setText(words.joinIntoString(" "), juce::dontSendNotification);
     }
     placeRow(area, {{oscName_, osc_, 2 * fifth},
                     {hitsName_, hits_, 2 * fifth - 3 * gap},
@@ -360,8 +364,7 @@ void OutputTab::resized() {
 namespace {
 
 // in the order of OscUse
-constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer",
-                                             "from any computer, and phones"};
+constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer", "from phones, too"};
 struct PhoneHold {
     const char* words;
     double turnDegrees;
@@ -370,6 +373,15 @@ struct PhoneHold {
 constexpr std::array<PhoneHold, 4> phoneHolds{
     {{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
 constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // item ids of the list of receivers
+
+/// Where others reach this computer, in place of 0.0.0.0, which nobody can type in.
+juce::String reachedAt(const std::string& address) {
+    const auto words = utf8(address), port = words.fromLastOccurrenceOf(":", true, false);
+    if (!words.startsWith("0.0.0.0")) return words;
+    juce::StringArray all;
+    for (const auto& own : ownAddresses()) all.add(utf8(own) + port);
+    return all.isEmpty() ? words : all.joinIntoString(" or ");
+}
 
 } // namespace
 
@@ -394,6 +406,9 @@ void OutputTab::listen() {
     if (const int hold = phone_.getSelectedItemIndex(); hold >= 0)
         choice.turnDegrees = phoneHolds[static_cast<std::size_t>(hold)].turnDegrees;
     useOsc(choice, "Messages by OSC: ");
+    if (const auto osc = model_.inputs().status(); osc && choice.use == OscUse::anyComputer)
+        model_.announce("A phone sends its messages to " + reachedAt(osc->address)); // the state may be out
+                                                                                     // of sight
 }
 
 void OutputTab::sendHitsTo(const juce::String& receiver) {
@@ -429,19 +444,6 @@ void OutputTab::showOsc() {
     const auto hold = std::ranges::find(phoneHolds, choice.turnDegrees, &PhoneHold::turnDegrees);
     phone_.setSelectedItemIndex(static_cast<int>(hold - phoneHolds.begin()), juce::dontSendNotification);
 }
-
-namespace {
-
-/// Where others reach this computer, in place of 0.0.0.0, which nobody can type in.
-juce::String reachedAt(const std::string& address) {
-    const auto words = utf8(address), port = words.fromLastOccurrenceOf(":", true, false);
-    if (!words.startsWith("0.0.0.0")) return words;
-    juce::StringArray all;
-    for (const auto& own : ownAddresses()) all.add(utf8(own) + port);
-    return all.isEmpty() ? words : all.joinIntoString(" or ");
-}
-
-} // namespace
 
 juce::String OutputTab::oscState(Shade& state) const {
     const auto osc = model_.inputs().status();

@@ -214,7 +214,7 @@ void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
         g.drawText(words, area.removeFromRight(wide), juce::Justification::centredRight, true);
     };
     cell(t.at.formatted("%Y-%m-%d %H:%M"), 120);
-    cell(juce::String{t.channels} + (t.channels == 1 ? " channel" : " channels"), 90);
+    if (width > 400) cell(juce::String{t.channels} + (t.channels == 1 ? " channel" : " channels"), 90);
     g.setColour(shade(*this, Shade::text));
     cell(t.length(), t.isTrimmed() ? 110 : 70);
     g.setFont(text::font(text::medium));

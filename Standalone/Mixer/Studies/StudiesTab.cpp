@@ -221,17 +221,18 @@ void StudiesTab::listNoise() {
                                                 juce::String{outputs[1] + 1}
                                           : "output " + juce::String{outputs[0] + 1},
                        ++id);
-    const auto at = std::ranges::find(noiseOutputs_, chosen);
+    chooseNoise(chosen);
+}
+
+void StudiesTab::chooseNoise(const std::vector<int>& outputs) {
+    const auto at = std::ranges::find(noiseOutputs_, outputs);
     noise_.setSelectedId(
         at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1,
         juce::dontSendNotification);
 }
 
 void StudiesTab::setNoise(const std::vector<int>& outputs, double db) {
-    const auto at = std::ranges::find(noiseOutputs_, outputs);
-    noise_.setSelectedId(
-        at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1,
-        juce::dontSendNotification);
+    chooseNoise(outputs);
     noiseLevel_.setSelectedId(-juce::roundToInt(db), juce::dontSendNotification);
     repaint();
 }
@@ -282,9 +283,8 @@ void StudiesTab::look() {
         begin_.setEnabled(false),
             say(utf8(path.filename().string()) + " has all its trials: expected another code", Shade::muted);
     else if (log)
-        say(utf8(path.filename().string()) + " has " +
-                juce::String{static_cast<int>(log.value.records.size())} + " trials: it goes on behind them" +
-                exposureWords(log.value.records),
+        say(utf8(path.filename().string()) + " has " + utf8(counted(log.value.records.size(), "trial")) +
+                ": it goes on behind them" + exposureWords(log.value.records),
             Shade::text);
     else
         say(utf8(log.error), Shade::limit);
@@ -335,6 +335,25 @@ void StudiesTab::say(const juce::String& words, Shade shade) {
     repaint();
 }
 
+// More actuators than the mixer has cannot be had by a choice of outputs.
+void StudiesTab::offerLayout() {
+    for (const ConditionPlan& condition : protocol_->conditions) {
+        const auto layout = layoutNamed(besideProtocol(protocol_->folder, condition.layout));
+        const std::size_t wanted = layout ? layout.value.enchanters.size() : 0;
+        if (wanted <= model_.mix().strips.size()) continue;
+        return model_.messages().show({"This study is felt on " + utf8(counted(wanted, "actuator")),
+                                       true,
+                                       {"Use " + utf8(condition.layout),
+                                        [&model = model_, own = layout.value] {
+                                            model.change("Layout of the study", [&own](Mix& mix) {
+                                                mix.layout = own;
+                                                mix.resizeStrips();
+                                            });
+                                        }},
+                                       "study-layout"});
+    }
+}
+
 std::string StudiesTab::begin() {
     const auto refuse = [this](const std::string& why) {
         say(utf8(why), Shade::limit);
@@ -346,7 +365,7 @@ std::string StudiesTab::begin() {
     if (code_.isEmpty()) return refuse("expected a participant's code");
     stopCheck(); // one that is not made yet: a program called this, as the button waits for the check
     if (auto fault = faultOf(run()); !fault.empty()) return refuse(fault);
-    if (auto fault = outputsFault(*protocol_, model_); !fault.empty()) return refuse(fault);
+    if (auto fault = outputsFault(*protocol_, model_); !fault.empty()) return offerLayout(), refuse(fault);
     if (auto fault = feltFault(*protocol_, model_); !fault.empty()) return refuse(fault);
     if (auto fault = !check_                  ? studyFault(*protocol_)
                      : check_->errors.empty() ? ""

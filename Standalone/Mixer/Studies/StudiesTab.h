@@ -72,6 +72,8 @@ private:
     void browseProtocol();
     void browseFolder();
     static bool isDone(const StudyRun& run, const std::vector<TrialRecord>& records);
+    void offerLayout();
+    void chooseNoise(const std::vector<int>& outputs);
     void look();
     void listNoise();
     void pickWords();

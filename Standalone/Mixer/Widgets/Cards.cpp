@@ -66,17 +66,80 @@ void askForValues(juce::Component& from, const juce::String& title, const juce::
     host->setCard(std::move(made));
 }
 
+// From the top: title, words, content; from the bottom: answers in rows of three, from the right.
+
+Card::Card(int width)
+    : width_{width} {
+    setWantsKeyboardFocus(true);
+    title_.setFont(text::font(text::large, juce::Font::bold));
+    words_.setFont(text::font(text::medium));
+    words_.setJustificationType(juce::Justification::topLeft);
+    words_.setMinimumHorizontalScale(1.0f); // it has space for all lines
+    for (auto* label : {&title_, &words_}) {
+        label->setBorderSize({0, 0, 0, 0}); // one line with the fields
+        addAndMakeVisible(label);
+    }
+}
+
+void Card::say(const juce::String& title, const juce::String& words) {
+    setTitle(title);
+    setDescription(words);
+    title_.setText(title, juce::dontSendNotification);
+    words_.setText(words, juce::dontSendNotification);
+}
+
+void Card::setAnswers(std::vector<juce::TextButton*> answers) {
+    for (auto* button : answers_) button->setVisible(false);
+    answers_ = std::move(answers);
+    for (auto* button : answers_) {
+        if (button->getTitle().isEmpty()) button->setTitle(button->getButtonText());
+        button->setToggleState(button == answers_.front() && button->isEnabled(), juce::dontSendNotification);
+        addAndMakeVisible(button);
+    }
+}
+
+int Card::answersHigh() const {
+    return (static_cast<int>(answers_.size()) + perRow - 1) / perRow * (rowHigh + gap) - gap;
+}
+
+void Card::fit() {
+    prepareControls(*this);
+    const auto middle = getBounds().getCentre();
+    juce::AttributedString said{words()};
+    said.setFont(words_.getFont());
+    juce::TextLayout lines;
+    lines.createLayout(said, static_cast<float>(width_ - 2 * edgeX - 4));
+    const int lineHigh = words().isEmpty() ? 0 : 18 + static_cast<int>(std::ceil(lines.getHeight()));
+    const int high = 2 * edgeY + titleHigh + lineHigh + contentHigh() + gap + answersHigh();
+    const auto beside = aside();
+    setSize(width_ + (beside.x > 0 ? edgeX + beside.x : 0), std::max(high, beside.y + 2 * edgeY));
+    setCentrePosition(middle);
+    resized();
+    repaint();
+}
+
+void Card::resized() {
+    auto area = getLocalBounds().reduced(edgeX, edgeY).withWidth(width_ - 2 * edgeX);
+    title_.setBounds(area.removeFromTop(titleHigh));
+    const int width = (area.getWidth() - (perRow - 1) * gap) / perRow;
+    const auto rows = area.removeFromBottom(answersHigh());
+    for (int k = 0; k < static_cast<int>(answers_.size()); ++k)
+        answers_[static_cast<std::size_t>(k)]->setBounds(rows.getRight() - width - k % perRow * (width + gap),
+                                                         rows.getY() + k / perRow * (rowHigh + gap), width,
+                                                         rowHigh);
+    area.removeFromBottom(gap);
+    place(area.removeFromBottom(contentHigh()));
+    words_.setBounds(area.withTrimmedTop(4));
+}
+
 // Lists folders and files, and checks a typed name.
 
 FileCard::FileCard(const Choice& choice)
-    : choice_{choice} {
-    setTitle(choice.title);
-    setWantsKeyboardFocus(true);
-    title_.setText(choice.title, juce::dontSendNotification);
-    title_.setFont(text::font(text::large, juce::Font::bold));
-    for (auto* label : {&place_, &words_}) label->setFont(text::font(text::small));
+    : Card{wide}
+    , choice_{choice} {
+    say(choice.title, {});
     place_.setTitle("Folder");
-    words_.setTitle("What is wrong");
+    fault_.setTitle("What is wrong");
     list_.setTitle("Files of the folder");
     list_.setRowHeight(rowHeight);
     list_.setMultipleSelectionEnabled(choice.areSeveral);
@@ -90,19 +153,15 @@ FileCard::FileCard(const Choice& choice)
     name_.onTextChange = [this] {
         replaced_ = juce::File{};
         accept_.setButtonText(acceptWords());
-        showWords({}, Shade::text);
+        showFault({}, Shade::text);
     };
     up_.setTitle("Parent folder");
     up_.onClick = [this] { enter(folder_.getParentDirectory()); };
-    accept_.setTitle(acceptWords());
-    accept_.setButtonText(accept_.getTitle());
-    accept_.setToggleState(true, juce::dontSendNotification); // Return presses it
+    accept_.setButtonText(acceptWords());
     accept_.onClick = [this] { accept(); };
-    cancel_.setTitle("Cancel");
     cancel_.onClick = [this] { onCancel(); };
-    addAll(*this, {&title_, &place_, &up_, &list_, &name_, &words_, &cancel_, &accept_});
-    prepareControls(*this);
-    setSize(wide, high);
+    addAll(*this, {&place_, &up_, &list_, &name_, &fault_});
+    setAnswers({&accept_, &cancel_});
     enter(choice.folder);
 }
 
@@ -129,10 +188,12 @@ void FileCard::enter(const juce::File& folder) {
     list_.deselectAllRows();
     list_.updateContent();
     list_.repaint();
-    showWords(!entries_.isEmpty() ? juce::String{}
+    showFault(!entries_.isEmpty() ? juce::String{}
               : isFolder()        ? juce::String{"No folders here"}
                                   : "No folders or " + choice_.ending + " files here",
               Shade::muted);
+    rows_ = std::max(rows_, std::clamp(entries_.size(), fewRows, mostRows));
+    fit();
 }
 
 void FileCard::selectedRowsChanged(int row) {
@@ -150,34 +211,31 @@ void FileCard::accept() {
     }
     if (juce::isPositiveAndBelow(row, entries_.size()) && entries_[row].isDirectory())
         return enter(entries_[row]);
-    if (name().isEmpty()) return isFolder() ? onFile(folder_) : showWords("Expected a name", Shade::limit);
+    if (name().isEmpty()) return isFolder() ? onFile(folder_) : showFault("Expected a name", Shade::limit);
     const auto typed = folder_.getChildFile(name()); // or an absolute path
     if (typed.isDirectory()) return enter(typed);
     if (isFolder())
-        return showWords(typed.getFullPathName() + ": expected a folder that is there", Shade::limit);
+        return showFault(typed.getFullPathName() + ": expected a folder that is there", Shade::limit);
     const auto file = hasEnding(typed) ? typed : typed.getSiblingFile(typed.getFileName() + choice_.ending);
     if (!choice_.isSaving)
         return file.existsAsFile()
                    ? onFile(file)
-                   : showWords(file.getFileName() + ": expected a file that is there", Shade::limit);
+                   : showFault(file.getFileName() + ": expected a file that is there", Shade::limit);
     if (!file.getParentDirectory().isDirectory())
-        return showWords(file.getParentDirectory().getFullPathName() + ": expected a folder that is there",
+        return showFault(file.getParentDirectory().getFullPathName() + ": expected a folder that is there",
                          Shade::limit);
     if (file.existsAsFile() && file != replaced_) {
         replaced_ = file;
         accept_.setButtonText("Replace");
-        return showWords(file.getFileName() + " exists. Press again to replace it", Shade::now);
+        return showFault(file.getFileName() + " exists. Press again to replace it", Shade::now);
     }
     onFile(file);
 }
 
-void FileCard::showWords(const juce::String& words, Shade which) {
-    words_.setText(words, juce::dontSendNotification);
-    wordsShade_ = which;
-    updateColours();
+void FileCard::showFault(const juce::String& words, Shade which) {
+    fault_.setText(words, juce::dontSendNotification);
+    fault_.setTone(which);
 }
-
-void FileCard::updateColours() { words_.setColour(juce::Label::textColourId, shade(*this, wordsShade_)); }
 
 bool FileCard::keyPressed(const juce::KeyPress& key) {
     if (key == juce::KeyPress::escapeKey) return onCancel(), true;
@@ -206,30 +264,16 @@ void FileCard::paintListBoxItem(int row, juce::Graphics& g, int width, int heigh
     g.drawText(entry.getFileName(), area, juce::Justification::centredLeft, true);
 }
 
-void FileCard::paint(juce::Graphics& g) { drawCard(g, *this); }
+int FileCard::contentHigh() const { return 8 + rows_ * list_.getRowHeight() + 3 * (rowHeight + gap); }
 
-void FileCard::resized() {
-    auto area = getLocalBounds().reduced(24, 20);
-    title_.setBounds(area.removeFromTop(30));
-    area.removeFromTop(6);
+void FileCard::place(juce::Rectangle<int> area) {
     auto row = area.removeFromTop(rowHeight);
     up_.setBounds(row.removeFromRight(70));
     place_.setBounds(row.withTrimmedRight(gap));
-    row = area.removeFromBottom(rowHeight + 4);
-    accept_.setBounds(row.removeFromRight(120));
-    row.removeFromRight(gap);
-    cancel_.setBounds(row.removeFromRight(120));
-    words_.setBounds(row);
+    fault_.setBounds(area.removeFromBottom(rowHeight));
     area.removeFromBottom(gap);
     name_.setBounds(area.removeFromBottom(rowHeight));
-    area.removeFromBottom(gap);
-    list_.setBounds(area.withTrimmedTop(8));
-}
-
-// Layout of a question: text, and answer buttons in rows of three.
-
-namespace {
-constexpr int edgeX = 24, edgeY = 20, titleHigh = 30;
+    list_.setBounds(area.withTrimmedTop(8).withTrimmedBottom(gap));
 }
 
 /// A field with its title.
@@ -266,29 +310,21 @@ QuestionCard::~QuestionCard() = default;
 
 QuestionCard::QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers,
                            const std::vector<Field>& fields)
-    : answers_{std::move(answers)} {
-    setTitle(title);
-    setDescription(words);
-    setWantsKeyboardFocus(true);
-    title_.setText(title, juce::dontSendNotification);
-    title_.setFont(text::font(text::large, juce::Font::bold));
-    words_.setText(words, juce::dontSendNotification);
-    words_.setFont(text::font(text::medium));
-    words_.setJustificationType(juce::Justification::topLeft);
-    words_.setMinimumHorizontalScale(1.0f); // it has space for all lines
-    for (juce::Component* c : {&title_, &words_}) addAndMakeVisible(c);
+    : Card{wide}
+    , answers_{std::move(answers)} {
+    say(title, words);
+    std::vector<juce::TextButton*> shown;
     answers_.front().key = juce::KeyPress{juce::KeyPress::returnKey};
     for (std::size_t k = 0; k < answers_.size(); ++k) {
         const Answer& answer = answers_[k];
         auto& button = *buttons_.emplace_back(std::make_unique<juce::TextButton>(answer.words));
-        button.setTitle(answer.words);
         if (answer.key.isValid())
             button.setTooltip(answer.words + " (" + answer.key.getTextDescription() + ")");
         button.setEnabled(answer.isEnabled);
-        button.setToggleState(k == 0 && answer.isEnabled, juce::dontSendNotification); // Return selects it
         button.onClick = [this, k] { act(k); };
-        addAndMakeVisible(button);
+        shown.push_back(&button);
     }
+    setAnswers(std::move(shown));
     for (const Field& field : fields) {
         auto& added = *inputs_.emplace_back(std::make_unique<Input>(field));
         addAndMakeVisible(added);
@@ -298,31 +334,12 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
         added.text.onReturnKey = [this] { act(0); };
         added.text.onEscapeKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::escapeKey}); };
     }
-    prepareControls(*this);
     fit();
-}
-
-// The title, the words and the rows; beside them a picture.
-void QuestionCard::fit() {
-    const int rows = (static_cast<int>(answers_.size()) + perRow - 1) / perRow;
-    const int room = wide - 2 * edgeX - words_.getBorderSize().getLeftAndRight();
-    juce::AttributedString said{words_.getText()};
-    said.setFont(words_.getFont());
-    juce::TextLayout lines;
-    lines.createLayout(said, static_cast<float>(room - 4));
-    const int high = 2 * edgeY + titleHigh + rows * (rowHigh + gap) +
-                     (words_.getText().isEmpty() ? 0 : 18 + static_cast<int>(std::ceil(lines.getHeight()))) +
-                     static_cast<int>(inputs_.size()) * (rowHeight + gap);
-    if (picture_.isNull()) return setSize(wide, high);
-    setSize(wide + edgeX + picture_.getWidth(), std::max(high, picture_.getHeight() + 2 * edgeY));
 }
 
 void QuestionCard::setPicture(const juce::Image& picture) {
-    const auto middle = getBounds().getCentre();
     picture_ = picture;
     fit();
-    setCentrePosition(middle);
-    repaint();
 }
 
 juce::String QuestionCard::value(const juce::String& field) const {
@@ -362,30 +379,16 @@ bool QuestionCard::keyPressed(const juce::KeyPress& key) {
 }
 
 void QuestionCard::paint(juce::Graphics& g) {
-    drawCard(g, *this);
+    Card::paint(g);
     g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality); // sharp on finer screens
     g.drawImageAt(picture_, getWidth() - edgeX - picture_.getWidth(), edgeY);
 }
 
-void QuestionCard::resized() {
-    auto area = getLocalBounds().reduced(edgeX, edgeY);
-    if (!picture_.isNull()) area.removeFromRight(picture_.getWidth() + edgeX);
-    title_.setBounds(area.removeFromTop(titleHigh));
-    const int width = (area.getWidth() - (perRow - 1) * gap) / perRow;
-    auto rows = area.removeFromBottom(
-        static_cast<int>(buttons_.size() + perRow - 1) / perRow * (rowHigh + gap) - gap);
-    for (std::size_t k = 0; k < buttons_.size(); ++k) {
-        const auto at = static_cast<int>(k);
-        buttons_[k]->setBounds(rows.getRight() - width - at % perRow * (width + gap), // the first at the
-                                                                                      // right
-                               rows.getY() + at / perRow * (rowHigh + gap), width, rowHigh);
+void QuestionCard::place(juce::Rectangle<int> content) {
+    for (auto& input : inputs_) {
+        input->setBounds(content.removeFromTop(rowHeight));
+        content.removeFromTop(gap);
     }
-    area.removeFromBottom(gap);
-    for (auto input = inputs_.rbegin(); input != inputs_.rend(); ++input) {
-        (*input)->setBounds(area.removeFromBottom(rowHeight));
-        area.removeFromBottom(gap);
-    }
-    words_.setBounds(area.withTrimmedTop(4));
 }
 
 namespace {

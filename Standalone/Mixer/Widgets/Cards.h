@@ -12,10 +12,36 @@
 
 namespace physvib {
 
+/// What asks over the window: a title, words, what a derived card has, and answers, the first at the right.
+/// As high as what is in it. Message thread only.
+class Card : public juce::Component {
+public:
+    void paint(juce::Graphics& g) override { drawCard(g, *this); }
+    void resized() final;
+    juce::String words() const { return words_.getText(); }
+
+protected:
+    static constexpr int perRow = 3, rowHigh = 34, edgeX = 24, edgeY = 20, titleHigh = 30;
+
+    explicit Card(int width);
+    void say(const juce::String& title, const juce::String& words);
+    void setAnswers(std::vector<juce::TextButton*> answers); ///< Return presses the first, if it is enabled
+    void fit();                                              ///< its middle stays where it is
+    virtual int contentHigh() const = 0;
+    virtual void place(juce::Rectangle<int> content) = 0;
+    virtual juce::Point<int> aside() const { return {}; } ///< what stands beside all of it
+
+private:
+    int answersHigh() const;
+    const int width_;
+    juce::Label title_, words_;
+    std::vector<juce::TextButton*> answers_;
+};
+
 /// Card over the window that asks for a file to open or to save.
 /// Lists a folder. A typed name stays while another folder is entered; a file that exists is replaced only
 /// after a second press. Message thread only.
-class FileCard final : public juce::Component, private juce::ListBoxModel {
+class FileCard final : public Card, private juce::ListBoxModel {
 public:
     struct Choice {
         juce::String title, ending; ///< with its dot; a name without an ending gets it. Empty: a folder
@@ -36,26 +62,23 @@ public:
     const juce::File& folder() const noexcept { return folder_; }
     juce::String name() const { return name_.getText().trim(); }
     void setName(const juce::String& name) override { name_.setText(name, true); }
-    juce::String words() const { return words_.getText(); }
+    juce::String fault() const { return fault_.getText(); }
     /// Same as Return: enters a folder, or takes the file.
     void accept();
 
     bool keyPressed(const juce::KeyPress& key) override;
-    void paint(juce::Graphics& g) override;
-    void resized() override;
-    void parentHierarchyChanged() override { updateColours(); }
-    void lookAndFeelChanged() override { updateColours(); }
 
 private:
-    static constexpr int wide = 640, high = 470;
+    static constexpr int wide = 640, fewRows = 4, mostRows = 10; // a longer list scrolls
+    int contentHigh() const override;
+    void place(juce::Rectangle<int> content) override;
     int getNumRows() override { return entries_.size(); }
     void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
     void selectedRowsChanged(int row) override;
     void listBoxItemDoubleClicked(int, const juce::MouseEvent&) override { accept(); }
     void returnKeyPressed(int) override { accept(); }
     juce::String getNameForRow(int row) override { return entries_[row].getFileName(); }
-    void showWords(const juce::String& words, Shade which);
-    void updateColours(); // of the look, which comes with the parent
+    void showFault(const juce::String& words, Shade which);
     bool isFolder() const { return choice_.ending.isEmpty(); }
     juce::String acceptWords() const;
     bool hasEnding(const juce::File& file) const;
@@ -64,8 +87,8 @@ private:
     juce::File folder_;
     juce::Array<juce::File> entries_; // folders first
     juce::File replaced_;             // asked for; the next press takes it
-    juce::Label title_, place_, words_;
-    Shade wordsShade_ = Shade::text;
+    Caption place_{{}, Shade::text}, fault_;
+    int rows_ = 0; // of the largest folder so far: it does not jump from folder to folder
     juce::ListBox list_{"Files", this};
     juce::TextEditor name_;
     juce::TextButton up_{"Up"}, accept_, cancel_{"Cancel"};
@@ -74,9 +97,9 @@ private:
 /// Dialogue card over the window, with fields to fill in: Return selects the first answer, buttons and keys
 /// the others.
 /// Message thread only.
-class QuestionCard final : public juce::Component {
+class QuestionCard final : public Card {
 public:
-    static constexpr int wide = 520, perRow = 3, rowHigh = 34;
+    static constexpr int wide = 520;
 
     struct Answer {
         juce::String words;
@@ -106,18 +129,16 @@ public:
 
     /// Same as a click on that button; no effect if it is missing or disabled.
     void answer(const juce::String& words);
-    juce::String words() const { return words_.getText(); }
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
-    void resized() override;
 
 private:
     class Input;
     void act(std::size_t which);
+    int contentHigh() const override { return static_cast<int>(inputs_.size()) * (rowHeight + gap); }
+    void place(juce::Rectangle<int> content) override;
+    juce::Point<int> aside() const override { return {picture_.getWidth(), picture_.getHeight()}; }
 
-    void fit();
-
-    juce::Label title_, words_;
     juce::Image picture_;
     std::vector<Answer> answers_;
     std::vector<std::unique_ptr<juce::TextButton>> buttons_;

@@ -406,18 +406,19 @@ void TabPanel::refresh(const MixerMoment& moment) {
 void TabPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
 
 void TabPanel::resized() {
-    if (fold_ == Fold::column) {
-        auto column = getLocalBounds().reduced(0, panelInset);
+    if (pages_.empty()) return;
+    const bool isColumn = fold_ == Fold::column;
+    auto area = isColumn ? getLocalBounds().reduced(0, panelInset)
+                         : getLocalBounds().reduced(panelInset, fold_ == Fold::row ? 0 : 8);
+    auto names = isColumn ? area : area.removeFromTop(32);
+    int rest = isColumn ? names.getHeight() : names.getWidth();
+    for (auto& page : pages_) rest -= widthOf(page.name->getName());
+    rest = juce::jlimit(-maxCut, isColumn ? 24 : widestRest, rest / static_cast<int>(pages_.size()));
+    if (isColumn) {
         for (auto& page : pages_)
-            page.name->setBounds(column.removeFromTop(widthOf(page.name->getName()) + 24));
+            page.name->setBounds(names.removeFromTop(widthOf(page.name->getName()) + rest));
         return;
     }
-    auto area = getLocalBounds().reduced(panelInset, fold_ == Fold::row ? 0 : 8);
-    auto names = area.removeFromTop(32);
-    if (pages_.empty()) return;
-    int rest = names.getWidth();
-    for (auto& page : pages_) rest -= widthOf(page.name->getName());
-    rest = juce::jlimit(-maxCut, widestRest, rest / static_cast<int>(pages_.size()));
     for (auto& page : pages_)
         page.name->setBounds(names.removeFromLeft(widthOf(page.name->getName()) + rest)
                                  .withTrimmedRight(std::max(0, rest / 3)));

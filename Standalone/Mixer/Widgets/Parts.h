@@ -60,12 +60,13 @@ void prepareControls(juce::Component& root);
 class Caption final : public juce::Label {
 public:
     explicit Caption(const juce::String& words = {}, Shade tone = Shade::muted);
+    void setTone(Shade tone) { tone_ = tone, tint(); }
     void lookAndFeelChanged() override { tint(); }
     void parentHierarchyChanged() override { tint(); }
 
 private:
     void tint() { setColour(textColourId, shade(*this, tone_)); }
-    const Shade tone_;
+    Shade tone_;
 };
 
 /// Shows these as children.

@@ -13,7 +13,7 @@
 namespace physvib {
 namespace {
 
-constexpr int mostRows = 6;
+constexpr int mostRows = 6, rowGap = 5, fieldHigh = 200;
 constexpr int lookMs = 100,
               maxLooks = 50; // time for a sink to become ready: greeting and clock of a board need half a
                              // second, Bluetooth one
@@ -115,14 +115,9 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
 }
 
 FirstStart::FirstStart(MixerModel& model, std::vector<FeltChoice> choices)
-    : model_{model}
+    : Card{wide}
+    , model_{model}
     , choices_{std::move(choices)} {
-    setTitle("First start");
-    setWantsKeyboardFocus(true);
-    title_.setFont(text::font(text::large, juce::Font::bold));
-    words_.setFont(text::font(text::medium));
-    words_.setJustificationType(juce::Justification::topLeft);
-    words_.setMinimumHorizontalScale(1.0f); // it has space for two lines
     for (int i = 0; i < std::min(mostRows, static_cast<int>(choices_.size())); ++i) {
         auto& row =
             *rows_.emplace_back(std::make_unique<Row>(choices_[static_cast<std::size_t>(i)].title +
@@ -136,13 +131,6 @@ FirstStart::FirstStart(MixerModel& model, std::vector<FeltChoice> choices)
     louder_.onClick = [this] { louder(); };
     notFelt_.onClick = [this] { notFelt(); };
     done_.onClick = [this] { end(true); };
-    for (auto* button : {&play_, &without_, &felt_, &louder_, &notFelt_, &done_})
-        button->setTitle(button->getButtonText()), addChildComponent(button);
-    // default button for Return
-    for (auto* button : {&play_, &felt_}) button->setToggleState(true, juce::dontSendNotification);
-    for (auto* label : {&title_, &words_}) addAndMakeVisible(label);
-    prepareControls(*this);
-    setSize(wide, high);
     show();
 }
 
@@ -246,6 +234,7 @@ void FirstStart::end(bool hasChosen) {
 
 bool FirstStart::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
+    if (key == KeyPress::escapeKey) return end(tested_ >= 0), false; // and it silences
     if (tested_ < 0) {
         if (key == KeyPress::upKey) return choose(chosen_ - 1), true;
         if (key == KeyPress::downKey) return choose(chosen_ + 1), true;
@@ -265,45 +254,41 @@ void FirstStart::show() {
         rows_[i]->setVisible(!isTest);
         rows_[i]->setToggleState(static_cast<int>(i) == chosen_, juce::dontSendNotification);
     }
-    for (auto* button : {&play_, &without_}) button->setVisible(!isTest);
-    for (auto* button : {&felt_, &louder_, &notFelt_, &done_}) button->setVisible(isTest);
     if (!isTest) {
-        title_.setText("Where are your actuators?", juce::dontSendNotification);
-        words_.setText("Play here tests each of them in turn, quietly at first. Nothing plays before.",
-                       juce::dontSendNotification);
+        const bool hasChoice = choices_.size() > 1;
+        say("Where are your actuators?",
+            hasChoice ? "Play here tests each of them in turn, quietly at first. Nothing plays before."
+                      : "No device was found. Plug one in, and choose it under Output.");
+        play_.setButtonText(hasChoice ? "Play here" : "Go on");
+        setAnswers(hasChoice ? std::vector{&play_, &without_} : std::vector{&play_});
     } else {
         const auto& label = model_.mix().layout.enchanters[static_cast<std::size_t>(tested_)].label;
         const int output = model_.mix().strips[static_cast<std::size_t>(tested_)].output;
-        title_.setText("Did you feel it? Where?", juce::dontSendNotification);
-        if (isTimerRunning())
-            words_.setText("It is looked for" + dots(), juce::dontSendNotification);
-        else
-            words_.setText("Actuator " + utf8(label) +
-                               (output >= 0 ? ", output " + juce::String{output + 1} : juce::String{}) +
-                               ", at " + number(model_.mix().levelDb, 0) +
-                               " dB. Click the place where you felt it, or Felt if it is where it is drawn. "
-                               "Space plays it again.",
-                           juce::dontSendNotification);
         louder_.setEnabled(model_.mix().levelDb < mostDb);
+        setAnswers({&felt_, &louder_, &notFelt_, &done_});
+        say("Did you feel it? Where?",
+            isTimerRunning()
+                ? "It is looked for" + dots()
+                : "Actuator " + utf8(label) +
+                      (output >= 0 ? ", output " + juce::String{output + 1} : juce::String{}) + ", at " +
+                      number(model_.mix().levelDb, 0) +
+                      " dB. Click the place where you felt it, or Felt if it is where it is drawn. Space "
+                      "plays it again.");
     }
-    repaint();
-}
-
-juce::Rectangle<int> FirstStart::field() const {
-    return getLocalBounds().reduced(24, 0).withTop(108).withBottom(high - 74).withSizeKeepingCentre(360, 200);
+    fit();
 }
 
 void FirstStart::mouseDown(const juce::MouseEvent& e) {
-    const auto at = field();
+    const auto at = field_;
     if (tested_ < 0 || !at.contains(e.getPosition())) return;
     feltAt(static_cast<double>(e.x - at.getX()) / at.getWidth(),
            1.0 - static_cast<double>(e.y - at.getY()) / at.getHeight());
 }
 
 void FirstStart::paint(juce::Graphics& g) {
-    drawCard(g, *this);
+    Card::paint(g);
     if (tested_ < 0) return;
-    const auto at = field();
+    const auto at = field_;
     g.setColour(shade(*this, Shade::well));
     g.fillRoundedRectangle(at.toFloat(), 6.0f);
     const auto& layout = model_.mix().layout.geometry;
@@ -324,17 +309,13 @@ void FirstStart::paint(juce::Graphics& g) {
     }
 }
 
-void FirstStart::resized() {
-    auto area = getLocalBounds().reduced(24, 18);
-    title_.setBounds(area.removeFromTop(30));
-    words_.setBounds(area.removeFromTop(48));
-    auto row = area.removeFromBottom(34);
-    play_.setBounds(row.withLeft(row.getRight() - 130));
-    without_.setBounds(row.withTrimmedRight(142).withLeft(row.getRight() - 312));
-    for (auto* button : {&felt_, &louder_, &notFelt_})
-        button->setBounds(row.removeFromRight(110)), row.removeFromRight(gap);
-    done_.setBounds(row.removeFromLeft(110));
-    for (auto& choice : rows_) choice->setBounds(area.removeFromTop(34)), area.removeFromTop(5);
+int FirstStart::contentHigh() const {
+    return tested_ >= 0 ? fieldHigh : static_cast<int>(rows_.size()) * (rowHigh + rowGap);
+}
+
+void FirstStart::place(juce::Rectangle<int> content) {
+    field_ = content.withSizeKeepingCentre(360, fieldHigh);
+    for (auto& row : rows_) row->setBounds(content.removeFromTop(rowHigh)), content.removeFromTop(rowGap);
 }
 
 } // namespace physvib

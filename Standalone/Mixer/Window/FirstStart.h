@@ -3,7 +3,7 @@
 // and where?
 #pragma once
 #include "Mixer/Model/MixerModel.h"
-#include "Mixer/Widgets/Parts.h"
+#include "Mixer/Widgets/Cards.h"
 #include <functional>
 #include <memory>
 #include <string_view>
@@ -38,10 +38,10 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
 void fitLayoutTo(int outputs, Mix& mix, std::string_view device = {});
 
 /// Card over the window, usable by keys alone: up, down and Return; then Return (felt), L (louder), N (not
-/// felt). Message thread only.
-class FirstStart final : public juce::Component, private juce::Timer {
+/// felt); Esc ends it, too. Message thread only.
+class FirstStart final : public Card, private juce::Timer {
 public:
-    static constexpr int wide = 600, high = 400;
+    static constexpr int wide = 600;
     static constexpr double firstDb = -24.0, mostDb = -6.0, louderDb = 6.0;
 
     FirstStart(MixerModel& model, std::vector<FeltChoice> choices);
@@ -65,7 +65,6 @@ public:
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent& e) override;
-    void resized() override;
 
 private:
     void timerCallback() override;
@@ -73,12 +72,13 @@ private:
     bool isPlayed() const;
     void next();
     void show();
-    juce::Rectangle<int> field() const;
+    int contentHigh() const override;
+    void place(juce::Rectangle<int> content) override;
 
     MixerModel& model_;
     std::vector<FeltChoice> choices_;
     std::vector<std::unique_ptr<juce::Button>> rows_;
-    juce::Label title_, words_;
+    juce::Rectangle<int> field_; // of the test
     juce::TextButton play_{"Play here"}, without_{"Without a device"}, felt_{"Felt"}, louder_{"Louder"},
         notFelt_{"Not felt"}, done_{"Done"};
     int chosen_ = 0, tested_ = -1, slowness_ = 1, looks_ = 0;

@@ -2,8 +2,10 @@
 // Reads and writes the mixer's settings folder.
 #include "Mixer/Window/MixerFiles.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/ContentHash.h"
 #include "Io/Disk/ReadFile.h"
 #include "Mixer/Model/MixerMessages.h"
+#include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -92,6 +94,28 @@ void MixerFiles::addRecent(const juce::File& file) {
 DeskLimits MixerFiles::limits() const {
     return readDeskLimits(settings_.getValue(limitsSetting).toStdString())
         .value_or(DeskLimits::of(MixerModel::firstMix()));
+}
+
+namespace {
+
+juce::String ownMark(std::string_view text, const std::string& output) {
+    return utf8(contentHash(std::string{text} + '\n' + output));
+}
+
+} // namespace
+
+void MixerFiles::addOwn(std::string_view text, const std::string& output) {
+    constexpr int mostOwn = 64;
+    auto marks = juce::StringArray::fromTokens(settings_.getValue(ownSetting), " ", {});
+    marks.add(ownMark(text, output));
+    marks.removeRange(0, marks.size() - mostOwn);
+    settings_.setValue(ownSetting, marks.joinIntoString(" "));
+}
+
+bool MixerFiles::isOwn(const juce::File& file, const std::string& output) const {
+    const auto text = readFile(file.getFullPathName().toStdString(), limits::maxSessionFileBytes);
+    return text && juce::StringArray::fromTokens(settings_.getValue(ownSetting), " ", {})
+                       .contains(ownMark(text.value, output));
 }
 
 double MixerFiles::exposureToday() const {

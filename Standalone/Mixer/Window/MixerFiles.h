@@ -68,6 +68,11 @@ public:
         settings_.setValue(limitsSetting, juce::String::fromUTF8(deskLimitsText(limits).c_str()));
     }
 
+    /// The session `text` was saved here while `output` was in use, so its levels are the user's own.
+    void addOwn(std::string_view text, const std::string& output);
+    /// Whether the file is as it was saved by addOwn(), for that output.
+    bool isOwn(const juce::File& file, const std::string& output) const;
+
     /// Vibration exposure from this mixer today, in g^2 s, weighted. Stored between runs, even after a crash.
     double exposureToday() const;
     void setExposureToday(double squareGSeconds, bool isLast = false); ///< written at intervals, and at the
@@ -84,7 +89,8 @@ public:
     std::string keepNow(MixerModel& model);
 
 private:
-    static constexpr const char *limitsSetting = "desk", *exposureSetting = "exposure";
+    static constexpr const char *limitsSetting = "desk", *exposureSetting = "exposure",
+                                *ownSetting = "own-sessions";
 
     juce::File folder_;
     RecoveryCopies copies_;

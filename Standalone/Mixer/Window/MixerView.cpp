@@ -126,6 +126,7 @@ void MixerView::mixChanged() {
         hintOnLevels(model_, why);
     }
     const bool isTrouble = model_.trouble().isNotEmpty();
+    if (trouble_.getText() != model_.trouble()) newsAtMs_ = nowMs();
     trouble_.setText(model_.trouble(), juce::dontSendNotification);
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
     const auto tint = shade(*this, model_.isNews() ? Shade::accent : Shade::limit);
@@ -234,6 +235,9 @@ void MixerView::refresh() {
     tabs_.refresh(latest_); // folded or not: a study goes on there, takes and lanes are followed
     scope_.refresh(latest_);
     strips_.refresh(latest_);
+    constexpr double newsMs = 10e3;                              // it lies over the materials to draw with
+    const bool isShown = trouble_.getText() == model_.trouble(); // the change may not have come yet
+    if (isShown && model_.isNews() && !act_->isVisible() && nowMs() - newsAtMs_ > newsMs) model_.report({});
     keepPace();
 }
 

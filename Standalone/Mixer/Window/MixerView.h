@@ -164,6 +164,7 @@ private:
     bool isHintShown_ = false, isDropShown_ = false, isShow_ = false;
     MixerMoment latest_;
     int restedLooks_ = 0, looks_ = 0;
+    double newsAtMs_ = 0.0;
     std::array<float, limits::maxEnchanters> peaks_{}; // since the strips were updated
     juce::TooltipWindow tooltips_{this, 600};
     EmergencyStop stop_{*this, [this] { model_.setSilent(true); }};

@@ -351,14 +351,17 @@ bool MixerWindow::keyPressed(const juce::KeyPress& key) {
 
 namespace {
 
-void add(juce::PopupMenu& menu, const juce::String& name, const juce::String& keys, std::function<void()> act,
-         bool isEnabled = true, bool isTicked = false) {
-    juce::PopupMenu::Item item{name};
-    item.shortcutKeyDescription = keys;
-    item.action = std::move(act);
-    item.isEnabled = isEnabled;
-    item.isTicked = isTicked;
-    menu.addItem(item);
+struct MenuItem {
+    juce::String name, keys{};
+    bool isEnabled = true, isTicked = false;
+};
+
+void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> act) {
+    juce::PopupMenu::Item made{item.name};
+    made.shortcutKeyDescription = item.keys;
+    made.isEnabled = item.isEnabled;
+    made.isTicked = item.isTicked;
+    menu.addItem(made.setAction(std::move(act)));
 }
 
 constexpr const char* shortcuts =
@@ -376,8 +379,8 @@ constexpr const char* shortcuts =
 
 void MixerWindow::showMenu(juce::Component& from) {
     juce::PopupMenu menu, help;
-    add(help, "First steps", {}, [this] { view_->setHint(true); });
-    add(help, "Keys" + dots(), {}, [this] {
+    add(help, {"First steps"}, [this] { view_->setHint(true); });
+    add(help, {"Keys" + dots()}, [this] {
         const juce::KeyPress escape{juce::KeyPress::escapeKey};
         view_->setQuestion(std::make_unique<QuestionCard>(
             "Keys", shortcuts,
@@ -398,23 +401,22 @@ juce::PopupMenu MixerWindow::fileMenu() {
         const auto file = files_.recent().getFile(k);
         recent.addItem(file.getFileName(), [this, file] { openDocument(file); });
     }
-    add(menu, "New", "Ctrl+N", [this] { newDocument(); });
-    add(menu, "Open" + dots(), "Ctrl+O", [this] { openDocument(); });
+    add(menu, {"New", "Ctrl+N"}, [this] { newDocument(); });
+    add(menu, {"Open" + dots(), "Ctrl+O"}, [this] { openDocument(); });
     menu.addSubMenu("Recent", recent, recent.getNumItems() > 0);
-    add(menu, "Save", "Ctrl+S", [this] { save(); });
-    add(menu, "Save as" + dots(), "Ctrl+Shift+S", [this] { saveAs(); });
-    add(
-        menu, "Sessions left behind" + dots(), {}, [this] { offerRecovery(); },
-        !files_.copies().leftBehind().empty());
+    add(menu, {"Save", "Ctrl+S"}, [this] { save(); });
+    add(menu, {"Save as" + dots(), "Ctrl+Shift+S"}, [this] { saveAs(); });
+    add(menu, {"Sessions left behind" + dots(), {}, !files_.copies().leftBehind().empty()},
+        [this] { offerRecovery(); });
     menu.addSeparator();
-    add(menu, model_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R",
+    add(menu, {model_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R"},
         [this] { record(); });
-    add(menu, "Render" + dots(), "Ctrl+E", [this] { renderOffline(); });
-    add(menu, "Save movie" + dots(), {}, [this] { saveMovie(); });
-    add(menu, "Share" + dots(), {}, [this] { share(); });
-    add(menu, "Folder of recordings" + dots(), {}, [this] { chooseFolder(); });
+    add(menu, {"Render" + dots(), "Ctrl+E"}, [this] { renderOffline(); });
+    add(menu, {"Save movie" + dots()}, [this] { saveMovie(); });
+    add(menu, {"Share" + dots()}, [this] { share(); });
+    add(menu, {"Folder of recordings" + dots()}, [this] { chooseFolder(); });
     menu.addSeparator();
-    add(menu, "Quit", "Ctrl+Q", [this] { requestQuit(); });
+    add(menu, {"Quit", "Ctrl+Q"}, [this] { requestQuit(); });
     return menu;
 }
 
@@ -422,27 +424,26 @@ juce::PopupMenu MixerWindow::editMenu() {
     juce::PopupMenu menu;
     auto& undo = model_->undoManager();
     auto& ab = view_->world().compare();
-    add(
-        menu, undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z",
-        [&undo] { undo.undo(); }, undo.canUndo());
-    add(
-        menu, undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z",
-        [&undo] { undo.redo(); }, undo.canRedo());
+    add(menu,
+        {undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z",
+         undo.canUndo()},
+        [&undo] { undo.undo(); });
+    add(menu,
+        {undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z",
+         undo.canRedo()},
+        [&undo] { undo.redo(); });
     menu.addSeparator();
-    add(
-        menu, "Levels of the file", {}, [this] { useAskedLevels(); }, asked_.has_value());
+    add(menu, {"Levels of the file", {}, asked_.has_value()}, [this] { useAskedLevels(); });
     menu.addSeparator();
     add(menu,
-        ab.isOn() ? juce::String{"Play "} + (ab.shown() == 'A' ? "B" : "A")
-                  : juce::String{"Compare: make B, a copy of what plays"},
-        "A", [&ab] { ab.toggle(); });
-    add(
-        menu, "Keep what plays", {},
-        [this] {
-            view_->world().compare().end();
-            model_->sendChangeMessage();
-        },
-        ab.isOn());
+        {ab.isOn() ? juce::String{"Play "} + (ab.shown() == 'A' ? "B" : "A")
+                   : juce::String{"Compare: make B, a copy of what plays"},
+         "A"},
+        [&ab] { ab.toggle(); });
+    add(menu, {"Keep what plays", {}, ab.isOn()}, [this] {
+        view_->world().compare().end();
+        model_->sendChangeMessage();
+    });
     return menu;
 }
 
@@ -452,15 +453,16 @@ juce::PopupMenu MixerWindow::worldMenu() {
     fresh.addItem("Box", [this] { newScene(SceneGround::box); });
     fresh.addItem("Floor", [this] { newScene(SceneGround::floor); });
     menu.addSubMenu("New scene", fresh);
-    add(menu, "Open a scene" + dots(), {}, [this] { import("Scene"); });
-    add(menu, "Save as scene" + dots(), {}, [this] { saveScene(false); });
-    add(menu, "Save as scene, bodies as they are now" + dots(), {}, [this] { saveScene(true); });
+    add(menu, {"Open a scene" + dots()}, [this] { import("Scene"); });
+    add(menu, {"Save as scene" + dots()}, [this] { saveScene(false); });
+    add(menu, {"Save as scene, bodies as they are now" + dots()}, [this] { saveScene(true); });
     add(menu,
-        model_->script().isRecording() ? "End the recording of hands" : "Record hands as the scene's script",
-        "Ctrl+Shift+R", [this] { recordScript(); });
+        {model_->script().isRecording() ? "End the recording of hands" : "Record hands as the scene's script",
+         "Ctrl+Shift+R"},
+        [this] { recordScript(); });
     menu.addSeparator();
-    add(menu, "Open a layout" + dots(), {}, [this] { import("Layout of actuators"); });
-    add(menu, "Save the layout" + dots(), {}, [this] { exportLayout(); });
+    add(menu, {"Open a layout" + dots()}, [this] { import("Layout of actuators"); });
+    add(menu, {"Save the layout" + dots()}, [this] { exportLayout(); });
     return menu;
 }
 
@@ -501,6 +503,10 @@ Result<Mix> mixWith(Mix mix, const juce::File& file) {
 bool MixerWindow::load(const juce::File& file, const juce::File& document, bool isOwn) {
     auto session = loadSession(pathOf(file));
     if (session) {
+        if (files_.isOwn(file, outputInUse())) { // nobody has changed it since
+            play(mixOf(session.value), document, endsPaused(session.value));
+            return true;
+        }
         // the copy may lack the last seconds; who has used this run has set other levels since
         const bool isAsLeft = isOwn && before_ && !isChanged();
         playLowered(isAsLeft ? *before_ : limits(), mixOf(session.value), document,
@@ -658,10 +664,10 @@ void MixerWindow::saveAs(std::function<void()> then) {
 
 bool MixerWindow::saveTo(const juce::File& file) {
     const auto edits = model_->edits();
-    if (const auto error = writeFile(
-            pathOf(file), sessionJson(model_->saved(), std::filesystem::path{pathOf(file)}.parent_path()));
-        !error.empty())
-        return say(utf8(error)), false;
+    const auto text = sessionJson(model_->saved(), std::filesystem::path{pathOf(file)}.parent_path());
+    if (const auto error = writeFile(pathOf(file), text); !error.empty()) return say(utf8(error)), false;
+    device_ = model_->device().choice();
+    files_.addOwn(text, outputInUse());
     document_ = file;
     savedEdits_ = edits;
     files_.copies().forget();
@@ -1007,36 +1013,26 @@ juce::PopupMenu MixerWindow::viewMenu() {
     juce::PopupMenu menu, zoomMenu;
     const bool isPlay = view_->mode() == Mode::play, isLight = view_->theme() == Theme::light;
     const Panels panels = view_->panels();
-    add(
-        menu, "Play", "F2", [this] { view_->setMode(Mode::play); }, true, isPlay);
-    add(
-        menu, "Engineer", "F2", [this] { view_->setMode(Mode::engineer); }, true, !isPlay);
+    add(menu, {"Play", "F2", true, isPlay}, [this] { view_->setMode(Mode::play); });
+    add(menu, {"Engineer", "F2", true, !isPlay}, [this] { view_->setMode(Mode::engineer); });
     menu.addSeparator();
-    add(
-        menu, "Strips, and what is played", "F3",
-        [this, panels] {
-            view_->setPanels({panels.hasDrawer, !panels.hasLower});
-        },
-        true, panels.hasLower);
+    add(menu, {"Strips, and what is played", "F3", true, panels.hasLower}, [this, panels] {
+        view_->setPanels({panels.hasDrawer, !panels.hasLower});
+    });
     for (const auto& name : view_->tabs().names())
-        add(menu, name, name == "Actuators" ? "F4" : "", [this, name] { view_->tabs().choose(name); });
-    add(
-        menu, "Automatic panels", {}, [this] { view_->setDividers({}); }, view_->dividers() != Dividers{});
+        add(menu, {name, name == "Actuators" ? "F4" : ""}, [this, name] { view_->tabs().choose(name); });
+    add(menu, {"Automatic panels", {}, view_->dividers() != Dividers{}}, [this] { view_->setDividers({}); });
     menu.addSeparator();
-    add(
-        menu, "Dark", {}, [this] { setTheme(Theme::dark); }, true, !isLight);
-    add(
-        menu, "Light", {}, [this] { setTheme(Theme::light); }, true, isLight);
-    add(
-        zoomMenu, "By the display", "Ctrl+0", [this] { setZoom(0); }, true, zoom() == 0);
+    add(menu, {"Dark", {}, true, !isLight}, [this] { setTheme(Theme::dark); });
+    add(menu, {"Light", {}, true, isLight}, [this] { setTheme(Theme::light); });
+    add(zoomMenu, {"By the display", "Ctrl+0", true, zoom() == 0}, [this] { setZoom(0); });
     for (const int percent : zooms)
-        add(
-            zoomMenu, juce::String{percent} + " %", {}, [this, percent] { setZoom(percent); },
-            fits(percent, displayRoom()), zoom() == percent);
+        add(zoomMenu, {juce::String{percent} + " %", {}, fits(percent, displayRoom()), zoom() == percent},
+            [this, percent] { setZoom(percent); });
     menu.addSubMenu("Zoom", zoomMenu);
-    add(
-        menu, "Full screen for a show", "F11", [this] { setShow(!view_->isShow()); }, true, view_->isShow());
-    add(menu, "Width of the display" + dots(), {}, [this] { askDisplayWidth(); });
+    add(menu, {"Full screen for a show", "F11", true, view_->isShow()},
+        [this] { setShow(!view_->isShow()); });
+    add(menu, {"Width of the display" + dots()}, [this] { askDisplayWidth(); });
     return menu;
 }
 

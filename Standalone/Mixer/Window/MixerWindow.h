@@ -83,6 +83,8 @@ private:
     void useAskedLevels();
     DeskLimits limits() const { return model_ ? DeskLimits::of(model_->mix()) : files_.limits(); }
     void useSinks(const DeviceChoice& choice);
+    /// The device and how it is worn: levels saved for one are not right for another.
+    std::string outputInUse() const { return device_.name + (device_.isHeadphones ? " on the ears" : ""); }
     bool saveTo(const juce::File& file);
     void askThen(std::function<void()> goOn);
     /// `suggested`: a file name without extension; `in`: a folder instead of the last one.

@@ -106,7 +106,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
         slider->setSliderStyle(juce::Slider::LinearHorizontal);
         // read when the text box is created
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
-        slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 94, 20);
+        slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 112, 20);
     }
     describe(density_, "Density", "Density, in kg per square metre; the mass follows from it");
     density_.setRange(1.0, 20'000.0, 1.0);

@@ -62,7 +62,7 @@ public:
     int wantedHeight() const {
         return high + (drivenJoint_.empty() ? 0 : 2 * rowHigh) + (springJoint_.empty() ? 0 : rowHigh);
     }
-    static constexpr int wide = 280;
+    static constexpr int wide = 296;
 
 private:
     static constexpr int high = 124, rowHigh = 28;

@@ -5,6 +5,7 @@
 #include "Mixer/Widgets/Parts.h"
 #include "Pictures/ShapeOutline.h"
 #include "Scene/Drawing/BodyEdits.h"
+#include "Scene/Drawing/BodyMotion.h"
 #include <algorithm>
 #include <cmath>
 
@@ -290,18 +291,13 @@ void DrawPane::addInTheMiddle() {
     if (tool_ == DrawTool::line) stroke_ = {{to_.x - 2.0 * size, to_.y}, to_, {to_.x + 2.0 * size, to_.y}};
     if (tool_ == DrawTool::polygon)
         stroke_ = {{to_.x - size, to_.y - size}, {to_.x + size, to_.y - size}, {to_.x, to_.y + size}};
-    const auto names = [&] {
-        std::vector<std::string> all;
-        for (const auto& body : drawing().drawn().bodies) all.push_back(body.name);
-        return all;
-    };
-    const auto before = names().size();
-    addStroke();
+    choose({});
+    addStroke(); // what it draws is chosen
     stroke_.clear();
-    const auto after = names();
-    if (after.size() == before) return;
+    if (chosen_.empty()) return;
+    const auto drawn = chosen_;
     use(DrawTool::choose); // so that arrow keys move it
-    choose({after.back()});
+    choose(drawn);
 }
 
 void DrawPane::erase(const juce::MouseEvent& e) {
@@ -402,8 +398,7 @@ std::optional<DrawPane::Handles> DrawPane::handles() const {
     if (!place) return std::nullopt;
     const Reach reach = reachOf(*body);
     const auto on = [&](double x, double y) {
-        const double c = std::cos(place->angleRadians), s = std::sin(place->angleRadians);
-        return view_.placeOfMetres({place->metres.x + c * x - s * y, place->metres.y + s * x + c * y});
+        return view_.placeOfMetres(detail::Motion{{}, *place}({x, y}));
     };
     const double above = reach.most.y + 26.0 / static_cast<double>(view_.pixelsPerMetre());
     return Handles{{on(reach.least.x, reach.least.y), on(reach.most.x, reach.least.y),
@@ -456,9 +451,8 @@ BodyDescription DrawPane::sizedNow() const {
     const auto place = placeNow(chosen_[0]);
     if (!place || stroke_.empty()) return body;
     const auto local = [&](const Vector& p) {
-        const double c = std::cos(place->angleRadians), s = std::sin(place->angleRadians),
-                     x = p.x - place->metres.x, y = p.y - place->metres.y;
-        return Vector{std::abs(c * x + s * y), std::abs(-s * x + c * y)};
+        const Vector in = detail::Motion{*place, {}}(p);
+        return Vector{std::abs(in.x), std::abs(in.y)};
     };
     const Vector before = local(stroke_[0]), now = local(to_);
     const auto factor = [](double a, double b) { return a > 1e-6 ? std::clamp(b / a, 0.05, 20.0) : 1.0; };
@@ -471,9 +465,9 @@ std::map<std::string, BodyPlace> DrawPane::movedNow() const {
     for (const std::string& name : chosen_)
         if (auto place = placeNow(name)) {
             if (grip_ == Grip::turn) {
-                const double turned =
+                const double angle =
                     place->angleRadians + angleOf(place->metres, to_) - angleOf(place->metres, stroke_[0]);
-                place->angleRadians = snaps_ ? turnStep * std::round(turned / turnStep) : turned;
+                place->angleRadians = snaps_ ? turnStep * std::round(angle / turnStep) : angle;
             } else
                 place->metres = snapped(
                     {place->metres.x + to_.x - stroke_[0].x, place->metres.y + to_.y - stroke_[0].y}, grid());
@@ -565,10 +559,7 @@ Vector DrawPane::carried(const Vector& point, const std::string& name) const {
     const auto* body = drawing().find(name);
     const auto place = placeNow(name);
     if (body == nullptr || !place) return point;
-    const double turned = place->angleRadians - body->angleRadians, c = std::cos(turned),
-                 s = std::sin(turned);
-    const double x = point.x - body->positionMetres.x, y = point.y - body->positionMetres.y;
-    return {place->metres.x + c * x - s * y, place->metres.y + s * x + c * y};
+    return detail::Motion{detail::placeOf(*body), *place}(point);
 }
 
 juce::Line<float> DrawPane::lineNow(const JointDescription& joint) const {

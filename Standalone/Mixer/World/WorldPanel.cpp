@@ -66,7 +66,8 @@ WorldPanel::WorldPanel(MixerModel& model)
     view_.onMenu = pane_.onMenu = [this](juce::Point<float> place) { showMenu(place); };
     sentence_.setTitle("Strongest hit");
     sentence_.setFont(text::font(text::medium));
-    law_.setFont(text::font(text::small));
+    law_.setBorderSize({0, 0, 0, 6});
+    for (auto* name : {&tiltName_, &dragName_}) name->setBorderSize({0, 5, 0, 0});
     law_.setJustificationType(juce::Justification::centredRight);
     tilt_.onValueChange = [this] {
         if (player_ && player_->moves())
@@ -90,7 +91,6 @@ WorldPanel::WorldPanel(MixerModel& model)
             "Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); },
             continuesEdit);
     });
-    for (auto* name : {&tiltName_, &dragName_}) name->setFont(text::font(text::small));
     compare_.setTitle("Compare A and B");
     compare_.onClick = [this] { ab_.toggle(); };
     addAll(*this,
@@ -123,7 +123,6 @@ void WorldPanel::mixChanged() {
     law_.setText(juce::String{nameOf(mix.panner().law()).data()} + " law" + dot + "exponent " +
                      number(mix.exponent, 1),
                  juce::dontSendNotification);
-    law_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     const bool isB = ab_.isOn() && ab_.shown() == 'B';
     compare_.setButtonText(!ab_.isOn() ? "A/B" : isB ? "B" : "A");
     compare_.setToggleState(ab_.isOn(), juce::dontSendNotification);
@@ -134,9 +133,6 @@ void WorldPanel::mixChanged() {
     if (!drag_.isMouseButtonDown())
         drag_.setValue(mix.dragNewtonSecondsPerScreenMetre, juce::dontSendNotification);
     dragName_.setText("drag " + drag_.getTextFromValue(drag_.getValue()), juce::dontSendNotification);
-    for (auto* name : {&tiltName_, &dragName_})
-        name->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
-    sentence_.setColour(juce::Label::textColourId, shade(*this, Shade::now));
 }
 
 void WorldPanel::showTools() {

@@ -102,7 +102,7 @@ private:
     MaterialPalette palette_{model_, pane_};
     BodyPanel body_{model_, pane_};
     ScriptStrip script_{model_};
-    juce::Label sentence_, law_, tiltName_, dragName_;
+    Caption sentence_{{}, Shade::now}, law_, tiltName_, dragName_;
     juce::TextButton compare_{"A/B"};
     MixerCompare ab_{model_};
     TiltKnob tilt_;

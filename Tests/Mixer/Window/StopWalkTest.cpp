@@ -73,11 +73,3 @@ TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
 
 } // namespace
 } // namespace physvib
-
-int main(int argc, char** argv) {
-    juce::JUCEApplicationBase::createInstance = [] {
-        return static_cast<juce::JUCEApplicationBase*>(nullptr);
-    }; // as in a program of its own, JUCE bears errors of X
-    testing::InitGoogleTest(&argc, argv);
-    return RUN_ALL_TESTS();
-}

@@ -420,6 +420,26 @@ TEST(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
     expectLowered(again.model().mix());
 }
 
+TEST(Window, ASessionOfOnesOwnComesBackAsItWasSavedUnlessItWasChangedSince) {
+    TestFolder folder;
+    const auto mine = folder("mine.json");
+    const auto save = [&](const char* name, double levelDb, int output) {
+        MixerWindow window{onlyNoDevice(), "None:no device", folder(name), folder("config")};
+        window.model().change("own", [&](Mix& mix) { mix.levelDb = levelDb, mix.strips[3].output = output; });
+        window.save();
+    };
+    const auto opened = [&] {
+        MixerWindow window{onlyNoDevice(), "None:no device", mine, folder("config")};
+        return std::pair{window.model().mix().levelDb, window.model().mix().strips[3].output};
+    };
+    save("mine.json", -3.0, 5);
+    save("other.json", -40.0, -1);
+    EXPECT_EQ(opened(), (std::pair{-3.0, 5}));
+    save("other.json", -40.0, -1);
+    mine.appendText("\n"); // as somebody else's
+    EXPECT_EQ(opened(), (std::pair{-40.0, -1}));
+}
+
 TEST(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     TestFolder folder;
     const auto next = [&](double leftDb, double asksDb, bool isSilent) {
@@ -1199,10 +1219,6 @@ TEST(Display, AClickThatWasReadAheadIsHeardAtOnce) {
 } // namespace physvib
 
 int main(int argc, char** argv) {
-    // as in a program of its own, JUCE bears errors of X
-    juce::JUCEApplicationBase::createInstance = [] {
-        return static_cast<juce::JUCEApplicationBase*>(nullptr);
-    };
     testing::InitGoogleTest(&argc, argv);
     const physvib::test::TestFolder home; // of what the windows record
     setenv("HOME", home.folder.getFullPathName().toRawUTF8(), 1);
