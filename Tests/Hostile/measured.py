@@ -13,7 +13,8 @@ root, build = map(Path, sys.argv[1:3])
 listed = json.loads(subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, check=True, text=True).stdout)["tests"]
 filtered = {word.partition("=")[2] for test in listed for word in test.get("command", []) if word.startswith("--gtest_filter=")}
 names = {re.sub(r"^\w+/|/\w+$", "", name) for name in filtered}
-whole = {Path(test["command"][-1]) for test in listed if re.search(r"-tests$", test.get("command", [""])[-1])}  # programs that run all they have, in a window
+calls = [[word for word in test.get("command", []) if not word.startswith("--gtest_filter=-")] for test in listed]  # all but some
+whole = {Path(call[-1]) for call in calls if call and call[-1].endswith("-tests")}  # programs that run what they have, in a window
 built = b"".join(program.read_bytes() for program in whole if program.is_file())
 nightly = "".join((root / path).read_text() for path in ("Tests/nightly.sh", "Tests/javascript.sh"))
 

@@ -326,6 +326,12 @@ TEST(ProtocolLanguage, AnswersAreOfOneIntervalAndAVariableRovesAlone) {
     }
     EXPECT_GT(levels.size(), 10u);
     EXPECT_TRUE(movedBesideStrength(roved.conditions[0], true).empty()) << "what roves is the strength";
+    Protocol mixed = roved;
+    mixed.conditions.push_back(roved.conditions[0]);
+    mixed.conditions[1].name = "other";
+    EXPECT_EQ(validate(mixed), "");
+    for (auto& variable : std::get<CallSet>(mixed.conditions[1].stimuli).variables) variable.roves = false;
+    EXPECT_EQ(validate(mixed), "conditions: expected a variable that roves in each of them, or in none");
 }
 
 TEST(ProtocolLanguage, PracticeEndsAfterSoManyRightAnswersInARow) {

@@ -365,6 +365,9 @@ std::string validate(const Protocol& p) {
     for (std::size_t i = 0; i < p.conditions.size(); ++i)
         if (std::string fault = conditionFault(p, p.conditions[i]); !fault.empty())
             return at("conditions", i, fault);
+    const auto apart = std::ranges::count_if(p.conditions, rovesApart);
+    if (apart != 0 && apart != std::ssize(p.conditions))
+        return "conditions: expected a variable that roves in each of them, or in none";
     return {};
 }
 
