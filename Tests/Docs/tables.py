@@ -27,9 +27,9 @@ def printed_by(script: str) -> list:
     return rows_of(run.stdout)
 
 
-told = {f"Tests/figures/{name}.sh": [] for name in ("drop", "levels", "methods", "timings")}
+told = {f"Tests/figures/{name}.sh": [] for name in ("drop", "methods", "timings")}
 for path in sorted((root / "Docs").glob("*.md")):
-    for script, text in re.findall(r"`(Tests/figures/(?:drop|levels|methods|timings)\.sh) PHYSVIB`(.*?)(?=^#|\Z)", path.read_text(), re.S | re.M):
+    for script, text in re.findall(r"`(Tests/figures/(?:drop|methods|timings)\.sh) PHYSVIB`(.*?)(?=^#|\Z)", path.read_text(), re.S | re.M):
         rows = rows_of(text)
         bad += [f"Docs/{path.name}: expected a line that {script} prints, found {row}" for row in rows if row not in printed_by(script)]
         told[script] += rows

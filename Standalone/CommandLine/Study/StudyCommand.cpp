@@ -168,7 +168,7 @@ int check(const StudyOptions& o) {
     std::cout << textOf(found, protocol.value);
     if (!o.acceptsDeviations && isChangedAsPublished(protocol.value))
         return leave(exitFailed,
-                     "study check: limiter and guard change what is published, as deviations above "
+                     "study check: limiter or guard change what is published, as deviations above "
                      "say: expected --accept-deviations");
     return found.errors.empty() ? exitDone : exitFailed;
 }
