@@ -10,10 +10,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <numbers>
 #include <string_view>
-#include <vector>
 
 namespace physvib {
 
@@ -277,12 +275,13 @@ public:
                                [this](CollisionEvent& event) { event = level_(event, shaping_.method); });
     }
     /// All from `first` on, in place. Where each hit has the fixed amplitude, its meanOff() follows it.
-    /// Allocates.
-    void shape(std::vector<CollisionEvent>& events, std::size_t first = 0) {
-        std::transform(events.begin() + static_cast<std::ptrdiff_t>(first), events.end(),
-                       events.begin() + static_cast<std::ptrdiff_t>(first), std::ref(*this));
-        if (!shaping_.method.fixesAmplitude || shaping_.method.holdsLevel) return;
-        std::vector<CollisionEvent> all;
+    /// A vector; allocates.
+    template <class Events>
+    void shape(Events& events, std::size_t first = 0) {
+        const bool takesMeansOff = shaping_.method.fixesAmplitude && !shaping_.method.holdsLevel;
+        for (std::size_t k = first; k < events.size(); ++k) events[k] = (*this)(events[k]);
+        if (!takesMeansOff) return;
+        Events all;
         for (std::size_t k = 0; k < events.size(); ++k) {
             all.push_back(events[k]);
             if (const CollisionEvent off = meanOff(events[k]); k >= first && isMeanOff(off))

@@ -100,7 +100,7 @@ std::vector<PlantedField> plantedFields() {
     const Edit adjusts = part<Adjustment>(&SessionPlan::adjustment, [](Adjustment&) {});
     const Edit stairs = part<StaircasePlan>(&SessionPlan::staircase, [](StaircasePlan&) {});
     const Edit quests = part<QuestMethod>(&SessionPlan::quest, [](QuestMethod&) {});
-    const Edit scaled = session([](SessionPlan& s) { s.scales = {"realism"}; });
+    const Edit scaled = session([](SessionPlan& s) { s.task = StudyTask::rate, s.scales = {"realism"}; });
     const auto adjustment = [&](std::function<void(Adjustment&)> edit) {
         return part<Adjustment>(&SessionPlan::adjustment, std::move(edit));
     };
@@ -222,7 +222,7 @@ std::vector<PlantedField> plantedFields() {
          }),
          "objects ball, can"},
         {"session.scales", session([](SessionPlan& s) {
-             s.scales = {"realism", "liking"};
+             s.task = StudyTask::rate, s.scales = {"realism", "liking"};
          }),
          "scales from 0 to 100: realism, liking, between \u201cStrongly disagree\u201d and \u201cStrongly "
          "agree\u201d"},
@@ -234,6 +234,19 @@ std::vector<PlantedField> plantedFields() {
          "between \u201cno\u201d and \u201cyes\u201d", scaled},
         {"session.show_numbers", session([](SessionPlan& s) { s.showsNumbers = true; }), "with their numbers",
          scaled},
+        {"session.points", session([](SessionPlan& s) { s.points = 7; }), "scales of 7 points: ", scaled},
+        {"session.reference", session([](SessionPlan& s) { s.reference = "can"; }),
+         "after can as the reference, which is among them unnamed", session([](SessionPlan& s) {
+             s.task = StudyTask::rate, s.objects = {"ball", "can"};
+         })},
+        {"session.once", session([](SessionPlan& s) { s.isOnce = true; }),
+         "on the condition as a whole, with nothing felt"},
+        {"session.pairs", session([](SessionPlan& s) { s.comparesPairs = true; }),
+         "each trial has two of the stimuli"},
+        {"session.answers", session([](SessionPlan& s) {
+             s.answers = {"left", "right"};
+         }),
+         "; answers left, right"},
         {"session.adjustment", adjusts, " is set from -40 to 40 dB in steps of 1 dB, starting at 0 dB"},
         {"session.staircase", stairs, "; staircase on "},
         {"session.instruction", session([](SessionPlan& s) { s.instruction = "Feel both."; }),
@@ -255,6 +268,8 @@ std::vector<PlantedField> plantedFields() {
         {"calls.variables", variables({{"hz", 200.0}}), "; hz is 200 at a level of 0 dB", variables({})},
         {"variable.name", variables({{"decay", 200.0}}), "; decay is", variables({{"hz", 200.0}})},
         {"variable.at_0_db", variables({{"hz", 123.0}}), "is 123 at", variables({{"hz", 200.0}})},
+        {"variable.roves", variables({{"hz", 200.0, true}}), "where rove_db is 0, and follows it alone",
+         variables({{"hz", 200.0}})},
         {"session.quest", quests, "; QUEST+ on "},
         {"session.levels_from", session([](SessionPlan& s) { s.levelsFrom = "matching"; }),
          "levels from the session matching"},

@@ -241,9 +241,8 @@ TEST_F(ReportFields, BadTablesOfPeopleAreOneLine) {
         write("people.csv", people);
         refuses("report level-steps-P01.csv --out out --people people.csv", 1, words, 2);
     };
-    refusesPeople(
-        "participant,shoes\nP01,43\n",
-        "people.csv: expected the columns participant, age, sex, handedness, excluded, found \"shoes\"");
+    refusesPeople("participant,shoes\nP01,43\n", "people.csv: expected the columns participant, age, sex, "
+                                                 "handedness, group, excluded, found \"shoes\"");
     refusesPeople("participant,age\nP01,old\n",
                   "people.csv:2: column age: expected years from 0 to 130, found \"old\"");
     refusesPeople("participant,age\nP01,20\nP01,21\n",

@@ -386,7 +386,7 @@ study <- function(study, scales = character(), points = character()) {
   }
   for (scale in scales) each("rate", scale, function(own, words) {
     if (is.told && own$session[1] %in% aside) return()
-    if (all(grepl(" & ", own$stimulus, fixed = TRUE))) {
+    if ("stimulus" %in% names(own) && all(grepl(" & ", own$stimulus, fixed = TRUE))) {
       in.pairs(own, scale, words)
       compare(paste0(scale, words), own, scale, columns = c("group", "condition"))
     } else compare(paste0(scale, words), own, scale, if (scale %in% points) "ranks" else "scores")
