@@ -182,7 +182,7 @@ TEST_F(Report, PeopleOfWhomNothingIsKnownCount) {
     simulate("level-steps", 3);
     write("people.csv", "participant,age,sex\nP01,20,female\n");
     ASSERT_EQ(call("report level-steps-P*.csv --out out --people people.csv").exitCode, 0);
-    EXPECT_TRUE(has(page(), "20 (1 of 3 known).")) << "Age";
+    EXPECT_TRUE(has(page(), "20 years (1 of 3 known).")) << "Age";
     EXPECT_TRUE(has(page(), "Sex: 1 female, 2 not known."));
     EXPECT_TRUE(has(page(), "Nobody and no main trial is left out.")) << "staircases end where they end";
     EXPECT_FALSE(has(page(), "Trainings"));
