@@ -293,6 +293,15 @@ struct SaidOfNotes final : NoteSource {
     }
 };
 
+/// Notes by their own pitch, in the middle, for as long as they are held.
+void prepareHeld(QuietHost& host) {
+    auto state = host.plugin->state();
+    state.notes.clear();
+    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle, .isHeld = true};
+    ASSERT_TRUE(host.plugin->apply(state));
+    host.prepare(48000, 480);
+}
+
 /// What was struck in the last of some blocks, of which the first has those events.
 std::vector<CollisionEvent> struckBy(QuietHost& host, SaidOfNotes said, int blocks = 4) {
     host.plugin->expectNotes(said);
@@ -306,11 +315,7 @@ std::vector<CollisionEvent> struckBy(QuietHost& host, SaidOfNotes said, int bloc
 
 TEST(Midi, WhatIsSaidOfANoteIsTrueOfItAlone) {
     QuietHost host;
-    auto state = host.plugin->state();
-    state.notes.clear();
-    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle, .isHeld = true};
-    ASSERT_TRUE(host.plugin->apply(state));
-    host.prepare(48000, 480);
+    prepareHeld(host);
     using enum NoteEvent::Kind;
     SaidOfNotes both;
     both.note(1, 0x90, 57), both.note(2, 0x90, 57); // one key twice, as two notes
@@ -324,8 +329,8 @@ TEST(Midi, WhatIsSaidOfANoteIsTrueOfItAlone) {
     ASSERT_GT(after.size(), 2u) << "the second sounds on";
     const auto& now = after.back();
     EXPECT_NEAR(now.frequencyHz, 220.0 * std::exp2(7.0 / 12.0), 1e-6);
-    EXPECT_EQ(now.x, state.scene.fieldWidthMetres);
-    EXPECT_NEAR(now.y, before.back().y + 0.25 * state.scene.fieldHeightMetres, 1e-9);
+    EXPECT_EQ(now.x, host.plugin->state().scene.fieldWidthMetres);
+    EXPECT_NEAR(now.y, before.back().y + 0.25 * host.plugin->state().scene.fieldHeightMetres, 1e-9);
     EXPECT_NEAR(now.amplitude, 0.5 * gainOfLevel(-6.0), 1e-6) << "half of what a pressed key has";
     SaidOfNotes wild;
     for (const auto kind : {tuning, volume, pan, brightness, pressure})
@@ -358,11 +363,7 @@ TEST(Midi, ADecayingNoteHasWhatIsSaidAtItsOnset) {
 
 TEST(Midi, ABlockOfNoFramesIsHeard) {
     QuietHost host;
-    auto state = host.plugin->state();
-    state.notes.clear();
-    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle, .isHeld = true};
-    ASSERT_TRUE(host.plugin->apply(state));
-    host.prepare(48000, 480);
+    prepareHeld(host);
     SaidOfNotes on;
     on.note(-1, 0x90, 57);
     EXPECT_GT(struckBy(host, on).size(), 2u);
