@@ -90,6 +90,15 @@ TEST(WaveformEnvelope, KeepsChannelsApart) {
     EXPECT_EQ(envelope.column(1, 7).lowest, 0.125f);
 }
 
+TEST(WaveformEnvelope, APeakIsOfEitherSign) {
+    WaveformEnvelope half(1, 0, 2 * columns); // two frames a column, one of either sign
+    std::vector<float> turns(2 * columns);
+    for (std::size_t n = 0; n < turns.size(); ++n) turns[n] = n % 2 == 0 ? -0.25f : 0.125f;
+    const float* pair[] = {turns.data()};
+    half.add(pair, 2 * columns);
+    EXPECT_EQ(half.peak(), 0.25f);
+}
+
 TEST(WaveformEnvelope, NoFramesAreSilence) {
     WaveformEnvelope envelope(1, 0, 0);
     addCount(envelope, 10, 5);
