@@ -90,9 +90,8 @@ std::string noEvents(const ContactCounts& c) {
     const std::uint64_t most = std::max({c.belowThreshold, c.unplayable, c.muted, c.settling, c.dropped});
     if (c.handedOn > most)
         return "A movable source passed on " + counted(c.handedOn, "impact") +
-               " between its neighbours: push and reaction cancel (Eq. 5.4), so it has no event: set "
-               "is_camera "
-               "of what strikes or of what stands still.";
+               " between its neighbours: push and reaction cancel (Eq. 5.4), so it has no event: "
+               "set is_camera of what strikes or of what stands still.";
     if (c.withoutSource == c.contacts && most == 0) {
         const std::string why = noted(c);
         return why.empty() ? "No body that touched is a haptic source: set is_camera of the bodies that are "

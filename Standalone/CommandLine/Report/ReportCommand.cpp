@@ -59,9 +59,8 @@ void declareReport(OptionTable& command, ReportOptions& o) {
     command.add("--bids", o.job.wantsBids, "also the trials as a BIDS dataset, in the folder bids");
     command
         .add("--people", o.job.peoplePath,
-             "who took part: participant and any of age, sex, handedness, group, excluded (why all trials of "
-             "a "
-             "participant are left out)")
+             "who took part: participant and any of age, sex, handedness, group, excluded (why all trials "
+             "of a participant are left out)")
         .as("PEOPLE.csv");
     command.add("--ethics", o.job.ethics, "sentence on the approval by an ethics board").as("WORDS");
     command.add("--consent", o.job.consent, "sentence on the participants' consent").as("WORDS");
