@@ -2,6 +2,7 @@
 // Samples for controllers with coils: silence, the guard, places and rates. coils.py judges the bytes.
 #include "Live/Pads/CoilFeed.h"
 #include "Live/Pads/HidOutput.h"
+#include "Support/FileTesting.h"
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -164,18 +165,20 @@ public:
 };
 
 /// A Steam controller's files, where the outputs made meanwhile look.
-struct SteamNode {
-    SteamNode() {
-        std::filesystem::remove_all(folder);
+class HidOutputTest : public FolderTest {
+protected:
+    void SetUp() override {
+        FolderTest::SetUp();
         std::filesystem::create_directories(folder / "class" / "hidraw0" / "device");
         std::filesystem::create_directories(folder / "dev");
         std::ofstream{folder / "class" / "hidraw0" / "device" / "uevent"}
             << "HID_ID=0003:000028DE:00001302\nHID_NAME=Steam\n";
         setenv("PHYSVIB_HIDRAW", folder.c_str(), 1);
+        node = folder / "dev" / "hidraw0";
     }
-    ~SteamNode() {
+    void TearDown() override {
         unsetenv("PHYSVIB_HIDRAW");
-        std::filesystem::remove_all(folder);
+        FolderTest::TearDown();
     }
     static std::unique_ptr<CoilFeed> feed() {
         return std::make_unique<CoilFeed>(kind, steamSamples(), panner("phone2"));
@@ -193,26 +196,24 @@ struct SteamNode {
     }
     static constexpr std::array models{HidModel{0x28DE, 0x1302, PadBus::usb}};
     static constexpr HidFeedKind kind{models, "Steam Controller"};
-    const std::filesystem::path folder{std::filesystem::path{testing::TempDir()} / "physvib-hidout"};
-    const std::filesystem::path node = folder / "dev" / "hidraw0";
+    std::filesystem::path node;
 };
 
-TEST(HidOutput, FollowsADeviceAndLeavesSilenceBehind) {
-    const SteamNode steam;
-    std::ofstream{steam.node};
+TEST_F(HidOutputTest, FollowsADeviceAndLeavesSilenceBehind) {
+    std::ofstream{node};
     {
-        HidOutput output{"nothing like it", SteamNode::feed()};
+        HidOutput output{"nothing like it", feed()};
         EXPECT_EQ(output.awaitReady([] { return false; }),
                   "no Steam Controller is called \"nothing like it\"");
     }
-    HidOutput output{anyPad, SteamNode::feed()};
+    HidOutput output{anyPad, feed()};
     EXPECT_EQ(output.awaitReady([] { return true; }), "");
     EXPECT_TRUE(output.state().isReady && output.state().playsClips);
     Device device;
     output.follow(&device);
-    SteamNode::play(device, output);
+    play(device, output);
     output.follow(nullptr);
-    std::ifstream file{steam.node, std::ios::binary};
+    std::ifstream file{node, std::ios::binary};
     const std::string sent{std::istreambuf_iterator<char>{file}, {}};
     const std::size_t reports = output.counts().reports;
     EXPECT_GE(reports, 10u);
@@ -223,18 +224,17 @@ TEST(HidOutput, FollowsADeviceAndLeavesSilenceBehind) {
     EXPECT_NE(sent.substr(sent.size() - 8 - 64 - 62, 30), std::string(30, '\0'));
 }
 
-TEST(HidOutput, AControllerThatTakesNothingHoldsUpNobody) {
-    const SteamNode steam;
-    ASSERT_EQ(mkfifo(steam.node.c_str(), 0600), 0);
-    const int reader = open(steam.node.c_str(), O_RDWR | O_NONBLOCK);
+TEST_F(HidOutputTest, AControllerThatTakesNothingHoldsUpNobody) {
+    ASSERT_EQ(mkfifo(node.c_str(), 0600), 0);
+    const int reader = open(node.c_str(), O_RDWR | O_NONBLOCK);
     ASSERT_GE(fcntl(reader, F_SETPIPE_SZ, 4096), 4096); // holds some 60 reports, and then a write waits
-    HidOutput output{anyPad, SteamNode::feed()};
+    HidOutput output{anyPad, feed()};
     ASSERT_EQ(output.awaitReady([] { return true; }), "");
     Device device;
     output.follow(&device);
     std::uint64_t now = 0;
     for (std::int64_t first = 0; first < 1000; first += 10) {
-        SteamNode::play(device, output, first);
+        play(device, output, first);
         if (std::exchange(now, output.counts().reports) == output.counts().reports) break;
     }
     ASSERT_GE(now, 50u);
@@ -256,9 +256,9 @@ TEST(HidOutput, AControllerThatTakesNothingHoldsUpNobody) {
     close(reader);
 }
 
-TEST(HidDevice, IsFoundByItsNumbersTakenOnceAndGoneWithItsNode) {
-    const auto folder = std::filesystem::path{testing::TempDir()} / "physvib-hidraw";
-    std::filesystem::remove_all(folder);
+using HidDeviceTest = FolderTest;
+
+TEST_F(HidDeviceTest, IsFoundByItsNumbersTakenOnceAndGoneWithItsNode) {
     const HidFolders folders{folder / "class", folder / "dev"};
     constexpr std::array models{HidModel{0x054C, 0x0CE6, PadBus::bluetooth}};
     EXPECT_TRUE(HidDevice::list(models, folders).empty());
@@ -284,7 +284,6 @@ TEST(HidDevice, IsFoundByItsNumbersTakenOnceAndGoneWithItsNode) {
     std::filesystem::remove(folders.nodes / "hidraw2");
     EXPECT_FALSE(device.value->write(report));
     EXPECT_FALSE(std::filesystem::exists(folders.nodes / "hidraw2"));
-    std::filesystem::remove_all(folder);
 }
 
 } // namespace

@@ -441,10 +441,8 @@ TEST(ProtocolLanguage, FactorsMayBeLeftOutAndFieldsThatDoNotFitAreRefused) {
     EXPECT_TRUE(holds(fault([](S& s, C&) { s.modulus = "9"; }), "expected the modulus of session main"));
 }
 
-class TimesOfAStudy : public ::testing::Test {
+class TimesOfAStudy : public FolderTest {
 protected:
-    void SetUp() override { std::filesystem::create_directories(folder); }
-    void TearDown() override { std::filesystem::remove_all(folder); }
     StudyRun run() const { return {findProtocol("magnitudes").value, {"P07", 1, "person"}, folder}; }
     Apparatus with(std::string outputs, std::string noise) const {
         Apparatus apparatus{"0.2.0", "Fake:hands", 0.0};
@@ -458,7 +456,6 @@ protected:
         one.apparatus = with("1 2 3 4", "5 6");
         ASSERT_TRUE(study.take(one)) << study.error();
     }
-    std::filesystem::path folder = std::filesystem::temp_directory_path() / "physvib-times-of-a-study";
 };
 
 TEST_F(TimesOfAStudy, OtherOutputsAreRefusedAndTheTrialFileHasNoTimes) {
