@@ -17,6 +17,7 @@
 #include "Lab/Study/StudyPlan.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
+#include "Live/Session/StimulusRender.h"
 #include "Scene/LayoutFile.h"
 #include "Studies/StudyCalls.h"
 #include <algorithm>
@@ -25,9 +26,6 @@
 #include <map>
 #include <memory>
 #include <set>
-#if __has_include(<malloc.h>)
-#include <malloc.h>
-#endif
 
 namespace physvib {
 namespace {
@@ -77,7 +75,7 @@ void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
     std::vector<ChannelSums> sums(channels);
     GuardTrial guard{static_cast<int>(channels)};
     const ContactSounds sounds{felt.recordings, checkRateHz};
-    const OfflineSettings settings{.renderer = {checkRateHz, 0, felt.stimulus.panner, false},
+    const OfflineSettings settings{.renderer = rendererFor(felt.stimulus, checkRateHz),
                                    .frames = std::llround(felt.stimulus.seconds * checkRateHz),
                                    .contacts = {sounds.contacts()}};
     double block = 0.0;
@@ -352,11 +350,6 @@ std::uint64_t printOfCall(const TrialJob& job) {
 }
 
 StudyCheck checkStudy(const Protocol& protocol, int participants, const std::function<bool()>& goesOn) {
-#ifdef M_TRIM_THRESHOLD
-    // glibc would give each stimulus' megabytes back to the system, and fetch them again, page by page: four
-    // fifths of the time
-    mallopt(M_MMAP_THRESHOLD, 32 << 20), mallopt(M_TRIM_THRESHOLD, 64 << 20);
-#endif
     StudyCheck check;
     Stimuli stimuli{protocol, true};
     std::set<std::string> spreadParts;

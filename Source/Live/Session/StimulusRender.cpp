@@ -30,6 +30,13 @@ std::string scaleToEnchanters(StimulusSound& sound, const LayoutDescription& lay
 
 } // namespace
 
+RendererSettings rendererFor(const Stimulus& stimulus, int sampleRateHz) {
+    RendererSettings settings{sampleRateHz, 0, stimulus.panner, false};
+    settings.modes = static_cast<int>(
+        std::clamp<std::size_t>(stimulus.events.size(), 1, static_cast<std::size_t>(limits::maxModes)));
+    return settings;
+}
+
 Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescription& layout,
                                      int sampleRateHz) {
     const auto channels = static_cast<std::size_t>(stimulus.panner.channels());
@@ -38,8 +45,8 @@ Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescr
             return Failure{"expected a frequency below half the rate of " + std::to_string(sampleRateHz) +
                            " Hz, found " + numberText(event.frequencyHz) + " Hz"};
     StimulusSound sound{sampleRateHz, std::vector<std::vector<float>>(channels)};
-    OfflineSettings settings{{sampleRateHz, 0, stimulus.panner, false},
-                             std::llround(stimulus.seconds * sampleRateHz)};
+    const OfflineSettings settings{rendererFor(stimulus, sampleRateHz),
+                                   std::llround(stimulus.seconds * sampleRateHz)};
     renderOffline(stimulus.events, settings, [&](const float* const* blocks, int frames) {
         for (std::size_t j = 0; j < channels; ++j)
             sound.channels[j].insert(sound.channels[j].end(), blocks[j], blocks[j] + frames);
