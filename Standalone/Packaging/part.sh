@@ -8,17 +8,30 @@ pack() { python3 Standalone/Packaging/pack.py "$@"; }
 licences() { cp LICENSES/MIT.txt $into/LICENSE && python3 Standalone/Packaging/sbom.py --licences "$1" >$into/THIRD-PARTY.txt; }
 built=$PWD/obj-$(dpkg-architecture -qDEB_HOST_GNU_TYPE) # by packages: what wheel and addon are made of as well
 
-packages() {
+# Where it is published is said once, by CITATION.cff; until then nothing names an address.
+said() { sed -n "s/^$1: \"\(.*\)\"/\1/p" CITATION.cff; }
+PHYSVIB_REPOSITORY=${PHYSVIB_REPOSITORY:-$(said repository-code)}
+PHYSVIB_HOMEPAGE=${PHYSVIB_HOMEPAGE:-$(said url)}
+PHYSVIB_BUGS=${PHYSVIB_BUGS:-${PHYSVIB_REPOSITORY:+$PHYSVIB_REPOSITORY/issues}}
+export PHYSVIB_REPOSITORY PHYSVIB_HOMEPAGE PHYSVIB_BUGS
+
+# debianised: debian/ as Debian's tools read it.
+debianised() {
     maintainer='The PhysVib developers <physvib@example.org>'
+    rm -rf debian
     cp -r Standalone/Packaging/debian debian
     version=$(echo "$RELEASE" | tr - '~') # a candidate comes before what it is one for
     next=$((${VERSION%%.*} + 1)).0
     # shellcheck disable=SC2086 # a list of words
     depends=$(echo $physvib_build_packages | sed 's/ /, /g')
+    addresses="/@ADDRESSES@/d"
+    [ -z "$PHYSVIB_REPOSITORY" ] ||
+        addresses="s|@ADDRESSES@|Homepage: ${PHYSVIB_HOMEPAGE:-$PHYSVIB_REPOSITORY}\nVcs-Browser: $PHYSVIB_REPOSITORY\nVcs-Git: $PHYSVIB_REPOSITORY.git|; s|@REPOSITORY@|$PHYSVIB_REPOSITORY|"
     for file in debian/*.in; do
-        sed "s/@MAINTAINER@/$maintainer/; s/@BUILD_DEPENDS@/$depends/; s/@NEXT@/$next/g" "$file" >"${file%.in}"
+        sed "s/@MAINTAINER@/$maintainer/; s/@BUILD_DEPENDS@/$depends/; s/@NEXT@/$next/g; $addresses" "$file" >"${file%.in}"
         rm "$file"
     done
+    [ -n "$PHYSVIB_REPOSITORY" ] || rm debian/watch # nothing to watch
     # Not Debian's own packages: those would come after.
     cat >debian/changelog <<TEXT
 physvib ($version-0physvib1) unstable; urgency=medium
@@ -27,6 +40,22 @@ physvib ($version-0physvib1) unstable; urgency=medium
 
  -- $maintainer  $(date -R -d "@$SOURCE_DATE_EPOCH")
 TEXT
+}
+
+# The source package: the release's tarball, and debian/.
+dsc() {
+    debianised
+    cp "$OUT/physvib-$RELEASE.tar.gz" "../physvib_$version.orig.tar.gz"
+    mkdir ../clean
+    tar -xzf "../physvib_$version.orig.tar.gz" -C ../clean --strip-components 1
+    cp -r debian ../clean
+    (cd .. && dpkg-source -b clean)
+    rm -r ../clean
+    mv ../*.orig.tar.gz ../*.debian.tar.xz ../*.dsc "$OUT"
+}
+
+packages() {
+    debianised
     unchecked=""
     [ ! -e build/juce ] || unchecked=--no-check-builddeps # JUCE is there unpacked
     DEB_BUILD_OPTIONS="parallel=$(nproc)" dpkg-buildpackage --build=binary --no-sign $unchecked

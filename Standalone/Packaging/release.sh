@@ -12,11 +12,12 @@ cd "$(dirname "$0")/../.."
 commit=$(git rev-parse --quiet --verify "${2:-HEAD}^{commit}") || { say "$2: expected a commit or a tag" && exit 1; }
 [ ! -e "$OUT" ] || { say "$OUT: expected nothing there" && exit 1; }
 shift $(($# < 2 ? $# : 2))
-[ $# -gt 0 ] || set -- npm page site firmware windows arm64 packages wheel godot sbom # the shortest first: what fails is told soon
+[ $# -gt 0 ] || set -- dsc npm page site firmware windows arm64 packages wheel godot sbom # the shortest first: what fails is told soon
 
 # shellcheck disable=SC2086 # lists of words
 for part in "$@"; do # what is missing is said before hours of work
     case $part in
+    dsc) ensure_packages dpkg-dev ;;
     packages) ensure_build_packages $physvib_release_packages ;;
     npm | page) ensure_packages $physvib_web_packages ;;
     site) ensure_packages $physvib_site_packages ;;

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import os
 import platform
 import re
 import subprocess
@@ -64,7 +65,8 @@ def make(library: Path, folder: Path, isGivenAway: bool = True) -> Path:
     for name, path in others.items():
         files[f"physvib/{name}"] = path.read_bytes()
     about = f"physvib-{version}.dist-info"
-    files[f"{about}/METADATA"] = (f"Metadata-Version: 2.1\nName: physvib\nVersion: {version}\nSummary: Collisions one can feel\nLicense: MIT\n"
+    addresses = "".join(f"Project-URL: {name}, {os.environ[key]}\n" for name, key in (("Homepage", "PHYSVIB_HOMEPAGE"), ("Source", "PHYSVIB_REPOSITORY")) if os.environ.get(key))
+    files[f"{about}/METADATA"] = (f"Metadata-Version: 2.1\nName: physvib\nVersion: {version}\nSummary: Collisions one can feel\nAuthor: The PhysVib developers\nLicense: MIT\n{addresses}"
                                   "Requires-Python: >=3.9\nRequires-Dist: numpy\nProvides-Extra: pandas\nRequires-Dist: pandas; extra == 'pandas'\n").encode()
     files[f"{about}/LICENSE"] = (root / "LICENSES/MIT.txt").read_bytes()
     if isGivenAway:
