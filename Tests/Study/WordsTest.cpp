@@ -26,19 +26,20 @@ TEST(Words, FaultsAreNamedByTheirText) {
     EXPECT_EQ(fault("[]"), "x.json: texts: expected an object, found an array");
 }
 
-TEST(Words, TheKoreanOnesHaveAllThatBuiltInProtocolsAsk) {
-    const Words& korean = builtInWords().front();
-    EXPECT_EQ(korean.name, "ko");
-    const auto expect = [&](const std::string& text) {
-        EXPECT_TRUE(text.empty() || korean.texts.contains(text)) << text;
-    };
-    for (const Protocol& protocol : builtInProtocols()) {
-        expect(protocol.closingQuestion);
-        for (const SessionPlan& session : protocol.sessions) {
-            expect(session.question);
-            for (const auto* list :
-                 {&session.scales, &session.definitions, &session.anchors, &session.objects})
-                for (const std::string& text : *list) expect(text);
+TEST(Words, EachLanguageHasAllThatBuiltInProtocolsAsk) {
+    ASSERT_FALSE(builtInWords().empty());
+    for (const Words& words : builtInWords()) {
+        const auto expect = [&](const std::string& text) {
+            EXPECT_TRUE(text.empty() || words.texts.contains(text)) << words.name << ": " << text;
+        };
+        for (const Protocol& protocol : builtInProtocols()) {
+            expect(protocol.closingQuestion);
+            for (const SessionPlan& session : protocol.sessions) {
+                expect(session.question);
+                for (const auto* list :
+                     {&session.scales, &session.definitions, &session.anchors, &session.objects})
+                    for (const std::string& text : *list) expect(text);
+            }
         }
     }
 }

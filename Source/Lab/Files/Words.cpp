@@ -57,9 +57,10 @@ Result<Words> findWords(const std::string& nameOrPath) {
     if (nameOrPath.empty() || nameOrPath == "en") return Words{};
     const auto& all = builtInWords();
     const auto found = std::ranges::find(all, nameOrPath, &Words::name);
-    if (found == all.end())
-        return Failure{"no words " + inQuotes(nameOrPath) + "; expected en, ko or a file"};
-    return *found;
+    if (found != all.end()) return *found;
+    std::string names = "en";
+    for (const Words& words : all) names += ", " + words.name;
+    return Failure{"no words " + inQuotes(nameOrPath) + "; expected " + names + " or a file"};
 }
 
 } // namespace physvib
