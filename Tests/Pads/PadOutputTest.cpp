@@ -4,6 +4,7 @@
 #include "Pads/VirtualPad.h"
 #include "Scene/PadFile.h"
 #include <cmath>
+#include <future>
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -196,6 +197,27 @@ TEST_F(Pads, UnpluggedItIsLookedForAndPlaysAgainWhenItIsBack) {
     output.made(hit(device.sessionNs() + 50 * ms, 60.0, 1.0, 0.5));
     EXPECT_TRUE(soon([&] { return pad.told().size() > before; }));
     EXPECT_EQ(output.counts().connections, 2u);
+}
+
+TEST_F(Pads, AControllerThatHangsHoldsUpNobody) {
+    VirtualPad pad{"hangs"};
+    Following following{"hangs"};
+    ASSERT_EQ(following.fault, "");
+    pad.hangs = true;
+    following.output.made(hit(50 * ms, 60.0, 1.0, 0.5));
+    EXPECT_TRUE(soon([&] {
+        following.device.block();
+        return pad.isHanging.load();
+    }));
+    auto asked = std::async(std::launch::async, [&] {
+        const bool isReady = following.output.state().isReady;
+        following.output.follow(nullptr);
+        return isReady && following.output.counts().events == 1;
+    });
+    EXPECT_EQ(asked.wait_for(std::chrono::seconds{2}), std::future_status::ready);
+    pad.hangs = false;
+    EXPECT_TRUE(asked.get());
+    EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
 }
 
 TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {

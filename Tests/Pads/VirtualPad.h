@@ -3,6 +3,7 @@
 #pragma once
 #include "Live/Pads/GamePads.h"
 #include "Live/Pads/SharedLibrary.h"
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <string>
@@ -60,9 +61,12 @@ public:
         return all.empty() || (all.back().low == 0.0 && all.back().high == 0.0);
     }
 
+    std::atomic<bool> hangs{false}, isHanging{false}; ///< a command of the motors does not return
+
 private:
     static void* of(const char* function) { return functionIn(openLibrary("libSDL2-2.0.so.0"), function); }
     int note(std::uint16_t low, std::uint16_t high) {
+        while (hangs) isHanging = true, std::this_thread::sleep_for(std::chrono::milliseconds{1});
         const std::lock_guard lock{mutex_};
         const auto now = std::chrono::steady_clock::now().time_since_epoch();
         told_.push_back({std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), low / 65535.0,
