@@ -9,7 +9,6 @@
 namespace physvib {
 namespace {
 
-constexpr std::chrono::milliseconds pause{1};
 constexpr std::int64_t msNs = 1'000'000;
 constexpr std::int64_t repeatNs = 100 * msNs;    // half the duration of a command
 constexpr std::int64_t lookNs = 250 * msNs;      // search interval for a newly connected controller
@@ -46,14 +45,10 @@ PadOutput::~PadOutput() {
 
 std::string PadOutput::awaitReady(const std::function<bool()>& keepGoing) {
     const std::int64_t endNs = steadyNs() + patienceNs;
-    for (;;) {
-        {
-            const std::lock_guard lock{mutex_};
-            if (!fault_.empty()) return fault_;
-            if (there_) return {};
-            if (!keepGoing() || steadyNs() > endNs) return troubleNow();
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    for (;; std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
+        const std::lock_guard lock{mutex_};
+        if (there_ || !fault_.empty()) return fault_;
+        if (!keepGoing() || steadyNs() > endNs) return troubleNow();
     }
 }
 
@@ -86,27 +81,22 @@ void PadOutput::run() {
         fault_ = pads.fault();
         return;
     }
-    for (; !stop_; std::this_thread::sleep_for(pause)) {
+    for (; !stop_; std::this_thread::sleep_for(std::chrono::milliseconds{1})) {
         pads.update();
         connect(pads);
         beginAnew();
-        const std::int64_t nowNs = steadyNs();
-        if (const auto command = due(nowNs)) send(*command, nowNs);
+        if (const auto command = due(steadyNs())) send(*command);
     }
-    send({}, 0);
+    send({});
     pad_.reset();
 }
 
 void PadOutput::connect(GamePads& pads) {
-    if (pad_ && pad_->isAttached()) return;
-    const std::int64_t nowNs = steadyNs();
-    if (!pad_ && nowNs < looksNs_) return;
-    pad_.reset();
-    if (nowNs >= looksNs_) {
-        looksNs_ = nowNs + lookNs;
-        pad_ = pads.open(lastName_.empty() ? name_ : lastName_); // this thread alone sets that
-        if (!pad_ && !lastName_.empty()) pad_ = pads.open(name_);
-    }
+    if (pad_ ? pad_->isAttached() : steadyNs() < looksNs_) return;
+    looksNs_ = steadyNs() + lookNs;
+    pad_.reset();                                            // before it is opened anew
+    pad_ = pads.open(lastName_.empty() ? name_ : lastName_); // this thread alone sets that
+    if (!pad_ && !lastName_.empty()) pad_ = pads.open(name_);
     const std::lock_guard lock{mutex_};
     there_.reset();
     if (!pad_) return;
@@ -121,16 +111,13 @@ void PadOutput::connect(GamePads& pads) {
 }
 
 void PadOutput::beginAnew() {
-    {
-        const std::lock_guard lock{mutex_};
-        if (!beginsAnew_) return;
-    }
-    send({}, 0);
-    {
-        const std::lock_guard lock{mutex_};
-        begin();
-        beginsAnew_ = false;
-    }
+    std::unique_lock lock{mutex_};
+    if (!beginsAnew_) return;
+    lock.unlock();
+    send({});
+    lock.lock();
+    begin();
+    beginsAnew_ = false;
     rested_.notify_all();
 }
 
@@ -180,10 +167,10 @@ std::optional<PadCommand> PadOutput::command(std::int64_t sessionNs, std::int64_
     return ++counts_.repeats, newest;
 }
 
-void PadOutput::send(const PadCommand& command, std::int64_t nowNs) {
+void PadOutput::send(const PadCommand& command) {
     if (!pad_ || (command.isSame({}) && sent_.isSame({}))) return;
     sent_ = command;
-    sentNs_ = nowNs;
+    sentNs_ = steadyNs();
     if (pad_->rumble(command.low, command.high)) return;
     const std::lock_guard lock{mutex_};
     ++counts_.refused;

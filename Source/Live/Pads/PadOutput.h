@@ -56,7 +56,7 @@ private:
     void takeControls(std::int64_t sessionNs);
     void takeEvents();
     std::optional<PadCommand> command(std::int64_t sessionNs, std::int64_t nowNs);
-    void send(const PadCommand& command, std::int64_t nowNs);
+    void send(const PadCommand& command);
     void begin();
     std::string troubleNow() const;
 
