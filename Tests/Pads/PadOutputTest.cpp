@@ -10,6 +10,8 @@
 namespace physvib {
 namespace {
 
+using namespace pads_testing;
+
 const std::function<bool()> always = [] { return true; };
 
 /// A sink that is ready, and follows a device.
@@ -194,9 +196,7 @@ TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
               0u);
 }
 
-TEST_F(PadsInRealTime, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // a command is over after 200 ms unless
-                                                                    // it is sent
-                                                                    // again
+TEST_F(PadsInRealTime, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // 200 ms are the longest command
     VirtualPad pad{"long"};
     Following following{"long"};
     ASSERT_EQ(following.fault, "");

@@ -7,6 +7,8 @@
 namespace physvib {
 namespace {
 
+using namespace pads_testing;
+
 class PadStopsInRealTime : public FolderTest {
 protected:
     GamePads pads{}; // before any virtual one

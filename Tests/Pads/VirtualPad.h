@@ -88,7 +88,8 @@ bool soon(Condition condition) {
     return condition();
 }
 
-inline constexpr std::int64_t ms = 1'000'000;
+namespace pads_testing {
+constexpr std::int64_t ms = 1'000'000;
 
 inline PhantomPanner phone() {
     EnchanterLayout layout;
@@ -128,5 +129,5 @@ public:
     static std::int64_t now() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
     std::int64_t beganNs = now();
 };
-
+} // namespace pads_testing
 } // namespace physvib
