@@ -50,5 +50,5 @@ sed -i -e "s|@VERSION@|$version|" -e "s|'@FILES@'|$files|" service-worker.js
 cd ../../..
 cp LICENSES/MIT.txt build/web/page/LICENSE
 python3 Standalone/Packaging/sbom.py --licences page >build/web/page/THIRD-PARTY.txt
-bytes=$(tar -C build/web -cz page | wc -c)
-say "build/web/page: $bytes bytes compressed"
+bytes=$(tar -C build/web --exclude=THIRD-PARTY.txt -cz page | wc -c)
+say "build/web/page: $bytes bytes compressed, without the licences"

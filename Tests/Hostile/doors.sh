@@ -598,10 +598,10 @@ try_stops() {
     python3 -c "import ctypes, sys, time
 lib, live = ctypes.CDLL(sys.argv[1]), ctypes.c_void_p()
 class Event(ctypes.Structure):
-    _fields_ = [(n, ctypes.c_int64) for n in ('time_ns', 'duration_ns')] + [(n, ctypes.c_double) for n in ('hz', 'decay', 'amplitude', 'x', 'y', 'impulse', 'mass')] + [(n, ctypes.c_int) for n in ('fixture', 'other', 'kind', 'unused')]
+    _fields_ = [(n, ctypes.c_int64) for n in ('size', 'time_ns', 'duration_ns')] + [(n, ctypes.c_double) for n in ('hz', 'decay', 'amplitude', 'x', 'y', 'impulse', 'mass')] + [(n, ctypes.c_int) for n in ('fixture', 'other', 'kind', 'sound')] + [('z', ctypes.c_double), ('part', ctypes.c_int), ('unused', ctypes.c_int)]
 lib.physvib_live_open.argtypes = [ctypes.c_char_p] + [ctypes.c_void_p] * 3
 assert lib.physvib_live_open(b'JACK:system', None, None, ctypes.byref(live)) == 0
-assert lib.physvib_live_strike(live, ctypes.byref(Event(0, 3600 * 10 ** 9, 205, 0, 0.5, 0.1, 0.1, 0, 0, -1, -1, 0, 0)), ctypes.c_int64(1)) == 0
+assert lib.physvib_live_strike(live, ctypes.byref(Event(ctypes.sizeof(Event), 0, 3600 * 10 ** 9, 205, 0, 0.5, 0.1, 0.1, 0, 0, -1, -1)), ctypes.c_int64(1)) == 0
 print('open', flush=True)
 for line in sys.stdin:
     print(time.time_ns() // 1_000_000, flush=True)

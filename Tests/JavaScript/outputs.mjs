@@ -10,6 +10,11 @@ const { PULSE_PROGRAMS: programs, PULSE_LIBRARIES: libraries } = process.env, en
 const outputs = 8, places = 'front-left,front-right,rear-left,rear-right,front-center,lfe,side-left,side-right'; // as ALSA numbers the outputs of a card
 const pactl = (...words) => execFileSync(join(programs, 'pactl'), words, { env, encoding: 'utf8' });
 let heard = [], recorder = null;
+function peaksOf(bytes) {
+    const peaks = new Array(outputs).fill(0);
+    for (let i = 0; i < bytes.length >> 2; ++i) peaks[i % outputs] = Math.max(peaks[i % outputs], Math.abs(bytes.readFloatLE(4 * i)));
+    return peaks;
+}
 const acts = {
     plug() {
         acts.unplug();
@@ -23,10 +28,17 @@ const acts = {
     },
     hear() { heard = []; },
     /** The peak of each device output since `hear`. */
-    heard() {
-        const bytes = Buffer.concat(heard), peaks = new Array(outputs).fill(0);
-        for (let i = 0; i < bytes.length >> 2; ++i) peaks[i % outputs] = Math.max(peaks[i % outputs], Math.abs(bytes.readFloatLE(4 * i)));
-        return peaks;
+    heard: () => peaksOf(Buffer.concat(heard)),
+    /** The same in turn: a row for each run of 50 ms in which one output is the loudest. */
+    inTurn() {
+        const bytes = Buffer.concat(heard), rows = [], block = 4 * outputs * 2400;
+        for (let from = 0, last = -1; from < bytes.length; from += block) {
+            const peaks = peaksOf(bytes.subarray(from, from + block)), loudest = peaks.indexOf(Math.max(...peaks));
+            if (peaks[loudest] < 0.02) continue;
+            rows.push(loudest === last ? rows.pop().map((peak, i) => Math.max(peak, peaks[i])) : peaks);
+            last = loudest;
+        }
+        return rows;
     },
 };
 

@@ -4,51 +4,13 @@
 #include "Pads/VirtualPad.h"
 #include "Scene/PadFile.h"
 #include <cmath>
+#include <future>
 #include <gtest/gtest.h>
 
 namespace physvib {
 namespace {
 
-constexpr std::int64_t ms = 1'000'000;
-
-PhantomPanner phone() {
-    EnchanterLayout layout;
-    layoutPreset("phone4", layout);
-    return {layout, PanningLaw::linear, 1.0, 1.0, 1.0};
-}
-
-CollisionEvent hit(std::int64_t timeNs, double frequencyHz, double amplitude, double x) {
-    CollisionEvent event;
-    event.timeNs = timeNs;
-    event.frequencyHz = frequencyHz;
-    event.decayPerSecond = 20.0;
-    event.amplitude = amplitude;
-    event.x = x;
-    event.y = 0.5;
-    return event;
-}
-
-/// A device that asks for a block every 5 ms, of a session that began with it.
-class PacedDevice final : public OutputClock {
-public:
-    PacedDevice() { setLevel(1.0f); }
-    std::int64_t sessionNs() const { return now() - beganNs; }
-    void block() { tell({sessionNs(), now(), 40 * ms, 48000}); }
-    /// `atBlock(sessionNs)` at each.
-    template <class AtBlock>
-    void run(std::int64_t untilNs, AtBlock atBlock) {
-        for (; sessionNs() < untilNs; std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
-            block();
-            atBlock(sessionNs());
-        }
-    }
-    void run(std::int64_t untilNs) {
-        run(untilNs, [](std::int64_t) {});
-    }
-
-    static std::int64_t now() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
-    std::int64_t beganNs = now();
-};
+using namespace pads_testing;
 
 const std::function<bool()> always = [] { return true; };
 
@@ -198,6 +160,27 @@ TEST_F(Pads, UnpluggedItIsLookedForAndPlaysAgainWhenItIsBack) {
     EXPECT_EQ(output.counts().connections, 2u);
 }
 
+TEST_F(Pads, AControllerThatHangsHoldsUpNobody) {
+    VirtualPad pad{"hangs"};
+    Following following{"hangs"};
+    ASSERT_EQ(following.fault, "");
+    pad.hangs = true;
+    following.output.made(hit(50 * ms, 60.0, 1.0, 0.5));
+    EXPECT_TRUE(soon([&] {
+        following.device.block();
+        return pad.isHanging.load();
+    }));
+    auto asked = std::async(std::launch::async, [&] {
+        const bool isReady = following.output.state().isReady;
+        following.output.follow(nullptr);
+        return isReady && following.output.counts().events == 1;
+    });
+    EXPECT_EQ(asked.wait_for(std::chrono::seconds{2}), std::future_status::ready);
+    pad.hangs = false;
+    EXPECT_TRUE(asked.get());
+    EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
+}
+
 TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
     VirtualPad one{"one"}, two{"two"};
     PadOutput first{anyPad, phone()}, second{anyPad, phone()};
@@ -213,9 +196,7 @@ TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
               0u);
 }
 
-TEST_F(PadsInRealTime, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // a command is over after 200 ms unless
-                                                                    // it is sent
-                                                                    // again
+TEST_F(PadsInRealTime, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // 200 ms are the longest command
     VirtualPad pad{"long"};
     Following following{"long"};
     ASSERT_EQ(following.fault, "");

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A game controller of SDL's own making, which notes what its motors are told: a judge without hardware.
+// A game controller of SDL's own making, which notes what its motors are told: a judge without hardware; and
+// a device of which it follows the clock.
 #pragma once
-#include "Live/Pads/GamePads.h"
+#include "Live/Pads/PadOutput.h"
 #include "Live/Pads/SharedLibrary.h"
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <string>
@@ -60,9 +62,12 @@ public:
         return all.empty() || (all.back().low == 0.0 && all.back().high == 0.0);
     }
 
+    std::atomic<bool> hangs{false}, isHanging{false}; ///< a command of the motors does not return
+
 private:
     static void* of(const char* function) { return functionIn(openLibrary("libSDL2-2.0.so.0"), function); }
     int note(std::uint16_t low, std::uint16_t high) {
+        while (hangs) isHanging = true, std::this_thread::sleep_for(std::chrono::milliseconds{1});
         const std::lock_guard lock{mutex_};
         const auto now = std::chrono::steady_clock::now().time_since_epoch();
         told_.push_back({std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), low / 65535.0,
@@ -83,4 +88,46 @@ bool soon(Condition condition) {
     return condition();
 }
 
+namespace pads_testing {
+constexpr std::int64_t ms = 1'000'000;
+
+inline PhantomPanner phone() {
+    EnchanterLayout layout;
+    layoutPreset("phone4", layout);
+    return {layout, PanningLaw::linear, 1.0, 1.0, 1.0};
+}
+
+inline CollisionEvent hit(std::int64_t timeNs, double frequencyHz, double amplitude, double x) {
+    CollisionEvent event;
+    event.timeNs = timeNs;
+    event.frequencyHz = frequencyHz;
+    event.decayPerSecond = 20.0;
+    event.amplitude = amplitude;
+    event.x = x;
+    event.y = 0.5;
+    return event;
+}
+
+/// A device that asks for a block every 5 ms, of a session that began with it.
+class PacedDevice final : public OutputClock {
+public:
+    PacedDevice() { setLevel(1.0f); }
+    std::int64_t sessionNs() const { return now() - beganNs; }
+    void block() { tell({sessionNs(), now(), 40 * ms, 48000}); }
+    /// `atBlock(sessionNs)` at each.
+    template <class AtBlock>
+    void run(std::int64_t untilNs, AtBlock atBlock) {
+        for (; sessionNs() < untilNs; std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
+            block();
+            atBlock(sessionNs());
+        }
+    }
+    void run(std::int64_t untilNs) {
+        run(untilNs, [](std::int64_t) {});
+    }
+
+    static std::int64_t now() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
+    std::int64_t beganNs = now();
+};
+} // namespace pads_testing
 } // namespace physvib

@@ -70,17 +70,14 @@ void HidOutput::connect() {
 }
 
 void HidOutput::beginAnew() {
-    {
-        const std::lock_guard lock{mutex_};
-        if (!beginsAnew_) return;
-    }
+    std::unique_lock lock{mutex_};
+    if (!beginsAnew_) return;
+    lock.unlock();
     rest();
     feed_->begin();
     playedNs_ = 0;
-    {
-        const std::lock_guard lock{mutex_};
-        beginsAnew_ = false;
-    }
+    lock.lock();
+    beginsAnew_ = false;
     rested_.notify_all();
 }
 

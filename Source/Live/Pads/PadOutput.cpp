@@ -9,11 +9,11 @@
 namespace physvib {
 namespace {
 
-constexpr std::chrono::milliseconds pause{1};
 constexpr std::int64_t msNs = 1'000'000;
 constexpr std::int64_t repeatNs = 100 * msNs;    // half the duration of a command
 constexpr std::int64_t lookNs = 250 * msNs;      // search interval for a newly connected controller
 constexpr std::int64_t patienceNs = 2000 * msNs; // a Bluetooth controller needs a second to connect
+constexpr std::chrono::milliseconds mostRest{250};
 constexpr std::int64_t jumpNs = 70 * msNs; // a backward jump of session time that means a pause or a restart
 
 std::string milliseconds(double seconds) { return fixedNumber(1e3 * seconds, 0) + " ms"; }
@@ -45,98 +45,93 @@ PadOutput::~PadOutput() {
 
 std::string PadOutput::awaitReady(const std::function<bool()>& keepGoing) {
     const std::int64_t endNs = steadyNs() + patienceNs;
-    for (;;) {
-        {
-            const std::lock_guard lock{mutex_};
-            if (!fault_.empty()) return fault_;
-            if (pad_) return {};
-            if (!keepGoing() || steadyNs() > endNs) return troubleNow();
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    for (;; std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
+        const std::lock_guard lock{mutex_};
+        if (there_ || !fault_.empty()) return fault_;
+        if (!keepGoing() || steadyNs() > endNs) return troubleNow();
     }
 }
 
 void PadOutput::follow(OutputClock* device) {
-    const std::lock_guard lock{mutex_};
+    std::unique_lock lock{mutex_};
     if (device == device_) return;
-    rest();
     device_ = device;
     for (CollisionEvent event; device && events_.pop(event);) {
     } // events of an earlier session
     for (RenderControl control; device && controls_.pop(control);) controls_.done(control);
     grips_ = PadMotors::gripsOf(first_);
     clock_ = {};
-    begin();
+    beginsAnew_ = true;
+    rested_.wait_for(lock, mostRest, [this] { return !beginsAnew_ || !fault_.empty(); });
 }
 
 void PadOutput::begin() {
     PadLaw law = profile_.law;
-    if (pad_)
-        law.commandsPerSecond = std::min(law.commandsPerSecond, mostCommandsPerSecond(pad_->info().bus));
+    if (there_) law.commandsPerSecond = std::min(law.commandsPerSecond, mostCommandsPerSecond(there_->bus));
     motors_ = PadMotors{law};
     layouts_.clear();
     stopsNs_.clear();
     playedNs_ = 0;
 }
 
-void PadOutput::rest() {
-    if (pad_ && !sent_.isSame({})) pad_->rumble(0.0, 0.0);
-    sent_ = {};
-}
-
 void PadOutput::run() {
     GamePads pads;
-    while (!stop_) {
-        {
-            const std::lock_guard lock{mutex_};
-            if (!pads.fault().empty()) {
-                fault_ = pads.fault();
-                return;
-            }
-            pads.update();
-            connect(pads);
-            feed(steadyNs());
-        }
-        std::this_thread::sleep_for(pause);
+    if (!pads.fault().empty()) {
+        const std::lock_guard lock{mutex_};
+        fault_ = pads.fault();
+        return;
     }
-    const std::lock_guard lock{mutex_};
-    rest();
+    for (; !stop_; std::this_thread::sleep_for(std::chrono::milliseconds{1})) {
+        pads.update();
+        connect(pads);
+        beginAnew();
+        if (const auto command = due(steadyNs())) send(*command);
+    }
+    send({});
     pad_.reset();
 }
 
 void PadOutput::connect(GamePads& pads) {
-    if (pad_ && pad_->isAttached()) return;
-    pad_.reset();
-    const std::int64_t nowNs = steadyNs();
-    if (nowNs < looksNs_) return;
-    looksNs_ = nowNs + lookNs;
-    if (auto pad = pads.open(lastName_.empty() ? name_ : lastName_))
-        adopt(std::move(pad));
-    else if (auto other = lastName_.empty() ? nullptr : pads.open(name_))
-        adopt(std::move(other));
-}
-
-void PadOutput::adopt(std::unique_ptr<GamePad> pad) {
-    pad_ = std::move(pad);
-    lastName_ = pad_->info().name;
+    if (pad_ ? pad_->isAttached() : steadyNs() < looksNs_) return;
+    looksNs_ = steadyNs() + lookNs;
+    pad_.reset();                                            // before it is opened anew
+    pad_ = pads.open(lastName_.empty() ? name_ : lastName_); // this thread alone sets that
+    if (!pad_ && !lastName_.empty()) pad_ = pads.open(name_);
+    const std::lock_guard lock{mutex_};
+    there_.reset();
+    if (!pad_) return;
+    there_ = pad_->info();
+    lastName_ = there_->name;
     sent_ = {};
     ++counts_.connections;
     if (!isProfileGiven_)
-        if (auto suits = findPad(pad_->info().profile)) profile_ = std::move(suits.value);
+        if (auto suits = findPad(there_->profile)) profile_ = std::move(suits.value);
     if (counts_.connections == 1) leadSeconds_ = profile_.law.leadSeconds; // output latency: never changes
     begin();
 }
 
-void PadOutput::feed(std::int64_t nowNs) {
-    if (device_ == nullptr) return;
+void PadOutput::beginAnew() {
+    std::unique_lock lock{mutex_};
+    if (!beginsAnew_) return;
+    lock.unlock();
+    send({});
+    lock.lock();
+    begin();
+    beginsAnew_ = false;
+    rested_.notify_all();
+}
+
+std::optional<PadCommand> PadOutput::due(std::int64_t nowNs) {
+    const std::lock_guard lock{mutex_};
+    if (device_ == nullptr || beginsAnew_) return {};
     if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) clock_.add(felt);
-    if (!clock_.isReady()) return;
+    if (!clock_.isReady()) return {};
     const std::int64_t sessionNs = nowNs - clock_.steadyAt(0);
     if (sessionNs + jumpNs < playedNs_) begin();
     playedNs_ = sessionNs;
     takeControls(sessionNs);
     takeEvents();
-    command(sessionNs, nowNs);
+    return command(sessionNs, nowNs);
 }
 
 // A layout applies from the first event at its time, a stop from the time at which it is felt.
@@ -159,30 +154,31 @@ void PadOutput::takeEvents() {
     }
 }
 
-void PadOutput::command(std::int64_t sessionNs, std::int64_t nowNs) {
+std::optional<PadCommand> PadOutput::command(std::int64_t sessionNs, std::int64_t nowNs) {
     const double level = device_->isSilent() ? 0.0 : static_cast<double>(device_->level());
-    if (level <= 0.0) rest(); // at once, regardless of the command rate
-    PadCommand newest = sent_;
+    PadCommand newest = level > 0.0 ? sent_ : PadCommand{}; // silence: at once, regardless of the command
+                                                            // rate
     int due = 0;
     for (; motors_.dueNs() <= sessionNs; ++due) newest = motors_.next(level);
     if (due > 1) counts_.late += static_cast<std::uint64_t>(due - 1);
-    if (!pad_) return;
-    const bool isNew = !newest.isSame(sent_);
-    if (isNew)
-        send(newest, nowNs), ++counts_.commands;
-    else if (!sent_.isSame({}) && nowNs - sentNs_ >= repeatNs)
-        send(sent_, nowNs), ++counts_.repeats;
+    if (!pad_) return {};
+    if (!newest.isSame(sent_)) return ++counts_.commands, newest;
+    if (sent_.isSame({}) || nowNs - sentNs_ < repeatNs) return {};
+    return ++counts_.repeats, newest;
 }
 
-void PadOutput::send(const PadCommand& command, std::int64_t nowNs) {
-    if (!pad_->rumble(command.low, command.high)) ++counts_.refused;
+void PadOutput::send(const PadCommand& command) {
+    if (!pad_ || (command.isSame({}) && sent_.isSame({}))) return;
     sent_ = command;
-    sentNs_ = nowNs;
+    sentNs_ = steadyNs();
+    if (pad_->rumble(command.low, command.high)) return;
+    const std::lock_guard lock{mutex_};
+    ++counts_.refused;
 }
 
 std::string PadOutput::troubleNow() const {
     if (!fault_.empty()) return fault_;
-    if (pad_) return {};
+    if (there_) return {};
     if (!lastName_.empty()) return lastName_ + " is gone; it is looked for";
     return name_ == anyPad
                ? "no game controller with motors is there (see physvib pads)"
@@ -198,14 +194,14 @@ SinkState PadOutput::state() const {
     const std::lock_guard lock{mutex_};
     SinkState state;
     state.name = "controller";
-    state.isReady = pad_ != nullptr;
+    state.isReady = there_.has_value();
     state.sent = counts_.events;
     state.playsClips = false;
     state.lost = motors_.lost() + events_.overflows() + controls_.overflows();
     state.trouble = troubleNow();
-    state.where = pad_ ? pad_->info().name + " (" + busName(pad_->info().bus) + "): " + profile_.name +
-                             ", needs " + milliseconds(leadSeconds_)
-                       : state.trouble;
+    state.where = there_ ? there_->name + " (" + busName(there_->bus) + "): " + profile_.name + ", needs " +
+                               milliseconds(leadSeconds_)
+                         : state.trouble;
     state.facts = {
         {"Controller", state.where, !state.isReady},
         {"Motors",

@@ -14,7 +14,9 @@
 #include "Live/Session/Sink.h"
 #include "Scene/PadFile.h"
 #include <atomic>
+#include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace physvib {
@@ -27,7 +29,8 @@ struct PadCounts {
     std::uint64_t connections = 0;
 };
 
-/// Its own thread talks to the controller; only M waits for that thread.
+/// Its own thread talks to the controller, without a lock, as SDL may hold a call for seconds. M waits for
+/// that thread in the destructor, and for its rest, a moment at most, in follow().
 class PadOutput final : public Sink {
 public:
     /// `where`: a controller name or anyPad; optionally followed by "@" and the name or file of a profile,
@@ -48,13 +51,12 @@ public:
 private:
     void run();
     void connect(GamePads& pads);
-    void adopt(std::unique_ptr<GamePad> pad);
-    void feed(std::int64_t nowNs);
+    void beginAnew();
+    std::optional<PadCommand> due(std::int64_t nowNs);
     void takeControls(std::int64_t sessionNs);
     void takeEvents();
-    void command(std::int64_t sessionNs, std::int64_t nowNs);
-    void send(const PadCommand& command, std::int64_t nowNs);
-    void rest();
+    std::optional<PadCommand> command(std::int64_t sessionNs, std::int64_t nowNs);
+    void send(const PadCommand& command);
     void begin();
     std::string troubleNow() const;
 
@@ -64,11 +66,17 @@ private:
     ControlQueue<256> controls_;
     std::atomic<double> leadSeconds_{0.0};
 
+    std::unique_ptr<GamePad> pad_; // the thread's alone, as the next two lines
+    PadCommand sent_;
+    std::int64_t sentNs_ = 0, looksNs_ = 0, playedNs_ = 0; // steady clock; steady clock; session time
+
     mutable std::mutex mutex_; // guards the members below, used by the thread and M
+    std::condition_variable rested_;
     PadProfile profile_;
     std::string fault_; // a permanent error: nothing can be played
     OutputClock* device_ = nullptr;
-    std::unique_ptr<GamePad> pad_;
+    bool beginsAnew_ = false; // the device is another one: first the motors come to rest
+    std::optional<GamePadInfo> there_;
     std::string lastName_; // of the last controller
     PadMotors motors_{PadLaw{}};
     SessionClock clock_;
@@ -76,8 +84,6 @@ private:
     PhantomPanner grips_;
     std::vector<PannerChange> layouts_; // grips, waiting for their time, as the next
     std::vector<std::int64_t> stopsNs_;
-    PadCommand sent_;
-    std::int64_t sentNs_ = 0, looksNs_ = 0, playedNs_ = 0; // steady clock; steady clock; session time
     PadCounts counts_;
 
     std::atomic<bool> stop_{false};

@@ -117,8 +117,9 @@ public:
         const auto root = std::filesystem::temp_directory_path(fault);
         const std::string before = "physvib-tests-";
         for (const auto& entry : std::filesystem::directory_iterator{root, ignored}) {
+            if (!entry.path().filename().string().starts_with(before)) continue;
             const auto age = std::filesystem::file_time_type::clock::now() - entry.last_write_time(ignored);
-            if (entry.path().filename().string().starts_with(before) && age > std::chrono::hours{1})
+            if (age > std::chrono::hours{1})
                 std::filesystem::remove_all(entry.path(), ignored); // R has ten minutes
         }
         for (int tries = 0; tries < 10 && path.empty() && !fault; ++tries) {
