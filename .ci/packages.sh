@@ -214,7 +214,8 @@ ensure_build_packages() {
     fi
 }
 
-# progress: copies ninja's lines, and says on the way how far it is: at every step on a terminal, else at each quarter.
+# progress: copies ninja's lines, and says on the way how far it is: at every step on a terminal, else at each quarter. A few steps are
+# those of a ninja within it (firmware) or of configuring again.
 progress() {
     quarter=0
     while IFS= read -r line; do
@@ -222,7 +223,9 @@ progress() {
         case $line in "["[0-9]*/*[0-9]"] "*) ;; *) continue ;; esac
         steps=${line%%]*}
         steps=${steps#[}
+        [ "${steps#*/}" -ge 10 ] || continue
         now=$((4 * ${steps%/*} / ${steps#*/}))
+        [ "$now" -ge "$quarter" ] || quarter=$now
         if [ -t 2 ]; then
             printf '\rphysvib: step %s of %s ' "${steps%/*}" "${steps#*/}" >&2
             [ "$now" -lt 4 ] || printf '\n' >&2
