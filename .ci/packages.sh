@@ -2,10 +2,11 @@
 # What PhysVib needs from Debian, and how it gets there. Sourced by run.sh and test.sh.
 
 # Packages that are not in each of Debian 12, 13 and sid by one name: the lists below have the first. The first that is installed, or that apt
-# knows, is taken; "-": done without, and Tests/House/skips.txt says what is not tested then.
+# knows, is taken; "-": done without, and Tests/House/skips.txt says what is not tested then (jackd2 of Debian 12 has its example tools in it).
 physvib_other_names="
 clang-format-14 | -
 clang-tidy-14 | clang-tidy
+jack-example-tools | -
 libnewlib-arm-none-eabi | picolibc-arm-none-eabi
 libstdc++-arm-none-eabi-newlib | libstdc++-arm-none-eabi
 mono-mcs | mono-devel
@@ -22,7 +23,7 @@ physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohm
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 # Of the four-channel board's image and its virtual board.
 physvib_board_packages="gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
-physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 xvfb xauth xdotool zbar-tools clang libclang-rt-dev clang-format-14 \
+physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jack-example-tools xvfb xauth xdotool zbar-tools clang libclang-rt-dev clang-format-14 \
     liblo-tools python3-numpy python3-pandas r-base-core luajit doxygen cmark-gfm \
     $physvib_board_packages"
 # Of .ci/pico-sources.sh alone, and of Tests/Firmware/pico.sh.
@@ -50,7 +51,7 @@ physvib_movie_packages="ffmpeg"
 # Of Tests/Studies/screens.sh alone: windows with title bars, and pictures of them.
 physvib_screens_packages="xvfb xauth xdotool openbox ffmpeg python3"
 # Of Tests/Plugin/Formats/ardour.sh and ardour-song.sh alone, and of validate.sh there.
-physvib_host_packages="ardour jackd2"
+physvib_host_packages="ardour jackd2 jack-example-tools"
 # Of Tests/Plugin/Formats/apply.sh alone.
 physvib_apply_packages="lilv-utils ecasound python3"
 # Of Tests/Plugin/Formats/Daws/daws.sh alone.
@@ -59,7 +60,7 @@ physvib_validator_packages="lv2-dev sordi"
 # Of the library alone (preset "library"), for Tests/Benchmarks.
 physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libhwy-dev"
 # Of Tests/Osc/run.sh alone.
-physvib_osc_packages="jackd2 liblo-tools puredata-core python3"
+physvib_osc_packages="jackd2 jack-example-tools liblo-tools puredata-core python3"
 # Of Tests/arm64.sh and Tests/windows.sh alone: compilers, what runs their programs, libraries that are headers only.
 physvib_cross_packages="g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64 wine cmake ninja-build ccache dpkg-dev \
     googletest nlohmann-json3-dev libcli11-dev libeigen3-dev pkg-config python3"
@@ -214,7 +215,8 @@ ensure_build_packages() {
     fi
 }
 
-# progress: copies ninja's lines, and says on the way how far it is: at every step on a terminal, else at each quarter.
+# progress: copies ninja's lines, and says on the way how far it is: at every step on a terminal, else at each quarter. A few steps are
+# those of a ninja within it (firmware) or of configuring again.
 progress() {
     quarter=0
     while IFS= read -r line; do
@@ -222,7 +224,9 @@ progress() {
         case $line in "["[0-9]*/*[0-9]"] "*) ;; *) continue ;; esac
         steps=${line%%]*}
         steps=${steps#[}
+        [ "${steps#*/}" -ge 10 ] || continue
         now=$((4 * ${steps%/*} / ${steps#*/}))
+        [ "$now" -ge "$quarter" ] || quarter=$now
         if [ -t 2 ]; then
             printf '\rphysvib: step %s of %s ' "${steps%/*}" "${steps#*/}" >&2
             [ "$now" -lt 4 ] || printf '\n' >&2

@@ -70,8 +70,7 @@ echo "pressed once, $took s after the start; it plays $(later "$pressed") s afte
 ports=$(jack_lsp | grep "out_1$" | head -n 1)
 "$bin/physvib-jack-recorder" "$folder/felt.raw" 4 4 "${ports%1}" >"$folder/recorder.log" 2>&1 &
 recorder=$!
-sleep 0.5
-xdotool key space # the pulse again, for the recorder
+for _ in 1 2 3 4; do sleep 0.5 && xdotool key space; done # the pulse again, for the recorder, which connects late on a busy machine
 wait "$recorder" || { cat "$folder/recorder.log"; exit 1; }
 frame=$(od -An -v -t f4 -w16 "$folder/felt.raw" | awk '{ for (k = 1; k <= 4; ++k) if ($k > 0.001 || $k < -0.001) { print NR; exit } }')
 [ -n "$frame" ] || { echo "silence on all ports"; exit 1; }

@@ -11,7 +11,10 @@ struct Stream {
     std::uint32_t frame = 4'294'960'000u; // the counter is over soon
     std::uint8_t sequence = 0xFF;
     /// The next strike, 60 ms before its onset.
-    bool next() { return order.isNew(++sequence, frame += 11, frame - 480); }
+    bool next() {
+        frame += 11;
+        return order.isNew(++sequence, frame, frame - 480);
+    }
     /// That of `ago` strikes before, once more.
     bool again(int ago) {
         return order.isNew(static_cast<std::uint8_t>(sequence - ago),
