@@ -31,7 +31,7 @@ bool HapticRenderer::prepare(const RendererSettings& settings) noexcept {
     gains_.fill(0.0);
     player_.prepare(settings.sampleRateHz, channels_);
     moving_.prepare(settings.sampleRateHz, channels_);
-    guard_.prepare(settings.sampleRateHz, channels_, GuardPlace::rendered);
+    guard_.prepare(settings.sampleRateHz, channels_, GuardPlace::rendered, settings.instructions);
     silentUntilNs_ = strikesSilentUntilNs_ = INT64_MIN;
     return isPrepared_ = takeMemory();
 }

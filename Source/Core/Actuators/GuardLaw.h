@@ -15,6 +15,7 @@
 #include "Core/Limits.h"
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -128,6 +129,9 @@ public:
 private:
     static constexpr int parts = 4; // complete ones, beside the current one
     static constexpr float forgetSeconds = 8.0f;
+    // std::max and std::min by value: a loop with these becomes one of vectors
+    static constexpr float greater(float a, float b) noexcept { return a < b ? b : a; }
+    static constexpr float lesser(float a, float b) noexcept { return b < a ? b : a; }
 
     // Not inlined, like endPart: a board keeps only per-tile code in its small fast memory.
     [[gnu::noinline]] void clear() noexcept {
@@ -148,31 +152,32 @@ private:
     float follow(const Row& areas) noexcept {
         constexpr auto w = static_cast<float>(6.283185307 * limits::slowestToneHz);
         const float step = w * tile_;
-        float least = 1.0f;
+        auto least = std::bit_cast<std::int32_t>(1.0f); // gains from +0 on are in order as their bits are
         for (std::size_t j = 0; j < channels_; ++j) {
             const float sum = sum_[j] + areas[j];
             sum_[j] = sum;
-            high_[j] = std::max(high_[j], sum);
-            low_[j] = std::min(low_[j], sum);
+            high_[j] = greater(high_[j], sum);
+            low_[j] = lesser(low_[j], sum);
             const float most =
-                std::max(std::max(high_[j], oldHigh_[j]) - sum, sum - std::min(low_[j], oldLow_[j]));
+                greater(greater(high_[j], oldHigh_[j]) - sum, sum - lesser(low_[j], oldLow_[j]));
             speed_[j] += w * areas[j] - step * (slow_[j] + limits::guardDamping * speed_[j]);
             slow_[j] += step * speed_[j];
             const float z = slow_[j], v = speed_[j];
             load_[j] += tile_ * (z * z - load_[j]);
             const float load =
                 load_[j] + (limits::guardOfSlow * z * z + z * v + limits::guardOfSpeed * v * v) * (0.5f / w);
-            const float room =
-                std::min((maxArea_ - most) * perArea_, (maxLoad_ - load) * limits::guardPerLoad);
+            const float room = lesser((maxArea_ - most) * perArea_, (maxLoad_ - load) * limits::guardPerLoad);
             from_[j] = to_[j];
-            to_[j] = std::max(0.0f, std::min(room, rest_[j]));
-            least = std::min(least, to_[j]);
+            const float to = greater(0.0f, lesser(room, rest_[j]));
+            to_[j] = to;
+            least = std::min(least, std::bit_cast<std::int32_t>(to));
             // Above half of a bound it only falls: a reduced tone gets one constant gain and keeps its
             // waveform.
-            const bool mayRise = most < 0.5f * maxArea_ && load < 0.5f * maxLoad_;
-            rest_[j] = mayRise ? std::min(1.0f, rest_[j] + rise_) : rest_[j] - fall_ * (rest_[j] - to_[j]);
+            const float up = lesser(1.0f, rest_[j] + rise_), down = rest_[j] - fall_ * (rest_[j] - to_[j]);
+            const float half = most < 0.5f * maxArea_ ? up : down;
+            rest_[j] = load < 0.5f * maxLoad_ ? half : down;
         }
-        return least;
+        return std::bit_cast<float>(least);
     }
 
     // Sums restart at 0, so that they stay exact.

@@ -2,7 +2,6 @@
 // Implementation of the look-ahead limiter: sliding minimum, linear release, moving average, delayed
 // multiplication.
 #include "Core/Actuators/OutputGuard.h"
-#include "Core/Modes/TileKernels.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>

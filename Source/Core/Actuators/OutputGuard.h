@@ -9,7 +9,7 @@
 #include "Core/Actuators/GainRamp.h"
 #include "Core/Actuators/GuardLaw.h"
 #include "Core/Limits.h"
-#include "Core/Modes/InstructionSet.h"
+#include "Core/Modes/TileKernels.h"
 #include "Core/Storage.h"
 #include <array>
 #include <cmath>
@@ -20,8 +20,11 @@ namespace physvib {
 /// Render thread (R) only; prepare: message thread (M).
 class OutputGuard {
 public:
-    /// Resets the sums. M, not while rendering.
-    void prepare(int sampleRateHz, int channels, GuardPlace place) noexcept {
+    /// Resets the sums. The bits do not depend on the instruction set. M, not while rendering.
+    void prepare(int sampleRateHz, int channels, GuardPlace place,
+                 InstructionSet set = InstructionSet::best) noexcept {
+        const TileKernel* const kernels = tileKernel(set);
+        addUp_ = kernels != nullptr ? kernels->limiter.addUp : nullptr;
         channels_ = static_cast<std::size_t>(channels);
         law_.prepare(channels, place);
         sums_.fill(0);
@@ -33,7 +36,7 @@ public:
         if (hasSums_) endTile();
         tile_ = std::max(1, static_cast<int>(std::lround(sampleRateHz * tileSeconds)));
         law_.setTile(static_cast<float>(tile_) / static_cast<float>(sampleRateHz));
-        perUnit_ = 1.0f / (unit * static_cast<float>(sampleRateHz));
+        perUnit_ = 1.0f / (GuardUnits::perFullScale * static_cast<float>(sampleRateHz));
         filled_ = 0;
     }
 
@@ -81,21 +84,17 @@ public:
 
 private:
     static constexpr double tileSeconds = 1.0 / 3000.0;
-    static constexpr float unit = 2097152.0f; // 2^21 is full scale: 64 frames of 8 times full scale fit 32
-                                              // bits
     static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
 
     void pass(float* const* io, int first, int count) noexcept {
         hasSums_ = true;
-        for (std::size_t j = 0; j < channels_; ++j) {
-            if (io[j] == nullptr) continue;
-            float* const at = io[j] + first;
-            if (acts_ && (law_.from(j) != 1.0f || law_.to(j) != 1.0f)) turnDown(j, at, count);
-            std::int32_t sum = 0;
-            for (int k = 0; k < count; ++k)
-                sum += static_cast<std::int32_t>(std::min(std::max(at[k], -8.0f), 8.0f) * unit);
-            sums_[j] += sum;
-        }
+        for (std::size_t j = 0; acts_ && j < channels_; ++j)
+            if (io[j] != nullptr && (law_.from(j) != 1.0f || law_.to(j) != 1.0f))
+                turnDown(j, io[j] + first, count);
+        const auto from = static_cast<std::size_t>(first), to = from + static_cast<std::size_t>(count);
+        if (addUp_ != nullptr) return addUp_(io, channels_, from, to, sums_.data());
+        for (std::size_t j = 0; j < channels_; ++j)
+            for (std::size_t k = from; io[j] != nullptr && k < to; ++k) sums_[j] += GuardUnits::of(io[j][k]);
     }
     void turnDown(std::size_t j, float* at, int count) noexcept {
         const float step = (law_.to(j) - law_.from(j)) / static_cast<float>(tile_);
@@ -113,6 +112,7 @@ private:
         hasSums_ = false;
     }
 
+    decltype(LimiterKernel::addUp) addUp_ = nullptr; // null: a plain loop
     GuardLaw<limits::maxEnchanters> law_;
     std::array<std::int32_t, width> sums_{};
     std::size_t channels_ = 0;
@@ -131,9 +131,6 @@ private:
 // integers (2^30 = 1): their running sum neither drifts nor differs between machines, and the gain returns to
 // exactly 1. A change of ceiling is a ramp of at most limits::channelRampSeconds: each frame is limited by
 // the ceiling of its own time.
-
-struct LimiterKernel;
-struct LimiterLines;
 
 /// R only, but for prepare: M.
 class LinkedLimiter {

@@ -425,7 +425,7 @@ void clear(float* const* out, int channels, int count) {
 }
 
 TileKernel kernel(InstructionSet set) {
-    return {set, advance, render, strike, sum, clear, {take, give}, measure, join};
+    return {set, advance, render, strike, sum, clear, {take, give, addUp}, measure, join};
 }
 
 } // namespace physvib::HWY_NAMESPACE

@@ -4,6 +4,7 @@
 #pragma once
 #include "Core/Limits.h"
 #include "Core/Modes/InstructionSet.h"
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -33,6 +34,17 @@ struct LimiterKernel {
     bool (*take)(const LimiterLines& lines, const std::int32_t* mostBits) = nullptr;
     /// Writes the delayed frames times `gains` (null: 1), within the ceilings, and shifts the lines.
     void (*give)(const LimiterLines& lines, const float* gains, const float* ceilings) = nullptr;
+    /// OutputGuard's: adds io[channel][from, to), in its units, to each channel's sum; null: no output.
+    void (*addUp)(const float* const* io, std::size_t channels, std::size_t from, std::size_t to,
+                  std::int32_t* sums) = nullptr;
+};
+
+/// A sample in the units that OutputGuard sums: 2^21 is full scale, so 64 frames of 8 times full scale fit.
+struct GuardUnits {
+    static constexpr float most = 8.0f, perFullScale = 2097152.0f;
+    static std::int32_t of(float x) noexcept {
+        return static_cast<std::int32_t>(std::clamp(x, -most, most) * perFullScale);
+    }
 };
 
 // What a vector kernel is given of one tile of 64 frames: modes, amplitudes, carriers, strikes.
