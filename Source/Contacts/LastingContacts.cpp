@@ -34,7 +34,10 @@ SurfaceMotion between(SurfacePath from, SurfacePath to, double seconds) noexcept
 } // namespace
 
 LastingContacts::LastingContacts(const FixtureTable& table)
-    : table_{table} {}
+    : table_{table} {
+    passages_.reserve(48);
+    grow();
+}
 
 void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     struct List {

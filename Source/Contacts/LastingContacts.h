@@ -119,10 +119,11 @@ private:
         isMapped_ = true;
     }
 
-    std::vector<Record> before_{1}, now_{1};                 // buffers, of which so many are in use, and one
-    std::size_t countBefore_ = 0, count_ = 0, capacity_ = 0; // capacity_: of now_
-    std::size_t next_ = 0;                                   // in before_
-    IntegerMap placeOf_;                                     // keys of before_, built at the first lookup
+    static constexpr std::size_t expected = 48;                     // records of a step; more take memory
+    std::vector<Record> before_{expected + 1}, now_{expected + 1};  // buffers: those in use, and one
+    std::size_t countBefore_ = 0, count_ = 0, capacity_ = expected; // capacity_: of now_
+    std::size_t next_ = 0;                                          // in before_
+    IntegerMap placeOf_; // keys of before_, built at the first lookup
     bool isMapped_ = false;
     IntegerMap new_; // records of now_ that did not exist in the last step
 };
