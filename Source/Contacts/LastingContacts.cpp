@@ -34,10 +34,7 @@ SurfaceMotion between(SurfacePath from, SurfacePath to, double seconds) noexcept
 } // namespace
 
 LastingContacts::LastingContacts(const FixtureTable& table)
-    : table_{table} {
-    passages_.reserve(48);
-    grow();
-}
+    : table_{table} {}
 
 void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     struct List {

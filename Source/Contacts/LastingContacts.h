@@ -65,6 +65,13 @@ public:
         for (Record& record : now()) change(record);
     }
 
+    /// So many records in a step take no memory.
+    void makeRoom(std::size_t records) {
+        before_.resize(std::max(before_.size(), records + 1));
+        now_.resize(std::max(now_.size(), records + 1));
+        capacity_ = now_.size() - 1;
+    }
+
     void reset() noexcept {
         countBefore_ = 0;
         before_.front().key = 0;
@@ -119,11 +126,10 @@ private:
         isMapped_ = true;
     }
 
-    static constexpr std::size_t expected = 48;                     // records of a step; more take memory
-    std::vector<Record> before_{expected + 1}, now_{expected + 1};  // buffers: those in use, and one
-    std::size_t countBefore_ = 0, count_ = 0, capacity_ = expected; // capacity_: of now_
-    std::size_t next_ = 0;                                          // in before_
-    IntegerMap placeOf_; // keys of before_, built at the first lookup
+    std::vector<Record> before_{1}, now_{1};                 // buffers, of which so many are in use, and one
+    std::size_t countBefore_ = 0, count_ = 0, capacity_ = 0; // capacity_: of now_
+    std::size_t next_ = 0;                                   // in before_
+    IntegerMap placeOf_;                                     // keys of before_, built at the first lookup
     bool isMapped_ = false;
     IntegerMap new_; // records of now_ that did not exist in the last step
 };
@@ -200,6 +206,14 @@ public:
         told.inGapOf = FixtureTable::none;
     }
     bool hasHeard() const noexcept { return points_.count() > 0; }
+
+    /// For steps with usual numbers of points. Call it where a surface is rough.
+    void makeRoom() {
+        points_.makeRoom(24);
+        pairs_.makeRoom(24);
+        passages_.reserve(24);
+        if (grains_.empty()) grow();
+    }
 
     /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);

@@ -321,7 +321,7 @@ private:
     void moveJoints(b2Body& from, b2Body& to);
     void dropJoints(b2Body& body);
 
-    static constexpr std::size_t expectedInputs = 64; // between two steps
+    static constexpr std::size_t expectedInputs = 24; // between two steps
 
     Scene scene_; // only its inputs grow
     StepClock clock_;
