@@ -65,6 +65,13 @@ public:
         for (Record& record : now()) change(record);
     }
 
+    /// So many records in a step take no memory.
+    void makeRoom(std::size_t records) {
+        before_.resize(std::max(before_.size(), records + 1));
+        now_.resize(std::max(now_.size(), records + 1));
+        capacity_ = now_.size() - 1;
+    }
+
     void reset() noexcept {
         countBefore_ = 0;
         before_.front().key = 0;
@@ -199,6 +206,14 @@ public:
         told.inGapOf = FixtureTable::none;
     }
     bool hasHeard() const noexcept { return points_.count() > 0; }
+
+    /// For steps with usual numbers of points. Call it where a surface is rough.
+    void makeRoom() {
+        points_.makeRoom(24);
+        pairs_.makeRoom(24);
+        passages_.reserve(24);
+        if (grains_.empty()) grow();
+    }
 
     /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);

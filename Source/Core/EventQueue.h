@@ -87,8 +87,8 @@ class GrowingQueue {
 public:
     GrowingQueue()
         : head_{new Chunk}
-        , oldest_{head_.load()}
-        , tail_{oldest_} {}
+        , oldest_{new Chunk{.items = {}, .next = head_}} // one more, so that the second takes no memory later
+        , tail_{head_} {}
     GrowingQueue(const GrowingQueue&) = delete;
     GrowingQueue& operator=(const GrowingQueue&) = delete;
     ~GrowingQueue() {
@@ -152,7 +152,7 @@ private:
     std::size_t read_ = 0, writtenSeen_ = 0, at_ = 0;
     alignas(64) Chunk* oldest_; // of the producer, as the next two lines
     Chunk* tail_;
-    std::size_t used_ = 0, chunks_ = 1;
+    std::size_t used_ = 0, chunks_ = 2;
 };
 
 // Wait-free triple buffer that hands the newest value from one thread to another without tearing, for

@@ -128,6 +128,7 @@ Attachment::Attachment(b2World& world, const ImpactSettings& settings)
     for (const b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
         parts_->listener->finder().begin(*contact);
     parts_->listener->install(world);
+    parts_->sweeps.makeRoom(static_cast<std::size_t>(world.GetBodyCount()));
 }
 
 Attachment::~Attachment() {

@@ -105,6 +105,12 @@ public:
         index();
     }
 
+    /// Steps of so many bodies, and a few more, take no memory.
+    void makeRoom(std::size_t bodies) {
+        sweeps_.reserve(bodies + bodies / 4 + 3);
+        indices_ = IntegerMap{sweeps_.capacity()};
+    }
+
     double stepSeconds() const noexcept { return stepSeconds_; }
     /// of the last step; 0: there was none
     double lastStepSeconds() const noexcept { return lastStepSeconds_; }

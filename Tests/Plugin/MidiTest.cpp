@@ -317,13 +317,19 @@ TEST(Midi, WhatIsSaidOfANoteIsTrueOfItAlone) {
     QuietHost host;
     prepareHeld(host);
     using enum NoteEvent::Kind;
-    SaidOfNotes both;
-    both.note(1, 0x90, 57), both.note(2, 0x90, 57); // one key twice, as two notes
-    const auto before = struckBy(host, both);
+    SaidOfNotes all;
+    for (const int id : {1, 2, 3}) all.note(id, 0x90, 57); // one key, as three notes
+    const auto before = struckBy(host, all);
     ASSERT_GT(before.size(), 4u);
     for (const auto& event : before) EXPECT_NEAR(event.frequencyHz, 220.0, 1e-6);
+    SaidOfNotes first;
+    first.tell(1, tuning, 12.0);
+    const auto apart = struckBy(host, first);
+    for (const double hz : {220.0, 440.0})
+        EXPECT_GT(std::ranges::count(apart, hz, [](const auto& e) { return std::round(e.frequencyHz); }), 2)
+            << hz;
     SaidOfNotes second;
-    second.note(1, 0x80, 57), second.tell(2, tuning, 7.0), second.tell(2, pan, 1.0);
+    second.tell(1, off, 0.0), second.note(3, 0x80, 57), second.tell(2, tuning, 7.0), second.tell(2, pan, 1.0);
     second.tell(2, brightness, 0.25), second.tell(2, volume, 0.5), second.tell(2, pressure, 1.0);
     const auto after = struckBy(host, second);
     ASSERT_GT(after.size(), 2u) << "the second sounds on";

@@ -104,6 +104,30 @@ TEST(RealtimePlugin, ParametersAnswerWithoutALock) {
     EXPECT_EQ(RealtimeGuard::count(RealtimeGuard::waits), 0u);
 }
 
+// Worlds that are stepped in the call: every one that comes with it, with notes, shaken and turned.
+TEST(RealtimePlugin, TightTakesNoMemory) {
+    for (int preset = 0; preset < static_cast<int>(builtInScenes().size()); ++preset) {
+        TestHost host;
+        host.plugin->setCurrentProgram(preset);
+        host.plugin->parameter(Parameter::timing).setValue(1.0f);
+        host.prepare(48000, 64, false);
+        Random random{3};
+        RealtimeGuard::forget();
+        for (int b = 0; b < 4 * 750; ++b) {
+            auto midi = randomMidi(random, 64);
+            for (int n = 0; n < 1000 && b % 400 == 300; ++n)
+                midi.addEvent(juce::MidiMessage::noteOn(1, n % 128, juce::uint8{90}), n % 64);
+            const RealtimeGuard guard;
+            host.plugin->parameter(Parameter::tilt).setValue(static_cast<float>(random.uniform(0, 1)));
+            host.plugin->processBlock(host.buffer, midi);
+        }
+        for (const auto which : {RealtimeGuard::allocates, RealtimeGuard::frees})
+            EXPECT_EQ(RealtimeGuard::count(which), 0u)
+                << RealtimeGuard::names[which] << ' ' << host.plugin->getProgramName(preset);
+        EXPECT_GT(host.plugin->drainEvents().size(), 10u) << host.plugin->getProgramName(preset);
+    }
+}
+
 TEST(RealtimePlugin, ManyBuses) { expectNothingForbidden({BusPlan::Kind::manyBuses}); }
 
 } // namespace

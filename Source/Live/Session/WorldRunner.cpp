@@ -25,6 +25,7 @@ WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, Device
     , sinks_{sinks}
     , world_{setup.run(), setup.shaping, setup.log != LogUse::none}
     , state_{std::make_shared<const Scene>(setup.scene), setup.seed} {
+    if (setup.hasWorld) made_.reserve(32); // more than most steps make
     world_.start(0, state_.scene, state_.seed);
     showPoses();
 }

@@ -153,8 +153,8 @@ private:
     DevicePulse& pulse_;
     CallbackInputs& callback_;
     SinkSet& sinks_;
-    GrowingQueue<CollisionEvent, 256, 17> queue_; // from the thread that holds the world mutex; made_ keeps
-                                                  // what does not fit
+    GrowingQueue<CollisionEvent, 48, 90> queue_; // from the thread that holds the world mutex; made_ keeps
+                                                 // what does not fit
     std::atomic<std::int64_t> steppedNs_{0}; // session time of the world up to which all events are queued
     std::atomic<std::int64_t> sceneNs_{0};   // of the current scene run
     std::atomic<std::size_t> take_{0};

@@ -20,6 +20,38 @@ Vector turnedBy(const Vector& v, double angleRadians) {
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
+// Room in Box2D's pools, for a step that needs none then: contacts, springs of grips, and lists of what moved
+// and of pairs, which grow by one proxy that is reported often. Two proxies that go in reverse order leave
+// the tree as it was, so motion is the same to the bit.
+void makeRoom(b2World& world, const Scene& scene) {
+    auto& manager = const_cast<b2ContactManager&>(world.GetContactManager());
+    const std::size_t contacts = std::min<std::size_t>(24 + scene.bodies.size(), 512);
+    constexpr int pairs = 256; // that begin or end to be near in one step
+    const auto makeBlocks = [&manager](std::size_t count, int bytes) {
+        std::vector<void*> blocks(count);
+        for (void*& block : blocks) block = manager.m_allocator->Allocate(bytes);
+        for (void* const block : blocks) manager.m_allocator->Free(block, bytes);
+    };
+    makeBlocks(contacts, sizeof(b2Contact));
+    const auto grips = [](const ScriptInput& input) {
+        return std::holds_alternative<GripAction>(input.action);
+    };
+    if (std::ranges::any_of(scene.script, grips)) {
+        makeBlocks(SceneGrips::expected, sizeof(b2MouseJoint));
+        makeBlocks(1, sizeof(b2Body)); // the other end of the grips
+    }
+    struct {
+        void AddPair(void*, void*) {}
+    } nobody;
+    const b2AABB place{{0.0F, 0.0F}, {0.0F, 0.0F}};
+    const int first = manager.m_broadPhase.CreateProxy(place, nullptr),
+              second = manager.m_broadPhase.CreateProxy(place, nullptr);
+    for (int i = 0; i < pairs; ++i) manager.m_broadPhase.TouchProxy(second);
+    manager.m_broadPhase.UpdatePairs(&nobody);
+    manager.m_broadPhase.DestroyProxy(second);
+    manager.m_broadPhase.DestroyProxy(first);
+}
+
 } // namespace
 
 SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& clock)
@@ -32,6 +64,10 @@ SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& 
     , world_(box2dVector(scene.gravityMetresPerSecond2))
     , materials_(scene.materials)
     , lastInputSeconds_(scene.inputs.empty() ? 0.0 : scene.inputs.back().timeSeconds) {
+    if (!scene_.bodies.empty()) {
+        scene_.inputs.reserve(scene_.inputs.size() + expectedInputs);
+        makeRoom(world_, scene_);
+    }
     world_.SetContactFilter(&bound_);
     build();
     actOnScript(0);

@@ -127,9 +127,12 @@ public:
     /// Both outlive the grips.
     SceneGrips(b2World& world, const StepClock& clock) noexcept
         : world_(world)
-        , clock_(clock) {}
+        , clock_(clock) {
+        grips_.reserve(expected);
+    }
+    static constexpr std::size_t expected = 8; ///< at once; more take memory
 
-    /// From `step` on. Allocates when a grip begins.
+    /// From `step` on.
     void act(b2Body& body, const GripAction& action, std::int64_t step) {
         if (!action.toMetres) return letGo(body);
         if (body.GetType() != b2_dynamicBody || !body.IsEnabled()) return;
@@ -236,7 +239,8 @@ public:
     void addInput(std::int64_t step, Action action);
 
     /// Executes the live inputs, then the script's actions, that are due in `step`. True if a fixture may be
-    /// new or have a new sound, texture or source flag. Allocates for new bodies and grips only.
+    /// new or have a new sound, texture or source flag. Allocates for new bodies only,
+    /// and for more grips than SceneGrips::expected.
     bool act(std::int64_t step);
 
     /// Removes executed live inputs from scene(), for endless worlds whose inputs are logged elsewhere.
@@ -316,6 +320,8 @@ private:
     void retire(std::size_t number);
     void moveJoints(b2Body& from, b2Body& to);
     void dropJoints(b2Body& body);
+
+    static constexpr std::size_t expectedInputs = 24; // between two steps
 
     Scene scene_; // only its inputs grow
     StepClock clock_;
