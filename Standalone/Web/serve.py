@@ -5,6 +5,7 @@ The certificate is made at the start, and signed by nobody: the browser warns of
 import argparse
 import functools
 import http.server
+import os
 import pathlib
 import socket
 import ssl
@@ -14,6 +15,7 @@ import tempfile
 
 options = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
 options.add_argument("--port", type=int, default=8443)
+options.add_argument("--with-parent", action="store_true", help="ends with the program that began it")
 options.add_argument("folder", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build/web/page")
 given = options.parse_args()
 if not (given.folder / "index.html").is_file():
@@ -38,11 +40,15 @@ class Handler(http.server.SimpleHTTPRequestHandler):
 
 
 class Server(http.server.ThreadingHTTPServer):
+    def service_actions(self):  # twice a second
+        if given.with_parent and os.getppid() != parent:
+            os._exit(0)
+
     def handle_error(self, request, client_address):
         pass  # browsers hang up while they ask about the certificate
 
 
-address = own_address()
+address, parent = own_address(), os.getppid()
 context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
 with tempfile.TemporaryDirectory() as folder:
     try:

@@ -108,6 +108,30 @@ TEST(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
     EXPECT_EQ(board.drawn().bodies.size(), before + 9) << "one rain, one step";
 }
 
+TEST(Drawing, AConveyorCarriesTheWayOfItsDragAndIsOneStep) {
+    Board board;
+    const auto before = board.drawn().joints.size();
+    board.key('c');
+    for (const double to : {0.3, 0.9}) {
+        board.drag(board.share(0.6, 0.4), board.share(to, 0.4));
+        ASSERT_GE(board.pane.chosen().size(), 3u) << "all rollers are selected";
+        for (const std::string& roller : board.pane.chosen())
+            EXPECT_EQ(driveOf(*motorOf(board.drawn(), roller)).radiansPerSecond > 0.0, to < 0.6) << roller;
+        board.model.undoManager().undo();
+        EXPECT_EQ(board.drawn().joints.size(), before);
+    }
+}
+
+TEST(Drawing, AJointInTheAirSaysHowUntilOneHolds) {
+    Board board;
+    board.key('b');
+    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
+    board.pane.joinAt(DrawTool::motor, board.share(0.02, 0.98));
+    EXPECT_EQ(board.model.messages().shown().act.name, "Pause");
+    board.pane.joinAt(DrawTool::motor, board.share(0.5, 0.5));
+    EXPECT_NE(board.model.messages().shown().act.name, "Pause");
+}
+
 TEST(Drawing, ARainOfAClickIsWithinTheField) {
     for (const double y : {0.02, 0.98}) {
         Board board;

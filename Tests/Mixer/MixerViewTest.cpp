@@ -74,6 +74,16 @@ void expectRings(juce::Component& root) {
     });
 }
 
+TEST(MixerView, AnotherTabDoesNotFoldTheDrawerOnTheWay) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    view.tabs().choose("Actuators");
+    view.tabs().onOpen = [](bool isOpen) { EXPECT_TRUE(isOpen); };
+    auto& output = dynamic_cast<juce::Button&>(*find(view.tabs(), "Output"));
+    output.triggerClick();
+    EXPECT_TRUE(runUntil([&] { return output.getToggleState(); }));
+}
+
 TEST(MixerView, WhatComesLaterHasARingAsWell) {
     MixerModel model{onlyNoDevice(), noDevice};
     MixerView view{model};

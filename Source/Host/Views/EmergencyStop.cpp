@@ -20,11 +20,15 @@ namespace {
 
 /// A call that waits for the display's answer, such as where the mouse is, reads the clicks and keys before
 /// it as well, and JUCE, which waits for more to read, finds them only with what comes next: a press was
-/// heard 0.2 to 0.4 s late. What every source of events has is taken here. M.
+/// heard 0.2 to 0.4 s late. What every source of events has is taken here, once: one of them has calls of
+/// this. M.
 void takeWhatWasReadAhead() {
 #if JUCE_LINUX || JUCE_BSD
+    static bool isTaking = false;
+    if (std::exchange(isTaking, true)) return;
     for (const int source : juce::LinuxEventLoopInternal::getRegisteredFds())
         juce::LinuxEventLoopInternal::invokeEventLoopCallbackForFd(source);
+    isTaking = false;
 #endif
 }
 

@@ -69,6 +69,7 @@ StripView::StripView(MixerModel& model, int strip)
 
 template <class Change>
 void StripView::change(const juce::String& name, Change change, bool continuesEdit) {
+    if (!isThere()) return; // a press that came before the views followed
     const auto label = utf8(model_.mix().layout.enchanters[index_].label);
     model_.change(
         name + " of " + label, [&](Mix& mix) { change(mix.strips[index_]); }, continuesEdit);

@@ -129,7 +129,7 @@ void StudiesTab::pickProtocol() {
     if (id == fileId)
         browseProtocol();
     else if (id > 0)
-        chooseProtocol(knownProtocols()[static_cast<std::size_t>(id - 1)].name);
+        chooseProtocol(knownProtocols()[static_cast<std::size_t>(id - 1)].name), offerLayout();
 }
 
 void StudiesTab::browseProtocol() {
@@ -335,23 +335,44 @@ void StudiesTab::say(const juce::String& words, Shade shade) {
     repaint();
 }
 
-// More actuators than the mixer has cannot be had by a choice of outputs.
+namespace {
+
+/// The layout of the most actuators, with its name.
+std::pair<std::string, LayoutDescription> largestLayout(const Protocol& protocol) {
+    std::pair<std::string, LayoutDescription> largest;
+    for (const ConditionPlan& condition : protocol.conditions)
+        if (auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
+            layout && layout.value.enchanters.size() > largest.second.enchanters.size())
+            largest = {condition.layout, std::move(layout.value)};
+    return largest;
+}
+
+} // namespace
+
+// More actuators than the mixer has, or headphones, cannot be had by a choice of outputs.
 void StudiesTab::offerLayout() {
-    for (const ConditionPlan& condition : protocol_->conditions) {
-        const auto layout = layoutNamed(besideProtocol(protocol_->folder, condition.layout));
-        const std::size_t wanted = layout ? layout.value.enchanters.size() : 0;
-        if (wanted <= model_.mix().strips.size()) continue;
-        return model_.messages().show({"This study is felt on " + utf8(counted(wanted, "actuator")),
-                                       true,
-                                       {"Use " + utf8(condition.layout),
-                                        [&model = model_, own = layout.value] {
-                                            model.change("Layout of the study", [&own](Mix& mix) {
-                                                mix.layout = own;
-                                                mix.resizeStrips();
-                                            });
-                                        }},
-                                       "study-layout"});
-    }
+    constexpr std::size_t ears = 2;
+    const auto [name, layout] = largestLayout(*protocol_);
+    const std::size_t wanted = layout.enchanters.size();
+    const auto other = std::ranges::find_if(knownProtocols(), [](const Protocol& p) {
+        return largestLayout(p).second.enchanters.size() <= ears;
+    });
+    MixerMessage offer{
+        "This study is felt on " + utf8(counted(wanted, "actuator")), true, {}, "study-layout"};
+    if (model_.device().choice().isHeadphones && wanted > ears && other != knownProtocols().end()) {
+        offer.words += ", and headphones are two";
+        offer.act = {"Take " + titleOf(other->name).toLowerCase(),
+                     [this, name = other->name] { chooseProtocol(name), offerLayout(); }};
+    } else if (wanted > model_.mix().strips.size())
+        offer.act = {"Use " + utf8(name), [this, own = layout] {
+                         model_.change("Layout of the study", [&own](Mix& mix) {
+                             mix.layout = own;
+                             mix.resizeStrips();
+                         });
+                         offerLayout();
+                     }};
+    if (!offer.act.run) return model_.messages().withdraw(offer.label);
+    model_.messages().show(std::move(offer));
 }
 
 std::string StudiesTab::begin() {
@@ -470,7 +491,7 @@ void StudiesTab::paint(juce::Graphics& g) {
 }
 
 void StudiesTab::resized() {
-    constexpr int captionHeight = 18, space = 8; // in a small window the controls stay, without the texts
+    constexpr int captionHeight = 15, space = 5, foot = 32; // all of it, with Begin, in a small window
     auto area = getLocalBounds();
     const auto caption = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };
     caption(choiceName_);
@@ -500,10 +521,10 @@ void StudiesTab::resized() {
     area.removeFromTop(space);
     pair(wordsName_, wordsChoice_, answersName_, answersChoice_);
     area.removeFromTop(space + 2);
-    levelArea_ = area.removeFromTop(std::clamp(area.getHeight() - 44, 0, 42));
-    row = area.removeFromTop(std::min(44, area.getHeight()));
-    begin_.setBounds(row.removeFromLeft(140));
-    analyse_->setBounds(row.removeFromRight(80));
+    levelArea_ = area.removeFromTop(std::clamp(area.getHeight() - foot, 0, 42));
+    row = area.removeFromTop(std::min(foot, area.getHeight()));
+    begin_.setBounds(row.removeFromLeft(100));
+    analyse_->setBounds(row.removeFromRight(72));
     wordsArea_ = row.withTrimmedLeft(gap);
 }
 

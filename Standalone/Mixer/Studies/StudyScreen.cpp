@@ -69,8 +69,8 @@ std::string outputsFault(const Protocol& protocol, const MixerModel& model) {
     const auto& map = model.output().channelMap();
     for (const ConditionPlan& condition : protocol.conditions) {
         const auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
-        const std::size_t wanted = layout.value.enchanters.size();
         if (!layout) return layout.error;
+        const std::size_t wanted = layout.value.enchanters.size();
         if (wanted > strips.size())
             return condition.layout + ": expected " + std::to_string(wanted) +
                    " actuators in the mixer, found " + std::to_string(strips.size());

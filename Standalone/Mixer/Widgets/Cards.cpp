@@ -99,7 +99,7 @@ void Card::setAnswers(std::vector<juce::TextButton*> answers) {
 }
 
 int Card::answersHigh() const {
-    return (static_cast<int>(answers_.size()) + perRow - 1) / perRow * (rowHigh + gap) - gap;
+    return (static_cast<int>(answers_.size()) + perRow() - 1) / perRow() * (rowHigh + gap) - gap;
 }
 
 void Card::fit() {
@@ -121,12 +121,12 @@ void Card::fit() {
 void Card::resized() {
     auto area = getLocalBounds().reduced(edgeX, edgeY).withWidth(width_ - 2 * edgeX);
     title_.setBounds(area.removeFromTop(titleHigh));
-    const int width = (area.getWidth() - (perRow - 1) * gap) / perRow;
+    const int width = (area.getWidth() - (perRow() - 1) * gap) / perRow();
     const auto rows = area.removeFromBottom(answersHigh());
     for (int k = 0; k < static_cast<int>(answers_.size()); ++k)
-        answers_[static_cast<std::size_t>(k)]->setBounds(rows.getRight() - width - k % perRow * (width + gap),
-                                                         rows.getY() + k / perRow * (rowHigh + gap), width,
-                                                         rowHigh);
+        answers_[static_cast<std::size_t>(k)]->setBounds(
+            rows.getRight() - width - k % perRow() * (width + gap),
+            rows.getY() + k / perRow() * (rowHigh + gap), width, rowHigh);
     area.removeFromBottom(gap);
     place(area.removeFromBottom(contentHigh()));
     words_.setBounds(area.withTrimmedTop(4));

@@ -21,7 +21,7 @@ public:
     juce::String words() const { return words_.getText(); }
 
 protected:
-    static constexpr int perRow = 3, rowHigh = 34, edgeX = 24, edgeY = 20, titleHigh = 30;
+    static constexpr int rowHigh = 34, edgeX = 24, edgeY = 20, titleHigh = 30;
 
     explicit Card(int width);
     void say(const juce::String& title, const juce::String& words);
@@ -33,6 +33,7 @@ protected:
 
 private:
     int answersHigh() const;
+    int perRow() const { return answers_.size() == 4 ? 4 : 3; } // none hangs below alone
     const int width_;
     juce::Label title_, words_;
     std::vector<juce::TextButton*> answers_;

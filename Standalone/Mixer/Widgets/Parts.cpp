@@ -324,8 +324,8 @@ public:
     explicit Name(const juce::String& name)
         : juce::Button{name} {
         setTitle(name);
-        setRadioGroupId(1);
-        setClickingTogglesState(true);
+        setRadioGroupId(1); // choose() alone toggles it: JUCE would click the one before, which folds the
+                            // panel
     }
     void paintButton(juce::Graphics& g, bool isOver, bool) override {
         const bool isChosen = isOpen && getToggleState();

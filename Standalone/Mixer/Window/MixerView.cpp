@@ -237,7 +237,8 @@ void MixerView::refresh() {
     strips_.refresh(latest_);
     constexpr double newsMs = 10e3;                              // it lies over the materials to draw with
     const bool isShown = trouble_.getText() == model_.trouble(); // the change may not have come yet
-    if (isShown && model_.isNews() && !act_->isVisible() && nowMs() - newsAtMs_ > newsMs) model_.report({});
+    const bool isSeen = !act_->isVisible() || model_.messages().shown().label == "saved";
+    if (isShown && model_.isNews() && isSeen && nowMs() - newsAtMs_ > newsMs) model_.report({});
     keepPace();
 }
 
@@ -382,7 +383,7 @@ void MixerView::paintOverChildren(juce::Graphics& g) {
     }
     if (!isHintShown_) return;
     static const juce::StringArray lines{
-        "Hold the actuators: they start quietly, a quarter of full scale.",
+        "Hold the actuators, or put the headphones on: they start quietly.",
         "Drag a ball to throw it. The bar at the left draws balls, walls and joints.",
         "Esc silences everything. F2: the engineer's strips, materials, outputs, studies."};
     const auto font = text::font(text::medium);

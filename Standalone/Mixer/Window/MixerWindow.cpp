@@ -903,13 +903,13 @@ void MixerWindow::share() {
     const auto link = pageLink(model_->mix(), model_->world().drawing().drawn());
     const auto here = ownAddresses();
     if (!link) return say(utf8(link.error));
-    const auto page = files_.settings().getValue(pageSetting, ownPage);
+    const auto page = served_.isEmpty() ? files_.settings().getValue(pageSetting, ownPage) : served_;
     const auto at = [behind = utf8(link.value)](const juce::String& address) {
         return address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
     };
     const auto whole = [this, at] {
         const auto address = view_->question()->value(pageField);
-        files_.settings().setValue(pageSetting, address);
+        if (address != served_) files_.settings().setValue(pageSetting, address);
         view_->setCard(nullptr);
         return at(address);
     };
@@ -917,20 +917,41 @@ void MixerWindow::share() {
         card.setValue(linkField, at(address));
         card.setPicture(isLoopback(address) ? juce::Image{} : qrPicture(at(address).toStdString()));
     };
+    std::vector<std::pair<juce::String, std::function<void()>>> answers{
+        {"Copy the link",
+         [this, whole] {
+             const auto words = whole();
+             juce::SystemClipboard::copyTextToClipboard(words);
+             model_->announce("Copied a link of " + juce::String{words.length()} + " characters");
+         }},
+        {"Open it", [whole] { openLink(whole()); }}};
+    if (served_.isEmpty() && PageServer::isThere())
+        answers.insert(answers.begin(), {"Serve it here", [this] { serve(); }});
     ask("Share the world",
         "Who opens the link in the page gets the same world and samples. It stands behind the #, so no "
-        "server gets it. 127.0.0.1 is this computer alone; for a phone, and a code that it reads, put an "
-        "address that it can reach" +
-            (here.empty() ? juce::String{"."} : ": this computer is " + utf8(here.front()) + "."),
-        {{"Copy the link",
-          [this, whole] {
-              const auto words = whole();
-              juce::SystemClipboard::copyTextToClipboard(words);
-              model_->announce("Copied a link of " + juce::String{words.length()} + " characters");
-          }},
-         {"Open it", [whole] { openLink(whole()); }}},
-        {{pageField, page, {}, {}, show}, {linkField, {}}});
+        "server gets it. " +
+            (served_.isNotEmpty()
+                 ? juce::String{"The page is here while the mixer runs; a browser warns once of its "
+                                "certificate."}
+                 : "127.0.0.1 is this computer alone; for a phone, and a code that it reads, put an "
+                   "address that it can reach" +
+                       (here.empty() ? juce::String{"."} : ": this computer is " + utf8(here.front()) + ".")),
+        std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
     show(*view_->question(), page);
+}
+
+// Phones give no sound and no sensors to a page without https; its certificate takes a moment.
+void MixerWindow::serve() {
+    view_->setCard(nullptr);
+    server_ = std::make_shared<PageServer>();
+    juce::Thread::launch([server = server_, window = SafePointer{this}] {
+        juce::MessageManager::callAsync([window, address = server->begin()] {
+            if (window == nullptr) return;
+            if (!address) return window->say(utf8(address.error));
+            window->served_ = utf8(address.value);
+            window->share();
+        });
+    });
 }
 
 // Zoom and full screen of the window.

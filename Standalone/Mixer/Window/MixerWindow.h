@@ -8,6 +8,7 @@
 #include "Mixer/Widgets/Parts.h"
 #include "Mixer/Window/MixerFiles.h"
 #include "Mixer/Window/MixerView.h"
+#include "Mixer/Window/PageLink.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include <functional>
 #include <string>
@@ -121,6 +122,7 @@ private:
     void announceSaved(const juce::String& words, const juce::File& file); ///< with a button that shows the
                                                                            ///< file
     void showHintOnce();
+    void serve();
     void chooseFolder();
     juce::File folderOfDocuments() const;
     juce::String documentName() const;
@@ -140,6 +142,8 @@ private:
     static constexpr std::uint64_t neverSaved = UINT64_MAX; // never equals a count of edits
     std::uint64_t savedEdits_ = 0;
     std::unique_ptr<RenderTask> rendering_;
+    std::shared_ptr<PageServer> server_;
+    juce::String served_; // its address; empty: none
 };
 
 } // namespace physvib

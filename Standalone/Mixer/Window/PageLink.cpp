@@ -89,6 +89,28 @@ void openLink(juce::String link) {
     juce::Process::openDocument(link, {});
 }
 
+juce::File PageServer::tree() {
+    auto folder = juce::File::getSpecialLocation(juce::File::currentExecutableFile).getParentDirectory();
+    for (; !folder.isRoot(); folder = folder.getParentDirectory())
+        if (folder.getChildFile("build/web/page/index.html").existsAsFile() &&
+            folder.getChildFile("Standalone/Web/serve.py").existsAsFile())
+            return folder;
+    return {};
+}
+
+Result<std::string> PageServer::begin() {
+    const auto folder = tree();
+    juce::String words;
+    if (program_.start({"python3", folder.getChildFile("Standalone/Web/serve.py").getFullPathName(),
+                        "--with-parent", folder.getChildFile("build/web/page").getFullPathName()}))
+        for (char c = 0; program_.readProcessOutput(&c, 1) == 1 && c != '\n';)
+            words << juce::String::charToString(c);
+    const auto address = words.upToFirstOccurrenceOf(" ", false, false);
+    if (address.startsWith("https://")) return (address + "/").toStdString();
+    return Failure{"The page is not served: " +
+                   (words.isEmpty() ? std::string{"expected python3"} : words.toStdString())};
+}
+
 juce::Image qrPicture(const std::string& link) {
     constexpr int most = 370; // the longest has 177 modules
     QrCode code{link};

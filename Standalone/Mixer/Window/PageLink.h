@@ -3,6 +3,7 @@
 #pragma once
 #include "Io/Result.h"
 #include "Live/Documents/Mix.h"
+#include <juce_events/juce_events.h>
 #include <juce_graphics/juce_graphics.h>
 
 namespace physvib {
@@ -19,5 +20,19 @@ void openLink(juce::String link);
 
 /// A link as a QR code, dark on white in any look, of at most 370 pixels; null if it is too long. Any thread.
 juce::Image qrPicture(const std::string& link);
+
+/// Serves the page by https to this network, by Standalone/Web/serve.py, until it goes.
+class PageServer {
+public:
+    ~PageServer() { program_.kill(); }
+    /// The mixer was built in a tree that has the page, too. Any thread.
+    static bool isThere() { return tree() != juce::File{}; }
+    /// The page's address for others, or one line. May wait for a second: not on the message thread.
+    Result<std::string> begin();
+
+private:
+    static juce::File tree();
+    juce::ChildProcess program_;
+};
 
 } // namespace physvib

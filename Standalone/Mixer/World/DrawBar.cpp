@@ -56,14 +56,19 @@ namespace {
 constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1, groupGap = 8;
 
 /// Hands, shapes, joints, and what takes away.
-int groupOf(int button) { return button < 2 ? 0 : button < 8 ? 1 : button < 13 ? 2 : 3; }
+int groupOf(int button) { return button < 2 ? 0 : button < 9 ? 1 : button < 14 ? 2 : 3; }
 } // namespace
 
 int DrawBar::highFor(int height) {
     return height + between >= buttonCount * (high + between) ? high : lowHigh;
 }
 
-int DrawBar::perColumn(int height) { return std::max(1, (height + between) / (highFor(height) + between)); }
+// As many columns as are needed, of one height.
+int DrawBar::perColumn(int height) {
+    const int most = std::max(1, (height + between) / (highFor(height) + between));
+    const int columns = (buttonCount + most - 1) / most;
+    return (buttonCount + columns - 1) / columns;
+}
 
 int DrawBar::widthFor(int height) {
     const int rows = perColumn(height);
@@ -106,7 +111,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
         slider->setSliderStyle(juce::Slider::LinearHorizontal);
         // read when the text box is created
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
-        slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 112, 20);
+        slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 104, 20);
     }
     describe(density_, "Density", "Density, in kg per square metre; the mass follows from it");
     density_.setRange(1.0, 20'000.0, 1.0);
@@ -230,10 +235,10 @@ void BodyPanel::paint(juce::Graphics& g) {
 }
 
 void BodyPanel::resized() {
-    auto area = getLocalBounds().reduced(10, 6);
+    auto area = getLocalBounds().reduced(6);
     name_.setBounds(area.removeFromTop(24));
     auto row = area.removeFromTop(rowHigh);
-    moves_.setBounds(row.removeFromLeft(80));
+    moves_.setBounds(row.removeFromLeft(76));
     source_.setBounds(row);
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},
@@ -242,7 +247,7 @@ void BodyPanel::resized() {
                                         {&springName_, &spring_}}) {
         if (!slider->isVisible()) continue;
         row = area.removeFromTop(rowHigh);
-        label->setBounds(row.removeFromLeft(66));
+        label->setBounds(row.removeFromLeft(56));
         slider->setBounds(row);
     }
 }

@@ -62,10 +62,10 @@ public:
     int wantedHeight() const {
         return high + (drivenJoint_.empty() ? 0 : 2 * rowHigh) + (springJoint_.empty() ? 0 : rowHigh);
     }
-    static constexpr int wide = 296;
+    static constexpr int wide = 230;
 
 private:
-    static constexpr int high = 124, rowHigh = 28;
+    static constexpr int high = 122, rowHigh = 28;
     void drive(bool continuesEdit);
     void stiffen(bool continuesEdit);
 

@@ -6,6 +6,7 @@
 #include "Pictures/ShapeOutline.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/Drawing/BodyMotion.h"
+#include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <cmath>
 
@@ -183,6 +184,8 @@ void DrawPane::mouseDoubleClick(const juce::MouseEvent&) {
 
 namespace {
 
+constexpr double rollerShare = 0.03; // radius, of the field's height
+
 double between(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 } // namespace
@@ -227,7 +230,51 @@ Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
     return drawnRain({at.x - x, at.y - y}, {at.x + x, at.y + y}, rainCount_);
 }
 
+// Rollers of a conveyor, from the start of the drag to its end; a click gives some of them to the right.
+std::vector<BodyDescription> DrawPane::rollersNow() const {
+    constexpr double usual = 8.0, most = 60.0;
+    const double radius = rollerShare * model_.world().scene().fieldHeightMetres, apart = 2.2 * radius;
+    const Vector from = stroke_.empty() ? to_ : stroke_[0];
+    const double length = between(from, to_);
+    const bool isClick = length < apart;
+    const double x = isClick ? apart : (to_.x - from.x) / length * apart,
+                 y = isClick ? 0.0 : (to_.y - from.y) / length * apart;
+    std::vector<BodyDescription> all;
+    for (int k = 0; k < (isClick ? usual : std::min(most, 1.0 + length / apart)); ++k)
+        if (const Vector at{from.x + k * x, from.y + k * y}; auto ball = drawnBall(at, {at.x + radius, at.y}))
+            all.push_back(std::move(ball.value));
+    return all;
+}
+
+// Each turns by a motor on the field, so that its upper side goes the way of the drag.
+void DrawPane::addConveyor() {
+    constexpr double turn = 0.3 / rollerShare, strength = 20.0; // rad/s; of a lone motor's torque
+    auto rollers = rollersNow();
+    if (rollers.empty() || !prepare(rollers)) return;
+    std::vector<Action> actions;
+    std::vector<std::string> names;
+    const auto field = fieldBody(actions, rollers.front().positionMetres);
+    SceneDrawing trial = drawing();
+    for (const Action& action : actions) trial.take(action);
+    const BodyPlace there{trial.find(field)->positionMetres, trial.find(field)->angleRadians};
+    for (auto& roller : rollers) {
+        const Vector at = roller.positionMetres;
+        names.push_back(roller.name);
+        trial.take(actions.emplace_back(SpawnAction{std::move(roller), {}}));
+        auto made = joined(trial, JointKind::motor, {field, there}, {names.back(), {at, 0.0}}, at, at);
+        if (!made) return model_.report(utf8(made.error));
+        auto& motor = std::get<RevoluteJoint>(std::get<JoinAction>(made.value.back()).joint.joint);
+        motor.motorRadiansPerSecond = !stroke_.empty() && to_.x < stroke_[0].x ? turn : -turn;
+        motor.maxTorqueNewtonMetres =
+            std::min(sceneLimits::maxTorqueNewtonMetres, strength * motor.maxTorqueNewtonMetres);
+        trial.take(actions.emplace_back(std::move(made.value.back())));
+    }
+    edit("Draw a conveyor", std::move(actions));
+    if (drawing().find(names.front()) != nullptr) choose(names);
+}
+
 void DrawPane::addStroke() {
+    if (tool_ == DrawTool::conveyor) return addConveyor();
     if (tool_ == DrawTool::rain) {
         auto bodies = rainNow();
         if (!bodies || rain_.pattern().perSecond == 0) return add(std::move(bodies));
@@ -353,7 +400,10 @@ void DrawPane::join() {
     const auto first = known(from), second = isPoint ? first : known(to_);
     const std::size_t other = isPoint ? 1 : 0;
     if (first.empty() && (second.empty() || tool_ == DrawTool::slider))
-        return model_.report("A joint: expected a body there");
+        return model_.messages().show({"A joint holds a body: begin on one, in a pause if they move",
+                                       false,
+                                       {"Pause", [&model = model_] { model.setSlowness(0); }},
+                                       "joint"});
     std::vector<Action> actions;
     std::string b = first.empty() ? std::string{} : first[0],
                 a = second.size() > other && second[other] != b ? second[other] : std::string{};
@@ -379,6 +429,7 @@ void DrawPane::join() {
         joined(trial, kind, place(a), place(b), isTurnedRound ? to_ : from, isTurnedRound ? from : to_);
     if (!made) return model_.report(utf8(made.error));
     actions.insert(actions.end(), made.value.begin(), made.value.end());
+    model_.messages().withdraw("joint");
     edit(wordsOf(tool_).name, std::move(actions));
 }
 
@@ -650,10 +701,9 @@ void DrawPane::drawStroke(juce::Graphics& g) const {
     if (tool_ == DrawTool::spring)
         return g.strokePath(coilOutline<juce::Path>(from, to, 6.0f, 6), juce::PathStrokeType{2.0f});
     if (tool_ == DrawTool::rope || tool_ == DrawTool::slider) return g.drawLine({from, to}, 2.0f);
-    if (tool_ == DrawTool::rain) {
-        if (const auto bodies = rainNow())
-            for (const auto& body : bodies.value)
-                drawOutline(g, body, {body.positionMetres, 0.0}, accent, true);
+    if (tool_ == DrawTool::rain || tool_ == DrawTool::conveyor) {
+        for (const auto& body : tool_ == DrawTool::rain ? rainNow().value : rollersNow())
+            drawOutline(g, body, {body.positionMetres, 0.0}, accent, true);
         return;
     }
     if (const auto body = drawnNow())

@@ -83,6 +83,8 @@ private:
     std::map<std::string, BodyPlace> movedNow() const;
     Result<BodyDescription> drawnNow() const;
     Result<std::vector<BodyDescription>> rainNow() const;
+    std::vector<BodyDescription> rollersNow() const;
+    void addConveyor();
     void addStroke();
     bool prepare(std::vector<BodyDescription>& bodies);
     void add(Result<std::vector<BodyDescription>> bodies);

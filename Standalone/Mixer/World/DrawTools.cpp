@@ -42,6 +42,11 @@ juce::Path signOf(DrawTool tool) {
                                    {2.0f, 6.0f}})
             p.addEllipse(x - 2.0f, y - 2.0f, 4.5f, 4.5f);
         break;
+    case DrawTool::conveyor:
+        for (const float x : {-6.0f, 0.0f, 6.0f}) p.addEllipse(x - 2.5f, 1.5f, 5.0f, 5.0f);
+        line.addArrow({{-8.0f, -4.0f}, {8.0f, -4.0f}}, 1.8f, 7.0f, 6.0f);
+        p.addPath(line);
+        break;
     case DrawTool::pin:
         p.addEllipse(-4.0f, -4.0f, 8.0f, 8.0f);
         line.addEllipse(-8.0f, -8.0f, 16.0f, 16.0f);

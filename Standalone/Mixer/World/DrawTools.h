@@ -15,6 +15,7 @@ enum class DrawTool {
     line,
     wall,
     rain,
+    conveyor,
     pin,
     rope,
     spring,
@@ -30,7 +31,7 @@ struct DrawToolWords {
 };
 
 /// In the order of the tool bar.
-inline constexpr std::array<DrawToolWords, 14> drawTools{{
+inline constexpr std::array<DrawToolWords, 15> drawTools{{
     {DrawTool::hand, 'h', "Hand", "Drag a body to throw it, with Shift to hold it"},
     {DrawTool::choose, 's', "Select",
      "Click a body, or drag around several; drag to move, handles to size and turn"},
@@ -41,6 +42,7 @@ inline constexpr std::array<DrawToolWords, 14> drawTools{{
     {DrawTool::wall, 'w', "Wall", "Drag from end to end"},
     {DrawTool::rain, 'n', "Rain",
      "Drag over the place from which balls fall; how many, and how, is beside the materials"},
+    {DrawTool::conveyor, 'c', "Conveyor", "Drag the way that it carries: driven rollers in a row"},
     {DrawTool::pin, 'i', "Pin", "Click where two bodies overlap; a single one is pinned to the field"},
     {DrawTool::rope, 'r', "Rope", "Drag from one body to another, or to the field"},
     {DrawTool::spring, 'k', "Spring", "As a rope that swings; its stiffness is beside the selected body"},
@@ -51,7 +53,7 @@ inline constexpr std::array<DrawToolWords, 14> drawTools{{
 
 inline bool isStroke(DrawTool tool) {
     return tool == DrawTool::ball || tool == DrawTool::box || tool == DrawTool::line ||
-           tool == DrawTool::wall || tool == DrawTool::rain;
+           tool == DrawTool::wall || tool == DrawTool::rain || tool == DrawTool::conveyor;
 }
 inline bool isJoint(DrawTool tool) {
     return tool == DrawTool::pin || tool == DrawTool::rope || tool == DrawTool::spring ||

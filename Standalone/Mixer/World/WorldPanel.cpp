@@ -145,8 +145,8 @@ void WorldPanel::showTools() {
     placeInspector();
 }
 
-// At what is selected. It stays where it is until another place covers half as much of that and of the
-// badges.
+// Beside the field if there is room, else at what is selected. It stays where it is until another place
+// covers half as much of that and of the badges.
 void WorldPanel::placeInspector() {
     if (!body_.isVisible()) return;
     constexpr int beside = 8;
@@ -174,11 +174,22 @@ void WorldPanel::placeInspector() {
     body_.setName(name);
     int least = room.contains(now) && !isOther ? (covered(now) + 1) / 2 : std::numeric_limits<int>::max();
     const auto& body = inTheWay.front();
-    for (const juce::Point<int> corner : {juce::Point<int>{body.getRight() + beside, body.getY()},
-                                          {body.getX() - beside - now.getWidth(), body.getY()},
-                                          {body.getX(), body.getBottom() + beside},
-                                          {body.getX(), body.getY() - beside - now.getHeight()},
-                                          room.getTopRight()}) {
+    const auto& scene = model_.world().scene();
+    const auto edgeAt = [this](double metres) {
+        return juce::roundToInt(view_.placeOfMetres({metres, 0.0}).x) + view_.getX();
+    };
+    constexpr int apart = 20; // a badge stands on the edge
+    const int right = edgeAt(scene.fieldWidthMetres) + apart, left = edgeAt(0.0) - apart - now.getWidth();
+    std::vector<juce::Point<int>> corners;
+    if (right + now.getWidth() <= room.getRight()) corners.emplace_back(right, body.getY());
+    if (left >= room.getX()) corners.emplace_back(left, body.getY());
+    if (corners.empty())
+        corners = {{body.getRight() + beside, body.getY()},
+                   {body.getX() - beside - now.getWidth(), body.getY()},
+                   {body.getX(), body.getBottom() + beside},
+                   {body.getX(), body.getY() - beside - now.getHeight()},
+                   room.getTopRight()};
+    for (const auto& corner : corners) {
         const auto place = now.withPosition(corner).constrainedWithin(room);
         if (const int pixels = covered(place); pixels < least) least = pixels, best = place;
     }
