@@ -35,7 +35,7 @@ inline SessionSetup sessionSetup(const LoadedRender& job) {
     setup.equalised = job.equalised();
     setup.shaping = job.shaping();
     setup.recordings = job.feltRecordings();
-    setup.limiterEnabled = job.options.isLimited;
+    setup.limiterEnabled = job.options.limiting == Limiting::on;
     return setup;
 }
 

@@ -165,7 +165,7 @@ struct LoadedRender {
     }
     /// Whether what a session played of recordings is kept: its own method.
     bool keepsRecordings() const { return session && !options.given.contains("--method"); }
-    bool isLimited() const { return session ? session->limiterEnabled : options.isLimited; }
+    bool isLimited() const { return session ? session->limiterEnabled : options.limiting == Limiting::on; }
     std::int64_t frames() const {
         return std::max<std::int64_t>(1, std::llround(seconds() * options.sampleRateHz));
     }

@@ -19,6 +19,13 @@
 
 namespace physvib {
 
+/// What keeps samples within full scale.
+enum class Limiting {
+    on,    ///< one smooth limiter of all outputs
+    off,   ///< nothing
+    blocks ///< each block of each output by itself, as thesis 5.1.3 has it; only of `render`
+};
+
 /// The recorded contact of a material, or of all events of a frequency.
 struct RecordedSound {
     std::string material;     ///< empty: by frequency
@@ -53,7 +60,7 @@ struct RenderJob {
     FieldSize field; ///< unset: the field of the scene or list, or the layout's extent
     PanningLaw law = PanningLaw::automatic;
     double exponent = 1.0;
-    bool isLimited = true;
+    Limiting limiting = Limiting::on;
     ImpactLocation location = ImpactLocation::contact;
     ImpactTiming timing = ImpactTiming::onset;
     RenderingMethod method;       ///< its amplitude needs the layout

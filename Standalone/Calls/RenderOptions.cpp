@@ -25,7 +25,9 @@ void declareSceneOptions(OptionTable& command, RenderJob& o) {
     addField(command, o.field);
     addLaw(command, o.law);
     command.add("--exponent", o.exponent, "exponent of the law").in(0.01, 100.0);
-    command.addSwitch("--limiter", o.isLimited, "on or off");
+    command.addOneOf<Limiting>("--limiter", o.limiting,
+                               {{"on", Limiting::on}, {"off", Limiting::off}, {"blocks", Limiting::blocks}},
+                               "on, off, or each block by itself, as in the thesis (render)");
     command.add("--steps-per-second", o.stepsPerSecond, "physics steps per second")
         .in(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s");
     command.addOneOf<ImpactLocation>(
@@ -109,7 +111,7 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
         .written("FILE.wav");
     command.add("--rate", o.sampleRateHz, "sample rate")
         .in(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz");
-    command.add("--block", o.blockFrames, "frames per block; does not change the result")
+    command.add("--block", o.blockFrames, "frames per block; changes nothing but --limiter blocks")
         .in(1, limits::maxBlockFrames, " frames");
     command.addOneOf<InstructionSet>(
         "--instructions", o.instructions,

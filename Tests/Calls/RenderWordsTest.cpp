@@ -63,7 +63,7 @@ TEST(RenderWords, TextIsReadWhereItStands) {
     EXPECT_EQ(job.value.methodName(), "AF-FV-DRF");
     EXPECT_EQ(job.value.sounds,
               (RecordedSounds{{"", 200.0, "a.wav"}, {"", 90.5, "b=c.wav"}, {"oak", 0.0, "d.wav"}}));
-    EXPECT_FALSE(job.value.isLimited);
+    EXPECT_EQ(job.value.limiting, Limiting::off);
     EXPECT_EQ(job.value.marks(), MarkedOnsets::hits);
     EXPECT_EQ(jobOf("drop").value.marks(), std::nullopt);
     EXPECT_EQ(jobOf("drop --method SV").value.methodName(), "SV");
@@ -98,6 +98,8 @@ TEST(RenderWords, WhatDoesNotFitTogetherIsAFaultOfTheJob) {
     job.isRemapped = true;
     EXPECT_EQ(sceneFault(job), "--remap: expected an --actuator, whose band is to be used");
     job = {};
+    job.limiting = Limiting::blocks;
+    EXPECT_NE(sceneFault(job), "") << "only samples are in blocks";
     job.playsRecordings = true;
     EXPECT_EQ(sceneFault(job), "--method SV: expected a --sound for each material");
 }

@@ -144,7 +144,7 @@ std::vector<Sentence> sentences() {
         {"Confusions: rows are stimuli, columns responses", of(names, 3), of(grid, 3)},
         {"Where labels have no room every second, third ... is shown.", of(names, 3), of(grid, 3)},
         {"Mean percent correct, 1 step of tolerance", of(grid, 3), of(names, 3)},
-        {"Every response (dots, coloured by target)", of(field, 3), of(grid, 3)},
+        {"Every response (coloured by target, shaped by its row)", of(field, 3), of(grid, 3)},
         {"Mean perceived column and row against the intended one", of(field, 3), of(grid, 3)},
         {"The likeliest target of every place", of(field, 3), of(grid, 3)},
         {"Numbers, row,column of the target, stand at the mean", of(field, 3), of(grid, 3)},

@@ -123,6 +123,14 @@ TEST(Protocol, NamesFilesInItsFolderOnly) {
               "conditions[0].stimuli: expected at most 100000 trials in session main");
 }
 
+TEST(Protocol, OnlyRatingsHaveScores) {
+    SessionPlan session;
+    session.objects = {"oak", "pine"};
+    EXPECT_TRUE(session.scores().empty()) << "identify";
+    session.task = StudyTask::rate;
+    EXPECT_EQ(session.scores(), session.objects);
+}
+
 TEST(Protocol, StimuliAreCountedAsTheyAreMade) {
     const auto check = [](StimulusSet set, std::size_t count, const char* first) {
         const ConditionPlan condition{"A", "", "phone4", 205.0, 1.0, std::move(set)};

@@ -44,6 +44,8 @@ TEST(Votes, ThirteenForAndSevenAgainstIsNoDecision) {
     EXPECT_EQ(all.trials, 2000u);
     EXPECT_LT(all.shares[0].least, 0.5);
     EXPECT_GT(all.shares[0].most, 0.5);
+    EXPECT_NEAR(all.shares[0].ofMedian.least, 0.16, 1e-12) << "the sixth of twenty";
+    EXPECT_NEAR(all.shares[0].ofMedian.most, 0.67, 1e-12);
     trials.resize(100);
     const auto one = summariseChoices(trials).front();
     EXPECT_NEAR(one.shares[0].least, proportion(one.shares[0].hits, 100).least, 1e-12);

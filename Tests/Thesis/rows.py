@@ -39,7 +39,7 @@ def isolation(folder: Path) -> None:
 def parts() -> list:
     figures = [f"Fig. {chapter}.{n}" for chapter, most in ((3, 12), (4, 9), (5, 14), (6, 1)) for n in range(1, most + 1)]
     equations = [f"Eq. {chapter}.{n}" for chapter, most in ((3, 2), (4, 5), (5, 7), (6, 2)) for n in range(1, most + 1)]
-    sections = "3.1 3.1.1 3.1.2 3.2.1 3.2.2 3.2.3 4.1 4.1.2 4.2 4.2.2 5.1.1 5.1.2 5.1.3 5.1.4 5.1.6 5.2 5.2.1 5.2.2 5.3 5.3.2 6.1 6.2.1 6.3".split()
+    sections = "2.2.5 3.1 3.1.1 3.1.2 3.2.1 3.2.2 3.2.3 4.1 4.1.2 4.2 4.2.2 5.1.1 5.1.2 5.1.3 5.1.4 5.1.6 5.2 5.2.1 5.2.2 5.3 5.3.2 6.1 6.2.1 6.3".split()
     return figures + equations + ["Table 4.1", "Table 5.1"] + sections
 
 
@@ -55,10 +55,10 @@ def run(call: str, folder: Path) -> None:
 def scenes(folder: Path, gains: str) -> None:
     """Each hit of twelve scenes has the amplitude of Eq. 5.4 and 5.7 with one m_h, times the drive_gain that the row tells (1 is what is left), and the length of Eq. 5.5."""
     pairs = [f"{scene} --set pair={pair}" for scene in ("drop", "box-study") for pair in ("rubber-concrete", "wood-wood", "steel-steel")]
-    for call in ["shake-the-box", "fruit-basket", "driving", "marbles", "drawing", "drop --set height=3", *pairs]:
+    for call in ["shake-the-box", "fruit-basket", "driving", "marbles", "drawing", "drop --set height=3", *pairs, "drop --set screen=2.9 --set drive_gain=1", "box-study --set walls=0.02 --set drive_gain=1"]:
         run(f"physvib render {call} --timing release --gamma 0.1 --seconds 6 --out scene.wav --events scene.csv", folder)
         scene = call.split()[0]
-        gain = re.search(rf"{scene} ([\d.]+)", gains)
+        gain = re.search(r"drive_gain=(1)" if "drive_gain" in call else rf"{scene} ([\d.]+)", call + gains)
         lines = (folder / "scene.csv").read_text().splitlines()
         width = float(re.search(r"field_m=([\d.]+),", lines[0])[1])
         hits = [hit for hit in csv.DictReader(lines[1:]) if hit.get("contact", "hit") in ("", "hit")]
@@ -68,6 +68,44 @@ def scenes(folder: Path, gains: str) -> None:
             bad.append(f"{call}: expected a drive_gain as the row tells and one m_h, found m_h of {min(masses)} to {max(masses)} kg")
         if any(abs(float(hit["duration_s"]) - math.log(10) / float(hit["decay_per_s"])) > 2e-9 for hit in hits):
             bad.append(f"{call}: expected lengths by Eq. 5.5")
+
+
+def samples(path: Path) -> list:
+    """Of each channel, of a 32-bit float WAV."""
+    data = path.read_bytes()
+    channels = struct.unpack_from("<H", data, data.index(b"fmt ") + 10)[0]
+    found = struct.unpack_from(f"<{struct.unpack_from('<I', data, data.index(b'data') + 4)[0] // 4}f", data, data.index(b"data") + 8)
+    return [found[j::channels] for j in range(channels)]
+
+
+def what_they_print(folder: Path) -> None:
+    """What some of the calls are told to have."""
+    onsets = [next(n for n, x in enumerate(channel) if x) for channel in samples(folder / "gap.wav")]
+    if onsets not in ([1, 240], [1, 241]):
+        bad.append(f"gap.wav: expected outputs 5 ms apart, found them begin at {onsets}")
+    run("physvib render box-study --method AF-FF-DRV --fixed-level each --limiter off --rate 5000 --seconds 4 --out free.wav", folder)
+    for asked, got in zip(samples(folder / "free.wav"), samples(folder / "limited.wav")):
+        def differs(first: int) -> float:  # blocks begin somewhere, as the limiter's look-ahead is cut off
+            blocks = [range(max(0, n), min(n + 50, len(asked))) for n in range(first - 50, len(asked), 50)]
+            peaks = [max([1.0, *(abs(asked[n]) for n in block)]) for block in blocks]
+            return max(abs(asked[n] / peak - got[n]) for block, peak in zip(blocks, peaks) for n in block)
+
+        if min(map(differs, range(1, 51))) > 1e-6:
+            bad.append("limited.wav: expected each 10 ms of each output divided by its own peak, where that is above 1")
+    run("physvib render box-study --set pair=wood-wood --limiter off --seconds 4 --out mode.wav --events mode.csv", folder)
+    line, (first, second) = samples(folder / "linear.wav")[0], [float(row["time_s"]) for row in csv.DictReader((folder / "mode.csv").read_text().splitlines()[1:])][:2]
+    mode, length, begin = samples(folder / "mode.wav")[0], math.log(10) / 106.99, math.ceil(first * 48000)
+    if not 0.9 < max(map(abs, line)) / max(map(abs, mode)) < 1.2 or any(line[begin + round(length * 48000) + 2 : math.floor(second * 48000)]):
+        bad.append("linear.wav: expected hits as high as the mode's, of 21.5 ms")
+    tests = list(csv.DictReader((folder / "report-places/tests.csv").read_text().splitlines()[1:])) if shutil.which("Rscript") else []
+    single = [(row["df1"], row["df2"]) for row in tests if "single trials" in row["test"]]
+    if tests and single != [("6", "2750"), ("4", "2750"), ("24", "2750")] * 8:
+        bad.append(f"report-places/tests.csv: expected the degrees of freedom of Table 4.1, found {single}")
+    if "(as thesis Fig. 5.8), 95 % intervals by ranks" not in (folder / "report-choices/index.html").read_text():
+        bad.append("report-choices: expected medians, as Fig. 5.8 has them")
+    hits = [row for row in csv.DictReader((folder / "amplitudes.csv").read_text().splitlines()[1:])]
+    if not hits or float(hits[0]["amplitude"]) > 0.1:
+        bad.append("amplitudes.csv: expected rubber's fall of 3 m, by Eq. 5.7 alone")
 
 
 physvib = Path(sys.argv[1]).resolve()
@@ -85,6 +123,7 @@ with tempfile.TemporaryDirectory() as name:
         if not row["run"].startswith("Rscript") or shutil.which("Rscript"):
             run(row["run"], folder)
     scenes(folder, next(row["differs"] for row in rows if row["at"].startswith("Eq. 5.4")))
+    what_they_print(folder)
     told = ", ".join(row["at"] for row in rows)
     bad += [f"expected a row of {part}" for part in parts() if not re.search(rf"(?:^|, ){re.escape(part)}(?:[, ]|$)", told)]
     if keep := os.environ.get("PHYSVIB_KEEP"):  # to look at what was drawn

@@ -87,15 +87,16 @@ std::string mergedChart(ChartFrame frame, const ConditionResolution& one) {
 
 std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
                         const std::vector<std::string>& groups,
-                        const std::vector<const ChoiceSummary*>& summaries) {
+                        const std::vector<const ChoiceSummary*>& summaries, bool ofMedians) {
     BarChart chart{std::move(frame), groupsWords, "chosen (%)", groups, {}};
     for (const ChoiceShare& share : summaries.front()->shares)
         chart.series.push_back({share.alternative, {}});
     for (std::size_t i = 0; i < summaries.size(); ++i)
         for (std::size_t s = 0; s < chart.series.size(); ++s) {
             const ChoiceShare& share = summaries[i]->shares[s];
-            chart.series[s].bars.push_back(
-                ChartValue{100.0 * share.share, 100.0 * share.least, 100.0 * share.most});
+            const RankInterval by = ofMedians ? share.ofMedian : RankInterval{share.least, share.most};
+            chart.series[s].bars.push_back(ChartValue{100.0 * (ofMedians ? share.median : share.share),
+                                                      100.0 * by.least, 100.0 * by.most});
         }
     chart.most = 100.0;
     chart.reference = {100.0 / static_cast<double>(chart.series.size()), "chance"};

@@ -265,8 +265,8 @@ void changeCalls(Protocol& protocol, std::string_view words, std::string_view ot
     });
 }
 
-void edit(Protocol& protocol, ThesisEdit how) {
-    switch (how) {
+void edit(Protocol& protocol, const ThesisDeviation& one) {
+    switch (one.edit) {
     case ThesisEdit::none: break;
     case ThesisEdit::noBreakBefore:
         for (SessionPlan& session : protocol.sessions) session.breakBeforeSeconds = 0.0;
@@ -274,9 +274,10 @@ void edit(Protocol& protocol, ThesisEdit how) {
     case ThesisEdit::noGroups:
         for (ConditionPlan& condition : protocol.conditions) condition.group.clear();
         break;
-    case ThesisEdit::releaseTiming: addToCalls(protocol, "--timing release"); break;
-    case ThesisEdit::cutDecays: addToCalls(protocol, "--gamma 0.1"); break;
-    case ThesisEdit::fixEach: addToCalls(protocol, "--fixed-level each"); break;
+    case ThesisEdit::addToCalls:
+        addToCalls(protocol,
+                   one.change.substr(addsFrom.size(), one.change.size() - addsFrom.size() - addsTo.size()));
+        break;
     case ThesisEdit::matchPeaks: changeCalls(protocol, "--sound-match rms", "--sound-match peak"); break;
     }
 }
@@ -286,7 +287,7 @@ std::vector<Protocol> makeVersions() {
     for (Protocol protocol : builtInProtocols()) {
         const Protocol builtIn = protocol;
         for (const ThesisDeviation& one : thesisDeviations)
-            if (one.protocol == builtIn.name) edit(protocol, one.edit);
+            if (one.protocol == builtIn.name) edit(protocol, one);
         if (protocol == builtIn) continue;
         protocol.name.append(thesisSuffix);
         protocol.title += ", as published";

@@ -60,9 +60,6 @@ Result<Protocol> findProtocol(const std::string& nameOrPath);
 // Versions NAME-thesis of the built-in protocols, with all applicable changes of ThesisDeviations.h, so that
 // they run as published.
 
-/// Suffix of the names of these versions.
-inline constexpr std::string_view thesisSuffix = "-thesis";
-
 /// One version per built-in protocol with an applicable change, in listing order. Created on first use; any
 /// thread.
 const std::vector<Protocol>& thesisVersions();

@@ -139,7 +139,7 @@ public:
             record.answer.left = rows_.wholeNumber(row, *left, 0, 1) == 1;
             record.answer.again = rows_.wholeNumber(row, rows_.required(columns::again), 0, 1'000'000);
         }
-        for (const auto& scale : session.answer() == AnswerKind::scores ? session.scores() : session.scales)
+        for (const auto& scale : session.scores())
             record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
         return record;
     }

@@ -34,10 +34,14 @@ public:
         return people() > 1 ? ", 95 % intervals over participants" : ", of one participant without intervals";
     }
 
+    /// Of a version NAME-thesis.
+    bool isAsPublished() const { return trials.protocol && trials.protocol->name.ends_with(thesisSuffix); }
+
     /// " (as thesis Fig. 4.4)" in the report of one of the thesis' own studies, else empty.
     std::string asThesis(std::string_view figure) const {
-        const auto isOwn = [&](const ThesisDeviation& one) { return one.protocol == trials.protocol->name; };
-        return trials.protocol && std::ranges::any_of(thesisDeviations, isOwn)
+        std::string_view name = trials.protocol ? trials.protocol->name : std::string_view{};
+        if (isAsPublished()) name.remove_suffix(thesisSuffix.size());
+        return std::ranges::find(thesisDeviations, name, &ThesisDeviation::protocol) != thesisDeviations.end()
                    ? " (as thesis " + std::string{figure} + ")"
                    : std::string{};
     }

@@ -259,10 +259,11 @@ void tellPlaces(ReportBuilder& report) {
         if (!one.resolution.resolution.ties.empty())
             grids.push_back(mergedChart(report.frame(one.condition), one.resolution));
     }
-    report.page.figure(responses,
-                       "Every response (dots, coloured by target) and the normal distribution of each "
-                       "target's responses (ellipses of one standard deviation)" +
-                           report.asThesis("Fig. 4.6") + ".");
+    report.page.figure(
+        responses,
+        "Every response (coloured by target, shaped by its row) and the normal distribution of each "
+        "target's responses (ellipses of one standard deviation)" +
+            report.asThesis("Fig. 4.6") + ".");
     const auto& all = report.trials.all;
     report.page.figure(
         {perceivedChart(report, all, places, false), perceivedChart(report, all, places, true)},

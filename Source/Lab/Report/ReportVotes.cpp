@@ -17,8 +17,12 @@ namespace {
 
 constexpr std::size_t mostShown = 24; // bars side by side
 
+/// As published; fewer people have no interval of 95 % by ranks.
+bool showsMedians(const ReportBuilder& report) { return report.isAsPublished() && report.people() >= 6; }
+
 /// Shares of one participant have Wilson's interval over trials.
 std::string shareIntervals(const ReportBuilder& report) {
+    if (showsMedians(report)) return ", 95 % intervals by ranks of participants";
     return report.people() > 1 ? report.intervals() : ", of one participant: 95 % intervals over trials";
 }
 
@@ -37,9 +41,10 @@ void tellTwoFactors(ReportBuilder& report, std::vector<ChoiceTrial> trials) {
     std::vector<const ChoiceSummary*> chosen;
     for (const ChoiceSummary& each : summaries)
         if (both.contains(each.condition)) chosen.push_back(&each);
-    report.page.figure(
-        {sharesChart(report.frame("Shares by two factors"), "condition", {both.begin(), both.end()}, chosen)},
-        "Shares by two factors" + report.asThesis("Fig. 5.9") + shareIntervals(report) + ".");
+    report.page.figure({sharesChart(report.frame("Shares by two factors"), "condition",
+                                    {both.begin(), both.end()}, chosen, showsMedians(report))},
+                       (showsMedians(report) ? std::string{"Median shares"} : "Shares") + " by two factors" +
+                           report.asThesis("Fig. 5.9") + shareIntervals(report) + ".");
 }
 
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.
@@ -95,9 +100,12 @@ void tellChoices(ReportBuilder& report) {
             groups.push_back(summary.condition);
             chosen.push_back(&summary);
         }
-    report.page.figure({sharesChart(report.frame("Shares of the alternatives"), "condition", groups, chosen)},
-                       "Mean of the participants' shares" + report.asThesis("Fig. 5.8, which has medians") +
-                           shareIntervals(report) + ".");
+    report.page.figure(
+        {sharesChart(report.frame("Shares of the alternatives"), "condition", groups, chosen,
+                     showsMedians(report))},
+        (showsMedians(report) ? "Median" : "Mean") + std::string{" of the participants' shares"} +
+            report.asThesis(showsMedians(report) ? "Fig. 5.8" : "Fig. 5.8, which has medians") +
+            shareIntervals(report) + ".");
     if (hasFactors) tellTwoFactors(report, trials);
 }
 

@@ -156,9 +156,8 @@ void addBids(StudyReport& report, const ReportTrials& trials) {
     if (words.task.empty()) words.task = trials.files.front().name;
     if (trials.protocol)
         for (const SessionPlan& session : trials.protocol->sessions)
-            if (session.answer() == AnswerKind::scores)
-                for (const std::string& scale : session.scores())
-                    words.columns[scale] = scoreWords(session, scale);
+            for (const std::string& scale : session.scores())
+                words.columns[scale] = scoreWords(session, scale);
     for (const char* key : {"hash", "seed", "version"})
         if (const std::string value = trials.common(key); !value.empty()) words.source[key] = value;
     for (auto& [name, text] : bidsDataset(trials.all, words)) report.files["bids/" + name] = std::move(text);

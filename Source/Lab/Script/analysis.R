@@ -343,6 +343,13 @@ in.pairs <- function(own, scale, words) for (one in split(own, if ("condition" %
     places <<- rbind(places, data.frame(scale, condition, stimulus = all, x = map$points[, 1], y = map$points[, 2], stress))
   })
 }
+# As Table 4.1 of the thesis has it, of its own study alone: every trial is a unit, and people are a block. Answers of one person are no independent
+# units, so its p are too small.
+single.trials <- function(test, own, measure) { cat(test, "\n", sep = ""); attempt(test, "all", {
+  rows <- rows.of(own, measure, c("target_column", "target_row"))
+  a <- anova(lm(y ~ id + w1 * w2, rows)); left <- nrow(a)
+  for (i in 2:(left - 1)) result(test, c("", "target_column", "target_row", "target_column:target_row")[i], "F", a$F[i], a$`Pr(>F)`[i], nrow(rows), a$Df[i], a$Df[left])
+}) }
 # All tests of a report's folder. `scales`: the columns of ratings; `points`: those of them whose scores are ranks.
 study <- function(study, scales = character(), points = character()) {
   d <- table.of("trials.csv")
@@ -365,7 +372,10 @@ study <- function(study, scales = character(), points = character()) {
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words)
     for (one in split(own, if ("condition" %in% names(own)) factor(own$condition, unique(own$condition)) else rep("", nrow(own)))) {
       place <- if (length(unique(own$condition)) > 1) paste(words, "of", one$condition[1]) else words
-      for (m in c("x", "y")) compare(paste0(m, place), one, m, columns = c("group", "target_row", "target_column"))
+      for (m in c("x", "y")) {
+        compare(paste0(m, place), one, m, columns = c("group", "target_row", "target_column"))
+        if (grepl("protocol phantom-places-thesis", study, fixed = TRUE)) single.trials(paste0(m, place, ", single trials as in Table 4.1"), one, m)
+      }
     })
   from("places.csv", c("distance", "variable"))
   each("choose", if ("choice" %in% names(d)) "choice" else "response", function(own, words) {

@@ -384,7 +384,7 @@ std::string picturePath(const MaterialPictureFile& picture, const std::string& p
 std::vector<std::string> scalesOf(const Protocol& protocol) {
     std::vector<std::string> scales;
     for (const auto& session : protocol.sessions)
-        for (const auto& scale : session.answer() == AnswerKind::scores ? session.scores() : session.scales)
+        for (const auto& scale : session.scores())
             if (std::ranges::find(scales, scale) == scales.end()) scales.push_back(scale);
     return scales;
 }

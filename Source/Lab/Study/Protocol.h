@@ -194,8 +194,11 @@ struct SessionPlan {
     bool operator==(const SessionPlan&) const = default;
 
     AnswerKind answer() const noexcept { return describe(task).answer; }
-    /// Names of the scores of `rate`.
-    const std::vector<std::string>& scores() const noexcept { return scales.empty() ? objects : scales; }
+    /// Names of the scores of `rate`; of other tasks, which may have objects, none.
+    const std::vector<std::string>& scores() const noexcept {
+        static const std::vector<std::string> none;
+        return answer() != AnswerKind::scores ? none : scales.empty() ? objects : scales;
+    }
     bool ratesSideBySide() const noexcept { return scales.empty() && !objects.empty(); }
     /// The alternative whose level a staircase or QUEST+ controls; null if there is none.
     const std::string* adaptedAlternative() const noexcept {

@@ -57,6 +57,16 @@ double normalQuantile(double probability) {
 
 // Forced choices and ratings.
 
+RankInterval rankInterval(std::vector<double> values) {
+    if (values.empty()) return {};
+    std::ranges::sort(values);
+    const auto n = static_cast<double>(values.size());
+    double rank = 0.0, term = std::exp2(-n); // P(rank of n values lie below the median)
+    for (double below = term; below <= 0.025; below += term) term *= (n - rank) / (rank + 1.0), ++rank;
+    const auto left = static_cast<std::size_t>(std::max(0.0, rank - 1.0));
+    return {values[left], values[values.size() - 1 - left]};
+}
+
 namespace {
 
 /// The factors in a condition's name: "size=small" of "pair=wood size=small".
@@ -78,7 +88,8 @@ ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uin
                     const std::vector<double>& shares) {
     const Moments moments{shares};
     const Proportion pooled = proportion(hits, trials);
-    ChoiceShare share{alternative, hits, moments.mean, pooled.least, pooled.most, median(shares)};
+    ChoiceShare share{alternative, hits,           moments.mean,        pooled.least,
+                      pooled.most, median(shares), rankInterval(shares)};
     if (shares.size() < 2) return share;
     share.least = std::max(0.0, moments.mean - moments.halfInterval());
     share.most = std::min(1.0, moments.mean + moments.halfInterval());

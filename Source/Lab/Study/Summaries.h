@@ -28,6 +28,14 @@ inline double median(std::vector<double> values) {
     return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
+struct RankInterval {
+    double least = 0.0, most = 0.0;
+};
+
+/// 95 % interval of a median by ranks, as the sign test has it; of fewer than six values all that they span.
+/// Any thread (allocates).
+RankInterval rankInterval(std::vector<double> values);
+
 struct Moments {
     std::size_t n = 0;
     double mean = 0.0;
@@ -100,6 +108,7 @@ struct ChoiceShare {
     double least = 0.0, most = 1.0; ///< 95 %: t interval over participants, within 0 and 1; for one or
                                     ///< unknown participants Wilson's over trials
     double median = 0.0;            ///< of the participants' shares
+    RankInterval ofMedian{};        ///< its rankInterval()
 };
 
 struct ChoiceSummary {

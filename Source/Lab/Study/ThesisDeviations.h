@@ -13,9 +13,7 @@ enum class ThesisEdit {
     none,          ///< no automatic change exists
     noBreakBefore, ///< removes breaks before sessions
     noGroups,      ///< removes condition groups
-    releaseTiming, ///< adds --timing release to calls
-    cutDecays,     ///< adds --gamma 0.1 to calls
-    fixEach,       ///< adds --fixed-level each to calls
+    addToCalls,    ///< adds the words of `change` between addsFrom and addsTo
     matchPeaks     ///< recordings by their peak, in place of their strength
 };
 
@@ -32,6 +30,12 @@ struct ThesisDeviation {
     ThesisEdit edit = ThesisEdit::none;
     ThesisPart part = ThesisPart::none;
 };
+
+/// Suffix of the names of versions as published (Files/ProtocolFile.h).
+inline constexpr std::string_view thesisSuffix = "-thesis";
+
+/// Around the words that ThesisEdit::addToCalls adds.
+inline constexpr std::string_view addsFrom = "add ", addsTo = " to the call";
 
 inline constexpr std::array thesisDeviations{
     ThesisDeviation{"patterns", "3.2.1", "2 minutes of rest after each main session",
@@ -59,9 +63,9 @@ inline constexpr std::array thesisDeviations{
                     "levels_file of three experts in place of levels_from and the session matching"},
     ThesisDeviation{"model-or-sound", "5.2.1", "impulses are taken when a contact is released (Eq. 5.2)",
                     "impacts are rendered when a contact begins, with the solver's impulse",
-                    "add --timing release to the call", ThesisEdit::releaseTiming},
+                    "add --timing release to the call", ThesisEdit::addToCalls},
     ThesisDeviation{"model-or-sound", "5.2.1", "a decay ends where it has fallen to a tenth (Eq. 5.5)",
-                    "a decay rings out", "add --gamma 0.1 to the call", ThesisEdit::cutDecays},
+                    "a decay rings out", "add --gamma 0.1 to the call", ThesisEdit::addToCalls},
     ThesisDeviation{"model-or-sound", "5.2.1", "three downloaded contact sounds, one per pair",
                     "synthetic contacts; give your own by --sound or sounds", "sounds of your own"},
     ThesisDeviation{"model-or-sound", "5.2.1", "the normalised recording times A_i",
@@ -72,22 +76,24 @@ inline constexpr std::array thesisDeviations{
         "the recorded contact at -8 dB and the model at -2 dB or less of their calls' own levels, "
         "which differ by fall, so that no stimulus needs the limiter",
         "a layout of your actuator, and its levels", ThesisEdit::none, ThesisPart::amplitude},
-    ThesisDeviation{"model-or-sound", "5.2.1", "amplitudes by Eq. 5.4 and 5.7",
-                    "4.1 times as strong, by drive_gain of the scene drop, with A* of its field of 8 m",
-                    "a copy of the scene with drive_gain 1", ThesisEdit::none, ThesisPart::amplitude},
+    ThesisDeviation{"model-or-sound", "5.2.1",
+                    "amplitudes by Eq. 5.4 and 5.7, of a screen as wide as the plate (58 mm, 2.9 m)",
+                    "1.5 times as strong, by a field of 8 m and a drive_gain of 4.1",
+                    "add --set screen=2.9 --set drive_gain=1 to the call", ThesisEdit::addToCalls,
+                    ThesisPart::amplitude},
     ThesisDeviation{"eight-methods", "5.3.1", "impulses are taken when a contact is released (Eq. 5.2)",
                     "impacts are rendered when a contact begins, with the solver's impulse",
-                    "add --timing release to the call", ThesisEdit::releaseTiming},
+                    "add --timing release to the call", ThesisEdit::addToCalls},
     ThesisDeviation{"eight-methods", "5.3.1", "a decay ends where it has fallen to a tenth (Eq. 5.5)",
-                    "a decay rings out", "add --gamma 0.1 to the call", ThesisEdit::cutDecays},
+                    "a decay rings out", "add --gamma 0.1 to the call", ThesisEdit::addToCalls},
     ThesisDeviation{
         "eight-methods", "5.3.1",
         "A=F: each collision has 1.5 g; what sounds together is added, and normalised beyond full scale",
         "1.5 g is the peak of all that sound together: a hit is weaker while others sound, down to 0",
-        "add --fixed-level each to the call", ThesisEdit::fixEach},
+        "add --fixed-level each to the call", ThesisEdit::addToCalls},
     ThesisDeviation{"eight-methods", "5.3.1", "amplitudes by Eq. 5.4 and 5.7",
                     "1.6 times as strong, by drive_gain of the scene box-study",
-                    "a copy of the scene with drive_gain 1", ThesisEdit::none, ThesisPart::amplitude},
+                    "add --set drive_gain=1 to the call", ThesisEdit::addToCalls, ThesisPart::amplitude},
     ThesisDeviation{
         "eight-methods", "5.3.1", "what is added is normalised block by block (5.1.3)",
         "one smooth limiter: hits of AF with --fixed-level each ask for up to 8.5 g together, of the "
@@ -99,7 +105,8 @@ inline constexpr std::array thesisDeviations{
         "else the guard would turn 166 and 129 of 170 hits down, by 6.5 and 3.7 dB (median)",
         "", ThesisEdit::none, ThesisPart::guard},
     ThesisDeviation{"eight-methods", "5.3.1", "walls of 0.02 m",
-                    "walls of 0.3 m outside the same field, through which nothing is pressed", ""},
+                    "walls of 0.3 m outside the same field, through which nothing is pressed",
+                    "--set walls=0.02 in the call"},
     ThesisDeviation{"eight-methods", "5.3.1", "no rest is mentioned between training and main session",
                     "2 minutes before the main session", "remove break_before_s", ThesisEdit::noBreakBefore},
     ThesisDeviation{"eight-methods", "5.3.1", "drags by touch, tilts by the phone's sensor",

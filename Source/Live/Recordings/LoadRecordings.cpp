@@ -117,6 +117,20 @@ std::vector<float> syntheticContact(double frequencyHz, double decayPerSecond, s
     return samples;
 }
 
+constexpr std::uint32_t linearSeed = 0; // synthetic-0 is a linearTone()
+
+/// A tone at the material's frequency, whose envelope falls in a straight line for as long as its decay takes
+/// to a tenth (Eq. 5.5): what thesis 5.3.2 suggests as cheaper than an exponential. Any thread.
+std::vector<float> linearTone(double frequencyHz, double decayPerSecond, int sampleRateHz) {
+    const double length = sampleRateHz * std::numbers::ln10 / decayPerSecond;
+    std::vector<float> samples(static_cast<std::size_t>(std::min(length, 1.0 * sampleRateHz)));
+    for (std::size_t n = 0; n < samples.size(); ++n)
+        samples[n] = static_cast<float>(
+            (1.0 - static_cast<double>(n) / length) *
+            std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(n) / sampleRateHz));
+    return samples;
+}
+
 constexpr int syntheticRateHz = 48000;
 constexpr double assumedDecayPerSecond = 40.0; // of synthetic contacts of an unknown material
 
@@ -126,7 +140,10 @@ Result<ContactRecording> readContact(const RecordingFile& file) {
     if (const auto seed = syntheticSeed(path)) {
         const double decay = file.decayPerSecond > 0.0 ? file.decayPerSecond : assumedDecayPerSecond;
         return ContactRecording{file.frequencyHz, syntheticRateHz,
-                                syntheticContact(file.frequencyHz, decay, *seed, syntheticRateHz), file};
+                                *seed == linearSeed
+                                    ? linearTone(file.frequencyHz, decay, syntheticRateHz)
+                                    : syntheticContact(file.frequencyHz, decay, *seed, syntheticRateHz),
+                                file};
     }
     const auto read = readRecording(path);
     if (!read) return Failure{read.error};
@@ -191,7 +208,7 @@ Result<ContactRecording> loadContact(const RecordingFile& file) {
     if (!contact) return contact;
     if (auto fault = takeHash(contact.value.file); !fault.empty()) return Failure{fault};
     auto& [frequencyHz, rateHz, samples, source, note] = contact.value;
-    normalise(samples);
+    if (syntheticSeed(file.path) != linearSeed) normalise(samples); // that begins at 1, as a mode does
     if (!file.isMatched || !(file.decayPerSecond > 0.0)) return contact;
     const auto gain = static_cast<float>(
         std::sqrt(energyOfMode(frequencyHz, file.decayPerSecond, rateHz) / energyOf(samples, rateHz)));

@@ -131,6 +131,12 @@ void RenderOutputs::begin() {
 }
 
 bool RenderOutputs::take(const float* const* channels, int frames) {
+    if (job_.options.limiting == Limiting::blocks)
+        channels = normalised_.scaled(channels, job_.channels(), frames, [&](std::size_t j) {
+            const auto size = [](float a, float b) { return std::abs(a) < std::abs(b); };
+            return 1.0f /
+                   std::max(1.0f, std::abs(*std::max_element(channels[j], channels[j] + frames, size)));
+        });
     framesTaken_ += frames;
     whole_.add(channels, frames);
     zoom_->add(channels, frames);
@@ -141,15 +147,10 @@ bool RenderOutputs::take(const float* const* channels, int frames) {
 
 bool RenderOutputs::writeWav(const float* const* channels, int frames) {
     if (!(job_.options.interfaceVolts > 0.0)) return wav_->write(channels, frames);
-    std::vector<const float*> at;
-    scaled_.resize(static_cast<std::size_t>(job_.channels()));
-    for (std::size_t j = 0; j < scaled_.size(); ++j) {
-        const auto scale = static_cast<float>(job_.actuators.voltageScale[j]);
-        scaled_[j].assign(channels[j], channels[j] + frames);
-        for (float& sample : scaled_[j]) sample *= scale;
-        at.push_back(scaled_[j].data());
-    }
-    return wav_->write(at.data(), frames);
+    return wav_->write(
+        inVolts_.scaled(channels, job_.channels(), frames,
+                        [&](std::size_t j) { return static_cast<float>(job_.actuators.voltageScale[j]); }),
+        frames);
 }
 
 bool RenderOutputs::takeContactSound(const float* const* channels, int frames) {
@@ -183,6 +184,7 @@ Provenance RenderOutputs::provenance() const {
     if (!job_.method().fixesNothing() || o.playsRecordings) p.entries.emplace_back("method", o.methodName());
     if (job_.method().fixesAmplitude && !job_.method().holdsLevel)
         p.entries.emplace_back("fixed-level", "each");
+    if (o.limiting == Limiting::blocks) p.entries.emplace_back("limiter", "blocks");
     if (o.levelDb != 0.0) p.entries.emplace_back("level_db", numberText(o.levelDb));
     if (o.isWeighted) p.entries.emplace_back("perceived_level", "on");
     for (const RecordedSound& sound : o.sounds)

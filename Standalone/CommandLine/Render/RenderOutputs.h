@@ -56,6 +56,28 @@ private:
     std::vector<std::string> rows_;
 };
 
+/// A block of samples, each channel times a scale of its own. M only.
+class ScaledBlock {
+public:
+    /// Valid until the next call.
+    template <class ScaleOf>
+    const float* const* scaled(const float* const* channels, int count, int frames, ScaleOf scaleOf) {
+        samples_.resize(static_cast<std::size_t>(count));
+        at_.clear();
+        for (std::size_t j = 0; j < samples_.size(); ++j) {
+            const float scale = scaleOf(j);
+            samples_[j].assign(channels[j], channels[j] + frames);
+            for (float& sample : samples_[j]) sample *= scale;
+            at_.push_back(samples_[j].data());
+        }
+        return at_.data();
+    }
+
+private:
+    std::vector<std::vector<float>> samples_;
+    std::vector<const float*> at_;
+};
+
 /// Errors are one line each; after one, nothing is left behind. M only.
 class RenderOutputs {
 public:
@@ -108,7 +130,7 @@ private:
     PadProfile pad_;
     std::vector<PadCommand> motors_;
     std::unique_ptr<WavSink> wav_, contactWav_, markerWav_;
-    std::vector<std::vector<float>> scaled_; // for the interface's voltage
+    ScaledBlock normalised_, inVolts_; // by --limiter blocks; for the interface
     std::string markWords_;
     OnOffPattern pattern_;
     WaveformEnvelope whole_;
