@@ -183,12 +183,13 @@ void WorldPanel::placeInspector() {
     std::vector<juce::Point<int>> corners;
     if (right + now.getWidth() <= room.getRight()) corners.emplace_back(right, body.getY());
     if (left >= room.getX()) corners.emplace_back(left, body.getY());
-    if (corners.empty())
-        corners = {{body.getRight() + beside, body.getY()},
-                   {body.getX() - beside - now.getWidth(), body.getY()},
-                   {body.getX(), body.getBottom() + beside},
-                   {body.getX(), body.getY() - beside - now.getHeight()},
-                   room.getTopRight()};
+    if (corners.empty()) {
+        corners.emplace_back(body.getRight() + beside, body.getY());
+        corners.emplace_back(body.getX() - beside - now.getWidth(), body.getY());
+        corners.emplace_back(body.getX(), body.getBottom() + beside);
+        corners.emplace_back(body.getX(), body.getY() - beside - now.getHeight());
+        corners.push_back(room.getTopRight());
+    }
     for (const auto& corner : corners) {
         const auto place = now.withPosition(corner).constrainedWithin(room);
         if (const int pixels = covered(place); pixels < least) least = pixels, best = place;
