@@ -80,7 +80,7 @@ SetResult ContactEvents::set(std::uint64_t fixture, const BodyFacts& body, Vecto
     if (id < FixtureTable::none) return {-1, "id: expected a number from 0 on"};
     const std::int32_t given = table_.set(know(fixture, body), values, centre, id);
     if (given == FixtureTable::none) return {-1, "id: expected one that no other fixture has"};
-    if (values.texture.roughness > 0.0) lasting_.makeRoom();
+    if (values.texture.roughness > 0.0) lasting_.reserve();
     return {given, {}};
 }
 

@@ -66,7 +66,7 @@ public:
     }
 
     /// So many records in a step take no memory.
-    void makeRoom(std::size_t records) {
+    void reserve(std::size_t records) {
         before_.resize(std::max(before_.size(), records + 1));
         now_.resize(std::max(now_.size(), records + 1));
         capacity_ = now_.size() - 1;
@@ -208,9 +208,9 @@ public:
     bool hasHeard() const noexcept { return points_.count() > 0; }
 
     /// For steps with usual numbers of points. Call it where a surface is rough.
-    void makeRoom() {
-        points_.makeRoom(24);
-        pairs_.makeRoom(24);
+    void reserve() {
+        points_.reserve(24);
+        pairs_.reserve(24);
         passages_.reserve(24);
         if (grains_.empty()) grow();
     }

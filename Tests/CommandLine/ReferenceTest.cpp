@@ -85,7 +85,7 @@ TEST_F(Reference, ProgramsAreDescribed) {
 TEST_F(Reference, ProposesWhatMayFollow) {
     EXPECT_EQ(proposals("physvib rend"), "render\n");
     EXPECT_EQ(proposals("physvib render shake"), "shake-the-box\n");
-    EXPECT_EQ(proposals("physvib render drop --limiter \"\""), "on off\n");
+    EXPECT_EQ(proposals("physvib render drop --limiter \"\""), "on off blocks\n");
     EXPECT_EQ(proposals("physvib analyse confu"), "confusion\n");
     EXPECT_EQ(proposals("physvib render --out rend"), "\n") << "a file";
 }
