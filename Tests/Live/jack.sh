@@ -8,20 +8,32 @@ server= playing=
 stop() {
     for process in $playing $server; do kill "$process" 2>/dev/null || true; done
     wait 2>/dev/null || true
+    reclaim "$$"
     rm -rf "$folder"
 }
 trap stop EXIT
 trap "exit 1" HUP INT TERM
 
-# serve RATE BLOCK_FRAMES PORTS [-s]: synchronous unless told. A server that ends, or does not answer in 20 s, is told with its last line.
+# reclaim [OWN]: a server that was killed keeps its place among the eight of a machine until one of the same name ends by itself. Those of scripts
+# and tests that are gone, and of the process OWN, are taken back; a machine where eight were left would start no other.
+reclaim() {
+    for owner in $(grep -aoE 'physvib-[0-9]+' /dev/shm/jack-shm-registry 2>/dev/null | sed 's/.*-//'); do
+        [ "$owner" = "${1:-}" ] || ! [ -e "/proc/$owner" ] || continue
+        timeout 1 jackd -n "physvib-$owner" -r -d dummy >/dev/null 2>&1 || true
+    done
+}
+
+# serve RATE BLOCK_FRAMES PORTS [-s]: synchronous unless told. A server that ends, or does not answer in 20 s, is told with what it said.
 serve() {
+    reclaim
     jackd -n "$JACK_DEFAULT_SERVER" -r "${4:--S}" -d dummy -r "$1" -p "$2" -C 0 -P "$3" >>"$folder/jackd.log" 2>&1 &
     server=$!
     for _ in $(seq 20); do
         jack_wait -w -t 1 >/dev/null 2>&1 && return
         kill -0 "$server" 2>/dev/null || break
     done
-    echo "the JACK server $JACK_DEFAULT_SERVER did not start; its last line: $(grep -a . "$folder/jackd.log" | tail -n 1)" >&2
+    echo "the JACK server $JACK_DEFAULT_SERVER did not start; it said:" >&2
+    grep -aE . "$folder/jackd.log" >&2
     return 1
 }
 
