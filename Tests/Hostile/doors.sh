@@ -296,6 +296,7 @@ try_mixer() {
 # them. Places are those of a window of 1440 x 900; stop-walk.sh tries every state there is.
 try_dialogs() {
     [ -n "$display" ] || { echo "dialogs: skipped, there is no display"; return 0; }
+    ! grep -q ':2328 ' /proc/net/udp || { row mixer "another program has the port 9000" never 0; return 0; }
     export XDG_CONFIG_HOME="$folder"
     mkdir -p physvib
     echo '<?xml version="1.0"?><PROPERTIES><VALUE name="osc" val="this-computer"/><VALUE name="hint-seen" val="1"/><VALUE name="mode" val="engineer 00 11"/></PROPERTIES>' >physvib/mixer.settings
