@@ -127,7 +127,9 @@ void declareAttenuation(OptionTable& command, AttenuationOptions& o) {
     command.add("--export", o.exportPath, "of a folder: a row per repetition").written("FILE.csv");
     command
         .add("--picture", o.picturePath,
-             "of a folder: mean gamma by factor, and over the frequency with a curve per layer")
+             "of a folder: mean gamma by factor, and over the frequency with a curve per layer, or per "
+             "voltage of "
+             "a single one")
         .writtenAs("FILE.svg");
 }
 
