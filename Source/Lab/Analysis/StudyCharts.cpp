@@ -205,7 +205,7 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
     });
     for (const IsolationResult& r : results) {
         const auto& c = r.condition;
-        const std::string layer = isOne && !c.voltage.empty() ? c.voltage + " V" : layerOf(c);
+        const std::string layer = layerOf(c) + (isOne && !c.voltage.empty() ? ", " + c.voltage + " V" : "");
         styles.try_emplace(layer, styles.size());
         axes[c.axis][layer][c.frequencyHz].push_back(r.mean);
     }
