@@ -33,6 +33,7 @@ step() {
         skipped) Tests/Plugin/skipped.sh $bin ;;
         engines) engines ;;
         box2d3) Tests/Engines/box2d3.sh build/release ;;
+        farseer) ensure_packages git mono-mcs mono-runtime && Tests/Engines/farseer.sh build/release ;;
         pymunk) Tests/Api/pymunk.sh $PWD/build/release/lib/libphysvib.so.1 ;;
         quick) Tests/quick.py build/release ;;
         osc) Tests/Osc/run.sh $bin ;;

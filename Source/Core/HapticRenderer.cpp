@@ -215,6 +215,15 @@ void HapticRenderer::guard(const Channels& out, int frames, bool isSilent) noexc
     guard_.process(out.data(), frames, isSilent);
 }
 
+void HapticRenderer::normalise(float* const* out, int frames) const noexcept {
+    for (int j = 0; j < channels_; ++j) {
+        const float ceiling = settings_.ceilings[static_cast<std::size_t>(j)];
+        float peak = ceiling;
+        for (int n = 0; n < frames; ++n) peak = std::max(peak, std::abs(out[j][n]));
+        for (int n = 0; peak > ceiling && n < frames; ++n) out[j][n] *= ceiling / peak;
+    }
+}
+
 // First frame at which processing has to stop: the end of the tile, the next gate or the next control; at
 // most `most` frames away.
 std::int64_t HapticRenderer::nextChange(int most) const noexcept {

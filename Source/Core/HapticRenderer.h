@@ -6,7 +6,7 @@
 // time between two frames; the mode bank is summed; each channel passes its actuator stage; the linked
 // limiter and then the output guard follow. Controls (layout, gains, delays, ceilings, stop) wait for their
 // frame in the same way. Work is divided at the tiles of the absolute frame grid and at onsets, gate ends and
-// controls, never at block borders: output does not depend on block size.
+// controls, never at block borders: output does not depend on block size, unless blocks are normalised.
 #pragma once
 #include "Core/Actuators/ActuatorStage.h"
 #include "Core/Actuators/DriveMatrices.h"
@@ -49,6 +49,8 @@ struct RendererSettings {
                                     ///< equalised
     DriveMatrices drives{}; ///< matrices against mechanical coupling of the panner's actuators; empty: none.
                             ///< The caller keeps them alive
+    bool normalisesBlocks = false; ///< each block of each channel by itself is kept within its ceiling, as
+                                   ///< thesis 5.1.3 has it. For limiterEnabled = false
 
     /** `most` times modes / mostModes, but at least `least`; `most` if modes is 0. Any thread. */ int
     shareOf(int most, int mostModes, int least) const noexcept {
@@ -158,6 +160,7 @@ private:
     bool passModes(const Channels& out, int frames) noexcept;
     void playAll(const Channels& out, int frames, const float* const* added) noexcept;
     void guard(const Channels& out, int frames, bool isSilent) noexcept;
+    void normalise(float* const* out, int frames) const noexcept;
     template <class Source>
     void actOnDue(Source& source) noexcept;
     void apply(const RenderControl& control) noexcept;
@@ -282,6 +285,7 @@ void HapticRenderer::render(Source& source, float* const* out, int frames) noexc
         done += part;
         for (int j = 0; j < channels_; ++j) at[static_cast<std::size_t>(j)] += part;
     }
+    if (settings_.normalisesBlocks) normalise(out, frames);
 }
 } // namespace physvib
 

@@ -36,6 +36,7 @@ inline SessionSetup sessionSetup(const LoadedRender& job) {
     setup.shaping = job.shaping();
     setup.recordings = job.feltRecordings();
     setup.limiterEnabled = job.options.limiting == Limiting::on;
+    setup.normalisesBlocks = job.options.limiting == Limiting::blocks;
     return setup;
 }
 

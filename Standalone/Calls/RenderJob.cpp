@@ -40,8 +40,6 @@ std::string sceneFault(const RenderJob& o) {
                (o.isRemapped ? "--remap" : "--method " + o.methodName());
     if (o.isRemapped && o.actuator == "none")
         return "--remap: expected an --actuator, whose band is to be used";
-    if (o.limiting == Limiting::blocks && (o.wavPath.empty() || !o.pad.empty()))
-        return "--limiter blocks: expected --out FILE.wav, as it is rendered only";
     return {};
 }
 

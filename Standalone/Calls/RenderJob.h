@@ -23,7 +23,7 @@ namespace physvib {
 enum class Limiting {
     on,    ///< one smooth limiter of all outputs
     off,   ///< nothing
-    blocks ///< each block of each output by itself, as thesis 5.1.3 has it; only of `render`
+    blocks ///< each block of each output by itself, as thesis 5.1.3 has it
 };
 
 /// The recorded contact of a material, or of all events of a frequency.

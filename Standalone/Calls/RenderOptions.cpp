@@ -27,7 +27,7 @@ void declareSceneOptions(OptionTable& command, RenderJob& o) {
     command.add("--exponent", o.exponent, "exponent of the law").in(0.01, 100.0);
     command.addOneOf<Limiting>("--limiter", o.limiting,
                                {{"on", Limiting::on}, {"off", Limiting::off}, {"blocks", Limiting::blocks}},
-                               "on, off, or each block by itself, as in the thesis (render)");
+                               "on, off, or each block by itself, as in the thesis");
     command.add("--steps-per-second", o.stepsPerSecond, "physics steps per second")
         .in(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s");
     command.addOneOf<ImpactLocation>(

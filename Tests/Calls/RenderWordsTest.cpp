@@ -98,8 +98,6 @@ TEST(RenderWords, WhatDoesNotFitTogetherIsAFaultOfTheJob) {
     job.isRemapped = true;
     EXPECT_EQ(sceneFault(job), "--remap: expected an --actuator, whose band is to be used");
     job = {};
-    job.limiting = Limiting::blocks;
-    EXPECT_NE(sceneFault(job), "") << "only samples are in blocks";
     job.playsRecordings = true;
     EXPECT_EQ(sceneFault(job), "--method SV: expected a --sound for each material");
 }

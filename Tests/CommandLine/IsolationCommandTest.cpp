@@ -75,8 +75,8 @@ TEST_F(Isolation, AFolderOfConditionsIsATableOfGammaWithCurves) {
     const std::string all = read("all.csv");
     EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 9) << all;
     const std::string picture = read("gamma.svg");
-    for (const char* words :
-         {"<title>Isolation, axis x</title>", ">0030-15, 3 mm<", "Gamma by frequency (Hz)", "Gamma by axis"})
+    for (const char* words : {"<title>Isolation, axis x</title>", ">0030-15, 3 mm, 1.8 V<",
+                              "Gamma by frequency (Hz)", "Gamma by axis"})
         EXPECT_NE(picture.find(words), std::string::npos) << words;
 }
 

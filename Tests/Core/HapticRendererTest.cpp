@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // HapticRenderer against the closed form, for every law, width and rate, and at every block size.
 #include "Core/HapticRenderer.h"
+#include "Core/Actuators/VibrationConverter.h"
 #include "Core/EventQueue.h"
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"
@@ -174,6 +175,35 @@ TEST(HapticRenderer, LimiterKeepsEverythingBelowFullScale) {
     for (const auto& channel :
          renderEvents(events, settingsFor(layoutOf(4), PanningLaw::linear, 48000, true), 48000).channels)
         for (const float y : channel) ASSERT_LE(std::abs(y), 1.0f);
+}
+
+TEST(HapticRenderer, NormalisesEachBlockOfEachChannelAndFeedsAConverter) {
+    struct Compared final : VibrationConverter {
+        bool convert(const float* const* channels, int frames) override {
+            for (std::size_t j = 0; j < 4; ++j) {
+                const float* const own = asked[j].data() + done;
+                float peak = 1.0f;
+                for (int n = 0; n < frames; ++n) peak = std::max(peak, std::abs(own[n]));
+                for (int n = 0; n < frames; ++n) EXPECT_EQ(channels[j][n], own[n] * (1.0f / peak));
+                loud += peak > 1.0f;
+            }
+            return (done += frames) < 40000;
+        }
+        test::Channels asked;
+        int done = 0, loud = 0;
+    } compared;
+    const auto events = randomEvents(2000, 0.9, 5);
+    auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000);
+    compared.asked = renderEvents(events, settings, 48000).channels;
+    settings.normalisesBlocks = true;
+    const auto renderer = std::make_unique<HapticRenderer>();
+    renderer->prepare(settings);
+    test::Channels memory(4, std::vector<float>(480));
+    float* out[]{memory[0].data(), memory[1].data(), memory[2].data(), memory[3].data()};
+    test::ListSource source{events};
+    renderFromStart(*renderer, source, out, 4, 48000, 480, compared);
+    EXPECT_GT(compared.loud, 100);
+    EXPECT_EQ(compared.done, 84 * 480 - renderer->latencyFrames());
 }
 
 TEST(HapticRenderer, ALateEventIsPlayedWholeAtOnceAndCounted) {

@@ -123,7 +123,7 @@ public:
             BodyDescription body = *drawing.find(any());
             const int what = draw(5);
             if (what == 0)
-                setMoving(drawing.drawn(), body, draw(2) == 0);
+                setMoving(body, draw(2) == 0);
             else if (what == 1)
                 setSource(drawing.drawn(), body, draw(2) == 0);
             else if (what == 2)

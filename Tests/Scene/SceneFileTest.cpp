@@ -299,8 +299,7 @@ TEST(SceneFile, NamesTheFieldByItsPath) {
          "field \"drive_gain\" appears twice"},
         {"\"field_m\": [8, 4.5]", "\"field_m\": 8", "field_m: expected an array, found a number"},
         {"\"script_period_s\": 10", "\"script_period_s\": 3", "script[6].time_s: expected 0 to 3, found 3.5"},
-        {"\"mass_kg\": 100", "\"mass_kg\": 0",
-         "bodies[0].mass_kg: a camera body that is not dynamic has no mass in Box2D, expected one above 0"},
+        {"\"mass_kg\": 100", "\"mass_kg\": 0", "bodies[0].mass_kg: expected above 0, as a line has none"},
     };
     for (const auto& [what, by, message] : cases)
         EXPECT_EQ(errorOf(replaced(full, what, by)), "my.json: " + message);

@@ -239,8 +239,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Cameras, FaultyScene,
-    testing::Values(Fault{"Mass", [](Scene& s) { s.bodies[0].massKg = 0.0; },
-                          "bodies[0].mass_kg: a camera body"},
+    testing::Values(Fault{"Mass", [](Scene& s) { s.bodies[2].fixtures[0].isCamera = true; },
+                          "bodies[2].mass_kg: expected"},
                     Fault{"Frequency", [](Scene& s) { s.materials[0].frequencyHz = 0.0; },
                           "bodies[0].fixtures[0].material: a camera"},
                     Fault{"Decay", [](Scene& s) { s.materials[0].decayPerSecond = 0.0; },

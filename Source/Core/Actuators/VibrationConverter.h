@@ -14,6 +14,9 @@ public:
 
     /// channels[channel][0..frames), 1 = an actuator's full scale. False stops the render.
     virtual bool convert(const float* const* channels, int frames) = 0;
+
+    /// To be what renderFromStart (Core/HapticRenderer.h) passes its blocks to.
+    bool operator()(const float* const* channels, int frames) { return convert(channels, frames); }
 };
 
 /// For a motor that is only on or off (a phone's own, an ERM): on for each step in which a sample exceeds the

@@ -174,11 +174,13 @@ struct PlaceDrawing {
         d += direction;
         appendPixels(d, length);
     }
-    /// A dot, x, cross, circle or asterisk by the target's row, as thesis Fig. 4.6 has them.
+    /// As thesis Fig. 4.6 has them: a dot, x, cross, circle or asterisk by the target's row, blue, black, red
+    /// or cyan by its column.
     void places() const {
         constexpr std::array shapes{"h0", "m-2 -2l4 4m0 -4l-4 4", "m-2.5 0h5m-2.5 -2.5v5",
                                     "m-2 0a2 2 0 1 0 4 0a2 2 0 1 0 -4 0",
                                     "m-2 -2l4 4m0 -4l-4 4m2 -4.8v5.6m-2.8 -2.8h5.6"};
+        constexpr std::array<std::string_view, 4> colours{"#00f", "#000", "#f00", "#0cc"};
         std::vector<std::string> dots(chart.rows * chart.columns);
         for (const PlaceMark& mark : chart.places) {
             const ChartPoint point = at(mark.x, mark.y);
@@ -187,9 +189,9 @@ struct PlaceDrawing {
         }
         for (std::size_t target = 0; target < dots.size(); ++target)
             if (!dots[target].empty())
-                svg.path(
-                    dots[target], "none",
-                    {seriesColour(styleOf(target)), target / chart.columns % shapes.size() == 0 ? 2.0 : 0.8});
+                svg.path(dots[target], "none",
+                         {colours[target % chart.columns % colours.size()],
+                          target / chart.columns % shapes.size() == 0 ? 2.0 : 0.8});
     }
     void ellipses() const {
         for (const PlaceEllipse& e : chart.ellipses) {

@@ -193,13 +193,19 @@ std::vector<std::string> factorCharts(std::span<const IsolationResult> results) 
 } // namespace
 
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results) {
-    // axis, layer, frequency -> gammas of all voltages
+    // axis, layer, frequency -> gammas of all voltages; of one layer: axis, voltage, frequency
     std::map<std::string, std::map<std::string, std::map<double, std::vector<double>>>> axes;
     std::map<std::string, std::size_t> styles;
+    const auto layerOf = [](const IsolationCondition& c) {
+        return c.material + (c.softener.empty() ? "" : ", " + c.softener + " %") +
+               (c.thickness.empty() ? "" : ", " + c.thickness + " mm");
+    };
+    const bool isOne = std::ranges::all_of(results, [&](const IsolationResult& r) { // as thesis Fig. 3.5
+        return layerOf(r.condition) == layerOf(results.front().condition);
+    });
     for (const IsolationResult& r : results) {
         const auto& c = r.condition;
-        const std::string layer = c.material + (c.softener.empty() ? "" : ", " + c.softener + " %") +
-                                  (c.thickness.empty() ? "" : ", " + c.thickness + " mm");
+        const std::string layer = layerOf(c) + (isOne && !c.voltage.empty() ? ", " + c.voltage + " V" : "");
         styles.try_emplace(layer, styles.size());
         axes[c.axis][layer][c.frequencyHz].push_back(r.mean);
     }
@@ -207,7 +213,7 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
     for (const auto& [axis, layers] : axes) {
         LineChart chart{{chartName(charts.size()), "Isolation, axis " + axis},
                         "frequency (Hz)",
-                        "gamma (Eq. 3.2), mean of voltages and repetitions",
+                        "gamma (Eq. 3.2), mean",
                         {}};
         for (const auto& [layer, curve] : layers) {
             LineSeries series{layer, {}};

@@ -170,12 +170,13 @@ friedman <- function(test, file, measure, within = character(), where = characte
     result(test, b, "chi-squared", t$statistic, t$p.value, n, t$parameter)
   })
 }) }
-# Every two levels of each factor, within participants or between them; the correction is for all lines of a factor.
-pairs.test <- function(test, file, measure, within = character(), where = character(), by = "t", correction = "holm", between = character()) {
+# Every two levels of each factor, within participants or between them; the correction is for all lines of a factor. Ranks of levels within are signed
+# ranks of differences, or, not `paired`, those of Mann and Whitney, as if other people had given each level.
+pairs.test <- function(test, file, measure, within = character(), where = character(), by = "t", correction = "holm", between = character(), paired = TRUE) {
   cat(test, "\n", sep = ""); attempt(test, "all", {
   rows <- rows.of(file, measure, within, where); cells <- cells.of(rows); n <- nrow(cells)
   for (f in c(within, between)) {
-    is.within <- f %in% within
+    is.within <- f %in% within; is.signed <- is.within && paired
     own <- if (is.within) by.level(rows, cells, match(f, within)) else split(unname(rowMeans(cells)), of.people(file, measure, f, rownames(cells), where))
     two <- combn(names(if (is.within) as.data.frame(own, optional = TRUE) else own), 2, simplify = FALSE)
     level.of <- function(l) if (is.within) own[, l] else own[[l]]
@@ -187,19 +188,19 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
         return(list(p = 2 * pt(-abs(t), df), value = t, df = df, size = "d", effect = (mean(a) - mean(b)) / deviation, difference = mean(a) - mean(b),
                     interval = mean(a) - mean(b) + c(-1, 1) * qt(0.975, df) * se, n = length(a) + length(b)))
       }
-      t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else wilcox.test(a, b, paired = is.within), error = function(e) list(p.value = NaN))
+      t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else wilcox.test(a, b, paired = is.signed), error = function(e) list(p.value = NaN))
       out <- list(p = t$p.value, value = t$statistic, df = NA, size = "rank-biserial r", interval = c(NA, NA), n = if (is.within) n else length(a) + length(b))
       if (is.nan(t$p.value)) return(out)
       if (by == "t") return(modifyList(out, list(df = t$parameter, size = "d", effect = mean(a - b) / sd(a - b), difference = mean(a - b), interval = t$conf.int)))
-      share <- if (is.within) t$statistic / sum(seq_len(sum(a != b))) else t$statistic / (length(a) * length(b))
-      modifyList(out, list(effect = 2 * share - 1, difference = if (is.within) median(a - b) else median(a) - median(b)))
+      share <- if (is.signed) t$statistic / sum(seq_len(sum(a != b))) else t$statistic / (length(a) * length(b))
+      modifyList(out, list(effect = 2 * share - 1, difference = if (is.signed) median(a - b) else median(a) - median(b)))
     })
     ps <- sapply(tests, function(one) one$p)
     corrected <- p.adjust(ps, correction, length(ps))
     for (k in seq_along(tests)) {
       one <- tests[[k]]; effect <- paste0(f, ": ", two[[k]][1], " - ", two[[k]][2])
       if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = "the differences do not vary")
-      else result(test, effect, if (by == "t") "t" else if (is.within) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], correction, size = one$size,
+      else result(test, effect, if (by == "t") "t" else if (is.signed) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], correction, size = one$size,
                   effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2])
     }
     if (by == "t" && is.within && n > 1) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
@@ -283,6 +284,7 @@ design.of <- function(d, columns = c("group", "condition", "stimulus")) {
 # The model that a measure and its factors call for. Scores: analysis of variance, pairs by t. Ranks: Friedman's or Kruskal and Wallis' test, pairs by
 # ranks. Magnitudes: ranks of one factor; of several the analysis of variance of their logarithms.
 most.levels <- 12 # of which every two are compared
+as.published <- FALSE # a study -thesis: pairs as 4.2.2 and 5.2.2 have them, by t or Mann and Whitney's ranks, with Bonferroni's correction
 compare <- function(what, d, measure, kind = "scores", columns = c("group", "condition", "stimulus")) {
   column <- sub("=.*", "", measure)
   d <- d[!(d[[column]] %in% c("", "NA")), ]
@@ -298,7 +300,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
     friedman(paste("Friedman's or Kruskal and Wallis' test of", name), d, measure, design$within, between = design$between)
   if (length(few(factors)) > 0)
     pairs.test(paste("pairs by", if (kind == "scores") "t" else "ranks", "of", name), d, measure, few(design$within), by = if (kind == "scores") "t" else "ranks",
-               between = few(design$between))
+               correction = if (as.published) "bonferroni" else "holm", between = few(design$between), paired = !as.published)
   if (length(few(factors)) < length(factors)) result(paste("pairs of", name), "factors", "", NA, NA, length(unique(d$participant)), note = "more than 12 levels")
 }
 # Several scales ask one question each: Holm's correction over them, effect by effect.
@@ -353,6 +355,7 @@ single.trials <- function(test, own, measure) { cat(test, "\n", sep = ""); attem
 # All tests of a report's folder. `scales`: the columns of ratings; `points`: those of them whose scores are ranks.
 study <- function(study, scales = character(), points = character()) {
   d <- table.of("trials.csv")
+  as.published <<- grepl("protocol [^ ]*-thesis", study)
   if (!("participant" %in% names(d))) return(finish(study))
   is.told <- "task" %in% names(d)
   # rows of a task, session by session where there are several; of tables without tasks those with the column

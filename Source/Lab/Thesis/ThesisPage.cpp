@@ -164,6 +164,7 @@ ThesisPage thesisPage() {
           {"fig3-2", "How the scales lie to each other is no conversion."},
           {"fig3-3", "`physvib attenuation` takes such recordings and draws Fig. 3.4 and 3.5."}})
         out.addFigure(name, {std::string{thesisFile(std::string{name} + ".svg").text}}, caption);
+    out.files["isolation-tests.R"] = thesisFile("isolation-tests.R").text;
     tellTransfer(out);
     tellCounts(out);
     tellTests(out);

@@ -56,7 +56,8 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
                              .limiterEnabled = setup_.limiterEnabled,
                              .ceilings = setup_.ceilings,
                              .modes = setup_.modes,
-                             .equalised = setup_.equalised}))
+                             .equalised = setup_.equalised,
+                             .normalisesBlocks = setup_.normalisesBlocks}))
         throw std::bad_alloc{}; // else it would be silent without a word
     renderer_->setContacts(scheduler_.contactsAt(sampleRateHz));
     channels_.prepare(sampleRateHz, -renderer_->latencyFrames());

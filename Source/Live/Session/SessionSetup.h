@@ -57,6 +57,7 @@ struct SessionSetup {
     int modes = 0;        ///< see RendererSettings
     PhantomPanner panner; ///< at most `channels` actuators
     bool limiterEnabled = true;
+    bool normalisesBlocks = false; ///< see RendererSettings
     /// drive ceiling per channel, > 0
     std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale();
     EqualisedActuators equalised{};

@@ -203,11 +203,6 @@ bool isLine(const BodyDescription& body) {
     });
 }
 
-BodyMoments ownMoments(const Scene& scene, BodyDescription body) {
-    body.massKg = 0.0;
-    return bodyMoments(body, scene);
-}
-
 double areaOf(const BodyDescription& body) {
     double area = 0.0;
     for (const FixtureDescription& fixture : body.fixtures) area += momentsOf(fixture.shape).areaSquareMetres;
@@ -241,7 +236,7 @@ BodyDescription scaledBody(BodyDescription body, double factorX, double factorY)
 double densityOf(const Scene& scene, const BodyDescription& body) {
     const double area = areaOf(body);
     if (area <= 0.0) return 0.0;
-    return (body.massKg > 0.0 ? body.massKg : ownMoments(scene, body).massKg) / area;
+    return massKg(body, scene) / area;
 }
 
 void setDensity(BodyDescription& body, double kgPerSquareMetre) {
@@ -251,19 +246,11 @@ void setDensity(BodyDescription& body, double kgPerSquareMetre) {
 
 void setSource(const Scene& scene, BodyDescription& body, bool isSource) {
     for (FixtureDescription& fixture : body.fixtures) fixture.isCamera = isSource;
-    if (!isSource || body.type == BodyType::dynamicBody || body.massKg > 0.0) return;
-    const double mass = ownMoments(scene, body).massKg;
-    body.massKg = mass > 0.0 ? std::clamp(mass, sceneLimits::minMassKg, sceneLimits::maxMassKg)
-                             : 1.0; // a line has no mass of its own
+    if (isSource && massKg(body, scene) <= 0.0) body.massKg = 1.0; // a line has no mass of its own
 }
 
-void setMoving(const Scene& scene, BodyDescription& body, bool moves) {
-    if (isLine(body)) return;
-    body.type = moves ? BodyType::dynamicBody : BodyType::staticBody;
-    const bool isSource = std::ranges::any_of(body.fixtures, &FixtureDescription::isCamera);
-    if (isSource && !moves && body.massKg <= 0.0)
-        body.massKg =
-            std::clamp(ownMoments(scene, body).massKg, sceneLimits::minMassKg, sceneLimits::maxMassKg);
+void setMoving(BodyDescription& body, bool moves) {
+    if (!isLine(body)) body.type = moves ? BodyType::dynamicBody : BodyType::staticBody;
 }
 
 } // namespace physvib

@@ -30,12 +30,11 @@ double densityOf(const Scene& scene, const BodyDescription& body);
 /// Sets its mass to that of this density; 0: to that of its materials. Any thread.
 void setDensity(BodyDescription& body, double kgPerSquareMetre);
 
-/// Makes a body a haptic source, or not. A body that is not dynamic gets the mass that Eq. 5.4 needs, if it
-/// has none. Any thread.
+/// Makes a body a haptic source, or not. A line gets the mass that Eq. 5.4 needs, if it has none. Any thread.
 void setSource(const Scene& scene, BodyDescription& body, bool isSource);
 
 /// Makes a body static or dynamic. A line stays static. Any thread.
-void setMoving(const Scene& scene, BodyDescription& body, bool moves);
+void setMoving(BodyDescription& body, bool moves);
 
 /// Moves bodies, at rest, with their joints; bodies joined to them return to their start. Any thread.
 std::vector<Action> movedTo(const SceneDrawing& drawing, const std::map<std::string, BodyPlace>& places);

@@ -52,7 +52,7 @@ BodyMoments bodyMoments(const BodyDescription& body, const Scene& scene) noexcep
 }
 
 double massKg(const BodyDescription& body, const Scene& scene) noexcept {
-    return body.type == BodyType::dynamicBody ? bodyMoments(body, scene).massKg : body.massKg;
+    return body.massKg > 0.0 ? body.massKg : bodyMoments(body, scene).massKg;
 }
 
 // Computes area, inertia and sizes by sums over the edges of outlines.

@@ -15,7 +15,7 @@ struct BodyMoments {
 /// mass where it states one. Any thread.
 BodyMoments bodyMoments(const BodyDescription& body, const Scene& scene) noexcept;
 
-/// Mass for Eq. 5.4, kg: of a body that is not dynamic, the one it states. Any thread.
+/// Mass for Eq. 5.4, kg: the one it states, else by density and area. Any thread.
 double massKg(const BodyDescription& body, const Scene& scene) noexcept;
 
 // Area, centroid, inertia and extents of shapes.

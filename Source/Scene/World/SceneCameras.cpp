@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the fixtures that may become haptic sources, and checks that they have mass and sound.
 #include "Scene/SceneValidation.h"
+#include "Scene/World/BodyMass.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <compare>
@@ -77,9 +78,7 @@ private:
     std::string checkCamera(const BodyDescription& body, int index, const std::string& path) const {
         const std::string place = itemPath(path + ".fixtures", static_cast<std::size_t>(index));
         const Voice voice = fixtureOf(body, index).voice;
-        if (body.type != BodyType::dynamicBody && body.massKg <= 0.0)
-            return path + ".mass_kg: a camera body that is not dynamic has no mass in Box2D, expected one "
-                          "above 0";
+        if (massKg(body, scene_) <= 0.0) return path + ".mass_kg: expected above 0, as a line has none";
         if (voice != Voice::own)
             if (auto fault = checkOthers(place); !fault.empty()) return fault;
         if (voice != Voice::other && mayBeSilent(body, index))

@@ -3,6 +3,7 @@
 #include "Scene/World/Simulation.h"
 #include "Scene/PartNames.h"
 #include "Scene/SceneValidation.h"
+#include "Scene/World/BodyMass.h"
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -36,11 +37,12 @@ ImpactSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocatio
     return settings;
 }
 
-HapticFixture hapticOf(const SceneWorld::FixtureNow& now) {
+HapticFixture hapticOf(const Scene& scene, const SceneWorld::FixtureNow& now) {
     // a control may have removed the decay
     const bool isSilent = isEndless(now.material.frequencyHz, now.material.decayPerSecond);
-    HapticFixture values{isSilent ? 0.0 : now.material.frequencyHz, now.material.decayPerSecond,
-                         now.description.isCamera, now.body.massKg, now.description.voice};
+    HapticFixture values{
+        isSilent ? 0.0 : now.material.frequencyHz, now.material.decayPerSecond, now.description.isCamera,
+        now.description.isCamera ? massKg(now.body, scene) : now.body.massKg, now.description.voice};
     values.texture = now.material.texture();
     values.sound = soundOfMaterial(now.material.name);
     values.part = partOf(now.description.part);
@@ -59,7 +61,7 @@ Simulation::Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecon
 
 void Simulation::takeFixtures() {
     world_.forAllFixtures([this](const SceneWorld::FixtureNow& now) {
-        (void)attachment_.set(now.fixture, hapticOf(now), static_cast<std::int32_t>(now.number));
+        (void)attachment_.set(now.fixture, hapticOf(scene(), now), static_cast<std::int32_t>(now.number));
     });
 }
 

@@ -221,6 +221,8 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();
     if (auto refusal = sceneFault(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
+    if (o.scene.limiting == Limiting::blocks && !o.savePath.empty())
+        return leave(exitUsage, "--limiter blocks: expected no --save, as a session does not keep blocks");
     const bool isPlain = o.scene.method.fixesNothing() && !o.scene.playsRecordings &&
                          o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 &&
                          !o.scene.isWeighted;

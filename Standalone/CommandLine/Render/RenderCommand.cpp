@@ -64,7 +64,8 @@ OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderCont
                                     .ceilings = job.ceilings(),
                                     .instructions = o.instructions,
                                     .equalised = job.equalised(),
-                                    .drives = job.coupling.drives.view()};
+                                    .drives = job.coupling.drives.view(),
+                                    .normalisesBlocks = o.limiting == Limiting::blocks};
     return {renderer, job.frames(), o.blockFrames, controls, contacts};
 }
 

@@ -131,12 +131,6 @@ void RenderOutputs::begin() {
 }
 
 bool RenderOutputs::take(const float* const* channels, int frames) {
-    if (job_.options.limiting == Limiting::blocks)
-        channels = normalised_.scaled(channels, job_.channels(), frames, [&](std::size_t j) {
-            const auto size = [](float a, float b) { return std::abs(a) < std::abs(b); };
-            return 1.0f /
-                   std::max(1.0f, std::abs(*std::max_element(channels[j], channels[j] + frames, size)));
-        });
     framesTaken_ += frames;
     whole_.add(channels, frames);
     zoom_->add(channels, frames);
@@ -147,10 +141,8 @@ bool RenderOutputs::take(const float* const* channels, int frames) {
 
 bool RenderOutputs::writeWav(const float* const* channels, int frames) {
     if (!(job_.options.interfaceVolts > 0.0)) return wav_->write(channels, frames);
-    return wav_->write(
-        inVolts_.scaled(channels, job_.channels(), frames,
-                        [&](std::size_t j) { return static_cast<float>(job_.actuators.voltageScale[j]); }),
-        frames);
+    return wav_->write(inVolts_.scaled(channels, job_.channels(), frames, job_.actuators.voltageScale),
+                       frames);
 }
 
 bool RenderOutputs::takeContactSound(const float* const* channels, int frames) {

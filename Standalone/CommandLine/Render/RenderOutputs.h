@@ -60,12 +60,11 @@ private:
 class ScaledBlock {
 public:
     /// Valid until the next call.
-    template <class ScaleOf>
-    const float* const* scaled(const float* const* channels, int count, int frames, ScaleOf scaleOf) {
+    const float* const* scaled(const float* const* channels, int count, int frames, const auto& scales) {
         samples_.resize(static_cast<std::size_t>(count));
         at_.clear();
         for (std::size_t j = 0; j < samples_.size(); ++j) {
-            const float scale = scaleOf(j);
+            const auto scale = static_cast<float>(scales[j]);
             samples_[j].assign(channels[j], channels[j] + frames);
             for (float& sample : samples_[j]) sample *= scale;
             at_.push_back(samples_[j].data());
@@ -130,7 +129,7 @@ private:
     PadProfile pad_;
     std::vector<PadCommand> motors_;
     std::unique_ptr<WavSink> wav_, contactWav_, markerWav_;
-    ScaledBlock normalised_, inVolts_; // by --limiter blocks; for the interface
+    ScaledBlock inVolts_;
     std::string markWords_;
     OnOffPattern pattern_;
     WaveformEnvelope whole_;

@@ -155,7 +155,7 @@ void declareThesis(OptionTable& command, ThesisOptions& o) {
         .add(
             "--out", o.folder,
             "the folder: index.html, thesis.csv, figures that no other command draws, printed numbers beside "
-            "those reckoned, printed-tests.R")
+            "those reckoned, tests in R")
         .as("FOLDER");
 }
 

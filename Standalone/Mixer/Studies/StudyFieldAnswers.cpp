@@ -13,7 +13,7 @@ namespace {
 
 constexpr float margin = 24.0f;
 
-/// A point of the grid at the place of its stimulus.
+/// A point of the grid at the place of its stimulus: yellow, red once it was felt, as thesis Fig. 4.1 has it.
 class CellButton final : public juce::Button {
 public:
     explicit CellButton(const GridCell& c)
@@ -26,8 +26,8 @@ public:
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override {
         const auto disc = getLocalBounds().toFloat().reduced(2.0f);
         drawTarget(g, *this, isOver, isDown, disc.getWidth() / 2.0f);
-        g.setColour(shade(*this, isFelt || getToggleState() ? Shade::accent : Shade::muted)
-                        .withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
+        g.setColour(juce::Colour{palette::Argb{isFelt ? 0xffff6b6b : 0xffe8b800}}.withMultipliedAlpha(
+            isEnabled() ? 1.0f : 0.4f));
         g.fillEllipse(juce::Rectangle<float>{14.0f, 14.0f}.withCentre(disc.getCentre()));
     }
 };

@@ -98,9 +98,8 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
     name_.setFont(text::font(text::small, juce::Font::bold));
     describe(moves_, "Moves", "Moving, or static");
     moves_.onClick = [this, change] {
-        change("Moves", [moves = moves_.getToggleState()](const Scene& s, BodyDescription& b) {
-            setMoving(s, b, moves);
-        });
+        change("Moves",
+               [moves = moves_.getToggleState()](const Scene&, BodyDescription& b) { setMoving(b, moves); });
     };
     describe(source_, "Haptic source", "Its collisions are felt");
     source_.onClick = [this, change] {

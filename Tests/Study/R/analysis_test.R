@@ -55,11 +55,12 @@ for (n in c(2, 3, 6, 49, 50, 51)) for (digits in c(0, 6)) for (k in c(2, 3)) {
   wide <- with(d, tapply(y, list(participant, condition), mean)); words <- paste("n", n, "digits", digits, "levels", k)
   r <- friedman.test(wide); ours <- told(friedman("t", "trials.csv", "y", "pair"))
   if (is.nan(r$p.value)) { if (ours$note == "") fault("Friedman of ties", words) } else same(paste("Friedman", words), ours$p, r$p.value)
-  for (by in c("t", "ranks")) for (correction in c("holm", "bonferroni")) {
-    ours <- told(pairs.test("t", "trials.csv", "y", "pair", by = by, correction = correction))
+  for (by in c("t", "ranks", "unpaired ranks")) for (correction in c("holm", "bonferroni")) {
+    paired <- by != "unpaired ranks"
+    ours <- told(pairs.test("t", "trials.csv", "y", "pair", by = sub("unpaired ", "", by), correction = correction, paired = paired))
     two <- combn(k, 2)
     ps <- apply(two, 2, function(i) { a <- wide[, i[1]]; b <- wide[, i[2]]
-      tryCatch(if (by == "t") t.test(a, b, paired = TRUE)$p.value else wilcox.test(a, b, paired = TRUE)$p.value, error = function(e) NaN) })
+      tryCatch(if (by == "t") t.test(a, b, paired = TRUE)$p.value else wilcox.test(a, b, paired = paired)$p.value, error = function(e) NaN) })
     corrected <- p.adjust(ps, correction, length(ps))
     for (i in seq_along(ps)) { own <- line(ours, paste0("pair: c", two[1, i], " - c", two[2, i]))
       if (is.nan(ps[i])) { if (own$note == "") fault("pair of ties", words) } else {
