@@ -61,7 +61,7 @@ CollisionFinder::Known* CollisionFinder::search(const b2Contact& contact) {
         found = &remember(contact, {.a = a, .b = b});
     }
     const auto place = static_cast<std::size_t>(found - known_.data());
-    if (last_ < known_.size()) known_[last_].next = place;
+    known_[last_].next = place;
     last_ = place;
     return found;
 }
@@ -69,8 +69,8 @@ CollisionFinder::Known* CollisionFinder::search(const b2Contact& contact) {
 CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair pair) {
     std::int32_t at = knownAt_.find(idOf(contact));
     if (at == IntegerMap::none) {
-        at = static_cast<std::int32_t>(known_.size());
-        known_.emplace_back();
+        if (knownCount_ == known_.size()) known_.resize(2 * knownCount_);
+        at = static_cast<std::int32_t>(knownCount_++);
         knownAt_.set(idOf(contact), at);
     }
     Known& known = known_[static_cast<std::size_t>(at)];
@@ -84,16 +84,17 @@ void CollisionFinder::forget(const b2Contact& contact) noexcept {
     const std::int32_t at = knownAt_.find(idOf(contact));
     if (at == IntegerMap::none) return;
     knownAt_.erase(idOf(contact));
-    Known& hole = known_[static_cast<std::size_t>(at)];
-    if (&hole != &known_.back()) {
-        hole = known_.back();
+    Known &hole = known_[static_cast<std::size_t>(at)], &last = known_[--knownCount_];
+    if (&hole != &last) {
+        hole = last;
         knownAt_.set(idOf(*hole.contact), at);
     }
-    known_.pop_back();
+    last = {};
 }
 
 void CollisionFinder::forgetContacts() noexcept {
-    known_.clear();
+    std::fill_n(known_.begin(), knownCount_, Known{});
+    knownCount_ = 0;
     knownAt_.clear();
 }
 
@@ -214,6 +215,11 @@ struct Side {
     }
 };
 
+Frame frameOf(const b2Fixture& fixture) noexcept {
+    const b2Transform& frame = fixture.GetBody()->GetTransform();
+    return {toVector(frame.p), frame.q.s, frame.q.c};
+}
+
 /// Where a contact's bodies touch after the solver: normal and points as b2WorldManifold has them, to the
 /// bit, each when it is asked for.
 class SolvedContact {
@@ -223,22 +229,23 @@ public:
         , isTurned_{manifold_.type == b2Manifold::e_faceB}
         , first_{isTurned_ ? *contact.GetFixtureB() : *contact.GetFixtureA()}
         , second_{isTurned_ ? *contact.GetFixtureA() : *contact.GetFixtureB()} {
-        const b2Transform& frame = first_.GetBody()->GetTransform();
-        origin_ = b2Mul(frame, manifold_.localPoint);
         if (manifold_.type != b2Manifold::e_circles) {
-            normal_ = b2Mul(frame.q, manifold_.localNormal);
+            normal_ = b2Mul(first_.GetBody()->GetTransform().q, manifold_.localNormal);
             return;
         }
         normal_.Set(1.0F, 0.0F);
-        const b2Vec2 other = place(0);
-        if (b2DistanceSquared(origin_, other) <= b2_epsilon * b2_epsilon) return;
-        normal_ = other - origin_;
+        const b2Vec2 one = centreOfFirst(), other = place(0);
+        if (b2DistanceSquared(one, other) <= b2_epsilon * b2_epsilon) return;
+        normal_ = other - one;
         normal_.Normalize();
     }
 
     b2Vec2 normal() const noexcept { return isTurned_ ? -normal_ : normal_; } ///< from A to B
     b2Vec2 normalFromFirst() const noexcept { return normal_; }
-    b2Vec2 centreOfFirst() const noexcept { return origin_; } ///< of two discs
+    /// Of two discs; else a point of the face.
+    b2Vec2 centreOfFirst() const noexcept {
+        return b2Mul(first_.GetBody()->GetTransform(), manifold_.localPoint);
+    }
     bool isDiscs() const noexcept { return manifold_.type == b2Manifold::e_circles; }
     bool isTurned() const noexcept { return isTurned_; } ///< the face is B's
     const b2Fixture& first() const noexcept { return first_; }
@@ -250,10 +257,30 @@ public:
     };
     Spot spot(int i) const noexcept {
         const float first = first_.GetShape()->m_radius, second = second_.GetShape()->m_radius;
-        const b2Vec2 at = place(i), onSecond = at - second * normal_;
+        const b2Vec2 origin = centreOfFirst(), at = place(i), onSecond = at - second * normal_;
         const b2Vec2 onFirst =
-            isDiscs() ? origin_ + first * normal_ : at + (first - b2Dot(at - origin_, normal_)) * normal_;
+            isDiscs() ? origin + first * normal_ : at + (first - b2Dot(at - origin, normal_)) * normal_;
         return {at, 0.5F * (onFirst + onSecond)};
+    }
+    /// Notes the first one's point where there is a face; it is computed when it is asked for.
+    void note(ChainLoads::Place& place) const noexcept {
+        place.face.face = frameOf(first_);
+        place.face.other = frameOf(second_);
+        place.face.normal = toVector(manifold_.localNormal);
+        place.face.onFace = toVector(manifold_.localPoint);
+        place.face.corner = toVector(manifold_.points[0].localPoint);
+        place.face.faceRadius = first_.GetShape()->m_radius;
+        place.face.otherRadius = second_.GetShape()->m_radius;
+        place.isOfFace = true;
+    }
+    /// The impulse on B, N s, of all points but `without` (a bit each).
+    Vector2 push(const b2ContactImpulse& impulse, unsigned without) const noexcept {
+        const b2Vec2 out = normal(), tangent = b2Cross(out, 1.0F);
+        b2Vec2 onB{0.0F, 0.0F};
+        for (int i = 0; i < impulse.count; ++i)
+            if (!isIn(without, i))
+                onB += impulse.normalImpulses[i] * out + impulse.tangentImpulses[i] * tangent;
+        return toVector(onB);
     }
 
 private:
@@ -264,7 +291,7 @@ private:
     const b2Manifold& manifold_;
     bool isTurned_;
     const b2Fixture &first_, &second_; // the face and what touches it, or A and B
-    b2Vec2 origin_, normal_;
+    b2Vec2 normal_;
 };
 
 /// How a contact point moves along both surfaces.
@@ -297,45 +324,12 @@ struct SurfaceRun {
             b.around(-normal, turn)};
 }
 
-/// Reports the points to `lasting`, except those in `collisions` (a bit each), which belong to a collision.
-template <class Names> // Known, of the contact
-[[gnu::always_inline]] inline void tell(const b2Contact& contact, const SolvedContact& solved,
-                                        const SolvedContact::Spot& firstSpot, const b2ContactImpulse& impulse,
-                                        unsigned collisions, const Names& names, LastingContacts& lasting) {
-    const bool isTurned = solved.isTurned();
-    const Side first{solved.first(), lasting.isRough(isTurned ? names.pair.b : names.pair.a)},
-        second{solved.second(), lasting.isRough(isTurned ? names.pair.a : names.pair.b)};
-    const b2Vec2 normal = solved.normalFromFirst(), tangent = b2Cross(normal, 1.0F);
-    for (int i = 0; i < impulse.count; ++i) {
-        if (isIn(collisions, i)) continue;
-        const SolvedContact::Spot spot = i == 0 ? firstSpot : solved.spot(i);
-        const SurfaceRun run = solved.isDiscs()
-                                   ? alongDiscs(first, second, solved.centreOfFirst(), spot.place, normal)
-                                   : alongFace(first, second, normal, spot.place);
-        const b2Vec2 slip = // where both are turned, so is the tangent: the same
-            second.body.GetLinearVelocityFromWorldPoint(spot.point) -
-            first.body.GetLinearVelocityFromWorldPoint(spot.point);
-        lasting.touch({names.pair.a, names.pair.b, names.part ^ contact.GetManifold()->points[i].id.key,
-                       static_cast<double>(impulse.normalImpulses[i]),
-                       static_cast<double>(b2Dot(slip, tangent)), toVector(spot.point),
-                       toVector(run.velocity), isTurned ? run.second : run.first,
-                       isTurned ? run.first : run.second},
-                      names.key);
-    }
-}
-
 } // namespace
 
-// Impulses at new points belong to the collision, if there is one; all others are load. `isPlain`: no point
-// is new, the usual case.
-template <bool isPlain>
-inline void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse,
-                                   unsigned fresh) {
+// Impulses at new points belong to the collision, if there is one; all others are load.
+void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse) {
     CollisionCatcher& catcher = events_.catcher();
-    if (!catcher.hasSources()) return;
-    if ((isPlain || fresh == 0) &&
-        !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
-        return;
+    const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
     Known* const known = find(contact);
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
@@ -343,36 +337,73 @@ inline void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpu
     const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
     const bool isOfSource = (traits & FixtureTable::source) != 0;
     const bool isRelevant = isOfSource || stored.last != TouchingPairs::none;
-    Collision* const collision = !isPlain && fresh != 0 ? catcher.collision(pair) : nullptr;
+    Collision* const collision = fresh != 0 ? catcher.collision(pair) : nullptr;
     if (!isRelevant && collision == nullptr) return;
     const unsigned collisions = collision != nullptr ? fresh : 0U;
-    const SolvedContact solved{contact};
-    const b2Vec2 normal = solved.normal(), tangent = b2Cross(normal, 1.0F);
-    b2Vec2 onB{0.0F, 0.0F};
-    bool isLoaded = isPlain;
+    bool isLoaded = false;
     for (int i = 0; i < impulse.count; ++i) {
-        if (!isPlain && isIn(collisions, i)) {
-            collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
-            collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
-        } else {
-            isLoaded = true;
-            onB += impulse.normalImpulses[i] * normal + impulse.tangentImpulses[i] * tangent;
-        }
+        isLoaded = isLoaded || !isIn(collisions, i);
+        if (!isIn(collisions, i)) continue;
+        collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
+        collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
     }
-    const SolvedContact::Spot first = solved.spot(0);
-    if (isLoaded && isRelevant) catcher.push(pair, stored, isOfSource, toVector(onB), toVector(first.point));
+    const SolvedContact solved{contact};
+    if (isLoaded && isRelevant)
+        if (auto* place = catcher.push(pair, stored, isOfSource, solved.push(impulse, collisions))) {
+            if (solved.isDiscs())
+                place->set(toVector(solved.spot(0).point));
+            else
+                solved.note(*place);
+        }
     if (LastingContacts::isRelevant(traits)) // only pairs whose load matters
-        tell(contact, solved, first, impulse, collisions, *known, events_.lasting());
+        tell(contact, impulse, collisions, *known);
 }
 
-void CollisionFinder::solveNew(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    solve<false>(contact, impulse, fresh_.solved(contact)); // the points are old from the next step on
-}
-
+// The usual contact, without a call: its points are old, one of its fixtures is a source, a face touches.
 void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    if (fresh_.mayHave(contact)) [[unlikely]]
-        return solveNew(contact, impulse);
-    solve<true>(contact, impulse, 0U);
+    CollisionCatcher& catcher = events_.catcher();
+    if (!catcher.hasSources()) return fresh_.mayHave(contact) ? (void)fresh_.solved(contact) : void();
+    const bool isNew = fresh_.mayHave(contact);
+    if (!isNew && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
+    const Known* const known = guess(contact);
+    if (isNew || known == nullptr || !catcher.isKnown(known->pair)) return solve(contact, impulse);
+    const TouchingPairs::Pair& stored = catcher[known->pair];
+    const unsigned traits =
+        events_.fixtures().traits(known->pair.a) | events_.fixtures().traits(known->pair.b);
+    const SolvedContact solved{contact};
+    if (stored.load == TouchingPairs::none || stored.last != TouchingPairs::none || solved.isDiscs() ||
+        (traits & FixtureTable::source) == 0)
+        return solve(contact, impulse);
+    solved.note(*catcher.push(known->pair, stored, true, solved.push(impulse, 0U)));
+    if (LastingContacts::isRelevant(traits)) tell(contact, impulse, 0U, *known);
+}
+
+/// Reports the points to LastingContacts, except those in `collisions` (a bit each), which belong to a
+/// collision.
+void CollisionFinder::tell(const b2Contact& contact, const b2ContactImpulse& impulse, unsigned collisions,
+                           const Known& known) {
+    LastingContacts& lasting = events_.lasting();
+    const SolvedContact solved{contact};
+    const bool isTurned = solved.isTurned();
+    const Side first{solved.first(), lasting.isRough(isTurned ? known.pair.b : known.pair.a)},
+        second{solved.second(), lasting.isRough(isTurned ? known.pair.a : known.pair.b)};
+    const b2Vec2 normal = solved.normalFromFirst(), tangent = b2Cross(normal, 1.0F);
+    for (int i = 0; i < impulse.count; ++i) {
+        if (isIn(collisions, i)) continue;
+        const SolvedContact::Spot spot = solved.spot(i);
+        const SurfaceRun run = solved.isDiscs()
+                                   ? alongDiscs(first, second, solved.centreOfFirst(), spot.place, normal)
+                                   : alongFace(first, second, normal, spot.place);
+        const b2Vec2 slip = // where both are turned, so is the tangent: the same
+            second.body.GetLinearVelocityFromWorldPoint(spot.point) -
+            first.body.GetLinearVelocityFromWorldPoint(spot.point);
+        lasting.touch({known.pair.a, known.pair.b, known.part ^ contact.GetManifold()->points[i].id.key,
+                       static_cast<double>(impulse.normalImpulses[i]),
+                       static_cast<double>(b2Dot(slip, tangent)), toVector(spot.point),
+                       toVector(run.velocity), isTurned ? run.second : run.first,
+                       isTurned ? run.first : run.second},
+                      known.key);
+    }
 }
 
 } // namespace physvib
