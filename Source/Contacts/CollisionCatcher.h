@@ -119,6 +119,10 @@ public:
         Vector3 world;
         bool isOfFace = false;
 
+        FaceTouch& setFace() noexcept { // to be filled in
+            isOfFace = true;
+            return face;
+        }
         void set(Vector3 point) noexcept {
             world = point;
             isOfFace = false;

@@ -262,16 +262,15 @@ public:
             isDiscs() ? origin + first * normal_ : at + (first - b2Dot(at - origin, normal_)) * normal_;
         return {at, 0.5F * (onFirst + onSecond)};
     }
-    /// Notes the first one's point where there is a face; it is computed when it is asked for.
-    void note(ChainLoads::Place& place) const noexcept {
-        place.face.face = frameOf(first_);
-        place.face.other = frameOf(second_);
-        place.face.normal = toVector(manifold_.localNormal);
-        place.face.onFace = toVector(manifold_.localPoint);
-        place.face.corner = toVector(manifold_.points[0].localPoint);
-        place.face.faceRadius = first_.GetShape()->m_radius;
-        place.face.otherRadius = second_.GetShape()->m_radius;
-        place.isOfFace = true;
+    /// The same point where there is a face, to be computed when it is asked for.
+    void note(int i, FaceTouch& touch) const noexcept {
+        touch.face = frameOf(first_);
+        touch.other = frameOf(second_);
+        touch.normal = toVector(manifold_.localNormal);
+        touch.onFace = toVector(manifold_.localPoint);
+        touch.corner = toVector(manifold_.points[i].localPoint);
+        touch.faceRadius = first_.GetShape()->m_radius;
+        touch.otherRadius = second_.GetShape()->m_radius;
     }
     /// The impulse on B, N s, of all points but `without` (a bit each).
     Vector2 push(const b2ContactImpulse& impulse, unsigned without) const noexcept {
@@ -299,19 +298,6 @@ struct SurfaceRun {
     b2Vec2 velocity;
     SurfacePath first, second;
 };
-
-/// For the point of `on` at `place` that touches `face`: in closed form.
-[[gnu::always_inline]] inline SurfaceRun alongFace(const Side& face, const Side& on, b2Vec2 normalFromFace,
-                                                   b2Vec2 place) {
-    const b2Vec2 tangent = b2Cross(normalFromFace, 1.0F);
-    const b2Vec2 velocity = on.body.GetLinearVelocityFromWorldPoint(place);
-    const float turn = face.body.GetAngularVelocity();
-    return {
-        velocity - on.shape.m_radius * b2Cross(turn, normalFromFace),
-        {static_cast<double>(b2Dot(face.body.GetLocalPoint(place), face.body.GetLocalVector(tangent))),
-         static_cast<double>(b2Dot(velocity - face.body.GetLinearVelocityFromWorldPoint(place), tangent))},
-        on.around(-normalFromFace, turn)};
-}
 
 /// Two discs, or a disc and a corner: the contact point lies on the line between the centres.
 [[gnu::noinline]] SurfaceRun alongDiscs(const Side& a, const Side& b, b2Vec2 centreA, b2Vec2 centreB,
@@ -353,7 +339,7 @@ void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& im
             if (solved.isDiscs())
                 place->set(toVector(solved.spot(0).point));
             else
-                solved.note(*place);
+                solved.note(0, place->setFace());
         }
     if (LastingContacts::isRelevant(traits)) // only pairs whose load matters
         tell(contact, impulse, collisions, *known);
@@ -374,8 +360,17 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
     if (stored.load == TouchingPairs::none || stored.last != TouchingPairs::none || solved.isDiscs() ||
         (traits & FixtureTable::source) == 0)
         return solve(contact, impulse);
-    solved.note(*catcher.push(known->pair, stored, true, solved.push(impulse, 0U)));
-    if (LastingContacts::isRelevant(traits)) tell(contact, impulse, 0U, *known);
+    FaceTouch& touch = catcher.push(known->pair, stored, true, solved.push(impulse, 0U))->setFace();
+    solved.note(0, touch);
+    if (!LastingContacts::isRelevant(traits)) return;
+    for (int i = 0; i < impulse.count; ++i) {
+        FacePoint& told = events_.lasting().touchFace();
+        if (i == 0)
+            told.touch = touch;
+        else
+            solved.note(i, told.touch);
+        tellFace(contact, impulse, i, *known, told);
+    }
 }
 
 /// Reports the points to LastingContacts, except those in `collisions` (a bit each), which belong to a
@@ -384,26 +379,46 @@ void CollisionFinder::tell(const b2Contact& contact, const b2ContactImpulse& imp
                            const Known& known) {
     LastingContacts& lasting = events_.lasting();
     const SolvedContact solved{contact};
-    const bool isTurned = solved.isTurned();
-    const Side first{solved.first(), lasting.isRough(isTurned ? known.pair.b : known.pair.a)},
-        second{solved.second(), lasting.isRough(isTurned ? known.pair.a : known.pair.b)};
-    const b2Vec2 normal = solved.normalFromFirst(), tangent = b2Cross(normal, 1.0F);
     for (int i = 0; i < impulse.count; ++i) {
         if (isIn(collisions, i)) continue;
+        if (!solved.isDiscs()) {
+            FacePoint& told = lasting.touchFace();
+            solved.note(i, told.touch);
+            tellFace(contact, impulse, i, known, told);
+            continue;
+        }
+        const Side first{solved.first(), lasting.isRough(known.pair.a)},
+            second{solved.second(), lasting.isRough(known.pair.b)};
+        const b2Vec2 normal = solved.normal(), tangent = b2Cross(normal, 1.0F);
         const SolvedContact::Spot spot = solved.spot(i);
-        const SurfaceRun run = solved.isDiscs()
-                                   ? alongDiscs(first, second, solved.centreOfFirst(), spot.place, normal)
-                                   : alongFace(first, second, normal, spot.place);
-        const b2Vec2 slip = // where both are turned, so is the tangent: the same
-            second.body.GetLinearVelocityFromWorldPoint(spot.point) -
-            first.body.GetLinearVelocityFromWorldPoint(spot.point);
+        const SurfaceRun run = alongDiscs(first, second, solved.centreOfFirst(), spot.place, normal);
+        const b2Vec2 slip = second.body.GetLinearVelocityFromWorldPoint(spot.point) -
+                            first.body.GetLinearVelocityFromWorldPoint(spot.point);
         lasting.touch({known.pair.a, known.pair.b, known.part ^ contact.GetManifold()->points[i].id.key,
                        static_cast<double>(impulse.normalImpulses[i]),
                        static_cast<double>(b2Dot(slip, tangent)), toVector(spot.point),
-                       toVector(run.velocity), isTurned ? run.second : run.first,
-                       isTurned ? run.first : run.second},
+                       toVector(run.velocity), run.first, run.second},
                       known.key);
     }
+}
+
+/// Fills in all but the place.
+inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i,
+                                      const Known& known, FacePoint& told) const {
+    const SolvedContact solved{contact};
+    const b2Body &face = *solved.first().GetBody(), &other = *solved.second().GetBody();
+    told.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
+    told.other = {toVector(other.GetLinearVelocity()), toVector(other.GetWorldCenter())};
+    told.faceRadiansPerSecond = face.GetAngularVelocity();
+    told.otherRadiansPerSecond = other.GetAngularVelocity();
+    told.normalNewtonSeconds = impulse.normalImpulses[i];
+    told.isTurned = solved.isTurned();
+    told.isDiscRough = events_.fixtures().isRough(solved.isTurned() ? known.pair.a : known.pair.b) &&
+                       solved.second().GetType() == b2Shape::e_circle;
+    told.a = known.pair.a;
+    told.b = known.pair.b;
+    told.pairsKey = known.key;
+    told.feature = known.part ^ contact.GetManifold()->points[i].id.key;
 }
 
 } // namespace physvib

@@ -207,6 +207,8 @@ private:
     [[gnu::noinline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse);
     [[gnu::noinline]] void tell(const b2Contact& contact, const b2ContactImpulse& impulse,
                                 unsigned collisions, const Known& known);
+    void tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i, const Known& known,
+                  FacePoint& told) const;
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 
