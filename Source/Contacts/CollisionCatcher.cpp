@@ -183,7 +183,7 @@ void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSecon
     if (!table_.isCamera(slot)) return;
     const auto index = static_cast<std::size_t>(slot);
     if (passed_.size() <= index) passed_.resize(index + 1);
-    Sum& passed = passed_[index];
+    Passed& passed = passed_[index];
     if (passed.other == FixtureTable::none) receivers_.push_back(slot);
     passed.newtonSeconds += newtonSeconds;
     if (size <= passed.strongest) return;

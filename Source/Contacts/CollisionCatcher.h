@@ -133,7 +133,7 @@ public:
         Vector3 newtonSeconds;
         float strongest = 0.0F;                  ///< magnitude of the part that came through `other`
         std::int32_t other = FixtureTable::none; ///< slot of the neighbour that transmitted most
-        Vector3 point;
+        std::size_t contact = 0;                 ///< with that neighbour, see pointOf()
     };
 
     ChainLoads(const FixtureTable& table, TouchingPairs& pairs);
@@ -159,9 +159,11 @@ public:
     /// The impulse that a haptic source received through existing contacts in this step. After settle().
     Passed passed(std::int32_t slot) const noexcept {
         const auto index = static_cast<std::size_t>(slot);
-        if (index >= passed_.size() || passed_[index].other == FixtureTable::none) return {};
-        const Sum& sum = passed_[index];
-        return {sum.newtonSeconds, sum.strongest, sum.other, contacts_[sum.contact].place.point()};
+        return index < passed_.size() ? passed_[index] : Passed{};
+    }
+    /// Where most of it was transmitted, in the same step; 0 if nothing was.
+    Vector3 pointOf(const Passed& passed) const noexcept {
+        return passed.other == FixtureTable::none ? Vector3{} : contacts_[passed.contact].place.point();
     }
 
     /// A contact begins: its load is 0.
@@ -176,12 +178,6 @@ public:
     void forget(std::int32_t slot) noexcept;
 
 private:
-    struct Sum { // as Passed
-        Vector3 newtonSeconds;
-        float strongest = 0.0F;
-        std::int32_t other = FixtureTable::none;
-        std::size_t contact = 0; // index of the one that transmitted most
-    };
     struct Contact {
         TouchingPairs::Name of;
         std::uint32_t step = 0, newest = 0; // step: the number of the last one that pushed; 0: none has
@@ -210,7 +206,7 @@ private:
     const FixtureTable& table_;
     TouchingPairs& pairs_; // stores the index of each pair's load
     std::vector<Contact> contacts_;
-    std::vector<Sum> passed_; // by slot
+    std::vector<Passed> passed_; // by slot
     std::vector<std::int32_t> receivers_, ended_;
     std::uint32_t step_ = 1; // a number for each
 };

@@ -313,10 +313,11 @@ struct SurfaceRun {
 } // namespace
 
 // Impulses at new points belong to the collision, if there is one; all others are load.
-void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse) {
+// `known`: of the contact, or null.
+void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known* known) {
     CollisionCatcher& catcher = events_.catcher();
     const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
-    Known* const known = find(contact);
+    if (known == nullptr) known = find(contact);
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
     const TouchingPairs::Pair& stored = catcher[pair];
@@ -351,15 +352,15 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
     if (!catcher.hasSources()) return fresh_.mayHave(contact) ? (void)fresh_.solved(contact) : void();
     const bool isNew = fresh_.mayHave(contact);
     if (!isNew && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
-    const Known* const known = guess(contact);
-    if (isNew || known == nullptr || !catcher.isKnown(known->pair)) return solve(contact, impulse);
+    Known* const known = guess(contact);
+    if (isNew || known == nullptr || !catcher.isKnown(known->pair)) return solve(contact, impulse, known);
     const TouchingPairs::Pair& stored = catcher[known->pair];
     const unsigned traits =
         events_.fixtures().traits(known->pair.a) | events_.fixtures().traits(known->pair.b);
     const SolvedContact solved{contact};
     if (stored.load == TouchingPairs::none || stored.last != TouchingPairs::none || solved.isDiscs() ||
         (traits & FixtureTable::source) == 0)
-        return solve(contact, impulse);
+        return solve(contact, impulse, known);
     FaceTouch& touch = catcher.push(known->pair, stored, true, solved.push(impulse, 0U))->setFace();
     solved.note(0, touch);
     if (!LastingContacts::isRelevant(traits)) return;
