@@ -158,6 +158,7 @@ bool EventSorter::grow() noexcept {
         return false;
     }
     first_ = 0;
+    mask_ = count - 1;
     room_ = std::min(capacity_, count);
     return true;
 }

@@ -65,7 +65,7 @@ private:
             return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.rank < b.rank;
         }
     };
-    std::size_t place(std::size_t arrival) const noexcept { return (first_ + arrival) & (held_.size() - 1); }
+    std::size_t place(std::size_t arrival) const noexcept { return (first_ + arrival) & mask_; }
     [[gnu::noinline]] bool grow() noexcept;      // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
     void share(std::size_t count, std::int64_t firstNs, std::int64_t lastNs);
@@ -75,8 +75,8 @@ private:
 
     std::size_t capacity_;
     std::uint64_t drops_ = 0;
-    // A ring in order of arrival; its size is a power of two
-    std::size_t first_ = 0, count_ = 0, room_ = 0;
+    // A ring in order of arrival; its size is a power of two, one more than the mask
+    std::size_t first_ = 0, count_ = 0, room_ = 0, mask_ = 0;
     std::vector<CollisionEvent> held_;
     std::vector<Waiting> waiting_; // of each held one
     // Of those being released, as long as held_: their buckets in time
