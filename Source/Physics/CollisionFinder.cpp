@@ -363,15 +363,7 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
         return solve(contact, impulse, known);
     FaceTouch& touch = catcher.push(known->pair, stored, true, solved.push(impulse, 0U))->setFace();
     solved.note(0, touch);
-    if (!LastingContacts::isRelevant(traits)) return;
-    for (int i = 0; i < impulse.count; ++i) {
-        FacePoint& told = events_.lasting().touchFace();
-        if (i == 0)
-            told.touch = touch;
-        else
-            solved.note(i, told.touch);
-        tellFace(contact, impulse, i, *known, told);
-    }
+    if (LastingContacts::isRelevant(traits)) tellFace(contact, impulse, *known, touch);
 }
 
 /// Reports the points to LastingContacts, except those in `collisions` (a bit each), which belong to a
@@ -383,9 +375,9 @@ void CollisionFinder::tell(const b2Contact& contact, const b2ContactImpulse& imp
     for (int i = 0; i < impulse.count; ++i) {
         if (isIn(collisions, i)) continue;
         if (!solved.isDiscs()) {
-            FacePoint& told = lasting.touchFace();
-            solved.note(i, told.touch);
-            tellFace(contact, impulse, i, known, told);
+            FaceTouch touch;
+            solved.note(i, touch);
+            tellFace(contact, impulse, i, known, touch);
             continue;
         }
         const Side first{solved.first(), lasting.isRough(known.pair.a)},
@@ -403,23 +395,37 @@ void CollisionFinder::tell(const b2Contact& contact, const b2ContactImpulse& imp
     }
 }
 
-/// Fills in all but the place.
+/// One point on a face, which touches there.
 inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i,
-                                      const Known& known, FacePoint& told) const {
-    const SolvedContact solved{contact};
-    const b2Body &face = *solved.first().GetBody(), &other = *solved.second().GetBody();
+                                      const Known& known, const FaceTouch& touch) {
+    FacePoint& told = events_.lasting().touchFace();
+    const bool isTurned = contact.GetManifold()->type == b2Manifold::e_faceB;
+    const b2Fixture &first = isTurned ? *contact.GetFixtureB() : *contact.GetFixtureA(),
+                    &second = isTurned ? *contact.GetFixtureA() : *contact.GetFixtureB();
+    const b2Body &face = *first.GetBody(), &other = *second.GetBody();
+    told.touch = touch;
     told.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
     told.other = {toVector(other.GetLinearVelocity()), toVector(other.GetWorldCenter())};
     told.faceRadiansPerSecond = face.GetAngularVelocity();
     told.otherRadiansPerSecond = other.GetAngularVelocity();
     told.normalNewtonSeconds = impulse.normalImpulses[i];
-    told.isTurned = solved.isTurned();
-    told.isDiscRough = events_.fixtures().isRough(solved.isTurned() ? known.pair.a : known.pair.b) &&
-                       solved.second().GetType() == b2Shape::e_circle;
+    told.isTurned = isTurned;
+    told.isDiscRough = second.GetType() == b2Shape::e_circle &&
+                       events_.fixtures().isRough(isTurned ? known.pair.a : known.pair.b);
     told.a = known.pair.a;
     told.b = known.pair.b;
     told.pairsKey = known.key;
     told.feature = known.part ^ contact.GetManifold()->points[i].id.key;
+}
+
+/// All points of a face, of which `touch` is the first.
+void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known,
+                               const FaceTouch& touch) {
+    tellFace(contact, impulse, 0, known, touch);
+    if (impulse.count < 2) return;
+    FaceTouch second = touch;
+    second.corner = toVector(contact.GetManifold()->points[1].localPoint);
+    tellFace(contact, impulse, 1, known, second);
 }
 
 } // namespace physvib

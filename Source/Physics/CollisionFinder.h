@@ -208,7 +208,9 @@ private:
     [[gnu::noinline]] void tell(const b2Contact& contact, const b2ContactImpulse& impulse,
                                 unsigned collisions, const Known& known);
     void tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i, const Known& known,
-                  FacePoint& told) const;
+                  const FaceTouch& touch);
+    [[gnu::noinline]] void tellFace(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                    const Known& known, const FaceTouch& touch);
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 
