@@ -72,8 +72,8 @@ void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impac
         if (found.strongest == nullptr) continue;
         isUsed_.set(camera, 1);
         complete(
-            handOn(camera, found, {}, {}), catcher_.loads().passed(camera), [&] { return found.aftermath; }, span,
-            impacts);
+            handOn(camera, found, {}, {}), catcher_.loads().passed(camera), [&] { return found.aftermath; },
+            span, impacts);
     }
 }
 
@@ -92,7 +92,9 @@ void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& 
     const double lighter = std::min(camera.movableMassKg, other.movableMassKg);
     const float gravityScale = std::max(camera.gravityScale, other.gravityScale);
     const double least = span.thresholdMetresPerSecond(gravityScale) * lighter;
-    const auto isStrike = [least](double newtonSeconds) { return newtonSeconds > 0.0 && newtonSeconds >= least; };
+    const auto isStrike = [least](double newtonSeconds) {
+        return newtonSeconds > 0.0 && newtonSeconds >= least;
+    };
     if (!isStrike(whole)) {
         catcher_.tally().handedOn += isStrike(static_cast<double>(main.strongest)) ? 1 : 0;
         return;
@@ -123,8 +125,9 @@ void OnsetImpacts::begin() {
 
 OnsetImpacts::HandedOn OnsetImpacts::handOn(std::int32_t camera, const StrikeCauses::Found& found,
                                             const ChainLoads::Passed& passed, Vector3 point) noexcept {
-    return {camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds,
-            passed, point};
+    return {
+        camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds, passed,
+        point};
 }
 
 // Sums the impulses of collisions per component of the contact graph.

@@ -72,7 +72,9 @@ struct Frame {
     Vector2 origin;
     float sine = 0.0F, cosine = 1.0F; ///< of the angle, counter-clockwise
 
-    Vector2 turned(Vector2 v) const noexcept { return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y}; }
+    Vector2 turned(Vector2 v) const noexcept {
+        return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y};
+    }
     Vector2 turnedBack(Vector2 v) const noexcept {
         return {cosine * v.x + sine * v.y, -sine * v.x + cosine * v.y};
     }

@@ -193,35 +193,13 @@ double CollisionFinder::fractionOf(const b2Contact& contact) const noexcept {
 
 namespace {
 
-/// One side of a contact.
-struct Side {
-    const b2Body& body;
-    bool isRough;
-    const b2Shape& shape;
-
-    Side(const b2Fixture& f, bool rough)
-        : body{*f.GetBody()}
-        , isRough{rough}
-        , shape{*f.GetShape()} {}
-
-    /// Position of the point on a disc's circumference in that direction, and its speed if the direction
-    /// rotates at `radiansPerSecond`.
-    SurfacePath around(b2Vec2 direction, float radiansPerSecond) const {
-        if (!isRough || shape.m_type != b2Shape::e_circle)
-            return {}; // a surface without texture, or a corner
-        const b2Vec2 local = body.GetLocalVector(direction);
-        return {static_cast<double>(shape.m_radius * b2Atan2(local.y, local.x)),
-                static_cast<double>(shape.m_radius * (radiansPerSecond - body.GetAngularVelocity()))};
-    }
-};
-
 Frame frameOf(const b2Fixture& fixture) noexcept {
     const b2Transform& frame = fixture.GetBody()->GetTransform();
     return {toVector(frame.p), frame.q.s, frame.q.c};
 }
 
-/// Where a contact's bodies touch after the solver: normal and points as b2WorldManifold has them, to the
-/// bit, each when it is asked for.
+/// Where a contact's bodies touch after the solver: normal and point as b2WorldManifold has them, to the bit,
+/// each when it is asked for.
 class SolvedContact {
 public:
     explicit SolvedContact(const b2Contact& contact) noexcept
@@ -234,35 +212,29 @@ public:
             return;
         }
         normal_.Set(1.0F, 0.0F);
-        const b2Vec2 one = centreOfFirst(), other = place(0);
+        const b2Vec2 one = centreA(), other = centreB();
         if (b2DistanceSquared(one, other) <= b2_epsilon * b2_epsilon) return;
         normal_ = other - one;
         normal_.Normalize();
     }
 
     b2Vec2 normal() const noexcept { return isTurned_ ? -normal_ : normal_; } ///< from A to B
-    b2Vec2 normalFromFirst() const noexcept { return normal_; }
-    /// Of two discs; else a point of the face.
-    b2Vec2 centreOfFirst() const noexcept {
-        return b2Mul(first_.GetBody()->GetTransform(), manifold_.localPoint);
-    }
     bool isDiscs() const noexcept { return manifold_.type == b2Manifold::e_circles; }
     bool isTurned() const noexcept { return isTurned_; } ///< the face is B's
     const b2Fixture& first() const noexcept { return first_; }
     const b2Fixture& second() const noexcept { return second_; }
 
-    /// The corner or disc that touches, and the point between the surfaces.
-    struct Spot {
-        b2Vec2 place, point;
-    };
-    Spot spot(int i) const noexcept {
-        const float first = first_.GetShape()->m_radius, second = second_.GetShape()->m_radius;
-        const b2Vec2 origin = centreOfFirst(), at = place(i), onSecond = at - second * normal_;
-        const b2Vec2 onFirst =
-            isDiscs() ? origin + first * normal_ : at + (first - b2Dot(at - origin, normal_)) * normal_;
-        return {at, 0.5F * (onFirst + onSecond)};
+    /// Of two discs, or of a disc and a corner; and the point between them.
+    b2Vec2 centreA() const noexcept { return b2Mul(first_.GetBody()->GetTransform(), manifold_.localPoint); }
+    b2Vec2 centreB() const noexcept {
+        return b2Mul(second_.GetBody()->GetTransform(), manifold_.points[0].localPoint);
     }
-    /// The same point where there is a face, to be computed when it is asked for.
+    b2Vec2 pointOfDiscs() const noexcept {
+        const b2Vec2 onA = centreA() + first_.GetShape()->m_radius * normal_,
+                     onB = centreB() - second_.GetShape()->m_radius * normal_;
+        return 0.5F * (onA + onB);
+    }
+    /// A point on a face, to be computed when it is asked for.
     void note(int i, FaceTouch& touch) const noexcept {
         touch.face = frameOf(first_);
         touch.other = frameOf(second_);
@@ -283,31 +255,21 @@ public:
     }
 
 private:
-    b2Vec2 place(int i) const noexcept {
-        return b2Mul(second_.GetBody()->GetTransform(), manifold_.points[i].localPoint);
-    }
-
     const b2Manifold& manifold_;
     bool isTurned_;
     const b2Fixture &first_, &second_; // the face and what touches it, or A and B
     b2Vec2 normal_;
 };
 
-/// How a contact point moves along both surfaces.
-struct SurfaceRun {
-    b2Vec2 velocity;
-    SurfacePath first, second;
-};
-
-/// Two discs, or a disc and a corner: the contact point lies on the line between the centres.
-[[gnu::noinline]] SurfaceRun alongDiscs(const Side& a, const Side& b, b2Vec2 centreA, b2Vec2 centreB,
-                                        b2Vec2 normal) {
-    const b2Vec2 velocityA = a.body.GetLinearVelocityFromWorldPoint(centreA),
-                 velocityB = b.body.GetLinearVelocityFromWorldPoint(centreB);
-    const float distance = b2Distance(centreA, centreB);
-    const float turn = distance > b2_epsilon ? b2Cross(normal, velocityB - velocityA) / distance : 0.0F;
-    return {velocityA + a.shape.m_radius * b2Cross(turn, normal), a.around(normal, turn),
-            b.around(-normal, turn)};
+/// Position of the point on a disc's circumference in that direction, and its speed if the direction rotates
+/// at `radiansPerSecond`; 0 on a corner.
+SurfacePath around(const b2Fixture& disc, b2Vec2 direction, float radiansPerSecond) {
+    const b2Shape& shape = *disc.GetShape();
+    if (shape.m_type != b2Shape::e_circle) return {};
+    const b2Body& body = *disc.GetBody();
+    const b2Vec2 local = body.GetLocalVector(direction);
+    return {static_cast<double>(shape.m_radius * b2Atan2(local.y, local.x)),
+            static_cast<double>(shape.m_radius * (radiansPerSecond - body.GetAngularVelocity()))};
 }
 
 } // namespace
@@ -338,7 +300,7 @@ void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& im
     if (isLoaded && isRelevant)
         if (auto* place = catcher.push(pair, stored, isOfSource, solved.push(impulse, collisions))) {
             if (solved.isDiscs())
-                place->set(toVector(solved.spot(0).point));
+                place->set(toVector(solved.pointOfDiscs()));
             else
                 solved.note(0, place->setFace());
         }
@@ -370,39 +332,45 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
 /// collision.
 void CollisionFinder::tell(const b2Contact& contact, const b2ContactImpulse& impulse, unsigned collisions,
                            const Known& known) {
-    LastingContacts& lasting = events_.lasting();
     const SolvedContact solved{contact};
     for (int i = 0; i < impulse.count; ++i) {
         if (isIn(collisions, i)) continue;
-        if (!solved.isDiscs()) {
-            FaceTouch touch;
-            solved.note(i, touch);
-            tellFace(contact, impulse, i, known, touch);
-            continue;
-        }
-        const Side first{solved.first(), lasting.isRough(known.pair.a)},
-            second{solved.second(), lasting.isRough(known.pair.b)};
-        const b2Vec2 normal = solved.normal(), tangent = b2Cross(normal, 1.0F);
-        const SolvedContact::Spot spot = solved.spot(i);
-        const SurfaceRun run = alongDiscs(first, second, solved.centreOfFirst(), spot.place, normal);
-        const b2Vec2 slip = second.body.GetLinearVelocityFromWorldPoint(spot.point) -
-                            first.body.GetLinearVelocityFromWorldPoint(spot.point);
-        lasting.touch({known.pair.a, known.pair.b, known.part ^ contact.GetManifold()->points[i].id.key,
-                       static_cast<double>(impulse.normalImpulses[i]),
-                       static_cast<double>(b2Dot(slip, tangent)), toVector(spot.point),
-                       toVector(run.velocity), run.first, run.second},
-                      known.key);
+        if (solved.isDiscs()) return tellDiscs(contact, impulse, known);
+        FaceTouch touch;
+        solved.note(i, touch);
+        tellFace(contact, impulse, i, known, touch);
     }
+}
+
+/// The point between two discs, or a disc and a corner, lies on the line between the centres.
+void CollisionFinder::tellDiscs(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                const Known& known) {
+    LastingContacts& lasting = events_.lasting();
+    const SolvedContact solved{contact};
+    const b2Fixture &discA = solved.first(), &discB = solved.second();
+    const b2Body &a = *discA.GetBody(), &b = *discB.GetBody();
+    const b2Vec2 normal = solved.normal(), centreA = solved.centreA(), centreB = solved.centreB(),
+                 velocityA = a.GetLinearVelocityFromWorldPoint(centreA),
+                 velocityB = b.GetLinearVelocityFromWorldPoint(centreB), point = solved.pointOfDiscs(),
+                 slip = b.GetLinearVelocityFromWorldPoint(point) - a.GetLinearVelocityFromWorldPoint(point);
+    const float distance = b2Distance(centreA, centreB);
+    const float turn = distance > b2_epsilon ? b2Cross(normal, velocityB - velocityA) / distance : 0.0F;
+    const b2Vec2 moved = velocityA + discA.GetShape()->m_radius * b2Cross(turn, normal);
+    lasting.touch({known.pair.a, known.pair.b, known.part ^ contact.GetManifold()->points[0].id.key,
+                   static_cast<double>(impulse.normalImpulses[0]),
+                   static_cast<double>(b2Dot(slip, b2Cross(normal, 1.0F))), toVector(point), toVector(moved),
+                   lasting.isRough(known.pair.a) ? around(discA, normal, turn) : SurfacePath{},
+                   lasting.isRough(known.pair.b) ? around(discB, -normal, turn) : SurfacePath{}},
+                  known.key);
 }
 
 /// One point on a face, which touches there.
 inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i,
                                       const Known& known, const FaceTouch& touch) {
     FacePoint& told = events_.lasting().touchFace();
-    const bool isTurned = contact.GetManifold()->type == b2Manifold::e_faceB;
-    const b2Fixture &first = isTurned ? *contact.GetFixtureB() : *contact.GetFixtureA(),
-                    &second = isTurned ? *contact.GetFixtureA() : *contact.GetFixtureB();
-    const b2Body &face = *first.GetBody(), &other = *second.GetBody();
+    const SolvedContact solved{contact};
+    const bool isTurned = solved.isTurned();
+    const b2Body &face = *solved.first().GetBody(), &other = *solved.second().GetBody();
     told.touch = touch;
     told.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
     told.other = {toVector(other.GetLinearVelocity()), toVector(other.GetWorldCenter())};
@@ -410,7 +378,7 @@ inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactI
     told.otherRadiansPerSecond = other.GetAngularVelocity();
     told.normalNewtonSeconds = impulse.normalImpulses[i];
     told.isTurned = isTurned;
-    told.isDiscRough = second.GetType() == b2Shape::e_circle &&
+    told.isDiscRough = solved.second().GetType() == b2Shape::e_circle &&
                        events_.fixtures().isRough(isTurned ? known.pair.a : known.pair.b);
     told.a = known.pair.a;
     told.b = known.pair.b;

@@ -165,7 +165,7 @@ private:
     static constexpr std::size_t expectedContacts = 128;
 
     using Pair = TouchingPairs::Name;
-    struct alignas(64) Known { // cache, which saves a search for both fixtures in every step
+    struct alignas(64) Known {              // cache, which saves a search for both fixtures in every step
         const b2Contact* contact = nullptr; // null: of none
         const b2Fixture *fixtureA = nullptr, *fixtureB = nullptr;
         Pair pair{};            // its number: none until it is needed
@@ -207,6 +207,7 @@ private:
     [[gnu::noinline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known* known);
     [[gnu::noinline]] void tell(const b2Contact& contact, const b2ContactImpulse& impulse,
                                 unsigned collisions, const Known& known);
+    void tellDiscs(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known);
     void tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i, const Known& known,
                   const FaceTouch& touch);
     [[gnu::noinline]] void tellFace(const b2Contact& contact, const b2ContactImpulse& impulse,
@@ -217,7 +218,7 @@ private:
     ContactEvents& events_;
     BodySweeps& sweeps_;
     FreshPoints fresh_;
-    std::vector<Known> known_;             // contacts that touch, then room for more
+    std::vector<Known> known_; // contacts that touch, then room for more
     std::size_t knownCount_ = 0;
     IntegerMap knownAt_{expectedContacts}; // by contact
     std::size_t last_ = 0;                 // the place of the one that was found last
