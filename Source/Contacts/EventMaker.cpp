@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <ranges>
-#include <span>
 
 namespace physvib {
 namespace {
@@ -204,11 +202,7 @@ void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& fi
     if (count == 0) return;
     share(count, firstNs, lastNs);
     sort(count);
-    const auto inOrder = std::views::transform(
-        std::span{turns_}.first(count), [this](const Turn& turn) -> const auto& {
-            return held_[place(turn.rank & 0xFFFFFFFFU)];
-        });
-    finished.insert(finished.end(), inOrder.begin(), inOrder.end());
+    for (std::size_t i = 0; i < count; ++i) finished.push_back(held_[place(turns_[i].rank & 0xFFFFFFFFU)]);
     if (count < end) return leave(end, [beforeNs](const Waiting& each) { return each.timeNs < beforeNs; });
     first_ = place(count);
     count_ -= count;
