@@ -166,19 +166,20 @@ inline const Vector3& ChainLoads::loadOf(const Contact& contact) noexcept {
 }
 
 void ChainLoads::settle() {
-    for (const Contact& contact : contacts_) {
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        const Contact& contact = contacts_[i];
         if (contact.step != step_ || contact.isUnknown) continue;
         const Vector3 &now = contact.pushed[contact.newest], &load = loadOf(contact);
         if (now.lengthSquared() <= load.lengthSquared()) continue;
         const Vector3 beyond = now - load;
         const float size = beyond.length();
-        pass(contact.of.a, contact.of.b, -beyond, size, contact.point);
-        pass(contact.of.b, contact.of.a, beyond, size, contact.point);
+        pass(contact.of.a, contact.of.b, -beyond, size, i);
+        pass(contact.of.b, contact.of.a, beyond, size, i);
     }
 }
 
 void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size,
-                      Vector3 point) {
+                      std::size_t contact) {
     if (!table_.isCamera(slot)) return;
     const auto index = static_cast<std::size_t>(slot);
     if (passed_.size() <= index) passed_.resize(index + 1);
@@ -188,7 +189,7 @@ void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSecon
     if (size <= passed.strongest) return;
     passed.strongest = size;
     passed.other = other;
-    passed.point = point;
+    passed.contact = contact;
 }
 
 // What has ended and pushes no more is dropped, from the last on: sums depend on the order of the others.

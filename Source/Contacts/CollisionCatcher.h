@@ -113,25 +113,41 @@ private:
 /// Allocates when the world grows. World thread (M) only.
 class ChainLoads {
 public:
+    /// Where a contact is: of many it is never asked, so what an engine has is kept as it is.
+    struct Place {
+        FaceTouch face;
+        Vector3 world;
+        bool isOfFace = false;
+
+        FaceTouch& setFace() noexcept { // to be filled in
+            isOfFace = true;
+            return face;
+        }
+        void set(Vector3 point) noexcept {
+            world = point;
+            isOfFace = false;
+        }
+        Vector3 point() const noexcept { return isOfFace ? Vector3(face.point()) : world; }
+    };
     struct Passed {
         Vector3 newtonSeconds;
         float strongest = 0.0F;                  ///< magnitude of the part that came through `other`
         std::int32_t other = FixtureTable::none; ///< slot of the neighbour that transmitted most
-        Vector3 point;
+        std::size_t contact = 0;                 ///< with that neighbour, see pointOf()
     };
 
     ChainLoads(const FixtureTable& table, TouchingPairs& pairs);
 
     /// Within a step: an existing contact of (a, b) has pushed b by `newtonSeconds` (world), and a by the
     /// opposite.
-    [[gnu::always_inline]] void add(const TouchingPairs::Name& pair, std::int32_t load, Vector3 newtonSeconds,
-                                    Vector3 point) {
+    [[gnu::always_inline]] Place& add(const TouchingPairs::Name& pair, std::int32_t load,
+                                      Vector3 newtonSeconds) {
         Contact& contact =
             load != TouchingPairs::none ? contacts_[static_cast<std::size_t>(load)] : meet(pair, true);
         if (contact.of.b != pair.b) newtonSeconds = -newtonSeconds;
         // Summed over the step's points and solver passes, and over the segments of a chain.
         contact.pushed[contact.newest] = open(contact) + newtonSeconds;
-        contact.point = point;
+        return contact.place;
     }
 
     /// After a step: sums up the transmitted impulses.
@@ -144,6 +160,10 @@ public:
     Passed passed(std::int32_t slot) const noexcept {
         const auto index = static_cast<std::size_t>(slot);
         return index < passed_.size() ? passed_[index] : Passed{};
+    }
+    /// Where most of it was transmitted, in the same step; 0 if nothing was.
+    Vector3 pointOf(const Passed& passed) const noexcept {
+        return passed.other == FixtureTable::none ? Vector3{} : contacts_[passed.contact].place.point();
     }
 
     /// A contact begins: its load is 0.
@@ -163,7 +183,7 @@ private:
         std::uint32_t step = 0, newest = 0; // step: the number of the last one that pushed; 0: none has
         std::array<Vector3, 4> pushed{}; // impulses on of.b in that step (at `newest`) and the three before,
                                          // in turn
-        Vector3 point{};
+        Place place{};
         bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its
                                 // load
     };
@@ -180,7 +200,7 @@ private:
         contact.step = step_;
         return {};
     }
-    void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size, Vector3 point);
+    void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size, std::size_t contact);
     void drop(std::size_t index) noexcept;
 
     const FixtureTable& table_;
@@ -296,15 +316,19 @@ public:
     /// Adds the impulse, N s in the world, by which parts that do not collide have pushed b, and a by the
     /// opposite.
     void push(const TouchingPairs::Name& pair, Vector3 newtonSeconds, Vector3 point) {
-        push(pair, pairs_[pair.number], touchesSource(pair.a, pair.b), newtonSeconds, point);
+        const bool isOfSource = touchesSource(pair.a, pair.b);
+        if (ChainLoads::Place* const place = push(pair, pairs_[pair.number], isOfSource, newtonSeconds))
+            place->set(point);
     }
-    /// The same where what is stored of the pair, and whether it touches a source, are known.
-    [[gnu::always_inline]] void push(const TouchingPairs::Name& pair, const TouchingPairs::Pair& stored,
-                                     bool isOfSource, Vector3 newtonSeconds, Vector3 point) {
+    /// The same where what is stored of the pair, and whether it touches a source, are known. Returns what is
+    /// to be set to the place; nullptr: nothing.
+    [[gnu::always_inline]] ChainLoads::Place* push(const TouchingPairs::Name& pair,
+                                                   const TouchingPairs::Pair& stored, bool isOfSource,
+                                                   Vector3 newtonSeconds) {
         hasHeard_ = true;
         if (stored.last != TouchingPairs::none) [[unlikely]]
             last_[static_cast<std::size_t>(stored.last)].newtonSeconds += newtonSeconds;
-        if (isOfSource) loads_.add(pair, stored.load, newtonSeconds, point);
+        return isOfSource ? &loads_.add(pair, stored.load, newtonSeconds) : nullptr;
     }
 
     const std::vector<Collision>& collisions() const noexcept { return collisions_; }

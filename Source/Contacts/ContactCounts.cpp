@@ -45,11 +45,7 @@ ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
     settling += other.settling;
     dropped += other.dropped;
     handedOn += other.handedOn;
-    if (other.events > 0) {
-        made(other.leastX, other.leastY);
-        made(other.mostX, other.mostY);
-        events += other.events - 2;
-    }
+    made({other.events, other.leastX, other.leastY, other.mostX, other.mostY});
     thresholdMetresPerSecond = other.thresholdMetresPerSecond;
     hasSources = other.hasSources;
     steps += other.steps;

@@ -4,14 +4,31 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace physvib {
 class PhantomPanner;
 
 /// Why the physics engine lets a haptic source touch nothing: a look at its bodies says so.
 enum class EngineNote : std::uint8_t { sensor, filtered, disabled, asleep };
+
+/// How many events were made, and the bounds of their places, m of the field.
+struct PlacesMade {
+    std::uint64_t count = 0;
+    double leastX = std::numeric_limits<double>::infinity(), leastY = leastX, mostX = -leastX,
+           mostY = -leastX;
+
+    void add(double x, double y) noexcept {
+        ++count;
+        leastX = std::min(leastX, x);
+        leastY = std::min(leastY, y);
+        mostX = std::max(mostX, x);
+        mostY = std::max(mostY, y);
+    }
+};
 
 /// Counts of a period: since the world was made, or since the last explanation.
 struct ContactCounts {
@@ -56,13 +73,14 @@ struct ContactCounts {
     };
     std::array<Noted, 4> notes{};
 
-    /// Counts an event at a place of the field.
-    void made(double x, double y) noexcept {
-        const bool isFirst = events++ == 0;
-        leastX = isFirst ? x : std::min(leastX, x);
-        leastY = isFirst ? y : std::min(leastY, y);
-        mostX = isFirst ? x : std::max(mostX, x);
-        mostY = isFirst ? y : std::max(mostY, y);
+    /// Counts events.
+    void made(const PlacesMade& places) noexcept {
+        if (places.count == 0) return;
+        const bool isFirst = std::exchange(events, events + places.count) == 0;
+        leastX = isFirst ? places.leastX : std::min(leastX, places.leastX);
+        leastY = isFirst ? places.leastY : std::min(leastY, places.leastY);
+        mostX = isFirst ? places.mostX : std::max(mostX, places.mostX);
+        mostY = isFirst ? places.mostY : std::max(mostY, places.mostY);
     }
 
     /// Notes what the engine says of a haptic source.

@@ -232,23 +232,8 @@ ContactCounts ContactEvents::takeRecent() noexcept {
     return now;
 }
 
-void ContactEvents::drain(std::vector<CollisionEvent>& events) {
-    const std::size_t first = events.size();
-    held_.release(settledNs(), events);
-    name(events, first);
-}
-
-void ContactEvents::flush(std::vector<CollisionEvent>& events) {
-    const std::size_t first = events.size();
-    held_.flush(events);
-    name(events, first);
-}
-
-// Fixtures without haptic values have no id: it becomes -1 in events.
-void ContactEvents::name(std::vector<CollisionEvent>& events, std::size_t first) {
-    for (std::size_t i = first; i < events.size(); ++i)
-        events[i].source.other = std::max(events[i].source.other, -1);
-}
+void ContactEvents::drain(std::vector<CollisionEvent>& events) { held_.release(settledNs(), events); }
+void ContactEvents::flush(std::vector<CollisionEvent>& events) { held_.flush(events); }
 
 void ContactEvents::shift(Vector2 by) noexcept {
     settings_.fieldOrigin += by;

@@ -119,7 +119,6 @@ private:
     void leaveOutSettling();
     void keepStrongest(std::size_t count);
     void forget(std::int32_t slot, bool isWithdrawn, bool othersToo);
-    static void name(std::vector<CollisionEvent>& events, std::size_t first);
 
     const BodyReader& bodies_;
     ImpactSettings settings_;

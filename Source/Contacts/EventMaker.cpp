@@ -133,64 +133,79 @@ void FullScale::learn(std::span<const Impact> impacts, const StepSpan& step, con
     level_ = std::max({fallen, sounding_, thresholds * step.leastMetresPerSecond * heaviestKg});
 }
 
-// Sorts indices of the held events when they are released; the events themselves do not move.
+// Sorts the arrival numbers of held events when they are released; the events themselves do not move.
 
 // Doubles. What follows in the same step then needs no memory.
 bool EventSorter::grow() noexcept {
     constexpr std::size_t least = 64;
-    const std::size_t before = held_.size(), count = std::min(capacity_, std::max(least, 2 * before));
-    if (before == count) return false;
+    if (room_ == capacity_) return false;
+    const std::size_t count = std::max(least, 2 * held_.size());
     try {
         for (auto* const list : {&turns_, &other_}) list->resize(count);
-        for (auto* const list : {&slots_, &shares_}) list->resize(count);
-        free_.reserve(count);
-        waiting_.reserve(count);
+        shares_.resize(count);
         ends_.reserve(count + 2);
-        held_.resize(count);
+        std::vector<CollisionEvent> held(count);
+        std::vector<Waiting> waiting(count);
+        for (std::size_t i = 0; i < count_; ++i) {
+            held[i] = held_[place(i)];
+            waiting[i] = waiting_[place(i)];
+        }
+        held_.swap(held);
+        waiting_.swap(waiting);
     } catch (const std::bad_alloc&) {
         return false;
     }
-    for (std::size_t slot = count; slot-- > before;) free_.push_back(static_cast<std::uint32_t>(slot));
+    first_ = 0;
+    mask_ = count - 1;
+    room_ = std::min(capacity_, count);
     return true;
 }
 
-void EventSorter::forget(std::size_t place) noexcept {
-    free_.push_back(waiting_[place].slot);
-    waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(place));
+// Those that stay move behind the last one that leaves: of grains none has to.
+template <class IsLeft>
+void EventSorter::leave(std::size_t count, IsLeft isLeft) noexcept {
+    std::size_t to = count;
+    for (std::size_t i = count; i-- > 0;) {
+        if (isLeft(waiting_[place(i)])) continue;
+        --to;
+        held_[place(to)] = held_[place(i)];
+        waiting_[place(to)] = waiting_[place(i)];
+    }
+    first_ = place(to);
+    count_ -= to;
 }
 
 bool EventSorter::dropWeakest(double amplitude) noexcept {
     ++drops_;
-    const auto amplitudeOf = [this](const Waiting& each) { return std::abs(held_[each.slot].amplitude); };
-    const auto weakest = std::ranges::min_element(waiting_, {}, amplitudeOf);
-    if (weakest == waiting_.end() || !(amplitudeOf(*weakest) < std::abs(amplitude))) return false;
-    forget(static_cast<std::size_t>(weakest - waiting_.begin()));
+    const auto amplitudeAt = [this](std::size_t i) { return std::abs(held_[place(i)].amplitude); };
+    std::size_t weakest = 0;
+    for (std::size_t i = 1; i < count_; ++i)
+        if (amplitudeAt(i) < amplitudeAt(weakest)) weakest = i;
+    if (count_ == 0 || !(amplitudeAt(weakest) < std::abs(amplitude))) return false;
+    const Waiting* const left = &waiting_[place(weakest)];
+    leave(weakest + 1, [left](const Waiting& each) { return &each == left; });
     return true;
 }
 
 void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished) {
-    std::size_t kept = 0, count = 0;
+    std::size_t count = 0, end = 0;
     std::int64_t firstNs = beforeNs, lastNs = std::numeric_limits<std::int64_t>::min();
-    for (const Waiting& each : waiting_) {
-        if (each.timeNs >= beforeNs) {
-            waiting_[kept++] = each;
-            continue;
-        }
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Waiting& each = waiting_[place(i)];
+        if (each.timeNs >= beforeNs) continue;
         firstNs = std::min(firstNs, each.timeNs);
         lastNs = std::max(lastNs, each.timeNs);
         const auto fixture = static_cast<std::uint32_t>(each.fixture) ^ 0x80000000U; // in order as unsigned
-        slots_[count] = each.slot;
-        turns_[count] = {each.timeNs, static_cast<std::uint64_t>(fixture) << 32U | count};
-        ++count;
+        turns_[count++] = {each.timeNs, static_cast<std::uint64_t>(fixture) << 32U | i};
+        end = i + 1;
     }
-    waiting_.resize(kept);
+    if (count == 0) return;
     share(count, firstNs, lastNs);
     sort(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t slot = slots_[turns_[i].rank & 0xFFFFFFFFU];
-        finished.push_back(held_[slot]);
-        free_.push_back(slot);
-    }
+    for (std::size_t i = 0; i < count; ++i) finished.push_back(held_[place(turns_[i].rank & 0xFFFFFFFFU)]);
+    if (count < end) return leave(end, [beforeNs](const Waiting& each) { return each.timeNs < beforeNs; });
+    first_ = place(count);
+    count_ -= count;
 }
 
 // By time into as many buckets as there are events: grains arrive by hundreds per step, evenly distributed,
@@ -232,10 +247,8 @@ void EventSorter::sort(std::size_t count) noexcept {
 }
 
 void EventSorter::withdraw(std::int32_t fixture, bool asOther) noexcept {
-    for (std::size_t i = waiting_.size(); i-- > 0;) {
-        const CollisionSource& source = held_[waiting_[i].slot].source;
-        if (source.fixture == fixture || (asOther && source.other == fixture)) forget(i);
-    }
+    leave(count_,
+          [=](const Waiting& each) { return each.fixture == fixture || (asOther && each.other == fixture); });
 }
 
 } // namespace physvib

@@ -7,6 +7,7 @@
 #include "Contacts/Impact.h"
 #include "Contacts/ImpactSettings.h"
 #include "Core/CollisionEvent.h"
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -28,13 +29,14 @@ public:
         grow();
     }
 
-    /// Adds an event; when full, or without memory, the weakest of all is dropped and counted.
+    /// Adds an event; when full, or without memory, the weakest of all is dropped and counted. Fixtures
+    /// without haptic values have no id: as the other one they are released as -1.
     [[gnu::always_inline]] void push(const CollisionEvent& event) noexcept {
-        if (free_.empty() && !grow() && !dropWeakest(event.amplitude)) return;
-        const std::uint32_t slot = free_.back();
-        free_.pop_back();
-        held_[slot] = event;
-        waiting_.push_back({event.timeNs, event.source.fixture, slot});
+        if (count_ == room_ && !grow() && !dropWeakest(event.amplitude)) return;
+        const std::size_t at = place(count_++);
+        held_[at] = event;
+        held_[at].source.other = std::max(event.source.other, -1);
+        waiting_[at] = {event.timeNs, event.source.fixture, event.source.other};
     }
 
     /// Moves all events before `beforeNs` to the end of `finished`.
@@ -54,8 +56,7 @@ public:
 private:
     struct Waiting {
         std::int64_t timeNs;
-        std::int32_t fixture;
-        std::uint32_t slot; // index in held_
+        std::int32_t fixture, other;
     };
     struct Turn { // of one that is being released
         std::int64_t timeNs;
@@ -64,19 +65,22 @@ private:
             return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.rank < b.rank;
         }
     };
+    std::size_t place(std::size_t arrival) const noexcept { return (first_ + arrival) & mask_; }
     [[gnu::noinline]] bool grow() noexcept;      // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
     void share(std::size_t count, std::int64_t firstNs, std::int64_t lastNs);
     void sort(std::size_t count) noexcept;
-    void forget(std::size_t place) noexcept;
+    template <class IsLeft>
+    void leave(std::size_t count, IsLeft isLeft) noexcept;
 
     std::size_t capacity_;
     std::uint64_t drops_ = 0;
-    std::vector<CollisionEvent> held_; // an event stays in its slot until it is released
-    std::vector<std::uint32_t> free_;  // free slots
-    std::vector<Waiting> waiting_;     // in order of arrival
-    // Of those being released, as long as held_: their slots in order of arrival, their buckets in time
-    std::vector<std::uint32_t> slots_, shares_;
+    // A ring in order of arrival; its size is a power of two, one more than the mask
+    std::size_t first_ = 0, count_ = 0, room_ = 0, mask_ = 0;
+    std::vector<CollisionEvent> held_;
+    std::vector<Waiting> waiting_; // of each held one
+    // Of those being released, as long as held_: their buckets in time
+    std::vector<std::uint32_t> shares_;
     std::vector<Turn> turns_, other_;
     std::vector<std::uint32_t> ends_; // ends of the buckets
 };
@@ -94,6 +98,9 @@ public:
     EventMaker(const FixtureTable& table, const PairSounds& pairs, const BodyReader& bodies,
                const ImpactModel& model, const ImpactSettings& settings, EventSorter& events,
                ContactCounts& counts) noexcept;
+    EventMaker(const EventMaker&) = delete;
+    EventMaker& operator=(const EventMaker&) = delete;
+    ~EventMaker() { counts_.made(made_); }
     void add(const Impact& impact) {
         const SmallImpact one{impact.timeNs, impact.newtonSeconds, impact.point, impact.kind};
         add(impact.camera, impact.other, {&one, 1});
@@ -106,7 +113,18 @@ public:
             return;
         }
         if (!hasMet_ || other != other_) setPartner(other);
-        for (const SmallImpact& impact : impacts) sound(impact);
+        if (modeCount_ == 1) [[likely]] {
+            const Mode mode = modes_[0];
+            for (const SmallImpact& impact : impacts) sound(mode, impact, amplitudeOf(impact));
+            return;
+        }
+        for (const SmallImpact& impact : impacts) {
+            const double amplitude = amplitudeOf(impact);
+            for (int i = 0; i < modeCount_; ++i) {
+                setMode(modes_[static_cast<std::size_t>(i)]);
+                sound(modes_[static_cast<std::size_t>(i)], impact, amplitude);
+            }
+        }
     }
 
 private:
@@ -115,28 +133,26 @@ private:
         SoundNumber sound;
         bool isPlayable; // as far as it does not depend on the impact
     };
-    [[gnu::always_inline]] void sound(const SmallImpact& impact) noexcept {
+    double amplitudeOf(const SmallImpact& impact) const noexcept {
+        return pairGain_ * (gain_ * (perNewtonSecond_ * impact.newtonSeconds / amplitudeDivisor_));
+    }
+    [[gnu::always_inline]] void sound(const Mode& mode, const SmallImpact& impact,
+                                      double amplitude) noexcept {
         if (isAtContact_) place(impact.point);
-        const double amplitude =
-            pairGain_ * (gain_ * (perNewtonSecond_ * impact.newtonSeconds / amplitudeDivisor_));
         event_.timeNs = impact.timeNs;
         event_.source.impulseNewtonSeconds = impact.newtonSeconds;
         event_.source.kind = impact.kind;
+        event_.amplitude = mode.relativeAmplitude * amplitude;
         // The rest of isPlayable() is the mode's. The sum is finite if its parts are: these are no larger
         // than floats.
-        const bool isSomewhere = impact.timeNs >= 0 && impact.timeNs <= limits::maxTimeNs &&
-                                 std::isfinite(event_.x + event_.y + event_.z);
-        for (int i = 0; i < modeCount_; ++i) {
-            const Mode& mode = modes_[static_cast<std::size_t>(i)];
-            if (modeCount_ > 1) setMode(mode);
-            event_.amplitude = mode.relativeAmplitude * amplitude;
-            if (!(isSomewhere && mode.isPlayable && std::abs(event_.amplitude) <= limits::maxAmplitude)) {
-                ++counts_.unplayable;
-                continue;
-            }
-            events_.push(event_);
-            counts_.made(event_.x, event_.y);
+        if (!(impact.timeNs >= 0 && impact.timeNs <= limits::maxTimeNs &&
+              std::isfinite(event_.x + event_.y + event_.z) && mode.isPlayable &&
+              std::abs(event_.amplitude) <= limits::maxAmplitude)) [[unlikely]] {
+            ++counts_.unplayable;
+            return;
         }
+        events_.push(event_);
+        made_.add(event_.x, event_.y);
     }
     void setMode(const Mode& mode) noexcept {
         event_.frequencyHz = mode.frequencyHz;
@@ -165,6 +181,7 @@ private:
     const float cos_, sin_;  // rotation of the field
     const bool isAtContact_; // else events are at the source's fixture
     CollisionEvent event_;
+    PlacesMade made_;
     // Of the current haptic source:
     std::int32_t camera_ = FixtureTable::none;
     double perNewtonSecond_ = 0.0, amplitudeDivisor_ = 1.0; // ImpactModel::amplitude, in its order of

@@ -99,6 +99,7 @@ private:
         std::int32_t a, b;          // the slots of that cause
         double causedNewtonSeconds; // by all causes
         ChainLoads::Passed passed;  // in the first step
+        Vector3 point;              // there
     };
     void strike(const StepSpan& span, std::vector<Impact>& impacts);
     void complete(const StepSpan& span, std::vector<Impact>& impacts);
@@ -108,7 +109,7 @@ private:
                   std::vector<Impact>& impacts) const;
     void begin();
     static HandedOn handOn(std::int32_t camera, const StrikeCauses::Found& found,
-                           const ChainLoads::Passed& passed) noexcept;
+                           const ChainLoads::Passed& passed, Vector3 point) noexcept;
 
     CollisionCatcher& catcher_;
     const FixtureTable& table_;

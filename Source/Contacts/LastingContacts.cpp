@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace physvib {
 
@@ -47,6 +48,36 @@ void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts
     collectFor(span, list);
 }
 
+namespace {
+
+/// On the circumference of a disc that touches a face.
+SurfacePath around(const FacePoint& of) noexcept {
+    const Vector2 towards = -of.touch.face.turned(of.touch.normal),
+                  local = of.touch.other.turnedBack(towards);
+    const float radius = of.touch.otherRadius;
+    return {static_cast<double>(radius * std::atan2(local.y, local.x)),
+            static_cast<double>(radius * (of.faceRadiansPerSecond - of.otherRadiansPerSecond))};
+}
+
+} // namespace
+
+void LastingContacts::computeFaces() {
+    const std::size_t count = std::exchange(faceCount_, 0);
+    for (std::size_t first = 0; first < count; first += 4) { // of rows behind the last nothing is used
+        const FaceRuns runs{&faces_[first]};
+        for (std::size_t i = 0; i < std::min<std::size_t>(4, count - first); ++i) {
+            const FacePoint& of = faces_[first + i];
+            const SurfacePath face{static_cast<double>(runs.metres[i]), static_cast<double>(runs.speed[i])},
+                other = of.isDiscRough ? around(of) : SurfacePath{};
+            add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds),
+                 static_cast<double>(runs.slip[i]), Vector2{runs.point.x[i], runs.point.y[i]},
+                 Vector2{runs.metresPerSecond.x[i], runs.metresPerSecond.y[i]}, of.isTurned ? other : face,
+                 of.isTurned ? face : other},
+                of.pairsKey);
+        }
+    }
+}
+
 /// Adds the point's passage along a surface, and returns how many grains that is.
 template <SurfacePath LastingPoint::*path>
 inline double LastingContacts::follow(Told& told, std::int32_t surface, double seconds) {
@@ -73,6 +104,7 @@ inline double LastingContacts::follow(Told& told, std::int32_t surface, double s
 // What the step's points pass, thinned together.
 void LastingContacts::follow(double seconds) {
     passages_.clear();
+    compute();
     if (!hasHeard()) return;
     if (!(seconds > 0.0) || seconds > longestStepSeconds) return forgetStep();
     for (Pair& pair : pairs_.now()) weigh(pair, seconds);
@@ -97,6 +129,7 @@ void LastingContacts::weigh(Pair& pair, double seconds) const noexcept {
 void LastingContacts::grow() { grains_.resize(2 * grains_.size() + 32); }
 
 void LastingContacts::endStep() {
+    compute();
     points_.endStep();
     pairs_.endStep();
 }
@@ -106,7 +139,8 @@ void LastingContacts::forgetStep() noexcept {
     pairs_.forgetStep();
 }
 
-void LastingContacts::forget(std::int32_t slot) noexcept {
+void LastingContacts::forget(std::int32_t slot) {
+    compute();
     points_.changeAll([slot](Told& told) {
         if (told.point.a != slot && told.point.b != slot) return;
         told.point.onA.metres = told.point.onB.metres = farMetres; // so that a new contact at this key counts
@@ -116,6 +150,7 @@ void LastingContacts::forget(std::int32_t slot) noexcept {
 }
 
 void LastingContacts::reset() noexcept {
+    faceCount_ = 0;
     points_.reset();
     pairs_.reset();
 }

@@ -2,11 +2,13 @@
 // Rolling and sliding contacts: each grain of a rough surface that a contact point passes gives a small
 // impact.
 #pragma once
+#include "Contacts/FacePoints.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Grains.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -190,22 +192,17 @@ public:
     /// Reports a point after the solver, once per step; repeated reports of a point are ignored.
     void touch(const LastingPoint& point) { touch(point, pairKey(point.a, point.b)); }
     /// The same where the pair's key is known.
-    [[gnu::always_inline]] void touch(const LastingPoint& point, std::uint64_t pairsKey) {
-        if (points_.count() == mostPoints || !isUsable(point)) return;
-        const std::size_t known = points_.count();
-        const std::int32_t at = points_.tell(keyOf(pairsKey, point.feature));
-        if (points_.count() == known) return;
-        const std::size_t pairs = pairs_.count();
-        const std::int32_t pairAt = pairs_.tell(pairsKey);
-        Pair& pair = pairs_[pairAt];
-        if (pairs_.count() != pairs) pair.newtonSeconds = 0.0;
-        pair.newtonSeconds += point.normalNewtonSeconds;
-        Told& told = points_[at];
-        told.pair = pairAt;
-        told.point = point;
-        told.inGapOf = FixtureTable::none;
+    void touch(const LastingPoint& point, std::uint64_t pairsKey) {
+        compute();
+        add(point, pairsKey);
     }
-    bool hasHeard() const noexcept { return points_.count() > 0; }
+    /// The same of a point on a face: how it moves is computed later, of four at a time. To be filled in.
+    [[gnu::always_inline]] FacePoint& touchFace() {
+        if (faceCount_ == faces_.size()) [[unlikely]]
+            compute();
+        return faces_[faceCount_++];
+    }
+    bool hasHeard() const noexcept { return points_.count() > 0 || faceCount_ > 0; }
 
     /// For steps with usual numbers of points. Call it where a surface is rough.
     void reserve() {
@@ -226,7 +223,7 @@ public:
     void endStep();
 
     /// The slot is freed or reassigned.
-    void forget(std::int32_t slot) noexcept;
+    void forget(std::int32_t slot);
     void reset() noexcept;
 
     /// Grains left out so far by thinning; the remaining ones carry their power.
@@ -271,6 +268,25 @@ private:
         double grains; // about so many
     };
 
+    void compute() {
+        if (faceCount_ > 0) computeFaces();
+    }
+    [[gnu::noinline]] void computeFaces();
+    [[gnu::always_inline]] void add(const LastingPoint& point, std::uint64_t pairsKey) {
+        if (points_.count() == mostPoints || !isUsable(point)) return;
+        const std::size_t known = points_.count();
+        const std::int32_t at = points_.tell(keyOf(pairsKey, point.feature));
+        if (points_.count() == known) return;
+        const std::size_t pairs = pairs_.count();
+        const std::int32_t pairAt = pairs_.tell(pairsKey);
+        Pair& pair = pairs_[pairAt];
+        if (pairs_.count() != pairs) pair.newtonSeconds = 0.0;
+        pair.newtonSeconds += point.normalNewtonSeconds;
+        Told& told = points_[at];
+        told.pair = pairAt;
+        told.point = point;
+        told.inGapOf = FixtureTable::none;
+    }
     void follow(double seconds);
     template <SurfacePath LastingPoint::*path>
     [[gnu::always_inline]] double follow(Told& told, std::int32_t surface, double seconds);
@@ -296,6 +312,8 @@ private:
     void pass(const Passage& passage, const StepSpan& span, Makers& makers);
 
     const FixtureTable& table_;
+    std::array<FacePoint, 32> faces_; // reported, not yet computed; so many stay in the first-level cache
+    std::size_t faceCount_ = 0;
     StepMemory<Told> points_;
     StepMemory<Pair> pairs_;
     std::vector<Passage> passages_;

@@ -26,7 +26,7 @@ void OnsetImpacts::reset() noexcept {
 }
 
 void OnsetImpacts::shift(Vector2 by) noexcept {
-    for (HandedOn& handedOn : waiting_) handedOn.passed.point += by;
+    for (HandedOn& handedOn : waiting_) handedOn.point += by;
 }
 
 void OnsetImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
@@ -72,8 +72,8 @@ void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impac
         if (found.strongest == nullptr) continue;
         isUsed_.set(camera, 1);
         complete(
-            handOn(camera, found, {}), catcher_.loads().passed(camera), [&] { return found.aftermath; }, span,
-            impacts);
+            handOn(camera, found, {}, {}), catcher_.loads().passed(camera), [&] { return found.aftermath; },
+            span, impacts);
     }
 }
 
@@ -83,22 +83,26 @@ template <class Later>
 void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later,
                             const StepSpan& span, std::vector<Impact>& impacts) const {
     if (!table_.isCamera(handedOn.camera)) return;
-    const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
+    const bool isLate = now.strongest > handedOn.passed.strongest;
+    const ChainLoads::Passed& main = isLate ? now : handedOn.passed;
     const auto whole = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
     const FixtureTable::Mobility& camera = table_.mobility(handedOn.camera);
     const FixtureTable::Mobility& other =
         main.other == FixtureTable::none ? camera : table_.mobility(main.other);
     const double lighter = std::min(camera.movableMassKg, other.movableMassKg);
     const float gravityScale = std::max(camera.gravityScale, other.gravityScale);
-    if (!span.isStrike(whole, lighter, gravityScale)) {
-        catcher_.tally().handedOn +=
-            span.isStrike(static_cast<double>(main.strongest), lighter, gravityScale) ? 1 : 0;
+    const double least = span.thresholdMetresPerSecond(gravityScale) * lighter;
+    const auto isStrike = [least](double newtonSeconds) {
+        return newtonSeconds > 0.0 && newtonSeconds >= least;
+    };
+    if (!isStrike(whole)) {
+        catcher_.tally().handedOn += isStrike(static_cast<double>(main.strongest)) ? 1 : 0;
         return;
     }
     const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
-    if (span.isStrike(impulse, lighter, gravityScale))
-        impacts.push_back(
-            {handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse, main.point});
+    if (isStrike(impulse))
+        impacts.push_back({handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse,
+                           isLate ? catcher_.loads().pointOf(now) : handedOn.point});
 }
 
 void OnsetImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const {
@@ -112,15 +116,18 @@ void OnsetImpacts::begin() {
     if (strikes_.isEmpty()) return;
     for (const std::int32_t camera : catcher_.loads().receivers()) {
         if (isUsed_.find(camera) != SlotMap::none) continue;
-        if (const StrikeCauses::Found found = strikes_.find(camera, graph_); found.strongest != nullptr)
-            waiting_.push_back(handOn(camera, found, catcher_.loads().passed(camera)));
+        if (const StrikeCauses::Found found = strikes_.find(camera, graph_); found.strongest != nullptr) {
+            const ChainLoads::Passed passed = catcher_.loads().passed(camera);
+            waiting_.push_back(handOn(camera, found, passed, catcher_.loads().pointOf(passed)));
+        }
     }
 }
 
 OnsetImpacts::HandedOn OnsetImpacts::handOn(std::int32_t camera, const StrikeCauses::Found& found,
-                                            const ChainLoads::Passed& passed) noexcept {
-    return {camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds,
-            passed};
+                                            const ChainLoads::Passed& passed, Vector3 point) noexcept {
+    return {
+        camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds, passed,
+        point};
 }
 
 // Sums the impulses of collisions per component of the contact graph.

@@ -109,7 +109,7 @@ void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {
     const Collision* const cause = &catcher_.collisions()[static_cast<std::size_t>(strongest)];
     const ChainLoads::Passed passed = catcher_.loads().passed(camera);
     const bool isKnown = passed.other != FixtureTable::none;
-    const Vector3 point = isKnown ? passed.point : cause->point;
+    const Vector3 point = isKnown ? catcher_.loads().pointOf(passed) : cause->point;
     const std::uint64_t body = table_[camera].body.body;
     push({camera, isKnown ? passed.other : cause->a, cause->a, cause->b, cause->order, false, false,
           span.timeNs(cause->fraction), point, inPlane(point) - bodies_.centre(body),

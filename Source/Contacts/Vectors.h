@@ -67,6 +67,35 @@ struct Vector2 {
 /// The part of a vector in space that lies in the plane. Any thread.
 inline Vector2 inPlane(Vector3 of) noexcept { return {of.x, of.y}; }
 
+/// Place and rotation of a body's frame.
+struct Frame {
+    Vector2 origin;
+    float sine = 0.0F, cosine = 1.0F; ///< of the angle, counter-clockwise
+
+    Vector2 turned(Vector2 v) const noexcept {
+        return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y};
+    }
+    Vector2 turnedBack(Vector2 v) const noexcept {
+        return {cosine * v.x + sine * v.y, -sine * v.x + cosine * v.y};
+    }
+    Vector2 placed(Vector2 v) const noexcept { return turned(v) + origin; } ///< from the frame to the world
+};
+
+/// A corner or disc of one body on a face of another.
+struct FaceTouch {
+    Frame face, other;
+    Vector2 normal, onFace; ///< in the face's frame: out of it, and a point on it
+    Vector2 corner;         ///< in the other's
+    float faceRadius = 0.0F, otherRadius = 0.0F;
+
+    /// The point between the surfaces, world.
+    Vector2 point() const noexcept {
+        const Vector2 out = face.turned(normal), at = other.placed(corner);
+        const auto height = static_cast<float>(dot(at - face.placed(onFace), out));
+        return 0.5F * ((at + (faceRadius - height) * out) + (at - otherRadius * out));
+    }
+};
+
 /// Velocity of a body.
 struct BodyMotion {
     Vector2 metresPerSecond;

@@ -59,6 +59,8 @@ public:
     void SayGoodbye(b2Fixture* fixture) override;
 
 private:
+    [[gnu::noinline]] void forward(b2Contact* contact, const b2Manifold* oldManifold);
+    [[gnu::noinline]] void forward(b2Contact* contact, const b2ContactImpulse* impulse);
     class Call;
     template <class Listener>
     static Listener* skipInactive(Listener* found, Listener* WorldListener::*next);
@@ -325,6 +327,10 @@ void WorldListener::EndContact(b2Contact* contact) {
 
 void WorldListener::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) {
     if (isAlone_) return finder_->onPreSolve(*contact, *oldManifold);
+    forward(contact, oldManifold);
+}
+
+void WorldListener::forward(b2Contact* contact, const b2Manifold* oldManifold) {
     const Call call{*this, contact};
     if (!call) return;
     if (chained_ != nullptr) chained_->PreSolve(contact, oldManifold); // it may disable the contact
@@ -333,6 +339,10 @@ void WorldListener::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) 
 
 void WorldListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
     if (isAlone_) return finder_->onPostSolve(*contact, *impulse);
+    forward(contact, impulse);
+}
+
+void WorldListener::forward(b2Contact* contact, const b2ContactImpulse* impulse) {
     const Call call{*this, contact};
     if (!call) return;
     if (finder_) finder_->onPostSolve(*contact, *impulse);

@@ -61,7 +61,7 @@ CollisionFinder::Known* CollisionFinder::search(const b2Contact& contact) {
         found = &remember(contact, {.a = a, .b = b});
     }
     const auto place = static_cast<std::size_t>(found - known_.data());
-    if (last_ < known_.size()) known_[last_].next = place;
+    known_[last_].next = place;
     last_ = place;
     return found;
 }
@@ -69,8 +69,8 @@ CollisionFinder::Known* CollisionFinder::search(const b2Contact& contact) {
 CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair pair) {
     std::int32_t at = knownAt_.find(idOf(contact));
     if (at == IntegerMap::none) {
-        at = static_cast<std::int32_t>(known_.size());
-        known_.emplace_back();
+        if (knownCount_ == known_.size()) known_.resize(2 * knownCount_);
+        at = static_cast<std::int32_t>(knownCount_++);
         knownAt_.set(idOf(contact), at);
     }
     Known& known = known_[static_cast<std::size_t>(at)];
@@ -84,16 +84,17 @@ void CollisionFinder::forget(const b2Contact& contact) noexcept {
     const std::int32_t at = knownAt_.find(idOf(contact));
     if (at == IntegerMap::none) return;
     knownAt_.erase(idOf(contact));
-    Known& hole = known_[static_cast<std::size_t>(at)];
-    if (&hole != &known_.back()) {
-        hole = known_.back();
+    Known &hole = known_[static_cast<std::size_t>(at)], &last = known_[--knownCount_];
+    if (&hole != &last) {
+        hole = last;
         knownAt_.set(idOf(*hole.contact), at);
     }
-    known_.pop_back();
+    last = {};
 }
 
 void CollisionFinder::forgetContacts() noexcept {
-    known_.clear();
+    std::fill_n(known_.begin(), knownCount_, Known{});
+    knownCount_ = 0;
     knownAt_.clear();
 }
 
@@ -192,30 +193,13 @@ double CollisionFinder::fractionOf(const b2Contact& contact) const noexcept {
 
 namespace {
 
-/// One side of a contact.
-struct Side {
-    const b2Body& body;
-    bool isRough;
-    const b2Shape& shape;
+Frame frameOf(const b2Fixture& fixture) noexcept {
+    const b2Transform& frame = fixture.GetBody()->GetTransform();
+    return {toVector(frame.p), frame.q.s, frame.q.c};
+}
 
-    Side(const b2Fixture& f, bool rough)
-        : body{*f.GetBody()}
-        , isRough{rough}
-        , shape{*f.GetShape()} {}
-
-    /// Position of the point on a disc's circumference in that direction, and its speed if the direction
-    /// rotates at `radiansPerSecond`.
-    SurfacePath around(b2Vec2 direction, float radiansPerSecond) const {
-        if (!isRough || shape.m_type != b2Shape::e_circle)
-            return {}; // a surface without texture, or a corner
-        const b2Vec2 local = body.GetLocalVector(direction);
-        return {static_cast<double>(shape.m_radius * b2Atan2(local.y, local.x)),
-                static_cast<double>(shape.m_radius * (radiansPerSecond - body.GetAngularVelocity()))};
-    }
-};
-
-/// Where a contact's bodies touch after the solver: normal and points as b2WorldManifold has them, to the
-/// bit, each when it is asked for.
+/// Where a contact's bodies touch after the solver: normal and point as b2WorldManifold has them, to the bit,
+/// each when it is asked for.
 class SolvedContact {
 public:
     explicit SolvedContact(const b2Contact& contact) noexcept
@@ -223,156 +207,193 @@ public:
         , isTurned_{manifold_.type == b2Manifold::e_faceB}
         , first_{isTurned_ ? *contact.GetFixtureB() : *contact.GetFixtureA()}
         , second_{isTurned_ ? *contact.GetFixtureA() : *contact.GetFixtureB()} {
-        const b2Transform& frame = first_.GetBody()->GetTransform();
-        origin_ = b2Mul(frame, manifold_.localPoint);
         if (manifold_.type != b2Manifold::e_circles) {
-            normal_ = b2Mul(frame.q, manifold_.localNormal);
+            normal_ = b2Mul(first_.GetBody()->GetTransform().q, manifold_.localNormal);
             return;
         }
         normal_.Set(1.0F, 0.0F);
-        const b2Vec2 other = place(0);
-        if (b2DistanceSquared(origin_, other) <= b2_epsilon * b2_epsilon) return;
-        normal_ = other - origin_;
+        const b2Vec2 one = centreA(), other = centreB();
+        if (b2DistanceSquared(one, other) <= b2_epsilon * b2_epsilon) return;
+        normal_ = other - one;
         normal_.Normalize();
     }
 
     b2Vec2 normal() const noexcept { return isTurned_ ? -normal_ : normal_; } ///< from A to B
-    b2Vec2 normalFromFirst() const noexcept { return normal_; }
-    b2Vec2 centreOfFirst() const noexcept { return origin_; } ///< of two discs
     bool isDiscs() const noexcept { return manifold_.type == b2Manifold::e_circles; }
     bool isTurned() const noexcept { return isTurned_; } ///< the face is B's
     const b2Fixture& first() const noexcept { return first_; }
     const b2Fixture& second() const noexcept { return second_; }
 
-    /// The corner or disc that touches, and the point between the surfaces.
-    struct Spot {
-        b2Vec2 place, point;
-    };
-    Spot spot(int i) const noexcept {
-        const float first = first_.GetShape()->m_radius, second = second_.GetShape()->m_radius;
-        const b2Vec2 at = place(i), onSecond = at - second * normal_;
-        const b2Vec2 onFirst =
-            isDiscs() ? origin_ + first * normal_ : at + (first - b2Dot(at - origin_, normal_)) * normal_;
-        return {at, 0.5F * (onFirst + onSecond)};
+    /// Of two discs, or of a disc and a corner; and the point between them.
+    b2Vec2 centreA() const noexcept { return b2Mul(first_.GetBody()->GetTransform(), manifold_.localPoint); }
+    b2Vec2 centreB() const noexcept {
+        return b2Mul(second_.GetBody()->GetTransform(), manifold_.points[0].localPoint);
+    }
+    b2Vec2 pointOfDiscs() const noexcept {
+        const b2Vec2 onA = centreA() + first_.GetShape()->m_radius * normal_,
+                     onB = centreB() - second_.GetShape()->m_radius * normal_;
+        return 0.5F * (onA + onB);
+    }
+    /// A point on a face, to be computed when it is asked for.
+    void note(int i, FaceTouch& touch) const noexcept {
+        touch.face = frameOf(first_);
+        touch.other = frameOf(second_);
+        touch.normal = toVector(manifold_.localNormal);
+        touch.onFace = toVector(manifold_.localPoint);
+        touch.corner = toVector(manifold_.points[i].localPoint);
+        touch.faceRadius = first_.GetShape()->m_radius;
+        touch.otherRadius = second_.GetShape()->m_radius;
+    }
+    /// The impulse on B, N s, of all points but `without` (a bit each).
+    Vector2 push(const b2ContactImpulse& impulse, unsigned without) const noexcept {
+        const b2Vec2 out = normal(), tangent = b2Cross(out, 1.0F);
+        b2Vec2 onB{0.0F, 0.0F};
+        for (int i = 0; i < impulse.count; ++i)
+            if (!isIn(without, i))
+                onB += impulse.normalImpulses[i] * out + impulse.tangentImpulses[i] * tangent;
+        return toVector(onB);
     }
 
 private:
-    b2Vec2 place(int i) const noexcept {
-        return b2Mul(second_.GetBody()->GetTransform(), manifold_.points[i].localPoint);
-    }
-
     const b2Manifold& manifold_;
     bool isTurned_;
     const b2Fixture &first_, &second_; // the face and what touches it, or A and B
-    b2Vec2 origin_, normal_;
+    b2Vec2 normal_;
 };
 
-/// How a contact point moves along both surfaces.
-struct SurfaceRun {
-    b2Vec2 velocity;
-    SurfacePath first, second;
-};
-
-/// For the point of `on` at `place` that touches `face`: in closed form.
-[[gnu::always_inline]] inline SurfaceRun alongFace(const Side& face, const Side& on, b2Vec2 normalFromFace,
-                                                   b2Vec2 place) {
-    const b2Vec2 tangent = b2Cross(normalFromFace, 1.0F);
-    const b2Vec2 velocity = on.body.GetLinearVelocityFromWorldPoint(place);
-    const float turn = face.body.GetAngularVelocity();
-    return {
-        velocity - on.shape.m_radius * b2Cross(turn, normalFromFace),
-        {static_cast<double>(b2Dot(face.body.GetLocalPoint(place), face.body.GetLocalVector(tangent))),
-         static_cast<double>(b2Dot(velocity - face.body.GetLinearVelocityFromWorldPoint(place), tangent))},
-        on.around(-normalFromFace, turn)};
-}
-
-/// Two discs, or a disc and a corner: the contact point lies on the line between the centres.
-[[gnu::noinline]] SurfaceRun alongDiscs(const Side& a, const Side& b, b2Vec2 centreA, b2Vec2 centreB,
-                                        b2Vec2 normal) {
-    const b2Vec2 velocityA = a.body.GetLinearVelocityFromWorldPoint(centreA),
-                 velocityB = b.body.GetLinearVelocityFromWorldPoint(centreB);
-    const float distance = b2Distance(centreA, centreB);
-    const float turn = distance > b2_epsilon ? b2Cross(normal, velocityB - velocityA) / distance : 0.0F;
-    return {velocityA + a.shape.m_radius * b2Cross(turn, normal), a.around(normal, turn),
-            b.around(-normal, turn)};
-}
-
-/// Reports the points to `lasting`, except those in `collisions` (a bit each), which belong to a collision.
-template <class Names> // Known, of the contact
-[[gnu::always_inline]] inline void tell(const b2Contact& contact, const SolvedContact& solved,
-                                        const SolvedContact::Spot& firstSpot, const b2ContactImpulse& impulse,
-                                        unsigned collisions, const Names& names, LastingContacts& lasting) {
-    const bool isTurned = solved.isTurned();
-    const Side first{solved.first(), lasting.isRough(isTurned ? names.pair.b : names.pair.a)},
-        second{solved.second(), lasting.isRough(isTurned ? names.pair.a : names.pair.b)};
-    const b2Vec2 normal = solved.normalFromFirst(), tangent = b2Cross(normal, 1.0F);
-    for (int i = 0; i < impulse.count; ++i) {
-        if (isIn(collisions, i)) continue;
-        const SolvedContact::Spot spot = i == 0 ? firstSpot : solved.spot(i);
-        const SurfaceRun run = solved.isDiscs()
-                                   ? alongDiscs(first, second, solved.centreOfFirst(), spot.place, normal)
-                                   : alongFace(first, second, normal, spot.place);
-        const b2Vec2 slip = // where both are turned, so is the tangent: the same
-            second.body.GetLinearVelocityFromWorldPoint(spot.point) -
-            first.body.GetLinearVelocityFromWorldPoint(spot.point);
-        lasting.touch({names.pair.a, names.pair.b, names.part ^ contact.GetManifold()->points[i].id.key,
-                       static_cast<double>(impulse.normalImpulses[i]),
-                       static_cast<double>(b2Dot(slip, tangent)), toVector(spot.point),
-                       toVector(run.velocity), isTurned ? run.second : run.first,
-                       isTurned ? run.first : run.second},
-                      names.key);
-    }
+/// Position of the point on a disc's circumference in that direction, and its speed if the direction rotates
+/// at `radiansPerSecond`; 0 on a corner.
+SurfacePath around(const b2Fixture& disc, b2Vec2 direction, float radiansPerSecond) {
+    const b2Shape& shape = *disc.GetShape();
+    if (shape.m_type != b2Shape::e_circle) return {};
+    const b2Body& body = *disc.GetBody();
+    const b2Vec2 local = body.GetLocalVector(direction);
+    return {static_cast<double>(shape.m_radius * b2Atan2(local.y, local.x)),
+            static_cast<double>(shape.m_radius * (radiansPerSecond - body.GetAngularVelocity()))};
 }
 
 } // namespace
 
-// Impulses at new points belong to the collision, if there is one; all others are load. `isPlain`: no point
-// is new, the usual case.
-template <bool isPlain>
-inline void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse,
-                                   unsigned fresh) {
+// Impulses at new points belong to the collision, if there is one; all others are load.
+// `known`: of the contact, or null.
+void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known* known) {
     CollisionCatcher& catcher = events_.catcher();
-    if (!catcher.hasSources()) return;
-    if ((isPlain || fresh == 0) &&
-        !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB())))
-        return;
-    Known* const known = find(contact);
+    const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
+    if (known == nullptr) known = find(contact);
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
     const TouchingPairs::Pair& stored = catcher[pair];
     const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
     const bool isOfSource = (traits & FixtureTable::source) != 0;
     const bool isRelevant = isOfSource || stored.last != TouchingPairs::none;
-    Collision* const collision = !isPlain && fresh != 0 ? catcher.collision(pair) : nullptr;
+    Collision* const collision = fresh != 0 ? catcher.collision(pair) : nullptr;
     if (!isRelevant && collision == nullptr) return;
     const unsigned collisions = collision != nullptr ? fresh : 0U;
-    const SolvedContact solved{contact};
-    const b2Vec2 normal = solved.normal(), tangent = b2Cross(normal, 1.0F);
-    b2Vec2 onB{0.0F, 0.0F};
-    bool isLoaded = isPlain;
+    bool isLoaded = false;
     for (int i = 0; i < impulse.count; ++i) {
-        if (!isPlain && isIn(collisions, i)) {
-            collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
-            collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
-        } else {
-            isLoaded = true;
-            onB += impulse.normalImpulses[i] * normal + impulse.tangentImpulses[i] * tangent;
-        }
+        isLoaded = isLoaded || !isIn(collisions, i);
+        if (!isIn(collisions, i)) continue;
+        collision->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
+        collision->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
     }
-    const SolvedContact::Spot first = solved.spot(0);
-    if (isLoaded && isRelevant) catcher.push(pair, stored, isOfSource, toVector(onB), toVector(first.point));
+    const SolvedContact solved{contact};
+    if (isLoaded && isRelevant)
+        if (auto* place = catcher.push(pair, stored, isOfSource, solved.push(impulse, collisions))) {
+            if (solved.isDiscs())
+                place->set(toVector(solved.pointOfDiscs()));
+            else
+                solved.note(0, place->setFace());
+        }
     if (LastingContacts::isRelevant(traits)) // only pairs whose load matters
-        tell(contact, solved, first, impulse, collisions, *known, events_.lasting());
+        tell(contact, impulse, collisions, *known);
 }
 
-void CollisionFinder::solveNew(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    solve<false>(contact, impulse, fresh_.solved(contact)); // the points are old from the next step on
-}
-
+// The usual contact, without a call: its points are old, one of its fixtures is a source, a face touches.
 void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    if (fresh_.mayHave(contact)) [[unlikely]]
-        return solveNew(contact, impulse);
-    solve<true>(contact, impulse, 0U);
+    CollisionCatcher& catcher = events_.catcher();
+    if (!catcher.hasSources()) return fresh_.mayHave(contact) ? (void)fresh_.solved(contact) : void();
+    const bool isNew = fresh_.mayHave(contact);
+    if (!isNew && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
+    Known* const known = guess(contact);
+    if (isNew || known == nullptr || !catcher.isKnown(known->pair)) return solve(contact, impulse, known);
+    const TouchingPairs::Pair& stored = catcher[known->pair];
+    const unsigned traits =
+        events_.fixtures().traits(known->pair.a) | events_.fixtures().traits(known->pair.b);
+    const SolvedContact solved{contact};
+    if (stored.load == TouchingPairs::none || stored.last != TouchingPairs::none || solved.isDiscs() ||
+        (traits & FixtureTable::source) == 0)
+        return solve(contact, impulse, known);
+    FaceTouch& touch = catcher.push(known->pair, stored, true, solved.push(impulse, 0U))->setFace();
+    solved.note(0, touch);
+    if (LastingContacts::isRelevant(traits)) tellFace(contact, impulse, *known, touch);
+}
+
+/// Reports the points to LastingContacts, except those in `collisions` (a bit each), which belong to a
+/// collision.
+void CollisionFinder::tell(const b2Contact& contact, const b2ContactImpulse& impulse, unsigned collisions,
+                           const Known& known) {
+    const SolvedContact solved{contact};
+    for (int i = 0; i < impulse.count; ++i) {
+        if (isIn(collisions, i)) continue;
+        if (solved.isDiscs()) return tellDiscs(contact, impulse, known);
+        FaceTouch touch;
+        solved.note(i, touch);
+        tellFace(contact, impulse, i, known, touch);
+    }
+}
+
+/// The point between two discs, or a disc and a corner, lies on the line between the centres.
+void CollisionFinder::tellDiscs(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                const Known& known) {
+    LastingContacts& lasting = events_.lasting();
+    const SolvedContact solved{contact};
+    const b2Fixture &discA = solved.first(), &discB = solved.second();
+    const b2Body &a = *discA.GetBody(), &b = *discB.GetBody();
+    const b2Vec2 normal = solved.normal(), centreA = solved.centreA(), centreB = solved.centreB(),
+                 velocityA = a.GetLinearVelocityFromWorldPoint(centreA),
+                 velocityB = b.GetLinearVelocityFromWorldPoint(centreB), point = solved.pointOfDiscs(),
+                 slip = b.GetLinearVelocityFromWorldPoint(point) - a.GetLinearVelocityFromWorldPoint(point);
+    const float distance = b2Distance(centreA, centreB);
+    const float turn = distance > b2_epsilon ? b2Cross(normal, velocityB - velocityA) / distance : 0.0F;
+    const b2Vec2 moved = velocityA + discA.GetShape()->m_radius * b2Cross(turn, normal);
+    lasting.touch({known.pair.a, known.pair.b, known.part ^ contact.GetManifold()->points[0].id.key,
+                   static_cast<double>(impulse.normalImpulses[0]),
+                   static_cast<double>(b2Dot(slip, b2Cross(normal, 1.0F))), toVector(point), toVector(moved),
+                   lasting.isRough(known.pair.a) ? around(discA, normal, turn) : SurfacePath{},
+                   lasting.isRough(known.pair.b) ? around(discB, -normal, turn) : SurfacePath{}},
+                  known.key);
+}
+
+/// One point on a face, which touches there.
+inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i,
+                                      const Known& known, const FaceTouch& touch) {
+    FacePoint& told = events_.lasting().touchFace();
+    const SolvedContact solved{contact};
+    const bool isTurned = solved.isTurned();
+    const b2Body &face = *solved.first().GetBody(), &other = *solved.second().GetBody();
+    told.touch = touch;
+    told.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
+    told.other = {toVector(other.GetLinearVelocity()), toVector(other.GetWorldCenter())};
+    told.faceRadiansPerSecond = face.GetAngularVelocity();
+    told.otherRadiansPerSecond = other.GetAngularVelocity();
+    told.normalNewtonSeconds = impulse.normalImpulses[i];
+    told.isTurned = isTurned;
+    told.isDiscRough = solved.second().GetType() == b2Shape::e_circle &&
+                       events_.fixtures().isRough(isTurned ? known.pair.a : known.pair.b);
+    told.a = known.pair.a;
+    told.b = known.pair.b;
+    told.pairsKey = known.key;
+    told.feature = known.part ^ contact.GetManifold()->points[i].id.key;
+}
+
+/// All points of a face, of which `touch` is the first.
+void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known,
+                               const FaceTouch& touch) {
+    tellFace(contact, impulse, 0, known, touch);
+    if (impulse.count < 2) return;
+    FaceTouch second = touch;
+    second.corner = toVector(contact.GetManifold()->points[1].localPoint);
+    tellFace(contact, impulse, 1, known, second);
 }
 
 } // namespace physvib

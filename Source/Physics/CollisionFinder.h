@@ -35,7 +35,9 @@ public:
     }
 
     /// False is certain: the contact has no new points.
-    bool mayHave(const b2Contact& contact) const noexcept { return names_.mayHave(idOf(contact)); }
+    bool mayHave(const b2Contact& contact) const noexcept {
+        return !entries_.empty() && names_.mayHave(idOf(contact));
+    }
 
     /// In PostSolve: the same; marks the points as having an impulse.
     unsigned solved(const b2Contact& contact) noexcept {
@@ -135,7 +137,7 @@ public:
     CollisionFinder(ContactEvents& events, BodySweeps& sweeps)
         : events_(events)
         , sweeps_(sweeps) {
-        known_.reserve(expectedContacts);
+        known_.resize(expectedContacts);
     }
 
     /// The slot of a fixture, FixtureTable::none if it is not registered. A fixture that reuses the address
@@ -163,22 +165,28 @@ private:
     static constexpr std::size_t expectedContacts = 128;
 
     using Pair = TouchingPairs::Name;
-    struct alignas(64) Known { // cache, which saves a search for both fixtures in every step
-        const b2Contact* contact;
-        const b2Fixture *fixtureA, *fixtureB;
-        Pair pair;          // its number: none until it is needed
-        std::uint64_t key;  // of the pair
-        std::uint64_t part; // hash of which parts of the two surfaces (segments of a chain) touch
-        std::size_t next;   // the place of the one that was looked for after it: usually the next one again
+    struct alignas(64) Known {              // cache, which saves a search for both fixtures in every step
+        const b2Contact* contact = nullptr; // null: of none
+        const b2Fixture *fixtureA = nullptr, *fixtureB = nullptr;
+        Pair pair{};            // its number: none until it is needed
+        std::uint64_t key = 0;  // of the pair
+        std::uint64_t part = 0; // hash of which parts of the two surfaces (segments of a chain) touch
+        std::size_t next = 0;   // the place of the one that was looked for after it: usually the next one
+                                // again
         bool isOf(const b2Contact& of) const noexcept {
             return contact == &of && fixtureA == of.GetFixtureA() && fixtureB == of.GetFixtureB();
         }
     };
+    Known* guess(const b2Contact& contact) noexcept { // nullptr: it has to be searched for
+        const std::size_t next = known_[last_].next;
+        if (!known_[next].isOf(contact)) [[unlikely]]
+            return nullptr;
+        last_ = next;
+        return &known_[next];
+    }
     Known* find(const b2Contact& contact) { // nullptr: one of the fixtures is not registered
-        const std::size_t guess = last_ < known_.size() ? known_[last_].next : 0;
-        if (guess >= known_.size() || !known_[guess].isOf(contact)) return search(contact);
-        last_ = guess;
-        return &known_[guess];
+        Known* const known = guess(contact);
+        return known != nullptr ? known : search(contact);
     }
     [[gnu::noinline]] void meet(const b2Contact& contact, unsigned fresh);
     [[gnu::noinline]] Known* search(const b2Contact& contact);
@@ -196,17 +204,22 @@ private:
     void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
                   Collision& collision) const;
-    template <bool isPlain>
-    [[gnu::always_inline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse,
-                                      unsigned fresh);
-    [[gnu::noinline]] void solveNew(const b2Contact& contact, const b2ContactImpulse& impulse);
+    [[gnu::noinline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known* known);
+    [[gnu::noinline]] void tell(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                unsigned collisions, const Known& known);
+    void tellDiscs(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known);
+    void tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i, const Known& known,
+                  const FaceTouch& touch);
+    [[gnu::noinline]] void tellFace(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                    const Known& known, const FaceTouch& touch);
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 
     ContactEvents& events_;
     BodySweeps& sweeps_;
     FreshPoints fresh_;
-    std::vector<Known> known_;             // contacts that touch
+    std::vector<Known> known_; // contacts that touch, then room for more
+    std::size_t knownCount_ = 0;
     IntegerMap knownAt_{expectedContacts}; // by contact
     std::size_t last_ = 0;                 // the place of the one that was found last
 };

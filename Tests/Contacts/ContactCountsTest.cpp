@@ -15,6 +15,8 @@ ContactCounts tenContacts() {
     return counts;
 }
 
+void made(ContactCounts& counts, double x, double y) { counts.made({1, x, y, x, y}); }
+
 TEST(ContactCounts, AreTheLinesThatArePromised) {
     ContactCounts counts = tenContacts();
     counts.belowThreshold = 3;
@@ -61,7 +63,7 @@ TEST(ContactCounts, NameTheOptionOfTheCommandLine) {
 
 TEST(ContactCounts, ExplainWhatCameSince) {
     ContactCounts ever = tenContacts(), since;
-    ever.made(0.5, 0.5);
+    made(ever, 0.5, 0.5);
     EXPECT_EQ(explain(since, ever).find("Nothing was stepped since the last explanation; before: 1 event"),
               0u)
         << explain(since, ever);
@@ -79,15 +81,15 @@ TEST(ContactCounts, ExplainWhatCameSince) {
 TEST(ContactCounts, NameWhereEventsLieWhichTheFieldMustSpan) {
     ContactCounts counts = tenContacts(), other = tenContacts();
     counts.fieldWidthMetres = 20.0;
-    counts.made(3.0, 0.5);
-    counts.made(19.8, 0.25);
+    made(counts, 3.0, 0.5);
+    made(counts, 19.8, 0.25);
     EXPECT_NE(explain(counts).find("2 events were made, at x 3 to 19.8 m, y 0.25 to 0.5 m: nothing is "
                                    "wrong in this world. What plays it was not looked at: the field of the "
                                    "renderer or device must span these places"),
               std::string::npos)
         << explain(counts);
     other.fieldWidthMetres = 200.0;
-    other.made(-1.0, 9.0);
+    made(other, -1.0, 9.0);
     EXPECT_EQ((counts += tenContacts()).events, 2u);
     counts += other;
     EXPECT_EQ(counts.events, 3u);

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Points on faces as an engine has them after its solver, and how they move along both surfaces, four at a
+// time.
+#pragma once
+#include "Contacts/Vectors.h"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace physvib {
+
+/// A corner or disc on a face, with its bodies' motions. Fixtures are slots of the FixtureTable.
+struct FacePoint {
+    struct Mover {
+        Vector2 metresPerSecond, centre; ///< of the body's centre of mass, world
+    };
+    FaceTouch touch;
+    Mover face, other;
+    float faceRadiansPerSecond = 0.0F, otherRadiansPerSecond = 0.0F;
+    float normalNewtonSeconds = 0.0F;
+    bool isTurned = false;    ///< the face is b's
+    bool isDiscRough = false; ///< the other is a disc, and rough: its path is computed
+    std::int32_t a = 0, b = 0;
+    std::uint64_t pairsKey = 0;
+    std::uint64_t feature = 0; ///< identifies the point within the pair; the same from step to step
+};
+// four rows are turned into columns of floats
+static_assert(sizeof(FaceTouch) == 16 * sizeof(float) && offsetof(FacePoint, face) == sizeof(FaceTouch));
+static_assert(offsetof(FacePoint, isTurned) == 27 * sizeof(float));
+
+/// One number of four points.
+using Four = float __attribute__((vector_size(4 * sizeof(float))));
+
+/// How four points move.
+struct FaceRuns {
+    struct Vector {
+        Four x, y;
+    };
+    Vector point;           ///< between the surfaces, m, world
+    Vector metresPerSecond; ///< of the contact point itself
+    Four metres, speed;     ///< along the face: the place in its frame, m, and m/s
+    Four slip;              ///< of one surface relative to the other, m/s
+
+    /// Every lane has the operations of a single point in their order: the same bits.
+    explicit FaceRuns(const FacePoint* four) noexcept {
+        const Columns touch0{four, 0}, touch1{four, 1}, touch2{four, 2}, touch3{four, 3}, motion0{four, 4},
+            motion1{four, 5}, spins{four, 6};
+        const Turn face{touch0.c, touch0.d}, other{touch1.c, touch1.d};
+        const Vector origin{touch0.a, touch0.b}, faceCentre{motion0.c, motion0.d},
+            otherCentre{motion1.c, motion1.d}, faceVelocity{motion0.a, motion0.b},
+            otherVelocity{motion1.a, motion1.b};
+        const Vector normal = face.turned({touch2.a, touch2.b}), tangent{normal.y, -normal.x},
+                     at = sum(other.turned({touch3.a, touch3.b}), {touch1.a, touch1.b}),
+                     onFace = sum(face.turned({touch2.c, touch2.d}), origin),
+                     above = sum(at, scaled(touch3.c - dot(difference(at, onFace), normal), normal)),
+                     below = difference(at, scaled(touch3.d, normal)), both = sum(above, below);
+        point = {0.5F * both.x, 0.5F * both.y};
+        const Vector moved = velocity(otherVelocity, spins.b, otherCentre, at),
+                     carried = velocity(faceVelocity, spins.a, faceCentre, at);
+        metresPerSecond = difference(moved, scaled(touch3.d, crossed(spins.a, normal)));
+        metres = dot(face.turnedBack(difference(at, origin)), face.turnedBack(tangent));
+        speed = dot(difference(moved, carried), tangent);
+        slip = dot(difference(velocity(otherVelocity, spins.b, otherCentre, point),
+                              velocity(faceVelocity, spins.a, faceCentre, point)),
+                   tangent);
+    }
+
+private:
+    struct Columns { // of four floats of each row
+        Four a, b, c, d;
+        Columns(const FacePoint* rows, std::size_t group) noexcept {
+            const auto row = [rows, group](std::size_t i) {
+                Four of;
+                __builtin_memcpy(&of, reinterpret_cast<const char*>(rows + i) + group * sizeof of, sizeof of);
+                return of;
+            };
+            const Four r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+            const Four low01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5),
+                       high01 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7),
+                       low23 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5),
+                       high23 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
+            a = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+            b = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+            c = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+            d = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
+        }
+    };
+    struct Turn {
+        Four sine, cosine;
+        Vector turned(Vector v) const noexcept {
+            return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y};
+        }
+        Vector turnedBack(Vector v) const noexcept {
+            return {cosine * v.x + sine * v.y, -sine * v.x + cosine * v.y};
+        }
+    };
+    static Vector sum(Vector a, Vector b) noexcept { return {a.x + b.x, a.y + b.y}; }
+    static Vector difference(Vector a, Vector b) noexcept { return {a.x - b.x, a.y - b.y}; }
+    static Vector scaled(Four s, Vector v) noexcept { return {s * v.x, s * v.y}; }
+    static Four dot(Vector a, Vector b) noexcept { return a.x * b.x + a.y * b.y; }
+    /// Of a spin and an arm.
+    static Vector crossed(Four spin, Vector arm) noexcept { return {-spin * arm.y, spin * arm.x}; }
+    static Vector velocity(Vector ofCentre, Four spin, Vector centre, Vector at) noexcept {
+        return sum(ofCentre, crossed(spin, difference(at, centre)));
+    }
+};
+
+} // namespace physvib
