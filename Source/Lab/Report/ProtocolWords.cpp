@@ -241,6 +241,9 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     if (!session.levelsFile.empty()) words += "; levels from the file " + session.levelsFile;
     if (session.leastSeconds > 0.0)
         words += "; at least " + secondsWords(session.leastSeconds) + " with each part before the answer";
+    if (session.answerSeconds > 0.0)
+        words += "; an answer is taken up to " + secondsWords(session.answerSeconds) +
+                 " after all was felt, else the trial runs out";
     if (session.intervalSeconds > 0.0)
         words +=
             "; parts are played one after the other, " + secondsWords(session.intervalSeconds) + " apart";

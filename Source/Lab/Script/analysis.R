@@ -78,15 +78,18 @@ of.people <- function(file, measure, factor, people, where = character()) { # th
 
 results <- data.frame()
 result <- function(test, effect, statistic, value, p, n, df1 = NA, df2 = NA, p_corrected = NA, correction = "", epsilon = NA, size = "",
-                   effect_size = NA, difference = NA, least = NA, most = NA, note = "") {
+                   effect_size = NA, difference = NA, least = NA, most = NA, note = "", lines = 2) { # lines: that are corrected together
   line <- data.frame(test, effect, statistic, df1, df2, value, p, p_corrected, correction, epsilon, size, effect_size, n, difference, least, most, note, p_across = NA)
   results <<- rbind(results, line)
   near <- function(x) format(signif(x, 4), digits = 4)
-  known <- function(words, x) if (is.na(x)) "" else paste0(", ", words, " ", near(x))
+  known <- function(words, x, says = near(x)) if (is.na(x)) "" else paste0(", ", words, " ", says)
+  p.words <- function(p) if (is.na(p) || p >= 1e-4) paste("=", format(signif(p, 3), digits = 3)) else "< 0.0001"
   df <- if (is.na(df1)) "" else paste0("(", near(df1), if (!is.na(df2)) paste0(", ", near(df2)), ")")
   interval <- if (is.na(least)) "" else paste0(" (95 % interval ", near(least), " to ", near(most), ")")
-  words <- paste0(statistic, df, " = ", near(value), ", p = ", near(p), known(paste(correction, "p ="), p_corrected), known("epsilon", epsilon),
-                  known("difference", difference), interval, known(paste(size, "="), effect_size))
+  spoken <- if (correction == "holm") "Holm's" else correction
+  middle <- if (statistic == "V") "median difference" else if (statistic == "W") "difference of medians" else "difference"
+  words <- paste0(statistic, df, " = ", near(value), ", p ", p.words(p), if (lines > 1) known(paste(spoken, "p"), p_corrected, p.words(p_corrected)),
+                  known("epsilon", epsilon), known(middle, difference), interval, known(paste(size, "="), effect_size))
   cat("  ", effect, ": ", if (note == "") words else if (effect %in% c("factors", "left out")) note else paste("not tested:", note), ", n = ", n, "\n", sep = "")
 }
 # A test that R refuses is a line that says why; the others go on.
@@ -138,6 +141,10 @@ anova.test <- function(test, file, measure, within = character(), where = charac
       result(test, paste(own, "sphericity"), "Mauchly W", m$statistic, m$p.value, n)
     })
   }
+  if (length(between) > 0) attempt(test, "groups homogeneity", {
+    cell <- interaction(people); own <- rowMeans(cells); away <- abs(own - ave(own, cell, FUN = median)); a <- anova(lm(away ~ cell))
+    if (a[2, 3] > 0) result(test, "groups homogeneity", "Levene's F of medians", a[1, 4], a[1, 5], n, a[1, 1], a[2, 1])
+  })
   attempt(test, "residuals normality", {
     left <- lm.fit(x, cells)$residuals
     s <- shapiro.test(left - rowMeans(left) * (ncol(cells) > 1)); result(test, "residuals normality", "Shapiro-Wilk W", s$statistic, s$p.value, n)
@@ -196,11 +203,13 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
     })
     ps <- sapply(tests, function(one) one$p)
     corrected <- p.adjust(ps, correction, length(ps))
+    if (!is.within) cat("  ", f, ": ", paste0(names(own), " n = ", lengths(own), ", mean ", sapply(own, function(y) format(signif(mean(y), 4), digits = 4)),
+                        ", standard deviation ", sapply(own, function(y) format(signif(sd(y), 3), digits = 3)), collapse = "; "), "\n", sep = "")
     for (k in seq_along(tests)) {
       one <- tests[[k]]; effect <- paste0(f, ": ", two[[k]][1], " - ", two[[k]][2])
       if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = "the differences do not vary")
       else result(test, effect, if (by == "t") "t" else if (is.within) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], correction, size = one$size,
-                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2])
+                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], lines = length(ps))
     }
     if (by == "t" && is.within && n > 1) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
       found <- power.t.test(n, power = 0.8, sd = 1, sig.level = alpha, type = "paired")$delta
@@ -283,6 +292,7 @@ design.of <- function(d, columns = c("group", "condition", "stimulus")) {
 # The model that a measure and its factors call for. Scores: analysis of variance, pairs by t. Ranks: Friedman's or Kruskal and Wallis' test, pairs by
 # ranks. Magnitudes: ranks of one factor; of several the analysis of variance of their logarithms.
 most.levels <- 12 # of which every two are compared
+spoken <- c(percent_correct = "percent correct", distance = "distance from the target", variable = "variable error", jnd = "JND")
 compare <- function(what, d, measure, kind = "scores", columns = c("group", "condition", "stimulus")) {
   column <- sub("=.*", "", measure)
   d <- d[!(d[[column]] %in% c("", "NA")), ]
@@ -301,13 +311,15 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
                between = few(design$between))
   if (length(few(factors)) < length(factors)) result(paste("pairs of", name), "factors", "", NA, NA, length(unique(d$participant)), note = "more than 12 levels")
 }
-# Several scales ask one question each: Holm's correction over them, effect by effect.
-across <- function(tests) {
-  own <- results$test %in% tests & results$statistic == "F" & !is.na(results$p)
+# Several scales, or shares of several alternatives, ask one question each: Holm's correction over them, effect by effect.
+across <- function(tests, what, statistics = c("F", "chi-squared")) {
+  own <- results$test %in% tests & results$statistic %in% statistics & !is.na(results$p)
   for (effect in unique(results$effect[own])) {
     at <- which(own & results$effect == effect)
     results$p_across[at] <<- p.adjust(ifelse(is.na(results$p_corrected[at]), results$p[at], results$p_corrected[at]), "holm")
-    if (length(at) > 1) cat("over all scales, ", effect, ": Holm's p = ", paste(signif(results$p_across[at], 4), collapse = ", "), "\n", sep = "")
+    name <- sub(" by .*", "", sub("^(.* of|pairs by ranks of) ", "", results$test[at]))
+    if (length(at) > 1) cat("over all ", what, ", ", effect, ": Holm's p ", paste(name, ifelse(results$p_across[at] < 1e-4, "< 0.0001",
+                            signif(results$p_across[at], 3)), collapse = ", "), "\n", sep = "")
   }
 }
 # Objects that were rated side by side are levels of a factor; one that was also felt openly, the hidden reference, is looked at.
@@ -343,6 +355,13 @@ in.pairs <- function(own, scale, words) for (one in split(own, if ("condition" %
     places <<- rbind(places, data.frame(scale, condition, stimulus = all, x = map$points[, 1], y = map$points[, 2], stress))
   })
 }
+# How far a participant's answers to the same target scatter around their own mean: what the size of a perceived grid rests on.
+scatter.of <- function(own) {
+  keys <- intersect(c("participant", "group", "condition"), names(own))
+  of <- interaction(own[c(keys, "target_column", "target_row")], drop = TRUE)
+  both <- tapply(as.numeric(own$x), of, var) + tapply(as.numeric(own$y), of, var)
+  na.omit(cbind(own[match(levels(of), of), keys, drop = FALSE], variable = as.vector(sqrt(both))))
+}
 # As Table 4.1 of the thesis has it, of its own study alone: every trial is a unit, and people are a block. Answers of one person are no independent
 # units, so its p are too small.
 single.trials <- function(test, own, measure) { cat(test, "\n", sep = ""); attempt(test, "all", {
@@ -355,6 +374,8 @@ study <- function(study, scales = character(), points = character()) {
   d <- table.of("trials.csv")
   if (!("participant" %in% names(d))) return(finish(study))
   is.told <- "task" %in% names(d)
+  # a trial that ran out of time has no other answer
+  for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks")
   # rows of a task, session by session where there are several; of tables without tasks those with the column
   each <- function(task, column, run) {
     if (!(column %in% names(d))) return(invisible())
@@ -365,18 +386,20 @@ study <- function(study, scales = character(), points = character()) {
   }
   from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) {
     own <- table.of(file)
-    for (m in measures) compare(paste0(m, words), own, m, columns = columns)
+    for (m in measures) compare(paste0(if (m %in% names(spoken)) spoken[[m]] else m, words), own, m, columns = columns)
   }
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
-  if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words)
+  if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
+    compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"))
     for (one in split(own, if ("condition" %in% names(own)) factor(own$condition, unique(own$condition)) else rep("", nrow(own)))) {
       place <- if (length(unique(own$condition)) > 1) paste(words, "of", one$condition[1]) else words
       for (m in c("x", "y")) {
         compare(paste0(m, place), one, m, columns = c("group", "target_row", "target_column"))
         if (grepl("protocol phantom-places-thesis", study, fixed = TRUE)) single.trials(paste0(m, place, ", single trials as in Table 4.1"), one, m)
       }
-    })
+    }
+  })
   from("places.csv", c("distance", "variable"))
   each("choose", if ("choice" %in% names(d)) "choice" else "response", function(own, words) {
     if (is.told) own <- own[own$correct == "" | own$level_db == "", ] # levels that follow the answers
@@ -384,7 +407,9 @@ study <- function(study, scales = character(), points = character()) {
     if (length(unique(own$participant)) < 2) return()
     choices(paste0("shares of the alternatives", words, " against chance"), own)
     names <- alternatives.of(own)
+    before <- unique(results$test)
     for (a in if (length(names) == 2) names[1] else names) compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks")
+    across(setdiff(unique(results$test), before), "alternatives", c("chi-squared", "V", "W"))
   })
   before <- unique(results$test)
   aside <- character() # sessions whose scales are objects
@@ -401,7 +426,7 @@ study <- function(study, scales = character(), points = character()) {
       compare(paste0(scale, words), own, scale, columns = c("group", "condition"))
     } else compare(paste0(scale, words), own, scale, if (scale %in% points) "ranks" else "scores")
   })
-  if (length(scales) > 1) across(setdiff(unique(results$test), before))
+  if (length(scales) > 1) across(setdiff(unique(results$test), before), "scales")
   if (file.exists("thresholds.csv")) {
     own <- table.of("thresholds.csv")
     for (m in unique(own$method)) compare(paste("threshold by", m), own[own$method == m, ], "threshold", columns = c("group", "condition"))
