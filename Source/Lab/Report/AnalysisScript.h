@@ -16,7 +16,7 @@ namespace physvib {
 inline constexpr const char *analysisScriptName = "analysis.R", *notebookName = "analysis.qmd";
 inline constexpr const char* testsTable = "tests.csv";
 inline constexpr const char* testsWords = "tests.txt";
-/// Where stimuli were compared in pairs: mean scores as a matrix, and a map of them.
+/// Of stimuli in pairs: mean scores as a matrix, and a map of them.
 inline constexpr const char *pairsTable = "similarity.csv", *mapTable = "mds.csv";
 
 /// Files by name.

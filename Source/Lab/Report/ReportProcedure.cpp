@@ -23,7 +23,7 @@ struct Attended {
     std::vector<double> seconds;
 };
 
-/// True if a row of another program's table has columns of answers, and nothing in them.
+/// Of other programs' tables: columns of answers, and nothing in them.
 bool hasNoAnswer(const Cells& cell, const CsvRow& row) {
     constexpr std::string_view columns[] = {"response", "choice", "correct", "value", "x"};
     return std::ranges::any_of(columns, [&](auto c) { return cell.has(c); }) &&
@@ -171,7 +171,7 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
             attended.end())
             notes.push_back("participant " + person.participant +
                             " of the table of people has no trials here");
-    std::map<std::string, std::size_t> groups; // of the rows
+    std::map<std::string, std::size_t> groups;
     for (const auto& [code, own] : attended)
         if (!own.group.empty() && !facts.isExcluded(code)) ++groups[own.group];
     std::vector<std::string> sizes;

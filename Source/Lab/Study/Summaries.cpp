@@ -136,7 +136,7 @@ RatingSummary summarise(const std::string& condition, const Chosen& trials) {
         const Moments moments{scores};
         const auto means = participantMeans(trials, scale);
         summary.participants = std::max(summary.participants, means.size());
-        summary.means.push_back(scores.empty() ? std::nan("") : Moments(means).mean); // as its interval
+        summary.means.push_back(scores.empty() ? std::nan("") : Moments(means).mean);
         summary.deviations.push_back(moments.deviation);
         summary.halfIntervals.push_back(Moments(means.size() > 1 ? means : scores).halfInterval());
     }
@@ -357,7 +357,7 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
             continue;
         }
         const bool isMagnitude = summary.kind == LevelTrial::Kind::magnitude;
-        std::vector<double> means, set; // of participants; of the last of them
+        std::vector<double> means, set; // set: of the last of them
         for (const auto& [participant, own] : byParticipant) {
             set.clear();
             for (const LevelTrial* trial : own)

@@ -375,7 +375,7 @@ void StudiesTab::offerLayout() {
     model_.messages().show(std::move(offer));
 }
 
-/// A mixer opens at a low level; the trials before had one that was chosen.
+/// A mixer opens at a low level.
 void StudiesTab::offerLevel(double db) {
     const auto words = number(db, 1) + " dB";
     model_.messages().show({"The trials before had a master level of " + words,

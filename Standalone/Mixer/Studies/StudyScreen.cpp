@@ -311,8 +311,7 @@ bool StudyScreen::isExploring() const { return experiment().session().answer() =
 
 bool StudyScreen::canAnswer() const { return progress_->canAnswer() && !isFeeling(); }
 
-/// Whether the time for an answer is over: it begins when an answer is first accepted, and stands still where
-/// nothing can be felt.
+/// Time for an answer runs from where one is accepted; while nothing can be felt it stands still.
 bool StudyScreen::isTimeOver() {
     const double passed = 1e-3 * (nowMs() - std::exchange(updatedMs_, nowMs()));
     if (!progress_->canAnswer())
