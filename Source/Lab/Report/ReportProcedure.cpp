@@ -258,8 +258,7 @@ void tellParticipants(ReportBuilder& report) {
         }
         if (canCompare && own.main < most)
             exclusions.push_back("participant " + code + " has " + std::to_string(own.main) +
-                                 " trials, others have up to " + std::to_string(most) +
-                                 ": tests leave out who lacks a combination of levels");
+                                 " trials, others have up to " + std::to_string(most));
         if (own.ranOut > 0)
             exclusions.push_back("participant " + code + ": " + ranOutWords(own.ranOut) +
                                  ": analyses leave them out");

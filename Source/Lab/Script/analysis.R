@@ -90,7 +90,7 @@ result <- function(test, effect, statistic, value, p, n, df1 = NA, df2 = NA, p_c
   middle <- if (statistic == "V") "median difference" else if (statistic == "W") "difference of medians" else "difference"
   words <- paste0(statistic, df, " = ", near(value), ", p ", p.words(p), if (lines > 1) known(paste(spoken, "p"), p_corrected, p.words(p_corrected)),
                   known("epsilon", epsilon), known(middle, difference), interval, known(paste(size, "="), effect_size))
-  cat("  ", effect, ": ", if (note == "") words else if (effect %in% c("factors", "left out")) note else paste("not tested:", note), ", n = ", n, "\n", sep = "")
+  cat("  ", effect, ": ", if (note == "") words else if (effect %in% c("factors", "left out")) note else paste("not tested:", note), if (!is.na(n)) paste(", n =", n), "\n", sep = "")
 }
 # A test that R refuses is a line that says why; the others go on.
 attempt <- function(test, effect, run) tryCatch(run, error = function(e) result(test, effect, "", NA, NA, NA, note = gsub("\n", "", conditionMessage(e), fixed = TRUE)))
@@ -138,6 +138,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
     }
     if (d > 1 && left.df >= d) attempt(test, paste(own, "sphericity"), {
       m <- mauchly.test(lm(cells ~ x - 1), T = t(contrasts[[i]]))
+      if (is.nan(m$p.value)) stop("nobody differs from the others in it")
       result(test, paste(own, "sphericity"), "Mauchly W", m$statistic, m$p.value, n)
     })
   }
@@ -146,7 +147,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
     if (a[2, 3] > 0) result(test, "groups homogeneity", "Levene's F of medians", a[1, 4], a[1, 5], n, a[1, 1], a[2, 1])
   })
   attempt(test, "residuals normality", {
-    left <- lm.fit(x, cells)$residuals
+    left <- as.matrix(lm.fit(x, cells)$residuals)
     s <- shapiro.test(left - rowMeans(left) * (ncol(cells) > 1)); result(test, "residuals normality", "Shapiro-Wilk W", s$statistic, s$p.value, n)
   })
   if (length(attr(cells, "lacking")) > 0 && requireNamespace("lme4", quietly = TRUE)) attempt(test, "mixed model", mixed(test, file, measure, c(within, between), where))
@@ -375,7 +376,7 @@ study <- function(study, scales = character(), points = character()) {
   if (!("participant" %in% names(d))) return(finish(study))
   is.told <- "task" %in% names(d)
   # a trial that ran out of time has no other answer
-  for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks")
+  for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks", c("group", "condition"))
   # rows of a task, session by session where there are several; of tables without tasks those with the column
   each <- function(task, column, run) {
     if (!(column %in% names(d))) return(invisible())

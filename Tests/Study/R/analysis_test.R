@@ -216,6 +216,9 @@ d$x <- d$target_column / 4 + rnorm(nrow(d)) / 9; d$y <- d$target_row / 3 + rnorm
 ours <- whole(d, character()); both <- aggregate(cbind(x, y) ~ target_column + target_row + condition + participant, d, var)
 wide <- tapply(sqrt(both$x + both$y), list(both$participant, both$condition), mean)
 same("scatter", line(ours[grepl("^pairs by t of variable error", ours$test), ], "condition: c1 - c2")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
+# One score of each person: groups are all there is.
+d <- data.frame(participant = person(15), group = rep(c("g", "h", "h"), 5), y = rnorm(15)); rows(d)
+same("residuals of groups", line(told(anova.test("t", "trials.csv", "y", between = "group")), "residuals normality")$p, shapiro.test(residuals(lm(y ~ group, d)))$p.value)
 # Pairs: the matrix of means, and a map that has the distances of points in a plane.
 at <- cbind(c(0, 3, 0, 5), c(0, 0, 4, 5)); two <- combn(4, 2); names(at) <- NULL
 d <- expand.grid(pair = 1:6, participant = person(3), stringsAsFactors = FALSE)
