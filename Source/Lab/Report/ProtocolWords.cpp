@@ -242,8 +242,7 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     if (session.leastSeconds > 0.0)
         words += "; at least " + secondsWords(session.leastSeconds) + " with each part before the answer";
     if (session.answerSeconds > 0.0)
-        words += "; an answer is taken up to " + secondsWords(session.answerSeconds) +
-                 " after all was felt, else the trial runs out";
+        words += "; answers up to " + secondsWords(session.answerSeconds) + " after all was felt";
     if (session.intervalSeconds > 0.0)
         words +=
             "; parts are played one after the other, " + secondsWords(session.intervalSeconds) + " apart";
@@ -256,7 +255,9 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
         words += "; each trial begins with " + session.modulus + ", which counts as " +
                  numberText(session.modulusNumber);
     if (session.mayBeEmpty) words += "; an answer may be left empty";
-    if (session.mostPlays > 0) words += "; felt at most " + std::to_string(session.mostPlays) + " times";
+    if (session.mostPlays > 0)
+        words += session.mostPlays == 1 ? "; felt once"
+                                        : "; felt at most " + std::to_string(session.mostPlays) + " times";
     if (session.breakBeforeSeconds > 0.0)
         words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";
     if (session.breakEvery > 0 && session.breakSeconds > 0.0)

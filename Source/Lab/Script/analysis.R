@@ -90,7 +90,7 @@ result <- function(test, effect, statistic, value, p, n, df1 = NA, df2 = NA, p_c
   middle <- if (statistic == "V") "median difference" else if (statistic == "W") "difference of medians" else "difference"
   words <- paste0(statistic, df, " = ", near(value), ", p ", p.words(p), if (lines > 1) known(paste(spoken, "p"), p_corrected, p.words(p_corrected)),
                   known("epsilon", epsilon), known(middle, difference), interval, known(paste(size, "="), effect_size))
-  cat("  ", effect, ": ", if (note == "") words else if (effect %in% c("factors", "left out")) note else paste("not tested:", note), if (!is.na(n)) paste(", n =", n), "\n", sep = "")
+  cat("  ", effect, ": ", if (note == "") words else if (effect %in% c("factors", "left out", "hidden reference")) note else paste("not tested:", note), if (!is.na(n)) paste(", n =", n), "\n", sep = "")
 }
 # A test that R refuses is a line that says why; the others go on.
 attempt <- function(test, effect, run) tryCatch(run, error = function(e) result(test, effect, "", NA, NA, NA, note = gsub("\n", "", conditionMessage(e), fixed = TRUE)))
@@ -144,7 +144,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   }
   if (length(between) > 0) attempt(test, "groups homogeneity", {
     cell <- interaction(people); own <- rowMeans(cells); away <- abs(own - ave(own, cell, FUN = median)); a <- anova(lm(away ~ cell))
-    if (a[2, 3] > 0) result(test, "groups homogeneity", "Levene's F of medians", a[1, 4], a[1, 5], n, a[1, 1], a[2, 1])
+    if (a[2, 2] > 1e-20 * sum(away^2)) result(test, "groups homogeneity", "Levene's F of medians", a[1, 4], a[1, 5], n, a[1, 1], a[2, 1])
   })
   attempt(test, "residuals normality", {
     left <- as.matrix(lm.fit(x, cells)$residuals)
@@ -205,7 +205,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
     ps <- sapply(tests, function(one) one$p)
     corrected <- p.adjust(ps, correction, length(ps))
     if (!is.within) cat("  ", f, ": ", paste0(names(own), " n = ", lengths(own), ", mean ", sapply(own, function(y) format(signif(mean(y), 4), digits = 4)),
-                        ", standard deviation ", sapply(own, function(y) format(signif(sd(y), 3), digits = 3)), collapse = "; "), "\n", sep = "")
+                        sapply(own, function(y) if (length(y) > 1) paste(", standard deviation", format(signif(sd(y), 3), digits = 3)) else ""), collapse = "; "), "\n", sep = "")
     for (k in seq_along(tests)) {
       one <- tests[[k]]; effect <- paste0(f, ": ", two[[k]][1], " - ", two[[k]][2])
       if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = "the differences do not vary")
@@ -331,7 +331,7 @@ side.by.side <- function(own, objects, words) {
   if (length(first) != 1 || any(lengths(strsplit(own$parts, "|", fixed = TRUE)) == length(objects))) return(invisible())
   below <- tapply(as.numeric(own[[first]]) < 90, own$participant, mean)
   who <- names(below)[below > 0.15]
-  if (length(who) > 0) result(paste0("hidden reference", words), "factors", "", NA, NA, length(below), note = paste0(first,
+  if (length(who) > 0) result(paste0("hidden reference", words), "hidden reference", "", NA, NA, length(below), note = paste0(first,
     " unnamed was rated below 90 in more than 15 % of trials by ", paste(who, collapse = ", "), ", whom ITU-R BS.1534 would exclude: not excluded here"))
 }
 # Stimuli that were compared in pairs: means over people as a matrix, and a map by classical scaling. Scores whose scale begins with "dis" or "diff"
