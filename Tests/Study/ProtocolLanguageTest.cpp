@@ -306,7 +306,6 @@ TEST(ProtocolLanguage, ATrialThatRunsOutOfTimeHasNoOtherAnswerAndMovesNoLevel) {
     Experiment again{steps, {}};
     const auto log = readTrialLog(rows, "rows.csv", steps, {});
     for (const TrialRecord& record : log.value.records) ASSERT_EQ(again.redo(record), "");
-    EXPECT_TRUE(again.isDone());
     EXPECT_EQ(log.value.records.size(), 299u) << "200 answers";
     const NamedText file{rows, "rows.csv"};
     const auto levels = readLevels({&file, 1});

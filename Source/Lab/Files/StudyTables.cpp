@@ -17,7 +17,7 @@ bool holds(const Words& words, const std::string& cell) {
     return std::ranges::find(words, cell) != std::end(words);
 }
 
-/// Other programs' words for none. Codes and labels are what they are.
+/// Other programs' words for none, not of codes.
 bool isNoAnswer(const std::string& column, const std::string& cell) {
     constexpr std::string_view none[] = {"null", "None", "NaN", "nan", "NA", "n/a", "."},
                                labels[] = {"participant", "observer", "condition", "session", "phase",

@@ -357,7 +357,7 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
             continue;
         }
         const bool isMagnitude = summary.kind == LevelTrial::Kind::magnitude;
-        std::vector<double> means, set; // set: of the last of them
+        std::vector<double> means, set;
         for (const auto& [participant, own] : byParticipant) {
             set.clear();
             for (const LevelTrial* trial : own)
