@@ -242,7 +242,7 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     if (session.leastSeconds > 0.0)
         words += "; at least " + secondsWords(session.leastSeconds) + " with each part before the answer";
     if (session.answerSeconds > 0.0)
-        words += "; answers up to " + secondsWords(session.answerSeconds) + " after all was felt";
+        words += "; answers up to " + secondsWords(session.answerSeconds) + " after the last part";
     if (session.intervalSeconds > 0.0)
         words +=
             "; parts are played one after the other, " + secondsWords(session.intervalSeconds) + " apart";
@@ -256,8 +256,8 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
                  numberText(session.modulusNumber);
     if (session.mayBeEmpty) words += "; an answer may be left empty";
     if (session.mostPlays > 0)
-        words += session.mostPlays == 1 ? "; felt once"
-                                        : "; felt at most " + std::to_string(session.mostPlays) + " times";
+        words += "; felt at most " +
+                 (session.mostPlays == 1 ? "once" : std::to_string(session.mostPlays) + " times");
     if (session.breakBeforeSeconds > 0.0)
         words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";
     if (session.breakEvery > 0 && session.breakSeconds > 0.0)
