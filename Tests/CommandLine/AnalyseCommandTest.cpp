@@ -152,7 +152,7 @@ TEST_F(Analyse, BadTrialsAreNamedAndHandled) {
     write("c.csv", "stimulus,response\na,a\nb,x\nb,\na,a\n");
     const auto outcome = call("analyse confusion c.csv");
     EXPECT_EQ(outcome.exitCode, 0);
-    for (const char* words : {"c.csv:4: no response", "not presented equally often: b 1 times",
+    for (const char* words : {"c.csv:4: no response", "not answered equally often: b 1 times",
                               "responses that are no stimulus count as wrong: x"})
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.out.find("nan"), std::string::npos);

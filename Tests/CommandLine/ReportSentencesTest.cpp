@@ -188,8 +188,8 @@ std::vector<Sentence> sentences() {
         {"trials ran out of time, without an answer: analyses leave them out", of(timed, 3, {}, true),
          of(grid, 3)},
         {"trials.csv: left out: ", of(timed, 3, {}, true), of(grid, 3)},
+        {"stimuli were not answered equally often", of(timed, 3, {}, true), of(grid, 3)},
         {"(... to ...): 95 % interval over participants", of(fits, 3), of(fits, 1)},
-        {"(... to ...): 95 % interval over trials, of one participant", of(fits, 1), of(fits, 3)},
         {"16 answers in participants' own words: counted by stimulus, not analysed.", of(told, 1),
          of(told, 1, set("phase", "training"))},
     };

@@ -507,7 +507,7 @@ void StudyScreen::updateTrial() {
     playWanted();
     playSequence();
     if (exploring_ && !isFeeling() && progress_->plays() > 0) return submit(*exploring_);
-    if (isTimeOver()) return submit({.ranOut = true});
+    if (Answer late; isTimeOver()) return late.ranOut = true, submit(late);
     const bool isOpen =
         !isFeeling() && !model_.isSilent() && (progress_->canAnswer() || answers_->isOpen() || isExploring());
     answers_.setVisible(isAnswerSeen());
