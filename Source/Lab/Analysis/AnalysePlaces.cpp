@@ -42,8 +42,7 @@ void tellErrors(std::ostream& out, const std::string& condition, const std::vect
     const auto most = std::ranges::max_element(people, {}, &ParticipantError::targets);
     const bool hasY = !isOnALine(trials);
     out << printable(condition) << ": " << trials.size() << " trials of "
-        << counted(people.size(), "participant") << ", up to " << counted(most->targets, "target")
-        << " each\n"
+        << counted(people.size(), "participant") << ", up to " << most->targets << " targets\n"
         << "  distance from the target: " << overParticipants(people, &ParticipantError::distance) << '\n'
         << "  constant error, x: " << overParticipants(people, &ParticipantError::constantX) << '\n';
     if (hasY)
