@@ -20,10 +20,10 @@ for study in patterns phantom-grids phantom-places model-or-sound eight-methods 
 done
 # The notebook's steps, as Quarto would run them.
 "$physvib" report trials/magnitudes-P*.csv --out magnitudes --notebook >/dev/null
-(cd magnitudes && awk '/^```$/ { inside = 0 } inside && !/^#\| eval: false/ { print } /^```\{r\}/ { inside = 1 }' analysis.qmd >notebook.R)
+(cd magnitudes && awk '/^```$/ || /^#\| eval: false/ { inside = 0 } inside { print } /^```\{r\}/ { inside = 1 }' analysis.qmd >notebook.R)
 grep -q "^source" magnitudes/notebook.R
 (cd magnitudes && Rscript notebook.R) >told
-grep -q "participant *: *chr" told && grep -q "^ *condition.*F" told
+grep -q "participant *: *chr" told && grep -q "^ *stimulus.*chi-squared" told
 # Without R the page says what to install, and has all but the tests.
 mkdir bin
 for program in env timeout; do ln -s "$(command -v $program)" bin/; done
