@@ -152,7 +152,7 @@ TEST_F(Analyse, BadTrialsAreNamedAndHandled) {
     write("c.csv", "stimulus,response\na,a\nb,x\nb,\na,a\n");
     const auto outcome = call("analyse confusion c.csv");
     EXPECT_EQ(outcome.exitCode, 0);
-    for (const char* words : {"c.csv:4: no response", "not presented equally often: b 1 times",
+    for (const char* words : {"c.csv:4: no response", "not answered equally often: b 1 times",
                               "responses that are no stimulus count as wrong: x"})
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.out.find("nan"), std::string::npos);
@@ -222,8 +222,9 @@ TEST_F(Analyse, ChoicesAndRatings) {
           "participant,condition,realism,harmony,liking\nP1,AV-FV-DRV,76,68,71\nP2,AF-FF-DRF,36,42,36\n");
     const auto ratings = call("analyse ratings r.csv --picture r.svg --export r-out.csv");
     ASSERT_EQ(ratings.exitCode, 0) << ratings.err;
-    EXPECT_NE(ratings.out.find("AV-FV-DRV: 1 trial, realism 76.0, harmony 68.0, liking 71.0\n"),
-              std::string::npos)
+    EXPECT_NE(
+        ratings.out.find("AV-FV-DRV: 1 trial of 1 participant, realism 76.0, harmony 68.0, liking 71.0\n"),
+        std::string::npos)
         << ratings.out;
     EXPECT_NE(read("r-out.csv").find("\nAF-FF-DRF,liking,1,1,36,0,0\n"), std::string::npos);
 }

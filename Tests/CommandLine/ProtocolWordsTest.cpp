@@ -205,6 +205,8 @@ std::vector<PlantedField> plantedFields() {
          "order blocks"},
         {"session.repetitions", session([](SessionPlan& s) { s.repetitions = 17; }), "17 repetitions"},
         {"session.fewest_touches", session([](SessionPlan& s) { s.fewestTouches = 90; }), "90 touches"},
+        {"session.answer_within_s", session([](SessionPlan& s) { s.answerSeconds = 3; }),
+         "answers up to 3 s"},
         {"session.most_plays", session([](SessionPlan& s) { s.mostPlays = 3; }), "felt at most 3 times"},
         {"session.least_s", session([](SessionPlan& s) { s.leastSeconds = 11; }),
          "at least 11 s with each part before the answer"},

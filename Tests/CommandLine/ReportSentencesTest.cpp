@@ -49,6 +49,8 @@ std::vector<Sentence> sentences() {
                    interleaved = example("level-mixed");
     Protocol matched = example("equal-sensation");
     Protocol told = grid;
+    Protocol timed = grid;
+    timed.name = "timed", timed.sessions.back().answerSeconds = 1.5;
     told.name = "told", told.sessions.back().task = StudyTask::describe;
     matched.conditions.push_back(matched.conditions.front()); // the chart compares means
     matched.conditions.back().name = "two";
@@ -183,6 +185,11 @@ std::vector<Sentence> sentences() {
         {"no analysis is known for these trials", of(grid, 2, set("phase", "training")), of(grid, 3)},
         {"in participants' own words", of(told, 2), of(grid, 3)},
         {" of them empty: counted by stimulus", of(told, 2, set("response", "", "P2")), of(told, 2)},
+        {"trials ran out of time, without an answer: analyses leave them out", of(timed, 3, {}, true),
+         of(grid, 3)},
+        {"trials.csv: left out: ", of(timed, 3, {}, true), of(grid, 3)},
+        {"stimuli were not answered equally often", of(timed, 3, {}, true), of(grid, 3)},
+        {"(... to ...): 95 % interval over participants", of(fits, 3), of(fits, 1)},
         {"16 answers in participants' own words: counted by stimulus, not analysed.", of(told, 1),
          of(told, 1, set("phase", "training"))},
     };

@@ -104,8 +104,8 @@ TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
 
 TEST_F(Study, EightMethodsWhole) {
     const std::string out = analyse("ratings", run("eight-methods", 2));
-    EXPECT_NE(out.find("AV-FV-DRV: 20 trials, realism "), std::string::npos) << out;
-    EXPECT_NE(out.find("\nFF: 80 trials, realism "), std::string::npos) << out;
+    EXPECT_NE(out.find("AV-FV-DRV: 20 trials of 2 participants, realism "), std::string::npos) << out;
+    EXPECT_NE(out.find("\nFF: 80 trials of 2 participants, realism "), std::string::npos) << out;
 }
 
 TEST_F(Study, EveryTrialCarriesWhatRendersItAgain) {

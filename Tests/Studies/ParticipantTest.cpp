@@ -726,7 +726,9 @@ TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
     EXPECT_NE(p->tab().begin().find("expected the master level as in the trials before, 0 dB, found -12 dB"),
               std::string::npos);
     EXPECT_EQ(p->screen(), nullptr);
-    setMaster(0.0);
+    ASSERT_EQ(p->model.messages().shown().act.name, "Set 0.0 dB") << "the level is offered";
+    p->model.messages().shown().act.run();
+    EXPECT_EQ(p->model.mix().levelDb, 0.0);
     p->tab().setNoise(p->tab().noiseChoices().front(), -35.0);
     EXPECT_NE(p->tab().begin().find("expected the pink noise as in the trials before, off, found -35 dB"),
               std::string::npos);
@@ -735,6 +737,30 @@ TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
     p->tab().setNoise({}, -35.0);
     goOn();
     leave();
+}
+
+TEST_F(ByAParticipant, AnswersInTimeOrTheTrialRunsOut) {
+    begin(
+        R"({"name": "main", "task": "estimate", "repetitions": 3, "answer_within_s": 1.5})",
+        R"("stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g 0.1")");
+    EXPECT_TRUE(p->screen()->getDescription().contains("Answer within 1.5 s."));
+    passPage();
+    const auto taken = [&] { return p->experiment().trialsTaken(); };
+    p->feel();
+    ASSERT_TRUE(test::runUntil([&] { return taken() == 1; })) << "time is over";
+    EXPECT_TRUE(p->screen()->getDescription().contains("Time was over."));
+    p->feel();
+    p->model.setSilent(true);
+    const double from = nowMs();
+    test::runUntil([&] { return taken() > 1 || nowMs() > from + 2000.0; });
+    EXPECT_EQ(taken(), 1) << "time stands still while all is silent";
+    p->model.setSilent(false);
+    ASSERT_TRUE(p->canUse("Number"));
+    p->type("7");
+    p->enter();
+    ASSERT_TRUE(test::runUntil([&] { return taken() == 2; }));
+    EXPECT_EQ(column("ran_out", "estimate"), (Texts{"1", "0"}));
+    EXPECT_EQ(column("value", "estimate"), (Texts{"", "7"}));
 }
 
 TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {

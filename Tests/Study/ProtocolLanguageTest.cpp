@@ -279,6 +279,44 @@ TEST(ProtocolLanguage, PointsAreWholeNumbers) {
     });
 }
 
+TEST(ProtocolLanguage, ATrialThatRunsOutOfTimeHasNoOtherAnswerAndMovesNoLevel) {
+    Protocol points = example("likert-seven");
+    for (SessionPlan& session : points.sessions) session.answerSeconds = 1.5;
+    std::set<bool> outcomes;
+    for (const TrialRecord& record : ranThrough(points)) {
+        EXPECT_EQ(record.answer.scores.empty(), record.answer.ranOut);
+        EXPECT_TRUE(!record.answer.ranOut || record.answer.seconds == 1.5);
+        outcomes.insert(record.answer.ranOut);
+    }
+    EXPECT_EQ(outcomes.size(), 2u);
+    Protocol steps = findProtocol("level-steps").value;
+    EXPECT_NE(Experiment(steps, {}).refusal({.ranOut = true}), "") << "time is not limited";
+    steps.sessions.front().answerSeconds = 2.0;
+    Experiment experiment{steps, {}};
+    std::string rows = trialHeader(steps, {}, "0");
+    for (int n = 1; !experiment.isDone(); ++n) {
+        const double before = experiment.trial().levelDb;
+        const Answer answer = n % 3 == 0 ? Answer{.ranOut = true} : Answer{.response = "standard"};
+        ASSERT_EQ(experiment.refusal(answer), "");
+        const TrialRecord record = experiment.take(answer);
+        rows += trialRow(steps, {}, record);
+        EXPECT_EQ(isCorrect(steps, record).has_value(), !record.answer.ranOut);
+        if (n % 3 == 0 && !experiment.isDone()) EXPECT_EQ(experiment.trial().levelDb, before);
+    }
+    Experiment again{steps, {}};
+    const auto log = readTrialLog(rows, "rows.csv", steps, {});
+    for (const TrialRecord& record : log.value.records) ASSERT_EQ(again.redo(record), "");
+    EXPECT_EQ(log.value.records.size(), 299u) << "200 answers";
+    const NamedText file{rows, "rows.csv"};
+    const auto levels = readLevels({&file, 1});
+    EXPECT_EQ(levels.value.conditions.front().trials.size(), 200u);
+    EXPECT_EQ(levels.value.warnings,
+              std::vector<std::string>{"rows.csv: left out: 99 trials ran out of time, without an answer"});
+    steps.sessions.front().staircase.reset(), steps.sessions.front().task = StudyTask::adjust;
+    steps.sessions.front().adjustment = Adjustment{.alternative = "stronger"};
+    EXPECT_TRUE(holds(validate(steps), "answer_within_s: expected it of other tasks")) << validate(steps);
+}
+
 TEST(ProtocolLanguage, SideBySideTheReferenceComesOpenlyAndHidden) {
     const Protocol protocol = example("side-by-side");
     std::set<std::string> orders;

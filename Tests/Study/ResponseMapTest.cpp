@@ -73,46 +73,6 @@ TEST(ResponseMap, SingularAndSparseTargetsBorrowThePooledCovarianceAndSaySo) {
     EXPECT_NEAR(made.counts.sum(), 100.0, 1e-9);
 }
 
-/// Trials of a person at a grid of 8 x 6 with that blur.
-std::vector<LocationTrial> pointing(const std::string& who, double blur, int each, SeededRandom& random) {
-    std::vector<LocationTrial> trials;
-    for (int column = 1; column <= 8; ++column)
-        for (int row = 1; row <= 6; ++row)
-            for (auto& trial :
-                 cloud(column, row, (column - 0.5) / 8.0, (row - 0.5) / 6.0, blur, each, random)) {
-                trial.participant = who;
-                trials.push_back(trial);
-            }
-    return trials;
-}
-
-/// Number of studies of two conditions whose sizes differ by more than chance.
-int findings(double otherBlur, int people, int studies, int draws) {
-    SeededRandom random{11};
-    int found = 0;
-    for (int study = 0; study < studies; ++study) {
-        std::vector<std::vector<LocationTrial>> conditions(2);
-        for (int person = 0; person < people; ++person)
-            for (std::size_t c = 0; c < 2; ++c)
-                for (const auto& trial :
-                     pointing("P" + std::to_string(person), c ? otherBlur : 0.3, people > 1 ? 1 : 12, random))
-                    conditions[c].push_back(trial);
-        const auto cells = [&](std::size_t c) {
-            const auto made = resolveCondition("", conditions[c]).resolution;
-            return static_cast<double>(made.columns * made.rows);
-        };
-        found += std::abs(cells(0) - cells(1)) > cellChance(conditions, defaultPercentThreshold, draws).cells;
-    }
-    return found;
-}
-
-TEST(ResponseMap, EqualBlurIsNoFindingAndAnotherBlurIsOne) {
-    EXPECT_LE(findings(0.3, 1, 12, 19), 2) << "one person: 5 % of 12, of which 3 are rare";
-    EXPECT_LE(findings(0.3, 8, 12, 19), 2) << "eight people";
-    EXPECT_GE(findings(0.02, 1, 4, 19), 3);
-    EXPECT_GE(findings(0.02, 8, 4, 19), 3);
-}
-
 TEST(ResponseMap, WhatAllowsNoNormalIsNamed) {
     EXPECT_NE(responseNormals({}).fault, "");
     EXPECT_NE(responseNormals({{1, 1, 0.5, 0.5}}).fault, "");

@@ -39,7 +39,7 @@ void tell(std::ostream& out, const LevelSummary& s) {
     out << fixedNumber(s.estimate, isMagnitude ? 2 : 1) << (isMagnitude ? "" : " dB");
     if (s.deviation > 0.0)
         out << " (standard deviation " << fixedNumber(s.deviation, 2) << (isMagnitude ? " of log10" : " dB")
-            << (isThreshold ? " over participants)" : " over trials)");
+            << (s.participants > 1 ? " over participants)" : " over trials)");
     if (s.halfInterval > 0.0)
         out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to "
             << fixedNumber(s.estimate + s.halfInterval, 1) << " dB"
@@ -74,12 +74,13 @@ AnalysisReport analyseChoices(const AnalysisJob& o) {
                                   "say nothing about other people");
     for (const auto& summary : summaries) {
         tell(out, summary);
-        for (const auto& share : summary.shares) {
+        for (const auto& share : summary.shares)
             table.row(summary.condition, share.alternative, std::size_t{share.hits},
                       std::size_t{summary.trials}, 100.0 * share.share, 100.0 * share.least,
                       100.0 * share.most, summary.participants, 100.0 * share.median);
-        }
     }
+    out << "(... to ...): 95 % interval over "
+        << (summaries.front().participants > 1 ? "participants\n" : "trials, of one participant\n");
     report.words = out.str();
     report.table = table.text();
     report.picture = [summaries, isSimulated = report.isSimulated] {
@@ -104,7 +105,8 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
     for (const auto& summary : summaries) {
         if (std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; }))
             intervals.insert(summary.participants > 1);
-        out << wholeLabel(summary.condition) << ": " << counted(summary.trials, "trial");
+        out << wholeLabel(summary.condition) << ": " << counted(summary.trials, "trial") << " of "
+            << counted(summary.participants, "participant");
         for (std::size_t s = 0; s < scales.size(); ++s) {
             if (std::isnan(summary.means[s])) continue;
             out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
@@ -170,12 +172,13 @@ Result<LevelAnswers> readAnswers(const AnalysisJob& o, LevelAnswerColumns column
         o, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
 }
 
-/// "threshold 12.3 (11.0 to 13.4)".
+/// "threshold 12.3 (95 % interval 11.0 to 13.4)", over participants.
 std::string meanWords(const char* name, const std::vector<double>& values, int decimals) {
     const Moments own{values};
     std::string words = std::string(name) + " " + fixedNumber(own.mean, decimals);
     if (own.n > 1)
-        words += " (" + fixedNumber(own.least(), decimals) + " to " + fixedNumber(own.most(), decimals) + ")";
+        words += " (95 % interval " + fixedNumber(own.least(), decimals) + " to " +
+                 fixedNumber(own.most(), decimals) + ")";
     return words;
 }
 

@@ -34,7 +34,7 @@ std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const Inf
     const auto [fewest, most] = std::ranges::minmax(totals);
     if (fewest != most) {
         const auto at = static_cast<std::size_t>(std::ranges::find(totals, fewest) - totals.begin());
-        words.push_back("stimuli were not presented equally often: " + printable(matrix.label(at)) + " " +
+        words.push_back("stimuli were not answered equally often: " + printable(matrix.label(at)) + " " +
                         std::to_string(fewest) + " times, others up to " + std::to_string(most));
     }
     if (matrix.responses() > matrix.stimuli())

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Analyses of pointing as text and tables: errors (means over participants of means over targets), perceptual
 // resolution, percent counts.
-#include "Io/Text/NameList.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
-#include <set>
 #include <sstream>
 
 namespace physvib {
@@ -124,41 +121,11 @@ void tell(std::ostream& out, const PercentCounts& counts, const PerceptualResolu
         << fixedNumber(counts.standardDeviation(), 2) << '\n';
 }
 
-std::set<std::pair<int, int>> targetsOf(const std::vector<LocationTrial>& trials) {
-    std::set<std::pair<int, int>> targets;
-    for (const LocationTrial& trial : trials) targets.emplace(trial.targetRow, trial.targetColumn);
-    return targets;
-}
-
-/// A line for conditions with the same targets; those of other targets cannot be exchanged.
-void tellChance(std::ostream& out, const StudyData<LocationTrial>& data, double thresholdPercent) {
-    std::map<std::set<std::pair<int, int>>, std::vector<const StudyCondition<LocationTrial>*>> alike;
-    for (const auto& condition : data.conditions) alike[targetsOf(condition.trials)].push_back(&condition);
-    for (const auto& [targets, conditions] : alike) {
-        if (conditions.size() < 2) continue;
-        std::vector<std::vector<LocationTrial>> trials;
-        std::vector<std::string> names;
-        for (const auto* const condition : conditions) {
-            trials.push_back(condition->trials);
-            names.push_back(printable(condition->name));
-        }
-        const CellChance chance = cellChance(trials, thresholdPercent);
-        out << "sizes of " << listed(names) << ": by chance any two differ by up to "
-            << numberText(chance.cells)
-            << " cells (95 % of 199 studies in which the conditions were exchanged within each "
-            << (chance.people > 1
-                    ? "of " + counted(chance.people, "person") + "); more is a finding of people\n"
-                    : std::string{"target); more is a finding of these trials, not of people\n"});
-    }
-}
-
 void exportMerged(ExportTable& table, const PercentCounts& counts, const PerceptualResolution& resolution) {
     if (resolution.ties.empty()) return;
     const PercentCounts grid = merged(counts, resolution.ties.front());
     for (std::size_t r = 0; r < grid.rows; ++r)
-        for (std::size_t c = 0; c < grid.columns; ++c) {
-            table.row(grid.condition, r + 1, c + 1, grid.at(r, c));
-        }
+        for (std::size_t c = 0; c < grid.columns; ++c) table.row(grid.condition, r + 1, c + 1, grid.at(r, c));
 }
 
 void exportNormals(ExportTable& table, const ConditionResolution& made) {
@@ -211,7 +178,6 @@ AnalysisReport analyseResolution(const AnalysisJob& o) {
         exportNormals(table, one);
     }
     for (const ConditionResolution& one : made) tell(out, one.counts, one.resolution, o.thresholdPercent);
-    tellChance(out, data.value, o.thresholdPercent);
     Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
     if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
     report.words = out.str();

@@ -71,7 +71,8 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
         if ((has("value") && has("stimulus")) || (has("level_db") && has("correct"))) found.insert("levels");
         const bool hasScale =
             std::ranges::any_of(table.columns, [](const auto& column) { return !trialColumns::has(column); });
-        if (found.empty() && has("participant") && (has("stimulus") || has("condition")) && hasScale)
+        if (found.empty() && has("participant") && (has("stimulus") || has("condition") || has("group")) &&
+            hasScale)
             found.insert("ratings");
     }
     std::vector<std::string> names;

@@ -103,18 +103,17 @@ std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
     return barChart(chart);
 }
 
-std::optional<ChartValue> scoreOf(const RatingSummary& summary, std::size_t scale) {
-    if (std::isnan(summary.means[scale])) return std::nullopt;
-    return ChartValue::around(summary.means[scale], summary.halfIntervals[scale]);
-}
-
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
                         const std::vector<const RatingSummary*>& summaries) {
     BarChart chart{std::move(frame), "condition", "mean score", {}, {}};
     for (const std::string& scale : scales) chart.series.push_back({scale, {}});
     for (const RatingSummary* const summary : summaries) {
         chart.groups.push_back(summary->condition);
-        for (std::size_t s = 0; s < scales.size(); ++s) chart.series[s].bars.push_back(scoreOf(*summary, s));
+        for (std::size_t s = 0; s < scales.size(); ++s)
+            chart.series[s].bars.push_back(
+                std::isnan(summary->means[s])
+                    ? std::nullopt
+                    : std::optional{ChartValue::around(summary->means[s], summary->halfIntervals[s])});
         // scores of some points have an axis of their own
         if (std::ranges::any_of(summary->means, [](double mean) { return mean > 11.0; })) chart.most = 100.0;
     }

@@ -39,7 +39,6 @@ std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
 /// Mean scores of conditions, one series per scale.
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
                         const std::vector<const RatingSummary*>& summaries);
-std::optional<ChartValue> scoreOf(const RatingSummary& summary, std::size_t scale);
 
 /// Bars of one series, shares in percent or levels; `valueWords` includes the unit.
 std::string barsChart(ChartFrame frame, const std::string& groupsWords, const std::string& valueWords,

@@ -29,43 +29,44 @@ std::string cellOf(const std::string& words) {
 }
 
 struct ColumnMeaning {
-    std::string_view ours, bids, description, units;
+    std::string_view ours, description, units{};
 };
 
 constexpr ColumnMeaning meanings[] = {
-    {"observer", "observer", "Who answered: person, or the name of a simulated observer", ""},
-    {"condition", "condition", "Condition of the study", ""},
-    {"session", "session", "Session of the protocol", ""},
-    {"phase", "phase", "training (left out of analyses) or main", ""},
-    {"trial", "trial", "Number of the trial in its condition and session, from 1", ""},
-    {"task", "task", "What the participant did: ", ""},
-    {"stimulus", "stimulus", "Label of what was felt", ""},
-    {"parts", "parts", "What was felt one by one, in that order, between vertical bars", ""},
-    {"response", "response", "Label or words that were answered", ""},
-    {"target_column", "target_column", "Column of the target, from 1 at the left", ""},
-    {"target_row", "target_row", "Row of the target, from 1 at the top", ""},
-    {"x", "x", "Where the participant pointed, to the right, as a share of the field's width", "1"},
-    {"y", "y", "Where the participant pointed, downwards, as a share of the field's height", "1"},
-    {"choice", "choice", "Alternative that was chosen", ""},
-    {"value", "value", "Level that was set (dB) or number that was given", ""},
-    {"correct", "correct", "1 if the answer was right, 0 if not, where there is a right one", ""},
-    {"group", "group", "Group of the participant, who is compared with those of others", ""},
-    {"replays", "replays", "How often the stimulus was felt again", ""},
-    {"response_s", "response_time", "From the first press of play to the answer", "s"},
-    {"level_db", "level_db", "Level of the trial, relative to its condition's", "dB"},
-    {"quest", "quest", "What QUEST+ thought possible before the session's first trial", ""},
-    {"staircase", "staircase", "Which of several staircases the trial is of, from 1", ""},
-    {"peak_g", "peak_g", "Peak acceleration that was felt in the trial", "g"},
-    {"rms_g", "rms_g", "Root mean square of the acceleration that was felt in the trial", "g"},
-    {"a8_m_per_s2", "a8_m_per_s2", "The participant's exposure up to here, A(8) by ISO 5349-1", "m/s^2"},
-    {"limiter_db", "limiter_db", "By how much the limiter lowered the trial at most", "dB"},
-    {"master_db", "master_db", "Master level of the mixer", "dB"},
-    {"noise_db", "noise_db", "Root mean square of the pink noise over full scale; off: there was none", "dB"},
-    {"device", "device", "Audio device", ""},
-    {"version", "version", "Version of physvib", ""},
-    {"left", "left", "1: every part left as planned; n/a: not known. Trials with 0 are left out", ""},
-    {"again", "again", "Plays that did not leave as planned and were felt again", ""},
-    {"render", "render", "Call of physvib that renders the stimulus again", ""},
+    {"observer", "Who answered: person, or the name of a simulated observer"},
+    {"condition", "Condition of the study"},
+    {"session", "Session of the protocol"},
+    {"phase", "training (left out of analyses) or main"},
+    {"trial", "Number of the trial in its condition and session, from 1"},
+    {"task", "What the participant did: "},
+    {"stimulus", "Label of what was felt"},
+    {"parts", "What was felt one by one, in that order, between vertical bars"},
+    {"response", "Label or words that were answered"},
+    {"target_column", "Column of the target, from 1 at the left"},
+    {"target_row", "Row of the target, from 1 at the top"},
+    {"x", "Where the participant pointed, to the right, as a share of the field's width", "1"},
+    {"y", "Where the participant pointed, downwards, as a share of the field's height", "1"},
+    {"choice", "Alternative that was chosen"},
+    {"value", "Level that was set (dB) or number that was given"},
+    {"correct", "1 if the answer was right, 0 if not, where there is a right one"},
+    {"group", "Group of the participant, who is compared with those of others"},
+    {"replays", "How often the stimulus was felt again"},
+    {"response_s", "From the first press of play to the answer", "s"},
+    {"level_db", "Level of the trial, relative to its condition's", "dB"},
+    {"quest", "What QUEST+ thought possible before the session's first trial"},
+    {"staircase", "Which of several staircases the trial is of, from 1"},
+    {"ran_out", "1: time was over before there was an answer; n/a: there was no limit"},
+    {"peak_g", "Peak acceleration that was felt in the trial", "g"},
+    {"rms_g", "Root mean square of the acceleration that was felt in the trial", "g"},
+    {"a8_m_per_s2", "The participant's exposure up to here, A(8) by ISO 5349-1", "m/s^2"},
+    {"limiter_db", "By how much the limiter lowered the trial at most", "dB"},
+    {"master_db", "Master level of the mixer", "dB"},
+    {"noise_db", "Root mean square of the pink noise over full scale; off: there was none", "dB"},
+    {"device", "Audio device"},
+    {"version", "Version of physvib"},
+    {"left", "1: every part left as planned; n/a: not known. Trials with 0 are left out"},
+    {"again", "Plays that did not leave as planned and were felt again"},
+    {"render", "Call of physvib that renders the stimulus again"},
 };
 
 const ColumnMeaning* meaningOf(const std::string& column) {
@@ -74,8 +75,7 @@ const ColumnMeaning* meaningOf(const std::string& column) {
 }
 
 std::string bidsName(const std::string& column) {
-    const auto* const known = meaningOf(column);
-    return known ? std::string{known->bids} : cellOf(column);
+    return column == "response_s" ? "response_time" : cellOf(column);
 }
 
 std::string sidecar(const CsvTable& trials, std::size_t participant, const BidsWords& words) {

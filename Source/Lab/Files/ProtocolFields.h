@@ -152,6 +152,7 @@ void visitFields(auto& v, FieldsOf<SessionPlan>) {
     v.field("fewest_touches", &S::fewestTouches, studyBounds::count, Need::optional);
     v.field("most_plays", &S::mostPlays, studyBounds::count, Need::optional);
     v.field("least_s", &S::leastSeconds, studyBounds::rest, Need::optional);
+    v.field("answer_within_s", &S::answerSeconds, studyBounds::rest, Need::optional);
     v.field("break_before_s", &S::breakBeforeSeconds, studyBounds::rest, Need::optional);
     v.field("break_every", &S::breakEvery, studyBounds::count, Need::optional);
     v.field("break_s", &S::breakSeconds, studyBounds::rest, Need::optional);

@@ -56,6 +56,9 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
                     std::to_string(rows.leftOut()));
             if (rows.notLeft() > 0)
                 studyOf(data).warnings.push_back(rows.table().name + ": " + notLeftWords(rows.notLeft()));
+            if (rows.ranOut() > 0)
+                studyOf(data).warnings.push_back(rows.table().name +
+                                                 ": left out: " + ranOutWords(rows.ranOut()));
             if (taken == 0)
                 throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
         }
@@ -204,7 +207,8 @@ void nameKinds(std::vector<Trial>& trials) {
     for (Trial& trial : trials) {
         const auto [condition, stimulus] = parts(trial.condition);
         const bool isOne = stimulus.empty() || (conditions.size() > 1 && stimuli.size() == 1);
-        trial.condition = isOne ? std::string{condition}
+        trial.condition = condition.empty() && stimulus.empty() ? std::string{"all trials"}
+                          : isOne                               ? std::string{condition}
                           : conditions.size() < 2
                               ? std::string{stimulus}
                               : words("condition", condition) + " " + words("stimulus", stimulus);

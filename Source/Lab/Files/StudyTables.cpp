@@ -12,6 +12,19 @@
 namespace physvib {
 namespace {
 
+template <class Words>
+bool holds(const Words& words, const std::string& cell) {
+    return std::ranges::find(words, cell) != std::end(words);
+}
+
+/// Other programs' words for none, not of codes.
+bool isNoAnswer(const std::string& column, const std::string& cell) {
+    constexpr std::string_view none[] = {"null", "None", "NaN", "nan", "NA", "n/a", "."},
+                               labels[] = {"participant", "observer", "condition", "session", "phase",
+                                           "task",        "stimulus", "parts",     "group"};
+    return holds(none, cell) && !holds(labels, column);
+}
+
 /// Splits "touch_x:0:1230". A name with another ending is a plain column name.
 ColumnName withRange(std::string ours, std::string words) {
     const std::size_t second = words.rfind(':'), first = second == std::string::npos || second == 0
@@ -86,24 +99,16 @@ std::string unitFault(std::span<const ColumnName> names) {
 
 void takeOthersWords(CsvTable& table) {
     if (!trialHeadOf(table.comments).empty()) return;
-    constexpr std::string_view none[] = {"null", "None", "NaN", "nan", "NA", "n/a", "."},
-                               right[] = {"true", "TRUE", "True", "1.0"},
-                               wrong[] = {"false", "FALSE", "False", "0.0"},
-                               labels[] = {"participant", "observer", "condition", "session", "phase",
-                                           "task",        "stimulus", "parts",     "group"};
-    const auto has = [](const auto& words, const std::string& cell) {
-        return std::ranges::find(words, cell) != std::end(words);
-    };
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        if (has(labels, table.columns[c])) continue;
+    constexpr std::string_view right[] = {"true", "TRUE", "True", "1.0"},
+                               wrong[] = {"false", "FALSE", "False", "0.0"};
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
         for (CsvRow& row : table.rows) {
             std::string& cell = row.cells[c];
-            if (has(none, cell)) cell.clear();
+            if (isNoAnswer(table.columns[c], cell)) cell.clear();
             if (table.columns[c] != "correct") continue;
-            if (has(right, cell)) cell = "1";
-            if (has(wrong, cell)) cell = "0";
+            if (holds(right, cell)) cell = "1";
+            if (holds(wrong, cell)) cell = "0";
         }
-    }
 }
 
 std::string doubledRowFault(const CsvTable& table) {
@@ -143,8 +148,9 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std:
         columns.emplace_back(trialColumns::observer);
     }
     const auto isWhole = [&](const CsvRow& row) {
-        return std::ranges::none_of(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(names.size()),
-                                    [&](std::size_t c) { return row.cells[c].empty(); });
+        for (std::size_t c = 0; c < names.size(); ++c)
+            if (row.cells[from[c]].empty() || isNoAnswer(names[c].ours, row.cells[from[c]])) return false;
+        return true;
     };
     rowsLeftOut += std::erase_if(table.rows, [&](const CsvRow& row) { return !isWhole(row); });
     for (CsvRow& row : table.rows) {

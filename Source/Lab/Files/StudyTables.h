@@ -61,7 +61,7 @@ struct StudyFault {
 /// One table with access by column name. Every member throws StudyFault.
 class StudyRows {
 public:
-    enum class Kept { left, all }; ///< left: without the trials that did not leave as planned
+    enum class Kept { left, all }; ///< left: without trials that did not leave as planned, or ran out of time
     StudyRows(std::string_view text, std::string_view name, std::span<const ColumnName> columns = {},
               Kept kept = Kept::left) {
         auto read = readCsvTable(text, name, columns.empty() ? CsvHeader::named : CsvHeader::loose);
@@ -73,6 +73,8 @@ public:
         if (std::string fault = doubledRowFault(table_); !fault.empty()) throw StudyFault{std::move(fault)};
         if (kept == Kept::all) return;
         const LeftRows rows{table_};
+        if (const auto late = optional(trialColumns::ranOut))
+            ranOut_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return row.cells[*late] == "1"; });
         notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return rows.didNotLeave(row); });
     }
 
@@ -81,6 +83,8 @@ public:
     std::size_t notLeft() const noexcept {
         return notLeft_;
     } ///< rows dropped as they did not leave as planned
+
+    std::size_t ranOut() const noexcept { return ranOut_; } ///< rows dropped as they have no answer in time
 
     const CsvTable& table() const { return table_; }
 
@@ -147,7 +151,7 @@ public:
 
 private:
     CsvTable table_;
-    std::size_t leftOut_ = 0, notLeft_ = 0;
+    std::size_t leftOut_ = 0, notLeft_ = 0, ranOut_ = 0;
 };
 } // namespace physvib::detail
 

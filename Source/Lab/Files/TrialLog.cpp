@@ -63,7 +63,7 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
         cells["target_row"] = std::to_string(target->row);
     }
     if (answer.place) addPlace(cells, *answer.place);
-    if (session.answer() == AnswerKind::level || session.answer() == AnswerKind::number)
+    if ((session.answer() == AnswerKind::level || session.answer() == AnswerKind::number) && !answer.ranOut)
         cells["value"] = numberText(answer.value);
     if (const auto correct = isCorrect(protocol, record)) cells["correct"] = *correct ? "1" : "0";
     cells["replays"] = std::to_string(answer.plays - 1);
@@ -73,6 +73,7 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     cells["render"] = callsOf(protocol, record);
     if (session.quest) cells[columns::quest] = questWords(*session.quest, session.guessRate());
     if (trial.staircase > 0) cells[columns::staircase] = std::to_string(trial.staircase);
+    if (session.answerSeconds > 0.0) cells[columns::ranOut] = answer.ranOut ? "1" : "0";
     for (const FeltLevel& felt : answer.felt) {
         appendPart(cells[columns::peakG], levelText(felt.peakG));
         appendPart(cells[columns::rmsG], levelText(felt.rmsG));
@@ -139,8 +140,11 @@ public:
             record.answer.left = rows_.wholeNumber(row, *left, 0, 1) == 1;
             record.answer.again = rows_.wholeNumber(row, rows_.required(columns::again), 0, 1'000'000);
         }
+        if (session.answerSeconds > 0.0)
+            record.answer.ranOut = rows_.wholeNumber(row, rows_.required(columns::ranOut), 0, 1) == 1;
         for (const auto& scale : session.scores())
-            record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
+            if (!record.answer.ranOut)
+                record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
         return record;
     }
 
@@ -224,6 +228,8 @@ std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
             return s.staircase && s.staircase->starts().size() > 1;
         }))
         all.emplace_back(columns::staircase);
+    if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.answerSeconds > 0.0; }))
+        all.emplace_back(columns::ranOut);
     all.insert(all.end(), columns::measured.begin(), columns::measured.end());
     all.insert(all.end(), columns::apparatus.begin(), columns::apparatus.end());
     all.insert(all.end(), columns::receipts.begin(), columns::receipts.end());

@@ -104,6 +104,9 @@ constexpr std::string_view quest = "quest";
 /// Only in protocols with staircases that are mixed: which one the trial is of.
 constexpr std::string_view staircase = "staircase";
 
+/// Only in protocols with a time for answers: 1 if it was over, so that there is no answer; else 0.
+constexpr std::string_view ranOut = "ran_out";
+
 /// Only in other programs' tables: the group of a participant who is compared with those of others.
 constexpr std::string_view group = "group";
 
@@ -134,8 +137,8 @@ constexpr bool isApparatus(std::string_view name) {
     return std::ranges::find(apparatus, name) != apparatus.end();
 }
 constexpr bool has(std::string_view name) {
-    return name == quest || name == staircase || name == group || isMeasured(name) || isApparatus(name) ||
-           isReceipt(name) || std::ranges::find(names, name) != names.end();
+    return name == quest || name == staircase || name == ranOut || name == group || isMeasured(name) ||
+           isApparatus(name) || isReceipt(name) || std::ranges::find(names, name) != names.end();
 }
 } // namespace physvib::trialColumns
 
@@ -185,6 +188,11 @@ private:
     }
     std::optional<std::size_t> left_, peaks_, device_, calls_;
 };
+
+/// "3 trials ran out of time, without an answer". Any thread.
+inline std::string ranOutWords(std::size_t trials) {
+    return counted(trials, "trial") + " ran out of time, without an answer";
+}
 
 /// "3 trials did not leave as planned and are left out". Any thread.
 inline std::string notLeftWords(std::size_t trials) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes analysis.R: a line of its origin with a hash, the functions, then one call.
+// Writes analysis.R: a line of its origin with a hash, the functions, then one call; and the notebook
+// likewise.
 #include "Lab/Report/AnalysisScript.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/Embedded.h"
@@ -11,11 +12,19 @@
 
 namespace physvib {
 
-const std::vector<EmbeddedFile>& embeddedScript(); // Source/Lab/Script/analysis.R
+const std::vector<EmbeddedFile>& embeddedScript(); // Source/Lab/Script
 
 namespace {
 
-constexpr std::string_view firstWords = "# Written by physvib, hash ";
+constexpr std::string_view firstWords = "# Written by physvib, hash ", notebookHead = "---\n";
+
+std::string embedded(std::string_view name) {
+    return std::string{std::ranges::find(embeddedScript(), name, &EmbeddedFile::name)->text};
+}
+
+std::string withOrigin(const std::string& study, const std::string& text) {
+    return std::string{firstWords} + contentHash(text) + ": " + cleanLine(study) + "\n" + text;
+}
 
 /// A quoted R string, in ASCII: other characters are read as their bytes where the locale is C.
 std::string inR(const std::string& words) {
@@ -43,10 +52,14 @@ std::string vectorInR(const std::vector<std::string>& words) {
 
 std::string analysisScript(const std::string& study, const std::vector<std::string>& scales,
                            const std::vector<std::string>& points) {
-    std::string text{embeddedScript().front().text};
+    std::string text = embedded(analysisScriptName);
     text += "study(" + inR(study) + ", " + vectorInR(scales) +
             (points.empty() ? "" : ", " + vectorInR(points)) + ")\n";
-    return std::string{firstWords} + contentHash(text) + ": " + cleanLine(study) + "\n" + text;
+    return withOrigin(study, text);
+}
+
+std::string analysisNotebook(const std::string& study) {
+    return std::string{notebookHead} + withOrigin(study, embedded(notebookName));
 }
 
 std::vector<std::string> testsIn(const std::string& table) {
@@ -63,9 +76,11 @@ std::string keptScriptFault(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return {};
     if (const auto text = readFile(path.string(), limits::maxTableBytes)) {
-        const std::size_t end = text.value.find('\n');
-        if (text.value.starts_with(firstWords) && end != std::string::npos &&
-            text.value.substr(firstWords.size()).starts_with(contentHash(text.value.substr(end + 1))))
+        std::string_view all = text.value;
+        if (all.starts_with(notebookHead)) all.remove_prefix(notebookHead.size());
+        const std::string_view first = takeUntil('\n', all);
+        if (first.starts_with(firstWords) &&
+            first.substr(firstWords.size()).starts_with(contentHash(std::string{all})))
             return {};
     }
     return path.string() +

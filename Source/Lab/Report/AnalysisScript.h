@@ -13,10 +13,10 @@ namespace physvib {
 
 /// Name of the script beside a report's tables, and of what it writes: a line per figure, and the same in
 /// words.
-inline constexpr const char* analysisScriptName = "analysis.R";
+inline constexpr const char *analysisScriptName = "analysis.R", *notebookName = "analysis.qmd";
 inline constexpr const char* testsTable = "tests.csv";
 inline constexpr const char* testsWords = "tests.txt";
-/// Where stimuli were compared in pairs: mean scores as a matrix, and a map of them.
+/// Of stimuli in pairs: mean scores as a matrix, and a map of them.
 inline constexpr const char *pairsTable = "similarity.csv", *mapTable = "mds.csv";
 
 /// Files by name.
@@ -31,10 +31,13 @@ using ScriptRunner = std::function<Result<StudyFiles>(const StudyFiles&)>;
 std::string analysisScript(const std::string& study, const std::vector<std::string>& scales,
                            const std::vector<std::string>& points = {});
 
+/// A notebook of its steps, for Quarto or R Markdown. Any thread (allocates).
+std::string analysisNotebook(const std::string& study);
+
 /// Names of the tests in testsTable that have a p, each once. Any thread (allocates).
 std::vector<std::string> testsIn(const std::string& table);
 
-/// Why the file there must not be replaced by a new script: it is not one of ours, or somebody has edited it.
+/// Why the file there must not be replaced by a new script or notebook: it is none of ours, or was edited.
 /// Empty if it may be. Message thread only.
 std::string keptScriptFault(const std::filesystem::path& path);
 

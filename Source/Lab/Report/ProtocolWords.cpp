@@ -241,6 +241,8 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     if (!session.levelsFile.empty()) words += "; levels from the file " + session.levelsFile;
     if (session.leastSeconds > 0.0)
         words += "; at least " + secondsWords(session.leastSeconds) + " with each part before the answer";
+    if (session.answerSeconds > 0.0)
+        words += "; answers up to " + secondsWords(session.answerSeconds) + " after the last part";
     if (session.intervalSeconds > 0.0)
         words +=
             "; parts are played one after the other, " + secondsWords(session.intervalSeconds) + " apart";
@@ -253,7 +255,9 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
         words += "; each trial begins with " + session.modulus + ", which counts as " +
                  numberText(session.modulusNumber);
     if (session.mayBeEmpty) words += "; an answer may be left empty";
-    if (session.mostPlays > 0) words += "; felt at most " + std::to_string(session.mostPlays) + " times";
+    if (session.mostPlays > 0)
+        words += "; felt at most " +
+                 (session.mostPlays == 1 ? "once" : std::to_string(session.mostPlays) + " times");
     if (session.breakBeforeSeconds > 0.0)
         words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";
     if (session.breakEvery > 0 && session.breakSeconds > 0.0)

@@ -190,12 +190,10 @@ void tellDoses(ReportBuilder& report) {
             continue;
         if (!values.empty()) meanings += meaningOf(column, moved);
         for (const auto& [key, own] : values) {
-            double sum = 0.0;
-            for (const double value : own) sum += value;
             // means of adaptive levels and accumulated exposure have no meaning
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
             table.row(key.first, key.second, column, own.size(), *std::ranges::min_element(own),
-                      hasMean ? std::optional{sum / static_cast<double>(own.size())} : std::nullopt,
+                      hasMean ? std::optional{Moments(own).mean} : std::nullopt,
                       *std::ranges::max_element(own));
         }
     }
@@ -273,9 +271,8 @@ void tellOrders(ReportBuilder& report) {
     if (conditions.size() < 2) return;
     ExportTable table{"orders", report.isSimulated(), "participant,place,condition"};
     for (const auto& [participant, order] : orders)
-        for (std::size_t place = 0; place < order.size(); ++place) {
+        for (std::size_t place = 0; place < order.size(); ++place)
             table.row(participant, place + 1, order[place]);
-        }
     report.addTable("orders.csv", table.text());
     report.page.subheading("Orders of the conditions");
     report.page.paragraph(balanceWords(orders, conditions));

@@ -198,9 +198,7 @@ struct PlacesOf {
 };
 
 /// Mean perceived against intended place over participants, for rows (`isRow`) or columns.
-std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std::vector<PlacesOf>& places,
-                           bool isRow) {
-    const Cells cell{all};
+std::string perceivedChart(ReportBuilder& report, const std::vector<PlacesOf>& places, bool isRow) {
     LineChart chart{report.frame(isRow ? "Perceived row" : "Perceived column"),
                     isRow ? "intended target row" : "intended target column",
                     isRow ? "perceived, share of the height" : "perceived, share of the width",
@@ -210,13 +208,9 @@ std::string perceivedChart(ReportBuilder& report, const CsvTable& all, const std
     chart.yRange = {0.0, 1.0};
     for (std::size_t i = 0; i < places.size(); ++i) {
         std::map<int, std::map<std::string, std::vector<double>>> answers; // by target and participant
-        for (const CsvRow& row : all.rows) {
-            if (cell(row, "phase") == "training") continue;
-            if (cell.has("condition") && cell(row, "condition") != places[i].condition) continue;
-            const auto line = parseNumber<int>(cell(row, isRow ? "target_row" : "target_column"));
-            const auto value = parseNumber<double>(cell(row, isRow ? "y" : "x"));
-            if (line && value) answers[*line][cell(row, "participant")].push_back(*value);
-        }
+        for (const LocationTrial& trial : places[i].trials)
+            answers[isRow ? trial.targetRow : trial.targetColumn][trial.participant].push_back(
+                isRow ? trial.y : trial.x);
         LineSeries series{places[i].condition, {}};
         series.style = i;
         for (const auto& [line, people] : answers) {
@@ -264,11 +258,9 @@ void tellPlaces(ReportBuilder& report) {
         "Every response (coloured by target, shaped by its row) and the normal distribution of each "
         "target's responses (ellipses of one standard deviation)" +
             report.asThesis("Fig. 4.6") + ".");
-    const auto& all = report.trials.all;
-    report.page.figure(
-        {perceivedChart(report, all, places, false), perceivedChart(report, all, places, true)},
-        "Mean perceived column and row against the intended one" + report.asThesis("Fig. 4.7") +
-            report.intervals() + ".");
+    report.page.figure({perceivedChart(report, places, false), perceivedChart(report, places, true)},
+                       "Mean perceived column and row against the intended one" +
+                           report.asThesis("Fig. 4.7") + report.intervals() + ".");
     report.page.figure(territories,
                        "The likeliest target of every place" + report.asThesis("Fig. 4.8") +
                            ". "

@@ -56,9 +56,10 @@ void tellThresholds(ReportBuilder& report, const StudyFiles& tables,
     const FitWords words = fitWords(report.trials.columns);
     std::vector<std::string> charts;
     for (const auto& condition : data.value.conditions)
-        charts.push_back(psychometricChart(
-            report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
-            condition.trials, fit.model, words, conditionNamed(quest, condition.name)));
+        if (const auto* const told = conditionNamed(quest, condition.name); told || quest.empty())
+            charts.push_back(psychometricChart(
+                report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
+                condition.trials, fit.model, words, told));
     std::string caption = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
                           ". Circles: all participants' trials, larger where there were more; ";
     const bool isAdaptive = data.value.conditions.front().trials.front().isAdaptive;
@@ -160,7 +161,9 @@ void tellLevels(ReportBuilder& report) {
         report.page.figure({chart}, "Levels that were set by adjustment: means" + report.intervals() + ".");
     if (has(LevelTrial::Kind::staircase))
         tellThresholds(report, tables);
-    else if (std::erase_if(summaries, [](const auto& s) { return s.kind != LevelTrial::Kind::quest; });
+    else if (std::erase_if(
+                 summaries,
+                 [](const auto& s) { return s.kind != LevelTrial::Kind::quest || s.thresholds.empty(); });
              !summaries.empty())
         tellThresholds(report, tables, summaries);
     if (has(LevelTrial::Kind::magnitude)) tellMagnitudes(report);

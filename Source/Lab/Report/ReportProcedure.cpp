@@ -18,10 +18,17 @@ namespace physvib {
 namespace {
 
 struct Attended {
-    std::string number, observer;
-    std::size_t main = 0, training = 0, unanswered = 0;
+    std::string number, observer, group;
+    std::size_t main = 0, training = 0, unanswered = 0, ranOut = 0;
     std::vector<double> seconds;
 };
+
+/// Of other programs' tables: columns of answers, and nothing in them.
+bool hasNoAnswer(const Cells& cell, const CsvRow& row) {
+    constexpr std::string_view columns[] = {"response", "choice", "correct", "value", "x"};
+    return std::ranges::any_of(columns, [&](auto c) { return cell.has(c); }) &&
+           std::ranges::all_of(columns, [&](auto c) { return cell(row, c).empty(); });
+}
 
 /// Attendance of all participants, in file order.
 std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& trials) {
@@ -39,8 +46,13 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
             Attended& own = found->second;
             own.observer = cell(row, trialColumns::observer);
             (cell(row, trialColumns::phase) == trialColumns::training ? own.training : own.main) += 1;
-            own.unanswered +=
-                answerOf(cell(row, trialColumns::task)) == AnswerKind::label && cell(row, "response").empty();
+            const bool ranOut = cell(row, trialColumns::ranOut) == "1";
+            own.ranOut += ranOut && cell(row, trialColumns::phase) != trialColumns::training;
+            own.unanswered += !ranOut && (trials.knowTasks() ? answerOf(cell(row, trialColumns::task)) ==
+                                                                       AnswerKind::label &&
+                                                                   cell(row, "response").empty()
+                                                             : hasNoAnswer(cell, row));
+            own.group = cell(row, trialColumns::group);
             if (const auto seconds = parseNumber<double>(cell(row, "response_s"));
                 seconds && cell(row, trialColumns::phase) != trialColumns::training)
                 own.seconds.push_back(*seconds);
@@ -159,6 +171,12 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
             attended.end())
             notes.push_back("participant " + person.participant +
                             " of the table of people has no trials here");
+    std::map<std::string, std::size_t> groups;
+    for (const auto& [code, own] : attended)
+        if (!own.group.empty() && !facts.isExcluded(code)) ++groups[own.group];
+    std::vector<std::string> sizes;
+    for (const auto& [group, size] : groups) sizes.push_back(std::to_string(size) + " " + group);
+    if (!sizes.empty()) report.page.paragraph("Groups: " + listed(sizes) + ".");
     const Moments moments{ages};
     if (!ages.empty())
         report.page.paragraph(
@@ -240,8 +258,10 @@ void tellParticipants(ReportBuilder& report) {
         }
         if (canCompare && own.main < most)
             exclusions.push_back("participant " + code + " has " + std::to_string(own.main) +
-                                 " trials, others have up to " + std::to_string(most) +
-                                 ": tests leave out who lacks a combination of levels");
+                                 " trials, others have up to " + std::to_string(most));
+        if (own.ranOut > 0)
+            exclusions.push_back("participant " + code + ": " + ranOutWords(own.ranOut) +
+                                 ": analyses leave them out");
         if (own.unanswered > 0)
             exclusions.push_back("participant " + code + ": " + counted(own.unanswered, "trial") +
                                  " without an answer left out");

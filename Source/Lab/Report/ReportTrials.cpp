@@ -256,6 +256,7 @@ namespace {
 struct RunAnswer {
     bool isCorrect = false;
     std::size_t staircase = 0;
+    bool ranOut = false; ///< moves no level
 };
 using Answers = std::vector<RunAnswer>;
 using RunKey = std::tuple<std::string, std::string, std::string>; // participant, condition, session
@@ -268,6 +269,7 @@ bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t p
     if (!plan.adaptedAlternative()) return answers.size() < planned;
     AdaptiveLevel level{plan};
     for (const RunAnswer& answer : answers) {
+        if (answer.ranOut) continue;
         level.choose(answer.staircase);
         level.answer(answer.isCorrect);
     }
@@ -293,7 +295,7 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
         if (std::ranges::find(people, who) == people.end()) people.push_back(who);
         const auto staircase = parseNumber<std::size_t>(cell(row, trialColumns::staircase));
         runs[{who, cell(row, "condition"), cell(row, "session")}].push_back(
-            {cell(row, "correct") == "1", staircase.value_or(1) - 1});
+            {cell(row, "correct") == "1", staircase.value_or(1) - 1, cell(row, trialColumns::ranOut) == "1"});
     }
     std::map<RunKey, std::size_t> notLeft; // answered, though no evidence
     for (const CsvRow& row : trials.notLeft)

@@ -146,7 +146,8 @@ bool tellDescriptions(ReportBuilder& report) {
     std::size_t all = 0, empty = 0;
     for (const CsvRow& row : report.trials.all.rows) {
         if (answerOf(cell(row, trialColumns::task)) != AnswerKind::words ||
-            cell(row, trialColumns::phase) == trialColumns::training)
+            cell(row, trialColumns::phase) == trialColumns::training ||
+            cell(row, trialColumns::ranOut) == "1")
             continue;
         ++all;
         empty += cell(row, "response").empty();

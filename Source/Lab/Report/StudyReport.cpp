@@ -83,12 +83,10 @@ std::vector<std::string> inPoints(const ReportTrials& trials) {
 void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run) {
     report.page.heading("Tests");
     report.page.paragraph(
-        "analysis.R, beside this page, chooses each test by its measure and by the factors that rows have, "
-        "and "
-        "runs it in R (Debian: r-base-core; r-cran-lme4 where people lack levels). The unit is the "
-        "participant. Training, and trials that did not leave, are left out. Corrections are named with "
-        "their "
-        "p; sphericity and normality are shown, and decide nothing.");
+        "analysis.R, beside this page, chooses each test by its measure and by the factors that rows "
+        "have, and runs it in R (Debian: r-base-core; r-cran-lme4 where people lack levels). The unit "
+        "is the participant. Training, and trials that did not leave, are left out. Corrections are "
+        "named with their p; sphericity and normality are shown, and decide nothing.");
     StudyFiles files = report.tables();
     files[analysisScriptName] = made.files[analysisScriptName];
     auto ran = run ? run(files) : Result<StudyFiles>{StudyFiles{}};
@@ -209,6 +207,8 @@ Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protoco
         return Failure{std::move(fault)};
     StudyReport report = studyReport(trials.value, script);
     report.isSimulated = trials.value.isSimulated;
+    if (job.wantsNotebook && report.files.contains(analysisScriptName))
+        report.files[notebookName] = analysisNotebook(studyWords(trials.value));
     if (!job.wantsBids) return report;
     if (!trials.value.all.column("participant"))
         return Failure{job.files.front() + ": --bids: expected a column participant, found none"};

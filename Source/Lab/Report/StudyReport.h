@@ -34,6 +34,7 @@ struct ReportJob {
                                               ///< specifies it
     std::string folder;                       ///< output folder
     bool wantsBids = false;                   ///< also export the trials as a BIDS dataset
+    bool wantsNotebook = false;               ///< also a notebook of the script's steps
     std::string peoplePath{}; ///< table of facts on the participants (ReportTrials.h); empty: unknown
     std::string ethics{}, consent{}, noise{}; ///< sentences for the page; if empty, the page has a reminder
 

@@ -78,16 +78,19 @@ of.people <- function(file, measure, factor, people, where = character()) { # th
 
 results <- data.frame()
 result <- function(test, effect, statistic, value, p, n, df1 = NA, df2 = NA, p_corrected = NA, correction = "", epsilon = NA, size = "",
-                   effect_size = NA, difference = NA, least = NA, most = NA, note = "") {
+                   effect_size = NA, difference = NA, least = NA, most = NA, note = "", lines = 2) { # lines: that are corrected together
   line <- data.frame(test, effect, statistic, df1, df2, value, p, p_corrected, correction, epsilon, size, effect_size, n, difference, least, most, note, p_across = NA)
   results <<- rbind(results, line)
   near <- function(x) format(signif(x, 4), digits = 4)
-  known <- function(words, x) if (is.na(x)) "" else paste0(", ", words, " ", near(x))
+  known <- function(words, x, says = near(x)) if (is.na(x)) "" else paste0(", ", words, " ", says)
+  p.words <- function(p) if (is.na(p) || p >= 1e-4) paste("=", format(signif(p, 3), digits = 3)) else "< 0.0001"
   df <- if (is.na(df1)) "" else paste0("(", near(df1), if (!is.na(df2)) paste0(", ", near(df2)), ")")
   interval <- if (is.na(least)) "" else paste0(" (95 % interval ", near(least), " to ", near(most), ")")
-  words <- paste0(statistic, df, " = ", near(value), ", p = ", near(p), known(paste(correction, "p ="), p_corrected), known("epsilon", epsilon),
-                  known("difference", difference), interval, known(paste(size, "="), effect_size))
-  cat("  ", effect, ": ", if (note == "") words else if (effect %in% c("factors", "left out")) note else paste("not tested:", note), ", n = ", n, "\n", sep = "")
+  spoken <- c(holm = "Holm's", bonferroni = "Bonferroni's")[correction]
+  middle <- if (statistic == "V") "median difference" else if (statistic == "W") "difference of medians" else "difference"
+  words <- paste0(statistic, df, " = ", near(value), ", p ", p.words(p), if (lines > 1) known(paste(spoken, "p"), p_corrected, p.words(p_corrected)),
+                  known("epsilon", epsilon), known(middle, difference), interval, known(paste(size, "="), effect_size))
+  cat("  ", effect, ": ", if (note == "") words else if (effect %in% c("factors", "left out", "hidden reference")) note else paste("not tested:", note), if (!is.na(n)) paste(", n =", n), "\n", sep = "")
 }
 # A test that R refuses is a line that says why; the others go on.
 attempt <- function(test, effect, run) tryCatch(run, error = function(e) result(test, effect, "", NA, NA, NA, note = gsub("\n", "", conditionMessage(e), fixed = TRUE)))
@@ -135,11 +138,16 @@ anova.test <- function(test, file, measure, within = character(), where = charac
     }
     if (d > 1 && left.df >= d) attempt(test, paste(own, "sphericity"), {
       m <- mauchly.test(lm(cells ~ x - 1), T = t(contrasts[[i]]))
+      if (is.nan(m$p.value)) stop("nobody differs from the others in it")
       result(test, paste(own, "sphericity"), "Mauchly W", m$statistic, m$p.value, n)
     })
   }
+  if (length(between) > 0) attempt(test, "groups homogeneity", {
+    cell <- interaction(people); own <- rowMeans(cells); away <- abs(own - ave(own, cell, FUN = median)); a <- anova(lm(away ~ cell))
+    if (a[2, 2] > 1e-20 * sum(away^2)) result(test, "groups homogeneity", "Levene's F of medians", a[1, 4], a[1, 5], n, a[1, 1], a[2, 1])
+  })
   attempt(test, "residuals normality", {
-    left <- lm.fit(x, cells)$residuals
+    left <- as.matrix(lm.fit(x, cells)$residuals)
     s <- shapiro.test(left - rowMeans(left) * (ncol(cells) > 1)); result(test, "residuals normality", "Shapiro-Wilk W", s$statistic, s$p.value, n)
   })
   if (length(attr(cells, "lacking")) > 0 && requireNamespace("lme4", quietly = TRUE)) attempt(test, "mixed model", mixed(test, file, measure, c(within, between), where))
@@ -197,11 +205,13 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
     })
     ps <- sapply(tests, function(one) one$p)
     corrected <- p.adjust(ps, correction, length(ps))
+    if (!is.within) cat("  ", f, ": ", paste0(names(own), " n = ", lengths(own), ", mean ", sapply(own, function(y) format(signif(mean(y), 4), digits = 4)),
+                        sapply(own, function(y) if (length(y) > 1) paste(", standard deviation", format(signif(sd(y), 3), digits = 3)) else ""), collapse = "; "), "\n", sep = "")
     for (k in seq_along(tests)) {
       one <- tests[[k]]; effect <- paste0(f, ": ", two[[k]][1], " - ", two[[k]][2])
       if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = "the differences do not vary")
       else result(test, effect, if (by == "t") "t" else if (is.signed) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], correction, size = one$size,
-                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2])
+                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], lines = length(ps))
     }
     if (by == "t" && is.within && n > 1) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
       found <- power.t.test(n, power = 0.8, sd = 1, sig.level = alpha, type = "paired")$delta
@@ -285,6 +295,7 @@ design.of <- function(d, columns = c("group", "condition", "stimulus")) {
 # ranks. Magnitudes: ranks of one factor; of several the analysis of variance of their logarithms.
 most.levels <- 12 # of which every two are compared
 as.published <- FALSE # a study -thesis: pairs as 4.2.2 and 5.2.2 have them, by t or Mann and Whitney's ranks, with Bonferroni's correction
+spoken <- c(percent_correct = "percent correct", distance = "distance from the target", variable = "variable error", jnd = "JND")
 compare <- function(what, d, measure, kind = "scores", columns = c("group", "condition", "stimulus")) {
   column <- sub("=.*", "", measure)
   d <- d[!(d[[column]] %in% c("", "NA")), ]
@@ -303,13 +314,15 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
                correction = if (as.published) "bonferroni" else "holm", between = few(design$between), paired = !as.published)
   if (length(few(factors)) < length(factors)) result(paste("pairs of", name), "factors", "", NA, NA, length(unique(d$participant)), note = "more than 12 levels")
 }
-# Several scales ask one question each: Holm's correction over them, effect by effect.
-across <- function(tests) {
-  own <- results$test %in% tests & results$statistic == "F" & !is.na(results$p)
+# Several scales, or shares of several alternatives, ask one question each: Holm's correction over them, effect by effect.
+across <- function(tests, what, statistics = c("F", "chi-squared")) {
+  own <- results$test %in% tests & results$statistic %in% statistics & !is.na(results$p)
   for (effect in unique(results$effect[own])) {
     at <- which(own & results$effect == effect)
     results$p_across[at] <<- p.adjust(ifelse(is.na(results$p_corrected[at]), results$p[at], results$p_corrected[at]), "holm")
-    if (length(at) > 1) cat("over all scales, ", effect, ": Holm's p = ", paste(signif(results$p_across[at], 4), collapse = ", "), "\n", sep = "")
+    name <- sub(" by .*", "", sub("^(.* of|pairs by ranks of) ", "", results$test[at]))
+    if (length(at) > 1) cat("over all ", what, ", ", effect, ": Holm's p ", paste(name, ifelse(results$p_across[at] < 1e-4, "< 0.0001",
+                            signif(results$p_across[at], 3)), collapse = ", "), "\n", sep = "")
   }
 }
 # Objects that were rated side by side are levels of a factor; one that was also felt openly, the hidden reference, is looked at.
@@ -320,7 +333,7 @@ side.by.side <- function(own, objects, words) {
   if (length(first) != 1 || any(lengths(strsplit(own$parts, "|", fixed = TRUE)) == length(objects))) return(invisible())
   below <- tapply(as.numeric(own[[first]]) < 90, own$participant, mean)
   who <- names(below)[below > 0.15]
-  if (length(who) > 0) result(paste0("hidden reference", words), "factors", "", NA, NA, length(below), note = paste0(first,
+  if (length(who) > 0) result(paste0("hidden reference", words), "hidden reference", "", NA, NA, length(below), note = paste0(first,
     " unnamed was rated below 90 in more than 15 % of trials by ", paste(who, collapse = ", "), ", whom ITU-R BS.1534 would exclude: not excluded here"))
 }
 # Stimuli that were compared in pairs: means over people as a matrix, and a map by classical scaling. Scores whose scale begins with "dis" or "diff"
@@ -345,6 +358,13 @@ in.pairs <- function(own, scale, words) for (one in split(own, if ("condition" %
     places <<- rbind(places, data.frame(scale, condition, stimulus = all, x = map$points[, 1], y = map$points[, 2], stress))
   })
 }
+# How far a participant's answers to the same target scatter around their own mean: what the size of a perceived grid rests on.
+scatter.of <- function(own) {
+  keys <- intersect(c("participant", "group", "condition"), names(own))
+  of <- interaction(own[c(keys, "target_column", "target_row")], drop = TRUE)
+  both <- tapply(as.numeric(own$x), of, var) + tapply(as.numeric(own$y), of, var)
+  na.omit(cbind(own[match(levels(of), of), keys, drop = FALSE], variable = as.vector(sqrt(both))))
+}
 # As Table 4.1 of the thesis has it, of its own study alone: every trial is a unit, and people are a block. Answers of one person are no independent
 # units, so its p are too small.
 single.trials <- function(test, own, measure) { cat(test, "\n", sep = ""); attempt(test, "all", {
@@ -358,6 +378,8 @@ study <- function(study, scales = character(), points = character()) {
   as.published <<- grepl("protocol [^ ]*-thesis", study)
   if (!("participant" %in% names(d))) return(finish(study))
   is.told <- "task" %in% names(d)
+  # a trial that ran out of time has no other answer
+  for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks", c("group", "condition"))
   # rows of a task, session by session where there are several; of tables without tasks those with the column
   each <- function(task, column, run) {
     if (!(column %in% names(d))) return(invisible())
@@ -368,18 +390,20 @@ study <- function(study, scales = character(), points = character()) {
   }
   from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) {
     own <- table.of(file)
-    for (m in measures) compare(paste0(m, words), own, m, columns = columns)
+    for (m in measures) compare(paste0(if (m %in% names(spoken)) spoken[[m]] else m, words), own, m, columns = columns)
   }
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
-  if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words)
+  if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
+    compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"))
     for (one in split(own, if ("condition" %in% names(own)) factor(own$condition, unique(own$condition)) else rep("", nrow(own)))) {
       place <- if (length(unique(own$condition)) > 1) paste(words, "of", one$condition[1]) else words
       for (m in c("x", "y")) {
         compare(paste0(m, place), one, m, columns = c("group", "target_row", "target_column"))
         if (grepl("protocol phantom-places-thesis", study, fixed = TRUE)) single.trials(paste0(m, place, ", single trials as in Table 4.1"), one, m)
       }
-    })
+    }
+  })
   from("places.csv", c("distance", "variable"))
   each("choose", if ("choice" %in% names(d)) "choice" else "response", function(own, words) {
     if (is.told) own <- own[own$correct == "" | own$level_db == "", ] # levels that follow the answers
@@ -387,7 +411,9 @@ study <- function(study, scales = character(), points = character()) {
     if (length(unique(own$participant)) < 2) return()
     choices(paste0("shares of the alternatives", words, " against chance"), own)
     names <- alternatives.of(own)
+    before <- unique(results$test)
     for (a in if (length(names) == 2) names[1] else names) compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks")
+    across(setdiff(unique(results$test), before), "alternatives", c("chi-squared", "V", "W"))
   })
   before <- unique(results$test)
   aside <- character() # sessions whose scales are objects
@@ -404,7 +430,7 @@ study <- function(study, scales = character(), points = character()) {
       compare(paste0(scale, words), own, scale, columns = c("group", "condition"))
     } else compare(paste0(scale, words), own, scale, if (scale %in% points) "ranks" else "scores")
   })
-  if (length(scales) > 1) across(setdiff(unique(results$test), before))
+  if (length(scales) > 1) across(setdiff(unique(results$test), before), "scales")
   if (file.exists("thresholds.csv")) {
     own <- table.of("thresholds.csv")
     for (m in unique(own$method)) compare(paste("threshold by", m), own[own$method == m, ], "threshold", columns = c("group", "condition"))

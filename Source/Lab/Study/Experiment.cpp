@@ -211,6 +211,7 @@ std::string Experiment::refusal(const Answer& answer) const {
     };
     if (answer.plays < 1) return "expected that the stimulus was felt";
     if (!(answer.seconds >= 0.0)) return "expected a time from 0 s on";
+    if (answer.ranOut) return s.answerSeconds > 0.0 ? "" : "expected an answer, as time does not run out";
     switch (s.answer()) {
     case AnswerKind::wish:
         if (s.fewestTouches > 0) return isOnField(answer.place) ? "" : "expected a place on the field";
@@ -245,12 +246,12 @@ std::string Experiment::refusal(const Answer& answer) const {
 TrialRecord Experiment::take(Answer answer) {
     TrialRecord record{std::move(*trial_), std::move(answer)};
     if (plan().answer() == AnswerKind::wish) explored_.insert(record.answer.response);
-    const bool counts = record.answer.left.value_or(true);
+    const bool left = record.answer.left.value_or(true), counts = left && !record.answer.ranOut;
     if (plan().adjustment && counts)
         adjusted_[{record.trial.condition, plan().name}][record.trial.stimulus].push_back(
             record.answer.value);
     if (adaptive_ && counts) adaptive_->answer(record.answer.response == *plan().adaptedAlternative());
-    if (counts) inARow_ = isCorrect(protocol_, record).value_or(false) ? inARow_ + 1 : 0;
+    if (left) inARow_ = isCorrect(protocol_, record).value_or(false) ? inARow_ + 1 : 0;
     ++inSession_;
     ++taken_;
     advance();
@@ -339,7 +340,7 @@ std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& tr
 
 std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record) {
     const SessionPlan& session = protocol.sessions[record.trial.session];
-    if (!session.hasCorrectAnswers()) return std::nullopt;
+    if (!session.hasCorrectAnswers() || record.answer.ranOut) return std::nullopt;
     const std::string* const adapted = session.adaptedAlternative();
     return record.answer.response == (adapted != nullptr         ? *adapted
                                       : !session.correct.empty() ? session.correct

@@ -63,6 +63,7 @@ struct Answer {
     std::optional<FieldPlace> place; ///< locate; explore with free touches
     std::vector<double> scores;      ///< rate: one per scale
     double value = 0.0;              ///< adjust: dB; estimate: leastEstimate to mostEstimate
+    bool ranOut = false;             ///< the session's time for an answer was over; there is no other
     int plays = 1;                   ///< number of plays
     double seconds = 0.0;            ///< from the first play to the answer
     std::vector<FeltLevel> felt{}; ///< felt level of each part in its last play; empty if no device was used
@@ -87,7 +88,7 @@ struct TrialRecord {
 /// The grid cell of a trial's stimulus; nullopt if it is not a cell. Any thread.
 std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& trial);
 
-/// Whether the answer was correct; nullopt if the task has no correct answer. Any thread.
+/// Whether the answer was correct; nullopt if the task has no correct answer, or time ran out. Any thread.
 std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record);
 
 /// A call in a protocol (see CallSet), with all names replaced.
@@ -163,7 +164,7 @@ public:
     std::string refusal(const Answer& answer) const;
 
     /// Stores an answer that refusal() accepts, and advances to the next trial. Of a trial that did not leave
-    /// as planned, the answer moves no level and counts for nothing but the order.
+    /// as planned or that ran out of time, the answer moves no level and counts for nothing but the order.
     TrialRecord take(Answer answer);
 
     /// Replays a recorded trial with take() if it is the one that this experiment expects. Otherwise returns

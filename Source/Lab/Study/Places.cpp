@@ -2,7 +2,6 @@
 // Fits a normal distribution per target, then evaluates one quadratic form per target and pixel.
 #include "Lab/Study/Places.h"
 #include "Lab/Study/Summaries.h"
-#include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -128,34 +127,6 @@ struct LogLikelihood {
     double constant = -std::numeric_limits<double>::infinity(), xx = 0.0, yy = 0.0, xy = 0.0;
 };
 
-/// Number of perceived cells on a coarse map; 0 if there are no normal distributions.
-double cellsOf(const std::vector<LocationTrial>& trials, double thresholdPercent) {
-    constexpr std::size_t shrunk = 10; // a hundredth of the pixels; this rounds a share of 1.42 % by less
-                                       // than 0.02 %
-    const ResponseNormals normals = responseNormals(trials);
-    if (!normals.fault.empty()) return 0.0;
-    const auto counts =
-        percentCounts(normals, likelihoodMap(normals, mapColumns / shrunk, mapRows / shrunk), {});
-    const auto resolution = perceptualResolution(counts, thresholdPercent);
-    return static_cast<double>(resolution.columns * resolution.rows);
-}
-
-/// Trials that may be exchanged for each other, by condition.
-using Exchange = std::vector<std::vector<LocationTrial>>;
-
-/// Exchanges whole conditions of a person: trials of one person depend on each other.
-void exchangeConditions(Exchange& own, SeededRandom& random) { random.shuffle(own); }
-
-/// Exchanges single trials, and keeps the number in each condition.
-void exchangeTrials(Exchange& own, SeededRandom& random) {
-    std::vector<LocationTrial> all;
-    for (const auto& trials : own) all.insert(all.end(), trials.begin(), trials.end());
-    random.shuffle(all);
-    auto next = all.begin();
-    for (auto& trials : own)
-        std::ranges::copy_n(next, std::ssize(trials), trials.begin()), next += std::ssize(trials);
-}
-
 } // namespace
 
 ResponseNormals responseNormals(const std::vector<LocationTrial>& trials) {
@@ -208,42 +179,6 @@ ConditionResolution resolveCondition(std::string condition, const std::vector<Lo
     made.counts = percentCounts(made.normals, likelihoodMap(made.normals), made.condition);
     made.resolution = perceptualResolution(made.counts, thresholdPercent);
     return made;
-}
-
-CellChance cellChance(const std::vector<std::vector<LocationTrial>>& conditions, double thresholdPercent,
-                      int draws, std::uint64_t seed) {
-    std::map<std::string, Exchange> byPerson;
-    std::map<std::pair<int, int>, Exchange> byTarget;
-    for (std::size_t c = 0; c < conditions.size(); ++c)
-        for (const LocationTrial& trial : conditions[c])
-            for (Exchange* const own :
-                 {&byPerson[trial.participant], &byTarget[{trial.targetRow, trial.targetColumn}]}) {
-                own->resize(conditions.size());
-                (*own)[c].push_back(trial);
-            }
-    CellChance chance;
-    for (const auto& [person, own] : byPerson)
-        chance.people += std::ranges::none_of(own, [](const auto& trials) { return trials.empty(); });
-    SeededRandom random{seed, "cells of exchanged conditions"};
-    std::vector<double> widest;
-    for (int draw = 0; draw < draws; ++draw) {
-        std::vector<std::vector<LocationTrial>> drawn(conditions.size());
-        const auto add = [&](auto& parts, auto exchange) {
-            for (auto& [key, own] : parts) {
-                exchange(own, random);
-                for (std::size_t c = 0; c < own.size(); ++c)
-                    drawn[c].insert(drawn[c].end(), own[c].begin(), own[c].end());
-            }
-        };
-        chance.people > 1 ? add(byPerson, exchangeConditions) : add(byTarget, exchangeTrials);
-        std::vector<double> cells;
-        for (const auto& trials : drawn) cells.push_back(cellsOf(trials, thresholdPercent));
-        widest.push_back(std::ranges::max(cells) - std::ranges::min(cells));
-    }
-    std::ranges::sort(widest);
-    // With the study itself there are draws + 1, of which at most 5 % lie beyond.
-    chance.cells = widest[static_cast<std::size_t>(std::ceil(0.95 * (draws + 1))) - 1];
-    return chance;
 }
 
 // Computes pointing errors in two passes (sums, then deviations), because pixel coordinates can be far from

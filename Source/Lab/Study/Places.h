@@ -65,20 +65,6 @@ struct ConditionResolution {
 ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
                                      double thresholdPercent = defaultPercentThreshold);
 
-/// How far perceptual resolutions of conditions lie apart by chance.
-struct CellChance {
-    double cells = 0.0;     ///< a larger difference happens in at most 5 % of studies without one
-    std::size_t people = 0; ///< with trials in all conditions; fewer than two: trials are exchanged instead
-};
-
-/// The largest difference of any two of the conditions' numbers of cells, where their names say nothing: each
-/// draw exchanges the conditions within each person, or of one person the trials within each target.
-/// Precondition: the conditions have the same targets. The same seed gives the same result. Any thread
-/// (allocates).
-CellChance cellChance(const std::vector<std::vector<LocationTrial>>& conditions,
-                      double thresholdPercent = defaultPercentThreshold, int draws = 199,
-                      std::uint64_t seed = 1);
-
 // Pointing errors for targets at arbitrary places: constant error (bias), variable error (scatter) and mean
 // distance.
 

@@ -68,6 +68,8 @@ std::string taskFault(const SessionPlan& s) {
                      s.comparesPairs || s.mostPlays > 0 || s.leastSeconds > 0.0))
         return "once: expected it of " + tasksThatAnswer({Kind::scores, Kind::words}) +
                ", where nothing is felt";
+    if (s.answerSeconds > 0.0 && (answer == Kind::wish || answer == Kind::level))
+        return "answer_within_s: expected it of other tasks than explore and adjust";
     if ((answer == Kind::level) != s.adjustment.has_value())
         return "adjustment: expected it of " + tasksThatAnswer({Kind::level}) + ", and of no other";
     if (s.adjustment && !hasAlternative(s, s.adjustment->alternative))

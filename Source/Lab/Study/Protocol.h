@@ -162,9 +162,10 @@ struct SessionPlan {
     double intervalSeconds = 0.0; ///< all parts are played one after the other, so far apart; 0: one by one
     Order order = Order::random;
     int repetitions = 1;
-    int fewestTouches = 0;     ///< explore: minimum number of touches; 0: every stimulus once
-    int mostPlays = 0;         ///< maximum plays of a trial's stimulus; 0: unlimited
-    double leastSeconds = 0.0; ///< minimum time with each part of a trial before an answer is accepted
+    int fewestTouches = 0;      ///< explore: minimum number of touches; 0: every stimulus once
+    int mostPlays = 0;          ///< maximum plays of a trial's stimulus; 0: unlimited
+    double leastSeconds = 0.0;  ///< minimum time with each part of a trial before an answer is accepted
+    double answerSeconds = 0.0; ///< time for an answer, from where one is accepted; 0: unlimited
     double breakBeforeSeconds = 0.0;
     int breakEvery = 0; ///< trials; 0: no breaks
     double breakSeconds = 0.0;

@@ -88,10 +88,12 @@ Answer SimulatedObserver::answer(const Experiment& experiment) const {
     answer.plays =
         1 + static_cast<int>(random.below(
                 session.mostPlays == 0 ? 3 : static_cast<std::size_t>(std::min(3, session.mostPlays))));
-    answer.seconds =
-        roundedTo(session.leastSeconds * static_cast<double>(std::max<std::size_t>(1, trial.parts.size())) +
-                      0.8 - 1.5 * std::log(1.0 - random.uniform()),
-                  1000.0);
+    const double felt =
+                     session.leastSeconds * static_cast<double>(std::max<std::size_t>(1, trial.parts.size())),
+                 thinks = 0.8 - 1.5 * std::log(1.0 - random.uniform());
+    answer.ranOut = session.answerSeconds > 0.0 && thinks > session.answerSeconds;
+    answer.seconds = roundedTo(felt + (answer.ranOut ? session.answerSeconds : thinks), 1000.0);
+    if (answer.ranOut) return answer;
     switch (session.answer()) {
     case AnswerKind::wish: answer.response = explored(experiment, random, answer); break;
     case AnswerKind::label: answer.response = identified(condition, trial, random); break;

@@ -227,8 +227,10 @@ plannedTime(const Protocol& protocol,
             felt += one.count * std::max(session.leastSeconds, secondsOf(one.condition, one.label, one.part));
         for (int t = 0; t < planned.trials; ++t) {
             if (session.breakEvery > 0 && t > 0 && t % session.breakEvery == 0) rest(session.breakSeconds);
+            const double most =
+                session.answerSeconds > 0.0 ? session.answerSeconds : PlannedTime::answerSeconds;
             work(felt / planned.trials +
-                 (session.answer() == AnswerKind::wish ? 0.0 : PlannedTime::answerSeconds));
+                 (session.answer() == AnswerKind::wish ? 0.0 : std::min(most, PlannedTime::answerSeconds)));
         }
         time.trials += planned.trials;
     }

@@ -46,6 +46,12 @@ public:
     /// the outputs that differ from those of the last start. A
     /// newer program version is allowed, since each row has its version. Any thread (allocates).
     std::string apparatusFault(const Apparatus& now) const;
+    /// The master level of the trials before, if it is another. Any thread.
+    std::optional<double> otherLevelDb(const Apparatus& now) const {
+        const auto& records = log_.records();
+        const auto before = records.empty() ? std::nullopt : records.back().answer.apparatus;
+        return before && before->masterDb != now.masterDb ? std::optional{before->masterDb} : std::nullopt;
+    }
     /// Writes the start or resume with this apparatus into the file of times. Empty, or why not.
     std::string begin(const Apparatus& now);
     /// Adds an event (studyEvents) with the current time. Empty, or why not.

@@ -136,7 +136,7 @@ RatingSummary summarise(const std::string& condition, const Chosen& trials) {
         const Moments moments{scores};
         const auto means = participantMeans(trials, scale);
         summary.participants = std::max(summary.participants, means.size());
-        summary.means.push_back(scores.empty() ? std::nan("") : moments.mean);
+        summary.means.push_back(scores.empty() ? std::nan("") : Moments(means).mean);
         summary.deviations.push_back(moments.deviation);
         summary.halfIntervals.push_back(Moments(means.size() > 1 ? means : scores).halfInterval());
     }
@@ -349,30 +349,25 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
     });
     for (LevelSummary& summary : summaries) {
         std::map<std::string, Run> byParticipant;
-        std::vector<double> values;
-        for (const LevelTrial& trial : trials) {
-            if (!isSame(summary, trial)) continue;
-            byParticipant[trial.participant].push_back(&trial);
-            values.push_back(trial.kind == LevelTrial::Kind::magnitude ? std::log10(trial.value)
-                                                                       : trial.value);
-        }
-        summary.trials = values.size();
+        for (const LevelTrial& trial : trials)
+            if (isSame(summary, trial)) byParticipant[trial.participant].push_back(&trial), ++summary.trials;
         summary.participants = byParticipant.size();
         if (isThreshold(summary.kind)) {
             summariseThresholds(summary, byParticipant);
             continue;
         }
-        std::vector<double> means;
+        const bool isMagnitude = summary.kind == LevelTrial::Kind::magnitude;
+        std::vector<double> means, set;
         for (const auto& [participant, own] : byParticipant) {
-            std::vector<double> adjusted;
-            for (const LevelTrial* trial : own) adjusted.push_back(trial->value);
-            means.push_back(meanOf(adjusted));
+            set.clear();
+            for (const LevelTrial* trial : own)
+                set.push_back(isMagnitude ? std::log10(trial->value) : trial->value);
+            means.push_back(meanOf(set));
         }
-        if (summary.kind == LevelTrial::Kind::adjustment)
-            summary.halfInterval = Moments(means).halfInterval();
-        summary.deviation = Moments(values).deviation;
-        summary.estimate =
-            summary.kind == LevelTrial::Kind::magnitude ? std::pow(10.0, meanOf(values)) : meanOf(values);
+        const Moments over{means.size() > 1 ? means : set};
+        if (!isMagnitude) summary.halfInterval = Moments(means).halfInterval();
+        summary.deviation = over.deviation;
+        summary.estimate = isMagnitude ? std::pow(10.0, over.mean) : over.mean;
     }
     return summaries;
 }

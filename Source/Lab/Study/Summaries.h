@@ -131,8 +131,8 @@ struct RatingTrial {
 struct RatingSummary {
     std::string condition;
     std::size_t trials = 0, participants = 0;
-    std::vector<double> means, deviations; ///< per scale: over trials; sample standard deviation, 0 for one
-                                           ///< trial; NaN: not asked
+    std::vector<double> means, deviations; ///< per scale: over participants' means; over trials, 0 for one;
+                                           ///< NaN: not asked
     std::vector<double> halfIntervals;     ///< 95 %: t interval over participants' means, or over trials if
                                            ///< participants are unknown; 0 for one value
 };
@@ -162,8 +162,8 @@ struct LevelSummary {
     std::vector<std::string> leftOut{}; ///< one line each on participants without a threshold, and why
     double estimate = 0.0;  ///< staircase, QUEST+: mean threshold in dB; adjustment: mean dB; magnitude:
                             ///< geometric mean; NaN: a threshold of nobody
-    double deviation = 0.0; ///< sample standard deviation of participants' thresholds, of dB, or of log10; 0
-                            ///< for one value
+    double deviation = 0.0; ///< sample standard deviation over participants of thresholds, dB, or log10; of
+                            ///< one participant over trials; 0 for one value
     double halfInterval = 0.0; ///< 95 % half-interval of thresholds and adjustments over participants; for
                                ///< one QUEST+ participant from the posterior; else 0
     std::vector<std::pair<std::string, double>> thresholds{}; ///< staircase, QUEST+: of each participant, in

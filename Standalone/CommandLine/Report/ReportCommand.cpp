@@ -57,6 +57,7 @@ void declareReport(OptionTable& command, ReportOptions& o) {
     command.add("--protocol", o.protocol, "the study's protocol, if it is no built-in one")
         .as("PROTOCOL.json");
     command.add("--bids", o.job.wantsBids, "also the trials as a BIDS dataset, in the folder bids");
+    command.add("--notebook", o.job.wantsNotebook, "also analysis.qmd, a notebook of the tests' steps");
     command
         .add("--people", o.job.peoplePath,
              "who took part: participant and any of age, sex, handedness, group, excluded (why all trials "
@@ -152,8 +153,10 @@ int writeFolder(const std::filesystem::path& folder, const StudyFiles& files,
         if (auto fault = folders.make(std::filesystem::path{path}.parent_path()); !fault.empty())
             return leave(exitFailed, fault);
     if (const std::string clash = fileClash(paths, inputs); !clash.empty()) return leave(exitUsage, clash);
-    if (const std::string fault = keptScriptFault(folder / analysisScriptName); !fault.empty())
-        return leave(exitFailed, fault);
+    for (const char* const name : {analysisScriptName, notebookName})
+        if (const std::string fault = files.contains(name) ? keptScriptFault(folder / name) : "";
+            !fault.empty())
+            return leave(exitFailed, fault);
     if (const int code = writeStudyFiles(outputs); code != exitDone) return code;
     folders.keep();
     return exitDone;

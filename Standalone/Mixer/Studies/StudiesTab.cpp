@@ -375,6 +375,19 @@ void StudiesTab::offerLayout() {
     model_.messages().show(std::move(offer));
 }
 
+/// A mixer opens at a low level.
+void StudiesTab::offerLevel(double db) {
+    const auto words = number(db, 1) + " dB";
+    model_.messages().show({"The trials before had a master level of " + words,
+                            true,
+                            {"Set " + words,
+                             [this, db] {
+                                 model_.change("Master level", [db](Mix& mix) { mix.levelDb = db; });
+                                 model_.messages().withdraw("study-level");
+                             }},
+                            "study-level"});
+}
+
 std::string StudiesTab::begin() {
     const auto refuse = [this](const std::string& why) {
         say(utf8(why), Shade::limit);
@@ -411,6 +424,7 @@ std::string StudiesTab::begin() {
     Apparatus apparatus = apparatusOf(model_);
     apparatus.language = words.value.name.empty() ? "en" : words.value.name;
     auto unlike = study->apparatusFault(apparatus);
+    if (const auto db = study->otherLevelDb(apparatus)) offerLevel(*db);
     if (unlike.empty()) unlike = study->begin(apparatus);
     if (!unlike.empty()) return model_.device().listening().endStudy(), refuse(unlike);
     screen_ = std::make_unique<StudyScreen>(model_, std::move(study), std::move(words.value),

@@ -73,6 +73,7 @@ private:
     void browseFolder();
     static bool isDone(const StudyRun& run, const std::vector<TrialRecord>& records);
     void offerLayout();
+    void offerLevel(double db);
     void chooseNoise(const std::vector<int>& outputs);
     void look();
     void listNoise();

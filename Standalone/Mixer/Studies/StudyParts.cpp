@@ -230,7 +230,11 @@ juce::String StudyWords::instruction(const SessionPlan& session, const Condition
     if (session.isOnce) return {};
     const bool saysPlays = session.answer() != AnswerKind::wish && session.alternatives.empty();
     const StudyTask task = session.answers.empty() ? session.task : StudyTask::identify;
-    return (saysPlays ? feel(session) : juce::String{}) + lines(describe(task).instruction, condition);
+    const auto within = [&](double s) {
+        return "\n" + say("Answer within {n} s.", {{"n", number(s, s < 10.0 ? 1 : 0)}});
+    };
+    return (saysPlays ? feel(session) : juce::String{}) + lines(describe(task).instruction, condition) +
+           (session.answerSeconds > 0.0 ? within(session.answerSeconds) : juce::String{});
 }
 
 juce::String StudyWords::ordinal(int part) const {

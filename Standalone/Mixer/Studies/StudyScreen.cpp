@@ -183,6 +183,7 @@ void StudyScreen::showTrial() {
     felt_.assign(isOnce ? 0 : std::max<std::size_t>(1, experiment().trial().parts.size()), {});
     unlike_.assign(felt_.size(), 0);
     isLost_ = false;
+    openSeconds_.reset();
     part_ = 0;
     counted_ = 0.0;
     firstFeltMs_ = isOnce ? nowMs() : 0.0;
@@ -255,7 +256,7 @@ void StudyScreen::goOn() {
     case Page::pause:
         if (restLeft() > 0.0) return;
         if (study_->isResting()) note(studyEvents::goOn);
-        wasRight_.reset(); // it stood on this page
+        wasRight_.reset(), ranOut_ = false; // they stood on this page
         return showTrial();
     case Page::paused: return note(studyEvents::goOn), showNext();
     case Page::trial: return;
@@ -309,6 +310,19 @@ constexpr int maxUnlike = 3; // plays of a part at another level than planned; t
 bool StudyScreen::isExploring() const { return experiment().session().answer() == AnswerKind::wish; }
 
 bool StudyScreen::canAnswer() const { return progress_->canAnswer() && !isFeeling(); }
+
+/// Time for an answer runs from where one is accepted; while nothing can be felt it stands still.
+bool StudyScreen::isTimeOver() {
+    const double passed = 1e-3 * (nowMs() - std::exchange(updatedMs_, nowMs()));
+    if (!progress_->canAnswer())
+        openSeconds_.reset(); // of a part that is to be felt again
+    else if (openSeconds_ && !model_.isSilent() && !isWaiting())
+        *openSeconds_ += passed;
+    else if (!openSeconds_ && canAnswer())
+        openSeconds_ = 0.0;
+    const double most = experiment().session().answerSeconds;
+    return most > 0.0 && openSeconds_ && *openSeconds_ >= most && !isFeeling();
+}
 
 /// An interactive world has the whole screen until the participant leaves it to answer.
 bool StudyScreen::isAnswerSeen() const { return answers_.standsAlone() || !hasHands() || canAnswer(); }
@@ -457,7 +471,8 @@ void StudyScreen::submit(Answer answer) {
     answer.seconds = std::round(nowMs() - firstFeltMs_) * 1e-3;
     answer.sessions = sessions_;
     const auto session = experiment().sessionNumber();
-    markers_.push(markerWords("answer") + ";response=" + answer.response);
+    ranOut_ = answer.ranOut;
+    markers_.push(markerWords(ranOut_ ? "ran-out" : "answer") + ";response=" + answer.response);
     const auto right = isCorrect(study_->protocol(), {experiment().trial(), answer});
     wasRight_ = experiment().session().givesFeedback ? right : std::nullopt;
     if (!study_->take(std::move(answer))) return fail(study_->error());
@@ -492,6 +507,7 @@ void StudyScreen::updateTrial() {
     playWanted();
     playSequence();
     if (exploring_ && !isFeeling() && progress_->plays() > 0) return submit(*exploring_);
+    if (Answer late; isTimeOver()) return late.ranOut = true, submit(late);
     const bool isOpen =
         !isFeeling() && !model_.isSilent() && (progress_->canAnswer() || answers_->isOpen() || isExploring());
     answers_.setVisible(isAnswerSeen());
@@ -607,6 +623,7 @@ juce::String StudyScreen::headline() const {
 
 /// On the answer before, for the page that follows it.
 juce::String StudyScreen::feedback() const {
+    if (ranOut_) return say_("Time was over.") + "  ";
     return wasRight_ ? say_(*wasRight_ ? "That was right." : "That was wrong.") + "  " : juce::String{};
 }
 
@@ -621,7 +638,7 @@ juce::String StudyScreen::body() const {
         if (model_.isSilent()) return say_("Everything is silent. Press the button to feel again.");
         if (isWaiting()) return say_("Nothing can be felt now: the study waits for the device.");
         if (isLost_) return say_("That did not come through whole. Please feel it again.");
-        if (wasRight_ && plays() == 0 && wrong().isEmpty()) return feedback().trimEnd();
+        if (feedback().isNotEmpty() && plays() == 0 && wrong().isEmpty()) return feedback().trimEnd();
         return wrong().isNotEmpty()
                    ? wrong()
                    : say_.instruction(experiment().session(), experiment().condition()).replace("\n", " ");

@@ -67,6 +67,7 @@ private:
     bool isExposed() const { return exposure() >= study_->protocol().exposureLimit; }
     bool isExploring() const;
     bool canAnswer() const;
+    bool isTimeOver();
     const WorldSet* worldSet() const {
         return page_ == Page::trial && !experiment().session().isOnce
                    ? std::get_if<WorldSet>(&experiment().condition().stimuli)
@@ -117,11 +118,14 @@ private:
     std::vector<std::string> sessions_; // sessions felt in this trial
     std::vector<FeltLevel> felt_;       // by part
     std::size_t part_ = 0;
-    double endedMs_ = 0.0;         // when that part ended
-    std::optional<bool> wasRight_; // the answer before, if the session gives feedback
-    std::vector<int> unlike_;      // by part: plays at another level than planned
-    bool isLost_ = false;          // the last play did not leave, and is to be felt again
-    double limiterDb_ = 0.0;       // maximum gain reduction observed in this trial
+    double endedMs_ = 0.0;              // when that part ended
+    std::optional<bool> wasRight_;      // the answer before, if the session gives feedback
+    bool ranOut_ = false;               // the trial before
+    std::optional<double> openSeconds_; // since an answer is accepted
+    double updatedMs_ = 0.0;
+    std::vector<int> unlike_; // by part: plays at another level than planned
+    bool isLost_ = false;     // the last play did not leave, and is to be felt again
+    double limiterDb_ = 0.0;  // maximum gain reduction observed in this trial
     double counted_ = 0.0, firstFeltMs_ = 0.0, restEndsMs_ = 0.0;
 
     BigButton next_{"Next", "Next"}, pause_{"Pause", "Pause"};

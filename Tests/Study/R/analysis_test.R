@@ -192,6 +192,34 @@ wide <- tapply(as.numeric(d$effort), list(d$participant, d$condition), mean)
 same("seven points", line(ours, "condition")$p, friedman.test(wide)$p.value)
 same("groups of the table of people", line(ours, "group")$p, kruskal.test(rowMeans(wide), rep(c("g", "h"), 4))$p.value)
 if (any(grepl("variance", ours$test))) fault("points are taken as scores")
+# A trial that ran out of time is no answer: how often it was is compared, by rows that stay in trials.csv.
+d <- expand.grid(trial = 1:6, participant = person(7), condition = c("c1", "c2"), stringsAsFactors = FALSE)
+d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$stimulus <- ""; d$parts <- ""; d$effort <- round(100 * runif(nrow(d)))
+d$ran_out <- ifelse(runif(nrow(d)) < ifelse(d$condition == "c2", 0.6, 0.1) & d$trial > 1, 1, 0); d$effort[d$ran_out == 1] <- NA
+ours <- whole(d, "effort"); late <- tapply(d$ran_out, list(d$participant, d$condition), mean); effort <- tapply(d$effort, list(d$participant, d$condition), mean, na.rm = TRUE)
+same("ran out", ours$p[grepl("ran out of time in main", ours$test)], wilcox.test(late[, 1], late[, 2], paired = TRUE)$p.value)
+same("answers in time", line(ours[!grepl("ran out", ours$test), ], "condition: c1 - c2")$p, t.test(effort[, 1], effort[, 2], paired = TRUE)$p.value)
+# Shares of several alternatives are one question; groups have their Levene's test, around medians.
+d <- expand.grid(trial = 1:9, participant = person(12), condition = c("c1", "c2"), stringsAsFactors = FALSE)
+d$task <- "choose"; d$session <- "main"; d$phase <- "main"; d$stimulus <- ""; d$parts <- "A|B|C"; d$correct <- ""; d$level_db <- ""
+d$choice <- ifelse(runif(nrow(d)) < ifelse(d$condition == "c1", 0.7, 0.3), "A", sample(c("B", "C"), nrow(d), TRUE))
+ours <- whole(d, character()); own <- ours[grepl("^pairs by ranks of choice=", ours$test), ]
+if (nrow(own) != 3) fault("alternatives are compared in", nrow(own), "lines")
+for (i in 1:3) same("over alternatives", own$p_across[i], p.adjust(own$p, "holm")[i])
+d$y <- rnorm(nrow(d)); d$group <- ifelse(as.integer(d$participant) < 6, "g", "h"); rows(d)
+ours <- told(anova.test("t", "trials.csv", "y", "condition", between = "group")); own <- tapply(d$y, d$participant, mean); g <- tapply(d$group, d$participant, `[`, 1)
+away <- abs(own - tapply(own, g, median)[g])
+same("Levene", line(ours, "groups homogeneity")$p, t.test(away[g == "g"], away[g == "h"], var.equal = TRUE)$p.value)
+# Pointing at a grid: conditions differ by how far answers to a target scatter.
+d <- expand.grid(trial = 1:3, target_column = 1:3, target_row = 1:2, condition = c("c1", "c2"), participant = person(6), stringsAsFactors = FALSE)
+d$task <- "locate"; d$session <- "main"; d$phase <- "main"; d$stimulus <- paste0(d$target_row, ",", d$target_column); d$parts <- ""
+d$x <- d$target_column / 4 + rnorm(nrow(d)) / 9; d$y <- d$target_row / 3 + rnorm(nrow(d)) / 9
+ours <- whole(d, character()); both <- aggregate(cbind(x, y) ~ target_column + target_row + condition + participant, d, var)
+wide <- tapply(sqrt(both$x + both$y), list(both$participant, both$condition), mean)
+same("scatter", line(ours[grepl("^pairs by t of variable error", ours$test), ], "condition: c1 - c2")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
+# One score of each person: groups are all there is.
+d <- data.frame(participant = person(15), group = rep(c("g", "h", "h"), 5), y = rnorm(15)); rows(d)
+same("residuals of groups", line(told(anova.test("t", "trials.csv", "y", between = "group")), "residuals normality")$p, shapiro.test(residuals(lm(y ~ group, d)))$p.value)
 # Pairs: the matrix of means, and a map that has the distances of points in a plane.
 at <- cbind(c(0, 3, 0, 5), c(0, 0, 4, 5)); two <- combn(4, 2); names(at) <- NULL
 d <- expand.grid(pair = 1:6, participant = person(3), stringsAsFactors = FALSE)

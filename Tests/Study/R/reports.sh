@@ -18,6 +18,12 @@ for study in patterns phantom-grids phantom-places model-or-sound eight-methods 
     echo "$study: $ran tests, $run with a p"
     [ "$ran" = "$run" ]
 done
+# The notebook's steps, as Quarto would run them.
+"$physvib" report trials/magnitudes-P*.csv --out magnitudes --notebook >/dev/null
+(cd magnitudes && awk '/^```$/ || /^#\| eval: false/ { inside = 0 } inside { print } /^```\{r\}/ { inside = 1 }' analysis.qmd >notebook.R)
+grep -q "^source" magnitudes/notebook.R
+(cd magnitudes && Rscript notebook.R) >told
+grep -q "participant *: *chr" told && grep -q "^ *stimulus.*chi-squared" told
 # Without R the page says what to install, and has all but the tests.
 mkdir bin
 for program in env timeout; do ln -s "$(command -v $program)" bin/; done
