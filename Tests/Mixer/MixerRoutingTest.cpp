@@ -357,6 +357,7 @@ TEST(MixerRouting, AnOutputThatIsDisconnectedIsNeitherCountedNorShownAsThere) {
     hands.isPlugged = true;
     ASSERT_TRUE(runUntil([&] { return model.look(), model.output().isPlaced(0); }));
     EXPECT_FALSE(model.output().isPlaced(3));
+    EXPECT_EQ(model.trouble(), "Fake:hands: 1 of 4 actuators have no output there") << "and no more";
     EXPECT_EQ(shownOutput(view, model, "A"), "out 1");
     EXPECT_EQ(shownOutput(view, model, "D"), "out 4 (not there)");
 }

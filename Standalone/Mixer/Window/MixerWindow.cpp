@@ -432,6 +432,10 @@ juce::PopupMenu MixerWindow::editMenu() {
         {undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z",
          undo.canRedo()},
         [&undo] { undo.redo(); });
+    auto& drawing = view_->world().drawing();
+    add(menu, {"Select all", "Ctrl+A"}, [&drawing] { drawing.chooseAll(); });
+    add(menu, {"Delete", "Del", !drawing.chosen().empty()},
+        [&drawing] { drawing.eraseAll(drawing.chosen()); });
     menu.addSeparator();
     add(menu, {"Levels of the file", {}, asked_.has_value()}, [this] { useAskedLevels(); });
     menu.addSeparator();
@@ -569,8 +573,10 @@ juce::File MixerWindow::folderOfDocuments() const {
 }
 
 void MixerWindow::announceSaved(const juce::String& words, const juce::File& file) {
-    MixerMessage message{
-        words + " " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}, "saved"};
+    MixerMessage message{words + " " + (file.isDirectory() ? file.getFullPathName() : file.getFileName()),
+                         true,
+                         {"Show", [file] { file.revealToUser(); }},
+                         "saved"};
     model_->isNews() ? model_->messages().show(std::move(message))
                      : model_->messages().add(std::move(message));
 }
