@@ -278,7 +278,7 @@ TEST(SceneDrawing, ARopeIsSlackUntilItIsTaut) {
     EXPECT_LT(longest, 0.83);
     const auto ball = [&] { return drawn.world.pose(sceneCast(drawn.world.scene()).size() - 1); };
     drawn.now = [&](const std::string& body) {
-        return body == "ball" ? std::optional{ball()} : std::nullopt;
+        return std::optional{body == "ball" ? ball() : drawn.world.pose(0)};
     };
     for (const char* name : {"ball", "joint 1"}) { // the rope goes with it, or alone
         ASSERT_EQ(drawn.edit(erased(drawn.drawing, {name})), "");
