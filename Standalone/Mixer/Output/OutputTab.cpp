@@ -179,7 +179,7 @@ void OutputTab::listHeard() {
         if (ownersOf(k).isEmpty()) marks_.addItem("output " + juce::String{k + 1}, noneId + 1 + k);
         if (k % 2 != 0 || k + 1 >= model_.device().outputs()) continue;
         const auto owners = ownersOf(k) + ownersOf(k + 1);
-        monitor_.addItem("outputs " + juce::String{k + 1} + " and " + juce::String{k + 2} +
+        monitor_.addItem(juce::String{k + 1} + " and " + juce::String{k + 2} +
                              (owners.isEmpty() ? juce::String{} : ", instead of" + owners),
                          noneId + 1 + k);
     }

@@ -207,7 +207,7 @@ void BodyPanel::show() {
     };
     const auto isMoving = [](const BodyDescription& b) { return b.type == BodyType::dynamicBody; };
     const auto marked = [](const char* words, bool isMarked) {
-        return words + (isMarked ? " " + juce::String::charToString(0x2260) : juce::String{}); // not equal
+        return words + (isMarked ? juce::String::charToString(0x2260) : juce::String{}); // not equal
     };
     densityName_.setText(marked("density", differ([&](const auto& b) { return densityOf(scene, b); })),
                          juce::dontSendNotification);
@@ -237,7 +237,7 @@ void BodyPanel::resized() {
     auto area = getLocalBounds().reduced(6);
     name_.setBounds(area.removeFromTop(24));
     auto row = area.removeFromTop(rowHigh);
-    moves_.setBounds(row.removeFromLeft(90));
+    moves_.setBounds(row.removeFromLeft(82));
     source_.setBounds(row);
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},

@@ -62,7 +62,7 @@ public:
     int wantedHeight() const {
         return high + (drivenJoint_.empty() ? 0 : 2 * rowHigh) + (springJoint_.empty() ? 0 : rowHigh);
     }
-    static constexpr int wide = 246;
+    static constexpr int wide = 230;
 
 private:
     static constexpr int high = 122, rowHigh = 28;
