@@ -573,10 +573,8 @@ juce::File MixerWindow::folderOfDocuments() const {
 }
 
 void MixerWindow::announceSaved(const juce::String& words, const juce::File& file) {
-    MixerMessage message{words + " " + (file.isDirectory() ? file.getFullPathName() : file.getFileName()),
-                         true,
-                         {"Show", [file] { file.revealToUser(); }},
-                         "saved"};
+    MixerMessage message{
+        words + " " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}, "saved"};
     model_->isNews() ? model_->messages().show(std::move(message))
                      : model_->messages().add(std::move(message));
 }
