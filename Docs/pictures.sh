@@ -26,3 +26,6 @@ draw Docs/glove.webp --movie render $glove
 mv "$folder/list" $list
 [ "${2:-}" != renders ] || exit 0
 Tests/figures/mixer.sh "$bin/physvib-mixer-shots"
+"$bin/physvib" study run phantom-places --observer simulated --participants 16 --out "$folder" >/dev/null
+"$bin/physvib" analyse resolution "$folder"/phantom-places-P*.csv --picture "$folder/resolution.svg" >/dev/null
+rsvg-convert -w 1100 -o Docs/studies-resolution.png "$folder/resolution.svg" # of the package librsvg2-bin

@@ -88,6 +88,10 @@ TEST(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
     board.key(KeyPress{KeyPress::deleteKey});
     EXPECT_EQ(board.model.world().drawing().find("ball 2"), nullptr);
     EXPECT_NE(board.model.world().drawing().find("ball 1"), nullptr);
+    board.pane.use(DrawTool::hand); // with any tool
+    board.key(KeyPress{'a', juce::ModifierKeys::commandModifier, 0});
+    board.key(KeyPress{KeyPress::deleteKey});
+    EXPECT_TRUE(board.drawn().bodies.empty());
 }
 
 TEST(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {

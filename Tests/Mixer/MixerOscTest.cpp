@@ -37,7 +37,7 @@ TEST(MixerOsc, IsSwitchedInTheOutputTab) {
     MixerModel model{onlyNoDevice(), noDevice};
     OutputTab tab{model};
     auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "OSC"));
-    EXPECT_EQ(box.getText(), "from nobody");
+    EXPECT_EQ(box.getText(), "nobody");
     box.setSelectedItemIndex(1, juce::sendNotificationSync);
     EXPECT_EQ(model.inputs().choice().use, OscUse::thisComputer);
     send(model, "/physvib/strike", {{"frequency_hz", 200.0}, {"decay_per_s", 30.0}});

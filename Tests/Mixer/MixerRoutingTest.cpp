@@ -328,14 +328,14 @@ TEST(MixerRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
     };
     says("Actuators: 4 of 4 have an output there");
     ASSERT_EQ(model.monitorInstead({0, 1}, -20.0), "");
-    EXPECT_EQ(monitor(), "outputs 1 and 2");
+    EXPECT_EQ(monitor(), "1 and 2");
     says("Actuators: 2 of 4 have an output there");
     says("Heard: left on 1, right on 2");
     model.undoManager().undo();
     EXPECT_EQ(monitor(), "off: outputs 1 and 2, which are of A B");
     says("Heard: not there: an actuator, or no output");
     model.undoManager().redo();
-    EXPECT_EQ(monitor(), "outputs 1 and 2");
+    EXPECT_EQ(monitor(), "1 and 2");
     ASSERT_EQ(useHeadphones(model, model.device().choice()), "");
     EXPECT_EQ(monitor(), "none");
     says("Heard: left: A, right: B");
@@ -357,6 +357,7 @@ TEST(MixerRouting, AnOutputThatIsDisconnectedIsNeitherCountedNorShownAsThere) {
     hands.isPlugged = true;
     ASSERT_TRUE(runUntil([&] { return model.look(), model.output().isPlaced(0); }));
     EXPECT_FALSE(model.output().isPlaced(3));
+    EXPECT_EQ(model.trouble(), "Fake:hands: 1 of 4 actuators have no output there") << "and no more";
     EXPECT_EQ(shownOutput(view, model, "A"), "out 1");
     EXPECT_EQ(shownOutput(view, model, "D"), "out 4 (not there)");
 }

@@ -70,6 +70,12 @@ TEST(ScopeTrace, AWaveHasNoGapAndLosesNoPeakAtAnyWidth) {
         }
         EXPECT_EQ(highest, 1.0f) << width;
     }
+    for (std::size_t i = 0; i < wave.size(); ++i) // half a wave is a column
+        wave[i] =
+            static_cast<float>(std::sin(2.0 * std::numbers::pi * 400.0 * static_cast<double>(i) / rate));
+    trace.add(&channel, 1, static_cast<int>(wave.size()));
+    for (int x = 2; x < 558; ++x)
+        EXPECT_TRUE(trace.shown(0, x, 560).highest > 0.9f && trace.shown(0, x, 560).lowest < -0.9f) << x;
 }
 
 // A column of the old rate may already be longer than those of the new one: the mixer crashed there.

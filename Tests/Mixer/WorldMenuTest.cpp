@@ -40,7 +40,7 @@ TEST(WorldMenu, EachThingHasItsOwn) {
         EXPECT_TRUE(ball.contains(words)) << words << ": " << ball.joinIntoString(", ");
     for (const char* words : {"Add ball", "Add box", "Add rain", "Paste here", "Attach an actuator here"})
         EXPECT_TRUE(empty.contains(words)) << words << ": " << empty.joinIntoString(", ");
-    for (const char* words : {"Actuator A", "Test pulse", "Sweep", "Detach"})
+    for (const char* words : {"Actuator A", "Test pulse", "Sweep", "Mute", "Detach"})
         EXPECT_TRUE(badge.contains(words)) << words << ": " << badge.joinIntoString(", ");
     EXPECT_FALSE(ball.contains("Detach") || badge.contains("Material") || empty.contains("Delete"));
     const auto& floor = f.drawn().bodies[0];
@@ -98,6 +98,8 @@ TEST(WorldMenu, WhatItSaysIsDone) {
     press(f.panel.menuAt(f.world.placeOfEnchanter(4)), "Detach");
     EXPECT_EQ(f.model.mix().count(), 4);
     const auto strikes = f.model.saved().log.strikes.size();
+    press(f.panel.menuAt(f.world.placeOfEnchanter(1)), "Mute");
+    EXPECT_TRUE(f.model.mix().strips[1].isMuted);
     press(f.panel.menuAt(f.world.placeOfEnchanter(1)), "Test pulse");
     EXPECT_EQ(f.model.saved().log.strikes.size(), strikes + 1);
 }
@@ -259,6 +261,20 @@ TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
             << j;
     for (int k = 0; k < 5; ++k) f.view.refresh();
     EXPECT_EQ(inspector->getBounds(), place);
+    f.model.setSlowness(1);
+    f.view.setMode(Mode::play); // no room beside the field
+    f.add(DrawTool::ball, 0.4, 0.6);
+    f.pane.use(DrawTool::choose);
+    f.pane.choose({"ball 1"});
+    f.view.refresh();
+    const auto there = inspector->getBounds();
+    ASSERT_TRUE(runUntil([&] { // a hand carries it there
+        f.world.onHold("ball 1", {}, f.world.metresAt((there.getCentre() - f.world.getPosition()).toFloat()));
+        return f.view.refresh(), there.toFloat().contains(f.pane.chosenArea().getCentre());
+    }));
+    EXPECT_EQ(inspector->getBounds(), there) << "what moves away is not hit";
+    f.pane.onChange();
+    EXPECT_NE(inspector->getBounds(), there) << "after an edit it makes room";
 }
 
 TEST(Badges, OfSixtyFourActuatorsEachShowsItsWholeLabel) {

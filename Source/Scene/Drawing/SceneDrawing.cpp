@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Applies edits to a scene, and finds each action's inverse before it acts.
 #include "Scene/Drawing/SceneDrawing.h"
+#include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/SceneCast.h"
@@ -85,8 +86,15 @@ std::vector<Action> SceneDrawing::undoOf(const Action& action, const PoseNow& no
     }
     if (const auto* join = std::get_if<JoinAction>(&action)) return {UnjoinAction{join->joint.name}};
     if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) {
-        const auto joint = std::ranges::find(drawn_.joints, unjoin->joint, &JointDescription::name);
-        return joint == drawn_.joints.end() ? std::vector<Action>{} : std::vector<Action>{JoinAction{*joint}};
+        const Scene here = sceneNow(drawn_, now);
+        const auto joint = std::ranges::find(here.joints, unjoin->joint, &JointDescription::name);
+        if (joint == here.joints.end()) return {};
+        std::vector<Action> back; // what it held was drawn elsewhere, and goes on alone
+        for (const BodyDescription& body : here.bodies)
+            if ((body.name == joint->bodyA || body.name == joint->bodyB) && body != *find(body.name))
+                back.push_back(ChangeAction{body, false});
+        back.push_back(JoinAction{*joint});
+        return back;
     }
     if (const auto* material = std::get_if<MaterialAction>(&action))
         return ofFixtures(find(material->body), [&](int i, const FixtureDescription& f) {
@@ -113,8 +121,10 @@ std::string SceneEdit::run(bool isForth, const SceneDrawing& drawing, const Pose
     const auto& actions = isForth ? forth_ : back_;
     std::vector<Action> opposite;
     std::string fault;
+    const bool isErased = std::ranges::none_of( // a joint that is changed stays where it was drawn
+        actions, [](const Action& action) { return std::holds_alternative<JoinAction>(action); });
     for (const Action& action : actions) {
-        const auto back = drawing.undoOf(action, now);
+        const auto back = drawing.undoOf(action, isErased ? now : PoseNow{});
         if (fault = act(action); !fault.empty()) break;
         opposite.insert(opposite.begin(), back.begin(), back.end());
     }

@@ -74,8 +74,7 @@ MaterialsTab::MaterialsTab(MixerModel& model, WorldView& world)
     };
     for (auto* slider : {&spotX_, &spotY_}) {
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
-        slider->setSliderStyle(juce::Slider::LinearHorizontal);
-        slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 46, 24);
+        slider->setSliderStyle(juce::Slider::LinearBar);
         slider->setRange(0.0, 100.0, 1.0);
         slider->setTextValueSuffix(" %");
         slider->onValueChange = [this] {
@@ -110,8 +109,7 @@ void MaterialsTab::prepareSlider(RatioSlider& slider, const juce::String& title,
                                  double high, double most) {
     slider.setTitle(title);
     slider.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
-    slider.setSliderStyle(juce::Slider::LinearHorizontal);
-    slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 74, 24);
+    slider.setSliderStyle(juce::Slider::LinearBar);
     slider.setNormalisableRange(feltRange(least, low, high, most));
     slider.valueFromTextFunction = [](const juce::String& words) {
         return words.trim().replaceCharacter(',', '.').getDoubleValue();

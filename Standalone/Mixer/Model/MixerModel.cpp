@@ -298,17 +298,13 @@ void MixerModel::watchOutput() {
     device_.maintain();
     session().world().setSlowness(slowness);
     // each source of errors has a message of its own
-    constexpr const char* awaited = ". It is looked for every second; the world waits for it";
     const auto before = std::exchange(troubles_, device_.troubles());
     for (const RigTrouble& old : before)
         if (std::ranges::find(troubles_, old.source, &RigTrouble::source) == troubles_.end())
             messages_.withdraw(utf8(old.source));
     for (const RigTrouble& trouble : troubles_)
         if (std::ranges::find(before, trouble) == before.end())
-            messages_.show({utf8(trouble.words) + (trouble.source == "device" ? awaited : ""),
-                            false,
-                            {},
-                            utf8(trouble.source)});
+            messages_.show({utf8(trouble.words), false, {}, utf8(trouble.source)});
 }
 
 void MixerModel::restart(std::uint32_t seed) {

@@ -120,19 +120,15 @@ public:
                      [static_cast<std::size_t>((newest_ + 1 + index) % columns)];
     }
 
-    /// What a trace of so many pixels has at pixel `x`: all of its columns, and the way from the pixel
-    /// before.
+    /// What a trace of so many pixels has at pixel `x`: all of its columns, and the one before, since half a
+    /// wave of 400 Hz is a column.
     SampleRange shown(int channel, int x, int width) const {
         const auto columnOf = [width](int pixel) { return pixel * (columns - 1) / std::max(1, width); };
         const int first = columnOf(x), last = std::max(first, columnOf(x + 1) - 1);
         SampleRange range = at(channel, first);
-        const auto include = [&range](float low, float high) {
-            range = {std::min(range.lowest, low), std::max(range.highest, high)};
-        };
-        for (int k = first + 1; k <= last; ++k) include(at(channel, k).lowest, at(channel, k).highest);
-        if (first == 0 || columnOf(x - 1) == first) return range;
-        const SampleRange before = at(channel, first - 1);
-        include(before.highest, before.lowest); // only what lies between
+        for (int k = std::max(0, first - 1); k <= last; ++k)
+            range = {std::min(range.lowest, at(channel, k).lowest),
+                     std::max(range.highest, at(channel, k).highest)};
         return range;
     }
 

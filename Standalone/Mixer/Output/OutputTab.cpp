@@ -19,15 +19,18 @@ constexpr int noSinkId = 1, anySinkId = 2, otherSinkId = 3, firstSinkId = 4;
 struct Cell {
     juce::Label& name;
     juce::Component& box;
-    int width;
 };
 
-void placeRow(juce::Rectangle<int>& area, const std::vector<Cell>& cells) {
-    area.removeFromTop(10);
-    auto names = area.removeFromTop(18), row = area.removeFromTop(rowHeight);
-    for (const Cell& cell : cells) {
-        cell.name.setBounds(names.removeFromLeft(cell.width));
-        cell.box.setBounds(row.removeFromLeft(cell.width));
+/// In columns of one width.
+void placeGrid(juce::Rectangle<int>& area, const std::vector<Cell>& cells) {
+    constexpr int columns = 3;
+    const int wide = (area.getWidth() - (columns - 1) * gap) / columns;
+    juce::Rectangle<int> names, row;
+    for (int k = 0; const Cell& cell : cells) {
+        if (k++ % columns == 0)
+            names = area.removeFromTop(28).withTrimmedTop(10), row = area.removeFromTop(rowHeight);
+        cell.name.setBounds(names.removeFromLeft(wide));
+        cell.box.setBounds(row.removeFromLeft(wide));
         names.removeFromLeft(gap);
         row.removeFromLeft(gap);
     }
@@ -176,7 +179,7 @@ void OutputTab::listHeard() {
         if (ownersOf(k).isEmpty()) marks_.addItem("output " + juce::String{k + 1}, noneId + 1 + k);
         if (k % 2 != 0 || k + 1 >= model_.device().outputs()) continue;
         const auto owners = ownersOf(k) + ownersOf(k + 1);
-        monitor_.addItem("outputs " + juce::String{k + 1} + " and " + juce::String{k + 2} +
+        monitor_.addItem(juce::String{k + 1} + " and " + juce::String{k + 2} +
                              (owners.isEmpty() ? juce::String{} : ", instead of" + owners),
                          noneId + 1 + k);
     }
@@ -326,18 +329,15 @@ void OutputTab::resized() {
     scan_->setBounds(row.removeFromRight(90));
     row.removeFromRight(gap);
     device_.setBounds(row);
-    const int all = area.getWidth() - 2 * gap, quarter = all / 4, fifth = all / 5;
-    std::vector<Cell> first{{rateName_, rate_, 0}, {blockName_, block_, 0}}, second;
-    for (const auto& sink : sinks_)
-        (sink->kind.takesReports ? second : first).push_back({sink->name, sink->box, 0});
-    for (auto* const cells : {&first, &second}) {
-        const int count = static_cast<int>(cells->size());
-        for (Cell& cell : *cells) cell.width = (area.getWidth() - (count - 1) * gap) / std::max(1, count);
-    }
-    const int wider = first.size() == 4 ? gap : 0; // rates and blocks have longer words than places
-    for (std::size_t k = 0; k < first.size(); ++k) first[k].width += k < 2 ? wider : -wider;
-    placeRow(area, first);
-    placeRow(area, second);
+    std::vector<Cell> cells{{rateName_, rate_},
+                            {blockName_, block_},
+                            {marksName_, marks_},
+                            {monitorName_, monitor_},
+                            {monitorLevelName_, monitorLevel_}};
+    for (const auto& sink : sinks_) cells.push_back({sink->name, sink->box});
+    for (const Cell& cell : {Cell{oscName_, osc_}, {hitsName_, hits_}, {phoneName_, phone_}})
+        cells.push_back(cell);
+    placeGrid(area, cells);
     for (const auto& sink : sinks_) {
         auto words = juce::StringArray::fromTokens(sink->kind.title.data(), false); // as many as fit
         while (words.size() > 1 && text::pixels(sink->name.getFont(), words.joinIntoString(" ")) +
@@ -345,16 +345,8 @@ void OutputTab::resized() {
                                        sink->name.getWidth())
             words.remove(words.size() - 1);
         if (words.size() > 1 && words[words.size() - 1] == "by") words.remove(words.size() - 1);
-        if (words.size() == 1 && !sink->kind.takesReports) // "Game" says nothing
-            words = titleOf(juce::String{sink->kind.name.data()}.toLowerCase().toStdString());
         sink->name.setText(words.joinIntoString(" "), juce::dontSendNotification);
     }
-    placeRow(area, {{oscName_, osc_, 2 * fifth},
-                    {hitsName_, hits_, 2 * fifth - 3 * gap},
-                    {phoneName_, phone_, fifth + 3 * gap}});
-    placeRow(area, {{monitorName_, monitor_, 2 * quarter - 2 * gap},
-                    {monitorLevelName_, monitorLevel_, quarter + 2 * gap},
-                    {marksName_, marks_, quarter}});
     area.removeFromTop(12);
     facts_.setBounds(area);
 }
@@ -364,7 +356,7 @@ void OutputTab::resized() {
 namespace {
 
 // in the order of OscUse
-constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer", "from phones, too"};
+constexpr std::array<const char*, 3> oscUses{"nobody", "this computer", "phones, too"};
 struct PhoneHold {
     const char* words;
     double turnDegrees;

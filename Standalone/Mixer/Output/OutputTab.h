@@ -13,7 +13,7 @@ public:
     void mixChanged() override;
     void refresh(const MixerMoment& moment) override;
     void resized() override;
-    int minHeight(int) const override { return 470; } // all of its facts
+    int minHeight(int) const override { return 528; } // all of its facts
     void visibilityChanged() override;
     /// Sets the receiver HOST:PORT as if typed; empty: none.
     void sendHitsTo(const juce::String& receiver);
@@ -44,7 +44,7 @@ private:
 
     juce::ComboBox device_, rate_, block_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;
     Caption deviceName_{"Device"}, rateName_{"Rate"}, blockName_{"Block of"}, oscName_{"Messages by OSC"},
-        hitsName_{"Hits by OSC to"}, phoneName_{"A phone's top is"}, monitorName_{"Monitor, on headphones"},
+        hitsName_{"Hits by OSC to"}, phoneName_{"A phone's top is"}, monitorName_{"Monitor outputs"},
         monitorLevelName_{"Monitor level"}, marksName_{"Trigger output"};
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};

@@ -505,18 +505,20 @@ void StudiesTab::paint(juce::Graphics& g) {
 }
 
 void StudiesTab::resized() {
-    constexpr int captionHeight = 15, space = 5, foot = 32; // all of it, with Begin, in a small window
+    constexpr int captionHeight = 15, space = 5, foot = 32, lower = 24; // all of it, with Begin, in a small
+                                                                        // window
+    const int line = getHeight() < controlsHeight + lower ? rowHeight - 4 : rowHeight;
     auto area = getLocalBounds();
     const auto caption = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };
     caption(choiceName_);
-    auto first = area.removeFromTop(rowHeight);
+    auto first = area.removeFromTop(line);
     findings_->setBounds(first.removeFromRight(100));
     choice_.setBounds(first.withTrimmedRight(gap));
     area.removeFromTop(space);
-    aboutArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - 42, 0, 98));
-    const auto pair = [&area](juce::Label& leftName, juce::Component& left, juce::Label& rightName,
-                              juce::Component& right) {
-        auto names = area.removeFromTop(captionHeight), row = area.removeFromTop(rowHeight);
+    aboutArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - lower - 42, 0, 98));
+    const auto pair = [&area, line](juce::Label& leftName, juce::Component& left, juce::Label& rightName,
+                                    juce::Component& right) {
+        auto names = area.removeFromTop(captionHeight), row = area.removeFromTop(line);
         const int wide = row.getWidth() * 3 / 5;
         leftName.setBounds(names.removeFromLeft(wide));
         left.setBounds(row.removeFromLeft(wide - gap));
@@ -527,7 +529,7 @@ void StudiesTab::resized() {
     pair(codeName_, code_, numberName_, number_);
     area.removeFromTop(space);
     caption(folderName_);
-    auto row = area.removeFromTop(rowHeight);
+    auto row = area.removeFromTop(line);
     browse_->setBounds(row.removeFromRight(80));
     folder_.setBounds(row.withTrimmedRight(gap));
     area.removeFromTop(space);

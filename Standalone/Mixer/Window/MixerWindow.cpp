@@ -432,6 +432,10 @@ juce::PopupMenu MixerWindow::editMenu() {
         {undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z",
          undo.canRedo()},
         [&undo] { undo.redo(); });
+    auto& drawing = view_->world().drawing();
+    add(menu, {"Select all", "Ctrl+A"}, [&drawing] { drawing.chooseAll(); });
+    add(menu, {"Delete", "Del", !drawing.chosen().empty()},
+        [&drawing] { drawing.eraseAll(drawing.chosen()); });
     menu.addSeparator();
     add(menu, {"Levels of the file", {}, asked_.has_value()}, [this] { useAskedLevels(); });
     menu.addSeparator();

@@ -107,10 +107,9 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
                [is = source_.getToggleState()](const Scene& s, BodyDescription& b) { setSource(s, b, is); });
     };
     for (auto* slider : {&density_, &bounce_, &speed_, &torque_, &spring_}) {
-        slider->setSliderStyle(juce::Slider::LinearHorizontal);
         // read when the text box is created
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
-        slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 104, 20);
+        slider->setSliderStyle(juce::Slider::LinearBar);
     }
     describe(density_, "Density", "Density, in kg per square metre; the mass follows from it");
     density_.setRange(1.0, 20'000.0, 1.0);
@@ -207,7 +206,7 @@ void BodyPanel::show() {
     };
     const auto isMoving = [](const BodyDescription& b) { return b.type == BodyType::dynamicBody; };
     const auto marked = [](const char* words, bool isMarked) {
-        return words + (isMarked ? " " + juce::String::charToString(0x2260) : juce::String{}); // not equal
+        return words + (isMarked ? juce::String::charToString(0x2260) : juce::String{}); // not equal
     };
     densityName_.setText(marked("density", differ([&](const auto& b) { return densityOf(scene, b); })),
                          juce::dontSendNotification);
@@ -237,7 +236,7 @@ void BodyPanel::resized() {
     auto area = getLocalBounds().reduced(6);
     name_.setBounds(area.removeFromTop(24));
     auto row = area.removeFromTop(rowHigh);
-    moves_.setBounds(row.removeFromLeft(76));
+    moves_.setBounds(row.removeFromLeft(82));
     source_.setBounds(row);
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},
@@ -247,7 +246,7 @@ void BodyPanel::resized() {
         if (!slider->isVisible()) continue;
         row = area.removeFromTop(rowHigh);
         label->setBounds(row.removeFromLeft(56));
-        slider->setBounds(row);
+        slider->setBounds(row.reduced(4, 2));
     }
 }
 

@@ -76,6 +76,13 @@ void DrawPane::choose(std::vector<std::string> names) {
     repaint();
 }
 
+void DrawPane::chooseAll() {
+    std::vector<std::string> all;
+    for (const auto& body : drawing().drawn().bodies) all.push_back(body.name);
+    use(DrawTool::choose);
+    choose(std::move(all));
+}
+
 void DrawPane::mixChanged() {
     const auto before = chosen_.size();
     std::erase_if(chosen_, [&](const std::string& name) { return drawing().find(name) == nullptr; });
@@ -574,16 +581,12 @@ bool DrawPane::handleKey(const juce::KeyPress& key) {
     using juce::KeyPress;
     const auto command = juce::ModifierKeys::commandModifier;
     if (handleToolKey(key)) return true;
+    if (key == KeyPress{'a', command, 0}) return chooseAll(), true;
     if (tool_ == DrawTool::hand) return false;
     if (key == KeyPress::returnKey && tool_ == DrawTool::polygon && !stroke_.empty())
         return closePolygon(), true;
     if (key == KeyPress::returnKey && (isStroke(tool_) || tool_ == DrawTool::polygon))
         return addInTheMiddle(), true;
-    if (key == KeyPress{'a', command, 0}) {
-        std::vector<std::string> all;
-        for (const auto& body : drawing().drawn().bodies) all.push_back(body.name);
-        return use(DrawTool::choose), choose(all), true;
-    }
     const double step = model_.world().scene().fieldHeightMetres / gridsPerField;
     const Vector beside{2.0 * step, 2.0 * step};
     if (key == KeyPress{'v', command, 0} && hasCopy()) return paste(copied_, beside), true;

@@ -35,6 +35,7 @@ public:
 
     const std::vector<std::string>& chosen() const noexcept { return chosen_; } ///< selected bodies
     void choose(std::vector<std::string> names);
+    void chooseAll();
     /// Changes each selected body in place, as one edit.
     void changeChosen(const juce::String& name,
                       const std::function<void(const Scene&, BodyDescription&)>& change,

@@ -145,9 +145,10 @@ void WorldPanel::showTools() {
     placeInspector();
 }
 
-// Beside the field if there is room, else at what is selected. It stays where it is until another place
-// covers half as much of that and of the badges.
-void WorldPanel::placeInspector() {
+// Beside the field if there is room, else at what is selected. It stays where it is, since a hand is on its
+// way to it, until an edit has brought that and the badges to where another place covers half as much of
+// them.
+void WorldPanel::placeInspector(bool isEdited) {
     if (!body_.isVisible()) return;
     constexpr int beside = 8;
     const auto room = getLocalBounds()
@@ -171,7 +172,8 @@ void WorldPanel::placeInspector() {
     auto best = now;
     const auto name = utf8(pane_.chosen().empty() ? std::string{} : pane_.chosen().front());
     const bool isOther = body_.getName() != name;
-    body_.setName(name);
+    if (!isOther && (!isEdited || body_.isMouseOver(true))) return body_.setBounds(now);
+    if (!inTheWay.front().isEmpty()) body_.setName(name); // what is new is there at the next step
     int least = room.contains(now) && !isOther ? (covered(now) + 1) / 2 : std::numeric_limits<int>::max();
     const auto& body = inTheWay.front();
     const auto& scene = model_.world().scene();
@@ -352,7 +354,7 @@ void WorldPanel::refresh(const MixerMoment& moment) {
     moveHand();
     pane_.spawnDueBodies();
     if (model_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
-    placeInspector(); // what is selected moves
+    placeInspector(false);
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits,
                   std::span{moment.meters.peaks}.first(static_cast<std::size_t>(model_.mix().count()))});
 }
@@ -424,6 +426,11 @@ void WorldPanel::addActuatorItems(juce::PopupMenu& menu, int enchanter) {
                           utf8(model_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label));
     menu.addItem("Test pulse", [this, enchanter] { model_.strikes().testPulse(enchanter); });
     menu.addItem("Sweep", [this, enchanter] { model_.strikes().testSweep(enchanter); });
+    const auto isMuted = [enchanter](auto& mix) -> auto& {
+        return mix.strips[static_cast<std::size_t>(enchanter)].isMuted;
+    };
+    menu.addItem("Mute", true, isMuted(model_.mix()),
+                 [this, isMuted] { model_.change("Mute", [&](Mix& mix) { isMuted(mix) = !isMuted(mix); }); });
     menu.addItem("Output" + dots(), onOutput != nullptr, false, [this, enchanter] { onOutput(enchanter); });
     menu.addItem("Name, profile" + dots(), onProfile != nullptr, false,
                  [this, enchanter] { onProfile(enchanter); });

@@ -86,7 +86,7 @@ private:
     void addActuatorItems(juce::PopupMenu& menu, int enchanter);
     void addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place);
     void addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector place);
-    void placeInspector();
+    void placeInspector(bool isEdited = true);
     void showTools();
     void edit(const juce::String& name, const Action& action);
     void play(const std::vector<Action>& actions);
