@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Points on faces as an engine has them after its solver, and how they move along both surfaces, four at a
-// time.
+// Points on faces as an engine has them after its solver, and how they move along both surfaces, four
+// at a time where there are vectors.
 #pragma once
 #include "Contacts/Vectors.h"
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace physvib {
 
@@ -24,14 +24,50 @@ struct FacePoint {
     std::uint64_t pairsKey = 0;
     std::uint64_t feature = 0; ///< identifies the point within the pair; the same from step to step
 };
-// four rows are turned into columns of floats
+// rows are turned into columns of floats
 static_assert(sizeof(FaceTouch) == 16 * sizeof(float) && offsetof(FacePoint, face) == sizeof(FaceTouch));
 static_assert(offsetof(FacePoint, isTurned) == 27 * sizeof(float));
 
-/// One number of four points.
-using Four = float __attribute__((vector_size(4 * sizeof(float))));
+/// One number of faceLanes points, and four numbers of each, from the floats at `group`: of four points where
+/// there are vectors of four, else of one, which is less code.
+#if defined(__SSE2__) || defined(__ARM_NEON)
+constexpr std::size_t faceLanes = 4;
+using Four = float __attribute__((vector_size(faceLanes * sizeof(float))));
+inline float laneOf(Four of, std::size_t lane) noexcept { return of[lane]; }
 
-/// How four points move.
+struct FaceColumns {
+    Four a, b, c, d;
+    FaceColumns(const FacePoint* rows, std::size_t group) noexcept {
+        const auto row = [rows, group](std::size_t i) {
+            Four of;
+            std::memcpy(&of, reinterpret_cast<const char*>(rows + i) + group * sizeof of, sizeof of);
+            return of;
+        };
+        const Four r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+        const Four low01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5),
+                   high01 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7),
+                   low23 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5),
+                   high23 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
+        a = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+        b = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+        c = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+        d = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
+    }
+};
+#else
+constexpr std::size_t faceLanes = 1;
+using Four = float;
+inline float laneOf(Four of, std::size_t) noexcept { return of; }
+
+struct FaceColumns {
+    Four a, b, c, d;
+    FaceColumns(const FacePoint* row, std::size_t group) noexcept {
+        std::memcpy(this, reinterpret_cast<const char*>(row) + group * sizeof *this, sizeof *this);
+    }
+};
+#endif
+
+/// How faceLanes points move.
 struct FaceRuns {
     struct Vector {
         Four x, y;
@@ -42,9 +78,9 @@ struct FaceRuns {
     Four slip;              ///< of one surface relative to the other, m/s
 
     /// Every lane has the operations of a single point in their order: the same bits.
-    explicit FaceRuns(const FacePoint* four) noexcept {
-        const Columns touch0{four, 0}, touch1{four, 1}, touch2{four, 2}, touch3{four, 3}, motion0{four, 4},
-            motion1{four, 5}, spins{four, 6};
+    explicit FaceRuns(const FacePoint* rows) noexcept {
+        const FaceColumns touch0{rows, 0}, touch1{rows, 1}, touch2{rows, 2}, touch3{rows, 3},
+            motion0{rows, 4}, motion1{rows, 5}, spins{rows, 6};
         const Turn face{touch0.c, touch0.d}, other{touch1.c, touch1.d};
         const Vector origin{touch0.a, touch0.b}, faceCentre{motion0.c, motion0.d},
             otherCentre{motion1.c, motion1.d}, faceVelocity{motion0.a, motion0.b},
@@ -66,25 +102,6 @@ struct FaceRuns {
     }
 
 private:
-    struct Columns { // of four floats of each row
-        Four a, b, c, d;
-        Columns(const FacePoint* rows, std::size_t group) noexcept {
-            const auto row = [rows, group](std::size_t i) {
-                Four of;
-                __builtin_memcpy(&of, reinterpret_cast<const char*>(rows + i) + group * sizeof of, sizeof of);
-                return of;
-            };
-            const Four r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
-            const Four low01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5),
-                       high01 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7),
-                       low23 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5),
-                       high23 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
-            a = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
-            b = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
-            c = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
-            d = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
-        }
-    };
     struct Turn {
         Four sine, cosine;
         Vector turned(Vector v) const noexcept {

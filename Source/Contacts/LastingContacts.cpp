@@ -63,16 +63,19 @@ SurfacePath around(const FacePoint& of) noexcept {
 
 void LastingContacts::computeFaces() {
     const std::size_t count = std::exchange(faceCount_, 0);
-    for (std::size_t first = 0; first < count; first += 4) { // of rows behind the last nothing is used
+    // of rows behind the last nothing is used
+    for (std::size_t first = 0; first < count; first += faceLanes) {
         const FaceRuns runs{&faces_[first]};
-        for (std::size_t i = 0; i < std::min<std::size_t>(4, count - first); ++i) {
+        for (std::size_t i = 0; i < std::min(faceLanes, count - first); ++i) {
             const FacePoint& of = faces_[first + i];
-            const SurfacePath face{static_cast<double>(runs.metres[i]), static_cast<double>(runs.speed[i])},
+            const SurfacePath face{static_cast<double>(laneOf(runs.metres, i)),
+                                   static_cast<double>(laneOf(runs.speed, i))},
                 other = of.isDiscRough ? around(of) : SurfacePath{};
             add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds),
-                 static_cast<double>(runs.slip[i]), Vector2{runs.point.x[i], runs.point.y[i]},
-                 Vector2{runs.metresPerSecond.x[i], runs.metresPerSecond.y[i]}, of.isTurned ? other : face,
-                 of.isTurned ? face : other},
+                 static_cast<double>(laneOf(runs.slip, i)),
+                 Vector2{laneOf(runs.point.x, i), laneOf(runs.point.y, i)},
+                 Vector2{laneOf(runs.metresPerSecond.x, i), laneOf(runs.metresPerSecond.y, i)},
+                 of.isTurned ? other : face, of.isTurned ? face : other},
                 of.pairsKey);
         }
     }
