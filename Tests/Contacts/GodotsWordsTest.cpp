@@ -72,12 +72,24 @@ std::vector<ContactCounts> allReasons() {
         but([](C& c) { c.belowThreshold = c.motionless = 1; }),
         but([](C& c) { c.belowThreshold = c.parting = 1; }),
         but([](C& c) { c.belowThreshold = 1, c.gravityMetresPerSecond2 = 981.0; }),
-        but([](C& c) { c.made(400.0, 0.5); }),
-        but([](C& c) { c.made(3.0, 0.5); }),
-        but([](C& c) { c.made(3.0, 0.5), c.fieldWidthMetres = 2.0; }),
-        but([](C& c) { c.made(0.5, 0.5), c.longestStepSeconds = 0.1; }),
-        but([](C& c) { c.made(0.5, 0.5), c.fastestApproach = 100.0; }),
-        but([](C& c) { c.made(0.5, 0.5); }),
+        but([](C& c) {
+            c.made({1, 400.0, 0.5, 400.0, 0.5});
+        }),
+        but([](C& c) {
+            c.made({1, 3.0, 0.5, 3.0, 0.5});
+        }),
+        but([](C& c) {
+            c.made({1, 3.0, 0.5, 3.0, 0.5}), c.fieldWidthMetres = 2.0;
+        }),
+        but([](C& c) {
+            c.made({1, 0.5, 0.5, 0.5, 0.5}), c.longestStepSeconds = 0.1;
+        }),
+        but([](C& c) {
+            c.made({1, 0.5, 0.5, 0.5, 0.5}), c.fastestApproach = 100.0;
+        }),
+        but([](C& c) {
+            c.made({1, 0.5, 0.5, 0.5, 0.5});
+        }),
     };
 }
 
