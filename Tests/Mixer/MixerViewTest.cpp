@@ -33,6 +33,23 @@ void walk(juce::Component& root, const std::function<void(juce::Component&)>& vi
         if (child->isVisible()) walk(*child, visit);
 }
 
+TEST(MixerView, WhatGoesWithAHiddenComponentIsNotHiddenAsWell) {
+    struct Outlined final : juce::Component { // as JUCE's outline of what has the focus
+        std::unique_ptr<juce::Component> outline = std::make_unique<juce::Component>();
+        void visibilityChanged() override {
+            if (!isVisible()) outline.reset();
+        }
+    } world;
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    view.addAndMakeVisible(world);
+    view.addAndMakeVisible(*world.outline);
+    juce::Component screen;
+    view.setScreen(&screen);
+    EXPECT_EQ(world.outline, nullptr);
+    view.setScreen(nullptr);
+}
+
 TEST(MixerView, EveryControlIsNamedAndReachedByTheKeyboard) {
     MixerModel model{onlyNoDevice(), noDevice};
     MixerView view{model};

@@ -106,8 +106,8 @@ void takeOthersWords(CsvTable& table) {
             std::string& cell = row.cells[c];
             if (isNoAnswer(table.columns[c], cell)) cell.clear();
             if (table.columns[c] != "correct") continue;
-            if (holds(right, cell)) cell = "1";
-            if (holds(wrong, cell)) cell = "0";
+            if (holds(right, cell)) cell.assign(1, '1');
+            if (holds(wrong, cell)) cell.assign(1, '0');
         }
 }
 

@@ -108,8 +108,9 @@ inline constexpr std::array thesisDeviations{
                     "--set walls=0.02 in the call"},
     ThesisDeviation{"eight-methods", "5.3.1", "no rest is mentioned between training and main session",
                     "2 minutes before the main session", "remove break_before_s", ThesisEdit::noBreakBefore},
-    ThesisDeviation{"eight-methods", "5.3.1", "drags by touch, tilts by the phone's sensor",
-                    "drags by mouse or touch, tilts by keys or a phone over OSC", ""},
+    ThesisDeviation{"eight-methods", "5.3.1",
+                    "drags by touch, tilts by the phone's sensor, answers on a second phone",
+                    "drags by mouse or touch, tilts by keys or a phone over OSC, answers in a window", ""},
 };
 
 } // namespace physvib

@@ -39,8 +39,8 @@ for (f in factors) {
   }
   means <- sapply(groups, mean)
   letters.of <- letters.of[order(-sapply(letters.of, function(s) max(means[own %in% s])))]
-  for (i in seq_along(own)) cat(f, " ", own[i], ": mean gamma ", format(means[i], digits = 3), ", ",
-                                paste(LETTERS[which(vapply(letters.of, function(s) own[i] %in% s, NA))], collapse = ""), "\n", sep = "")
+  for (i in seq_along(own)) cat(f, " ", own[i], ": mean gamma ", format(means[i], digits = 3), if (t$p.value < 0.05) ", ",
+                                if (t$p.value < 0.05) paste(LETTERS[which(vapply(letters.of, function(s) own[i] %in% s, NA))], collapse = ""), "\n", sep = "")
 }
 print(format(results, digits = 3), row.names = FALSE)
 normal <- results$test == "Shapiro-Wilk W"

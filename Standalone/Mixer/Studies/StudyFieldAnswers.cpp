@@ -362,7 +362,8 @@ private:
         constexpr int captionHeight = 26, space = 6, least = 60;
         auto area = iconsArea_;
         const int wide = area.getWidth() / static_cast<int>(shown.size());
-        const int across = std::clamp(wide / (least + space), 1, 7);
+        // In narrower icons places are not told apart.
+        const int across = std::clamp(wide / (least + space), 1, shown.size() > 1 ? 4 : 7);
         const int width = std::min(wide / across - space, 150);
         for (const auto& [ms, some] : shown) {
             auto group = area.removeFromLeft(wide);

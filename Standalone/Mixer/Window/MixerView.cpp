@@ -329,7 +329,8 @@ void MixerView::setScreen(juce::Component* screen) {
         if (child->isVisible()) hidden_.emplace_back(child);
     screen->setBounds(getLocalBounds());
     addAndMakeVisible(*screen);
-    for (auto& child : hidden_) child->setVisible(false);
+    for (auto& child : hidden_)
+        if (child) child->setVisible(false); // the outline of what had the focus goes with it
     if (screen->isShowing()) screen->grabKeyboardFocus();
 }
 
