@@ -61,22 +61,22 @@ SurfacePath around(const FacePoint& of) noexcept {
 
 } // namespace
 
-void LastingContacts::computeFaces() {
-    const std::size_t count = std::exchange(faceCount_, 0);
+void LastingContacts::computeFaces(LastingContacts& all) {
+    const std::size_t count = std::exchange(all.faceCount_, 0);
     // of rows behind the last nothing is used
     for (std::size_t first = 0; first < count; first += faceLanes) {
-        const FaceRuns runs{&faces_[first]};
+        const FaceRuns runs{&all.faces_[first]};
         for (std::size_t i = 0; i < std::min(faceLanes, count - first); ++i) {
-            const FacePoint& of = faces_[first + i];
+            const FacePoint& of = all.faces_[first + i];
             const SurfacePath face{static_cast<double>(laneOf(runs.metres, i)),
                                    static_cast<double>(laneOf(runs.speed, i))},
                 other = of.isDiscRough ? around(of) : SurfacePath{};
-            add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds),
-                 static_cast<double>(laneOf(runs.slip, i)),
-                 Vector2{laneOf(runs.point.x, i), laneOf(runs.point.y, i)},
-                 Vector2{laneOf(runs.metresPerSecond.x, i), laneOf(runs.metresPerSecond.y, i)},
-                 of.isTurned ? other : face, of.isTurned ? face : other},
-                of.pairsKey);
+            all.add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds),
+                     static_cast<double>(laneOf(runs.slip, i)),
+                     Vector2{laneOf(runs.point.x, i), laneOf(runs.point.y, i)},
+                     Vector2{laneOf(runs.metresPerSecond.x, i), laneOf(runs.metresPerSecond.y, i)},
+                     of.isTurned ? other : face, of.isTurned ? face : other},
+                    of.pairsKey);
         }
     }
 }

@@ -200,6 +200,7 @@ public:
     [[gnu::always_inline]] FacePoint& touchFace() {
         if (faceCount_ == faces_.size()) [[unlikely]]
             compute();
+        computeFaces_ = &computeFaces; // so that programs without faces do not have it
         return faces_[faceCount_++];
     }
     bool hasHeard() const noexcept { return points_.count() > 0 || faceCount_ > 0; }
@@ -269,9 +270,9 @@ private:
     };
 
     void compute() {
-        if (faceCount_ > 0) computeFaces();
+        if (faceCount_ > 0) computeFaces_(*this);
     }
-    [[gnu::noinline]] void computeFaces();
+    static void computeFaces(LastingContacts& of);
     [[gnu::always_inline]] void add(const LastingPoint& point, std::uint64_t pairsKey) {
         if (points_.count() == mostPoints || !isUsable(point)) return;
         const std::size_t known = points_.count();
@@ -314,6 +315,7 @@ private:
     const FixtureTable& table_;
     std::array<FacePoint, 32> faces_; // reported, not yet computed; so many stay in the first-level cache
     std::size_t faceCount_ = 0;
+    void (*computeFaces_)(LastingContacts&) = nullptr;
     StepMemory<Told> points_;
     StepMemory<Pair> pairs_;
     std::vector<Passage> passages_;
