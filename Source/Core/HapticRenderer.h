@@ -160,7 +160,7 @@ private:
     bool passModes(const Channels& out, int frames) noexcept;
     void playAll(const Channels& out, int frames, const float* const* added) noexcept;
     void guard(const Channels& out, int frames, bool isSilent) noexcept;
-    [[gnu::cold]] void normalise(float* const* out, int frames) const noexcept; // and kept small
+    void normalise(float* const* out, int frames) const noexcept;
     template <class Source>
     void actOnDue(Source& source) noexcept;
     void apply(const RenderControl& control) noexcept;
