@@ -138,7 +138,7 @@ void FullScale::learn(std::span<const Impact> impacts, const StepSpan& step, con
 // Doubles. What follows in the same step then needs no memory.
 bool EventSorter::grow() noexcept {
     constexpr std::size_t least = 64;
-    if (room_ == capacity_) return false;
+    if (places_ == capacity_) return false;
     const std::size_t count = std::max(least, 2 * held_.size());
     try {
         for (auto* const list : {&turns_, &other_}) list->resize(count);
@@ -157,7 +157,7 @@ bool EventSorter::grow() noexcept {
     }
     first_ = 0;
     mask_ = count - 1;
-    room_ = std::min(capacity_, count);
+    places_ = std::min(capacity_, count);
     return true;
 }
 

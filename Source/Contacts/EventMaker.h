@@ -32,7 +32,7 @@ public:
     /// Adds an event; when full, or without memory, the weakest of all is dropped and counted. Fixtures
     /// without haptic values have no id: as the other one they are released as -1.
     [[gnu::always_inline]] void push(const CollisionEvent& event) noexcept {
-        if (count_ == room_ && !grow() && !dropWeakest(event.amplitude)) return;
+        if (count_ == places_ && !grow() && !dropWeakest(event.amplitude)) return;
         const std::size_t at = place(count_++);
         held_[at] = event;
         held_[at].source.other = std::max(event.source.other, -1);
@@ -76,7 +76,7 @@ private:
     std::size_t capacity_;
     std::uint64_t drops_ = 0;
     // A ring in order of arrival; its size is a power of two, one more than the mask
-    std::size_t first_ = 0, count_ = 0, room_ = 0, mask_ = 0;
+    std::size_t first_ = 0, count_ = 0, places_ = 0, mask_ = 0;
     std::vector<CollisionEvent> held_;
     std::vector<Waiting> waiting_; // of each held one
     // Of those being released, as long as held_: their buckets in time

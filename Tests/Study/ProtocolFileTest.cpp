@@ -112,7 +112,8 @@ TEST(ProtocolFile, VersionsAsPublishedMakeEveryChangeThatTheListKnows) {
             if (callSetOf(condition.stimuli) != nullptr) {
                 const std::string& call = callSetOf(condition.stimuli)->call;
                 EXPECT_NE(call.find(" --timing release --gamma 0.1"), call.npos) << call;
-                EXPECT_EQ(call.ends_with("each --set drive_gain=1"), p.name[0] == 'e') << call;
+                EXPECT_EQ(call.ends_with("each --set drive_gain=1 --limiter blocks"), p.name[0] == 'e')
+                    << call;
                 EXPECT_EQ(call.find("--sound-match rms"), call.npos) << call;
             }
     }
