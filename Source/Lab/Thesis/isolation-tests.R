@@ -37,10 +37,10 @@ for (f in factors) {
     letters.of <- unlist(lapply(letters.of, function(s) if (all(two[[k]] %in% s)) list(setdiff(s, two[[k]][1]), setdiff(s, two[[k]][2])) else list(s)), recursive = FALSE)
     letters.of <- unique(Filter(function(s) !any(vapply(letters.of, function(other) length(other) > length(s) && all(s %in% other), NA)), letters.of))
   }
-  means <- sapply(groups, mean)
+  means <- sapply(groups, mean); differ <- isTRUE(t$p.value < 0.05)
   letters.of <- letters.of[order(-sapply(letters.of, function(s) max(means[own %in% s])))]
-  for (i in seq_along(own)) cat(f, " ", own[i], ": mean gamma ", format(means[i], digits = 3), if (t$p.value < 0.05) ", ",
-                                if (t$p.value < 0.05) paste(LETTERS[which(vapply(letters.of, function(s) own[i] %in% s, NA))], collapse = ""), "\n", sep = "")
+  for (i in seq_along(own)) cat(f, " ", own[i], ": mean gamma ", format(means[i], digits = 3), if (differ) ", ",
+                                if (differ) paste(LETTERS[which(vapply(letters.of, function(s) own[i] %in% s, NA))], collapse = ""), "\n", sep = "")
 }
 print(format(results, digits = 3), row.names = FALSE)
 normal <- results$test == "Shapiro-Wilk W"
