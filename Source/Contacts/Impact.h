@@ -87,9 +87,16 @@ struct StepSpan {
         return thresholdMetresPerSecond(gravityScale) / 1.5;
     }
 
-    /// True if the impulse changes the lighter body's velocity by at least the threshold.
+    /// N s that change the lighter body's velocity by the threshold.
+    double leastNewtonSeconds(double lighterMassKg, float gravityScale) const noexcept {
+        return thresholdMetresPerSecond(gravityScale) * lighterMassKg;
+    }
+    /// True if an impulse is at least that.
+    static bool isStrike(double newtonSeconds, double leastNewtonSeconds) noexcept {
+        return newtonSeconds > 0.0 && newtonSeconds >= leastNewtonSeconds;
+    }
     bool isStrike(double newtonSeconds, double lighterMassKg, float gravityScale) const noexcept {
-        return newtonSeconds > 0.0 && newtonSeconds >= thresholdMetresPerSecond(gravityScale) * lighterMassKg;
+        return isStrike(newtonSeconds, leastNewtonSeconds(lighterMassKg, gravityScale));
     }
 };
 

@@ -52,11 +52,8 @@ namespace {
 
 /// On the circumference of a disc that touches a face.
 SurfacePath around(const FacePoint& of) noexcept {
-    const Vector2 towards = -of.touch.face.turned(of.touch.normal),
-                  local = of.touch.other.turnedBack(towards);
-    const float radius = of.touch.otherRadius;
-    return {static_cast<double>(radius * std::atan2(local.y, local.x)),
-            static_cast<double>(radius * (of.faceRadiansPerSecond - of.otherRadiansPerSecond))};
+    return aroundDisc(of.touch.otherRadius, of.touch.other.turnedBack(-of.touch.face.turned(of.touch.normal)),
+                      of.faceRadiansPerSecond - of.otherRadiansPerSecond);
 }
 
 } // namespace

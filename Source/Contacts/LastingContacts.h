@@ -143,6 +143,13 @@ struct SurfacePath {
     double metresPerSecond = 0.0;
 };
 
+/// On the circumference of a disc: `towards` the point, in the disc's frame; that direction turns against the
+/// disc at `radiansPerSecond`. Any thread.
+inline SurfacePath aroundDisc(float radiusMetres, Vector2 towards, float radiansPerSecond) noexcept {
+    return {static_cast<double>(radiusMetres * std::atan2(towards.y, towards.x)),
+            static_cast<double>(radiusMetres * radiansPerSecond)};
+}
+
 /// A contact point of two fixtures that continued to touch in a step, as an engine reports it after its
 /// solver. Fixtures are slots of the FixtureTable.
 struct LastingPoint {

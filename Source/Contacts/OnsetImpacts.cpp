@@ -91,16 +91,13 @@ void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& 
         main.other == FixtureTable::none ? camera : table_.mobility(main.other);
     const double lighter = std::min(camera.movableMassKg, other.movableMassKg);
     const float gravityScale = std::max(camera.gravityScale, other.gravityScale);
-    const double least = span.thresholdMetresPerSecond(gravityScale) * lighter;
-    const auto isStrike = [least](double newtonSeconds) {
-        return newtonSeconds > 0.0 && newtonSeconds >= least;
-    };
-    if (!isStrike(whole)) {
-        catcher_.tally().handedOn += isStrike(static_cast<double>(main.strongest)) ? 1 : 0;
+    const double least = span.leastNewtonSeconds(lighter, gravityScale);
+    if (!StepSpan::isStrike(whole, least)) {
+        catcher_.tally().handedOn += StepSpan::isStrike(static_cast<double>(main.strongest), least) ? 1 : 0;
         return;
     }
     const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
-    if (isStrike(impulse))
+    if (StepSpan::isStrike(impulse, least))
         impacts.push_back({handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse,
                            isLate ? catcher_.loads().pointOf(now) : handedOn.point});
 }

@@ -266,10 +266,8 @@ private:
 SurfacePath around(const b2Fixture& disc, b2Vec2 direction, float radiansPerSecond) {
     const b2Shape& shape = *disc.GetShape();
     if (shape.m_type != b2Shape::e_circle) return {};
-    const b2Body& body = *disc.GetBody();
-    const b2Vec2 local = body.GetLocalVector(direction);
-    return {static_cast<double>(shape.m_radius * b2Atan2(local.y, local.x)),
-            static_cast<double>(shape.m_radius * (radiansPerSecond - body.GetAngularVelocity()))};
+    return aroundDisc(shape.m_radius, frameOf(disc).turnedBack(toVector(direction)),
+                      radiansPerSecond - disc.GetBody()->GetAngularVelocity());
 }
 
 } // namespace
@@ -311,8 +309,11 @@ void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& im
 // The usual contact, without a call: its points are old, one of its fixtures is a source, a face touches.
 void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
     CollisionCatcher& catcher = events_.catcher();
-    if (!catcher.hasSources()) return fresh_.mayHave(contact) ? (void)fresh_.solved(contact) : void();
     const bool isNew = fresh_.mayHave(contact);
+    if (!catcher.hasSources()) {
+        if (isNew) fresh_.solved(contact);
+        return;
+    }
     if (!isNew && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
     Known* const known = guess(contact);
     if (isNew || known == nullptr || !catcher.isKnown(known->pair)) return solve(contact, impulse, known);

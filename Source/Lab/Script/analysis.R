@@ -86,9 +86,9 @@ result <- function(test, effect, statistic, value, p, n, df1 = NA, df2 = NA, p_c
   p.words <- function(p) if (is.na(p) || p >= 1e-4) paste("=", format(signif(p, 3), digits = 3)) else "< 0.0001"
   df <- if (is.na(df1)) "" else paste0("(", near(df1), if (!is.na(df2)) paste0(", ", near(df2)), ")")
   interval <- if (is.na(least)) "" else paste0(" (95 % interval ", near(least), " to ", near(most), ")")
-  spoken <- c(holm = "Holm's", bonferroni = "Bonferroni's")[correction]
+  whose <- c(holm = "Holm's", bonferroni = "Bonferroni's")[correction]
   middle <- if (statistic == "V") "median difference" else if (statistic == "W") "difference of medians" else "difference"
-  words <- paste0(statistic, df, " = ", near(value), ", p ", p.words(p), if (lines > 1) known(paste(spoken, "p"), p_corrected, p.words(p_corrected)),
+  words <- paste0(statistic, df, " = ", near(value), ", p ", p.words(p), if (lines > 1) known(paste(whose, "p"), p_corrected, p.words(p_corrected)),
                   known("epsilon", epsilon), known(middle, difference), interval, known(paste(size, "="), effect_size))
   cat("  ", effect, ": ", if (note == "") words else if (effect %in% c("factors", "left out", "hidden reference")) note else paste("not tested:", note), if (!is.na(n)) paste(", n =", n), "\n", sep = "")
 }
