@@ -31,7 +31,7 @@ for line in open(sys.argv[2]):
         waited = int(over[1])
     if not (asked := re.match(r"stop (\d+) (.*)", line)): continue
     at = int(asked[1])
-    if not heard or [what for when, what in heard if when <= at + 5][-1:] != ["sound"]:
+    if [what for when, what in heard if when < at - 5][-1:] != ["sound"]:
         mute += 1 # no device, a strip that is muted, a scene that has just begun
         continue
     zeros = [when for when, what in heard if what == "silent" and when >= at - 5]
