@@ -75,8 +75,7 @@ TEST_F(Isolation, AFolderOfConditionsIsATableOfGammaWithCurves) {
     const std::string all = read("all.csv");
     EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 9) << all;
     const std::string picture = read("gamma.svg");
-    for (const char* words : {"<title>Isolation, axis x</title>", ">0030-15, 3 mm, 1.8 V<",
-                              "Gamma by frequency (Hz)", "Gamma by axis"})
+    for (const char* words : {"<title>Isolation, axis x</title>", ">0030-15, 3 mm, 1.8 V<"})
         EXPECT_NE(picture.find(words), std::string::npos) << words;
 }
 
@@ -92,7 +91,7 @@ TEST_F(Isolation, ASoftenerIsAFactorOfItsOwn) {
     EXPECT_TRUE(outcome.out.starts_with("material,softener_percent,thickness_mm,"))
         << outcome.out << outcome.err;
     EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 9) << outcome.out;
-    EXPECT_NE(read("gamma.svg").find("Gamma by softener (%)"), std::string::npos);
+    EXPECT_NE(read("gamma.svg").find(">0030, 15 %, 3 mm<"), std::string::npos);
 }
 
 TEST_F(Isolation, WhatIsMissingOfAStudyIsTold) {

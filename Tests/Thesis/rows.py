@@ -104,6 +104,12 @@ def of_isolation(folder: Path) -> None:
         pairs = [row for row in tests if row["factor"] == factor and row["test"] == "Wilcoxon V"]
         if any(abs(float(row["p_bonferroni"]) - min(1.0, len(pairs) * float(row["p"]))) > 1e-12 for row in pairs):
             bad.append(f"isolation-tests.csv: expected Bonferroni's correction of {len(pairs)} pairs of {factor}")
+    bars = re.findall(r'<text [^>]*font-weight="bold">([^<]*)</text>', (folder / "fig3-4.svg").read_text())
+    if [words for words in bars if words.startswith("Gamma")] != [f"Gamma by {factor}" for factor in ("silicone", "frequency (Hz)", "axis", "softener (%)", "thickness (mm)", "voltage (V)")]:
+        bad.append(f"fig3-4.svg: expected six factors, found {bars}")
+    letters = {factor: [words for words in bars[bars.index(f"Gamma by {factor}") + 1 :][:count]] for factor, count in (("silicone", 2), ("axis", 2), ("thickness (mm)", 2))}
+    if letters != {"silicone": ["B", "A"], "axis": ["", ""], "thickness (mm)": ["B", "A"]}:
+        bad.append(f"fig3-4.svg: expected letters where levels differ, found {letters}")
 
 
 def release_delays(folder: Path) -> None:

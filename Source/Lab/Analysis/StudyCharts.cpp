@@ -157,40 +157,6 @@ std::vector<std::string> levelCharts(std::span<const LevelSummary> summaries, bo
     return charts;
 }
 
-namespace {
-
-/// A chart for each factor that has several values: mean gamma of all conditions with a value, and its 95 %
-/// interval (thesis Fig. 3.4).
-std::vector<std::string> factorCharts(std::span<const IsolationResult> results) {
-    using Cell = std::string (*)(const IsolationCondition&);
-    constexpr std::pair<const char*, Cell> factors[] = {
-        {"silicone", [](const IsolationCondition& c) { return c.material; }},
-        {"frequency (Hz)", [](const IsolationCondition& c) { return numberText(c.frequencyHz); }},
-        {"axis", [](const IsolationCondition& c) { return c.axis; }},
-        {"softener (%)", [](const IsolationCondition& c) { return c.softener; }},
-        {"thickness (mm)", [](const IsolationCondition& c) { return c.thickness; }},
-        {"voltage (V)", [](const IsolationCondition& c) { return c.voltage; }}};
-    std::vector<std::string> charts;
-    for (const auto& [words, cell] : factors) {
-        std::map<std::pair<double, std::string>, std::vector<double>> values; // as numbers are ordered
-        for (const IsolationResult& r : results) {
-            const std::string value = cell(r.condition);
-            values[{std::strtod(value.c_str(), nullptr), value}].push_back(r.mean);
-        }
-        if (values.size() < 2) continue;
-        std::vector<std::pair<std::string, ChartValue>> bars;
-        for (const auto& [value, gammas] : values) {
-            const Moments moments{gammas};
-            bars.emplace_back(value.second, ChartValue::around(moments.mean, moments.halfInterval()));
-        }
-        charts.push_back(barsChart({chartName(charts.size()), std::string{"Gamma by "} + words}, words,
-                                   "gamma (Eq. 3.2), mean", bars));
-    }
-    return charts;
-}
-
-} // namespace
-
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results) {
     // axis, layer, frequency -> gammas of all voltages; of one layer: axis, voltage, frequency
     std::map<std::string, std::map<std::string, std::map<double, std::vector<double>>>> axes;
@@ -208,7 +174,7 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
         styles.try_emplace(layer, styles.size());
         axes[c.axis][layer][c.frequencyHz].push_back(r.mean);
     }
-    std::vector<std::string> charts = factorCharts(results);
+    std::vector<std::string> charts;
     for (const auto& [axis, layers] : axes) {
         LineChart chart{{chartName(charts.size()), "Isolation, axis " + axis},
                         "frequency (Hz)",

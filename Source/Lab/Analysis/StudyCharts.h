@@ -53,8 +53,7 @@ inline std::string chartName(std::size_t number) { return "chart" + std::to_stri
 /// Thresholds, adjusted levels and magnitudes: one chart per kind, with standard deviations for values in dB.
 std::vector<std::string> levelCharts(std::span<const LevelSummary> summaries, bool isSimulated);
 
-/// Mean gamma by factor; then gamma over frequency: one chart per axis, one curve per layer, or per
-/// voltage of a single one.
+/// Gamma over frequency: one chart per axis, one curve per layer, or per voltage of a single one.
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results);
 
 // Charts of functions fitted to each participant's trials.

@@ -109,8 +109,11 @@ inline constexpr std::array thesisDeviations{
     ThesisDeviation{"eight-methods", "5.3.1", "no rest is mentioned between training and main session",
                     "2 minutes before the main session", "remove break_before_s", ThesisEdit::noBreakBefore},
     ThesisDeviation{"eight-methods", "5.3.1",
-                    "drags by touch, tilts by the phone's sensor, answers on a second phone",
-                    "drags by mouse or touch, tilts by keys or a phone over OSC, answers in a window", ""},
+                    "drags by touch, tilts by the phone's sensor, answers on a second phone; scales as "
+                    "defined there",
+                    "drags by mouse or touch, tilts by keys or a phone over OSC, answers in a window; scales "
+                    "in our words",
+                    ""},
 };
 
 } // namespace physvib

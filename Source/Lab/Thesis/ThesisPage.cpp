@@ -162,7 +162,8 @@ ThesisPage thesisPage() {
          {std::pair{"fig3-1",
                     "Actuators and layers in the printed sizes; cases, pads and rings have none in print."},
           {"fig3-2", "How the scales lie to each other is no conversion."},
-          {"fig3-3", "`physvib attenuation` takes such recordings and draws Fig. 3.4 and 3.5."}})
+          {"fig3-3", "`physvib attenuation` takes such recordings and draws Fig. 3.5; isolation-tests.R "
+                     "draws Fig. 3.4."}})
         out.addFigure(name, {std::string{thesisFile(std::string{name} + ".svg").text}}, caption);
     out.files["isolation-tests.R"] = thesisFile("isolation-tests.R").text;
     tellTransfer(out);

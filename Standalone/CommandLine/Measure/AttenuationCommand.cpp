@@ -127,7 +127,7 @@ void declareAttenuation(OptionTable& command, AttenuationOptions& o) {
     command.add("--export", o.exportPath, "of a folder: a row per repetition").written("FILE.csv");
     command
         .add("--picture", o.picturePath,
-             "of a folder: mean gamma by factor, and over frequency: a curve per layer, of one per voltage")
+             "of a folder: gamma over frequency: a curve per layer, of one per voltage")
         .writtenAs("FILE.svg");
 }
 
