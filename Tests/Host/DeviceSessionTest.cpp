@@ -128,6 +128,25 @@ TEST(DeviceSession, ADeviceThatDoesNotCloseIsLeftAndAnotherCanBeOpened) {
     EXPECT_EQ(hung.device, nullptr) << "closed after all";
 }
 
+TEST(AudioDevices, ADriverThatDoesNotAnswerIsListedAsSuchBesideTheOthers) {
+    FakeInterface hung, other;
+    other.name = "feet";
+    hung.hangsIn = FakeInterface::Call::scan;
+    const int before = DeviceThread::threadsLeft();
+    const auto both = [&] {
+        auto drivers = fakeDrivers({&hung}, "Hung")();
+        drivers.push_back(std::move(fakeDrivers({&other})().front()));
+        return drivers;
+    };
+    std::string listed;
+    for (const auto& device : listAudioDevices(both))
+        listed += device.type + ":" + device.name + " " + std::to_string(device.channels) + "\n";
+    EXPECT_EQ(listed, "Hung:does not answer 0\nFake:feet 8\n");
+    hung.goOn();
+    while (DeviceThread::threadsLeft() > before) std::this_thread::sleep_for(1ms);
+    EXPECT_EQ(listAudioDevices(both).front().name, "hands");
+}
+
 /// An output on an interface whose driver can hang.
 struct Rig {
     FakeInterface interface;

@@ -27,7 +27,7 @@ struct FakeInterface {
     std::mutex mutex; // as drivers do: held during a callback and while the callback changes
 
     /// That call, and each after it, comes back after goOn() only, as of a driver whose server is stopped.
-    enum class Call { none, open, close };
+    enum class Call { none, scan, open, close };
     std::atomic<Call> hangsIn{Call::none};
     void goOn() {
         hangsIn = Call::none;
@@ -131,8 +131,10 @@ public:
     std::string name() const override { return name_; }
     void scan() override {
         names_.clear();
-        for (const auto* thing : things_)
+        for (auto* thing : things_) {
+            thing->hang(FakeInterface::Call::scan);
             if (thing->isPlugged) names_.push_back(thing->name);
+        }
     }
     std::vector<std::string> deviceNames(bool inputs) override {
         return inputs ? std::vector<std::string>{} : names_;

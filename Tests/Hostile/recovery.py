@@ -16,6 +16,8 @@ import time
 mixer, crashes, seed = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
 random.seed(seed)
 configuration = tempfile.mkdtemp(prefix="physvib-recovery-")
+metadata = f"/dev/shm/jack_db-{os.getuid()}"  # JACK's; a program that is killed while it opens it leaves it locked
+has_metadata = os.path.exists(metadata)
 folder = os.path.join(configuration, "physvib")
 quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
@@ -127,6 +129,8 @@ for crash in range(crashes):
             os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
     known = set(whole().values())
 shutil.rmtree(configuration)
+if not has_metadata:
+    shutil.rmtree(metadata, ignore_errors=True)
 print(f"{crashes} crashes, {full} on a full disk, {cut} copies cut short:",
       f"{len(lost)} sessions lost, {len(known)} on the disk at the end")
 sys.exit(1 if lost else 0)

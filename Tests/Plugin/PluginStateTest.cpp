@@ -5,8 +5,6 @@
 #include "Scene/SceneFile.h"
 #include <atomic>
 #include <chrono>
-#include <cstdio>
-#include <ctime>
 #include <future>
 
 namespace physvib {
@@ -346,48 +344,6 @@ TEST(PluginChunk, TheHostIsToldOfALatencyThatChanges) {
     EXPECT_LT(host.plugin->getLatencySamples(), before);
     EXPECT_EQ(listener.latencies, 1);
     host.plugin->removeListener(&listener);
-}
-
-/// Of so many bodies, every one of which is felt, by each of the scene's materials, and of as many rules for
-/// notes as there are keys.
-PluginState manyBodies(int count) {
-    PluginState state = shakenBox();
-    auto& bodies = state.scene.bodies;
-    BodyDescription disc = bodies.back();
-    for (int i = 0; std::ssize(bodies) < count; ++i) {
-        disc.name = "disc " + std::to_string(i);
-        disc.positionMetres = {0.01 * (i % 90) + 0.05, 0.01 * (i / 90) + 0.05};
-        bodies.push_back(disc);
-    }
-    for (int note = 0; note < 128; ++note) {
-        NoteRule rule;
-        rule.note = note;
-        rule.kind = note % 2 == 0 ? NoteKind::push : NoteKind::spawn;
-        rule.object = bodies.back().name;
-        rule.material = 3;
-        state.notes.push_back(rule);
-    }
-    return state;
-}
-
-/// By hand: how long a host waits for a chunk of 700 KB, before it is prepared and after.
-TEST(PluginChunk, DISABLED_SevenHundredKilobytesAreTakenQuickly) {
-    int count = 500;
-    while (pluginStateJson(manyBodies(count)).size() < 700'000) count += 100;
-    const std::string text = pluginStateJson(manyBodies(count));
-    TestHost host;
-    const auto take = [&](const char* when) {
-        const auto start = std::chrono::steady_clock::now();
-        const auto worked = std::clock();
-        host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        EXPECT_EQ(host.plugin->trouble(), "");
-        std::printf("%zu bytes, %d bodies, %s: %.3f s, %.3f s of the processor\n", text.size(), count, when,
-                    seconds.count(), static_cast<double>(std::clock() - worked) / CLOCKS_PER_SEC);
-    };
-    take("before prepare");
-    host.prepare(48000, 512);
-    take("while it plays");
 }
 
 } // namespace

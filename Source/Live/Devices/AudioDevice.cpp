@@ -2,18 +2,39 @@
 // Scans drivers for their output devices.
 #include "Live/Devices/AudioDevice.h"
 #include "Io/Text/CleanText.h"
+#include "Live/Devices/DeviceThread.h"
 #include "Live/Devices/NoDevice.h"
 #include "Live/Devices/PicoDevice.h"
 #include <algorithm>
 
 namespace physvib {
+namespace {
+
+// JACK's library waits for ever after a program was killed while it opened a client.
+constexpr std::chrono::seconds answering{2};
+
+std::vector<AudioDeviceName> devicesOf(AudioDriver& driver) {
+    std::vector<AudioDeviceName> devices;
+    driver.scan();
+    for (const std::string& name : driver.deviceNames(false))
+        if (const auto device = driver.create(name, false))
+            devices.push_back({driver.name(), name, device->outputs()});
+    return devices;
+}
+
+} // namespace
+
 std::vector<AudioDeviceName> listAudioDevices(const AudioDrivers& drivers) {
     std::vector<AudioDeviceName> devices;
-    for (const auto& driver : drivers()) {
-        driver->scan();
-        for (const std::string& name : driver->deviceNames(false))
-            if (const auto device = driver->create(name, false))
-                devices.push_back({driver->name(), name, device->outputs()});
+    for (auto& each : drivers()) {
+        const std::shared_ptr<AudioDriver> driver = std::move(each);
+        const auto found = std::make_shared<std::vector<AudioDeviceName>>();
+        DeviceThread thread;
+        thread.begin([driver, found] { *found = devicesOf(*driver); });
+        if (thread.isOver(DeviceThread::Clock::now() + answering))
+            std::ranges::move(*found, std::back_inserter(devices));
+        else
+            devices.push_back({driver->name(), "does not answer", 0});
     }
     return devices;
 }

@@ -118,8 +118,8 @@ struct AudioDeviceName {
     int channels = 0; ///< number of outputs; 0 if the driver could not be queried
 };
 
-/// All output devices that can be opened, or that another program has. M; scans the drivers, which takes a
-/// while.
+/// All output devices that can be opened, or that another program has; of a driver that has not answered for
+/// two seconds, an entry without outputs that says so. M; scans the drivers, which takes a while.
 std::vector<AudioDeviceName> listAudioDevices(const AudioDrivers& drivers);
 
 /// A device that is not open yet, and its driver, which must outlive the device.

@@ -189,7 +189,8 @@ void onJackShutdown(void* server) {
 JackClient::JackClient(const JackLibrary& jack, const char* name)
     : jack_{jack} {
     std::vector<std::shared_ptr<void>> freed;
-    const std::lock_guard lock{openingJack};
+    const std::unique_lock lock{openingJack, std::chrono::seconds{1}};
+    if (!lock) return;
     jack_status_t status{};
     client_ = jack_.client_open(name, JackNoStartServer, &status);
     // The server may have gone this very moment: opening may then have freed clients whose loss JACK had no

@@ -35,7 +35,8 @@ const JackLibrary* jackLibrary();
 
 // A client of the JACK server that may go away, and the names of other clients' ports.
 
-/// M: opening and closing wait for the server, and hang as long as it does.
+/// M: opening and closing wait for the server, and hang as long as it does; another client that hangs in
+/// opening is waited for a second.
 ///
 /// When a server has gone, JACK's library frees all clients of the process as soon as any of them is opened
 /// anew. So nobody calls JACK while a client is being opened, and a client that has lost its server is

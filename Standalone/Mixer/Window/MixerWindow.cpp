@@ -189,7 +189,7 @@ void MixerWindow::reportInstead() {
     const auto& wanted = device_.name;
     if (model_->trouble().isEmpty() || wanted.starts_with(std::string{noDeviceType} + ":")) return;
     for (const auto& there : byLikelihood(listAudioDevices(drivers_)))
-        if (there.type != noDeviceType && there.type + ":" + there.name != wanted)
+        if (there.type != noDeviceType && there.channels > 0 && there.type + ":" + there.name != wanted)
             return model_->messages().add({"There is " + utf8(there.type + ": " + there.name) + " (" +
                                            juce::String{there.channels} + " outputs) instead, under Output"});
 }
