@@ -84,9 +84,10 @@ void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run
     report.page.heading("Tests");
     report.page.paragraph(
         "analysis.R, beside this page, chooses each test by its measure and by the factors that rows "
-        "have, and runs it in R (Debian: r-base-core; r-cran-lme4 where people lack levels). The unit "
-        "is the participant. Training, and trials that did not leave, are left out. Corrections are "
-        "named with their p; sphericity and normality are shown, and decide nothing.");
+        "have, and runs it in R (Debian: r-base-core; r-cran-lme4 where people lack levels, "
+        "r-cran-ordinal for points). The unit is the participant. Training, and trials that did not "
+        "leave, are left out. Corrections are named with their p; sphericity and normality are shown, and "
+        "decide nothing.");
     StudyFiles files = report.tables();
     files[analysisScriptName] = made.files[analysisScriptName];
     auto ran = run ? run(files) : Result<StudyFiles>{StudyFiles{}};

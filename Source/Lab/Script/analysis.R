@@ -152,16 +152,23 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   })
   if (length(attr(cells, "lacking")) > 0 && requireNamespace("lme4", quietly = TRUE)) attempt(test, "mixed model", mixed(test, file, measure, c(within, between), where))
 }) }
-# Where people lack levels, all of them in one model (lme4): each effect by the likelihood ratio of the model with and without it.
-mixed <- function(test, file, measure, factors, where) {
-  d <- aggregate(y ~ ., rows.of(file, measure, factors, where), mean)
-  own <- names(d)[-c(1, ncol(d))]
+# Everybody in one model, with an intercept for each person: each effect by the likelihood ratio of the model with and without it. Means of cells where
+# people lack some (lme4); or scores of points, trial by trial, by their order alone: cumulative logits (ordinal).
+mixed <- function(test, file, measure, factors, where = character(), points = FALSE) {
+  d <- rows.of(file, measure, factors, where)
+  if (!points) d <- aggregate(y ~ ., d, mean)
+  own <- setdiff(names(d), c("id", "y"))
   x <- model.matrix(as.formula(paste("~", paste(own, collapse = "*"))), d, lapply(d[own], function(f) "contr.sum"))
   terms <- attr(x, "assign"); labels <- unlist(lapply(seq_along(own), function(m) combn(factors, m, paste, collapse = ":")))
-  fit <- function(x) as.numeric(logLik(suppressMessages(lme4::lmer(y ~ 0 + x + (1 | id), data.frame(y = d$y, id = d$id), REML = FALSE))))
+  fit <- function(keep) {
+    columns <- x[, keep & !(points & terms == 0), drop = FALSE]; colnames(columns) <- sprintf("x%d", seq_len(ncol(columns)))
+    data <- data.frame(y = if (points) factor(d$y) else d$y, id = factor(d$id), columns)
+    formula <- reformulate(c(if (points) "1" else "0", colnames(columns), "(1 | id)"), "y")
+    as.numeric(logLik(suppressMessages(if (points) ordinal::clmm(formula, data) else lme4::lmer(formula, data, REML = FALSE))))
+  }
   for (t in seq_along(labels)) {
-    chi <- max(0, 2 * (fit(x) - fit(x[, terms != t, drop = FALSE])))
-    result(test, paste(labels[t], "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t))
+    chi <- max(0, 2 * (fit(terms >= 0) - fit(terms != t)))
+    result(test, paste(labels[t], if (points) "ordinal model" else "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t))
   }
 }
 friedman <- function(test, file, measure, within = character(), where = character(), between = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
@@ -309,6 +316,9 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   if (kind == "scores") anova.test(paste("analysis of variance of", name), d, measure, design$within, between = design$between)
   else if (any(vapply(factors, function(f) length(unique(level(d, f))) > 2, NA)))
     friedman(paste("Friedman's or Kruskal and Wallis' test of", name), d, measure, design$within, between = design$between)
+  if (kind == "points" && requireNamespace("ordinal", quietly = TRUE)) {
+    test <- paste("ordinal mixed model of", name); cat(test, "\n", sep = ""); attempt(test, "all", mixed(test, d, measure, factors, points = TRUE))
+  }
   if (length(few(factors)) > 0)
     pairs.test(paste("pairs by", if (kind == "scores") "t" else "ranks", "of", name), d, measure, few(design$within), by = if (kind == "scores") "t" else "ranks",
                correction = if (as.published) "bonferroni" else "holm", between = few(design$between), paired = !as.published)
@@ -428,7 +438,7 @@ study <- function(study, scales = character(), points = character()) {
     if ("stimulus" %in% names(own) && all(grepl(" & ", own$stimulus, fixed = TRUE))) {
       in.pairs(own, scale, words)
       compare(paste0(scale, words), own, scale, columns = c("group", "condition"))
-    } else compare(paste0(scale, words), own, scale, if (scale %in% points) "ranks" else "scores")
+    } else compare(paste0(scale, words), own, scale, if (scale %in% points) "points" else "scores")
   })
   if (length(scales) > 1) across(setdiff(unique(results$test), before), "scales")
   if (file.exists("thresholds.csv")) {
@@ -442,8 +452,9 @@ study <- function(study, scales = character(), points = character()) {
   finish(study)
 }
 finish <- function(study) {
-  lme4 <- if (any(grepl("mixed model", results$effect))) paste(", lme4", packageVersion("lme4")) else ""
-  writeLines(paste0("# ", study, ", ", R.version.string, lme4), "tests.csv")
+  packages <- c(lme4 = any(grepl("mixed model", results$effect)), ordinal = any(grepl("ordinal model", results$effect)))
+  versions <- sapply(names(which(packages)), function(p) paste0(", ", p, " ", packageVersion(p)))
+  writeLines(paste0("# ", study, ", ", R.version.string, paste(versions, collapse = "")), "tests.csv")
   for (table in list(list(similarity, "similarity.csv"), list(places, "mds.csv"))) if (nrow(table[[1]]) > 0) {
     writeLines(paste0("# ", study, ", ", R.version.string), table[[2]])
     write.table(table[[1]], table[[2]], append = TRUE, sep = ",", row.names = FALSE, na = "", qmethod = "double")

@@ -8,9 +8,9 @@ setwd(own)
 set.seed(7)
 faults <- 0
 fault <- function(...) { faults <<- faults + 1; cat("FAULT:", ..., "\n") }
-same <- function(words, ours, r) {
+same <- function(words, ours, r, within = 1e-9) {
   known <- length(ours) == 1 && length(r) == 1 && !is.na(ours) && !is.na(r)
-  if (!known || abs(ours - r) > max(1e-9 * abs(r), 1e-14)) fault(words, "is", format(ours, digits = 12), "for", format(r, digits = 12))
+  if (!known || abs(ours - r) > max(within * abs(r), 1e-14)) fault(words, "is", format(ours, digits = 12), "for", format(r, digits = 12))
 }
 told <- function(run) { results <<- data.frame(); capture.output(run); results }
 line <- function(lines, effect) lines[lines$effect == effect, ]
@@ -177,6 +177,20 @@ whole <- function(d, scales, points = character(), people = NULL) {
   unlink(c("similarity.csv", "mds.csv", "participants.csv")); rows(d); if (!is.null(people)) rows(people, "participants.csv")
   results <<- similarity <<- places <<- data.frame(); capture.output(study("of a test", scales, points)); results
 }
+# Scores of points of two factors, by their order: clmm's own formulas.
+if (requireNamespace("ordinal", quietly = TRUE)) {
+  d <- expand.grid(trial = 1:2, condition = c("x", "y", "z"), participant = person(12), stringsAsFactors = FALSE)
+  d$group <- ifelse(as.integer(d$participant) <= 5, "a", "b"); d$task <- "rate"; d$session <- "main"
+  d$realism <- findInterval(rnorm(nrow(d)) + rnorm(12)[as.integer(d$participant)] + 0.8 * (d$condition == "z"), -2:2) + 2
+  ours <- whole(d, "realism", "realism"); d$score <- factor(d$realism); d$id <- factor(d$participant)
+  chi <- function(all, without) 2 * as.numeric(logLik(ordinal::clmm(all, d)) - logLik(ordinal::clmm(without, d)))
+  same("ordinal interaction", line(ours, "condition:group ordinal model")$value, chi(score ~ condition * group + (1 | id), score ~ condition + group + (1 | id)), 1e-4)
+  options(contrasts = c("contr.sum", "contr.poly"))
+  x <- model.matrix(~ condition * group, d); at <- attr(x, "assign"); for (i in 2:ncol(x)) d[[paste0("x", i)]] <- x[, i]
+  without <- function(t) reformulate(c(paste0("x", setdiff(which(at != t), 1)), "(1 | id)"), "score")
+  same("ordinal condition", line(ours, "condition ordinal model")$value, chi(without(-1), without(1)), 1e-4)
+  options(contrasts = c("contr.treatment", "contr.poly"))
+} else cat("ordinal is not here: its models were not tried\n")
 d <- expand.grid(trial = 1:3, participant = person(8), stringsAsFactors = FALSE)
 d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$condition <- "c"; d$stimulus <- "s"; d$parts <- "ref|low|ref|mid"
 d$ref <- ifelse(d$participant == "05", 70, 97); d$low <- round(20 + 9 * rnorm(24)); d$mid <- round(60 + 9 * rnorm(24))
