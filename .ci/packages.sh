@@ -39,7 +39,7 @@ physvib_web_packages="binaryen clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19
 physvib_web_test_packages="$physvib_web_packages chromium zbar-tools"
 # Of Tests/JavaScript/bundlers.sh, browsers.sh and outputs.sh alone; WebKitGTK brings its MiniBrowser. What the latter two unpack, and never install.
 physvib_browser_packages="chromium firefox-esr libwebkit2gtk-4.1-0 gstreamer1.0-plugins-good xvfb xauth"
-physvib_sound_files="pulseaudio pulseaudio-utils libtdb1 libwrap0 libltdl7 libspeexdsp1 libsoxr0"
+physvib_sound_files="pulseaudio pulseaudio-utils liborc-0.4-0 libtdb1 libwrap0 libltdl7 libspeexdsp1 libsoxr0"
 # Of Standalone/Packaging/release.sh, and of Tests/Release.
 physvib_release_packages="$physvib_build_packages libgtest-dev g++ git debhelper dh-python python3 dpkg-dev"
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../.."
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_browser_packages
 work=$(mktemp -d)
-trap '[ -z "${sound_pid:-}" ] || kill "$sound_pid"; rm -rf "$work"' EXIT
+trap '[ -z "${sound_pid:-}" ] || kill "$sound_pid" 2>/dev/null || :; rm -rf "$work"' EXIT
 # Firefox opens no sound without a server of it.
 . Tests/JavaScript/sound-server.sh
 start_sound -L "module-null-sink rate=48000"

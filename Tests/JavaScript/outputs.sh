@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../.."
 . .ci/packages.sh
 ensure_packages chromium firefox-esr
 work=$(mktemp -d)
-trap '[ -z "${sound_pid:-}" ] || kill "$sound_pid"; rm -rf "$work"' EXIT
+trap '[ -z "${sound_pid:-}" ] || kill "$sound_pid" 2>/dev/null || :; rm -rf "$work"' EXIT
 . Tests/JavaScript/sound-server.sh
 start_sound
 mkdir "$work/package"
