@@ -55,6 +55,8 @@ TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
                 std::cout << "over " << msWaited() << std::endl;
                 return;
             }
+            if (auto& output = window->model().device(); output.choice().name != device)
+                output.open({device});                            // the walk has chosen another
             window->model().inputs().use({OscUse::thisComputer}); // a tone comes there
             runFor(0.6);
             std::cout << "over " << msWaited() << '\n';
