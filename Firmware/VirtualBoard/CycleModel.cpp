@@ -86,12 +86,19 @@ BlockCost CycleModel::cost(std::span<const std::uint8_t> code, std::uint32_t add
     std::uint32_t shortest = 0, stored = 0;
     int lastResult = ARM_REG_INVALID;
     bool wasAccess = false;
+    std::size_t conditional = 0; // instructions of an IT block that are still to come
     cs_insn* found = nullptr;
     const std::size_t count = cs_disasm(disassembler_, code.data(), code.size(), address, 0, &found);
     for (std::size_t k = 0; k < count; ++k) {
         const auto& detail = found[k].detail->arm;
         const Instruction i{found[k].mnemonic, {detail.operands, detail.op_count}};
         stored = i.wordsStored();
+        if (found[k].id == ARM_INS_IT) { // "it", "ite", "ittt": one each
+            conditional = std::string_view{found[k].mnemonic}.size() - 1;
+            b.endsIfThen = false;
+        } else if (conditional > 0) {
+            b.endsIfThen = --conditional == 0;
+        }
         for (std::uint32_t w = 0; w < stored; ++w) b.storeCycles.push_back(shortest + w);
         const std::uint32_t stall = lastResult != ARM_REG_INVALID && i.uses(lastResult) ? 1 : 0;
         b.cycles += plainCycles(i, wasAccess, model_) + stall +

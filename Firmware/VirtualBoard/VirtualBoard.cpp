@@ -145,7 +145,11 @@ void VirtualBoard::onBlock(uc_engine*, std::uint64_t address, std::uint32_t size
 }
 
 void VirtualBoard::onStore(uc_engine*, int, std::uint64_t, int, std::int64_t, void* self) {
-    ++static_cast<VirtualBoard*>(self)->storesInBlock_;
+    auto& board = *static_cast<VirtualBoard*>(self);
+    ++board.storesInBlock_;
+    // Unicorn 2.1.4 has the bits of an IT block with a store in it until another block ends
+    if (board.current_ != nullptr && board.current_->endsIfThen)
+        board.setReg(UC_ARM_REG_XPSR, board.reg(UC_ARM_REG_XPSR) & ~ifThenBits);
 }
 
 void VirtualBoard::onException(uc_engine* engine, std::uint32_t number, void* self) {

@@ -33,6 +33,7 @@ struct BlockCost {
     std::uint32_t cycles = 0;
     std::uint32_t takenCycles = 0;          ///< extra cycles if it was reached by a branch
     std::vector<std::uint32_t> storeCycles; ///< earliest cycle at which each stored word leaves the core
+    bool endsIfThen = false;                ///< has an IT block that ends in it
 };
 
 class CycleModel {

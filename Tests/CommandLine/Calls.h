@@ -20,6 +20,11 @@ struct Outcome {
     std::string out, err;
 };
 
+/// Where a help text lists subcommands, if it does; CLI11 2.6 has capitals.
+inline std::size_t subcommandsIn(const std::string& help) {
+    return std::min(help.find("\nSubcommands:\n"), help.find("\nSUBCOMMANDS:\n"));
+}
+
 /// A fresh folder per test; paths in calls are relative to it.
 class CommandLine : public ::testing::Test {
 protected:

@@ -23,8 +23,9 @@ std::vector<std::string> numbersOf(const std::string& help) {
 
 TEST_F(Ranges, NoOptionTakesWhatIsNoNumber) {
     std::size_t count = 0;
-    for (const std::string command : {"play", "export", "stimulus phantom", "stimulus pattern", "study run",
-                                      "board", "material", "calibrate"})
+    for (const std::string command :
+         {"play", "export drop --to x.hjif", "stimulus phantom", "stimulus pattern A-100",
+          "study run patterns", "board none info", "material", "calibrate"})
         for (const auto& option : numbersOf(call(command + " --help").out)) {
             SCOPED_TRACE(command + ' ' + option);
             refuses(command + ' ' + option + " nan", 2, option + ": expected ");

@@ -26,9 +26,9 @@ protected:
             words.insert(at->str(1));
         return words;
     }
-    /// What --help lists under "Subcommands:".
+    /// What --help lists as subcommands.
     std::set<std::string> commandsOf(const std::string& help) const {
-        const auto begin = help.find("\nSubcommands:\n");
+        const auto begin = subcommandsIn(help);
         return begin == std::string::npos ? std::set<std::string>{}
                                           : found(help.substr(begin), "\n  ([a-z-]+)");
     }
@@ -48,7 +48,7 @@ protected:
     }
     void holdsAllOf(const std::string& command, const std::string& pageName) const {
         const std::string help = call(command + " --help").out, manual = page(pageName);
-        const auto options = found(help, "\n  (?:-[a-z],)?(--[a-z][a-z-]*)");
+        const auto options = found(help, "\n +(?:-[a-z], *)?(--[a-z][a-z-]*)");
         EXPECT_TRUE(options.contains("--help")) << command;
         for (const std::string& option : options) {
             EXPECT_NE(manual.find(option), std::string::npos) << command << ' ' << option;

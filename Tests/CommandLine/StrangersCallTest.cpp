@@ -40,8 +40,8 @@ protected:
     /// The long options of a command, and of those within it.
     std::set<std::string> optionsOf(const std::string& command) const {
         const std::string help = call(command + " --help").out;
-        auto options = wordsIn(help, "\n  (?:-[a-z],)?--([a-z][a-z-]*)");
-        if (const auto begin = help.find("\nSubcommands:\n"); begin != std::string::npos)
+        auto options = wordsIn(help, "\n +(?:-[a-z], *)?--([a-z][a-z-]*)");
+        if (const auto begin = subcommandsIn(help); begin != std::string::npos)
             for (const std::string& inner : wordsIn(help.substr(begin), "\n  ([a-z][a-z-]*)"))
                 options.merge(optionsOf(command + ' ' + inner));
         return options;

@@ -6,6 +6,8 @@
 namespace physvib {
 namespace {
 
+using namespace std::string_view_literals;
+
 TEST(CsvTable, CellsWithCommasStandInQuotes) {
     const auto table = readCsvTable("\xEF\xBB\xBF# physvib 1 seed=2\r\n\r\nstimulus,response\r\n\"1,2\" , "
                                     "\"say \"\"hi\"\"\"\r\n a ,\r\n\r\n",
@@ -27,9 +29,8 @@ TEST(CsvTable, FaultsAreNamedByLine) {
     EXPECT_EQ(fault("a,a\n1,2\n"), "t.csv:1: column a appears twice");
     EXPECT_EQ(fault("a,,b\n1,2,3\n"), "t.csv:1: expected a name for every column");
     EXPECT_EQ(fault("a,\n1,2\n"), "t.csv:2: expected nothing in the last column, which has no name");
-    EXPECT_EQ(fault("\xFF\xFE"
-                    "a"),
-              "t.csv:1: expected UTF-8, found UTF-16: save it as CSV UTF-8");
+    for (const auto wide : {"\xFF\xFE,"sv, "a\0,\0b\0\n\0"sv, "\0a\0,\0b\0\n"sv})
+        EXPECT_EQ(fault(wide), "t.csv:1: expected UTF-8, found UTF-16: save it as CSV UTF-8");
     EXPECT_EQ(fault("a,b\n1,2,3\n"),
               "t.csv:2: expected 2 cells, found 3 (a cell with a comma stands in quotes)");
     EXPECT_EQ(fault("a,b\n1,2\n\n1,2\n"),

@@ -72,7 +72,9 @@ private:
         const auto now = std::chrono::steady_clock::now().time_since_epoch();
         told_.push_back({std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), low / 65535.0,
                          high / 65535.0});
-        return 0;
+        SDL_version version{};
+        reinterpret_cast<decltype(&SDL_GetVersion)>(of("SDL_GetVersion"))(&version);
+        return version.patch < 50 ? 0 : 1; // sdl2-compat asks SDL 3, to which 0 is a failure
     }
 
     const std::string name_;

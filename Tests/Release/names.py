@@ -29,7 +29,7 @@ def options() -> Iterator[str]:
                 yield command
             elif option := re.match(r"\| `(.+?)` \|", line):
                 yield f"{command} {option[1]}"
-    for option in re.findall(r"^  (?:-\w,)?(--[\w-]+)", output(programs / "physvib-render", "--help"), re.M):
+    for option in re.findall(r"^ +(?:-\w, *)?(--[\w-]+)", output(programs / "physvib-render", "--help"), re.M):
         yield f"physvib-render {option}"
 
 

@@ -56,7 +56,7 @@ def tag_of(libraries: list[Path]) -> str:
 
 
 def make(library: Path, folder: Path, isGivenAway: bool = True) -> Path:
-    package, root = Path(__file__).parent / "physvib", Path(__file__).parents[3]
+    package, root = Path(__file__).parent / "physvib", Path(__file__).resolve().parents[3]
     version = re.sub(r"-(\w+)\.", r"\1", (root / "VERSION.txt").read_text().strip())  # 1.0.0rc1, as wheels write it
     others = needed(library)
     tag = tag_of([library, *others.values()])
@@ -84,7 +84,7 @@ def make(library: Path, folder: Path, isGivenAway: bool = True) -> Path:
 
 def build_wheel(folder: str, config_settings: object = None, metadata_directory: object = None) -> str:
     """For pip (PEP 517): compiles the library by the preset `library`, whose packages Docs/c.md names."""
-    root = Path(__file__).parents[3]
+    root = Path(__file__).resolve().parents[3]
     with tempfile.TemporaryDirectory() as build:
         for command in (["cmake", "--preset", "library", "-B", build], ["cmake", "--build", build, "--target", "physvib-c"]):
             subprocess.run(command, check=True, cwd=root)
