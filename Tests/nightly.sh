@@ -43,7 +43,7 @@ step() {
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh && ensure_packages openbox && Tests/Mixer/headphones.sh $bin ;;
         breaks) Tests/breaks.py build/release build/nightly/breaks ;;
-        studies) ensure_packages r-cran-lme4 r-cran-ordinal && Tests/Study/R/run.sh Tests/Study/R/analysis_test.R Source/Lab/Script/analysis.R && Tests/Studies/recorded.sh $bin && Tests/Studies/faults.sh $bin && Tests/Studies/every-fault.sh $bin ;;
+        studies) ensure_packages r-cran-lme4 && Tests/Study/R/run.sh Tests/Study/R/analysis_test.R Source/Lab/Script/analysis.R && Tests/Studies/recorded.sh $bin && Tests/Studies/faults.sh $bin && Tests/Studies/every-fault.sh $bin ;;
         coverage) $bin/physvib-study-coverage ;;
         hours) Tests/ten-hours.sh ;;
         realtime) Tests/Realtime/rtsan.sh ;;

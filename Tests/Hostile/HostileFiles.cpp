@@ -169,7 +169,8 @@ std::string faultOf(const Outcome& outcome, const fs::path& folder, double mostS
     std::istringstream lines{outcome.err};
     int reasons = 0;
     for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with("Rewinding, seeking ")) continue; // libFLAC 1.5 says so by itself
+        // libFLAC 1.5 says so by itself
+        if (line.starts_with("Rewinding, seeking ") || line.starts_with("Bitreader was ")) continue;
         if (cleanLine(line) != line || !line.starts_with("physvib: "))
             return "not a clean line: " + cleanLine(line);
         reasons += !line.starts_with("physvib: warning: ");

@@ -60,13 +60,12 @@ std::string studyWords(const ReportTrials& trials) {
     return words;
 }
 
-/// Columns of ratings, if there are ratings.
-std::vector<std::string> scalesOf(const CsvTable& all, const std::vector<std::string>& analyses) {
-    std::vector<std::string> scales;
-    if (std::ranges::find(analyses, "ratings") == analyses.end()) return scales;
-    for (const std::string& column : all.columns)
-        if (!trialColumns::has(column)) scales.push_back(column);
-    return scales;
+/// Columns of ratings that can be read: of others the page has the fault, and no test.
+std::vector<std::string> scalesOf(const ReportBuilder& report, const std::vector<std::string>& analyses) {
+    if (std::ranges::find(analyses, "ratings") == analyses.end()) return {};
+    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const auto data = readRatings({&file, 1});
+    return data ? data.value.scales : std::vector<std::string>{};
 }
 
 /// Scales of so many points, whose scores have an order and no distances.
@@ -84,10 +83,9 @@ void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run
     report.page.heading("Tests");
     report.page.paragraph(
         "analysis.R, beside this page, chooses each test by its measure and by the factors that rows "
-        "have, and runs it in R (Debian: r-base-core; r-cran-lme4 where people lack levels, "
-        "r-cran-ordinal for points). The unit is the participant. Training, and trials that did not "
-        "leave, are left out. Corrections are named with their p; sphericity and normality are shown, and "
-        "decide nothing.");
+        "have, and runs it in R (Debian: r-base-core; r-cran-lme4 where people lack levels). The unit "
+        "is the participant. Training, and trials that did not leave, are left out. Corrections are "
+        "named with their p; sphericity and normality are shown, and decide nothing.");
     StudyFiles files = report.tables();
     files[analysisScriptName] = made.files[analysisScriptName];
     auto ran = run ? run(files) : Result<StudyFiles>{StudyFiles{}};
@@ -128,7 +126,7 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
     }
     if (report.people() > 1) {
         made.files[analysisScriptName] =
-            analysisScript(studyWords(trials), scalesOf(trials.all, kinds), inPoints(trials));
+            analysisScript(studyWords(trials), scalesOf(report, kinds), inPoints(trials));
         tellTests(report, made, script);
     }
     if (!trials.facts.plan.empty()) {
