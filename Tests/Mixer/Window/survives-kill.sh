@@ -29,7 +29,8 @@ has_copy() { ls "$folder"/physvib/recovery-*.json; }
 pid=$!
 wait_for 30 xdotool search --name "PhysVib mixer"
 sleep 1
-xdotool mousemove 720 450 key F4 sleep 1 mousemove 1200 132 click 1 # a new enchanter, by a click on the module of the drawer
+# 70 is the code of F4, which xdotool presses with modifiers where every level of the key has the same symbol (sid)
+xdotool mousemove 720 450 key 70 sleep 1 mousemove 1200 132 click 1 # a new enchanter, by a click on the module of the drawer
 wait_for 30 has_copy
 sleep 3
 kill -9 "$pid"
