@@ -15,7 +15,7 @@ table.of <- function(file) {
     d
   }
   d <- read(file)
-  for (others in c("participants.csv", "trials.csv"))
+  for (others in setdiff(c("participants.csv", "trials.csv"), file)) # nothing is read twice
     if (!("group" %in% names(d)) && "participant" %in% names(d) && file.exists(others) && all(c("participant", "group") %in% names(people <- read(others))))
       d$group <- people$group[match(d$participant, people$participant)]
   if ("phase" %in% names(d)) d <- d[d$phase != "training", ]
