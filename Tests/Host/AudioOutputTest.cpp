@@ -165,17 +165,30 @@ TEST(AudioOutput, SwitchesAMotorAsTheConverterSays) {
     ASSERT_EQ(motor.output.open(settings), "");
     const auto all = plain.play(3.0, 64), switched = motor.play(3.0, 64);
     OnOffSteps steps(static_cast<int>(plain.interface.rate), settings.onOffThreshold);
-    std::size_t on = 0, others = 0;
+    std::size_t on = 0, others = 0, expected = 0;
     for (std::size_t n = static_cast<std::size_t>(plain.interface.rate / 100); n < all[2].size(); ++n)
         on += switched[2][n] == 1.0f, others += switched[2][n] != 0.0f && switched[2][n] != 1.0f;
     EXPECT_EQ(others, 0u);
-    std::size_t expected = 0;
     for (const float sample : all[2]) steps.take(sample, [](long long, bool) {}), expected += steps.isOn();
     EXPECT_GT(expected, 0u);
     EXPECT_NEAR(static_cast<double>(on), static_cast<double>(expected),
                 0.01 * static_cast<double>(plain.interface.rate))
         << "the first samples come up in a ramp";
     EXPECT_EQ(switched[0], all[0]) << "the others are what they were";
+}
+
+TEST(AudioOutput, AConverterGetsWhatActuatorsGetUntilItHasEnough) {
+    struct Kept final : VibrationConverter {
+        bool convert(const float* const* channels, int frames) override {
+            return third.insert(third.end(), channels[2], channels[2] + frames), third.size() < 96000;
+        }
+        std::vector<float> third;
+    } kept;
+    Rig rig;
+    EXPECT_EQ(rig.output.open({.device = "hands", .level = 0.5f, .converter = &kept}), "");
+    const auto felt = rig.play(3.0, 64)[2];
+    EXPECT_TRUE(std::equal(kept.third.begin(), kept.third.end(), felt.begin()));
+    EXPECT_GT(loudest(felt), 0.01f);
 }
 
 TEST(AudioOutput, AnotherDriverWithADeviceOfThatNameIsAnotherDevice) {

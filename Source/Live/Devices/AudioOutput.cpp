@@ -203,6 +203,7 @@ void AudioOutput::aboutToStart(AudioDevice& device) {
     if (!isSampleRate(rate) || block < 1) return; // the device plays silence
     played_.begin(rate, block, latencyFrames(device), device.isReal());
     inputTap_ = settings_.tap;
+    converter_ = settings_.converter;
     exposure_.prepare(rate);
     receipts_.begin();
     guard_.begin(keeper_.fullName(), device.activeOutputs(), rate);
@@ -264,6 +265,7 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
         clip(samples[j], session.rendered().ceiling(j), frames);
     }
     master_.apply(samples, session.channels(), frames);
+    if (converter_ != nullptr && !converter_->convert(samples, frames)) converter_ = nullptr;
     std::array<float*, limits::maxEnchanters> left{}, felt{}; // at each actuator's output; of those with a
                                                               // coil
     for (int j = 0; j < session.channels(); ++j) {

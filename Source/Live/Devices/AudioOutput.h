@@ -131,6 +131,7 @@ private:
 
     // R, set while the device is stopped
     InputTap* inputTap_ = nullptr;
+    VibrationConverter* converter_ = nullptr;
     OutputMap map_;
     GainRamp master_;
     MonitorMix heard_{map_};

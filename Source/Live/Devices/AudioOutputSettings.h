@@ -10,6 +10,7 @@
 namespace physvib {
 
 class InputTap;
+class VibrationConverter;
 
 /// Master level at which a session starts: a quarter of the amplifier's full output, since the actuators
 /// touch skin.
@@ -44,9 +45,10 @@ struct AudioOutputSettings {
     ListeningSettings listening{};
     /// Actuators, from 0, that are motors which are either on or off (Core/Actuators/VibrationConverter.h).
     std::vector<int> onOff{};
-    double onOffThreshold = 0.1; ///< they are on while samples exceed this, 0 to 1 full scale
-    std::vector<int> inputs{};   ///< device inputs, from 0, whose mean goes to `tap`; empty: none
-    InputTap* tap = nullptr;     ///< outlives the output
+    double onOffThreshold = 0.1;             ///< they are on while samples exceed this, 0 to 1 full scale
+    std::vector<int> inputs{};               ///< device inputs, from 0, whose mean goes to `tap`; empty: none
+    InputTap* tap = nullptr;                 ///< outlives the output
+    VibrationConverter* converter = nullptr; ///< gets actuators' samples on R; outlives it; false ends
 };
 
 /// State of the output at one moment, for display.
