@@ -50,15 +50,7 @@ std::string materialsJson(const MaterialTable& table) {
 }
 
 const std::vector<MaterialTable>& builtInMaterials() {
-    static const std::vector<MaterialTable> tables = [] {
-        std::vector<MaterialTable> all;
-        for (const EmbeddedFile& file : embeddedMaterials()) {
-            Result<MaterialTable> read = readMaterials(file.text, file.name);
-            if (!read) throw std::logic_error(read.error); // a test reads all of them
-            all.push_back(std::move(read.value));
-        }
-        return all;
-    }();
+    static const std::vector<MaterialTable> tables = readEmbedded(embeddedMaterials(), readMaterials);
     return tables;
 }
 

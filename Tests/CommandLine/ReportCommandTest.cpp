@@ -350,7 +350,7 @@ TEST_F(Report, UnknownTrialsHaveTheirTableAndAreTold) {
     write("t.csv", "when,what\n1,a\n");
     const auto outcome = call("report t.csv --out out");
     EXPECT_EQ(outcome.exitCode, 0);
-    EXPECT_TRUE(has(outcome.err, "no analysis is known for these trials")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "no description is known for these trials")) << outcome.err;
     EXPECT_TRUE(has(page(), "<td>a</td>"));
 }
 

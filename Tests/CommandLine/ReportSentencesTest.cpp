@@ -182,7 +182,7 @@ std::vector<Sentence> sentences() {
         {"no response; trials left out for that: ", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
         {"participant P2 did not finish main in ", of(interleaved, 3, stopsEarly, true),
          of(interleaved, 3, {}, true)},
-        {"no analysis is known for these trials", of(grid, 2, set("phase", "training")), of(grid, 3)},
+        {"no description is known for these trials", of(grid, 2, set("phase", "training")), of(grid, 3)},
         {"in participants' own words", of(told, 2), of(grid, 3)},
         {" of them empty: counted by stimulus", of(told, 2, set("response", "", "P2")), of(told, 2)},
         {"trials ran out of time, without an answer: analyses leave them out", of(timed, 3, {}, true),

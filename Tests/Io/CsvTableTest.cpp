@@ -19,8 +19,7 @@ TEST(CsvTable, CellsWithCommasStandInQuotes) {
     EXPECT_EQ(table.value.rows[0].cells, (std::vector<std::string>{"1,2", "say \"hi\""}));
     EXPECT_EQ(table.value.rows[1].cells, (std::vector<std::string>{"a", ""}));
     EXPECT_EQ(table.value.rows[1].line, 5u);
-    EXPECT_EQ(table.value.column("response"), 1u);
-    EXPECT_FALSE(table.value.column("x"));
+    EXPECT_TRUE(table.value.column("response") == 1u && !table.value.column("x"));
 }
 
 TEST(CsvTable, FaultsAreNamedByLine) {
@@ -35,15 +34,14 @@ TEST(CsvTable, FaultsAreNamedByLine) {
               "t.csv:2: expected 2 cells, found 3 (a cell with a comma stands in quotes)");
     EXPECT_EQ(fault("a,b\n1,2\n\n1,2\n"),
               "t.csv:3: expected 2 cells, found 0 (a cell with a comma stands in quotes)");
-    EXPECT_EQ(fault("a\n\"1\n"), "t.csv:2: expected quotes around whole cells, and in pairs");
-    EXPECT_EQ(fault("a\n\"1\"2\n"), "t.csv:2: expected quotes around whole cells, and in pairs");
-    EXPECT_EQ(fault("a\n1\"2\n"), "t.csv:2: expected quotes around whole cells, and in pairs");
+    for (const char* quotes : {"a\n\"1\n", "a\n\"1\"2\n", "a\n1\"2\n"})
+        EXPECT_EQ(fault(quotes), "t.csv:2: expected quotes around whole cells, and in pairs");
     EXPECT_EQ(fault("a\n"), "t.csv:1: expected rows after the header, found none");
 }
 
 TEST(CsvTable, SpreadsheetsAndExperimentsSeparateCellsOtherwise) {
     for (const char* text : {"a,b,\n1.5,x,\n", "a;b\n1,5;x\n", "sep=;\na;b\n1,5;x\n", "sep=,\na,b\n1.5,x\n",
-                             "a\tb\n1.5\tx\n", "\"a\";\"b\"\n1,5;\"x\"\n"}) {
+                             "a\tb\n1.5\tx\n", "a\tb\n1,5\tx\n", "\"a\";\"b\"\n1,5;\"x\"\n"}) {
         const auto table = readCsvTable(text, "t.csv");
         ASSERT_TRUE(table) << text << table.error;
         EXPECT_EQ(table.value.columns, (std::vector<std::string>{"a", "b"})) << text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Trials as a BIDS dataset: the files that its validator wants, nothing lost, nothing that breaks a row.
-#include "Lab/Files/BidsDataset.h"
+#include "Lab/Report/BidsDataset.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

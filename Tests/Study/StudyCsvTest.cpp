@@ -56,10 +56,13 @@ TEST(StudyCsv, ResponsesOutsideTheFieldAreRefused) {
 }
 
 TEST(StudyCsv, RatingsAreTheColumnsThatNoTrialFileHas) {
-    const auto ratings = readOne(readRatings, "participant,condition,realism,liking\nP1,AV-FV-DRV,70,80.5\n");
+    const auto ratings = readOne(
+        readRatings, "participant,condition,realism,liking,age\nP1,AV-FV-DRV,70,80.5,31\nP1,b,7,8,31\n");
     ASSERT_TRUE(ratings) << ratings.error;
+    EXPECT_EQ(ratings.value.warnings.front(),
+              "f.csv: column age has one value of each participant: no scale");
     EXPECT_EQ(ratings.value.scales, (std::vector<std::string>{"realism", "liking"}));
-    EXPECT_EQ(ratings.value.data.conditions.front().trials.front().scores, (std::vector<double>{70, 80.5}));
+    EXPECT_EQ(ratings.value.conditions.front().trials.front().scores, (std::vector<double>{70, 80.5}));
     EXPECT_EQ(readOne(readRatings, "condition,realism\nA,101\n").error,
               "f.csv:2: column realism: expected a number from 0 to 100, found \"101\"");
     EXPECT_EQ(readOne(readRatings, "condition\nA\n").error,
@@ -72,6 +75,8 @@ TEST(StudyCsv, ChoicesByConditionOrStimulus) {
     EXPECT_EQ(data.value.conditions.front().trials[1].condition, "steel");
     EXPECT_EQ(readOne(readChoices, "condition,choice\nwood,\n").error,
               "f.csv:2: column choice: expected a label, found \"\"");
+    EXPECT_EQ(readOne(readChoices, "condition,choice\nh\xf6lzern,a\n").error,
+              "f.csv: expected UTF-8, found Latin-1 or the like: save it as CSV UTF-8");
 }
 
 TEST(StudyCsv, ConditionsAndStimuliAreToldApart) {

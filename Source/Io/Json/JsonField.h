@@ -73,7 +73,6 @@ public:
     bool isText() const { return value_.is_string(); }
     bool isNumber() const { return value_.is_number(); }
     bool isArray() const { return value_.is_array(); }
-    bool isObject() const { return value_.is_object(); }
     bool is(std::string_view word) const;
 
 private:

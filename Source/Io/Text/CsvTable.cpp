@@ -31,7 +31,7 @@ bool takeCell(std::string_view& rest, std::string& cell, char separator) {
     return trimmed(takeUntil(separator, rest)).empty();
 }
 
-/// A number with a decimal comma, as spreadsheets write where semicolons separate cells: with a point.
+/// A number with a decimal comma, as spreadsheets write where no comma separates cells: with a point.
 void takeDecimalComma(std::string& cell) {
     const std::size_t comma = cell.find(',');
     if (comma == std::string::npos || cell.find('.') != std::string::npos) return;
@@ -146,7 +146,7 @@ private:
             if (!takeCell(line, cells.emplace_back(), separator_))
                 return fail("expected quotes around whole cells, and in pairs");
             if (cells.back().starts_with('\'') && isTakenForFormula(cells.back())) cells.back().erase(0, 1);
-            if (separator_ == ';') takeDecimalComma(cells.back());
+            if (separator_ != ',') takeDecimalComma(cells.back());
             if (cells.back().size() > limits::maxCellBytes)
                 return fail("expected cells of at most " + std::to_string(limits::maxCellBytes) + " bytes");
             const std::size_t taken = whole.size() - line.size();

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -60,15 +60,9 @@ std::vector<const Summary*> pointersTo(const std::vector<Summary>& summaries) {
 
 } // namespace
 
-AnalysisReport analyseChoices(const AnalysisJob& o) {
-    const auto data = readStudyFiles(o, readChoices);
-    if (!data) return {data.error};
-    const auto summaries = summariseChoices(data.value.conditions.front().trials);
-    ExportTable table{"choices", data.value.isSimulated,
-                      "condition,alternative,votes,trials,percent,least_percent,most_percent,participants,"
-                      "participants_median_percent"};
-    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
-    std::ostringstream out;
+void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
+    auto& [job, report, out, table] = to;
+    const auto summaries = summariseChoices(data.conditions.front().trials);
     if (summaries.front().participants == 1)
         report.warnings.push_back("one participant, or no column participant: intervals are over trials, and "
                                   "say nothing about other people");
@@ -81,26 +75,18 @@ AnalysisReport analyseChoices(const AnalysisJob& o) {
     }
     out << "(... to ...): 95 % interval over "
         << (summaries.front().participants > 1 ? "participants\n" : "trials, of one participant\n");
-    report.words = out.str();
-    report.table = table.text();
-    report.picture = [summaries, isSimulated = report.isSimulated] {
+    report.picture = [summaries, isSimulated = data.isSimulated] {
         std::vector<std::string> groups;
         for (const ChoiceSummary& summary : summaries) groups.push_back(summary.condition);
         return sharesChart({chartName(0), "Shares of the alternatives", isSimulated}, "condition", groups,
                            pointersTo(summaries));
     };
-    return report;
 }
 
-AnalysisReport analyseRatings(const AnalysisJob& o) {
-    const auto ratings = readStudyFiles(o, readRatings);
-    if (!ratings) return {ratings.error};
-    const auto& [scales, data] = ratings.value;
+void analyseRatings(const RatingData& data, const Findings& to) {
+    auto& [job, report, out, table] = to;
+    const auto& scales = data.scales;
     const auto summaries = summariseRatings(data.conditions.front().trials);
-    ExportTable table{"ratings", data.isSimulated,
-                      "condition,scale,trials,participants,mean,standard_deviation,half_interval"};
-    AnalysisReport report{{}, data.isSimulated, data.warnings};
-    std::ostringstream out;
     std::set<bool> intervals; // true: over participants
     for (const auto& summary : summaries) {
         if (std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; }))
@@ -122,24 +108,15 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
                 : intervals.contains(true) ? "participants"
                                            : "trials, of one participant")
             << '\n';
-    report.words = out.str();
-    report.table = table.text();
-    report.picture = [scales = scales, summaries, isSimulated = report.isSimulated] {
+    report.picture = [scales, summaries, isSimulated = data.isSimulated] {
         return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, pointersTo(summaries));
     };
-    return report;
 }
 
-AnalysisReport analyseLevels(const AnalysisJob& o) {
-    const auto data = readStudyFiles(o, readLevels);
-    if (!data) return {data.error};
-    const auto summaries = summariseLevels(data.value.conditions.front().trials);
-    ExportTable table{
-        "levels", data.value.isSimulated,
-        "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation,half_interval"};
-    ExportTable each{"thresholds", data.value.isSimulated, "method,condition,participant,threshold"};
-    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
-    std::ostringstream out;
+void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
+    auto& [job, report, out, table] = to;
+    const auto summaries = summariseLevels(data.conditions.front().trials);
+    ExportTable each{"thresholds", data.isSimulated, "method,condition,participant,threshold"};
     for (const LevelSummary& s : summaries) {
         tell(out, s);
         for (const std::string& words : s.leftOut)
@@ -150,13 +127,10 @@ AnalysisReport analyseLevels(const AnalysisJob& o) {
         table.row(kindWord(s.kind), s.condition, s.stimulus, s.trials, s.participants, s.reversals,
                   s.estimate, s.deviation, s.halfInterval);
     }
-    report.words = out.str();
-    report.table = table.text();
     report.participants = each.text();
-    report.picture = [summaries, isSimulated = report.isSimulated] {
+    report.picture = [summaries, isSimulated = data.isSimulated] {
         return chartSheet(levelCharts(summaries, isSimulated));
     };
-    return report;
 }
 
 // Analyses psychometric and power-law: one fit per participant, and means with intervals per condition.
@@ -165,7 +139,7 @@ namespace {
 
 using LevelAnswers = StudyData<LevelAnswer>;
 
-Result<LevelAnswers> readAnswers(const AnalysisJob& o, LevelAnswerColumns columns) {
+Result<LevelAnswers> readColumns(const AnalysisJob& o, LevelAnswerColumns columns) {
     if (!o.level.empty()) columns.level = o.level;
     if (!o.measure.empty()) columns.measure = o.measure;
     return readStudyFiles(
@@ -192,11 +166,9 @@ void leaveOut(AnalysisReport& report, const std::string& condition, const std::s
                               " left out: " + fault);
 }
 
-/// Error line if no participant could be fitted.
-AnalysisReport nobodyFitted(const AnalysisJob& o, const AnalysisReport& report) {
-    std::string words = o.files.front() + ": nobody can be fitted";
-    for (const std::string& one : report.warnings) words += "; " + one;
-    return {words};
+void tellNobodyFitted(const Findings& to) {
+    to.report.error = to.job.files.front() + ": nobody can be fitted";
+    for (const std::string& one : std::exchange(to.report.warnings, {})) to.report.error += "; " + one;
 }
 
 /// Chart of the first condition; reports have charts of all.
@@ -207,14 +179,16 @@ ChartFrame frameOf(const AnalysisJob& o, const std::string& condition, bool isSi
 
 } // namespace
 
-AnalysisReport analysePsychometric(const AnalysisJob& o) {
-    const auto data = readAnswers(o, {"level_db", "correct", false});
-    if (!data) return {data.error};
-    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
-    std::ostringstream out;
-    ExportTable table{"psychometric", report.isSimulated,
-                      "condition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood"};
-    for (const auto& condition : data.value.conditions) {
+Result<LevelAnswers> readAnswers(const AnalysisJob& o) {
+    return readColumns(o, {"level_db", "correct", false});
+}
+Result<LevelAnswers> readMagnitudes(const AnalysisJob& o) {
+    return readColumns(o, {"stimulus", "value", true});
+}
+
+void analysePsychometric(const LevelAnswers& data, const Findings& to) {
+    auto& [o, report, out, table] = to;
+    for (const auto& condition : data.conditions) {
         std::vector<double> thresholds, jnds;
         const bool isAdaptive = condition.trials.front().isAdaptive;
         const auto ifKnown = [=](double slope) { return isAdaptive ? std::nullopt : std::optional{slope}; };
@@ -229,31 +203,23 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
             table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),
                       ifKnown(f.jnd()), f.guess, f.lapse, own.fit.logLikelihood);
         }
-        if (thresholds.empty()) return nobodyFitted(o, report);
+        if (thresholds.empty()) return tellNobodyFitted(to);
         const int decimals = decimalsOf(Moments(jnds).mean);
         out << prefixOf(condition.name) << meanWords("threshold", thresholds, decimals) << ", "
             << (isAdaptive ? "no JND (answers chose the levels, which makes slopes too steep)"
                            : meanWords("JND", jnds, decimals))
             << ", " << counted(thresholds.size(), "participant") << '\n';
     }
-    report.words = out.str();
-    report.table = table.text();
-    const auto first = data.value.conditions.front();
+    const auto& first = data.conditions.front();
     report.picture = [first, model = o.model, words = fitWords(o.columns, o.level, o.measure),
                       frame = frameOf(o, first.name, report.isSimulated)] {
         return psychometricChart(frame, first.trials, model, words);
     };
-    return report;
 }
 
-AnalysisReport analysePowerLaw(const AnalysisJob& o) {
-    const auto data = readAnswers(o, {"stimulus", "value", true});
-    if (!data) return {data.error};
-    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
-    std::ostringstream out;
-    ExportTable table{"power-law", report.isSimulated,
-                      "condition,participant,trials,exponent,factor,r_squared"};
-    for (const auto& condition : data.value.conditions) {
+void analysePowerLaw(const LevelAnswers& data, const Findings& to) {
+    auto& [o, report, out, table] = to;
+    for (const auto& condition : data.conditions) {
         std::vector<double> exponents;
         for (const auto& own : powerLawByParticipant(condition.trials)) {
             if (!own.law.fault.empty()) {
@@ -264,18 +230,15 @@ AnalysisReport analysePowerLaw(const AnalysisJob& o) {
             table.row(condition.name, own.participant, own.trials, own.law.exponent, own.law.factor,
                       own.law.determination);
         }
-        if (exponents.empty()) return nobodyFitted(o, report);
+        if (exponents.empty()) return tellNobodyFitted(to);
         out << prefixOf(condition.name) << meanWords("exponent", exponents, 3) << ", "
             << counted(exponents.size(), "participant") << '\n';
     }
-    report.words = out.str();
-    report.table = table.text();
-    const auto first = data.value.conditions.front();
+    const auto& first = data.conditions.front();
     report.picture = [first, level = o.level.empty() ? std::string("level") : o.level,
                       frame = frameOf(o, first.name, report.isSimulated)] {
         return powerLawChart(frame, first.trials, level);
     };
-    return report;
 }
 
 } // namespace physvib

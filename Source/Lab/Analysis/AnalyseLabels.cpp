@@ -7,14 +7,10 @@
 #include "Stimuli/PulsePattern.h"
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace physvib {
-namespace {
 
-using Data = StudyData<IdentificationTrial>;
-
-Result<Data> readTrials(const AnalysisJob& o) {
+Result<StudyData<IdentificationTrial>> readLabels(const AnalysisJob& o) {
     auto data = readStudyFiles(o, readIdentification);
     if (!data || o.tolerance == 0) return data;
     for (auto& condition : data.value.conditions) {
@@ -26,6 +22,8 @@ Result<Data> readTrials(const AnalysisJob& o) {
     }
     return data;
 }
+
+namespace {
 
 std::string bits(double value) { return fixedNumber(value, 2) + " bit"; }
 std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const InformationTransfer& it) {
@@ -127,16 +125,12 @@ std::string nameOr(const std::string& name, const char* other) { return name.emp
 
 } // namespace
 
-AnalysisReport analyseConfusion(const AnalysisJob& o) {
-    const auto data = readTrials(o);
-    if (!data) return {data.error};
-    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
-    std::ostringstream out;
-    ExportTable table{"confusion", data.value.isSimulated, "condition,participant,stimulus,response,count"};
-    ExportTable each{"confusion-participants", data.value.isSimulated,
+void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings& to) {
+    auto& [job, report, out, table] = to;
+    ExportTable each{"confusion-participants", data.isSimulated,
                      "condition,participant,trials,percent_correct,it_bits,corrected_it_bits"};
     std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
-    for (const auto& condition : data.value.conditions) {
+    for (const auto& condition : data.conditions) {
         const ConfusionMatrix matrix{condition.trials};
         const InformationTransfer it = informationTransfer(matrix);
         const std::string prefix = condition.name.empty() ? "" : printable(condition.name) + ": ";
@@ -146,39 +140,32 @@ AnalysisReport analyseConfusion(const AnalysisJob& o) {
         tellAndExport(out, condition.name.empty() ? "" : "  ", condition, table, each);
         matrices.emplace_back(nameOr(condition.name, "all trials"), matrix);
     }
-    report.words = out.str();
-    report.table = table.text();
     report.participants = each.text();
-    report.picture = [matrices, isSimulated = report.isSimulated] {
+    report.picture = [matrices, isSimulated = data.isSimulated] {
         std::vector<std::string> charts;
         for (const auto& [name, matrix] : matrices)
             charts.push_back(confusionChart({chartName(charts.size()), name, isSimulated}, matrix));
         return chartSheet(charts);
     };
-    return report;
 }
 
-AnalysisReport analyseIcons(const AnalysisJob& o) {
-    const auto data = readTrials(o);
-    if (!data) return {data.error};
-    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
-    std::ostringstream out;
-    out << o.meanings << " meanings need " << bits(bitsFor(o.meanings)) << '\n';
+void analyseIcons(const StudyData<IdentificationTrial>& data, const Findings& to) {
+    auto& [job, report, out, table] = to;
+    out << job.meanings << " meanings need " << bits(bitsFor(job.meanings)) << '\n';
     std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
-    for (const auto& condition : data.value.conditions)
+    for (const auto& condition : data.conditions)
         matrices.emplace_back(condition.name, ConfusionMatrix{condition.trials});
     std::ranges::stable_sort(matrices, {}, [](const auto& m) { return m.second.stimuli(); });
-    ExportTable table{"icons", data.value.isSimulated, "condition,stimulus,percent_correct"};
     std::string chosen; // condition from which the icons are selected
     std::vector<std::pair<std::string, ChartValue>> icons;
     for (const auto& [name, matrix] : matrices) {
         const InformationTransfer it = informationTransfer(matrix);
-        const bool isEnough = it.bestBits() >= bitsFor(o.meanings);
+        const bool isEnough = it.bestBits() >= bitsFor(job.meanings);
         out << printable(nameOr(name, "all trials")) << ": " << patternsOf(matrix) << ", "
             << bits(it.bestBits()) << ": " << (isEnough ? "enough" : "too little") << '\n';
         if (!isEnough || !icons.empty()) continue;
         chosen = nameOr(name, "all trials");
-        for (const std::size_t i : leastConfused(matrix, o.meanings)) {
+        for (const std::size_t i : leastConfused(matrix, job.meanings)) {
             const double share = shareCorrect(matrix, i);
             out << "  " << printable(matrix.label(i)) << "  " << percent(share) << " % correct\n";
             table.row(name, matrix.label(i), 100.0 * share);
@@ -186,15 +173,12 @@ AnalysisReport analyseIcons(const AnalysisJob& o) {
         }
     }
     if (icons.empty())
-        report.error = o.files.front() + ": expected a condition that transfers " +
-                       bits(bitsFor(o.meanings)) + ", found none";
-    report.words = out.str();
-    report.table = table.text();
-    report.picture = [chosen, icons, isSimulated = report.isSimulated] {
+        report.error = job.files.front() + ": expected a condition that transfers " +
+                       bits(bitsFor(job.meanings)) + ", found none";
+    report.picture = [chosen, icons, isSimulated = data.isSimulated] {
         return barsChart({chartName(0), "Tactile icons: " + chosen, isSimulated}, "stimulus", "correct (%)",
                          icons, 100.0);
     };
-    return report;
 }
 
 } // namespace physvib

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 
 namespace physvib {
 namespace {
@@ -58,26 +57,20 @@ void tellErrors(std::ostream& out, const std::string& condition, const std::vect
 
 } // namespace
 
-AnalysisReport analysePlaces(const AnalysisJob& o) {
-    if (const auto fault = unitFault(o.columns); !fault.empty()) return {fault};
-    const auto data = readStudyFiles(o, readPlaces);
-    if (!data) return {data.error};
-    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
-    std::ostringstream out;
-    ExportTable table{
-        "places", data.value.isSimulated,
-        "condition,participant,target,trials,true_x,true_y,constant_x,constant_y,variable,distance"};
-    for (const auto& condition : data.value.conditions) {
-        tellErrors(out, condition.name.empty() ? "all trials" : condition.name, condition.trials);
+Result<StudyData<PlaceTrial>> readTargets(const AnalysisJob& job) {
+    if (auto fault = unitFault(job.columns); !fault.empty()) return Failure{std::move(fault)};
+    return readStudyFiles(job, readPlaces);
+}
+
+void analysePlaces(const StudyData<PlaceTrial>& data, const Findings& to) {
+    for (const auto& condition : data.conditions) {
+        tellErrors(to.out, condition.name.empty() ? "all trials" : condition.name, condition.trials);
         for (const TargetError& one : targetErrors(condition.trials)) {
-            table.row(condition.name, one.participant, one.target, one.trials, one.trueX, one.trueY,
-                      one.constantX, one.constantY,
-                      one.trials > 1 ? std::optional{one.variable} : std::nullopt, one.distance);
+            to.table.row(condition.name, one.participant, one.target, one.trials, one.trueX, one.trueY,
+                         one.constantX, one.constantY,
+                         one.trials > 1 ? std::optional{one.variable} : std::nullopt, one.distance);
         }
     }
-    report.words = out.str();
-    report.table = table.text();
-    return report;
 }
 
 // Analyses of perceptual resolution, as text and tables.
@@ -156,34 +149,27 @@ void addCounts(std::vector<std::string>& charts, const ConditionResolution& one,
 
 } // namespace
 
-AnalysisReport analyseResolution(const AnalysisJob& o) {
-    const auto data = readStudyFiles(o, readLocations);
-    if (!data) return {data.error};
-    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
-    std::ostringstream out;
+void analyseResolution(const StudyData<LocationTrial>& data, const Findings& to) {
+    auto& [job, report, out, table] = to;
     std::vector<ConditionResolution> made;
     std::vector<PercentCounts> counts;
-    ExportTable table{"resolution", data.value.isSimulated,
-                      "condition,target_column,target_row,responses,mean_x,mean_y,variance_x,variance_y,"
-                      "covariance,percent,borrowed"};
-    for (const auto& condition : data.value.conditions) {
+    for (const auto& condition : data.conditions) {
         made.push_back(resolveCondition(condition.name.empty() ? "all trials" : condition.name,
-                                        condition.trials, o.thresholdPercent));
+                                        condition.trials, job.thresholdPercent));
         const auto& one = made.back();
         for (const auto& words : one.normals.warnings)
             report.warnings.push_back(printable(one.condition) + ": " + words);
         if (!one.normals.fault.empty())
-            return {o.files.front() + ": " + printable(one.condition) + ": " + one.normals.fault};
+            return void(report.error =
+                            job.files.front() + ": " + printable(one.condition) + ": " + one.normals.fault);
         counts.push_back(one.counts);
         exportNormals(table, one);
     }
-    for (const ConditionResolution& one : made) tell(out, one.counts, one.resolution, o.thresholdPercent);
+    for (const ConditionResolution& one : made) tell(out, one.counts, one.resolution, job.thresholdPercent);
     Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
-    if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
-    report.words = out.str();
-    report.table = table.text();
+    if (data.isSimulated) provenance.entries.emplace_back("observer", "simulated");
     report.counts = percentCountsCsv(counts, provenance);
-    report.picture = [made, conditions = data.value.conditions, isSimulated = report.isSimulated] {
+    report.picture = [made, conditions = data.conditions, isSimulated = data.isSimulated] {
         std::vector<std::string> charts;
         for (std::size_t c = 0; c < made.size(); ++c) {
             const auto frame = [&] { return frameOf(made[c], charts, isSimulated); };
@@ -193,31 +179,23 @@ AnalysisReport analyseResolution(const AnalysisJob& o) {
         }
         return chartSheet(charts);
     };
-    return report;
 }
 
-AnalysisReport analysePercentCounts(const AnalysisJob& o) {
-    const auto data = readStudyFiles(o, readPercentCounts);
-    if (!data) return {data.error};
-    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
-    std::ostringstream out;
-    ExportTable table{"percent-counts", data.value.isSimulated, "condition,row,column,percent"};
+void analysePercentCounts(const StudyData<PercentCounts>& data, const Findings& to) {
+    const double threshold = to.job.thresholdPercent;
     std::vector<ConditionResolution> made;
-    for (const auto& condition : data.value.conditions) {
+    for (const auto& condition : data.conditions) {
         const PercentCounts& counts = condition.trials.front();
-        warnOfSum(counts, report.warnings);
-        made.push_back({counts.condition, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
-        tell(out, counts, made.back().resolution, o.thresholdPercent);
-        exportMerged(table, counts, made.back().resolution);
+        warnOfSum(counts, to.report.warnings);
+        made.push_back({counts.condition, {}, counts, perceptualResolution(counts, threshold)});
+        tell(to.out, counts, made.back().resolution, threshold);
+        exportMerged(to.table, counts, made.back().resolution);
     }
-    report.words = out.str();
-    report.table = table.text();
-    report.picture = [made, isSimulated = report.isSimulated] {
+    to.report.picture = [made, isSimulated = data.isSimulated] {
         std::vector<std::string> charts;
         for (const ConditionResolution& one : made) addCounts(charts, one, isSimulated);
         return chartSheet(charts);
     };
-    return report;
 }
 
 } // namespace physvib

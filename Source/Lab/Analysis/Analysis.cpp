@@ -5,29 +5,64 @@
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 namespace physvib {
 namespace {
 
+template <auto reader>
+auto fromFiles(const AnalysisJob& job) {
+    return readStudyFiles(job, reader);
+}
+
+/// What `analyse` finds in the trials that `read` finds.
+template <auto read, auto analyse>
+AnalysisReport analysed(const Analysis& which, const AnalysisJob& job) {
+    const auto data = read(job);
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    ExportTable table{which.name, report.isSimulated, which.columns};
+    std::ostringstream out;
+    analyse(data.value, Findings{job, report, out, table});
+    report.words = out.str();
+    report.table = table.text();
+    return report;
+}
+
 constexpr Analysis analyses[] = {
     {Analysis::Kind::results, "confusion",
-     "stimulus,response per trial: percent correct and information transfer", analyseConfusion},
+     "stimulus,response per trial: percent correct and information transfer",
+     "condition,participant,stimulus,response,count", analysed<readLabels, analyseConfusion>},
     {Analysis::Kind::results, "resolution",
-     "pointing responses: normals, likelihood map, percent counts, perceptual resolution", analyseResolution},
+     "pointing responses: normals, likelihood map, percent counts, perceptual resolution",
+     "condition,target_column,target_row,responses,mean_x,mean_y,variance_x,variance_y,covariance,percent,"
+     "borrowed",
+     analysed<fromFiles<readLocations>, analyseResolution>},
     {Analysis::Kind::results, "places",
-     "pointing at targets anywhere: constant and variable error, distance, gain", analysePlaces},
+     "pointing at targets anywhere: constant and variable error, distance, gain",
+     "condition,participant,target,trials,true_x,true_y,constant_x,constant_y,variable,distance",
+     analysed<readTargets, analysePlaces>},
     {Analysis::Kind::results, "percent-counts", "percent counts: the largest grid that merging makes of them",
-     analysePercentCounts},
-    {Analysis::Kind::results, "choices", "forced choices: shares of the alternatives", analyseChoices},
-    {Analysis::Kind::results, "ratings", "slider ratings: means by condition", analyseRatings},
+     "condition,row,column,percent", analysed<fromFiles<readPercentCounts>, analysePercentCounts>},
+    {Analysis::Kind::results, "choices", "forced choices: shares of the alternatives",
+     "condition,alternative,votes,trials,percent,least_percent,most_percent,participants,participants_median_"
+     "percent",
+     analysed<fromFiles<readChoices>, analyseChoices>},
+    {Analysis::Kind::results, "ratings", "slider ratings: means by condition",
+     "condition,scale,trials,participants,mean,standard_deviation,half_interval",
+     analysed<fromFiles<readRatings>, analyseRatings>},
     {Analysis::Kind::results, "levels",
-     "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means", analyseLevels},
+     "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means",
+     "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation,half_interval",
+     analysed<fromFiles<readLevels>, analyseLevels>},
     {Analysis::Kind::results, "icons", "stimulus,response per trial: the patterns that are confused least",
-     analyseIcons},
+     "condition,stimulus,percent_correct", analysed<readLabels, analyseIcons>},
     {Analysis::Kind::fit, "psychometric",
      "psychometric functions of each participant, thresholds and JNDs over participants",
-     analysePsychometric},
-    {Analysis::Kind::fit, "power-law", "Stevens' exponent of magnitude estimations", analysePowerLaw},
+     "condition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood",
+     analysed<readAnswers, analysePsychometric>},
+    {Analysis::Kind::fit, "power-law", "Stevens' exponent of magnitude estimations",
+     "condition,participant,trials,exponent,factor,r_squared", analysed<readMagnitudes, analysePowerLaw>},
 };
 
 static_assert(std::ranges::all_of(studyTasks,
@@ -90,9 +125,9 @@ std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
     std::vector<std::string> names;
     bool hasPlaces = false;
     const auto look = [&](const std::vector<NamedText>& files) -> Result<bool> {
-        auto table = readCsvTable(files[0].text, files[0].name, CsvHeader::loose);
         std::size_t leftOut = 0;
-        if (table && takeColumns(table.value, job.columns, leftOut).empty()) names = analysesFor(table.value);
+        const auto table = readStudyTable(files[0].text, files[0].name, job.columns, leftOut);
+        if (table) names = analysesFor(table.value);
         hasPlaces = table.value.column("target_x").has_value();
         return true;
     };
@@ -114,7 +149,7 @@ std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
 AnalysisReport analyse(const std::string& name, const AnalysisJob& job) {
     const auto found = std::ranges::find(analyses, name, &Analysis::name);
     if (found == std::end(analyses)) return AnalysisReport{"no analysis " + inQuotes(name)};
-    AnalysisReport report = found->run(job);
+    AnalysisReport report = found->run(*found, job);
     if (!report.error.empty()) report.error += otherKindWords(*found, job);
     return report;
 }

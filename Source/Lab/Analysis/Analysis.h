@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <ostream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -147,31 +148,43 @@ AnalysisReport analyse(const std::string& name, const AnalysisJob& options);
 struct Analysis {
     enum class Kind { results, fit } kind; ///< of trials, or fitted to each participant's trials
     std::string_view name;
-    const char* purpose;
-    AnalysisReport (*run)(const AnalysisJob&);
+    const char *purpose, *columns; ///< columns: of its table
+    AnalysisReport (*run)(const Analysis&, const AnalysisJob&);
 };
 
 /// Any thread.
 std::span<const Analysis> allAnalyses() noexcept;
 
-// The functions of all analyses, which the list in Analysis.cpp refers to.
+// What the list in Analysis.cpp refers to: readers, and the analyses of their trials.
+
+/// Where an analysis puts what it finds: `out` becomes the words of the report, `table` its table.
+struct Findings {
+    const AnalysisJob& job;
+    AnalysisReport& report;
+    std::ostream& out;
+    ExportTable& table;
+};
 
 // Labels: confusion matrices, information transfer, icons.
-AnalysisReport analyseConfusion(const AnalysisJob& job);
-AnalysisReport analyseIcons(const AnalysisJob& job);
+Result<StudyData<IdentificationTrial>> readLabels(const AnalysisJob& job);
+void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings& to);
+void analyseIcons(const StudyData<IdentificationTrial>& data, const Findings& to);
 
 // Places: perceptual resolution from pointing responses or percent counts, and pointing errors.
-AnalysisReport analyseResolution(const AnalysisJob& job);
-AnalysisReport analysePlaces(const AnalysisJob& job);
-AnalysisReport analysePercentCounts(const AnalysisJob& job);
+Result<StudyData<PlaceTrial>> readTargets(const AnalysisJob& job);
+void analyseResolution(const StudyData<LocationTrial>& data, const Findings& to);
+void analysePlaces(const StudyData<PlaceTrial>& data, const Findings& to);
+void analysePercentCounts(const StudyData<PercentCounts>& data, const Findings& to);
 
 // Judgements and levels: forced choices, slider ratings, staircases, QUEST+, adjustments, magnitudes.
-AnalysisReport analyseChoices(const AnalysisJob& job);
-AnalysisReport analyseRatings(const AnalysisJob& job);
-AnalysisReport analyseLevels(const AnalysisJob& job);
+void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to);
+void analyseRatings(const RatingData& data, const Findings& to);
+void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to);
 
 // Functions fitted to each participant's trials.
-AnalysisReport analysePsychometric(const AnalysisJob& job);
-AnalysisReport analysePowerLaw(const AnalysisJob& job);
+Result<StudyData<LevelAnswer>> readAnswers(const AnalysisJob& job);
+Result<StudyData<LevelAnswer>> readMagnitudes(const AnalysisJob& job);
+void analysePsychometric(const StudyData<LevelAnswer>& data, const Findings& to);
+void analysePowerLaw(const StudyData<LevelAnswer>& data, const Findings& to);
 
 } // namespace physvib

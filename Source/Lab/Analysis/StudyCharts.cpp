@@ -233,12 +233,8 @@ FitWords fitWords(std::span<const ColumnName> columns, const std::string& level,
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                               const PsychometricModel& model, const FitWords& words,
                               const LevelSummary* told) {
-    std::map<double, std::pair<double, double>> counts; // level -> hits, trials
-    for (const LevelAnswer& trial : trials) {
-        counts[trial.level].first += trial.answer;
-        counts[trial.level].second += 1.0;
-    }
-    const double least = counts.begin()->first, most = counts.rbegin()->first;
+    const auto counts = countByLevel(trials, [](const LevelAnswer& trial) { return trial.counted(); });
+    const double least = counts.front().level, most = counts.back().level;
     LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
@@ -254,12 +250,11 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
     }
     LineSeries answers{"trials of all participants", {}};
     answers.isDrawnThrough = false;
-    double largest = 1.0;
-    for (const auto& [level, count] : counts) largest = std::max(largest, count.second);
-    for (const auto& [level, count] : counts) {
-        const double share = 100.0 * count.first / count.second;
-        answers.points.push_back(
-            {level, {share, share, share}, 0.5 + 1.3 * std::sqrt(count.second / largest)});
+    const auto largest = static_cast<double>(std::ranges::max(counts, {}, &LevelCount::trials).trials);
+    for (const LevelCount& count : counts) {
+        const auto n = static_cast<double>(count.trials);
+        const double share = 100.0 * static_cast<double>(count.hits) / n;
+        answers.points.push_back({count.level, {share, share, share}, 0.5 + 1.3 * std::sqrt(n / largest)});
     }
     if (told != nullptr) {
         chart.threshold =

@@ -7,6 +7,8 @@
 #include "Lab/Study/Stimulus.h"
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <set>
 
 namespace physvib {
@@ -32,12 +34,6 @@ std::vector<Trial>& conditionNamed(const StudyRows& rows, StudyData<Trial>& data
     return data.conditions.back().trials;
 }
 
-template <class Trial>
-StudyData<Trial>& studyOf(StudyData<Trial>& data) {
-    return data;
-}
-StudyData<RatingTrial>& studyOf(RatingData& ratings) { return ratings.data; }
-
 /// Runs `take(rows, data)` per file. Exceptions become a Failure, and so do files without a usable trial.
 template <class Data, class Take>
 Result<Data> readAll(std::span<const NamedText> files, Take take) {
@@ -48,24 +44,23 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
             const StudyRows rows{file.text, file.name, file.columns};
             if (std::string fault = shared.add(rows.table()); !fault.empty())
                 throw StudyFault{std::move(fault)};
-            studyOf(data).isSimulated |= rows.isSimulated();
+            data.isSimulated |= saysSimulated(rows.table());
             const std::size_t taken = take(rows, data);
             if (rows.leftOut() > 0)
-                studyOf(data).warnings.push_back(
-                    rows.table().name + ": rows left out, with nothing in one of the named columns: " +
-                    std::to_string(rows.leftOut()));
+                data.warnings.push_back(rows.table().name +
+                                        ": rows left out, with nothing in one of the named columns: " +
+                                        std::to_string(rows.leftOut()));
             if (rows.notLeft() > 0)
-                studyOf(data).warnings.push_back(rows.table().name + ": " + notLeftWords(rows.notLeft()));
+                data.warnings.push_back(rows.table().name + ": " + notLeftWords(rows.notLeft()));
             if (rows.ranOut() > 0)
-                studyOf(data).warnings.push_back(rows.table().name +
-                                                 ": left out: " + ranOutWords(rows.ranOut()));
+                data.warnings.push_back(rows.table().name + ": left out: " + ranOutWords(rows.ranOut()));
             if (taken == 0)
                 throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
         }
     } catch (const StudyFault& fault) {
         return Failure{fault.message};
     }
-    if (std::string note = shared.note(); !note.empty()) studyOf(data).warnings.push_back(std::move(note));
+    if (std::string note = shared.note(); !note.empty()) data.warnings.push_back(std::move(note));
     return data;
 }
 
@@ -227,15 +222,34 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     });
 }
 
-std::vector<std::size_t> scaleColumns(const CsvTable& table) {
-    std::vector<std::size_t> scales;
+/// Whether a column tells of people, as their age does: several rows of some, and no two values of anybody.
+bool isOfPeople(const CsvTable& table, std::size_t column) {
+    const auto who = table.column("participant");
+    std::map<std::string, std::set<std::string>> values;
+    for (const CsvRow& row : table.rows)
+        values[who ? row.cells[*who] : std::string{}].insert(row.cells[column]);
+    return who && values.size() < table.rows.size() &&
+           std::ranges::all_of(values, [](const auto& own) { return own.second.size() == 1; });
+}
+
+/// Of other programs' tables without what tells of people, if there is more.
+std::vector<std::size_t> scaleColumns(const CsvTable& table, std::vector<std::string>& warnings) {
+    std::vector<std::size_t> all, scales;
     for (std::size_t c = 0; c < table.columns.size(); ++c)
-        if (!trialColumns::has(table.columns[c])) scales.push_back(c);
+        if (!trialColumns::has(table.columns[c])) all.push_back(c);
+    if (table.column(trialColumns::task)) return all;
+    std::ranges::copy_if(all, std::back_inserter(scales),
+                         [&](std::size_t c) { return !isOfPeople(table, c); });
+    if (scales.empty()) return all;
+    for (const std::size_t c : all)
+        if (std::ranges::find(scales, c) == scales.end())
+            warnings.push_back(table.name + ": column " + printable(table.columns[c]) +
+                               " has one value of each participant: no scale");
     return scales;
 }
 
 std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
-    const auto scales = scaleColumns(rows.table());
+    const auto scales = scaleColumns(rows.table(), ratings.warnings);
     const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
                participant = rows.optional("participant");
     std::vector<std::string> names;
@@ -252,7 +266,7 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
         for (const auto c : scales)
             trial.scores.push_back(isOwn && row.cells[c].empty() ? std::nan("")
                                                                  : rows.number(row, c, 0.0, 100.0));
-        conditionNamed(rows, ratings.data, {}).push_back(std::move(trial));
+        conditionNamed(rows, ratings, {}).push_back(std::move(trial));
     });
 }
 
@@ -287,6 +301,7 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
         trial.session = StudyRows::textIf(row, rows.optional("session"));
         if (const auto mixed = rows.optional(trialColumns::staircase); mixed && !row.cells[*mixed].empty())
             trial.session += "/" + row.cells[*mixed]; // a run of its own
+        trial.value = row.cells[rows.required("correct")] == "1" ? 1.0 : 0.0;
         if (const std::string* const quest = questWordsOf(rows, row)) {
             trial.kind = LevelTrial::Kind::quest;
             trial.value = rows.wholeNumber(row, rows.required("correct"), 0, 1);
@@ -452,7 +467,7 @@ Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) {
 
 Result<RatingData> readRatings(std::span<const NamedText> files) {
     auto data = readAll<RatingData>(files, takeRatings);
-    for (auto& all : data.value.data.conditions) nameKinds(all.trials);
+    for (auto& all : data.value.conditions) nameKinds(all.trials);
     return data;
 }
 

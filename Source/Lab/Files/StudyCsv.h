@@ -31,9 +31,8 @@ struct StudyData {
     bool isSimulated = false;                      ///< at least one trial comes from a simulated observer
 };
 
-struct RatingData {
+struct RatingData : StudyData<RatingTrial> {
     std::vector<std::string> scales; ///< names of a trial's scores
-    StudyData<RatingTrial> data;
 };
 
 /// Contents and display name of a file.

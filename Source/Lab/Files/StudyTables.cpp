@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the mapped columns once, then reduces every row to them.
 #include "Lab/Files/StudyTables.h"
+#include "Io/Text/CleanText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/PercentCounts.h"
@@ -67,34 +68,13 @@ std::string numberLines(CsvTable& table, std::string_view places, const char* li
     return {};
 }
 
-} // namespace
-
-Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words) {
-    std::vector<ColumnName> names;
-    for (const std::string& word : words) {
-        const std::size_t equals = word.find('=');
-        if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
-            return Failure{"expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found " +
-                           inQuotes(word)};
-        names.push_back(withRange(word.substr(0, equals), word.substr(equals + 1)));
-        if (std::ranges::count(names, names.back().ours, &ColumnName::ours) > 1)
-            return Failure{"expected each name once, found " + inQuotes(names.back().ours) + " twice"};
+bool isUtf8(std::string_view text) noexcept {
+    while (!text.empty()) {
+        const std::size_t bytes = firstCharacter(text).bytes;
+        if (bytes == 0) return false;
+        text.remove_prefix(bytes);
     }
-    return names;
-}
-
-std::string unitFault(std::span<const ColumnName> names) {
-    for (const auto& [answered, truth] : {std::pair{"x", "target_x"}, {"y", "target_y"}}) {
-        const auto a = std::ranges::find(names, answered, &ColumnName::ours),
-                   t = std::ranges::find(names, truth, &ColumnName::ours);
-        if (a != names.end() && t != names.end() && a->range.has_value() != t->range.has_value())
-            return std::string{"--columns: expected a range of both "}
-                .append(answered)
-                .append(" and ")
-                .append(truth)
-                .append(", or of none of them, as they are compared");
-    }
-    return {};
+    return true;
 }
 
 void takeOthersWords(CsvTable& table) {
@@ -166,6 +146,63 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std:
             if (std::string fault = scale(table, c, *names[c].range); !fault.empty()) return fault;
     if (std::string fault = numberLines(table, "target_x", "target_column"); !fault.empty()) return fault;
     return numberLines(table, "target_y", "target_row");
+}
+
+} // namespace
+
+Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words) {
+    std::vector<ColumnName> names;
+    for (const std::string& word : words) {
+        const std::size_t equals = word.find('=');
+        if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
+            return Failure{"expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found " +
+                           inQuotes(word)};
+        names.push_back(withRange(word.substr(0, equals), word.substr(equals + 1)));
+        if (std::ranges::count(names, names.back().ours, &ColumnName::ours) > 1)
+            return Failure{"expected each name once, found " + inQuotes(names.back().ours) + " twice"};
+    }
+    return names;
+}
+
+std::string unitFault(std::span<const ColumnName> names) {
+    for (const auto& [answered, truth] : {std::pair{"x", "target_x"}, {"y", "target_y"}}) {
+        const auto a = std::ranges::find(names, answered, &ColumnName::ours),
+                   t = std::ranges::find(names, truth, &ColumnName::ours);
+        if (a != names.end() && t != names.end() && a->range.has_value() != t->range.has_value())
+            return std::string{"--columns: expected a range of both "}
+                .append(answered)
+                .append(" and ")
+                .append(truth)
+                .append(", or of none of them, as they are compared");
+    }
+    return {};
+}
+
+Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
+                                std::span<const ColumnName> names, std::size_t& rowsLeftOut) {
+    auto read = readCsvTable(text, name, names.empty() ? CsvHeader::named : CsvHeader::loose);
+    if (!read) return read;
+    CsvTable& table = read.value;
+    if (!isUtf8(text))
+        return Failure{table.name + ": expected UTF-8, found Latin-1 or the like: save it as CSV UTF-8"};
+    if (std::string fault = takeColumns(table, names, rowsLeftOut); !fault.empty())
+        return Failure{std::move(fault)};
+    takeOthersWords(table);
+    if (std::string fault = doubledRowFault(table); !fault.empty()) return Failure{std::move(fault)};
+    return read;
+}
+
+bool saysSimulated(const CsvTable& table) {
+    const auto holds = [](const std::string& text) {
+        return text.find(trialColumns::simulated) != std::string::npos;
+    };
+    const auto observer = table.column(trialColumns::observer);
+    return std::ranges::any_of(table.comments,
+                               [&](const auto& line) {
+                                   return line.find(" observer=") != std::string::npos && holds(line);
+                               }) ||
+           (observer &&
+            std::ranges::any_of(table.rows, [&](const CsvRow& row) { return holds(row.cells[*observer]); }));
 }
 
 // Detects participants in several tables. A trial file has one person, so a second file of the same person is

@@ -37,20 +37,18 @@ Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> wo
 /// differ. Any thread (allocates).
 std::string unitFault(std::span<const ColumnName> names);
 
-/// Reduces `table` to the named columns, under our names. The column `observer` stays, as it may mark
-/// simulated data. Rows with an empty cell in one of the columns (instructions, fixations, trials without an
-/// answer) are dropped and counted. From numeric true places target_x and target_y, columns target_column and
-/// target_row are derived, ascending from 1, if each axis has at most mostGridLines of them. Returns an error
-/// line or an empty string; without `names` it does nothing. Any thread.
-std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut);
+/// A table of trials in UTF-8, with one row per trial; otherwise one line on what is not as expected. With
+/// `names` it has the named columns alone, under our names, and `observer`, as that may mark simulated data.
+/// Rows with an empty cell in one of them (instructions, fixations, trials without an answer) are dropped and
+/// counted. From numeric true places target_x and target_y, columns target_column and target_row are derived,
+/// ascending from 1, if each axis has at most mostGridLines of them. In tables of other programs, answers
+/// that are none (null, None, NaN, NA, n/a) become empty cells, and right or wrong as true, TRUE, 1.0 become
+/// 1 or 0. Codes and labels stay: NA may be a participant. Any thread (allocates).
+Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
+                                std::span<const ColumnName> names, std::size_t& rowsLeftOut);
 
-/// In tables of other programs, answers that are none (null, None, NaN, NA, n/a) become empty cells, and
-/// right or wrong as true, TRUE, 1.0 become 1 or 0. Codes and labels stay: NA may be a participant. Any
-/// thread (allocates).
-void takeOthersWords(CsvTable& table);
-
-/// Empty, or one line on a trial that is twice in a trial file. Any thread (allocates).
-std::string doubledRowFault(const CsvTable& table);
+/// Whether a simulated observer gave one of the answers. Any thread.
+bool saysSimulated(const CsvTable& table);
 } // namespace physvib
 namespace physvib::detail {
 /// Error in a study file; caught within Lab/Files.
@@ -64,13 +62,9 @@ public:
     enum class Kept { left, all }; ///< left: without trials that did not leave as planned, or ran out of time
     StudyRows(std::string_view text, std::string_view name, std::span<const ColumnName> columns = {},
               Kept kept = Kept::left) {
-        auto read = readCsvTable(text, name, columns.empty() ? CsvHeader::named : CsvHeader::loose);
-        if (!read) throw StudyFault{read.error};
+        auto read = readStudyTable(text, name, columns, leftOut_);
+        if (!read) throw StudyFault{std::move(read.error)};
         table_ = std::move(read.value);
-        if (std::string fault = takeColumns(table_, columns, leftOut_); !fault.empty())
-            throw StudyFault{std::move(fault)};
-        takeOthersWords(table_);
-        if (std::string fault = doubledRowFault(table_); !fault.empty()) throw StudyFault{std::move(fault)};
         if (kept == Kept::all) return;
         const LeftRows rows{table_};
         if (const auto late = optional(trialColumns::ranOut))
@@ -134,19 +128,6 @@ public:
             throw StudyFault{table_.fault(
                 row, column, "a whole number from " + std::to_string(least) + " to " + std::to_string(most))};
         return *found;
-    }
-
-    bool isSimulated() const {
-        const auto holds = [](const std::string& text) {
-            return text.find(trialColumns::simulated) != std::string::npos;
-        };
-        const auto observer = optional(trialColumns::observer);
-        return std::ranges::any_of(table_.comments,
-                                   [&](const auto& line) {
-                                       return line.find(" observer=") != std::string::npos && holds(line);
-                                   }) ||
-               (observer && std::ranges::any_of(
-                                table_.rows, [&](const CsvRow& row) { return holds(row.cells[*observer]); }));
     }
 
 private:

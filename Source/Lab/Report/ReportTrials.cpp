@@ -20,18 +20,6 @@
 namespace physvib {
 namespace {
 
-bool saysSimulated(const TrialFile& file) {
-    const auto holds = [](const std::string& text) {
-        return text.find(trialColumns::simulated) != std::string::npos;
-    };
-    if (const auto observer = file.head.find("observer");
-        observer != file.head.end() && holds(observer->second))
-        return true;
-    const auto column = file.table.column(trialColumns::observer);
-    return column &&
-           std::ranges::any_of(file.table.rows, [&](const CsvRow& row) { return holds(row.cells[*column]); });
-}
-
 std::string valueOf(const TrialFile& file, const std::string& key) {
     const auto found = file.head.find(key);
     return found == file.head.end() ? std::string{} : found->second;
@@ -122,13 +110,8 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
     ReportTrials trials;
     SharedParticipants shared;
     for (const auto& [path, text] : texts) {
-        auto table = readCsvTable(text, path, columns.empty() ? CsvHeader::named : CsvHeader::loose);
+        auto table = readStudyTable(text, path, columns, trials.rowsLeftOut);
         if (!table) return Failure{table.error};
-        if (std::string fault = takeColumns(table.value, columns, trials.rowsLeftOut); !fault.empty())
-            return Failure{std::move(fault)};
-        takeOthersWords(table.value);
-        if (std::string fault = doubledRowFault(table.value); !fault.empty())
-            return Failure{std::move(fault)};
         if (std::string fault = callsFault(table.value, callFault); !fault.empty())
             return Failure{std::move(fault)};
         if (std::string fault = shared.add(table.value); !fault.empty()) return Failure{std::move(fault)};
@@ -145,7 +128,7 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
             if (asked(first.table) != asked(file.table))
                 return Failure{path + ": expected the columns of " + first.name + ", found others"};
         }
-        trials.isSimulated |= saysSimulated(file);
+        trials.isSimulated |= saysSimulated(file.table);
         trials.files.push_back(std::move(file));
     }
     trials.all = joined(trials.files);

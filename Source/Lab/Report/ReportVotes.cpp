@@ -117,7 +117,7 @@ void tellRatings(ReportBuilder& report) {
     if (const auto words = report.analysis("ratings", report.optionsFor(trialsTable), "ratings.csv");
         !words.error.empty())
         return;
-    const auto& trials = data.value.data.conditions.front().trials;
+    const auto& trials = data.value.conditions.front().trials;
     const auto& scales = data.value.scales;
     const auto summaries = summariseRatings(trials);
     std::set<std::string> conditions;

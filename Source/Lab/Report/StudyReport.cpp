@@ -5,10 +5,10 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
 #include "Io/Text/CsvText.h"
-#include "Lab/Files/BidsDataset.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Report/AnalysisScript.h"
+#include "Lab/Report/BidsDataset.h"
 #include "Lab/Report/ProtocolWords.h"
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Study/SimulatedObserver.h"
@@ -118,8 +118,8 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
     for (const Section& section : sections)
         if (std::ranges::find(kinds, section.analysis) != kinds.end()) section.tell(report);
     if (!tellDescriptions(report) && kinds.empty()) {
-        made.notes.emplace_back(
-            "no analysis is known for these trials: the report has their table and the participants only");
+        made.notes.emplace_back("no description is known for these trials: the report has their table, the "
+                                "participants, and tests");
         report.page.heading("Results");
         report.page.note(made.notes.back());
         report.page.table(report.tableText(trialsTable), trialsTable);

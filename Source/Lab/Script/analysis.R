@@ -102,6 +102,12 @@ tell.lacking <- function(test, cells) {
   if (length(lacking) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = paste("some levels are lacking of", paste(lacking, collapse = ", ")))
 }
 
+# Of each group its means of the levels within participants, where they are few.
+tell.means <- function(cells, group) if (nlevels(group) * ncol(cells) <= 24) for (g in levels(group)) {
+  own <- cells[group == g, , drop = FALSE]
+  cat("  ", g, " (n = ", nrow(own), "), means: ", paste0(colnames(cells), " ", vapply(colMeans(own), function(y) format(signif(y, 4), digits = 4), ""),
+    if (nrow(own) > 1) paste0(" (standard deviation ", vapply(apply(own, 2, sd), function(y) format(signif(y, 3), digits = 3), ""), ")"), collapse = ", "), "\n", sep = "")
+}
 # Means of participants' cells, within and between them: each effect by its orthonormal contrasts of the cells, against its own error; between people by
 # sums of squares of type III. p is corrected by Greenhouse and Geisser.
 anova.test <- function(test, file, measure, within = character(), where = character(), between = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
@@ -110,6 +116,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   people <- setNames(lapply(between, function(b) of.people(file, measure, b, rownames(cells), where)), sprintf("b%d", seq_along(between)))
   x <- if (length(between) > 0) model.matrix(as.formula(paste("~", paste(names(people), collapse = "*"))), as.data.frame(people), lapply(people, function(f) "contr.sum"))
        else matrix(1, n, 1)
+  if (length(between) > 0 && length(within) > 0) tell.means(cells, interaction(people, sep = ":", drop = TRUE))
   terms <- if (length(between) > 0) attr(x, "assign") else 0
   labels <- c("", vapply(unlist(lapply(seq_along(between), function(m) combn(between, m, paste, collapse = ":")), use.names = FALSE), identity, ""))
   left.df <- n - qr(x)$rank
@@ -203,7 +210,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
       t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else if (is.signed) wilcox.test(different) else wilcox.test(even(a, size), even(b, size)), error = function(e) list(p.value = NaN))
       out <- list(p = t$p.value, value = t$statistic, df = NA, size = "rank-biserial r", interval = c(NA, NA), n = if (is.within) n else length(a) + length(b))
       if (is.nan(t$p.value)) return(out)
-      if (by == "t") return(modifyList(out, list(df = t$parameter, size = "d", effect = mean(a - b) / sd(a - b), difference = mean(a - b), interval = t$conf.int)))
+      if (by == "t") return(modifyList(out, list(df = t$parameter, size = "d_z", effect = mean(a - b) / sd(a - b), difference = mean(a - b), interval = t$conf.int)))
       share <- if (is.signed) t$statistic / sum(seq_len(sum(different != 0))) else t$statistic / (length(a) * length(b))
       modifyList(out, list(effect = 2 * share - 1, difference = if (is.signed) median(a - b) else median(a) - median(b)))
     })
@@ -219,7 +226,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
     }
     if (by == "t" && is.within && n > 1) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
       found <- power.t.test(n, power = 0.8, sd = 1, sig.level = alpha, type = "paired")$delta
-      cat("  power: n = ", n, " finds d = ", round(found, 2), " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
+      cat("  power: n = ", n, " finds d_z = ", round(found, 2), " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
     })
   }
 }) }
@@ -313,7 +320,8 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   name <- paste(what, "by", paste(factors, collapse = ", "))
   if (kind == "scores") anova.test(paste("analysis of variance of", name), d, measure, design$within, between = design$between)
   else if (any(vapply(factors, function(f) length(unique(level(d, f))) > 2, NA)))
-    friedman(paste("Friedman's or Kruskal and Wallis' test of", name), d, measure, design$within, between = design$between)
+    friedman(paste(paste(c("Friedman's", "Kruskal and Wallis'")[c(length(design$within) > 0, length(design$between) > 0)], collapse = " and "), "test of", name),
+             d, measure, design$within, between = design$between)
   if (length(few(factors)) > 0)
     pairs.test(paste("pairs by", if (kind == "scores") "t" else "ranks", "of", name), d, measure, few(design$within), by = if (kind == "scores") "t" else "ranks",
                correction = if (as.published) "bonferroni" else "holm", between = few(design$between), paired = !as.published)
@@ -441,6 +449,7 @@ study <- function(study, scales = character(), points = character()) {
     for (m in unique(own$method)) compare(paste("threshold by", m), own[own$method == m, ], "threshold", columns = c("group", "condition"))
   } else from("psychometric.csv", c("threshold", "jnd"))
   from("psychometric-stimuli.csv", c("threshold", "jnd"))
+  if (!is.told && !any(file.exists(c("identification.csv", "psychometric.csv")))) each("", "correct", function(own, words) compare("share of right answers", own, "correct"))
   each("adjust", "value", function(own, words) if (is.told) compare(paste0("matched levels", words), own, "value"))
   each("estimate", "value", function(own, words) compare(paste0("magnitudes", words), own, "value", "magnitudes"))
   from("power-law.csv", "exponent")

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Maximum-likelihood fit of threshold, width and lapse rate.
-// Steps: 1. Evaluate a coarse grid. 2. Start Nelder and Mead's simplex (1965) at its best point. 3. Restart
-// the simplex once, because the first may have collapsed on a slope.
-// Search units: the range of the levels is 1, the width is logarithmic, and the lapse rate is kept in bounds
-// by a cosine.
+// Steps: 1. Evaluate a coarse grid. 2. Start Nelder and Mead's simplex (1965) at the best point of each
+// width, because there may be several maxima. 3. Restart it once at the best of all, because it may have
+// collapsed on a slope. Search units: the range of the levels is 1, the width is logarithmic, and the lapse
+// rate is kept in bounds by a cosine.
 #include "Lab/Study/Psychometric.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/Summaries.h"
@@ -64,15 +64,14 @@ private:
     double least_ = 0.0, range_ = 1.0;
 };
 
-Point bestOfGrid(const Likelihood& likelihood) {
+Point bestOfGrid(const Likelihood& likelihood, double width) {
     Point best{};
     double least = std::numeric_limits<double>::max();
     for (double threshold = -0.25; threshold < 1.3; threshold += 0.125)
-        for (const double width : {0.1, 0.25, 0.5, 1.0, 2.0})
-            for (const double lapse : {0.5, 1.5}) {
-                const Point at{threshold, std::log(width), lapse};
-                if (const double value = likelihood(at); value < least) least = value, best = at;
-            }
+        for (const double lapse : {0.5, 1.5}) {
+            const Point at{threshold, std::log(width), lapse};
+            if (const double value = likelihood(at); value < least) least = value, best = at;
+        }
     return best;
 }
 
@@ -138,9 +137,11 @@ std::string faultOfCounts(std::span<const LevelCount> counts) {
     return {};
 }
 
+constexpr double sameLikelihood = 0.1; // of its logarithm: what is a tenth likelier tells nothing
+
 /// What the levels and answers do not tell, though a likeliest function was found.
 std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricModel& model,
-                       const PsychometricFunction& f, double likeliest) {
+                       const PsychometricFunction& f, double likeliest, bool hasJnd) {
     const auto [least, most] = std::ranges::minmax(counts, {}, &LevelCount::level);
     const double range = most.level - least.level;
     double trials = 0.0, level = 0.0, hits = 0.0, product = 0.0;
@@ -150,13 +151,22 @@ std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricMod
     }
     const double slope = product - level * hits / trials;
     if (slope <= 0.0) return "the share of answers does not rise with the level";
-    // A step between two levels that is as likely as the fit: the answers do not tell how wide it is.
-    for (std::size_t i = 1; i < counts.size(); ++i)
-        for (const double lapse : {f.lapse, 0.0})
-            if (logLikelihood(counts, {model.shape, 0.5 * (counts[i - 1].level + counts[i].level),
-                                       1e-3 * range, model.guess, lapse}) > likeliest - 1e-2)
-                return "a step between two levels fits as well, so the answers tell no JND";
     if (f.width > 19.5 * range) return "the answers hardly change within the levels that were played";
+    // A step at a level, whose own share it has, or beside it, that is as likely as the fit: the answers do
+    // not tell how wide it is.
+    const double width = 1e-3 * range;
+    for (const LevelCount& c : counts)
+        for (const double lapse : {f.lapse, 0.0})
+            for (const std::uint64_t own : {std::uint64_t{0}, c.hits, c.trials}) {
+                const double share =
+                    (static_cast<double>(own) / static_cast<double>(c.trials) - model.guess) /
+                    (1.0 - model.guess - lapse);
+                const double at =
+                    c.level - width * whereRisen(model.shape, std::clamp(share, 1e-3, 1.0 - 1e-3));
+                if (hasJnd && logLikelihood(counts, {model.shape, at, width, model.guess, lapse}) >
+                                  likeliest - sameLikelihood)
+                    return "a step fits as well, so the answers tell no JND";
+            }
     if (f.threshold < least.level || f.threshold > most.level)
         return "the threshold, " +
                fixedNumber(f.threshold, std::max(0, 2 - static_cast<int>(std::floor(std::log10(range))))) +
@@ -189,14 +199,17 @@ double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunct
     return sum;
 }
 
-PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model) {
+PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model,
+                                bool hasJnd) {
     if (auto fault = faultOfCounts(counts); !fault.empty()) return {fault};
     const Likelihood likelihood{counts, model};
-    Point best = climb(likelihood, bestOfGrid(likelihood));
-    best = climb(likelihood, best); // step 3
+    std::vector<Point> tops;
+    for (const double width : {0.1, 0.25, 0.5, 1.0, 2.0})
+        tops.push_back(climb(likelihood, bestOfGrid(likelihood, width)));
+    const Point best = climb(likelihood, std::ranges::min(tops, {}, likelihood)); // step 3
     const PsychometricFunction found = likelihood.function(best);
     const double likeliest = -likelihood(best);
-    return {faultOfFit(counts, model, found, likeliest), found, likeliest};
+    return {faultOfFit(counts, model, found, likeliest, hasJnd), found, likeliest};
 }
 
 // Groups trials by participant and fits each group.
@@ -205,16 +218,8 @@ std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector
                                                                const PsychometricModel& model) {
     std::vector<ParticipantPsychometric> fits;
     for (const auto& [participant, own] : byParticipant(trials)) {
-        std::map<double, LevelCount> byLevel;
-        for (const LevelAnswer& trial : own) {
-            LevelCount& count = byLevel[trial.level];
-            count.level = trial.level;
-            ++count.trials;
-            count.hits += trial.answer > 0.5;
-        }
-        std::vector<LevelCount> counts;
-        for (const auto& [level, count] : byLevel) counts.push_back(count);
-        fits.push_back({participant, own.size(), fitPsychometric(counts, model)});
+        const auto counts = countByLevel(own, [](const LevelAnswer& trial) { return trial.counted(); });
+        fits.push_back({participant, own.size(), fitPsychometric(counts, model, !own.front().isAdaptive)});
     }
     return fits;
 }

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace physvib {
@@ -51,6 +53,21 @@ struct LevelCount {
     std::uint64_t hits = 0, trials = 0;
 };
 
+/// Trials of `trials` by rising levels; `of` a trial is its level and whether it was a hit. Any thread.
+template <class Trials, class Of>
+std::vector<LevelCount> countByLevel(const Trials& trials, Of of) {
+    std::map<double, LevelCount> counts;
+    for (const auto& trial : trials) {
+        const std::pair<double, bool> one = of(trial);
+        LevelCount& count = counts.try_emplace(one.first, LevelCount{one.first}).first->second;
+        ++count.trials;
+        count.hits += one.second;
+    }
+    std::vector<LevelCount> all;
+    for (const auto& [level, count] : counts) all.push_back(count);
+    return all;
+}
+
 /// Natural logarithm of the probability of the answers. A probability of 0 or 1 counts as 1e-12 away from it.
 /// Any thread.
 double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function);
@@ -63,8 +80,10 @@ struct PsychometricFit {
 
 /// Maximum-likelihood fit; `counts` by rising levels. Errors: fewer than two levels, answers that do not rise
 /// with the level or as a step alone, a width at the bound of the search (20 times the levels' range), a
-/// threshold outside the levels. Any thread (allocates).
-PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model);
+/// threshold outside the levels. `hasJnd`: the width is wanted, too, so a step is no fit. Any thread
+/// (allocates).
+PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model,
+                                bool hasJnd = true);
 
 // Stevens' power law, magnitude = factor * level^exponent, fitted by least squares of logarithms.
 
@@ -104,6 +123,7 @@ struct LevelAnswer {
     std::string participant;
     double level = 0.0, answer = 0.0;
     bool isAdaptive = false; ///< earlier answers chose the level, so the answers do not tell the slope
+    std::pair<double, bool> counted() const noexcept { return {level, answer > 0.5}; } ///< for countByLevel()
 };
 
 struct ParticipantPsychometric {

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string_view>
 #include <tuple>
 
@@ -91,6 +92,11 @@ ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uin
     ChoiceShare share{alternative, hits,           moments.mean,        pooled.least,
                       pooled.most, median(shares), rankInterval(shares)};
     if (shares.size() < 2) return share;
+    if (hits == 0 || hits == trials) { // all alike: Student's t has no width
+        const Proportion alike = proportion(hits > 0 ? shares.size() : 0, shares.size());
+        share.least = alike.least, share.most = alike.most;
+        return share;
+    }
     share.least = std::max(0.0, moments.mean - moments.halfInterval());
     share.most = std::min(1.0, moments.mean + moments.halfInterval());
     return share;
@@ -145,39 +151,49 @@ RatingSummary summarise(const std::string& condition, const Chosen& trials) {
 
 } // namespace
 
+namespace {
+
+template <class Trial>
+using Groups = std::map<std::string, std::vector<const Trial*>>;
+
+template <class Trial>
+Groups<Trial> byCondition(const std::vector<Trial>& trials) {
+    Groups<Trial> conditions;
+    for (const Trial& trial : trials) conditions[trial.condition].push_back(&trial);
+    return conditions;
+}
+
+/// Of factors in names of conditions, those that are no condition of their own.
+template <class Trial>
+Groups<Trial> byFactor(const std::vector<Trial>& trials, const Groups<Trial>& conditions) {
+    Groups<Trial> factors;
+    for (const Trial& trial : trials)
+        for (const auto& factor : factorsOf(trial.condition))
+            if (!conditions.contains(factor)) factors[factor].push_back(&trial);
+    return factors;
+}
+
+} // namespace
+
 std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials) {
-    std::map<std::string, std::vector<const ChoiceTrial*>> conditions;
     std::vector<const ChoiceTrial*> all;
     std::set<std::string> alternatives;
-    for (const auto& trial : trials) {
-        conditions[trial.condition].push_back(&trial);
-        all.push_back(&trial);
-        alternatives.insert(trial.choice);
-    }
+    for (const auto& trial : trials) all.push_back(&trial), alternatives.insert(trial.choice);
     std::vector<ChoiceSummary> summaries;
     if (all.empty()) return summaries;
     summaries.push_back(summarise("all", all, alternatives));
+    const auto conditions = byCondition(trials);
     if (conditions.size() < 2) return summaries;
-    std::map<std::string, std::vector<const ChoiceTrial*>> factors;
-    for (const auto* trial : all)
-        for (const auto& factor : factorsOf(trial->condition)) factors[factor].push_back(trial);
-    for (const auto& [factor, own] : factors)
-        if (!conditions.contains(factor)) summaries.push_back(summarise(factor, own, alternatives));
-    for (const auto& [condition, own] : conditions)
-        summaries.push_back(summarise(condition, own, alternatives));
+    for (const auto& groups : {byFactor(trials, conditions), conditions})
+        for (const auto& [name, own] : groups) summaries.push_back(summarise(name, own, alternatives));
     return summaries;
 }
 
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials) {
-    std::map<std::string, Chosen> conditions;
-    for (const auto& trial : trials) conditions[trial.condition].push_back(&trial);
     std::vector<RatingSummary> summaries;
+    const auto conditions = byCondition(trials);
     for (const auto& [condition, own] : conditions) summaries.push_back(summarise(condition, own));
-    std::map<std::string, Chosen> factors;
-    for (const auto& trial : trials)
-        for (const auto& factor : factorsOf(trial.condition))
-            if (!conditions.contains(factor)) factors[factor].push_back(&trial);
-    for (const auto& [factor, own] : factors)
+    for (const auto& [factor, own] : byFactor(trials, conditions))
         if (own.size() < trials.size()) summaries.push_back(summarise(factor, own));
     return summaries;
 }
@@ -224,13 +240,40 @@ auto labelKey(const std::string& label) {
 
 using Run = std::vector<const LevelTrial*>; // one participant's trials of a session
 
+/// Levels that stayed though as many answers in a row were given as moved others: the ends of a staircase's
+/// levels.
+std::set<double> endsOf(const Run& run) {
+    std::set<double> ends;
+    std::array<std::size_t, 2> enough{run.size(), run.size()}; // wrong, right
+    for (const bool isKnown : {false, true}) {
+        std::size_t inARow = 0;
+        for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+            const bool isRight = run[i]->value > 0.5;
+            const double move = run[i + 1]->levelDb - run[i]->levelDb;
+            inARow = i > 0 && (run[i - 1]->value > 0.5) != isRight ? 1 : inARow + 1;
+            if (isRight ? move < 0.0 : move > 0.0)
+                enough[isRight] = std::min(enough[isRight], inARow);
+            else if (isKnown && inARow >= enough[isRight])
+                ends.insert(run[i]->levelDb);
+            if (move != 0.0) inARow = 0;
+        }
+    }
+    return ends;
+}
+
+/// NaN: of fewer than two reversals; infinite: of half of the later ones at an end of the levels.
 double staircaseThreshold(const Run& run, LevelSummary& summary) {
     std::vector<double> levels;
     for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
     const auto reversals = reversalsOf(levels);
     summary.reversals += reversals.size();
-    return reversals.size() < 2 ? std::numeric_limits<double>::quiet_NaN()
-                                : meanOf(reversals, reversals.size() / 2);
+    if (reversals.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+    const std::span later{reversals.begin() + static_cast<std::ptrdiff_t>(reversals.size() / 2),
+                          reversals.end()};
+    const auto ends = endsOf(run);
+    const auto atEnd = std::ranges::count_if(later, [&](double level) { return ends.contains(level); });
+    return 2 * static_cast<std::size_t>(atEnd) >= later.size() ? std::numeric_limits<double>::infinity()
+                                                               : meanOf(reversals, reversals.size() / 2);
 }
 
 double questThreshold(const Run& run, LevelSummary& summary) {
@@ -249,18 +292,6 @@ std::map<SessionKey, Run> runsOf(const Run& trials) {
     return runs;
 }
 
-std::vector<LevelCount> levelCountsOf(const Run& run) {
-    std::map<double, LevelCount> counts;
-    for (const LevelTrial* trial : run) {
-        LevelCount& count = counts.try_emplace(trial->levelDb, LevelCount{trial->levelDb}).first->second;
-        ++count.trials;
-        count.hits += trial->value > 0.5;
-    }
-    std::vector<LevelCount> all;
-    for (const auto& [level, count] : counts) all.push_back(count);
-    return all;
-}
-
 /// Thresholds of several people's runs, in the order of participants and runsOf(). Returns the error that all
 /// share, as a standard deviation.
 double poolThresholds(const std::map<std::string, Run>& participants, std::vector<std::vector<double>>& own) {
@@ -273,7 +304,9 @@ double poolThresholds(const std::map<std::string, Run>& participants, std::vecto
         auto& thresholds = own.emplace_back();
         for (const auto& [key, run] : runsOf(trials)) {
             auto& [counts, places] = plans[key.second];
-            counts.push_back(levelCountsOf(run));
+            counts.push_back(countByLevel(run, [](const LevelTrial* t) {
+                return std::pair{t->levelDb, t->value > 0.5};
+            }));
             places.push_back({own.size() - 1, thresholds.size()});
             thresholds.push_back(0.0);
             ++total;
@@ -293,7 +326,9 @@ double poolThresholds(const std::map<std::string, Run>& participants, std::vecto
 /// Why this is no threshold; null: it is one.
 const char* faultOf(LevelTrial::Kind kind, const Run& trials, double threshold) {
     if (kind == LevelTrial::Kind::staircase)
-        return std::isnan(threshold) ? "a staircase has fewer than two reversals" : nullptr;
+        return std::isnan(threshold)   ? "a staircase has fewer than two reversals"
+               : std::isinf(threshold) ? "a staircase came to an end of its levels"
+                                       : nullptr;
     double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();
     for (const LevelTrial* trial : trials) {
         const auto levels = questPlan(trial->quest)->levels;

@@ -105,8 +105,8 @@ struct ChoiceShare {
     std::string alternative;
     std::uint64_t hits = 0;
     double share = 0.0;             ///< mean of the participants' shares
-    double least = 0.0, most = 1.0; ///< 95 %: t interval over participants, within 0 and 1; for one or
-                                    ///< unknown participants Wilson's over trials
+    double least = 0.0, most = 1.0; ///< 95 %: t interval over participants, Wilson's where all are alike; for
+                                    ///< one or unknown participants Wilson's over trials
     double median = 0.0;            ///< of the participants' shares
     RankInterval ofMedian{};        ///< its rankInterval()
 };
@@ -150,7 +150,7 @@ struct LevelTrial {
     Kind kind = Kind::staircase;
     std::string participant, condition, stimulus;
     double levelDb = 0.0;           ///< staircase, QUEST+: level of the trial
-    double value = 0.0;             ///< adjustment: dB; magnitude: > 0; QUEST+: 1 if correct, else 0
+    double value = 0.0;             ///< adjustment: dB; magnitude: > 0; else 1 if correct, 0 if not
     std::string session{}, quest{}; ///< QUEST+: the text of its plan (QuestMethod.h)
 };
 
@@ -171,10 +171,10 @@ struct LevelSummary {
 };
 
 /// Sorted by kind, condition and stimulus. A staircase threshold is the mean level of the later half of the
-/// reversals (Levitt 1971). Left out: staircases of fewer than two, and QUEST+ at an end of its levels. A
-/// QUEST+ threshold is the posterior mean, recomputed from levels and answers; of several participants with
-/// the widths that all tell together (QuestMethod.h). Several sessions of a participant are averaged. Any
-/// thread (allocates).
+/// reversals (Levitt 1971). Left out: staircases of fewer than two, and staircases and QUEST+ at an end of
+/// their levels. A QUEST+ threshold is the posterior mean, recomputed from levels and answers; of several
+/// participants with the widths that all tell together (QuestMethod.h). Several sessions of a participant are
+/// averaged. Any thread (allocates).
 std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials);
 
 } // namespace physvib

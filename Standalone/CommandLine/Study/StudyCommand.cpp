@@ -97,6 +97,14 @@ std::string takeSounds(const RecordedSounds& sounds, Protocol& protocol) {
     return {};
 }
 
+Result<Protocol> protocolWithSounds(const StudyOptions& o) {
+    auto protocol = protocolNamed(o.protocol);
+    if (!protocol) return protocol;
+    if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return Failure{fault};
+    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty()) return Failure{fault};
+    return protocol;
+}
+
 /// Opens the mixer, in which a person answers, with the options of this call.
 int runForPerson(const StudyOptions& o) {
     if (o.participants > 1)
@@ -127,11 +135,8 @@ int run(const StudyOptions& o) {
     if (!o.participant.empty() && o.participants > 1)
         return leave(exitUsage,
                      "study run: --participant: expected one participant with a code, found several");
-    auto protocol = protocolNamed(o.protocol);
+    const auto protocol = protocolWithSounds(o);
     if (!protocol) return leave(exitFailed, protocol.error);
-    if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
-    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty())
-        return leave(exitFailed, fault);
     if (auto fault = studyFault(protocol.value); !fault.empty())
         return leave(exitFailed, o.protocol + ": " + fault);
     std::error_code fault;
@@ -155,11 +160,8 @@ bool isChangedAsPublished(const Protocol& protocol) {
 }
 
 int check(const StudyOptions& o) {
-    auto protocol = protocolNamed(o.protocol);
+    const auto protocol = protocolWithSounds(o);
     if (!protocol) return leave(exitFailed, protocol.error);
-    if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
-    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty())
-        return leave(exitFailed, fault);
     const StudyCheck found = checkStudy(protocol.value, o.participants);
     if (const int code =
             writeStudyFiles({StudyFile{o.pagePath, [&] { return htmlOf(found, protocol.value); }}});
