@@ -26,19 +26,21 @@ static void note(const char* words) {
     if (write(logFile, line, (size_t)n) != n) abort();
 }
 
-static int SDLCALL told(void* which, Uint16 low, Uint16 high) {
-    char words[80];
-    snprintf(words, sizeof words, "%d %.4f %.4f", (int)(size_t)which, low / 65535.0, high / 65535.0);
-    note(words);
-    return 0;
-}
-
 static void* of(const char* name) {
     static void* sdl;
     if (!sdl) sdl = dlopen("libSDL2-2.0.so.0", RTLD_NOW | RTLD_NOLOAD);
     return sdl ? dlsym(sdl, name) : NULL;
 }
 #define SDL(name) ((__typeof__(&SDL_##name))of("SDL_" #name))
+
+static int SDLCALL told(void* which, Uint16 low, Uint16 high) {
+    char words[80];
+    snprintf(words, sizeof words, "%d %.4f %.4f", (int)(size_t)which, low / 65535.0, high / 65535.0);
+    note(words);
+    SDL_version version = {0};
+    SDL(GetVersion)(&version);
+    return version.patch < 50 ? 0 : 1; /* sdl2-compat asks SDL 3, to which 0 is a failure */
+}
 
 static SDL_JoystickID plugIn(int which) {
     SDL_VirtualJoystickDesc pad = {0};
