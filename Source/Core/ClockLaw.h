@@ -85,15 +85,13 @@ struct ClockLaw {
 };
 
 /// How long a driver may pause between two calls, as measured: a 10 ms JUCE timer under load pauses up to 26
-/// ms; a thread with absolute deadlines exceeds its step by at most 1 ms on an ordinary kernel.
+/// ms; a thread that wakes when a step is due is at most 1 ms late on an ordinary kernel.
 constexpr double messageTimerGapSeconds = 0.026;
 constexpr double driverThreadGapSeconds = 0.001;
 
-/// A thread wakes at most so often; a finer world takes several steps at a time.
-constexpr int mostWakesPerSecond = 1000;
-constexpr double threadGapSeconds(int stepsPerSecond) noexcept {
-    const double wake = 1.0 / mostWakesPerSecond, step = 1.0 / stepsPerSecond;
-    return driverThreadGapSeconds + (wake > step ? wake - step : 0.0);
+/// Of such a thread, whose every step begins when it is due.
+constexpr double threadGapSeconds(int stepsPerSecond, double lateSeconds = driverThreadGapSeconds) noexcept {
+    return lateSeconds - 1.0 / stepsPerSecond;
 }
 
 } // namespace physvib

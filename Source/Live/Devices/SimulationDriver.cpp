@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A thread with deadlines that steps a session's world.
+// A thread that steps a session's world.
 #include "Live/Devices/SimulationDriver.h"
 #include "Live/Session/ThisThread.h"
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace physvib {
 
 ThreadDriver::ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* ends)
     : session_{session}
-    , step_{1'000'000'000 / std::min(stepsPerSecond, mostWakesPerSecond)}
+    , stepNs_{std::max(poll, std::int64_t{1'000'000'000} / stepsPerSecond)}
     , ends_{ends}
     , thread_{[this] { run(); }} {}
 
@@ -18,19 +18,16 @@ ThreadDriver::~ThreadDriver() {
 }
 
 void ThreadDriver::run() {
-    using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::nanoseconds leastPause{1'000'000}, mostPause{20'000'000}, mostHold{20'000'000};
     raiseThreadPriority();
-    for (auto deadline = Clock::now(); !isOver(); deadline += step_) {
-        // After a stall: no burst of ticks, and a pause for threads that wait for the world's mutex.
-        if (const auto now = Clock::now(); now > deadline + 10 * step_)
-            deadline = now + std::clamp<Clock::duration>((now - deadline) / 8, leastPause, mostPause);
-        std::this_thread::sleep_until(deadline);
-        const auto begin = Clock::now();
-        bool wasLong = false; // a world too slow for real time: a thread that draws it waits a step or two,
-                              // not until it has caught up
-        session_.advance([&](auto) { return !(wasLong = Clock::now() - begin > mostHold) && !isOver(); });
-        if (wasLong) std::this_thread::sleep_for(leastPause);
+    while (!isOver()) {
+        const std::int64_t begin = steadyNs();
+        // a thread that draws a world too slow for real time waits a step or two, not until it has caught up
+        session_.advance([&](auto) { return steadyNs() - begin <= mostHold && !isOver(); });
+        const std::int64_t now = steadyNs(), left = session_.nextStepNs() - now;
+        std::int64_t pause = std::clamp(left, poll, stepNs_);
+        if (left > 2 * stepNs_) pause = 4 * poll; // the first block may come at any time
+        if (session_.pulse().isStill(now)) pause = stepNs_;
+        std::this_thread::sleep_for(std::chrono::nanoseconds{std::max(pause, (now - begin) / 8)});
     }
 }
 

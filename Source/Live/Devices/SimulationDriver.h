@@ -7,10 +7,10 @@
 #include <thread>
 
 namespace physvib {
-/// A thread with absolute deadlines, one per step, so that delays do not add up (threadGapSeconds). It
-/// runs at realtime priority where the system permits, because an ordinary thread is sometimes late on a
-/// loaded machine. It steps the session from construction to destruction, or until `ends` (may be null) is
-/// true; then at most one more step follows. One driver at a time per session. Created and destroyed on M.
+/// A thread that wakes when the next step is due, by the blocks of the device (threadGapSeconds). It runs at
+/// realtime priority where the system permits, because an ordinary thread is sometimes late on a loaded
+/// machine. It steps the session from construction to destruction, or until `ends` (may be null) is true;
+/// then at most one more step follows. One driver at a time per session. Created and destroyed on M.
 class ThreadDriver {
 public:
     ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* ends = nullptr);
@@ -19,11 +19,12 @@ public:
     ThreadDriver& operator=(const ThreadDriver&) = delete;
 
 private:
+    static constexpr std::int64_t poll = 250'000, mostHold = 20'000'000; // ns; poll: for a block that is late
     void run();
     bool isOver() const noexcept { return isDestroyed_ || (ends_ != nullptr && *ends_); }
 
     Session& session_;
-    const std::chrono::nanoseconds step_;
+    const std::int64_t stepNs_;
     const std::atomic<bool>* const ends_;
     std::atomic<bool> isDestroyed_{false};
     std::thread thread_;

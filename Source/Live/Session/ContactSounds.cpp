@@ -50,8 +50,7 @@ std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings
 }
 
 ContactSounds::ContactSounds(const std::vector<ContactRecording>& recordings, int sampleRateHz) {
-    for (const ContactRecording& recording : recordings)
-        samples_.push_back(resampled(recording, sampleRateHz));
+    for (const auto& one : recordings) samples_.push_back(resampled(one, sampleRateHz));
     for (std::size_t i = 0; i < recordings.size(); ++i)
         contacts_.push_back({recordings[i].frequencyHz, samples_[i], recordings[i].file.sound()});
 }

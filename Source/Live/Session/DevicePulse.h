@@ -2,6 +2,7 @@
 // Whether the device that plays a session asks for blocks. While it does not, session time stands still, and
 // what came meanwhile would be felt all at once when it comes back: it is dropped, and counted.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -52,6 +53,10 @@ public:
     }
     /// A block that began at `nowNs` has been rendered: from now on the device runs. R, wait-free.
     void beat(std::int64_t nowNs) noexcept { lastNs_.store(nowNs, std::memory_order_release); }
+    /// When the last block began, by beat(); before the first one far away. Any thread.
+    std::int64_t lastNs() const noexcept {
+        return std::min(lastNs_.load(std::memory_order_acquire), never / 2);
+    }
     /// The device is closed, and no other opened: an endless pause. M, while R does not run.
     void end() noexcept { limitNs_.store(0, std::memory_order_relaxed); }
 

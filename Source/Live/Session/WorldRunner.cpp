@@ -80,6 +80,14 @@ int WorldRunner::advance(const StepWatch& keepGoing) {
     return steps;
 }
 
+// When the block begins to which the world has not been stepped, if blocks go on as they do.
+std::int64_t WorldRunner::nextStepNs() const {
+    const std::lock_guard lock{mutex_};
+    const std::int64_t blockNs = time_.sessionNs(time_.law().blockFrames);
+    return pulse_.lastNs() +
+           (std::max<std::int64_t>(0, world_.timeNs() - time_.nowNs()) / blockNs + 1) * blockNs;
+}
+
 int WorldRunner::catchUp(const StepWatch& keepGoing) {
     const std::int64_t now = time_.nowNs();
     if (const std::int64_t lag = now - world_.timeNs(); lag > time_.longestLagNs()) {

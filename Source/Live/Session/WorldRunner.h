@@ -116,6 +116,7 @@ private:
     void prepare();                            // resets the scene; the world mutex is held, also for resume
     void resume(const FrameClock& clock);      // session time continues by that clock
     int advance(const StepWatch& keepGoing);   // world driver (D)
+    std::int64_t nextStepNs() const;           // D
     bool beginBlock(RenderMode mode) noexcept; // R; false: the world has not been stepped yet
     bool pop(CollisionEvent& event) noexcept { return queue_.pop(event); } // R
     bool popOrStep(CollisionEvent& event, std::int64_t endNs);             // R, in runOffline
