@@ -93,7 +93,7 @@ private:
     }
     bool readHeader() {
         std::string_view header;
-        if (rest_.substr(0, 2).find_first_of(std::string_view{"\xFF\xFE\0", 3}) != std::string_view::npos)
+        if (rest_.starts_with("\xFF\xFE") || rest_.starts_with("\xFE\xFF") || rest_.find('\0') < 2)
             return fail("expected UTF-8, found UTF-16: save it as CSV UTF-8");
         while (header.empty()) {
             if (rest_.empty()) return fail("expected a header line, found the end of the file");

@@ -56,8 +56,7 @@ std::string territoryChart(ChartFrame frame, const ConditionResolution& one) {
     constexpr std::size_t columns = 164, rows = 85; // sufficient resolution for a page; percent counts use
                                                     // every pixel
     PlaceChart chart = fieldOf(std::move(frame), one);
-    for (const std::uint16_t owner : likelihoodMap(one.normals, columns, rows))
-        chart.territory.push_back(owner);
+    for (const auto owner : likelihoodMap(one.normals, columns, rows)) chart.territory.push_back(owner);
     chart.mapColumns = columns;
     for (const PlaceEllipse& e : chart.ellipses) chart.labels.push_back({e.target, e.x, e.y});
     chart.ellipses.clear();
@@ -89,8 +88,7 @@ std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
                         const std::vector<std::string>& groups,
                         const std::vector<const ChoiceSummary*>& summaries, bool ofMedians) {
     BarChart chart{std::move(frame), groupsWords, "chosen (%)", groups, {}};
-    for (const ChoiceShare& share : summaries.front()->shares)
-        chart.series.push_back({share.alternative, {}});
+    for (const auto& share : summaries.front()->shares) chart.series.push_back({share.alternative, {}});
     for (std::size_t i = 0; i < summaries.size(); ++i)
         for (std::size_t s = 0; s < chart.series.size(); ++s) {
             const ChoiceShare& share = summaries[i]->shares[s];
@@ -264,7 +262,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         if (!isAdaptive) {
             LineSeries mean = curve(
                 {model.shape, meanOf(thresholds), meanOf(widths), model.guess, meanOf(lapses)}, least, most);
-            mean.name = "mean of the participants' functions";
+            mean.name = "function of the mean threshold and width";
             mean.style = 4;
             chart.series.push_back(std::move(mean));
         }

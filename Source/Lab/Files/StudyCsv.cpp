@@ -7,7 +7,6 @@
 #include "Lab/Study/Stimulus.h"
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -42,8 +41,7 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
     try {
         for (const NamedText& file : files) {
             const StudyRows rows{file.text, file.name, file.columns};
-            if (std::string fault = shared.add(rows.table()); !fault.empty())
-                throw StudyFault{std::move(fault)};
+            if (auto fault = shared.add(rows.table()); !fault.empty()) throw StudyFault{std::move(fault)};
             data.isSimulated |= saysSimulated(rows.table());
             const std::size_t taken = take(rows, data);
             if (rows.leftOut() > 0)
@@ -186,27 +184,27 @@ std::string kindOf(const CsvRow& row, std::optional<std::size_t> stimulus,
 /// Trials are told apart by condition or stimulus, or by words of both where both differ:
 /// "condition=low stimulus=0.2".
 template <class Trial>
-void nameKinds(std::vector<Trial>& trials) {
+void nameKinds(std::vector<Trial>& trials, std::string Trial::*kind, const std::string& none = "all trials") {
     std::set<std::string, std::less<>> conditions, stimuli;
-    const auto parts = [](std::string_view kind) {
-        const std::string_view condition = takeUntil(betweenKinds, kind);
-        return std::pair{condition, kind};
+    const auto parts = [](std::string_view rest) {
+        const std::string_view condition = takeUntil(betweenKinds, rest);
+        return std::pair{condition, rest};
     };
     for (const Trial& trial : trials) {
-        const auto [condition, stimulus] = parts(trial.condition);
+        const auto [condition, stimulus] = parts(trial.*kind);
         conditions.emplace(condition), stimuli.emplace(stimulus);
     }
     const auto words = [](const char* name, std::string_view cell) {
         return (cell.find('=') == std::string_view::npos ? std::string{name} + "=" : "") + std::string{cell};
     };
     for (Trial& trial : trials) {
-        const auto [condition, stimulus] = parts(trial.condition);
+        const auto [condition, stimulus] = parts(trial.*kind);
         const bool isOne = stimulus.empty() || (conditions.size() > 1 && stimuli.size() == 1);
-        trial.condition = condition.empty() && stimulus.empty() ? std::string{"all trials"}
-                          : isOne                               ? std::string{condition}
-                          : conditions.size() < 2
-                              ? std::string{stimulus}
-                              : words("condition", condition) + " " + words("stimulus", stimulus);
+        trial.*kind = condition.empty() && stimulus.empty() ? none
+                      : isOne                               ? std::string{condition}
+                      : conditions.size() < 2
+                          ? std::string{stimulus}
+                          : words("condition", condition) + " " + words("stimulus", stimulus);
     }
 }
 
@@ -222,29 +220,24 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     });
 }
 
-/// Whether a column tells of people, as their age does: several rows of some, and no two values of anybody.
+/// Whether another program's column tells of people, as age does: one value of each, more rows.
 bool isOfPeople(const CsvTable& table, std::size_t column) {
     const auto who = table.column("participant");
+    if (!who || table.column(trialColumns::task)) return false;
     std::map<std::string, std::set<std::string>> values;
-    for (const CsvRow& row : table.rows)
-        values[who ? row.cells[*who] : std::string{}].insert(row.cells[column]);
-    return who && values.size() < table.rows.size() &&
+    for (const CsvRow& row : table.rows) values[row.cells[*who]].insert(row.cells[column]);
+    return values.size() < table.rows.size() &&
            std::ranges::all_of(values, [](const auto& own) { return own.second.size() == 1; });
 }
 
-/// Of other programs' tables without what tells of people, if there is more.
 std::vector<std::size_t> scaleColumns(const CsvTable& table, std::vector<std::string>& warnings) {
-    std::vector<std::size_t> all, scales;
+    std::vector<std::size_t> scales, ofPeople;
     for (std::size_t c = 0; c < table.columns.size(); ++c)
-        if (!trialColumns::has(table.columns[c])) all.push_back(c);
-    if (table.column(trialColumns::task)) return all;
-    std::ranges::copy_if(all, std::back_inserter(scales),
-                         [&](std::size_t c) { return !isOfPeople(table, c); });
-    if (scales.empty()) return all;
-    for (const std::size_t c : all)
-        if (std::ranges::find(scales, c) == scales.end())
-            warnings.push_back(table.name + ": column " + printable(table.columns[c]) +
-                               " has one value of each participant: no scale");
+        if (!trialColumns::has(table.columns[c])) (isOfPeople(table, c) ? ofPeople : scales).push_back(c);
+    if (scales.empty()) return ofPeople;
+    for (const std::size_t c : ofPeople)
+        warnings.push_back(table.name + ": column " + printable(table.columns[c]) +
+                           " has one value of each participant: no scale");
     return scales;
 }
 
@@ -259,13 +252,10 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     if (!ratings.scales.empty() && ratings.scales != names)
         throw StudyFault{rows.table().name + ": expected the scales of the files before"};
     ratings.scales = names;
-    const bool isOwn = rows.optional(trialColumns::task).has_value();
     return rows.each(AnswerKind::scores, [&](const CsvRow& row) {
         RatingTrial trial{StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), {}};
-        // a session has its own scales
-        for (const auto c : scales)
-            trial.scores.push_back(isOwn && row.cells[c].empty() ? std::nan("")
-                                                                 : rows.number(row, c, 0.0, 100.0));
+        for (const auto c : scales) // of this session; others lack answers
+            trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));
         conditionNamed(rows, ratings, {}).push_back(std::move(trial));
     });
 }
@@ -378,6 +368,8 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     const auto level = LevelSource::of(rows.table(), columns.level);
     if (!level) rows.required(columns.level);
     const auto condition = rows.optional("condition"), participant = rows.optional("participant");
+    const bool isFactor = columns.level == "level_db" && !rows.optional(trialColumns::task);
+    const auto stimulus = isFactor ? rows.optional("stimulus") : std::nullopt; // of other programs
     // Of our own files' right and wrong choices those with a level are adaptive.
     const auto moved = rows.optional("level_db");
     const bool isOwn = rows.optional(trialColumns::task) && columns.measure == "correct" && moved;
@@ -405,7 +397,7 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
                               : words != std::string::npos
                                   ? row.cells[measure] == columns.measure.substr(words + 1)
                                   : rows.wholeNumber(row, measure, 0, 1);
-        conditionNamed(rows, data, StudyRows::textIf(row, condition))
+        conditionNamed(rows, data, kindOf(row, stimulus, condition))
             .push_back({StudyRows::textIf(row, participant), *at, answer, isAdaptive});
     });
     return taken;
@@ -461,13 +453,13 @@ Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files) {
 
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) {
     auto data = readAll<StudyData<ChoiceTrial>>(files, takeChoices);
-    for (auto& all : data.value.conditions) nameKinds(all.trials);
+    for (auto& all : data.value.conditions) nameKinds(all.trials, &ChoiceTrial::condition);
     return data;
 }
 
 Result<RatingData> readRatings(std::span<const NamedText> files) {
     auto data = readAll<RatingData>(files, takeRatings);
-    for (auto& all : data.value.conditions) nameKinds(all.trials);
+    for (auto& all : data.value.conditions) nameKinds(all.trials, &RatingTrial::condition);
     return data;
 }
 
@@ -477,8 +469,10 @@ Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files) {
 
 Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files,
                                                 const LevelAnswerColumns& columns) {
-    return readAll<StudyData<LevelAnswer>>(
-        files, [&](const StudyRows& rows, auto& data) { return takeLevelAnswers(rows, data, columns); });
+    auto data = readAll<StudyData<LevelAnswer>>(
+        files, [&](const StudyRows& rows, auto& all) { return takeLevelAnswers(rows, all, columns); });
+    nameKinds(data.value.conditions, &StudyCondition<LevelAnswer>::name, "");
+    return data;
 }
 
 Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files) {

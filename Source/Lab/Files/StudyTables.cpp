@@ -127,10 +127,17 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std:
         from.push_back(*observer);
         columns.emplace_back(trialColumns::observer);
     }
-    const auto isWhole = [&](const CsvRow& row) {
-        for (std::size_t c = 0; c < names.size(); ++c)
-            if (row.cells[from[c]].empty() || isNoAnswer(names[c].ours, row.cells[from[c]])) return false;
-        return true;
+    const bool hasScales = !std::ranges::all_of(names, trialColumns::has, &ColumnName::ours);
+    const auto isWhole = [&](const CsvRow& row) { // of scales one is enough
+        bool isRated = !hasScales;
+        for (std::size_t c = 0; c < names.size(); ++c) {
+            const bool has = !row.cells[from[c]].empty() && !isNoAnswer(names[c].ours, row.cells[from[c]]);
+            if (!trialColumns::has(names[c].ours))
+                isRated |= has;
+            else if (!has)
+                return false;
+        }
+        return isRated;
     };
     rowsLeftOut += std::erase_if(table.rows, [&](const CsvRow& row) { return !isWhole(row); });
     for (CsvRow& row : table.rows) {

@@ -24,6 +24,7 @@ public:
 
     const ReportTrials& trials;
     ReportPage page;
+    std::vector<std::string> scales; ///< columns of ratings that can be read
     bool isSimulated() const noexcept { return trials.isSimulated; }
 
     /// Number of participants in the rows, by the column participant; 1 without it.

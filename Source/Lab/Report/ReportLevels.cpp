@@ -49,7 +49,7 @@ void tellThresholds(ReportBuilder& report, const StudyFiles& tables,
     AnalysisJob fit = report.optionsFor(trialsTable);
     fit.made = &tables;
     fit.model = modelOf(report.trials);
-    if (quest.empty() && !report.analysis("psychometric", fit, "psychometric.csv").error.empty()) return;
+    if (quest.empty()) report.analysis("psychometric", fit, "psychometric.csv");
     const NamedText file{tables.at(trialsTable), trialsTable};
     const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
     if (!data) return report.page.note(data.error);

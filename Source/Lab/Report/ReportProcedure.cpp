@@ -86,8 +86,7 @@ void tellProtocol(ReportPage& page, const Protocol& protocol) {
     for (const std::string& sentence : protocolSentences(protocol)) page.paragraph(sentence);
     page.subheading("Conditions");
     std::vector<std::string> conditions, sessions;
-    for (const ConditionPlan& condition : protocol.conditions)
-        conditions.push_back(conditionWords(condition));
+    for (const auto& one : protocol.conditions) conditions.push_back(conditionWords(one));
     for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session, protocol));
     page.list(conditions);
     page.subheading("Sessions");
@@ -172,8 +171,10 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
             notes.push_back("participant " + person.participant +
                             " of the table of people has no trials here");
     std::map<std::string, std::size_t> groups;
-    for (const auto& [code, own] : attended)
-        if (!own.group.empty() && !facts.isExcluded(code)) ++groups[own.group];
+    for (const auto& [code, own] : attended) // in rows, or in the table of people
+        if (const auto* const person = facts.person(code); !facts.isExcluded(code))
+            ++groups[own.group.empty() && person ? person->group : own.group];
+    groups.erase("");
     std::vector<std::string> sizes;
     for (const auto& [group, size] : groups) sizes.push_back(std::to_string(size) + " " + group);
     if (!sizes.empty()) report.page.paragraph("Groups: " + listed(sizes) + ".");
@@ -186,9 +187,8 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
                                     numberText(*std::ranges::min_element(ages)) + " to " +
                                     numberText(*std::ranges::max_element(ages)) + " (") +
             std::to_string(ages.size()) + " of " + std::to_string(people.size() + strangers) + " known).");
-    for (const auto& [name, field] : {std::pair{"Sex: ", &PersonFacts::sex},
-                                      {"Handedness: ", &PersonFacts::handedness},
-                                      {"Groups: ", &PersonFacts::group}})
+    for (const auto& [name, field] :
+         {std::pair{"Sex: ", &PersonFacts::sex}, {"Handedness: ", &PersonFacts::handedness}})
         if (const std::string words = countsOf(people, strangers, field); !words.empty())
             report.page.paragraph(name + words + ".");
     if (!facts.ethics.empty()) report.page.paragraph("Ethics: " + facts.ethics);
@@ -304,8 +304,7 @@ void tellProvenance(ReportBuilder& report) {
                                                                     {"protocol", "protocol: "},
                                                                     {"hash", "hash of the protocol: "},
                                                                     {"seed", "seed of all orders: "}})
-        if (const std::string value = report.trials.common(key); !value.empty())
-            facts.push_back(words + value);
+        if (const auto value = report.trials.common(key); !value.empty()) facts.push_back(words + value);
     if (report.people() > 1) facts.emplace_back("intervals over participants: Student's t");
     report.page.list(facts);
     report.page.paragraph(

@@ -62,9 +62,7 @@ void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
     const auto data = readLevelAnswers({&file, 1}, {"stimulus", measure, false});
     if (!data || !report.trials.knowTasks()) return;
     report.page.subheading("Psychometric functions");
-    if (const auto words = report.analysis("psychometric", fit, "psychometric-stimuli.csv");
-        !words.error.empty())
-        return;
+    report.analysis("psychometric", fit, "psychometric-stimuli.csv"); // who has no fit is drawn all the same
     const std::string answers =
         measure == "correct" ? "right answers" : "answers " + measure.substr(measure.find('=') + 1);
     std::vector<std::string> charts;
@@ -118,7 +116,7 @@ void tellRatings(ReportBuilder& report) {
         !words.error.empty())
         return;
     const auto& trials = data.value.conditions.front().trials;
-    const auto& scales = data.value.scales;
+    const auto& scales = report.scales = data.value.scales;
     const auto summaries = summariseRatings(trials);
     std::set<std::string> conditions;
     for (const RatingTrial& trial : trials) conditions.insert(trial.condition);

@@ -60,14 +60,6 @@ std::string studyWords(const ReportTrials& trials) {
     return words;
 }
 
-/// Columns of ratings that can be read: of others the page has the fault, and no test.
-std::vector<std::string> scalesOf(const ReportBuilder& report, const std::vector<std::string>& analyses) {
-    if (std::ranges::find(analyses, "ratings") == analyses.end()) return {};
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readRatings({&file, 1});
-    return data ? data.value.scales : std::vector<std::string>{};
-}
-
 /// Scales of so many points, whose scores have an order and no distances.
 std::vector<std::string> inPoints(const ReportTrials& trials) {
     std::vector<std::string> scales;
@@ -125,8 +117,7 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
         report.page.table(report.tableText(trialsTable), trialsTable);
     }
     if (report.people() > 1) {
-        made.files[analysisScriptName] =
-            analysisScript(studyWords(trials), scalesOf(report, kinds), inPoints(trials));
+        made.files[analysisScriptName] = analysisScript(studyWords(trials), report.scales, inPoints(trials));
         tellTests(report, made, script);
     }
     if (!trials.facts.plan.empty()) {
@@ -153,8 +144,7 @@ void addBids(StudyReport& report, const ReportTrials& trials) {
     if (words.task.empty()) words.task = trials.files.front().name;
     if (trials.protocol)
         for (const SessionPlan& session : trials.protocol->sessions)
-            for (const std::string& scale : session.scores())
-                words.columns[scale] = scoreWords(session, scale);
+            for (const auto& scale : session.scores()) words.columns[scale] = scoreWords(session, scale);
     for (const char* key : {"hash", "seed", "version"})
         if (const std::string value = trials.common(key); !value.empty()) words.source[key] = value;
     for (auto& [name, text] : bidsDataset(trials.all, words)) report.files["bids/" + name] = std::move(text);
@@ -260,8 +250,7 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
     if (!report.value.scriptFault.empty()) return Failure{report.value.scriptFault};
     std::vector<std::string> conditions, sessions, tests;
     for (const std::string& test : report.value.tests) tests.push_back("test: " + test);
-    for (const ConditionPlan& condition : protocol.conditions)
-        conditions.push_back(conditionWords(condition));
+    for (const auto& one : protocol.conditions) conditions.push_back(conditionWords(one));
     for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session, protocol));
     std::string text = provenanceComment({PHYSVIB_VERSION,
                                           {{"plan", "study"},

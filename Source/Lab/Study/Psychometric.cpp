@@ -137,7 +137,7 @@ std::string faultOfCounts(std::span<const LevelCount> counts) {
     return {};
 }
 
-constexpr double sameLikelihood = 0.1; // of its logarithm: what is a tenth likelier tells nothing
+constexpr double sameLikelihood = 0.01; // of its logarithm
 
 /// What the levels and answers do not tell, though a likeliest function was found.
 std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricModel& model,
@@ -151,7 +151,8 @@ std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricMod
     }
     const double slope = product - level * hits / trials;
     if (slope <= 0.0) return "the share of answers does not rise with the level";
-    if (f.width > 19.5 * range) return "the answers hardly change within the levels that were played";
+    constexpr const char* still = "the answers hardly change within the levels that were played";
+    if (f.width > 19.5 * range) return still;
     // A step at a level, whose own share it has, or beside it, that is as likely as the fit: the answers do
     // not tell how wide it is.
     const double width = 1e-3 * range;
@@ -172,6 +173,8 @@ std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricMod
                fixedNumber(f.threshold, std::max(0, 2 - static_cast<int>(std::floor(std::log10(range))))) +
                ", lies outside the levels that were played, " + plainNumber(least.level) + " to " +
                plainNumber(most.level);
+    const double flat = hits * std::log(hits / trials) + (trials - hits) * std::log1p(-hits / trials);
+    if (hasJnd && 2.0 * (likeliest - flat) < 3.84 /* chi-squared, 5 % */) return still;
     return {};
 }
 

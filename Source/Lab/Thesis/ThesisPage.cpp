@@ -127,14 +127,8 @@ void tellTests(ThesisPage& out) {
 } // namespace
 
 const std::vector<ThesisRow>& thesisRows() {
-    static const std::vector<ThesisRow> rows = [] {
-        const EmbeddedFile& file = thesisFile("thesis.json");
-        return readEmbedded({file},
-                            [](std::string_view text, std::string_view name) {
-                                return readJson(text, name, limits::maxProtocolFileBytes, readRows);
-                            })
-            .front();
-    }();
+    static const std::vector<ThesisRow> rows =
+        readJson(thesisFile("thesis.json").text, "thesis.json", limits::maxProtocolFileBytes, readRows).value;
     return rows;
 }
 
