@@ -199,7 +199,7 @@ void RehearsalPage::compareRatings(const ReportTrials& trials) {
     const std::string text = trialsCsv(trials, "");
     const NamedText file{text, "rehearsal"};
     const auto data = readRatings({&file, 1});
-    const auto summaries = summariseRatings(data.value.data.conditions.front().trials);
+    const auto summaries = summariseRatings(data.value.conditions.front().trials);
     std::vector<std::string> groups;
     std::vector<std::optional<double>> printed, rehearsed;
     for (const thesis::Rating& rating : thesis::ratings) {
