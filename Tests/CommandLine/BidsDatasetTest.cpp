@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Trials as a BIDS dataset: the files that its validator wants, nothing lost, nothing that breaks a row.
 #include "Lab/Report/BidsDataset.h"
 #include <gtest/gtest.h>

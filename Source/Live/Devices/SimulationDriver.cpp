@@ -23,7 +23,7 @@ void ThreadDriver::run() {
         const std::int64_t begin = steadyNs();
         // a thread that draws a world too slow for real time waits a step or two, not until it has caught up
         session_.advance([&](auto) { return steadyNs() - begin <= mostHold && !isOver(); });
-        const std::int64_t now = steadyNs(), left = session_.nextStepNs() - now;
+        const std::int64_t now = steadyNs(), left = session_.world().nextStepNs() - now;
         std::int64_t pause = std::clamp(left, poll, stepNs_);
         if (left > 2 * stepNs_) pause = 4 * poll; // the first block may come at any time
         if (session_.pulse().isStill(now)) pause = stepNs_;

@@ -59,8 +59,6 @@ public:
     /// Steps the world up to session time, or until `keepGoing` (called after each step) returns false.
     /// Returns the number of steps. D.
     int advance(const StepWatch& keepGoing = {});
-    /// When the next step is due, by the blocks so far: steadyNs(). D.
-    std::int64_t nextStepNs() const { return world_.nextStepNs(); }
 
     /// Writes out[0..rendered().count())[0..frames). R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;

@@ -101,6 +101,9 @@ public:
     /// are left out. Does not wait for a long step; then the poses are those before it. Any thread but R.
     std::int64_t readPoses(std::vector<BodyPose>& poses) const;
 
+    /// When the next step is due, by the blocks so far: steadyNs(). D.
+    std::int64_t nextStepNs() const;
+
     /// Collisions lost in physics steps because buffers were full. Any thread, wait-free.
     std::uint64_t drops() const noexcept { return drops_.load(std::memory_order_relaxed); }
 
@@ -116,7 +119,6 @@ private:
     void prepare();                            // resets the scene; the world mutex is held, also for resume
     void resume(const FrameClock& clock);      // session time continues by that clock
     int advance(const StepWatch& keepGoing);   // world driver (D)
-    std::int64_t nextStepNs() const;           // D
     bool beginBlock(RenderMode mode) noexcept; // R; false: the world has not been stepped yet
     bool pop(CollisionEvent& event) noexcept { return queue_.pop(event); } // R
     bool popOrStep(CollisionEvent& event, std::int64_t endNs);             // R, in runOffline
