@@ -51,11 +51,11 @@ std::vector<LevelTrial> levelTrialsOf(const Protocol& p, const std::vector<Trial
                                       const std::string& participant) {
     std::vector<LevelTrial> trials;
     for (const auto& record : records) {
-        LevelTrial trial{LevelTrial::Kind::staircase, participant, "A", record.trial.stimulus,
-                         record.trial.levelDb};
+        LevelTrial trial{
+            LevelTrial::Kind::staircase, participant,          "A",
+            record.trial.stimulus,       record.trial.levelDb, *isCorrect(p, record) ? 1.0 : 0.0};
         if (const auto& quest = p.sessions[0].quest) {
             trial.kind = LevelTrial::Kind::quest;
-            trial.value = *isCorrect(p, record) ? 1.0 : 0.0;
             trial.quest = questWords(*quest, p.sessions[0].guessRate());
         }
         trials.push_back(std::move(trial));
