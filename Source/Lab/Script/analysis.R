@@ -395,6 +395,7 @@ study <- function(study, scales = character(), points = character()) {
   as.published <<- grepl("protocol [^ ]*-thesis", study)
   if (!("participant" %in% names(d))) return(finish(study))
   is.told <- "task" %in% names(d)
+  if (!is.told) points <- union(points, Filter(function(scale) all(d[[scale]] %in% c("", "NA", 1:7)), scales)) # of other programs
   # a trial that ran out of time has no other answer
   for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks", c("group", "condition"))
   # rows of a task, session by session where there are several; of tables without tasks those with the column

@@ -244,5 +244,10 @@ d$correct <- as.integer(runif(nrow(d)) < ifelse(d$condition == "c2", 0.9, 0.6));
 ours <- line(whole(d, character()), "condition: c1 - c2")
 same("right answers", ours$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
 if (!identical(ours$size, "d_z")) fault("the effect of pairs is called", ours$size)
+# A questionnaire of another program, in whole numbers from 1 to 7: ranks.
+d <- data.frame(participant = person(21), group = rep(c("g", "h", "k"), 7), comfort = sample(1:5, 21, TRUE), level = round(100 * runif(21)))
+ours <- whole(d, c("comfort", "level"))
+same("others' points", line(ours[grepl("of comfort by", ours$test), ], "group")$p, kruskal.test(d$comfort, d$group)$p.value)
+if (!any(grepl("variance of level by", ours$test))) fault("scores are taken as points")
 cat(faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)
