@@ -89,7 +89,7 @@ struct ClockLaw {
 constexpr double messageTimerGapSeconds = 0.026;
 constexpr double driverThreadGapSeconds = 0.001;
 
-/// Of such a thread, whose every step begins when it is due.
+/// Of such a thread: below 0, as the step of L that may not have begun has begun.
 constexpr double threadGapSeconds(int stepsPerSecond, double lateSeconds = driverThreadGapSeconds) noexcept {
     return lateSeconds - 1.0 / stepsPerSecond;
 }

@@ -7,7 +7,6 @@
 #include "Scene/JsonReader.h"
 #include "Scene/JsonWriter.h"
 #include "Scene/SceneLimits.h"
-#include <stdexcept>
 
 namespace physvib {
 

@@ -93,7 +93,8 @@ private:
     }
     bool readHeader() {
         std::string_view header;
-        if (rest_.starts_with("\xFF\xFE") || rest_.starts_with("\xFE\xFF") || rest_.find('\0') < 2)
+        if (rest_.starts_with("\xFF\xFE") || rest_.starts_with("\xFE\xFF") ||
+            rest_.substr(0, 2).find('\0') < 2)
             return fail("expected UTF-8, found UTF-16: save it as CSV UTF-8");
         while (header.empty()) {
             if (rest_.empty()) return fail("expected a header line, found the end of the file");

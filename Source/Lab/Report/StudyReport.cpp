@@ -110,8 +110,8 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
     for (const Section& section : sections)
         if (std::ranges::find(kinds, section.analysis) != kinds.end()) section.tell(report);
     if (!tellDescriptions(report) && kinds.empty()) {
-        made.notes.emplace_back("no description is known for these trials: the report has their table, the "
-                                "participants, and tests");
+        made.notes.emplace_back(
+            "no description is known for these trials: the report has their table and the participants");
         report.page.heading("Results");
         report.page.note(made.notes.back());
         report.page.table(report.tableText(trialsTable), trialsTable);

@@ -153,8 +153,7 @@ std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricMod
     if (slope <= 0.0) return "the share of answers does not rise with the level";
     constexpr const char* still = "the answers hardly change within the levels that were played";
     if (f.width > 19.5 * range) return still;
-    // A step at a level, whose own share it has, or beside it, that is as likely as the fit: the answers do
-    // not tell how wide it is.
+    // A step at a level, or beside it, that is as likely as the fit: the answers do not tell how wide it is.
     const double width = 1e-3 * range;
     for (const LevelCount& c : counts)
         for (const double lapse : {f.lapse, 0.0})

@@ -127,8 +127,10 @@ void tellTests(ThesisPage& out) {
 } // namespace
 
 const std::vector<ThesisRow>& thesisRows() {
-    static const std::vector<ThesisRow> rows =
-        readJson(thesisFile("thesis.json").text, "thesis.json", limits::maxProtocolFileBytes, readRows).value;
+    static const auto read = [](std::string_view text, std::string_view name) {
+        return readJson(text, name, limits::maxProtocolFileBytes, readRows);
+    };
+    static const auto rows = readEmbedded({thesisFile("thesis.json")}, read).front();
     return rows;
 }
 

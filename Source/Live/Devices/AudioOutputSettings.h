@@ -48,7 +48,7 @@ struct AudioOutputSettings {
     double onOffThreshold = 0.1;             ///< they are on while samples exceed this, 0 to 1 full scale
     std::vector<int> inputs{};               ///< device inputs, from 0, whose mean goes to `tap`; empty: none
     InputTap* tap = nullptr;                 ///< outlives the output
-    VibrationConverter* converter = nullptr; ///< gets actuators' samples on R; outlives it; false ends
+    VibrationConverter* converter = nullptr; ///< gets actuators' samples on R, until false; outlives it
 };
 
 /// State of the output at one moment, for display.
