@@ -45,7 +45,7 @@ void analyse(const StudyData<LevelTrial>& data) {
 }
 
 void analyse(const RatingData& ratings) {
-    for (const auto& summary : summariseRatings(ratings.data.conditions.front().trials))
+    for (const auto& summary : summariseRatings(ratings.conditions.front().trials))
         for (const double half : summary.halfIntervals)
             fuzz::demand(std::isfinite(half), "a number is missing");
 }
@@ -62,7 +62,6 @@ template <class T>
 bool isEmpty(const StudyData<T>& data) {
     return data.conditions.empty();
 }
-bool isEmpty(const RatingData& ratings) { return isEmpty(ratings.data); }
 
 template <class Read>
 void tryOne(Read read, std::string_view text) {
