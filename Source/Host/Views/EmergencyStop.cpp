@@ -49,23 +49,28 @@ public:
     }
     std::vector<EmergencyStop*> stops;
 
-    // JUCE wakes its threads for every picture anyway: those look. The timer, which would wake them again, is
-    // put off then, and looks where no picture has for as long as that.
+    // JUCE wakes its threads for every picture anyway: those look. The timer, which would wake them again,
+    // looks where no picture does.
     void lookWithPicture() {
         const auto now = juce::Time::getMillisecondCounter();
         if (now - lookedAtMs_ < leastMs) return; // pictures are many
-        startTimer(lookMs);
         lookedAtMs_ = now;
-        timerCallback();
+        if (getTimerInterval() != seldomMs) startTimer(seldomMs);
+        look();
     }
 
 private:
-    static constexpr int lookMs = 20; // shorter than a key press
+    static constexpr int lookMs = 20, seldomMs = 250; // lookMs: shorter than a key press
     static constexpr juce::uint32 leastMs = 12;
 
+    void timerCallback() override {
+        if (juce::Time::getMillisecondCounter() - lookedAtMs_ < lookMs) return;
+        if (getTimerInterval() != lookMs) startTimer(lookMs);
+        look();
+    }
     // Listens to components that opened since the last call. An Esc that was pressed before they opened is
     // still down.
-    void timerCallback() override {
+    void look() {
         listen();
         const auto* target = targetOf(nullptr);
         const bool isDown = juce::Desktop::getInstance().getNumComponents() > 0 && isEscapeDown();

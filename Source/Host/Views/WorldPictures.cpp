@@ -182,6 +182,28 @@ bool BallPictures::draw(juce::Graphics& g, const Ball& ball, juce::Point<float> 
     return true;
 }
 
+void GlowPictures::draw(juce::Graphics& g, juce::Point<float> centre, float radius, juce::Colour colour) {
+    constexpr std::size_t most = 128; // of some 10 kB each
+    constexpr int step = 2;
+    const float scale = g.getInternalContext().getPhysicalPixelScaleFactor();
+    const int r = step * std::max(1, juce::roundToInt(radius * scale / step));
+    const auto opaque = colour.withAlpha(1.0f);
+    auto known = std::ranges::find_if(
+        glows_, [=](const Glow& glow) { return glow.radius == r && glow.opaque == opaque; });
+    if (known == glows_.end()) {
+        if (glows_.size() >= most) glows_.clear();
+        juce::Image image{juce::Image::ARGB, 2 * r, 2 * r, true, juce::SoftwareImageType{}};
+        const auto at = static_cast<float>(r);
+        juce::Graphics light{image};
+        light.setGradientFill({opaque, at, at, opaque.withAlpha(0.0f), 2.0f * at, at, true});
+        light.fillAll();
+        known = glows_.insert(glows_.end(), {opaque, r, image});
+    }
+    const auto corner = ((centre * scale).roundToInt() - juce::Point<int>{r, r}).toFloat();
+    g.setOpacity(colour.getFloatAlpha());
+    g.drawImageTransformed(known->picture, juce::AffineTransform::translation(corner).scaled(1.0f / scale));
+}
+
 // Sizes badges by the nearest neighbour, then moves what still overlaps to a free place.
 
 namespace {

@@ -89,6 +89,22 @@ private:
     std::vector<Kind> kinds_;
 };
 
+/// Light that fades towards its edge, as pictures of each colour and radius: cheaper than a gradient at every
+/// draw.
+class GlowPictures {
+public:
+    /// Radius in pixels of the component; place and radius are rounded to whole pixels of the display. M.
+    void draw(juce::Graphics& g, juce::Point<float> centre, float radius, juce::Colour colour);
+
+private:
+    struct Glow {
+        juce::Colour opaque;
+        int radius; // in pixels of the display
+        juce::Image picture;
+    };
+    std::vector<Glow> glows_;
+};
+
 constexpr float highestBadge = 30.0f, lowestBadge = 16.0f, widestBadge = 96.0f, betweenBadges = 3.0f;
 
 /// Where the badges of actuators are drawn, so that each can be read: around each place, as high as all can

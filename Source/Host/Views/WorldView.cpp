@@ -30,11 +30,6 @@ float ageOf(double shownAtMs) {
         juce::jlimit(0.0, 1.0, (juce::Time::getMillisecondCounterHiRes() - shownAtMs) / hitMs));
 }
 
-void glow(juce::Graphics& g, juce::Point<float> centre, float radius, juce::Colour colour) {
-    g.setGradientFill({colour, centre, colour.withAlpha(0.0f), centre.translated(radius, 0.0f), true});
-    g.fillEllipse(juce::Rectangle<float>{2.0f * radius, 2.0f * radius}.withCentre(centre));
-}
-
 bool isSame(const std::vector<BodyPose>& a, const std::vector<BodyPose>& b) {
     return std::ranges::equal(a, b, [](const BodyPose& p, const BodyPose& q) {
         return p.xMetres == q.xMetres && p.yMetres == q.yMetres && p.angleRadians == q.angleRadians &&
@@ -266,9 +261,12 @@ const std::vector<juce::Rectangle<float>>& WorldView::badges() const {
 }
 
 void WorldView::paint(juce::Graphics& g) {
-    g.fillAll(shade(*this, Shade::panel));
-    if (getWidth() < 2 * margin_ + 20 || getHeight() < 2 * margin_ + 20) return;
+    g.setColour(shade(*this, Shade::panel));
+    if (getWidth() < 2 * margin_ + 20 || getHeight() < 2 * margin_ + 20) return g.fillAll();
     const auto at = map();
+    juce::RectangleList<int> around{getLocalBounds()}; // the field is filled by drawGround
+    around.subtract(at.field.reduced(1.0f).toNearestInt());
+    g.fillRectList(around);
     drawHalos(g);
     drawGround(g, at);
     {
@@ -402,7 +400,7 @@ void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
                     fade = (1.0f - age) * std::sqrt(level);
         const auto centre = at.at(hit.event.x, hit.event.y);
         const float radius = 10.0f + 34.0f * level * (0.5f + 0.5f * age);
-        glow(g, centre, radius, hit.colour.interpolatedWith(amber, 0.7f).withAlpha(0.85f * fade));
+        glows_.draw(g, centre, radius, hit.colour.interpolatedWith(amber, 0.7f).withAlpha(0.85f * fade));
         g.setColour(amber.withAlpha(0.8f * fade));
         g.drawEllipse(juce::Rectangle<float>{1.5f * radius, 1.5f * radius}.withCentre(centre), 1.4f);
         g.setColour(juce::Colours::white.withAlpha(fade));
@@ -433,8 +431,8 @@ void WorldView::drawHalos(juce::Graphics& g) const {
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
         if (share > 0.03f)
-            glow(g, badgeAt(j).getCentre(), 20.0f + 70.0f * share,
-                 enchanterColour(*this, j).withAlpha(std::min(0.8f, 0.25f + 0.6f * share)));
+            glows_.draw(g, badgeAt(j).getCentre(), 20.0f + 70.0f * share,
+                        enchanterColour(*this, j).withAlpha(std::min(0.8f, 0.25f + 0.6f * share)));
     }
 }
 
@@ -451,7 +449,8 @@ void WorldView::drawEnchanters(juce::Graphics& g) const {
         const auto badge = badgeAt(j);
         const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
         // may extend over the field
-        if (share > 0.03f) glow(g, badge.getCentre(), 18.0f + 34.0f * share, colour.withAlpha(0.5f * share));
+        if (share > 0.03f)
+            glows_.draw(g, badge.getCentre(), 18.0f + 34.0f * share, colour.withAlpha(0.5f * share));
         g.setColour(shade(*this, Shade::well));
         g.fillRoundedRectangle(badge, 7.0f);
         g.setColour(colour);

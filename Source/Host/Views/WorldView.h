@@ -205,6 +205,7 @@ private:
         int before = -1;     // index of the body it replaces
     };
     BallPictures balls_;
+    mutable GlowPictures glows_;
     std::vector<BodyDescription> cast_;
     std::vector<Fate> fates_;  // one per body of cast_
     std::size_t scripted_ = 0; // number of bodies from scriptedCast(), which come first

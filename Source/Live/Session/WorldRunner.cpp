@@ -80,12 +80,15 @@ int WorldRunner::advance(const StepWatch& keepGoing) {
     return steps;
 }
 
-// When the block begins to which the world has not been stepped, if blocks go on as they do.
+// When the block begins to which the world has not been stepped, if blocks go on as they do. Inputs to a
+// world that stands still wait as long as they would for a step.
 std::int64_t WorldRunner::nextStepNs() const {
     const std::lock_guard lock{mutex_};
-    const std::int64_t blockNs = time_.sessionNs(time_.law().blockFrames);
-    return pulse_.lastNs() +
-           (std::max<std::int64_t>(0, world_.timeNs() - time_.nowNs()) / blockNs + 1) * blockNs;
+    const std::int64_t blockNs = time_.sessionNs(time_.law().blockFrames),
+                       ahead = isStill()
+                                   ? static_cast<std::int64_t>(1e9 * time_.law().stepSeconds()) - blockNs
+                                   : world_.timeNs() - time_.nowNs();
+    return pulse_.lastNs() + (std::max<std::int64_t>(0, ahead) / blockNs + 1) * blockNs;
 }
 
 int WorldRunner::catchUp(const StepWatch& keepGoing) {
@@ -107,9 +110,8 @@ int WorldRunner::catchUp(const StepWatch& keepGoing) {
 
 // One step; none while the world is paused. Its time must be before `untilNs`.
 void WorldRunner::moveWorld(std::int64_t untilNs) {
+    if (isStill()) return world_.standStill(untilNs - world_.timeNs());
     const int slowness = this->slowness();
-    const bool isStill = slowness == 0 && stepsWanted_.load(std::memory_order_relaxed) == 0;
-    if (isStill) return world_.standStill(untilNs - world_.timeNs());
     if (slowness == 0) stepsWanted_.fetch_sub(1, std::memory_order_relaxed);
     const std::int64_t before = world_.timeNs();
     world_.step(made_);

@@ -82,6 +82,10 @@ public:
         slowness_.store(std::max(0, slowness), std::memory_order_relaxed);
     }
     int slowness() const noexcept { return slowness_.load(std::memory_order_relaxed); }
+    /// It is paused, and no single step is asked for. Any thread.
+    bool isStill() const noexcept {
+        return slowness() == 0 && stepsWanted_.load(std::memory_order_relaxed) == 0;
+    }
 
     /// One step of a paused world. Any thread, wait-free.
     void stepOnce() noexcept { stepsWanted_.fetch_add(1, std::memory_order_relaxed); }
