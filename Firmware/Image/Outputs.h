@@ -9,8 +9,7 @@
 
 namespace physvib::board {
 
-// Drives the two dual converters TLC7528 on port C: eight data lines, one latch select, one write line, two
-// chip selects.
+// Drives the two dual converters TLC7528 on port C: eight data lines, latch select, write, two chip selects.
 //
 // Times assumed for the TLC7528 at 5 V (unverified: Docs/board.md): chip and latch select 50 ns before the
 // write, data 25 ns before its end, write pulse 50 ns, data and select held 10 ns after it. One cycle at 72

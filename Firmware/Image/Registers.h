@@ -63,8 +63,7 @@ struct Clock {
     std::uint32_t cyclesPerFrame() const noexcept { return hz / limits::board::sampleRateHz; }
 };
 
-/// Starts the clock (RM0364 8.2). The slow peripheral bus runs at half its frequency, the timer at the full
-/// one.
+/// Starts the clock (RM0364 8.2). The slow peripheral bus runs at half its frequency, the timer at all of it.
 inline Clock startClock() noexcept {
     constexpr std::uint32_t hseOn = 1u << 16, hseReady = 1u << 17, hseBypass = 1u << 18, pllOn = 1u << 24,
                             pllReady = 1u << 25;

@@ -14,8 +14,7 @@
 namespace physvib::pico {
 namespace {
 
-// A reset of the bus may keep USB's interrupt, and so the main loop, for 50 ms; the output is silent
-// meanwhile.
+// A reset of the bus may keep USB's interrupt, and so the main loop, for 50 ms; it is silent then.
 constexpr std::uint32_t patienceTiles = tilesPerSecond / 10;
 constexpr std::uint32_t watchdogMs = 4;
 constexpr int sides = 2;

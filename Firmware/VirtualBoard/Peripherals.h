@@ -104,8 +104,7 @@ public:
     /// Cycle of the next event.
     std::uint64_t nextEvent() const;
 
-    /// Number of the enabled, pending interrupt with the lowest priority value, if that is below `than`; -1:
-    /// none.
+    /// Number of the enabled, pending interrupt with the lowest priority value, if below `than`; -1: none.
     int pendingInterrupt(int than) const;
     int priority(int interrupt) const { return priorities_[static_cast<std::size_t>(interrupt)]; }
 

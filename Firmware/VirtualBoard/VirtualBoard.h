@@ -100,8 +100,7 @@ public:
 
     std::uint64_t cycle() const { return cycle_; }
     std::uint64_t idleCycles() const { return idle_; }
-    /// Whether the processor waits for an interrupt; its memory is then in a consistent state of the main
-    /// loop.
+    /// Whether the processor waits for an interrupt; its memory is then consistent.
     bool isAsleep() const { return asleep_; }
     int resets() const { return resets_; }
     int faults() const { return faults_; }

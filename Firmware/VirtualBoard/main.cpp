@@ -73,8 +73,7 @@ private:
 // share that clock, so the log can be compared with devices that play beside the board.
 
 namespace physvib::virtualboard {
-/// A CSV file of `steady_ns,what`, written line by line; `what`: sound, silence (of at least 20 ms), or a
-/// note.
+/// A CSV file of `steady_ns,what`, written line by line; `what`: sound, silence (from 20 ms), a note.
 class SoundLog {
 public:
     /// With an empty path nothing is written. Throws std::runtime_error.

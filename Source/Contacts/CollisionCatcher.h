@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Collects the contacts that a physics engine reports during a step, in fixed arrays (the thesis' collision
-// catcher, 5.1.3).
+// Collects the contacts that a physics engine reports during a step, in fixed arrays (thesis 5.1.3).
 #pragma once
 #include "Contacts/ContactCounts.h"
 #include "Contacts/FixtureTable.h"
@@ -14,8 +13,7 @@
 
 namespace physvib {
 
-// Numbers for pairs of touching fixtures, under which per-pair data are stored, so that each access needs no
-// search.
+// Numbers for pairs of touching fixtures, under which their data are stored and found without a search.
 
 /// A pair of slots has a number while it touches or while one of its fields is set. Check a number kept for
 /// longer with `is`. Allocates only to grow. World thread (M) only.
@@ -103,8 +101,7 @@ private:
     std::vector<std::int32_t> loose_; // candidates to be freed
 };
 
-// Finds impulses that reach haptic sources through existing contacts: impacts transmitted by neighbouring
-// bodies.
+// Finds impulses that reach haptic sources through existing contacts: impacts that neighbours transmit.
 
 /// Watches the existing contacts of haptic sources. Resting bodies push too, equally in every step: that is a
 /// contact's load, the smallest of its impulses in the last three steps (an impact, which may take two, is no
@@ -270,8 +267,7 @@ public:
     ContactCounts& tally() noexcept { return tally_; }
     const ContactCounts& tally() const noexcept { return tally_; }
 
-    /// The number of a pair of known fixtures, which the following methods use. It may be kept: see
-    /// TouchingPairs.
+    /// The number of a pair of known fixtures, for the next methods. It may be kept: see TouchingPairs.
     std::int32_t know(std::int32_t a, std::int32_t b) { return pairs_.know(a, b); }
     bool isKnown(const TouchingPairs::Name& pair) const noexcept { return pairs_.is(pair); }
     TouchingPairs::Pair& operator[](const TouchingPairs::Name& pair) noexcept { return pairs_[pair.number]; }
@@ -300,8 +296,7 @@ public:
         return ((table_.traits(a) | table_.traits(b)) & FixtureTable::source) != 0;
     }
 
-    /// True if pushes of the pair matter: one of them is a haptic source, or the pair collided in the last
-    /// step.
+    /// True if pushes of the pair matter: one of them is a haptic source, or it collided in the last step.
     bool isRelevant(const TouchingPairs::Name& pair) const noexcept {
         return touchesSource(pair.a, pair.b) || pairs_[pair.number].last != TouchingPairs::none;
     }

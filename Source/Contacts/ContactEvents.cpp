@@ -12,8 +12,7 @@ namespace physvib {
 
 namespace {
 
-// Two haptic sources per direct collision, two voices each, of this step and of the one whose events are
-// still held.
+// Two haptic sources per direct collision, two voices each, of this step and the one whose events are held.
 constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectCollisions;
 
 bool isAutomatic(const ImpactSettings& settings) noexcept {

@@ -39,8 +39,7 @@ public:
     SetResult set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre, const HapticFixture& values,
                   std::int32_t id);
 
-    /// Sets the common sound of two kinds of surfaces (HapticFixture::surface). Returns the error; empty if
-    /// it is set.
+    /// Sets the common sound of two kinds of surfaces (HapticFixture::surface). Returns the error, or empty.
     std::string_view setPair(int surface, int other, const PairSound& sound) {
         return pairs_.set(surface, other, sound);
     }
@@ -62,8 +61,7 @@ public:
     /// Frees the slot of a destroyed fixture.
     void release(std::int32_t slot);
 
-    /// Registers a fixture of that body and returns its slot. Call it at least when a contact of the fixture
-    /// begins.
+    /// Registers a fixture of that body and returns its slot. At the latest when a contact of it begins.
     std::int32_t know(std::uint64_t fixture, const BodyFacts& body);
     std::int32_t know(std::int32_t slot, const BodyFacts& body); ///< updates a registered fixture
 

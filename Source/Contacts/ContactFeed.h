@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PhysVib for any physics engine: the caller reports bodies and contacts, step by step, and gets collision
-// events.
+// PhysVib for any physics engine: callers report bodies and contacts, step by step, and get events.
 #pragma once
 #include "Contacts/ContactCounts.h"
 #include "Contacts/HapticFixture.h"
@@ -104,8 +103,7 @@ public:
     /// Any thread but while it is stepped.
     const ImpactSettings& settings() const noexcept;
 
-    /// Adds a body, or changes it. Returns what is wrong with it; empty: it is set. The methods below return
-    /// the same.
+    /// Adds a body, or changes it. Returns what is wrong with it; empty: it is set. So do the next.
     std::string_view set(std::int32_t id, const FedBody& body, const HapticFixture& values);
 
     /// Centre of mass, and motion before the engine's solver.
@@ -137,8 +135,7 @@ public:
     /// missing has ended. Several points of a pair are several calls.
     std::string_view touch(const FedContact& contact);
 
-    /// For engines that report changes: a pair begins to touch. It may do so again while it touches, with
-    /// another corner.
+    /// For engines that report changes: a pair begins to touch. Again while it touches: with another corner.
     std::string_view begin(const FedContact& contact);
     /// The impulse of this step of a pair that goes on touching: how impacts pass through it.
     std::string_view push(const FedContact& contact);

@@ -47,8 +47,7 @@ public:
         release(std::numeric_limits<std::int64_t>::max(), finished);
     }
 
-    /// Removes the events of a fixture (by its id), and if `asOther` also those of other fixtures that it
-    /// caused.
+    /// Removes the events of a fixture (by its id), and if `asOther` also those that it caused of others.
     void withdraw(std::int32_t fixture, bool asOther) noexcept;
 
     std::uint64_t drops() const noexcept { return drops_; }

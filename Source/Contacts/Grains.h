@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surface roughness as grains: their positions and strengths along a surface, the same whenever they are
-// passed.
+// Surface roughness as grains: their places and strengths along a surface, the same at each pass.
 #pragma once
 #include "Core/Units.h"
 #include <algorithm>

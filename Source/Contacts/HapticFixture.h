@@ -17,8 +17,7 @@ namespace physvib {
 
 // Which body's sound an impact of a haptic source plays.
 
-/// own: the sound of the haptic source; other: that of the body that collides with it; both: one event for
-/// each.
+/// own: the sound of the haptic source; other: that of the body that collides with it; both: one each.
 enum class Voice { own, other, both };
 
 /// A mode that sounds together with the first one.
@@ -103,8 +102,7 @@ struct PairSound {
 /// By the numbers of two kinds (HapticFixture::surface), in any order. World thread (M) only.
 class PairSounds {
 public:
-    /// Sets or replaces the sound of a pair. Returns the error, and nothing is changed; empty: it is set.
-    /// Allocates.
+    /// Sets or replaces the sound of a pair. Returns the error (nothing is changed) or empty. Allocates.
     std::string_view set(int surface, int other, const PairSound& sound) {
         if (surface <= 0 || other <= 0) return "surface: expected more than 0";
         if (const std::string_view fault = faultOf({.frequencyHz = sound.frequencyHz,

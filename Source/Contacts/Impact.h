@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Data passed between the contact stages: the step, its collisions, ended contacts, and the impacts of haptic
-// sources.
+// What contact stages pass on: the step, its collisions, ended contacts, impacts of haptic sources.
 #pragma once
 #include "Contacts/Vectors.h"
 #include "Core/CollisionEvent.h"
@@ -58,8 +57,7 @@ struct StepSpan {
         return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
     }
     double seconds() const noexcept { return static_cast<double>(endNs - startNs) * 1.0e-9; }
-    /// Time of a fraction of the step. Fractions below 0 count in the step before, which may have another
-    /// length.
+    /// Time of a fraction of the step. Fractions below 0 count in the step before, of its own length.
     std::int64_t timeNs(double fraction) const noexcept {
         const std::int64_t lengthNs = fraction < 0.0 ? startNs - earliestNs : endNs - startNs;
         const double sinceStart = fraction * static_cast<double>(lengthNs);

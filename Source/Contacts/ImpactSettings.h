@@ -37,8 +37,7 @@ struct ImpactSettings {
     /// breaking jar). False: pending events are dropped with either body.
     bool keepsHitsOfDestroyed = true;
 
-    /// True: no events are sent. Contacts are still tracked, so that events are right as soon as it is false
-    /// again.
+    /// True: no events are sent. Contacts are still tracked, so that events are right when it is false again.
     bool isMuted = false;
 
     /// Maximum number of impacts per step that become events; the strongest are kept, the others counted.

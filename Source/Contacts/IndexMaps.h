@@ -42,8 +42,7 @@ public:
         entry = {key, value, age_};
     }
 
-    /// Removes `key`, if present. Later keys of the same run move up, so that linear probing still finds
-    /// them.
+    /// Removes `key`, if present. Later keys of the same run move up, so that probing finds them.
     void erase(std::uint64_t key) noexcept {
         std::size_t hole = locate(key);
         if (!isTaken(entries_[hole])) return;

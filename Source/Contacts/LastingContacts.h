@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rolling and sliding contacts: each grain of a rough surface that a contact point passes gives a small
-// impact.
+// Rolling and sliding contacts: each grain of a rough surface that a point passes is a small impact.
 #pragma once
 #include "Contacts/FacePoints.h"
 #include "Contacts/FixtureTable.h"
@@ -182,8 +181,7 @@ public:
 
     explicit LastingContacts(const FixtureTable& table);
 
-    /// True if points of this pair are to be reported: a surface is rough, and one of the two is a haptic
-    /// source.
+    /// True if points of this pair are to be reported: a surface is rough, and one is a haptic source.
     bool isRelevant(std::int32_t a, std::int32_t b) const noexcept {
         return isRelevant(table_.traits(a) | table_.traits(b));
     }

@@ -77,8 +77,7 @@ void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impac
     }
 }
 
-// `later` returns the causes' impulse in their second step; it is called only where that could matter, which
-// is rare.
+// `later` returns the causes' impulse in their second step; called only where that could matter: seldom.
 template <class Later>
 void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later,
                             const StepSpan& span, std::vector<Impact>& impacts) const {

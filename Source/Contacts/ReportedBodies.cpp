@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stores the bodies that a caller reports, and computes approach speed and effective mass of two bodies at a
-// point.
+// Stores the bodies that a caller reports, and computes approach speed and effective mass of two at a point.
 #include "Contacts/ReportedContacts.h"
 #include <algorithm>
 #include <cmath>

@@ -18,11 +18,9 @@
 
 namespace physvib {
 
-// Decides which contact points of a touching pair are new, by comparing numbers or places with those of the
-// last step.
+// Decides which contact points of a touching pair are new, by numbers or places of the last step.
 
-/// Points of pairs, of this step and of the last. All methods: the world's thread (M). Allocates only to
-/// grow.
+/// Points of pairs, of this step and of the last. World thread (M). Allocates only to grow.
 class FedPoints {
 public:
     static constexpr std::int32_t none = -1; ///< of a chain: empty
@@ -216,8 +214,7 @@ private:
     std::vector<Point> points_;
 };
 
-// Converts the lasting contacts (rolling, sliding) that a foreign engine reports per step to tracked contact
-// points.
+// Converts the lasting contacts (rolling, sliding) that an engine reports per step to tracked points.
 
 /// A pair in contact whose contact point moves. A ball that rolls at v over a floor: v along both. A box that
 /// slides at v: v along the floor, 0 along the box.

@@ -7,8 +7,7 @@
 
 namespace physvib {
 
-/// Empty, or an error if the parsed call would write a file that it reads, or write one file twice. Message
-/// thread.
+/// Empty, or an error if the parsed call would write a file that it reads, or one file twice. Message thread.
 std::string clashOfCall(const OptionTable& app);
 
 /// Empty, or an error if a call "render ..." or "stimulus ..." in a file names an output file, i.e. has an

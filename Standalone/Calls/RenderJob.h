@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A render job as a value: input, rendering options and output files. Calls and buttons create
-// such jobs.
+// A render job as a value: input, rendering options and output files. Calls and buttons make such.
 #pragma once
 #include "Core/EventShaping.h"
 #include "Core/Modes/InstructionSet.h"

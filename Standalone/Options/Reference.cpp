@@ -390,8 +390,7 @@ std::string zshCompletion(const OptionTable& program) {
     return out.str();
 }
 
-// Fish evaluates a condition for each proposal: those of a command apply after its words, until a subcommand
-// follows.
+// Fish evaluates a condition for each proposal: a command's apply after its words, until a subcommand.
 std::string fishCompletion(const OptionTable& program) {
     std::ostringstream out;
     heading(out, program);

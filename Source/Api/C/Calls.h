@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared by all C functions: turns exceptions into error codes, keeps the error text, and copies versioned
-// structures.
+// For all C functions: turns exceptions into error codes, keeps the error text, copies versioned structures.
 #pragma once
 #include "Api/C/physvib.h"
 #include "Core/CollisionEvent.h"
@@ -176,8 +175,7 @@ std::string_view readEvents(const physvib_event* from, std::int64_t count, std::
 /// The same of a list that has to be in time order.
 std::string_view readSorted(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to);
 
-/// Writes the first `capacity` events of a list; returns how many these are, or sets the error and returns
-/// it.
+/// Writes the first `capacity` events of a list; returns how many, or sets the error and returns it.
 std::int64_t writeEvents(std::span<const CollisionEvent> from, physvib_event* to,
                          std::int64_t capacity) noexcept;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// C functions for version, errors, defaults of structures, layouts, event lists, WAV files and offline
-// rendering.
+// C functions for version, errors, defaults, layouts, event lists, WAV files and offline rendering.
 #include "Api/C/Calls.h"
 #include "Contacts/Grains.h"
 #include "Core/HapticRenderer.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Handles for objects that callers own. A forged handle, or one of a freed object, is detected and never
-// dereferenced.
+// Handles for objects that callers own. A forged or freed one is detected and never dereferenced.
 #pragma once
 #include "Core/Nonblocking.h"
 #include <array>
@@ -58,8 +57,7 @@ public:
         return 0;
     }
 
-    /// Removes the object from the table once no thread uses it; null if the handle is unknown. Any thread
-    /// but R.
+    /// Removes the object from the table once no thread uses it; null if there is none. Any thread but R.
     std::unique_ptr<Object> take(std::uintptr_t name) noexcept {
         const std::lock_guard lock{mutex_};
         Slot& slot = slotOf(name);

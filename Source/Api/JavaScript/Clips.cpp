@@ -30,8 +30,7 @@ Clip oneOf(const Clip& all, int channel) {
 
 extern "C" {
 
-/// Reads a file of that name to samples at that rate; returns the number of channels. Errors throw in
-/// JavaScript.
+/// Reads a file of that name to samples at that rate; returns the channels. Errors throw in JavaScript.
 int PHYSVIB_JS(clip_read)(const char* bytes, int count, const char* name, int rateHz) {
     auto read = readClip({bytes, static_cast<std::size_t>(count)}, name, formatOf(name));
     if (!read) refuse(read.error);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Exports of the WebAssembly module that physvib.h lacks: error handling, and the memory layout of its
-// structures.
+// What the WebAssembly module exports beside physvib.h: error handling, and the layout of its structures.
 #include "Api/JavaScript/Exports.h"
 #include "Api/C/physvib.h"
 #include <cstddef>
@@ -55,8 +54,7 @@ constexpr char kind<std::size_t> = 'u';
 template <>
 constexpr char kind<physvib_int64> = 'l';
 
-/// Four 32-bit numbers per member, as JavaScript reads them. The last entry of a structure describes the
-/// structure.
+/// Four 32-bit numbers per member, as JavaScript reads them. The last entry describes the structure.
 struct Member {
     const char* name; // in the last entry: the structure's name
     int at;           // in the last entry: the structure's size

@@ -43,8 +43,7 @@ public:
     /// Waits for device and sinks. Returns empty, or one line with the reason.
     std::string open();
 
-    /// Silences and closes the device, and waits for both. Returns empty, or why the session file is
-    /// incomplete.
+    /// Silences and closes the device, and waits for both. Empty, or why the session file is incomplete.
     std::string end();
 
     /// Any thread, after open().

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plots of a material: spectrum and waveform of an impact, with its frequency and decay drawn over a
-// recording.
+// Plots of a material: spectrum and waveform of an impact, its frequency and decay over a recording.
 #pragma once
 #include "Contacts/Grains.h"
 #include "Measure/MaterialExtractor.h"

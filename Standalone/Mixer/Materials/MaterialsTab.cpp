@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Controls of the materials tab: list, frequency and decay, surface, test spot, and a thread that measures
-// recordings.
+// Controls of the materials tab: list, frequency, decay, surface, test spot; a thread measures recordings.
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Mixer/Model/MixerRecording.h"

@@ -21,8 +21,7 @@ namespace physvib {
 
 class MixerModel;
 
-/// Audio for ears and machines (monitor, noise, markers), on outputs without an actuator. Message thread
-/// only.
+/// Audio for ears and machines (monitor, noise, markers), on outputs without an actuator. Message thread.
 class MixerListening {
 public:
     /// All references outlive it. Requested settings are stored in `choice`, and `onChange` is called when

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Applies messages to the displayed state, posts events at an actuator or a place of the field, and reads
-// clips.
+// Applies messages to the displayed state, posts events at an actuator or a place, and reads clips.
 #include "Mixer/Model/MixerInputs.h"
 #include "Core/Samples.h"
 #include "Core/Units.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What reaches the mixer beside its window's controls: messages by OSC, test events, and clips that are
-// dropped.
+// What reaches the mixer beside its window's controls: messages by OSC, test events, dropped clips.
 #pragma once
 #include "Host/Osc/OscPort.h"
 #include "Live/Devices/AudioOutput.h"

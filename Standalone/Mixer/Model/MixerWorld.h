@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The world of the mixer: user input and undoable edits, the recording of a script, and the comparison of two
-// mixes in it.
+// The world of the mixer: input and undoable edits, the recording of a script, two mixes compared in it.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Live/Documents/Mix.h"

@@ -61,8 +61,7 @@ public:
     explicit StudyWords(Words words = {})
         : words_{std::move(words)} {}
 
-    /// "trial {n}" with the value of {n}. Texts without a translation stay English and are recorded in
-    /// missed().
+    /// "trial {n}" with the value of {n}. Without a translation: English, and recorded in missed().
     juce::String operator()(const std::string& english,
                             std::initializer_list<std::pair<const char*, juce::String>> values = {}) const;
     const std::set<std::string>& missed() const noexcept { return missed_; }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mixer's window with its document: opens, saves, records and renders, and asks before unsaved changes
-// are lost.
+// The mixer's window with its document: opens, saves, records, renders, and asks before changes are lost.
 #pragma once
 #include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Output/EventsTab.h"

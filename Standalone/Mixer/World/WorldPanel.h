@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Panel of the world with its controls: a sentence on the strongest impact, tilt, drag strength and panning
-// law.
+// Panel of the world with its controls: the strongest impact in words, tilt, drag strength, panning law.
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Model/MixerModel.h"
