@@ -16,7 +16,7 @@ namespace physvib {
 // Numbers for pairs of touching fixtures, under which their data are stored and found without a search.
 
 /// A pair of slots has a number while it touches or while one of its fields is set. Check a number kept for
-/// longer with `is`. Allocates only to grow. World thread (M) only.
+/// longer with `is`. Allocates only to grow. World thread (M).
 class TouchingPairs {
 public:
     static constexpr std::int32_t none = IntegerMap::none;
@@ -107,7 +107,7 @@ private:
 /// contact's load, the smallest of its impulses in the last three steps (an impact, which may take two, is no
 /// load). The excess over the load is a transmitted impact; an impulse below it is none. Impulses at one body
 /// are summed as vectors; the spin of Eq. 5.2 is not added, because the sum is already the whole impulse.
-/// Allocates when the world grows. World thread (M) only.
+/// Allocates when the world grows. World thread (M).
 class ChainLoads {
 public:
     /// Where a contact is: of many it is never asked, so what an engine has is kept as it is.
@@ -212,7 +212,7 @@ private:
 /// of two surfaces that were apart and that approach each other faster than a resting body does; its impulse
 /// is what these parts push. All other impulses are loads: bodies that rest, lean, roll over a seam, or are
 /// created at rest. A pair of fixtures has at most one collision per step, however many contacts and points
-/// it has. Fixtures are given by their slots in the table. World thread (M) only.
+/// it has. Fixtures are given by their slots in the table. World thread (M).
 class CollisionCatcher {
 public:
     /// Most collisions of one step: those of haptic sources, and others, which may be transmitted to them. A

@@ -19,7 +19,7 @@ namespace physvib {
 /// A physics engine's attachment drives it. `know` registers a fixture when it gets values or touches
 /// another. Each step: `beginStep`, contact reports to `catcher()`, `endStep`; then take the events.
 ///
-/// All methods: the world's thread (M). After its buffers have grown to the world's size it does not
+/// All methods: world thread (M). After its buffers have grown to the world's size it does not
 /// allocate, except in the caller's vector.
 class ContactEvents {
 public:

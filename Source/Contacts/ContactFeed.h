@@ -87,9 +87,8 @@ struct FedContact {
 /// those of the onset. Points of a pair without reported impulses are solved together, so that a flat landing
 /// is one impact, however many points it has. A refused call changes nothing.
 ///
-/// All methods: the world's thread (M). None allocates after a step with as many bodies and contacts, except
-/// where the caller's vector grows. Only the constructor and configure throw, and any method without
-/// memory.
+/// All methods: world thread (M). None allocates after a step with as many bodies and contacts, except where
+/// the caller's vector grows. Only the constructor and configure throw, and any method without memory.
 class ContactFeed final {
 public:
     /// Throws std::invalid_argument if a setting is out of range; the timing is onset.

@@ -21,7 +21,7 @@ namespace physvib {
 // Holds events until no earlier one can arrive, and releases them in time order.
 
 /// Sorted by time, then by fixture id, then by arrival. Memory grows with what waits, up to the capacity.
-/// World thread (M) only.
+/// World thread (M).
 class EventSorter {
 public:
     explicit EventSorter(std::size_t capacity)
@@ -91,7 +91,7 @@ private:
 /// counted.
 ///
 /// Values common to a pair are computed once for consecutive impacts, as grains are. Valid for one step,
-/// while settings and fixtures stay unchanged and the bodies exist. World thread (M) only.
+/// while settings and fixtures stay unchanged and the bodies exist. World thread (M).
 class EventMaker {
 public:
     EventMaker(const FixtureTable& table, const PairSounds& pairs, const BodyReader& bodies,

@@ -36,7 +36,7 @@ struct KnownFixture {
 
 /// Slots are small and reused; ids are not. A fixture is registered once it has values or has touched
 /// another, so a step's cost does not grow with static geometry that nothing touches. Allocates only to grow.
-/// World thread (M) only.
+/// World thread (M).
 class FixtureTable {
 public:
     static constexpr std::int32_t none = IntegerMap::none;

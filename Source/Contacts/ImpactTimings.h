@@ -72,7 +72,7 @@ private:
 /// is attributed to the strongest collision that is connected by contacts. It counts once, however many
 /// collisions there are, and never exceeds what all of these gave, so that a humming machine on the same
 /// floor adds nothing. Cost grows with collisions and transmitted impulses, not with the size of the world.
-/// World thread (M) only.
+/// World thread (M).
 class OnsetImpacts {
 public:
     OnsetImpacts(CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph);
@@ -127,7 +127,7 @@ private:
 /// included. Therefore a source that does not collide itself gets the smaller value with and without gravity,
 /// so that neither rest nor fall counts, and at most what the collisions meanwhile gave (so that a humming
 /// machine on the same floor adds nothing to a pebble's impact). At most one such transmitted impact is
-/// pending per source. World thread (M) only.
+/// pending per source. World thread (M).
 class ReleaseImpacts {
 public:
     static constexpr std::int64_t latestNs = 50'000'000; // thesis 5.1.3: released 10 to 50 ms later

@@ -166,7 +166,7 @@ struct LastingPoint {
 /// velocity at the step's end; under steady acceleration the true path is half a step's change of speed
 /// behind that. This path is used, so times are accurate far below a step.
 ///
-/// All methods: the world's thread (M). After its buffers have grown it does not allocate.
+/// All methods: world thread (M). After its buffers have grown it does not allocate.
 class LastingContacts {
 public:
     /// Slower contacts count as resting.

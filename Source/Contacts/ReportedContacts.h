@@ -161,7 +161,7 @@ struct MeetingPoint {
 /// Computes the impulses along the normals such that none pulls, no surfaces approach, and none is larger
 /// than necessary (the linear complementarity problem of a rigid impact, by projected Gauss-Seidel). Where
 /// the masses leave the distribution open, all points get equal impulses. The bodies must be registered.
-/// World thread (M) only; no allocation.
+/// World thread (M); no allocation.
 void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points);
 
 // Estimates contact impulses from the bodies' velocities before and after the solver, for engines that do not
@@ -171,7 +171,7 @@ void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::sp
 /// momentum (least kinetic energy of the remainder, by projected Gauss-Seidel). Friction and joints are not
 /// known; their effects are attributed to the contacts as far as they act along the normals. A body between
 /// two others has the impulses on both sides, so a row transmits an impact, and a landing on a supported body
-/// counts the whole. World thread (M) only; allocates only to grow.
+/// counts the whole. World thread (M); allocates only to grow.
 class MomentumImpulses {
 public:
     void clear();

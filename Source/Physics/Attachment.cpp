@@ -22,7 +22,7 @@ namespace physvib {
 ///
 /// A world keeps bare pointers to its listeners and does not announce its destruction. So a listener may be
 /// destroyed only once its world is known to have another one (`remove`); otherwise the attachment leaves it
-/// behind, deactivated and forwarding calls. World thread (M) only.
+/// behind, deactivated and forwarding calls. World thread (M).
 class WorldListener final : public b2ContactListener, public b2DestructionListener {
 public:
     WorldListener(ContactEvents& events, BodySweeps& sweeps, WorldBodies& bodies)

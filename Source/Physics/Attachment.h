@@ -25,7 +25,7 @@ namespace physvib {
 /// After the attachment has ended its listener stays in the world and forwards calls, unless detach() was
 /// called.
 ///
-/// All methods: the world's thread (M), not inside a step. None allocates after a step with as many bodies
+/// All methods: world thread (M), not inside a step. None allocates after a step with as many bodies
 /// and contacts, except where the caller's vector grows. The cost of a step follows what moves, touches and
 /// collides, not the size of the map.
 class Attachment final {

@@ -20,7 +20,7 @@ namespace physvib {
 /// A point is new from when Box2D finds it until the end of the step in which the solver has applied an
 /// impulse there. That may be a later step, for a disabled contact (a one-way platform) or a contact found in
 /// a step of length 0. A point whose id Box2D's manifold keeps is old. Contacts are identified by their
-/// addresses. World thread (M) only.
+/// addresses. World thread (M).
 class FreshPoints {
 public:
     FreshPoints() { entries_.reserve(expectedContacts); }
@@ -131,7 +131,7 @@ private:
     NameSketch names_;   // of most contacts it tells that they have none
 };
 
-/// Converts Box2D's contact callbacks to the reports that CollisionCatcher needs. World thread (M) only.
+/// Converts Box2D's contact callbacks to the reports that CollisionCatcher needs. World thread (M).
 class CollisionFinder {
 public:
     CollisionFinder(ContactEvents& events, BodySweeps& sweeps)

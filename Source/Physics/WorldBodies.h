@@ -80,7 +80,7 @@ inline Vector2 centreOf(const b2Fixture& fixture) {
 // Body states at the beginning of a step, and how far Box2D has advanced a body when it reports a contact.
 
 /// Contacts of the regular solver are found at the beginning of a step, those of the time-of-impact solver at
-/// the time to which the body has been moved. World thread (M) only.
+/// the time to which the body has been moved. World thread (M).
 class BodySweeps {
 public:
     /// Call before b2World::Step. Visits each body once (Box2D does so several times) and no fixture.

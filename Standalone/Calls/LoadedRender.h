@@ -42,16 +42,16 @@ struct ActuatorChoice {
 };
 
 /// From the options: --actuator none, one profile for all actuators, or `layout` for the profiles in the
-/// layout. One error line if a profile is unknown or lacks required data. Message thread only.
+/// layout. One error line if a profile is unknown or lacks required data. Message thread.
 Result<ActuatorChoice> chooseActuators(const RenderJob& options, const LayoutDescription& layout);
 
 /// Layout with the measured full scale of `--actuator PROFILE`, so that all values in g refer to that
 /// actuator. With `--actuator layout`, or a profile without a full scale, the layout's values stay. One error
-/// line if the profile is unknown or a layout cannot store the value. Message thread only.
+/// line if the profile is unknown or a layout cannot store the value. Message thread.
 Result<LayoutDescription> calibratedLayout(const RenderJob& options, LayoutDescription layout);
 
 /// Warnings on actuators of the layout whose measured full scale the layout does not contain (`--actuator
-/// layout`). Message thread only.
+/// layout`). Message thread.
 std::vector<std::string> calibrationWarnings(const RenderJob& options, const LayoutDescription& layout);
 
 /// Notes on the cost of equalisation: the maximum level with a flat response in the band, per distinct

@@ -18,7 +18,7 @@ void noteGiven(const OptionTable& command, RenderJob& options);
 
 // Options whose values need their own parser, i.e. are not a number, name or path.
 
-/// --law, from the table of panning laws. Message thread only, as all here.
+/// --law, from the table of panning laws. Message thread, as all here.
 Option& addLaw(OptionTable& command, PanningLaw& law);
 
 /// --sound MATERIAL=FILE.wav or HZ=FILE.wav, which may be repeated; `says` is its meaning.

@@ -25,7 +25,7 @@ struct StimulusOptions {
 /// Declares pattern, phantom, wav and list as subcommands of `command`.
 void declareStimulus(OptionTable& command, StimulusOptions& options);
 
-/// The job of the parsed `command` (not list), or an error in its arguments. Message thread only.
+/// The job of the parsed `command` (not list), or an error in its arguments. Message thread.
 Result<StimulusJob> readStimulus(const OptionTable& command, const StimulusOptions& options);
 
 } // namespace physvib

@@ -28,7 +28,7 @@ using OptionTarget =
                  std::vector<std::string>*, std::optional<int>*, std::optional<double>*,
                  std::optional<std::string>*, std::function<void(int)>, WordReader, WordsReader>;
 
-/// One option. Setters return the option for chaining. Message thread only.
+/// One option. Setters return the option for chaining. Message thread.
 struct Option {
     std::vector<std::string> spellings; ///< "-h", "--help"; the name of a positional argument
     OptionTarget target;
@@ -80,7 +80,7 @@ private:
     Option& inRange(double least, double most, std::string words);
 };
 
-/// Options of a program or command, and its subcommands. Entries have stable addresses. Message thread only.
+/// Options of a program or command, and its subcommands. Entries have stable addresses. Message thread.
 class OptionTable {
 public:
     OptionTable(std::string words, std::string meaning);

@@ -16,10 +16,10 @@ struct ParsedWords {
     std::string reason() const { return unknown.empty() ? fault : "unknown: " + unknown; }
 };
 
-/// Parses a program's arguments. Message thread only.
+/// Parses a program's arguments. Message thread.
 ParsedWords parseArguments(OptionTable& table, int argc, char** argv);
 
-/// Parses a call given as text without the program's name: "render drop --law=log". Message thread only.
+/// Parses a call given as text without the program's name: "render drop --law=log". Message thread.
 ParsedWords parseText(OptionTable& table, const std::string& call);
 
 } // namespace physvib

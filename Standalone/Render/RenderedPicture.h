@@ -6,7 +6,7 @@
 
 namespace physvib {
 
-/// Receives the samples as they are rendered. Message thread only.
+/// Receives the samples as they are rendered. Message thread.
 class RenderedPicture {
 public:
     /// Checks that the file can be written; see error(). `events` outlive this object.

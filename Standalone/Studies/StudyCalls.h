@@ -37,11 +37,11 @@ std::string protocolFault(const Protocol& protocol, const std::string& name);
 
 /// The stimulus, or one error line. Files are searched in `folder` first, if it is not empty. Like `physvib
 /// stimulus`, it rejects stimuli that are too strong for the layout at `sampleRateHz`. It also rejects
-/// phantoms with recordings, which are samples and not events. Message thread only.
+/// phantoms with recordings, which are samples and not events. Message thread.
 Result<FeltStimulus> feltStimulus(const TrialJob& job, int sampleRateHz, const std::string& folder = {});
 
 /// The world of `render SCENE ...`, as `physvib play` plays it, with files as above; or one error line.
-/// Message thread only.
+/// Message thread.
 Result<FeltWorld> feltWorld(const WrittenCall& call, const std::string& folder = {});
 
 } // namespace physvib

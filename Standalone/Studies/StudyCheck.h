@@ -31,7 +31,7 @@ struct CheckedStimulus {
 /// The print of a stimulus that is not rendered: of its call. Any thread.
 std::uint64_t printOfCall(const TrialJob& job);
 
-/// Results of a check. Message thread only.
+/// Results of a check. Message thread.
 struct StudyCheck {
     std::vector<CheckedStimulus> stimuli;
     std::vector<std::string> errors;     ///< the study may not be run
@@ -53,7 +53,7 @@ StudyCheck checkStudy(const Protocol& protocol, int participants, const std::fun
 
 /// The first error that checkStudy() would find; empty if there is none. Faster: lower levels of the same
 /// samples, and interactive worlds, whose levels depend on the participant, are not rendered, and pulses and
-/// phantoms only where their gains exceed the layout. Message thread only.
+/// phantoms only where their gains exceed the layout. Message thread.
 std::string studyFault(const Protocol& protocol);
 
 // Rules of a study's check: what cannot be told apart, as it renders alike, and what no number of trials

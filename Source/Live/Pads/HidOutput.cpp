@@ -2,7 +2,6 @@
 // Thread that looks for a controller, follows the device's clock and writes the reports that are due.
 #include "Live/Pads/HidOutput.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Session/DevicePulse.h"
 #include <chrono>
 
 namespace physvib {
@@ -10,9 +9,7 @@ namespace {
 
 constexpr std::int64_t msNs = 1'000'000;
 constexpr std::int64_t lookNs = 250 * msNs; // search interval for a newly connected controller
-constexpr std::int64_t jumpNs = 70 * msNs;  // session time that goes back so far means a pause or a restart
 constexpr std::int64_t patienceNs = 500 * msNs;
-constexpr std::chrono::milliseconds mostRest{250}; // reports of silence and off are written within 20 ms
 
 } // namespace
 
@@ -28,27 +25,19 @@ HidOutput::~HidOutput() {
 }
 
 std::string HidOutput::awaitReady(const std::function<bool()>& keepGoing) {
-    const std::int64_t endNs = steadyNs() + patienceNs;
-    for (;; std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
-        const std::lock_guard lock{mutex_};
-        if (!node_.empty()) return {};
-        if (!keepGoing() || steadyNs() > endNs) return troubleNow();
-    }
+    return device_.await(
+        patienceNs, keepGoing, [this] { return !node_.empty(); }, [this] { return troubleNow(); });
 }
 
 void HidOutput::follow(OutputClock* device) {
-    std::unique_lock lock{mutex_};
-    if (device == device_) return;
-    device_ = device;
-    clock_ = {};
-    beginsAnew_ = true;
-    rested_.wait_for(lock, mostRest, [this] { return !beginsAnew_; });
+    device_.follow(
+        device, [] {}, [] { return false; }); // reports of silence and off are written within 20 ms
 }
 
 void HidOutput::run() {
     for (; !stop_; std::this_thread::sleep_for(std::chrono::milliseconds{1})) {
         connect();
-        beginAnew();
+        device_.beginAnew([this] { rest(); }, [this] { feed_->begin(); });
         if (const auto report = due(steadyNs())) write(*report);
     }
     rest();
@@ -59,7 +48,7 @@ void HidOutput::connect() {
     if (pad_ || nowNs < looksNs_) return;
     looksNs_ = nowNs + lookNs;
     auto found = HidDevice::open(feed_->kind().models, where_);
-    const std::lock_guard lock{mutex_};
+    const std::lock_guard lock{device_.mutex};
     refusal_ = found.error;
     if (!found) return;
     pad_ = std::move(found.value);
@@ -69,27 +58,10 @@ void HidOutput::connect() {
     ++counts_.connections;
 }
 
-void HidOutput::beginAnew() {
-    std::unique_lock lock{mutex_};
-    if (!beginsAnew_) return;
-    lock.unlock();
-    rest();
-    feed_->begin();
-    playedNs_ = 0;
-    lock.lock();
-    beginsAnew_ = false;
-    rested_.notify_all();
-}
-
 std::optional<PadReport> HidOutput::due(std::int64_t nowNs) {
-    const std::lock_guard lock{mutex_};
-    if (device_ == nullptr || beginsAnew_) return {};
-    if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) clock_.add(felt);
-    if (!clock_.isReady()) return {};
-    const std::int64_t sessionNs = nowNs - clock_.steadyAt(0);
-    if (sessionNs + jumpNs < playedNs_) feed_->begin();
-    playedNs_ = sessionNs;
-    return feed_->next(nowNs, sessionNs, device_->isSilent() ? 0.0f : device_->level());
+    const std::lock_guard lock{device_.mutex};
+    const auto sessionNs = device_.sessionNs(nowNs, [this] { feed_->begin(); });
+    return sessionNs ? feed_->next(nowNs, *sessionNs, device_.level()) : std::nullopt;
 }
 
 void HidOutput::write(const PadReport& report) {
@@ -97,14 +69,14 @@ void HidOutput::write(const PadReport& report) {
     if (!hasSent_) sendAll(feed_->on());
     hasSent_ = true;
     if (!send(report)) return;
-    const std::lock_guard lock{mutex_};
+    const std::lock_guard lock{device_.mutex};
     ++counts_.reports;
 }
 
 bool HidOutput::send(const PadReport& report) {
     if (pad_ && !pad_->write(report.span())) {
         pad_.reset();
-        const std::lock_guard lock{mutex_};
+        const std::lock_guard lock{device_.mutex};
         node_.clear();
     }
     return pad_ != nullptr;
@@ -134,12 +106,12 @@ std::string HidOutput::troubleNow() const {
 }
 
 HidCounts HidOutput::counts() const {
-    const std::lock_guard lock{mutex_};
+    const std::lock_guard lock{device_.mutex};
     return counts_;
 }
 
 SinkState HidOutput::state() const {
-    const std::lock_guard lock{mutex_};
+    const std::lock_guard lock{device_.mutex};
     SinkState state;
     state.name = "controller";
     state.isReady = !node_.empty();
@@ -156,7 +128,7 @@ SinkState HidOutput::state() const {
 }
 
 std::string HidOutput::summary(const std::function<bool()>&) const {
-    const std::lock_guard lock{mutex_};
+    const std::lock_guard lock{device_.mutex};
     std::string line = (lastName_.empty() ? label() : lastName_) + ": " + std::to_string(counts_.reports) +
                        " reports, " + std::to_string(feed_->lost()) + " lost";
     if (counts_.connections > 1) line += "; connected " + std::to_string(counts_.connections) + " times";

@@ -5,8 +5,6 @@
 #include "Live/Pads/HidFeed.h"
 #include "Live/Session/OutputClock.h"
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 
 namespace physvib {
@@ -40,7 +38,6 @@ public:
 private:
     void run();
     void connect();
-    void beginAnew();
     std::optional<PadReport> due(std::int64_t nowNs);
     void write(const PadReport& report);
     bool send(const PadReport& report);
@@ -52,17 +49,13 @@ private:
     const std::string where_;
     const std::unique_ptr<HidFeed> feed_;
 
-    std::unique_ptr<HidDevice> pad_;          // the thread's alone, as the next two lines
-    std::int64_t looksNs_ = 0, playedNs_ = 0; // steady clock; session time
-    bool hasSent_ = false;                    // since it was switched on
+    std::unique_ptr<HidDevice> pad_; // the thread's alone, as the next two lines
+    std::int64_t looksNs_ = 0;       // steady clock
+    bool hasSent_ = false;           // since it was switched on
 
-    mutable std::mutex mutex_; // guards the members below, used by the thread and M
-    std::condition_variable rested_;
-    OutputClock* device_ = nullptr;
-    bool beginsAnew_ = false; // the device is another one: first what was sent before ends
-    std::string node_;        // of the controller; empty: there is none
+    FollowedDevice device_; // its mutex guards the members below, used by the thread and M
+    std::string node_;      // of the controller; empty: there is none
     std::string lastName_, refusal_{"none is there"};
-    SessionClock clock_;
     HidCounts counts_;
 
     std::atomic<bool> stop_{false};

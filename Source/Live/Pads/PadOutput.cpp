@@ -2,7 +2,6 @@
 // Thread that finds a controller, follows the device's clock and sends the motor commands that are due.
 #include "Live/Pads/PadOutput.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Session/DevicePulse.h"
 #include <algorithm>
 #include <chrono>
 
@@ -13,8 +12,6 @@ constexpr std::int64_t msNs = 1'000'000;
 constexpr std::int64_t repeatNs = 100 * msNs;    // half the duration of a command
 constexpr std::int64_t lookNs = 250 * msNs;      // search interval for a newly connected controller
 constexpr std::int64_t patienceNs = 2000 * msNs; // a Bluetooth controller needs a second to connect
-constexpr std::chrono::milliseconds mostRest{250};
-constexpr std::int64_t jumpNs = 70 * msNs; // a backward jump of session time that means a pause or a restart
 
 std::string milliseconds(double seconds) { return fixedNumber(1e3 * seconds, 0) + " ms"; }
 
@@ -44,25 +41,18 @@ PadOutput::~PadOutput() {
 }
 
 std::string PadOutput::awaitReady(const std::function<bool()>& keepGoing) {
-    const std::int64_t endNs = steadyNs() + patienceNs;
-    for (;; std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
-        const std::lock_guard lock{mutex_};
-        if (there_ || !fault_.empty()) return fault_;
-        if (!keepGoing() || steadyNs() > endNs) return troubleNow();
-    }
+    return device_.await(
+        patienceNs, keepGoing, [this] { return there_ || !fault_.empty(); }, [this] { return troubleNow(); });
 }
 
 void PadOutput::follow(OutputClock* device) {
-    std::unique_lock lock{mutex_};
-    if (device == device_) return;
-    device_ = device;
-    for (CollisionEvent event; device && events_.pop(event);) {
-    } // events of an earlier session
-    for (RenderControl control; device && controls_.pop(control);) controls_.done(control);
-    grips_ = PadMotors::gripsOf(first_);
-    clock_ = {};
-    beginsAnew_ = true;
-    rested_.wait_for(lock, mostRest, [this] { return !beginsAnew_ || !fault_.empty(); });
+    const auto change = [&] {
+        for (CollisionEvent event; device && events_.pop(event);) {
+        } // events of an earlier session
+        for (RenderControl control; device && controls_.pop(control);) controls_.done(control);
+        grips_ = PadMotors::gripsOf(first_);
+    };
+    device_.follow(device, change, [this] { return !fault_.empty(); });
 }
 
 void PadOutput::begin() {
@@ -71,20 +61,19 @@ void PadOutput::begin() {
     motors_ = PadMotors{law};
     layouts_.clear();
     stopsNs_.clear();
-    playedNs_ = 0;
 }
 
 void PadOutput::run() {
     GamePads pads;
     if (!pads.fault().empty()) {
-        const std::lock_guard lock{mutex_};
+        const std::lock_guard lock{device_.mutex};
         fault_ = pads.fault();
         return;
     }
     for (; !stop_; std::this_thread::sleep_for(std::chrono::milliseconds{1})) {
         pads.update();
         connect(pads);
-        beginAnew();
+        device_.beginAnew([this] { send({}); }, [this] { begin(); });
         if (const auto command = due(steadyNs())) send(*command);
     }
     send({});
@@ -97,7 +86,7 @@ void PadOutput::connect(GamePads& pads) {
     pad_.reset();                                            // before it is opened anew
     pad_ = pads.open(lastName_.empty() ? name_ : lastName_); // this thread alone sets that
     if (!pad_ && !lastName_.empty()) pad_ = pads.open(name_);
-    const std::lock_guard lock{mutex_};
+    const std::lock_guard lock{device_.mutex};
     there_.reset();
     if (!pad_) return;
     there_ = pad_->info();
@@ -110,28 +99,13 @@ void PadOutput::connect(GamePads& pads) {
     begin();
 }
 
-void PadOutput::beginAnew() {
-    std::unique_lock lock{mutex_};
-    if (!beginsAnew_) return;
-    lock.unlock();
-    send({});
-    lock.lock();
-    begin();
-    beginsAnew_ = false;
-    rested_.notify_all();
-}
-
 std::optional<PadCommand> PadOutput::due(std::int64_t nowNs) {
-    const std::lock_guard lock{mutex_};
-    if (device_ == nullptr || beginsAnew_) return {};
-    if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) clock_.add(felt);
-    if (!clock_.isReady()) return {};
-    const std::int64_t sessionNs = nowNs - clock_.steadyAt(0);
-    if (sessionNs + jumpNs < playedNs_) begin();
-    playedNs_ = sessionNs;
-    takeControls(sessionNs);
+    const std::lock_guard lock{device_.mutex};
+    const auto sessionNs = device_.sessionNs(nowNs, [this] { begin(); });
+    if (!sessionNs) return {};
+    takeControls(*sessionNs);
     takeEvents();
-    return command(sessionNs, nowNs);
+    return command(*sessionNs, nowNs);
 }
 
 // A layout applies from the first event at its time, a stop from the time at which it is felt.
@@ -155,7 +129,7 @@ void PadOutput::takeEvents() {
 }
 
 std::optional<PadCommand> PadOutput::command(std::int64_t sessionNs, std::int64_t nowNs) {
-    const double level = device_->isSilent() ? 0.0 : static_cast<double>(device_->level());
+    const double level = static_cast<double>(device_.level());
     PadCommand newest = level > 0.0 ? sent_ : PadCommand{}; // silence: at once, regardless of the command
                                                             // rate
     int due = 0;
@@ -172,7 +146,7 @@ void PadOutput::send(const PadCommand& command) {
     sent_ = command;
     sentNs_ = steadyNs();
     if (pad_->rumble(command.low, command.high)) return;
-    const std::lock_guard lock{mutex_};
+    const std::lock_guard lock{device_.mutex};
     ++counts_.refused;
 }
 
@@ -186,12 +160,12 @@ std::string PadOutput::troubleNow() const {
 }
 
 PadCounts PadOutput::counts() const {
-    const std::lock_guard lock{mutex_};
+    const std::lock_guard lock{device_.mutex};
     return counts_;
 }
 
 SinkState PadOutput::state() const {
-    const std::lock_guard lock{mutex_};
+    const std::lock_guard lock{device_.mutex};
     SinkState state;
     state.name = "controller";
     state.isReady = there_.has_value();
@@ -211,7 +185,7 @@ SinkState PadOutput::state() const {
 }
 
 std::string PadOutput::summary(const std::function<bool()>&) const {
-    const std::lock_guard lock{mutex_};
+    const std::lock_guard lock{device_.mutex};
     const PadMotor& slow =
         profile_.law.low.riseSeconds > profile_.law.high.riseSeconds ? profile_.law.low : profile_.law.high;
     std::string line = (lastName_.empty() ? name_ : lastName_) + ": " + std::to_string(counts_.events) +

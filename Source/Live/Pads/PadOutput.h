@@ -14,8 +14,6 @@
 #include "Live/Session/Sink.h"
 #include "Scene/PadFile.h"
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -51,7 +49,6 @@ public:
 private:
     void run();
     void connect(GamePads& pads);
-    void beginAnew();
     std::optional<PadCommand> due(std::int64_t nowNs);
     void takeControls(std::int64_t sessionNs);
     void takeEvents();
@@ -68,18 +65,14 @@ private:
 
     std::unique_ptr<GamePad> pad_; // the thread's alone, as the next two lines
     PadCommand sent_;
-    std::int64_t sentNs_ = 0, looksNs_ = 0, playedNs_ = 0; // steady clock; steady clock; session time
+    std::int64_t sentNs_ = 0, looksNs_ = 0; // steady clock
 
-    mutable std::mutex mutex_; // guards the members below, used by the thread and M
-    std::condition_variable rested_;
+    FollowedDevice device_; // its mutex guards the members below, used by the thread and M
     PadProfile profile_;
     std::string fault_; // a permanent error: nothing can be played
-    OutputClock* device_ = nullptr;
-    bool beginsAnew_ = false; // the device is another one: first the motors come to rest
     std::optional<GamePadInfo> there_;
     std::string lastName_; // of the last controller
     PadMotors motors_{PadLaw{}};
-    SessionClock clock_;
     const PhantomPanner first_; // the session's first panner
     PhantomPanner grips_;
     std::vector<PannerChange> layouts_; // grips, waiting for their time, as the next

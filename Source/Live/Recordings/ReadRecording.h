@@ -16,10 +16,9 @@ namespace physvib {
 inline constexpr std::array<std::string_view, 6> soundEndings{".wav",  ".aiff", ".aif",
                                                               ".flac", ".ogg",  ".opus"};
 
-/// Reads a recording (a sound, recognised by content) with its own rate and channels, or a clip
-/// (recognised by file extension: Formats/ClipFile.h) at 48 kHz. Or one line naming the file. Only regular
-/// files within the limits of recordings, whose content is as long as the header says, and finite. Any thread
-/// but R.
+/// Reads a recording (a sound, recognised by content) with its own rate and channels, or a clip (recognised
+/// by file extension: Formats/ClipFile.h) at 48 kHz. Or one line naming the file. Only regular files within
+/// the limits of recordings, whose content is as long as the header says, and finite. Any thread but R.
 Result<SampledSound> readRecording(const std::filesystem::path& path);
 
 /// Samples of a clip that was read from that file. Any thread.

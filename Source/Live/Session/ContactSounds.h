@@ -109,9 +109,8 @@ public:
     const std::deque<ClipSound>& clips() const noexcept { return clips_; }
 
     /// Adds a clip with the number clips().size(), which must be below mostClips. Fast if it is at all
-    /// rates() already. R may be searching any list meanwhile: it reads the numbers of the clips'
-    /// entries, which do not change, and reads this clip's samples only for an event that is sent after this
-    /// call.
+    /// rates() already. R may be searching any list meanwhile: it reads the numbers of the clips' entries,
+    /// which do not change, and reads this clip's samples only for an event that is sent after this call.
     void add(ClipSound clip) {
         clips_.push_back(std::move(clip));
         for (Set& set : sets_) fill(set, clips_.size() - 1);

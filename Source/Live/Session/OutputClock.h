@@ -2,12 +2,18 @@
 // State of an output device for the sinks that follow it: when a session time is felt, the master level, and
 // mute.
 #pragma once
+#include "Live/Session/DevicePulse.h"
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <thread>
 
 namespace physvib {
 
@@ -181,6 +187,67 @@ private:
     std::int64_t before_ = 0, now_ = 0; // smallest lag of the last half window and of the current one
     std::int64_t halfBeganNs_ = 0;
     bool isReady_ = false;
+};
+
+/// The device that a sink with a thread of its own follows. Members are called with `mutex` locked, which
+/// guards what that thread and M share, but for those that lock it.
+class FollowedDevice {
+public:
+    mutable std::mutex mutex;
+
+    /// Locks. M waits for the thread to rest, a moment at most, or until `isOver()`. `change()` is called
+    /// first, unless that device is followed already.
+    void follow(OutputClock* device, auto change, auto isOver) {
+        std::unique_lock lock{mutex};
+        if (device == device_) return;
+        device_ = device;
+        clock_ = {};
+        change();
+        beginsAnew_ = true;
+        rested_.wait_for(lock, mostRest, [&] { return !beginsAnew_ || isOver(); });
+    }
+    /// Locks. The thread: if the device is another one, what was sent before ends by `rest()`, without the
+    /// lock; then `begin()`.
+    void beginAnew(auto rest, auto begin) {
+        std::unique_lock lock{mutex};
+        if (!beginsAnew_) return;
+        lock.unlock();
+        rest();
+        lock.lock();
+        begin();
+        playedNs_ = 0;
+        beginsAnew_ = false;
+        rested_.notify_all();
+    }
+    /// The thread: the session time that is felt at `nowNs`, after `begin()` if it went back; none: unknown.
+    std::optional<std::int64_t> sessionNs(std::int64_t nowNs, auto begin) {
+        if (device_ == nullptr || beginsAnew_) return {};
+        if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) clock_.add(felt);
+        if (!clock_.isReady()) return {};
+        const std::int64_t now = nowNs - clock_.steadyAt(0);
+        if (now + jumpNs < playedNs_) begin();
+        return playedNs_ = now;
+    }
+    float level() const { return device_->isSilent() ? 0.0f : device_->level(); } ///< where there is a time
+    /// Locks. `trouble()` once `isReady()` or nobody wants to wait longer.
+    std::string await(std::int64_t patienceNs, const std::function<bool()>& keepGoing, auto isReady,
+                      auto trouble) const {
+        const std::int64_t endNs = steadyNs() + patienceNs;
+        for (;; std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
+            const std::lock_guard lock{mutex};
+            if (isReady() || !keepGoing() || steadyNs() > endNs) return trouble();
+        }
+    }
+
+private:
+    static constexpr std::int64_t jumpNs = 70'000'000; // backwards: a pause or a restart
+    static constexpr std::chrono::milliseconds mostRest{250};
+
+    std::condition_variable rested_;
+    OutputClock* device_ = nullptr;
+    bool beginsAnew_ = false;
+    SessionClock clock_;
+    std::int64_t playedNs_ = 0; // session time
 };
 
 } // namespace physvib

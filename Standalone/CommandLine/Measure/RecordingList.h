@@ -16,7 +16,7 @@
 #include <vector>
 
 namespace physvib {
-/// Message thread only.
+/// Message thread.
 class RecordingList {
 public:
     static constexpr const char* fileName = "conditions.csv";

@@ -62,7 +62,7 @@ private:
     ListeningSettings sent_;
 };
 
-/// Message thread only.
+/// Message thread.
 class MixerDevice {
 public:
     /// Both references outlive it. `onChange` as for MixerListening.
@@ -123,19 +123,18 @@ void showPlayedOutputs(const std::vector<int>& played, std::span<Strip> strips);
 std::vector<std::size_t> placeNew(const DeviceChoice& choice, std::span<Strip> strips, std::size_t first);
 
 /// Opens a device as headphones: the first actuator is heard left and the second right, at the level at which
-/// a monitor begins, or lower. Result as MixerModel::open(). Message thread only.
+/// a monitor begins, or lower. Result as MixerModel::open(). Message thread.
 std::string useHeadphones(MixerModel& model, DeviceChoice choice);
 
-/// Reports strips for which headphones have no output. Message thread only.
+/// Reports strips for which headphones have no output. Message thread.
 void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips);
 
 /// Reports strips that lost their output to another one, with a button that gives them free outputs. Message
 /// thread only.
 void reportWithout(MixerModel& model, const std::vector<std::size_t>& strips);
 
-/// Vibration exposure of the mixer's output in g, from sums in full scales and the current layout.
-/// Actuators are treated like the axes in ISO 5349-1, as if all were in one hand: their squares add up.
-/// Message thread only.
+/// Vibration exposure of the mixer's output in g, from sums in full scales and the current layout. Actuators
+/// are treated like the axes in ISO 5349-1, as if all were in one hand: their squares add up. Message thread.
 class MixerExposure {
 public:
     explicit MixerExposure(AudioOutput& output)

@@ -33,7 +33,7 @@ struct OscChoice {
 };
 
 /// Receives and sends while it exists. Events go to the session at once; changes of strips and world are
-/// applied by the mixer itself. Message thread only.
+/// applied by the mixer itself. Message thread.
 class MixerOsc final : private juce::AsyncUpdater, private juce::Timer {
 public:
     static constexpr int reportMilliseconds = 10;
@@ -68,7 +68,7 @@ private:
     std::unique_ptr<OscPort> port_; // destroyed first, because its thread uses the other members
 };
 
-/// The mixer's OSC port. Message thread only.
+/// The mixer's OSC port. Message thread.
 class MixerInputs {
 public:
     /// `model` outlives it.
@@ -98,7 +98,7 @@ private:
 /// True if the dragged files may be dropped as clips; the window handles documents. Message thread.
 bool isClipDrag(const juce::StringArray& files);
 
-/// Plays clips: a background thread reads them and posts them like messages. Message thread only.
+/// Plays clips: a background thread reads them and posts them like messages. Message thread.
 class MixerClips final : private juce::AsyncUpdater {
 public:
     /// All references outlive it. `onResult` is called on the message thread for each clip: with a note or an
@@ -127,7 +127,7 @@ private:
 };
 
 /// Events that the mixer plays apart from the world: test pulses and sweeps of one actuator, auditions of
-/// materials, and clips. Message thread only.
+/// materials, and clips. Message thread.
 class MixerStrikes {
 public:
     /// All references outlive it. `onStrike` is called for each event; `onClip` when a clip was read (as for

@@ -44,7 +44,7 @@ struct MixerMessage {
 };
 
 /// The line above the world: one message at a time, each with a button for what can be done about it. They
-/// wait for each other, so that none is lost and no two share a line. Message thread only.
+/// wait for each other, so that none is lost and no two share a line. Message thread.
 class MixerMessages {
 public:
     /// `onChange` is called when another message is shown.
@@ -88,7 +88,7 @@ StrongestActuator strongestOf(const Mix& mix, const CollisionEvent& hit);
 juce::String placeText(const Scene& scene, const CollisionEvent& hit);
 
 /// Says of a material or a new body that it would not be felt at usual impacts, with a button that changes
-/// this; takes the message away if it would be. Message thread only.
+/// this; takes the message away if it would be. Message thread.
 void hintOnMaterial(MixerModel& model, int material);
 void hintOnBody(MixerModel& model, const std::string& body);
 

@@ -51,7 +51,7 @@ bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
 
 } // namespace
 
-/// What of the mixer state the session has received. Message thread only.
+/// What of the mixer state the session has received. Message thread.
 class SentMix {
 public:
     /// Initial state: the session was created with `panner` and default strips.

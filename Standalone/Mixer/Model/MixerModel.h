@@ -21,7 +21,7 @@ namespace physvib {
 
 class SentMix;
 
-/// Message thread only. Listeners are notified when the mixer state, the device or the error message changes.
+/// Message thread. Listeners are notified when the mixer state, the device or the error message changes.
 class MixerModel final : public juce::ChangeBroadcaster {
 public:
     static constexpr int channels = limits::maxEnchanters; ///< of the session: the maximum number of

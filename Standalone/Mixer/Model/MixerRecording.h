@@ -65,7 +65,7 @@ private:
     std::uint64_t endsAfterBlock_ = 0;
 };
 
-/// Records fader moves during a recording as automation lanes over the scene's time. Message thread only.
+/// Records fader moves during a recording as automation lanes over the scene's time. Message thread.
 class MixerLanes {
 public:
     /// `model` outlives it.
@@ -159,7 +159,7 @@ private:
 };
 
 /// The folder for what the mixer makes: recordings, movies, sessions and studies. One for all windows of the
-/// process, as a juce::SharedResourcePointer. Message thread only.
+/// process, as a juce::SharedResourcePointer. Message thread.
 class UserFolder {
 public:
     /// The user's choice; without one, or where it cannot be written: PhysVib in the documents, else in the

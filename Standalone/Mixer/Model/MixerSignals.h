@@ -74,7 +74,7 @@ struct DeviceChoice {
     }
 };
 
-/// The last second of every channel, as minimum and maximum of each scope column. Message thread only.
+/// The last second of every channel, as minimum and maximum of each scope column. Message thread.
 class ScopeTrace {
 public:
     static constexpr int columns = 800;
@@ -141,7 +141,7 @@ private:
     std::int64_t begun_ = 0;
 };
 
-/// Recent samples of every channel at a rate that suffices for spectra of vibration. Message thread only.
+/// Recent samples of every channel at a rate that suffices for spectra of vibration. Message thread.
 class SpectrumTrace {
 public:
     /// A quarter of a second, which gives a resolution of 8 Hz.
@@ -169,7 +169,7 @@ private:
 };
 
 /// Waveform of a whole scene run, as minimum and maximum of each column over the scene's time. When the
-/// columns are full, their duration doubles. Message thread only.
+/// columns are full, their duration doubles. Message thread.
 class RunTrace {
 public:
     static constexpr std::size_t columns = 1024;
@@ -238,7 +238,7 @@ private:
     double columnSeconds_ = firstSeconds, seconds_ = 0.0;
 };
 
-/// Message thread only.
+/// Message thread.
 class MixerSignals {
 public:
     SignalTap& tap() noexcept { return tap_; } ///< filled by the output

@@ -46,7 +46,7 @@ private:
     std::int64_t sessionNs_ = 0, behindNs_ = 0;
 };
 
-/// Message thread only.
+/// Message thread.
 class MixerWorld {
 public:
     /// All references outlive it. `onInput` is called after each input to the world, with whether it changes
@@ -95,7 +95,7 @@ private:
     bool isTooMuch_ = false;
 };
 
-/// Records user input in the world as the scene's script, and trims it. Message thread only.
+/// Records user input in the world as the scene's script, and trims it. Message thread.
 class MixerScript {
 public:
     /// `model` outlives it.
@@ -140,7 +140,7 @@ private:
 double energyOf(const Mix& mix, std::span<const CollisionEvent> events);
 
 /// Two states of panning law, layout and mix, A and B, of which one plays; one key changes between them, at
-/// matched levels. Message thread only.
+/// matched levels. Message thread.
 class MixerCompare {
 public:
     explicit MixerCompare(MixerModel& model)

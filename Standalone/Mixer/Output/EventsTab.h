@@ -30,7 +30,7 @@ struct WrittenHits {
 
 /// Writes the impacts (in any order) from the first one on, panned over the actuators by the law of `mix`, in
 /// the format of the extension of `path`; or one error line. Several files never replace existing ones.
-/// Message thread only.
+/// Message thread.
 Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
                               const juce::File& path);
 

@@ -13,7 +13,7 @@
 namespace physvib {
 
 /// The levels of a take over time, with its start and end to drag.
-/// Message thread only.
+/// Message thread.
 class TakeTrim final : public juce::Component,
                        public juce::SettableTooltipClient,
                        private juce::AsyncUpdater {
@@ -55,7 +55,7 @@ private:
     juce::ThreadPool reader_{1};  // destroyed first, because its thread uses the other members
 };
 
-/// Message thread only.
+/// Message thread.
 class TakesTab final : public Tab, private juce::ListBoxModel {
 public:
     explicit TakesTab(MixerModel& model);

@@ -94,7 +94,7 @@ std::unique_ptr<StudyAnswer> makeCellAnswer(const GridSet& grid, const LayoutDes
 std::unique_ptr<StudyAnswer> makePlaceAnswer(const LayoutDescription& layout);
 
 /// Pane for answering a trial and confirming the answer, below the stimuli or in a separate window.
-/// Message thread only.
+/// Message thread.
 class StudyAnswerPane final : public juce::Component {
 public:
     explicit StudyAnswerPane(const StudyWords& words);

@@ -24,7 +24,7 @@ enum class Course {
     unlike, ///< it left as a whole, at another level than planned
 };
 
-/// Message thread only. The mixer state must not be edited during its lifetime.
+/// Message thread. The mixer state must not be edited during its lifetime.
 class StudySound {
 public:
     explicit StudySound(MixerModel& model);
@@ -96,7 +96,7 @@ private:
 
 /// A world that a participant sees, feels and can act in: a session of its own on the mixer's output, saved
 /// as a file that renders exactly what was felt. One at a time, and the mixer state must not be edited
-/// meanwhile. Strips give polarity, delay and ceiling; the study sets levels. Message thread only.
+/// meanwhile. Strips give polarity, delay and ceiling; the study sets levels. Message thread.
 class StudyWorld {
 public:
     explicit StudyWorld(MixerModel& model)
@@ -156,7 +156,7 @@ private:
 
 /// View of a trial's world with user input. It shows neither actuators nor impact flashes, which would reveal
 /// the stimulus.
-/// Message thread only.
+/// Message thread.
 class StudyWorldPane final : public juce::Component {
 public:
     explicit StudyWorldPane(MixerModel& model);

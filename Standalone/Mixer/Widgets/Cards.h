@@ -13,7 +13,7 @@
 namespace physvib {
 
 /// What asks over the window: a title, words, what a derived card has, and answers, the first at the right.
-/// As high as what is in it. Message thread only.
+/// As high as what is in it. Message thread.
 class Card : public juce::Component {
 public:
     void paint(juce::Graphics& g) override { drawCard(g, *this); }
@@ -41,7 +41,7 @@ private:
 
 /// Card over the window that asks for a file to open or to save.
 /// Lists a folder. A typed name stays while another folder is entered; a file that exists is replaced only
-/// after a second press. Message thread only.
+/// after a second press. Message thread.
 class FileCard final : public Card, private juce::ListBoxModel {
 public:
     struct Choice {
@@ -97,7 +97,7 @@ private:
 
 /// Dialogue card over the window, with fields to fill in: Return selects the first answer, buttons and keys
 /// the others.
-/// Message thread only.
+/// Message thread.
 class QuestionCard final : public Card {
 public:
     static constexpr int wide = 520;

@@ -32,7 +32,7 @@ private:
 
 /// Selects a typeface for letters of other scripts, because JUCE draws boxes for letters that its typeface
 /// lacks.
-/// Uses an installed typeface with all displayed letters, if there is one. Message thread only.
+/// Uses an installed typeface with all displayed letters, if there is one. Message thread.
 class ShownLetters {
 public:
     /// True if the typeface changed, so that everything must be redrawn. Cheap if there is no new letter.

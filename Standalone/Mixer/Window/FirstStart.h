@@ -38,7 +38,7 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
 void fitLayoutTo(int outputs, Mix& mix, std::string_view device = {});
 
 /// Card over the window, usable by keys alone: up, down and Return; then Return (felt), L (louder), N (not
-/// felt); Esc ends it, too. Message thread only.
+/// felt); Esc ends it, too. Message thread.
 class FirstStart final : public Card, private juce::Timer {
 public:
     static constexpr int wide = 600;

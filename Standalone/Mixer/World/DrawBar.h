@@ -10,7 +10,7 @@
 
 namespace physvib {
 
-/// Vertical list of tools. Message thread only.
+/// Vertical list of tools. Message thread.
 class DrawBar final : public juce::Component {
 public:
     explicit DrawBar(DrawPane& pane);
@@ -32,7 +32,7 @@ private:
 };
 
 /// Name and colour of each material: a click selects it for drawing, and hovering plays it once. With the
-/// rain, also its number of balls. Message thread only.
+/// rain, also its number of balls. Message thread.
 class MaterialPalette final : public juce::Component {
 public:
     MaterialPalette(MixerModel& model, DrawPane& pane);
@@ -52,7 +52,7 @@ private:
 };
 
 /// Static or moving, haptic source or not, density and restitution of the selected bodies; of a single one
-/// also speed and torque of its motor, and stiffness of its spring. Message thread only.
+/// also speed and torque of its motor, and stiffness of its spring. Message thread.
 class BodyPanel final : public juce::Component {
 public:
     BodyPanel(MixerModel& model, DrawPane& pane);

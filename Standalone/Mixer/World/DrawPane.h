@@ -20,7 +20,7 @@ namespace physvib {
 /// 2. mouseDrag: the stroke grows, snapped to the grid if snaps(). What it would become is painted each time
 ///    from the stroke; the scene does not change yet, except by the eraser.
 /// 3. mouseUp: the stroke becomes bodies, a joint, or new places of the selected bodies: one edit.
-/// Message thread only.
+/// Message thread.
 class DrawPane final : public juce::Component {
 public:
     /// Both arguments outlive it. It is placed over `view`.

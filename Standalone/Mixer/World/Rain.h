@@ -16,7 +16,7 @@ struct RainPattern {
 };
 
 /// Adds the bodies of one rain to the scene when the time of its world has come to them. All of them are one
-/// step of undoing. Message thread only.
+/// step of undoing. Message thread.
 class Rain {
 public:
     explicit Rain(MixerModel& model)

@@ -14,7 +14,7 @@ namespace physvib {
 
 /// Strip above the world that shows recorded user input, and trims it as the scene's script.
 /// Visible while input is recorded, and while the scene has the recorded script and the hand tool is active.
-/// Message thread only.
+/// Message thread.
 class ScriptStrip final : public juce::Component {
 public:
     explicit ScriptStrip(MixerModel& model);
