@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole chain: one 64-frame block, warm and cold; what a strike costs; how far from real time many modes
-// are.
+// The whole chain: one 64-frame block, warm and cold; what a strike costs; how far from real time many modes.
 #include "Rain.h"
 #include "Timing.h"
 #include <benchmark/benchmark.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Times for benchmarks on machines that others use too: a thread's own processor time, medians, ratios by
-// turns.
+// Times on machines that others use too: a thread's own processor time, medians, ratios by turns.
 #pragma once
 #include <algorithm>
 #include <cstddef>

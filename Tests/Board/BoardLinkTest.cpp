@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The link when the board goes away: it says so, comes back by itself, and what was hit in between is not
-// felt late.
+// The link when the board goes away: it says so, comes back, and what was hit in between is not felt late.
 #include "VirtualBoard.h"
 #include <gtest/gtest.h>
 #include <iostream>

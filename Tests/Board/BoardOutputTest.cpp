@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One session on a device and a board: each hit leaves the device and the board's converters at the same
-// moment.
+// One session on a device and a board: each hit leaves both at the same moment.
 #include "Live/Session/BoardOutput.h"
 #include "Host/FakeAudioDevice.h"
 #include "Live/Devices/AudioOutput.h"

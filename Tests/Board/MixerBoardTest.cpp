@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A board that is chosen in the mixer's window, plays, loses its power and gets it back: each is seen, none
-// is silent.
+// A board chosen in the mixer's window plays, loses its power and gets it back: each is seen, none is silent.
 #include "Mixer/MixerTesting.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "VirtualBoard.h"

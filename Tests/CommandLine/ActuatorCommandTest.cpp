@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Actuators as users and scripts hold on to them: `physvib actuators`, render's --actuator, --equalise and
-// --remap.
+// Actuators, as users and scripts see them: `physvib actuators`, render's --actuator, --equalise and --remap.
 #include "Calls.h"
 #include <cmath>
 #include <cstring>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// physvib-render, which has no JUCE: the same events and samples as the whole program, the same care with
-// files.
+// physvib-render, which has no JUCE: the events, samples and care of the whole program.
 #include "Calls.h"
 #include "TestPlaces.h"
 #include <algorithm>

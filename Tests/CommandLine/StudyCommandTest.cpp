@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `physvib study`: each of the thesis' studies run whole by the observer, cut off in the middle, and
-// analysed.
+// `physvib study`: the thesis' studies run whole by the observer, cut off, and analysed.
 #include "Calls.h"
 #include "Io/Text/CsvTable.h"
 #include "TestPlaces.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A world of numbers: what an engine would tell of it is written here, and what is felt is known by pencil
-// and paper.
+// A world of numbers: an engine's part is written here, and what is felt is known by pencil and paper.
 #include "Contacts/ContactFeed.h"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -181,8 +181,7 @@ TEST_F(ContactPoints, WhatBeginsAndEndsWithinAStepIsFelt) {
     EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 4.0);
 }
 
-/// Five balls of 1 kg in a row that touch, the last one feels; velocities before and after are all that is
-/// told.
+/// Five balls of 1 kg in a row, the last one feels; velocities before and after are all that is told.
 TEST_F(ContactPoints, ARowHandsOnByMomentumAlone) {
     for (const std::int32_t id : {1, 2, 3, 4, 5})
         ASSERT_EQ(feed.set(id, {.massKg = 1.0},

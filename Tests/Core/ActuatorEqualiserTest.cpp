@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The equaliser against the analogue resonator and against the simulated actuator, driven as hard as both
-// allow.
+// The equaliser against the analogue resonator and the simulated actuator, as hard as both allow.
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Support/SimulatedActuator.h"
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The board's renderer against the closed form in double precision, and what it does when too much is asked
-// of it.
+// The board's renderer against the closed form in double precision, and what it does when asked too much.
 #include "Core/BoardRenderer.h"
 #include "Support/BoardReference.h"
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Remapping keeps the order of frequencies and changes nothing else; gain, weighting and cuts act in their
-// order.
+// Remapping keeps frequencies' order and changes nothing else; gain, weighting and cuts act in their order.
 #include "Core/EventShaping.h"
 #include <gtest/gtest.h>
 

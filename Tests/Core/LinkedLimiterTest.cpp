@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LinkedLimiter at 20 dB of random overload: ceilings, ratios, slopes, release to exactly 1, and what never
-// passes.
+// LinkedLimiter at 20 dB of random overload: ceilings, ratios, slopes, release to 1, what never passes.
 #include "Core/Actuators/OutputGuard.h"
 #include "Support/ClosedForm.h"
 #include "Support/Sets.h"

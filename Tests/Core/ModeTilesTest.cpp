@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vector kernels against the scalar oracle and against each other; the low-rank rows and the index they
-// rest on.
+// The vector kernels against the scalar oracle and each other; the low-rank rows and their index.
 #include "Core/Modes/ModeTiles.h"
 #include "Core/Modes/ModeBank.h"
 #include "Support/ClosedForm.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A tone that moves is felt where it is, equally strong all the way, without anything beside it, whatever the
-// blocks.
+// A tone that moves is felt where it is, equally strong all the way, with nothing beside it, in any blocks.
 #include "Core/HapticRenderer.h"
 #include "Support/Rendering.h"
 #include <cmath>

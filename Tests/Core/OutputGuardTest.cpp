@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OutputGuard against what is worst for a coil: what left is measured by another law than the one it decides
-// by.
+// OutputGuard against what is worst for a coil: what left is measured by another law than its own.
 #include "Core/Actuators/OutputGuard.h"
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"

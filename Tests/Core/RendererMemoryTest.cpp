@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a renderer takes from the heap, and when: in prepare, by channels and modes; and what happens beyond
-// them.
+// What a renderer takes from the heap, and when: in prepare, by channels and modes; what happens beyond.
 #include "Support/RendererMemory.h"
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recorded contacts: from their exact frames on, scaled by the event, panned as a mode is, whatever the
-// blocks.
+// Recorded contacts: from their exact frames on, scaled by the event, panned as modes, in any blocks.
 #include "Core/HapticRenderer.h"
 #include "Support/Rendering.h"
 #include <gtest/gtest.h>

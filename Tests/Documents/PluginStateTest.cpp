@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The plug-in's state: round trips, what is refused and where, and that states written by version 1 stay
-// readable.
+// The plug-in's state: round trips, what is refused and where, and version 1's states stay readable.
 #include "Live/Documents/PluginState.h"
 #include "Io/Disk/ReadFile.h"
 #include "Scene/SceneFile.h"

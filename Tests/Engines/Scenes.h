@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same drop, bounce and row of five for every engine, against pencil and paper and against the engine's
-// own motion.
+// The same drop, bounce and row of five for every engine, against pencil and paper and the engine's motion.
 #pragma once
 #include "Trace.h"
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The link's clock through the image: random delays of 10 to 30 ms each way, a computer that drifts by 300
-// ppm.
+// The link's clock through the image: random delays of 10 to 30 ms, a computer 300 ppm off.
 #include "Rig.h"
 #include "Wire/LinkClock.h"
 #include <gtest/gtest.h>

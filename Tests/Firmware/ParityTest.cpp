@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The image's converters against this computer's renderer, code for code and bit for bit, over a million
-// frames.
+// The image's converters against this computer's renderer, code for code, bit for bit, a million frames.
 #include "Rig.h"
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MPEG's JSON: what was written is read again and sounds the same; what others write is read or refused in
-// one line.
+// MPEG's JSON: what was written is read again and sounds the same; what others write is read or refused.
 #include "Formats/HjifFile.h"
 #include "ClipTesting.h"
 #include "Formats/ClipLimits.h"

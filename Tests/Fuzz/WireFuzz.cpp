@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fuzz target of the link: any bytes through the decoder; what it takes for a message is written and read
-// again.
+// Fuzz target of the link: any bytes through the decoder; what passes is written and read again.
 #include "Fuzzing.h"
 #include "Wire/FrameDecoder.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drivers that hang, however long: nobody waits longer than he said, and what comes late is taken up or
-// closed.
+// Drivers that hang, however long: nobody waits longer than said; what comes late is taken up or closed.
 #include "Live/Devices/DeviceSession.h"
 #include "FakeAudioDevice.h"
 #include "Live/Devices/AudioOutput.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A device that pauses: what comes meanwhile is dropped and counted, nothing is felt added up when it is
-// back.
+// A device that pauses: what comes meanwhile is dropped and counted, nothing is added up when it is back.
 #include "FakeAudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Rig/Rig.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drivers take over from each other at any moment, and from blocks that step the world themselves: nothing is
-// missing.
+// Drivers take over from each other, and from blocks that step the world, at any moment.
 #include "Live/Devices/SimulationDriver.h"
 #include "Scene/World/RunSettings.h"
 #include "Session/FakeHost.h"
@@ -15,8 +14,7 @@ namespace {
 
 using namespace test;
 
-/// Steps the session for that time: as a message thread, a thread of its own, or not at all (the render
-/// call).
+/// Steps the session for that time: as a message thread, a thread of its own, or not (the render call).
 void drive(int kind, Session& session, std::chrono::milliseconds time) {
     std::optional<ThreadDriver> driver;
     if (kind == 1) driver.emplace(session, 100);
@@ -54,6 +52,21 @@ TEST(SimulationDriver, AnyTakesOverFromAnyOther) {
     ASSERT_GT(played.size(), 40u);
     EXPECT_TRUE(played == runTakes(log.takes, setup.run(), played.back().timeNs + 1).events);
     EXPECT_EQ(session.status().render.late, 0u);
+}
+
+TEST(SimulationDriver, AWorldThatStandsStillIsLookedAtAsOftenAsItsStepsWouldBeDue) {
+    constexpr int frames = 64;
+    Session session{shakeTheBoxSetup(0.1)};
+    session.prepare(hostRate, frames);
+    Block block;
+    const auto blocksUntilDue = [&] {
+        session.render(block.at.data(), frames, RenderMode::realtime);
+        session.advance();
+        return (session.world().nextStepNs() - session.pulse().lastNs()) * hostRate / 1'000'000'000.0 /
+               frames;
+    };
+    session.world().setSlowness(0);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(blocksUntilDue(), 7.0, 0.01); // of 1.3 ms: no later than 10 ms
 }
 
 TEST(SimulationDriver, NoStepIsMadeOnceAllShallEnd) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Charts as SVG: nothing of a file becomes markup, series are told apart without colours, simulated data say
-// so.
+// Charts as SVG: nothing of a file is markup, series differ without colours, simulated data say so.
 #include "Io/Charts/Charts.h"
 #include "Io/Charts/ChartParts.h"
 #include <algorithm>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What tests of devices play: samples that nothing may change, not even denormals and those beyond full
-// scale.
+// What tests of devices play: samples that nothing may change, denormals and beyond full scale too.
 #pragma once
 #include "Live/Devices/AudioDevice.h"
 #include <atomic>

@@ -21,8 +21,7 @@ public:
         setenv("JACK_DEFAULT_SERVER", ("physvib-" + std::to_string(getpid())).c_str(), 1);
         setenv("JACK_NO_AUDIO_RESERVATION", "1", 1);
     }
-    /// A killed server keeps its place among the eight of a machine until one of the same name ends by
-    /// itself.
+    /// A killed server keeps its place among the eight of a machine until one of its name ends by itself.
     ~JackServer() {
         if (wasKilled_ && process_ == 0) start(48000, 256, 2);
         end(SIGTERM);

@@ -131,8 +131,7 @@ TEST(TextureExtractor, WhatWasRecordedUpsideDownIsTheSame) {
     EXPECT_EQ(up.value.counted, down.value.counted);
 }
 
-// A partial of 0.3 of the height makes grains look rougher, not more; at 10 a second its ringing is not
-// counted.
+// A partial of 0.3 of the height makes grains look rougher, not more; at 10 a second it is not counted.
 TEST(TextureExtractor, ASecondPartialLeavesTheSpacing) {
     for (const double speed : {0.02, 0.1, 0.4}) {
         auto samples = scrape({0.002, 1.0}, speed, 349.0, 107.0, 3.0);

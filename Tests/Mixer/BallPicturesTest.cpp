@@ -80,5 +80,22 @@ TEST(BallPictures, ALargeOneIsLeftToBeDrawn) {
     EXPECT_EQ(meanDifference(image, drawnBall(2.0f, [](juce::Graphics&) {})), 0.0);
 }
 
+TEST(GlowPictures, LookAsTheirGradient) {
+    GlowPictures pictures;
+    for (const float scale : {1.0f, 1.25f, 2.0f})
+        for (const float radius : {8.0f, 13.0f, 16.0f}) {
+            const juce::Point<float> at{20.3f, 19.6f}, edge{at.x + radius, at.y};
+            const auto colour = juce::Colours::orange.withAlpha(0.6f);
+            const auto drawn =
+                drawnBall(scale, [&](juce::Graphics& g) { pictures.draw(g, at, radius, colour); });
+            const auto wanted = drawnBall(scale, [&](juce::Graphics& g) {
+                g.setGradientFill({colour, at, colour.withAlpha(0.0f), edge, true});
+                g.fillAll();
+            });
+            const double light = meanDifference(wanted, drawnBall(scale, [](juce::Graphics&) {}));
+            EXPECT_LT(meanDifference(drawn, wanted), 0.2 * light) << radius << " at " << scale;
+        }
+}
+
 } // namespace
 } // namespace physvib

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// No text of the window is cut or crushed, on any page, from the smallest to a large window, with up to 64
-// actuators.
+// No text of the window is cut or crushed, on any page, in small and large windows, with up to 64 actuators.
 #include "CutTexts.h"
 #include "MixerTesting.h"
 

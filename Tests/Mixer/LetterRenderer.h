@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws as JUCE does, and tells of each letter: JUCE 7 draws one at a time, 8 many at once, and 9 hides its
-// state.
+// Draws as JUCE does, and tells of each letter: JUCE 7 draws one at a time, 8 many, 9 hides its state.
 #pragma once
 #include <array>
 #include <juce_gui_basics/juce_gui_basics.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file that is dropped on the field, a badge or a strip: felt there, saved with the session, or refused in
-// one line.
+// A file dropped on the field, a badge, a strip: felt there, saved with the session, or refused in one line.
 #include "Core/NameNumbers.h"
 #include "Live/Recordings/LoadRecordings.h"
 #include "MixerTesting.h"

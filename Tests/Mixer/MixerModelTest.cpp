@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The model without a window: what is set on it reaches the session, comes back by undo, and is in the saved
-// session.
+// The model without a window: what is set reaches the session, comes back by undo, and is saved.
 #include "Host/FakeAudioDevice.h"
 #include "MixerTesting.h"
 #include "Scene/SceneFile.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The window's components without a display: names and the keyboard for every control, sizes, looks, and what
-// clicks do.
+// The window's components without a display: every control's name and keys, sizes, looks, clicks.
 #include "Live/Documents/Mix.h"
 #include "MixerTesting.h"
 #include "Scene/SceneFile.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a session's doors promise, whatever comes: both doors on one session that plays, without threads and
-// sockets.
+// What a session's doors promise, whatever comes: both doors on one session, without threads and sockets.
 #pragma once
 #include "../Fuzz/SessionFuzzing.h"
 #include "Host/Osc/OscReceiver.h"

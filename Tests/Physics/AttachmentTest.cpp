@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PhysVib in the world of a stranger, who has listeners and user data of their own and destroys what they
-// like.
+// PhysVib in the world of a stranger, who has listeners and user data and destroys at will.
 #include "Physics/Attachment.h"
 #include "AttachedWorld.h"
 #include <algorithm>

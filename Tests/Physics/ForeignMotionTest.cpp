@@ -10,8 +10,7 @@
 namespace physvib {
 namespace {
 
-/// Bodies of all kinds, joints, sensors, bullets, filters, and a player who makes, destroys, pushes and
-/// pauses.
+/// Bodies of all kinds, joints, sensors, bullets, filters, and a player who makes, destroys, pushes.
 class RandomWorld {
 public:
     explicit RandomWorld(unsigned seed)

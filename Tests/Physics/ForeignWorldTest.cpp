@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What games do to their worlds, and what must not break them: listeners, lives and addresses that come and
-// go.
+// What games do to worlds, and what must not break: listeners, lives and addresses that come and go.
 #include "AttachedWorld.h"
 #include <limits>
 #include <memory>
