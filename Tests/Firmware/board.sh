@@ -16,6 +16,7 @@ fail() {
     exit 1
 }
 start() {
+    : >"$folder/port.txt" # it may be asked for before the program runs
     "$virtual_board" "$image" --seconds 120 --wav "$folder/codes.wav" >"$folder/port.txt" 2>"$folder/board.txt" &
     board=$!
     for _ in 1 2 3 4 5 6 7 8 9 10; do
