@@ -48,6 +48,7 @@ ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
     made({other.events, other.leastX, other.leastY, other.mostX, other.mostY});
     thresholdMetresPerSecond = other.thresholdMetresPerSecond;
     hasSources = other.hasSources;
+    mayBePushed = other.mayBePushed;
     steps += other.steps;
     zeroSteps += other.zeroSteps;
     longestStepSeconds = std::max(longestStepSeconds, other.longestStepSeconds);

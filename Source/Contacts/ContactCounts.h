@@ -48,6 +48,7 @@ struct ContactCounts {
                                                                  ///< field
     double thresholdMetresPerSecond = 0.0; ///< effective value: at least 1.5 g dt of the last step
     bool hasSources = false;               ///< a body is a haptic source now
+    bool mayBePushed = false;              ///< one of these, by what strikes it
 
     std::uint64_t steps = 0;         ///< steps begun
     std::uint64_t zeroSteps = 0;     ///< of these: 0 s long

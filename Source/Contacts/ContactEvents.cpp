@@ -212,6 +212,8 @@ ContactCounts ContactEvents::recent() const noexcept {
     counts.dropped = drops() + overBudget_ - past_.dropped;
     counts.thresholdMetresPerSecond = span_.thresholdMetresPerSecond(1.0F);
     counts.hasSources = table_.hasCameras();
+    for (std::int32_t slot = 0; slot < table_.size() && counts.hasSources && !counts.mayBePushed; ++slot)
+        counts.mayBePushed = table_.isCamera(slot) && table_[slot].isDynamic();
     counts.gravityMetresPerSecond2 = static_cast<double>(span_.gravityMetresPerSecond2.length());
     counts.wantedThreshold = settings_.thresholdMetresPerSecond;
     counts.fieldWidthMetres = settings_.fieldWidthMetres;

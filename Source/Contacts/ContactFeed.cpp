@@ -111,6 +111,21 @@ std::string_view ContactFeed::set(std::int32_t id, const FedBody& body, const Ha
     return contacts_->events().set(name, bodies.facts(name), {}, values, id).refusal;
 }
 
+std::string_view ContactFeed::setMass(std::int32_t id, double massKg) {
+    ReportedBodies& bodies = contacts_->bodies();
+    if (!bodies.has(id)) return unknownBody;
+    FedBody body = bodies.told(id);
+    if (massKg == body.massKg) return {};
+    if (body.massKg > 0.0 && massKg > 0.0) body.inertiaKgSquareMetres *= massKg / body.massKg;
+    body.massKg = massKg;
+    if (const std::string_view fault = physvib::faultOf(body); !fault.empty()) return fault;
+    bodies.set(id, body);
+    const std::uint64_t name = ReportedBodies::idOf(id);
+    if (const auto slot = contacts_->events().fixtures().find(name); slot != FixtureTable::none)
+        contacts_->events().know(slot, bodies.facts(name));
+    return {};
+}
+
 std::string_view ContactFeed::move(std::int32_t id, Vector2 centre, const BodyMotion& motion) {
     return moveInSpace(id, centre, inSpace(motion));
 }

@@ -105,6 +105,9 @@ public:
     /// Adds a body, or changes it. Returns what is wrong with it; empty: it is set. So do the next.
     std::string_view set(std::int32_t id, const FedBody& body, const HapticFixture& values);
 
+    /// The mass of a body as it is now, kg; its inertia changes by as much.
+    std::string_view setMass(std::int32_t id, double massKg);
+
     /// Centre of mass, and motion before the engine's solver.
     std::string_view move(std::int32_t id, Vector2 centre, const BodyMotion& motion);
     /// The same in space. `inverse`: of its moments of inertia as it is turned now; without it,

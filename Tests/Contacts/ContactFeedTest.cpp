@@ -44,6 +44,23 @@ protected:
 
 FedContact landing() { return {.a = ground, .b = ball, .point = {0.25F, 0.0F}}; }
 
+TEST_F(ContactFeedTest, TheMassIsThatOfTheMoment) {
+    for (const double massKg : {0.5, 2.0, 0.0, 2.0}) { // its own; of a body that was let go, too
+        EXPECT_EQ(feed.setMass(ball, massKg), "");
+        FedContact contact = landing();
+        contact.approachMetresPerSecond = 3.0;
+        beginStep(0.01);
+        EXPECT_EQ(feed.touch(contact), "");
+        endStep();
+        for (int k = 0; k < 3; ++k) step();
+        const auto felt = events();
+        ASSERT_EQ(felt.size(), massKg > 0.0 ? 1u : 0u);
+        if (massKg > 0.0) EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, 3.0 * massKg, 1e-6);
+    }
+    EXPECT_NE(feed.setMass(ball, -1.0), "");
+    EXPECT_NE(feed.setMass(7, 1.0), "");
+}
+
 /// A ball of 2 kg falls from 0.8 m as engines move it: straight within a step, its speed changed between two.
 class ContactFeedSpeeds : public ContactFeedTest, public testing::WithParamInterface<int> {
 protected:

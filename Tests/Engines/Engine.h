@@ -14,6 +14,8 @@ constexpr double radius = 0.1; ///< of balls, where nothing else is said
 
 inline double msOf(const physvib_event& event) { return static_cast<double>(event.time_ns) * 1e-6; }
 
+enum class Type { fixed, kinematic, dynamic };
+
 /// A ball or a box.
 struct Body {
     int id = 1;
@@ -25,6 +27,9 @@ struct Body {
     bool isSource = false;
     double grain = 0.0;    ///< m, of its surface, where the engine's program knows it
     bool isBullet = false; ///< continuous collision with bodies that move, too, where the engine knows how
+    Type type = Type::dynamic; ///< of those that have a mass, which a fixed one may have for later
+    bool turns = true, isSensor = false;
+    bool moves() const { return massKg > 0 && type == Type::dynamic; }
     double inertia() const {
         return isBox ? massKg * (width * width + height * height) / 12.0 : massKg * width * width / 8.0;
     }
@@ -54,10 +59,20 @@ struct Engine {
                  .height = 1.0,
                  .massKg = 0.0});
     }
-    virtual void step() = 0;
+    virtual void step() = 0; ///< of dt
     virtual Motion motion(int body) const = 0;
     /// Gives a body that speed upwards. False: not asked for; Box2D 2.4's way is the thesis', without kicks.
     virtual bool shoot(int /*body*/, double /*vy*/) { return false; }
+    /// Of the kit: what `verbs` lists, done to a body. `type x`, `put x y`, `fling vx vy spin`, `moves vx
+    /// vy`; `mass`, `gravityScale`, `lockTurn`, `remove`, `sensor`, `passes`, `sleep`, `enable`; `gravity` of
+    /// all.
+    virtual void act(const std::string& /*verb*/, int /*body*/, double /*x*/, double /*y*/, double /*z*/) {}
+    virtual void feel(const Body& body) { tell(body); } ///< it is a source from now on
+    virtual std::string explain() {
+        char text[512];
+        physvib_world_explain(world, text, sizeof text);
+        return text;
+    }
     virtual std::vector<physvib_event> take() { ///< all of them
         std::vector<physvib_event> events(4096);
         events.front().size = sizeof events.front();
@@ -68,13 +83,17 @@ struct Engine {
     void tell(const Body& body) const {
         physvib_body values;
         physvib_body_init(&values, sizeof values);
-        values.mass_kg = body.massKg;
-        values.inertia_kg_m2 = body.isBox ? body.inertia() : 0.0; // a ball's collisions go through its centre
+        values.mass_kg = body.moves() ? body.massKg : 0.0;
+        // a ball's collisions go through its centre
+        values.inertia_kg_m2 = body.isBox && body.turns ? body.inertia() : 0.0;
         values.is_camera = body.isSource;
         values.frequency_hz = 200.0;
         values.decay_per_s = 30.0;
         physvib_world_set_body(world, body.id, &values);
     }
+    double dt = 0.0;            ///< s, of the next step
+    double fullScale = 0.0;     ///< N s, of the world; 0: by masses
+    const char* verbs = "";     ///< that act() knows, with words between them
     bool movesFirst = false;    ///< by the velocity that it has, before gravity changes it
     bool landsLate = false;     ///< by its slop, so perhaps a step later, and faster by what gravity adds
     int slowest = 50;           ///< steps/s

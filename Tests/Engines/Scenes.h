@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The same drop, bounce and row of five for every engine, against pencil and paper and the engine's motion.
 #pragma once
-#include "Trace.h"
+#include "Kit.h"
 #include <cmath>
 #include <cstdio>
 #include <string_view>
@@ -163,6 +163,7 @@ inline bool isPlane(int count, char** words) { return count > 1 && std::string_v
 
 /// The scenes; or, of a program that is given a world (worlds.py writes it), its trace.
 inline int run(const char* name, Engine& engine, int count, char** words) {
+    if (count > 1 && std::string_view{words[1]} == "--kit") return kit(engine);
     if (count > 1) return trace(engine, words[1]);
     bool isFine = true;
     for (const int rate : {engine.slowest, 100, 240, 1000}) isFine &= drop(name, engine, rate);

@@ -9,12 +9,13 @@
 
 namespace scenes {
 
-/// Impulses are amplitudes: A* is 1, and no hand.
-inline physvib_world plainWorld() {
+/// Impulses are amplitudes: A* is 1, and no hand; or by full scale, where masses do not matter.
+inline physvib_world plainWorld(double fullScaleImpulse = 0.0) {
     physvib_world_settings settings;
     physvib_world_settings_init(&settings, sizeof settings);
     settings.normalisation_s_per_m = 1.0;
     settings.hand_mass_kg = 0.0;
+    settings.full_scale_impulse_n_s = fullScaleImpulse;
     physvib_world world = nullptr;
     physvib_world_create(&settings, &world);
     physvib_body body;

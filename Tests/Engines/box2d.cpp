@@ -6,10 +6,12 @@
 #include <memory>
 
 struct Box2d final : scenes::Engine, b2ContactListener {
-    Box2d() { landsLate = true; }
+    Box2d() {
+        landsLate = true;
+        verbs = "type put fling moves mass lockTurn gravityScale gravity remove sensor passes sleep enable";
+    }
     void begin(double stepSeconds, double g, double e, double mu) override {
-        dt = static_cast<float>(stepSeconds), elasticity = static_cast<float>(e),
-        friction = static_cast<float>(mu);
+        dt = stepSeconds, elasticity = static_cast<float>(e), friction = static_cast<float>(mu);
         haptics.reset(), bodies.clear(), platform = nullptr;
         box2d = std::make_unique<b2World>(b2Vec2{0.0F, static_cast<float>(-g)});
         box2d->SetAllowSleeping(false);
@@ -17,6 +19,7 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         physvib::ImpactSettings settings;
         settings.normalisation = 1.0;
         settings.handMassKg = 0.0;
+        settings.fullScaleNewtonSeconds = fullScale;
         haptics = std::make_unique<physvib::Attachment>(*box2d, settings);
     }
     void floor() override {
@@ -39,7 +42,8 @@ struct Box2d final : scenes::Engine, b2ContactListener {
     }
     void add(const scenes::Body& from) override {
         b2BodyDef def;
-        def.type = from.massKg > 0 ? b2_dynamicBody : b2_staticBody;
+        def.type = from.massKg > 0 || from.type != scenes::Type::dynamic ? typeOf(from.type) : b2_staticBody;
+        def.fixedRotation = !from.turns, def.bullet = from.isBullet;
         def.position.Set(static_cast<float>(from.x), static_cast<float>(from.y));
         def.angle = static_cast<float>(from.angle);
         def.linearVelocity.Set(static_cast<float>(from.vx), static_cast<float>(from.vy));
@@ -57,7 +61,43 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         number(bodies[from.id]->CreateFixture(from.isBox ? static_cast<b2Shape*>(&polygon) : &disc,
                                               static_cast<float>(from.massKg / area)),
                from.id, from.isSource, from.grain);
+        if (from.isSensor) bodies[from.id]->GetFixtureList()->SetSensor(true);
     }
+    static b2BodyType typeOf(scenes::Type type) {
+        return type == scenes::Type::fixed       ? b2_staticBody
+               : type == scenes::Type::kinematic ? b2_kinematicBody
+                                                 : b2_dynamicBody;
+    }
+    void feel(const scenes::Body& body) override {
+        number(bodies.at(body.id)->GetFixtureList(), body.id, true);
+    }
+    void act(const std::string& verb, int id, double x, double y, double z) override {
+        const b2Vec2 at{static_cast<float>(x), static_cast<float>(y)};
+        if (verb == "gravity") return box2d->SetGravity({0.0F, -at.x});
+        b2Body& body = *bodies.at(id);
+        b2Fixture& fixture = *body.GetFixtureList();
+        if (verb != "sleep") body.SetAwake(true);
+        if (verb == "type") body.SetType(typeOf(static_cast<scenes::Type>(x)));
+        if (verb == "put") body.SetTransform(at, body.GetAngle());
+        if (verb == "fling" || verb == "moves")
+            body.SetLinearVelocity(at), body.SetAngularVelocity(static_cast<float>(z));
+        if (verb == "mass") {
+            const b2MassData mass{at.x, {0.0F, 0.0F}, body.GetInertia() * at.x / body.GetMass()};
+            body.SetMassData(&mass);
+        }
+        if (verb == "lockTurn") body.SetFixedRotation(true);
+        if (verb == "gravityScale") body.SetGravityScale(at.x);
+        if (verb == "sensor") fixture.SetSensor(x != 0);
+        if (verb == "enable") body.SetEnabled(x != 0);
+        if (verb == "passes") {
+            b2Filter filter;
+            filter.maskBits = x != 0 ? 0 : 0xffff;
+            fixture.SetFilterData(filter);
+        }
+        if (verb == "sleep") box2d->SetAllowSleeping(true), body.SetAwake(false);
+        if (verb == "remove") box2d->DestroyBody(&body);
+    }
+    std::string explain() override { return haptics->explain(); }
     void number(b2Fixture* fixture, int id, bool isSource, double grain = 0.0) {
         fixture->SetRestitution(elasticity);
         fixture->SetFriction(friction);
@@ -85,7 +125,7 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         if (scenes::passes(top, other.GetPosition().y, other.GetLinearVelocity().y))
             contact->SetEnabled(false);
     }
-    void step() override { haptics->step(dt, 30); }
+    void step() override { haptics->step(static_cast<float>(dt), 30); }
     std::vector<physvib_event> take() override {
         std::vector<physvib::CollisionEvent> told;
         haptics->flush(told);
@@ -105,7 +145,7 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         return {it.GetWorldCenter().x,    it.GetWorldCenter().y,   it.GetLinearVelocity().x,
                 it.GetLinearVelocity().y, it.GetAngularVelocity(), it.GetAngle()};
     }
-    float dt = 0.0F, elasticity = 0.0F, friction = 0.0F;
+    float elasticity = 0.0F, friction = 0.0F;
     std::unique_ptr<b2World> box2d;
     std::unique_ptr<physvib::Attachment> haptics; // ends before its world
     std::map<int, b2Body*> bodies;

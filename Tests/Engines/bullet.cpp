@@ -6,6 +6,7 @@
 #include <physvib/engines/physvib_bullet.h>
 
 struct Bullet final : scenes::Engine {
+    Bullet() { verbs = "type put fling moves mass lockTurn gravityScale gravity remove sensor passes sleep"; }
     ~Bullet() override { end(); }
     void begin(double stepSeconds, double g, double e, double mu) override {
         end();
@@ -16,7 +17,8 @@ struct Bullet final : scenes::Engine {
     }
     // in this order
     void end() {
-        bodies.clear(), joints.clear(), haptics.reset(), bullet.reset(), shapes.clear(), platform = nullptr;
+        bodies.clear(), moved.clear(), joints.clear(), haptics.reset(), bullet.reset(), shapes.clear(),
+            platform = nullptr;
     }
     void floor() override {
         add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0});
@@ -29,22 +31,70 @@ struct Bullet final : scenes::Engine {
         else
             shapes.push_back(std::make_unique<btSphereShape>(real(from.width / 2)));
         btVector3 inertia(0, 0, 0);
-        if (from.massKg > 0) shapes.back()->calculateLocalInertia(real(from.massKg), inertia);
-        if (from.isBox && from.massKg > 0) inertia.setZ(real(from.inertia()));
-        auto* body = new btRigidBody(real(from.massKg), nullptr, shapes.back().get(), inertia);
+        if (from.moves()) shapes.back()->calculateLocalInertia(real(from.massKg), inertia);
+        if (from.isBox && from.moves()) inertia.setZ(real(from.inertia()));
+        auto* body =
+            new btRigidBody(real(from.moves() ? from.massKg : 0), nullptr, shapes.back().get(), inertia);
+        if (from.type == scenes::Type::kinematic)
+            body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
         body->setWorldTransform(
             btTransform(btQuaternion(btVector3(0, 0, 1), real(from.angle)), vector(from.x, from.y)));
         body->setInterpolationWorldTransform(body->getWorldTransform());
         body->setLinearVelocity(vector(from.vx, from.vy));
         body->setAngularVelocity({0, 0, real(from.spin)});
         body->setLinearFactor({1, 1, 0});
-        body->setAngularFactor({0, 0, 1});
-        body->setRestitution(from.massKg > 0 ? real(elasticity) : 1); // a pair's are products
+        body->setAngularFactor({0, 0, from.turns ? real(1) : 0});
+        body->setRestitution(from.moves() ? real(elasticity) : 1); // a pair's are products
         body->setFriction(real(std::sqrt(friction)));
         body->setActivationState(DISABLE_DEACTIVATION);
         body->setUserIndex(from.id);
         bullet->addRigidBody(body);
         bodies[from.id] = body;
+        made[from.id] = from;
+        if (from.isSensor) act("sensor", from.id, 1, 0, 0);
+        if (from.type == scenes::Type::kinematic) moved[from.id] = vector(from.vx, from.vy);
+    }
+    // What Bullet wants done anew, it gets by leaving the world and coming back.
+    void act(const std::string& verb, int id, double x, double y, double z) override {
+        if (verb == "gravity") return bullet->setGravity(vector(0, -x));
+        btRigidBody& body = *bodies.at(id);
+        body.activate(true);
+        if (verb == "put") {
+            btTransform at = body.getWorldTransform();
+            at.setOrigin(vector(x, y));
+            body.setWorldTransform(at), body.setInterpolationWorldTransform(at);
+        } else if (verb == "fling" || verb == "moves") {
+            if (body.isKinematicObject())
+                moved[id] = vector(x, y);
+            else
+                body.setLinearVelocity(vector(x, y)), body.setAngularVelocity({0, 0, real(z)});
+        } else if (verb == "lockTurn") {
+            body.setAngularFactor({0, 0, 0});
+        } else if (verb == "sensor") {
+            const int flag = btCollisionObject::CF_NO_CONTACT_RESPONSE, flags = body.getCollisionFlags();
+            body.setCollisionFlags(x != 0 ? flags | flag : flags & ~flag);
+        } else if (verb == "sleep") {
+            body.forceActivationState(ISLAND_SLEEPING);
+        } else if (verb == "gravityScale") {
+            body.setGravity(bullet->getGravity() * real(x));
+        } else {
+            bullet->removeRigidBody(&body);
+            moved.erase(id);
+            if (verb == "remove") return;
+            if (verb == "mass") weigh(body, x, id);
+            if (verb == "type") {
+                body.setCollisionFlags(x == 1 ? btCollisionObject::CF_KINEMATIC_OBJECT : 0);
+                weigh(body, x == 2 ? made[id].massKg : 0, id);
+            }
+            verb == "passes" && x != 0 ? bullet->addRigidBody(&body, 0, 0) : bullet->addRigidBody(&body);
+        }
+    }
+    void weigh(btRigidBody& body, double kg, int id) {
+        btVector3 inertia(0, 0, 0);
+        if (kg > 0) body.getCollisionShape()->calculateLocalInertia(real(kg), inertia);
+        if (made[id].isBox && kg > 0) inertia.setZ(real(made[id].inertia() * kg / made[id].massKg));
+        body.setMassProps(real(kg), inertia);
+        body.updateInertiaTensor();
     }
     void pin(int a, int b, double x, double y) override {
         const btVector3 at = vector(x, y), inA = bodies[a]->getWorldTransform().inverse() * at, axis(0, 0, 1);
@@ -72,7 +122,14 @@ struct Bullet final : scenes::Engine {
     }
     static btScalar real(double value) { return static_cast<btScalar>(value); }
     static btVector3 vector(double x, double y) { return {real(x), real(y), 0}; }
-    void step() override { bullet->stepSimulation(real(dt), 0); }
+    void step() override {
+        for (const auto& [id, velocity] : moved) { // of kinematic bodies: Bullet sees how far they went
+            btTransform at = bodies.at(id)->getWorldTransform();
+            at.setOrigin(at.getOrigin() + velocity * real(dt));
+            bodies.at(id)->setWorldTransform(at);
+        }
+        bullet->stepSimulation(real(dt), 0);
+    }
     bool shoot(int id, double vy) override {
         bodies.at(id)->activate();
         bodies.at(id)->setLinearVelocity({0, btScalar(vy), 0});
@@ -90,7 +147,7 @@ struct Bullet final : scenes::Engine {
                 std::atan2(turned[1][0], turned[0][0])};
     }
     PhysVibBullet::Contacts contacts = PhysVibBullet::inSpace;
-    double dt = 0, elasticity = 0, friction = 0;
+    double elasticity = 0, friction = 0;
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
     btDbvtBroadphase broadphase;
@@ -98,6 +155,8 @@ struct Bullet final : scenes::Engine {
     std::unique_ptr<btDiscreteDynamicsWorld> bullet;
     std::unique_ptr<PhysVibBullet> haptics;
     std::map<int, btRigidBody*> bodies; // Bullet's, until the process ends
+    std::map<int, scenes::Body> made;
+    std::map<int, btVector3> moved;
     std::vector<std::unique_ptr<btCollisionShape>> shapes;
     std::vector<std::unique_ptr<btTypedConstraint>> joints;
     static inline btRigidBody* platform = nullptr; // Bullet's callback has no data

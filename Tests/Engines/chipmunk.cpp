@@ -9,7 +9,10 @@ extern "C" {
 }
 
 struct Chipmunk final : scenes::Engine {
-    Chipmunk() { movesFirst = true; }
+    Chipmunk() {
+        movesFirst = true;
+        verbs = "type put fling moves mass lockTurn gravity remove sensor passes sleep";
+    }
     void begin(double stepSeconds, double g, double e, double mu) override {
         dt = stepSeconds, elasticity = e, friction = mu, platform = nullptr;
         space = cpSpaceNew(); // the tests' process ends before it matters
@@ -34,16 +37,20 @@ struct Chipmunk final : scenes::Engine {
     }
     void add(const scenes::Body& from) override {
         tell(from);
-        cpBody* body = from.massKg > 0 ? cpBodyNew(from.massKg, from.inertia()) : cpBodyNewStatic();
+        cpBody* body = from.moves() ? cpBodyNew(from.massKg, from.turns ? from.inertia() : INFINITY)
+                       : from.type == scenes::Type::kinematic ? cpBodyNewKinematic()
+                                                              : cpBodyNewStatic();
         cpSpaceAddBody(space, body);
         cpBodySetPosition(body, cpv(from.x, from.y));
         cpBodySetAngle(body, from.angle);
-        if (from.massKg > 0)
+        if (cpBodyGetType(body) != CP_BODY_TYPE_STATIC)
             cpBodySetVelocity(body, cpv(from.vx, from.vy)), cpBodySetAngularVelocity(body, from.spin);
         bodies[from.id] = body;
+        made[from.id] = from;
         shape(from.isBox ? cpBoxShapeNew(body, from.width, from.height, 0)
                          : cpCircleShapeNew(body, from.width / 2, cpvzero),
-              from.id, from.massKg > 0);
+              from.id, from.moves());
+        if (from.isSensor) act("sensor", from.id, 1, 0, 0);
     }
     void shape(cpShape* added, int id, bool moves) { // a pair's are products
         cpShapeSetElasticity(cpSpaceAddShape(space, added), moves ? elasticity : 1.0);
@@ -76,6 +83,48 @@ struct Chipmunk final : scenes::Engine {
         if (physvib_chipmunk_step(space, world, dt) != PHYSVIB_OK)
             std::fprintf(stderr, "%s\n", physvib_chipmunk_error);
     }
+    void act(const std::string& verb, int id, double x, double y, double z) override {
+        if (verb == "gravity") return cpSpaceSetGravity(space, cpv(0, -x));
+        cpBody* body = bodies.at(id);
+        if (verb == "type") {
+            constexpr cpBodyType types[]{CP_BODY_TYPE_STATIC, CP_BODY_TYPE_KINEMATIC, CP_BODY_TYPE_DYNAMIC};
+            cpBodySetType(body, types[static_cast<int>(x)]);
+            if (x == 2) cpBodySetMass(body, made[id].massKg), cpBodySetMoment(body, made[id].inertia());
+        } else if (verb == "put") {
+            cpBodySetPosition(body, cpv(x, y));
+            cpSpaceReindexShapesForBody(space, body);
+        } else if (verb == "fling" || verb == "moves") {
+            cpBodySetVelocity(body, cpv(x, y)), cpBodySetAngularVelocity(body, z);
+        } else if (verb == "mass") {
+            cpBodySetMass(body, x);
+        } else if (verb == "lockTurn") {
+            cpBodySetMoment(body, INFINITY);
+        } else if (verb == "sleep") {
+            cpSpaceSetSleepTimeThreshold(space, 100);
+            cpBodySleep(body);
+        } else {
+            act(verb, body, x != 0);
+        }
+    }
+    void act(const std::string& verb, cpBody* body, bool is) {
+        std::pair<const std::string&, bool> how{verb, is};
+        cpBodyEachShape(
+            body,
+            [](cpBody*, cpShape* shape, void* data) {
+                const auto& [what, yes] = *static_cast<decltype(how)*>(data);
+                if (what == "sensor") cpShapeSetSensor(shape, yes);
+                if (what == "passes")
+                    cpShapeSetFilter(shape, yes ? CP_SHAPE_FILTER_NONE : CP_SHAPE_FILTER_ALL);
+                if (what == "remove") cpSpaceRemoveShape(cpShapeGetSpace(shape), shape);
+            },
+            &how);
+        if (verb == "remove") cpSpaceRemoveBody(space, body);
+    }
+    std::string explain() override {
+        char text[512];
+        physvib_chipmunk_explain(space, world, text, sizeof text);
+        return text;
+    }
     bool shoot(int id, double vy) override {
         cpBodyActivate(bodies.at(id));
         cpBodySetVelocity(bodies.at(id), cpv(0, vy));
@@ -86,10 +135,11 @@ struct Chipmunk final : scenes::Engine {
         const cpVect at = cpBodyGetPosition(body), v = cpBodyGetVelocity(body);
         return {at.x, at.y, v.x, v.y, cpBodyGetAngularVelocity(body), cpBodyGetAngle(body)};
     }
-    double dt = 0, elasticity = 0, friction = 0;
+    double elasticity = 0, friction = 0;
     cpSpace* space = nullptr;
     cpBody* platform = nullptr;
     std::map<int, cpBody*> bodies;
+    std::map<int, scenes::Body> made;
 };
 
 int main(int count, char** words) {

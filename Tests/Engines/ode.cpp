@@ -7,6 +7,7 @@
 
 struct Ode final : scenes::Engine {
     Ode() {
+        verbs = "type put fling moves mass lockTurn gravity remove passes sleep";
         dInitODE();
         joints = dJointGroupCreate(0);
     }
@@ -29,24 +30,60 @@ struct Ode final : scenes::Engine {
         dMatrix3 turned;
         dRFromAxisAndAngle(turned, 0, 0, 1, from.angle);
         dGeomSetData(geom, reinterpret_cast<void*>(static_cast<std::intptr_t>(from.id)));
-        if (from.massKg > 0) fall(from, geom);
+        if (from.moves() || from.type == scenes::Type::kinematic) fall(from, geom);
         dGeomSetPosition(geom, from.x, from.y, 0);
         dGeomSetRotation(geom, turned);
         geoms[from.id] = geom;
+        made[from.id] = from;
     }
     void fall(const scenes::Body& from, dGeomID geom) {
-        dMass mass;
-        if (from.isBox)
-            dMassSetBoxTotal(&mass, from.massKg, from.width, from.height, 1.0);
-        else
-            dMassSetSphereTotal(&mass, from.massKg, from.width / 2);
         const dBodyID body = bodies[from.id] = dBodyCreate(ode);
-        dBodySetMass(body, &mass);
+        weigh(from, body, from.massKg > 0 ? from.massKg : 1.0);
+        if (from.type == scenes::Type::kinematic) dBodySetKinematic(body);
         dGeomSetBody(geom, body);
         dBodySetLinearVel(body, from.vx, from.vy, 0);
         dBodySetAngularVel(body, 0, 0, from.spin);
         const dJointID plane = dJointCreatePlane2D(ode, nullptr);
         dJointAttach(plane, body, nullptr);
+    }
+    static void weigh(const scenes::Body& from, dBodyID body, double kg) {
+        dMass mass;
+        if (from.isBox)
+            dMassSetBoxTotal(&mass, kg, from.width, from.height, 1.0);
+        else
+            dMassSetSphereTotal(&mass, kg, from.width / 2);
+        if (!from.turns) mass.I[10] = 1e9;
+        dBodySetMass(body, &mass);
+    }
+    void act(const std::string& verb, int id, double x, double y, double z) override {
+        if (verb == "gravity") return dWorldSetGravity(ode, 0, -x, 0);
+        const dGeomID geom = geoms.at(id);
+        const dBodyID body = dGeomGetBody(geom);
+        scenes::Body& from = made[id];
+        if (body != nullptr && verb != "sleep") dBodyEnable(body);
+        if (verb == "put") {
+            dGeomSetPosition(geom, x, y, 0);
+        } else if (verb == "fling" || verb == "moves") {
+            dBodySetLinearVel(body, x, y, 0), dBodySetAngularVel(body, 0, 0, z);
+        } else if (verb == "mass") {
+            weigh(from, body, x);
+        } else if (verb == "lockTurn") {
+            from.turns = false;
+            weigh(from, body, from.massKg);
+        } else if (verb == "passes") {
+            dGeomSetCollideBits(geom, x != 0 ? 0 : ~0UL), dGeomSetCategoryBits(geom, x != 0 ? 0 : ~0UL);
+        } else if (verb == "sleep") {
+            dBodyDisable(body);
+        } else if (verb == "type") {
+            const dReal at[]{dGeomGetPosition(geom)[0], dGeomGetPosition(geom)[1]};
+            if (body != nullptr) dGeomSetBody(geom, nullptr), dBodyDestroy(body), bodies.erase(id);
+            from.type = static_cast<scenes::Type>(x);
+            if (from.type != scenes::Type::fixed) fall(from, geom);
+            dGeomSetPosition(geom, at[0], at[1], 0);
+        } else { // remove
+            dGeomDestroy(geom);
+            if (body != nullptr) dBodyDestroy(body);
+        }
     }
     void pin(int a, int b, double x, double y) override {
         const dJointID hinge = dJointCreateHinge(ode, nullptr);
@@ -89,12 +126,17 @@ struct Ode final : scenes::Engine {
         return true;
     }
     scenes::Motion motion(int id) const override {
-        const dBodyID body = bodies.at(id);
+        const auto known = bodies.find(id);
+        if (known == bodies.end()) {
+            const dReal* still = dGeomGetPosition(geoms.at(id));
+            return {still[0], still[1], 0, 0, 0, made.at(id).angle};
+        }
+        const dBodyID body = known->second;
         const dReal *at = dBodyGetPosition(body), *v = dBodyGetLinearVel(body),
                     *turned = dBodyGetRotation(body);
         return {at[0], at[1], v[0], v[1], dBodyGetAngularVel(body)[2], std::atan2(turned[4], turned[0])};
     }
-    double dt = 0, elasticity = 0, friction = 0;
+    double elasticity = 0, friction = 0;
     dWorldID ode = nullptr;
     dSpaceID space = nullptr;
     dJointGroupID joints = nullptr;
@@ -102,6 +144,7 @@ struct Ode final : scenes::Engine {
     physvib_ode haptics{};
     std::map<int, dBodyID> bodies;
     std::map<int, dGeomID> geoms;
+    std::map<int, scenes::Body> made;
 };
 
 int main(int count, char** words) {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The kit: situations of Kit/situations.mjs in each engine: kit.mjs FOLDER [ENGINE...] [--only WORDS] [--table] [--page PAGE]. FOLDER: where npm has installed physvib and the engines.
+// The kit: situations of Kit/situations.mjs in each engine: kit.mjs FOLDER [ENGINE...|NAME=COMMAND...] [--only WORDS] [--table] [--page PAGE]. FOLDER: where npm has installed physvib and the engines.
 // Right: as the closed form, or the engine's own velocities, say: onset within 0.5 ms, strength within 2 %. Own: felt as the engine moved, which is not what paper
 // says. Not there: the engine, or its driver, has no such thing. Prints a table; 1 if anything is wrong that is
 // not `open`, or open no more.
 import { readFileSync } from 'node:fs';
 import { load } from './installed.mjs';
-import { drivers } from './Kit/drivers.mjs';
+import { drivers as ours } from './Kit/drivers.mjs';
+import { native } from './Kit/native.mjs';
 import { g, situations } from './Kit/situations.mjs';
 
 const [folder, ...words] = process.argv.slice(2), at = words.indexOf('--only'), only = at < 0 ? '' : words.splice(at, 2)[1], pageAt = words.indexOf('--page'), page = pageAt < 0 ? '' : words.splice(pageAt, 2)[1], isTable = words.includes('--table'), names = words.filter(word => !word.startsWith('--'));
-const physvib = await (await load(folder, 'physvib')).load(), source = { isSource: true, frequencyHz: 200, decayPerSecond: 30 }, closeMs = 0.5, closeShare = 0.02;
+const commands = names.filter(name => name.includes('=')).map(name => name.split('=')), drivers = commands.length > 0 ? Object.fromEntries(commands.map(([name, command]) => [name, native(name, command)])) : ours;
+const physvib = commands.length > 0 ? null : await (await load(folder, 'physvib')).load(), source = { isSource: true, frequencyHz: 200, decayPerSecond: 30 }, closeMs = 0.5, closeShare = 0.02;
 
 class NotThere extends Error {}
 
@@ -24,7 +26,7 @@ function gapOf(a, b) {
 
 /** What one engine does in one situation. */
 async function play(make, situation) {
-    const rate = situation.rate ?? 60, gravity = situation.gravity ?? g, driver = await make(folder, physvib, { gravity }), haptics = driver.attach(), second = situation.twice && !driver.isClosed ? driver.attach() : null;
+    const rate = situation.rate ?? 60, gravity = situation.gravity ?? g, driver = await make(folder, physvib, { gravity }), haptics = driver.attach(), second = situation.twice && !driver.isClosed && !driver.isSingle ? driver.attach() : null;
     const all = {}, kinds = new Map(), ids = new Map(), motions = [], lengthOf = situation.steps ?? (() => 1 / rate);
     const scales = new Map(), rise = massKg => (massKg > 0 ? gravity * Math.min(driver.halfSeconds ?? Infinity, driver.halfStep * lengthOf(0)) / 2 : 0);
     const e = new Proxy(driver, { get(target, name) {
@@ -67,11 +69,11 @@ async function play(make, situation) {
     haptics.free();
     second?.free();
     driver.end?.();
-    return { events, said, motions, all, gravity, scales, error, kinds, isTwice: Boolean(second) };
+    return { events, said, motions, all, gravity, scales, error, driver, kinds, isTwice: Boolean(second) };
 }
 
 /** Impacts of a body's own motion: when, and how strong, between what gravity's share of the step makes of it. */
-function ownImpacts({ motions, gravity, scales }, body, others) {
+function ownImpacts({ motions, gravity, scales, driver }, body, others) {
     const found = [];
     for (const [k, { time, seconds, before, after }] of motions.entries()) {
         const a = before.get(body), b = after.get(body);
@@ -79,23 +81,25 @@ function ownImpacts({ motions, gravity, scales }, body, others) {
         const pull = gravity * (scales.get(body) ?? 1) * seconds, dx = b.vx - a.vx, dy = b.vy - a.vy, least = Math.max(0.15, 1.5 * Math.abs(pull));
         if (!(Math.hypot(dx, dy + pull) > least)) continue;
         const last = found.at(-1), strengths = [Math.hypot(dx, dy), Math.hypot(dx, dy + pull)].map(change => b.massKg * change);
+        // What an engine adds to push overlaps apart is no blow: that is how fast it came.
+        if (driver.pushesApart) strengths.push(b.massKg * Math.max(0, -(a.vx * dx + a.vy * dy) / Math.hypot(dx, dy)));
         // A push that lasts some steps is one.
         if (last && k - last.k <= 1) { last.k = k; last.sumX += dx; last.sumY += dy + pull; last.most = Math.max(last.most, b.massKg * Math.hypot(last.sumX, last.sumY), strengths[1]); continue; }
-        found.push({ k, at: time, end: time + seconds, seconds: Math.max(seconds, motions[k - 1]?.seconds ?? 0), least: Math.min(...strengths), most: Math.max(...strengths), sumX: dx, sumY: dy + pull, onset: onsetOf(motions, k, body, others, gravity) });
+        found.push({ k, at: time, end: time + seconds, seconds: Math.max(seconds, motions[k - 1]?.seconds ?? 0), least: Math.min(...strengths), most: Math.max(...strengths), sumX: dx, sumY: dy + pull, onset: onsetOf(motions, k, body, others, gravity, driver.halfStep < 0, [dx, dy + pull]) });
     }
     return found;
 }
 /** When surfaces met, by the engine's own places before the step that they met in. */
-function onsetOf(motions, k, body, others, gravity) {
+function onsetOf(motions, k, body, others, gravity, movesFirst, [dx, dy]) {
     let best = null;
     for (let i = k; i >= Math.max(0, k - 2); --i) {
         const { time, seconds, before } = motions[i], a = before.get(body);
         for (const other of others) {
             const b = before.get(other), near = other !== body && a && b ? gapOf(a, b) : null;
-            if (near === null || !(near.gap > 0)) continue;
+            if (near === null || !(near.gap > 0) || Math.abs(near.nx * dx + near.ny * dy) < 0.5 * Math.hypot(dx, dy)) continue; // pushed by another
             const isFalling = ({ massKg, vy }) => massKg > 0 && Math.abs(vy) > 0.02, fall = ((isFalling(a) ? -1 : 0) - (isFalling(b) ? -1 : 0)) * gravity * near.ny, // what is carried does not fall
                   closing = (a.vx - b.vx) * near.nx + (a.vy - b.vy) * near.ny, root = closing ** 2 + 2 * fall * near.gap;
-            const after = root > 0 && closing + Math.sqrt(root) > 0 ? 2 * near.gap / (closing + Math.sqrt(root)) : Infinity, straight = closing + fall * seconds > 0 ? near.gap / (closing + fall * seconds) : Infinity;
+            const after = root > 0 && closing + Math.sqrt(root) > 0 ? 2 * near.gap / (closing + Math.sqrt(root)) : Infinity, gained = movesFirst ? 0 : fall * seconds, straight = closing + gained > 0 ? near.gap / (closing + gained) : Infinity;
             if (Math.min(after, straight) <= 1.5 * seconds && (best === null || i === best.i)) best = { i, from: Math.min(best?.from ?? Infinity, time + Math.min(after, straight)), to: Math.min(best?.to ?? Infinity, time + Math.max(after, straight)) };
         }
         if (best) return best;
@@ -160,7 +164,7 @@ const isPut = (situation, own) => (situation.acts ?? []).some(([time]) => own.at
 
 const table = new Map(), wrong = [], open = [], counts = {};
 for (const [name, make] of Object.entries(drivers)) {
-    if (names.length > 0 && !names.includes(name)) continue;
+    if (names.length > 0 && commands.length === 0 && !names.includes(name)) continue;
     counts[name] = { right: 0, own: 0, 'not there': 0, wrong: 0 };
     for (const situation of situations) {
         const title = `${situation.group}: ${situation.name}`;

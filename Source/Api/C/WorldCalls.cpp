@@ -163,6 +163,10 @@ int physvib_world_set_body(physvib_world name, int body, const physvib_body* val
     });
 }
 
+int physvib_world_set_mass(physvib_world name, int body, double massKg) {
+    return in(name, [&](World& world) { return resultOf(world.feed.setMass(body, massKg)); });
+}
+
 int physvib_world_device(physvib_world name, int body) {
     return in(name, [&](World& world) {
         const auto known = world.devices.find(body);

@@ -151,6 +151,8 @@ public sealed class World : IDisposable {
     }
     public void Configure(WorldSettings settings) { Native.Check(Native.physvib_world_configure(name, ref settings)); }
     public void SetBody(int body, Body values) { Native.Check(Native.physvib_world_set_body(name, body, ref values)); }
+    /// <summary>The mass that the engine gives a body now, 0: it does not move; its inertia changes by as much.</summary>
+    public void SetMass(int body, double massKg) { Native.Check(Native.physvib_world_set_mass(name, body, massKg)); }
     public void RemoveBody(int body) { Native.Check(Native.physvib_world_remove_body(name, body)); }
     public void Move(int body, double x_m, double y_m, double vxMPerS, double vyMPerS, double spinRadPerS) {
         Native.Check(Native.physvib_world_move(name, body, x_m, y_m, vxMPerS, vyMPerS, spinRadPerS));
@@ -536,6 +538,7 @@ static partial class Native {
     [DllImport(Library)] internal static extern int physvib_world_free(IntPtr world);
     [DllImport(Library)] internal static extern int physvib_world_configure(IntPtr world, ref WorldSettings settings);
     [DllImport(Library)] internal static extern int physvib_world_set_body(IntPtr world, int body, ref Body values);
+    [DllImport(Library)] internal static extern int physvib_world_set_mass(IntPtr world, int body, double massKg);
     [DllImport(Library)] internal static extern int physvib_world_device(IntPtr world, int body);
     [DllImport(Library)] internal static extern int physvib_world_remove_body(IntPtr world, int body);
     [DllImport(Library)] internal static extern int physvib_world_move(IntPtr world, int body, double xM, double yM, double vxMPerS, double vyMPerS, double spinRadPerS);

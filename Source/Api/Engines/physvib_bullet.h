@@ -30,6 +30,7 @@ public:
     /// Before Bullet's step: reports the velocities at which surfaces meet.
     void begin(btDynamicsWorld& world, double dt) {
         check(physvib_world_begin_step(name_, dt, world.getGravity().length()));
+        seconds_ = dt;
         for (int i = 0; i < world.getNumCollisionObjects(); ++i)
             if (const btRigidBody* body = btRigidBody::upcast(world.getCollisionObjectArray()[i]);
                 body != nullptr && body->getUserIndex() >= 0)
@@ -57,7 +58,9 @@ public:
                 contact.z_m = isPlane_ ? 0 : point.getPositionWorldOnB().z();
                 contact.impulse_n_s = point.getAppliedImpulse();
                 contact.restitution = bounce(manifold, point);
-                contact.gap_m = point.getDistance();  // at the start of the step
+                // at the start of the step, to which kinematic bodies have come already
+                contact.gap_m = point.getDistance() + ahead(*manifold.getBody0(), point, -1) +
+                                ahead(*manifold.getBody1(), point, 1);
                 contact.is_soft = PHYSVIB_SOFT_WHOLE; // the impulse also separates overlaps, or lets gaps
                                                       // close
                 contact.point_id = PHYSVIB_POINT_BY_PLACE;
@@ -98,6 +101,8 @@ private:
         const btVector3 &at = body.getCenterOfMassPosition(), &v = body.getLinearVelocity(),
                         &spin = body.getAngularVelocity(), &free = body.getAngularFactor();
         const int id = body.getUserIndex();
+        check(
+            physvib_world_set_mass(name_, id, body.isStaticOrKinematicObject() ? 0 : 1 / body.getInvMass()));
         if (isPlane_) return check(physvib_world_move(name_, id, at.x(), at.y(), v.x(), v.y(), spin.z()));
         const btMatrix3x3& inverse = body.getInvInertiaTensorWorld();
         const double centre[] = {at.x(), at.y(), at.z()}, velocity[] = {v.x(), v.y(), v.z()},
@@ -105,6 +110,13 @@ private:
         const auto of = [&](int i, int j) { return double(inverse[i][j] * free[i] * free[j]); };
         const double turning[] = {of(0, 0), of(1, 1), of(2, 2), of(0, 1), of(0, 2), of(1, 2)};
         check(physvib_world_move_in_space(name_, id, centre, velocity, turns, turning));
+    }
+    // How far it went in this step towards the other, before Bullet looked for contacts.
+    double ahead(const btCollisionObject& of, const btManifoldPoint& at, btScalar sign) const {
+        const btRigidBody* body = btRigidBody::upcast(&of);
+        if (body == nullptr || !body->isKinematicObject()) return 0;
+        const btVector3 arm = at.getPositionWorldOnB() - body->getCenterOfMassPosition();
+        return seconds_ * double(sign * at.m_normalWorldOnB.dot(body->getVelocityInLocalPoint(arm)));
     }
     // PHYSVIB_NOTE_..., or -1
     static int noteOf(const btDynamicsWorld& world, const btCollisionObject& body) {
@@ -135,5 +147,6 @@ private:
     }
     physvib_world name_;
     bool isPlane_;
+    double seconds_ = 0;
     std::string error_;
 };

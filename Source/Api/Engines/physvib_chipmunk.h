@@ -6,6 +6,7 @@
 #ifndef PHYSVIB_CHIPMUNK_H
 #define PHYSVIB_CHIPMUNK_H
 #include <chipmunk/chipmunk.h>
+#include <math.h>
 #include <physvib/physvib.h>
 #include <stdint.h>
 #include <string.h>
@@ -32,10 +33,13 @@ PHYSVIB_UNUSED static int physvib_chipmunk_is_numbered(const cpShape* shape) {
 #endif
 }
 
-PHYSVIB_UNUSED static void physvib_chipmunk_move(physvib_world world, const cpShape* shape,
-                                                 const cpBody* body) {
+PHYSVIB_UNUSED static void physvib_chipmunk_move(physvib_world world, const cpShape* shape, cpBody* body) {
     const cpVect at = cpBodyLocalToWorld(body, cpBodyGetCenterOfGravity(body)), v = cpBodyGetVelocity(body);
     if (!physvib_chipmunk_is_numbered(shape)) return; /* reported where it touches */
+    physvib_chipmunk_check(
+        physvib_world_set_mass(world, physvib_chipmunk_id(shape),
+                               cpBodyGetType(body) == CP_BODY_TYPE_DYNAMIC ? cpBodyGetMass(body) : 0),
+        physvib_error());
     physvib_chipmunk_check(physvib_world_move(world, physvib_chipmunk_id(shape), at.x, at.y, v.x, v.y,
                                               cpBodyGetAngularVelocity(body)),
                            physvib_error());
@@ -49,12 +53,21 @@ PHYSVIB_UNUSED static cpBool physvib_chipmunk_look(cpArbiter* arbiter, cpSpace* 
     return (void)space, cpTrue;
 }
 
-/* Impulse that gravity adds in this step: a load, not part of an impact. */
-PHYSVIB_UNUSED static double physvib_chipmunk_load(cpSpace* space, cpBody* a, cpBody* b, cpVect normal) {
-    const double pull = cpvdot(cpSpaceGetGravity(space), normal) * cpSpaceGetCurrentTimeStep(space);
+/* Impulse that gravity adds in this step: a load, not part of an impact. It is that of the mass that the
+ * middle of the points feels. */
+PHYSVIB_UNUSED static double physvib_chipmunk_load(cpSpace* space, cpBody* a, cpBody* b, cpVect normal,
+                                                   const cpContactPointSet* points) {
     const int falls_a = cpBodyGetType(a) == CP_BODY_TYPE_DYNAMIC,
               falls_b = cpBodyGetType(b) == CP_BODY_TYPE_DYNAMIC;
-    return falls_a == falls_b ? 0 : cpfmax(0, falls_a ? pull * cpBodyGetMass(a) : -pull * cpBodyGetMass(b));
+    cpBody* body = falls_a ? a : b;
+    const cpVect centre = cpBodyLocalToWorld(body, cpBodyGetCenterOfGravity(body));
+    const double pull = cpvdot(cpSpaceGetGravity(space), normal) * cpSpaceGetCurrentTimeStep(space);
+    double lever = 0;
+    int i;
+    if (falls_a == falls_b || (falls_a ? pull : -pull) <= 0) return 0;
+    for (i = 0; i < points->count; ++i)
+        lever += cpvcross(cpvsub(points->points[i].pointA, centre), normal) / points->count;
+    return fabs(pull) / (1 / cpBodyGetMass(body) + lever * lever / cpBodyGetMoment(body));
 }
 
 PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter* arbiter, cpSpace* space, cpDataPointer world) {
@@ -70,7 +83,7 @@ PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter* arbiter, cpSpace* sp
         return;
     }
     if (cpArbiterIsFirstContact(arbiter))
-        impulse -= physvib_chipmunk_load(space, cpShapeGetBody(a), cpShapeGetBody(b), normal);
+        impulse -= physvib_chipmunk_load(space, cpShapeGetBody(a), cpShapeGetBody(b), normal, &points);
     for (i = 0; i < points.count; ++i) {
         physvib_contact contact;
         physvib_contact_init(&contact, sizeof contact);

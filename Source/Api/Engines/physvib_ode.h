@@ -45,11 +45,20 @@ PHYSVIB_UNUSED static int physvib_ode_is_numbered(dGeomID geom) {
 #endif
 }
 
-/* Reports position and velocity of the geom's body. */
+PHYSVIB_UNUSED static double physvib_ode_mass(dGeomID geom) { /* 0: nothing moves it */
+    dBodyID body = dGeomGetBody(geom);
+    dMass mass;
+    if (!body || dBodyIsKinematic(body)) return 0;
+    dBodyGetMass(body, &mass);
+    return mass.mass;
+}
+
+/* Reports mass, position and velocity of the geom's body. */
 PHYSVIB_UNUSED static void physvib_ode_move(physvib_ode* ode, dGeomID geom) {
     dBodyID body = dGeomGetBody(geom);
     const dReal *at = body ? dBodyGetPosition(body) : NULL, *v = body ? dBodyGetLinearVel(body) : NULL;
     const int id = (int)(intptr_t)dGeomGetData(geom);
+    physvib_ode_check(ode, physvib_world_set_mass(ode->world, id, physvib_ode_mass(geom)), physvib_error());
     if (!body) return;
     if (ode->is_plane) {
         physvib_ode_check(
@@ -62,14 +71,6 @@ PHYSVIB_UNUSED static void physvib_ode_move(physvib_ode* ode, dGeomID geom) {
         physvib_ode_check(ode, physvib_world_move_in_space(ode->world, id, centre, velocity, spin, NULL),
                           physvib_error());
     }
-}
-
-PHYSVIB_UNUSED static double physvib_ode_mass(dGeomID geom) { /* 0: nothing moves it */
-    dBodyID body = dGeomGetBody(geom);
-    dMass mass;
-    if (!body || dBodyIsKinematic(body)) return 0;
-    dBodyGetMass(body, &mass);
-    return mass.mass;
 }
 
 /* Along the normal. `moved_s`: the length of a step that has moved the body since; its point moved with it.

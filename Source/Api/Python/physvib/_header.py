@@ -149,6 +149,7 @@ signatures: dict[str, tuple] = {
     "world_free": (c_int, c_void_p),
     "world_configure": (c_int, c_void_p, POINTER(CWorldSettings)),
     "world_set_body": (c_int, c_void_p, c_int, POINTER(CBody)),
+    "world_set_mass": (c_int, c_void_p, c_int, c_double),
     "world_device": (c_int, c_void_p, c_int),
     "world_remove_body": (c_int, c_void_p, c_int),
     "world_move": (c_int, c_void_p, c_int, c_double, c_double, c_double, c_double, c_double),

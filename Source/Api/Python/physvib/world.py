@@ -94,6 +94,10 @@ class World(Owned):
         """`device` of a body, also after it was removed; 0: of one that was never there."""
         return call("world_device", self._handle, body)
 
+    def set_mass(self, body: int, mass_kg: float) -> None:
+        """The mass that the engine gives a body now, 0: it does not move; its inertia changes by as much."""
+        call("world_set_mass", self._handle, body, mass_kg)
+
     def remove_body(self, body: int) -> None:
         """A body that goes; not within a step."""
         call("world_remove_body", self._handle, body)
