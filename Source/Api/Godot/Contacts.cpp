@@ -33,9 +33,7 @@ bool HapticWorld::isOtherThere(const Watched& each, int i) {
 double HapticWorld::bounceOf(std::uint64_t rid) {
     const auto [found, isNew] = bounces.try_emplace(rid, 0.0);
     constexpr int bounce = 0; // PhysicsServer's BODY_PARAM_BOUNCE
-    if (isNew)
-        found->second =
-            server().call("body_get_param", Value(GDEXTENSION_VARIANT_TYPE_RID, &rid), bounce).real();
+    if (isNew) found->second = server().call("body_get_param", Value(type::rid, &rid), bounce).real();
     return found->second;
 }
 
@@ -103,9 +101,9 @@ Surface HapticWorld::overSeams(const Watched& each, int i) const {
     const Surface own = surfaceOf(each, i);
     const bool isRound = goesThroughCentre(each, own.at, own.normal);
     const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch a wall as high as the floor
-    const auto approach = [&](const Surface& of, int k) {
+    const auto approach = [&](const Surface& of, int k) { // without this tick's gravity, which all hold
         const Vector its = direction(each.state.contactOtherVelocity(k));
-        return dot(minus(velocityAt(each, of.at), its), of.normal);
+        return dot(minus(velocityAt(each, of.at), its), of.normal) - seconds * dot(each.pull, of.normal);
     };
     Surface found = own;
     double slowest = approach(own, i);

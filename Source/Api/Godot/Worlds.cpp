@@ -193,14 +193,10 @@ std::vector<std::string> HapticWorld::warnings() const {
                            ? self().call("get_tree").call("get_edited_scene_root")
                            : Value();
     if (root.object() == nullptr) return {};
-    const auto count = [&](const char* kind) {
-        return root.call("find_children", "*", kind, true, false).elements().size() +
-               (root.call("is_class", kind).isTrue() ? 1 : 0);
-    };
     std::vector<std::string> all;
-    if (count(isSpace ? "HapticWorld3D" : "HapticWorld2D") > 1)
+    if (nodesIn(root, isSpace ? "HapticWorld3D" : "HapticWorld2D").size() > 1)
         all.emplace_back("One haptic world is enough for a scene: the others wait until it leaves.");
-    if (count("HapticBody") == 0)
+    if (nodesIn(root, "HapticBody").empty())
         all.emplace_back("Nothing in this scene is felt: add a HapticBody as a child of a physics body.");
     return all;
 }
@@ -209,6 +205,10 @@ Value HapticWorld::explain() const {
     std::array<char, 512> sentence{};
     if (world == nullptr) return Value("The world is not in a scene that plays.");
     if (!isFirst()) return Value("Another haptic world of this kind is in the scene, and this one waits.");
+    const auto isHere = [&](const HapticBody* each) { return each->spaceId() == space; };
+    if (!hapticBodies().empty() && std::ranges::none_of(hapticBodies(), isHere))
+        return Value("Each HapticBody is in another space: 2D needs a HapticWorld2D, 3D a HapticWorld3D, in "
+                     "its viewport.");
     physvib_output_facts facts;
     physvib_output_facts_init(&facts, sizeof facts);
     facts.is_missing = get(godot::outputs).elements().empty() ? 1 : 0;
@@ -218,7 +218,7 @@ Value HapticWorld::explain() const {
 }
 
 Value HapticWorld::left() const {
-    Value peaks = Value::empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY);
+    Value peaks = Value::empty(type::dictionary);
     int actuator = 0;
     for (const double peak : outputs.left()) peaks.set(actuator++, peak);
     return peaks;
@@ -256,7 +256,7 @@ std::string HapticWorld::findLayout(physvib_layout& found) const {
 Value HapticWorld::actuatorPlaces() {
     mapField();
     physvib_layout found{};
-    Value list = Value::empty(GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR2_ARRAY);
+    Value list = Value::empty(type::places);
     if (!findLayout(found).empty()) return list;
     const Vector size = get(fieldSize).vector();
     for (int j = 0; j < found.count; ++j) {
@@ -293,7 +293,7 @@ void HapticWorld::emitAll() {
 }
 
 Value HapticWorld::hitOf(const physvib_event& event) const {
-    Value hit = Value::empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY);
+    Value hit = Value::empty(type::dictionary);
     hit.set("position", Value::vector(inScene(event), isSpace));
     hit.set("strength_n_s", event.impulse_n_s);
     hit.set("speed_m_per_s", event.mass_kg > 0.0 ? event.impulse_n_s / event.mass_kg : 0.0);
@@ -418,7 +418,7 @@ Watched* HapticWorld::watch(std::uint64_t id, std::uint64_t rid, const HapticBod
     added.slides = added.body.call("is_class", isSpace ? "CharacterBody3D" : "CharacterBody2D").isTrue();
     if (added.isRigid) {
         added.rid = added.body.call("get_rid").rid();
-        server().call("body_set_force_integration_callback", Value(GDEXTENSION_VARIANT_TYPE_RID, &added.rid),
+        server().call("body_set_force_integration_callback", Value(type::rid, &added.rid),
                       Value::callable(object, "_solved"));
     }
     objects[added.number] = key;
