@@ -2,6 +2,7 @@
 // A world of numbers: what an engine would tell of it is written here, and what is felt is known by pencil
 // and paper.
 #include "Contacts/ContactFeed.h"
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -162,6 +163,23 @@ TEST_F(ContactFeedTest, ACollisionOfASoftContactIsItsSpeedsAndNotWhatOneStepPush
     const auto felt = events();
     ASSERT_EQ(felt.size(), 1U);
     EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 2.0 * 2.0 * 1.5);
+}
+
+// A face ahead leaves the speed that its gap takes, a spring most of it, an edge that is rolled over nearly
+// all.
+TEST_F(ContactFeedTest, ACollisionIsWhatTheSolverChangedAndLeft) {
+    for (const auto [gap, after, newtonSeconds] :
+         {std::array{0.02, 2.0, 6.0}, {-0.001, 2.9, 6.0}, {0.001, 2.9, 0.4}}) {
+        beginStep(0.01);
+        EXPECT_EQ(feed.move(ball, {}, {{0.0F, -3.0F}, 0.0F}), "");
+        EXPECT_EQ(feed.moved(ball, {{0.0F, static_cast<float>(-after)}, 0.0F}), "");
+        FedContact contact = landing();
+        contact.isSoft = true, contact.gapMetres = gap;
+        EXPECT_EQ(feed.touch(contact), "");
+        endStep();
+        step();
+        EXPECT_NEAR(events().at(0).source.impulseNewtonSeconds, newtonSeconds, 1e-6);
+    }
 }
 
 TEST_F(ContactFeedTest, SoftContactsHandOnWhatTheyPush) {
