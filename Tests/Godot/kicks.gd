@@ -180,6 +180,24 @@ func seams(floor_name: String, speed: float):
 	await end()
 
 
+# Where it stops a ball, the foot of a ramp is no seam, as flat as it may be.
+func ramps():
+	for degrees in [10, 20, 40]:
+		var slope := deg_to_rad(degrees)
+		var ramp = made("StaticBody", at(0, 0), Vector2(4, 0.2))
+		ramp.rotation.z = slope
+		ramp.position = Vector3(2, 0, 0).rotated(Vector3.BACK, slope) + Vector3(0, -0.1, 0).rotated(Vector3.BACK, slope)
+		var ball = made("RigidBody", at(-1.5, 0.2), 0.2, true)
+		ball.linear_damp_mode = 1
+		await begin([made("StaticBody", at(0, -0.5), Vector2(20, 1)), ramp, ball])
+		ball.linear_velocity = Vector3(7, 0, 0)
+		ball.angular_velocity = Vector3(0, 0, -7 / 0.2)
+		await ticks(int(0.335 * Engine.physics_ticks_per_second))
+		var share: float = hits[0].strength_n_s / (7 * sin(slope)) if hits else 0.0
+		check(share < 1.1 and share > (0.9 if degrees > 10 else 0.25), named("a ramp of %d degrees, %.2f N s" % [degrees, 7 * sin(slope)]))
+		await end()
+
+
 func ragdoll():
 	var skeleton := Skeleton3D.new()
 	skeleton.add_bone("bone")
@@ -231,6 +249,7 @@ func _initialize():
 	for act in [platforms, flipper, lever, bumper, breaks, freed, words]: await act.call()
 	if space == 3:
 		await ragdoll()
+		await ramps()
 		for floor_name in ["boxes", "gridmap"]: for speed in [1.0, 2.0, 4.0, 7.0]: await seams(floor_name, speed)
 		check(20 * above.size() <= judged + 20, "of %d hits at seams, above what the solver gave: %s" % [judged, above])
 	print("%d wrong" % wrong)

@@ -64,50 +64,29 @@ Value Value::vector(const Vector& v, bool isSpace) {
     return {isSpace ? type::vector3 : type::vector2, typed.data()};
 }
 
+template <class Typed>
+Typed Value::typed(GDExtensionVariantType wanted) const {
+    Typed typed{};
+    if (type() == wanted) api.toType(wanted)(&typed, const_cast<void*>(raw()));
+    return typed;
+}
 double Value::real() const {
-    double typed = 0.0;
-    if (type() == type::real)
-        api.toType(type::real)(&typed, const_cast<void*>(raw()));
-    else
-        typed = static_cast<double>(whole());
-    return typed;
+    return type() == type::real ? typed<double>(type::real) : static_cast<double>(whole());
 }
-
 std::int64_t Value::whole() const {
-    std::int64_t typed = 0;
-    GDExtensionBool is = 0;
-    if (type() == type::whole)
-        api.toType(type::whole)(&typed, const_cast<void*>(raw()));
-    else if (type() == type::boolean) {
-        api.toType(type::boolean)(&is, const_cast<void*>(raw()));
-        typed = is;
-    }
-    return typed;
+    return type() == type::boolean ? typed<GDExtensionBool>(type::boolean) : typed<std::int64_t>(type::whole);
 }
-
 Vector Value::vector() const {
-    std::array<float, 3> typed{};
-    if (type() == type::vector2 || type() == type::vector3)
-        api.toType(type())(typed.data(), const_cast<void*>(raw()));
-    return {typed[0], typed[1], typed[2]};
+    const auto [x, y, z] = typed<std::array<float, 3>>(type() == type::vector2 ? type() : type::vector3);
+    return {x, y, z};
 }
+GDExtensionObjectPtr Value::object() const { return typed<GDExtensionObjectPtr>(type::object); }
+std::uint64_t Value::rid() const { return typed<std::uint64_t>(type::rid); }
 
 std::vector<Value> Value::elements() const {
     std::vector<Value> all;
     for (int i = 0; i < call("size").whole(); ++i) all.push_back(call("get", i));
     return all;
-}
-
-GDExtensionObjectPtr Value::object() const {
-    GDExtensionObjectPtr typed = nullptr;
-    if (type() == type::object) api.toType(type::object)(&typed, const_cast<void*>(raw()));
-    return typed;
-}
-
-std::uint64_t Value::rid() const {
-    std::uint64_t typed = 0;
-    if (type() == type::rid) api.toType(type::rid)(&typed, const_cast<void*>(raw()));
-    return typed;
 }
 
 std::string Text::utf8() const {

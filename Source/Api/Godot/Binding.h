@@ -161,6 +161,8 @@ public:
     void* raw() { return data.data(); }
 
 private:
+    template <class Typed>
+    Typed typed(GDExtensionVariantType wanted) const; ///< 0 if it is of another type
     Value callWith(const char* name, const GDExtensionConstVariantPtr* arguments, std::size_t count) const;
     alignas(8) std::array<unsigned char, 24> data{};
 };

@@ -37,10 +37,23 @@ double HapticWorld::bounceOf(std::uint64_t rid) {
     return found->second;
 }
 
-void HapticWorld::touchAll(const Watched& each) {
-    const int count = each.state.contacts();
-    for (int i = 0; i < count; ++i)
+void HapticWorld::touchAll(Watched& each) {
+    Surface under{};
+    double slowest = HUGE_VAL;
+    for (int i = 0; i < each.state.contacts(); ++i) {
         if (isOfInterest(each, i) && isOtherThere(each, i)) touch(each, i);
+        const Surface its = surfaceOf(each, i);
+        if (const double speed = std::abs(approach(each, its, i)); speed < slowest)
+            under = its, slowest = speed;
+    }
+    each.under = under;
+}
+
+// Without this tick's gravity, which all that holds it takes.
+double HapticWorld::approach(const Watched& each, const Surface& surface, int i) const {
+    const Vector its = direction(each.state.contactOtherVelocity(i));
+    return dot(minus(velocityAt(each, surface.at), its), surface.normal) -
+           seconds * dot(each.pull, surface.normal);
 }
 
 // What strikes felt bodies only, strikes thousands of others too.
@@ -94,25 +107,30 @@ Surface HapticWorld::surfaceOf(const Watched& each, int i) const {
     return {at, there, normal, dot(minus(there, at), normal), length > 0.0};
 }
 
-// Where it touches, or where the plane on which it rolls holds it: an edge that does not stand out of that
-// plane, as between two tiles, strikes nothing, though Jolt's normal there points from the body to the edge.
+// Where it touches, or where the plane on which it rolls or comes down holds it: an edge that does not stand
+// out of that plane, as between two tiles, strikes nothing, though Jolt's normal there points from the body
+// to the edge; unless the solver has stopped it there, as at the foot of a ramp.
 Surface HapticWorld::overSeams(const Watched& each, int i) const {
     constexpr double outstanding = 0.005; // m
     const Surface own = surfaceOf(each, i);
     const bool isRound = goesThroughCentre(each, own.at, own.normal);
     const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch a wall as high as the floor
-    const auto approach = [&](const Surface& of, int k) { // without this tick's gravity, which all hold
-        const Vector its = direction(each.state.contactOtherVelocity(k));
-        return dot(minus(velocityAt(each, of.at), its), of.normal) - seconds * dot(each.pull, of.normal);
-    };
     Surface found = own;
-    double slowest = approach(own, i);
-    for (int j = 0; j < each.state.contacts(); ++j) {
-        const Surface under = surfaceOf(each, j);
+    double slowest = approach(each, own, i);
+    if (-dot(each.change, own.normal) - seconds * dot(each.pull, own.normal) > 0.5 * slowest) return found;
+    for (int j = isRound ? -1 : 0; j < each.state.contacts(); ++j) { // -1: of the last tick
+        Surface under = j < 0 ? each.under : surfaceOf(each, j);
         const double height = dot(minus(own.there, under.there), under.normal),
                      alike = dot(own.normal, under.normal);
         if (!under.isOne || !(std::abs(height) < outstanding) || !(alike > least) || alike > 0.9999) continue;
-        if (const double its = approach(under, j); its < 0.5 * slowest) found = under, slowest = its;
+        if (j < 0) { // as a ball goes on over it
+            const Vector arm = minus(own.at, each.centre);
+            for (std::size_t k = 0; k < 3; ++k)
+                under.at[k] = each.centre[k] + std::sqrt(dot(arm, arm)) * under.normal[k];
+            under.there = own.there, under.gap = own.gap;
+        }
+        if (const double its = approach(each, under, std::max(0, j)); its < 0.5 * slowest)
+            found = under, slowest = its;
     }
     return found;
 }

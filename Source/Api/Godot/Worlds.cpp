@@ -76,13 +76,13 @@ void HapticWorld::finishStep() {
     if (!isOpen) return;
     isOpen = isSolved = false;
     bounces.clear();
-    std::vector<const Watched*> rigid; // contacts add bodies, and leave these where they are
+    std::vector<Watched*> rigid; // contacts add bodies, and leave these where they are
     for (auto& [id, each] : watched) {
         if (!each.isRigid || !isThere(each)) each.state = {};
         each.isMet = false;
         if (each.state) rigid.push_back(&each);
     }
-    for (const Watched* each : rigid) touchAll(*each);
+    for (Watched* each : rigid) touchAll(*each);
     checkWorld(physvib_world_end_step(world));
     emitAll();
 }
