@@ -181,7 +181,7 @@ void ReportedContacts::tell(Pair& pair, const FedContact& contact, bool isNew, b
 
 // A struck body may stand on something, hang in joints or carry others. Then the engine's impulse of the step
 // is larger than speed and mass of the two bodies say. What gravity adds after they met is a load. Where it
-// is smaller, and little is left to later steps, as at an edge over which the body went, so was the impact.
+// is smaller, and little is left to later steps, as over an edge, so was the impact.
 double ReportedContacts::supported(double bySpeed, Push push, double gainedMetresPerSecond,
                                    double fraction) const {
     constexpr double clearly = 1.2; // the impulse of a step also moves overlaps apart

@@ -121,6 +121,17 @@ func bumper():
 	await end()
 
 
+# What a script defers comes before the solver: it fell, and rests now.
+func respawn():
+	var falls = made("RigidBody", at(0, 20), Vector2(0.5, 0.5), true)
+	await begin([made("StaticBody", at(0, -0.5), Vector2(20, 1)), falls])
+	falls.position = at(0, 0.25)
+	falls.set_deferred("linear_velocity", along(0, 0))
+	await ticks(int(0.5 * Engine.physics_ticks_per_second))
+	check(hits.is_empty(), named("a fall that ends by set_deferred"))
+	await end()
+
+
 # Balls that touch in a row, on a table that is smooth.
 func breaks():
 	var balls := []
@@ -246,7 +257,7 @@ func _initialize():
 		if word.begins_with("space="): space = int(word.substr(6))
 		if word.begins_with("hz="): Engine.physics_ticks_per_second = int(word.substr(3))
 	await ticks(2)
-	for act in [platforms, flipper, lever, bumper, breaks, freed, words]: await act.call()
+	for act in [platforms, flipper, lever, bumper, respawn, breaks, freed, words]: await act.call()
 	if space == 3:
 		await ragdoll()
 		await ramps()

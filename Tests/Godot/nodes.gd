@@ -237,7 +237,7 @@ func explains():
 	var elsewhere := HapticWorld3D.new()
 	scene = scene_of([elsewhere, felt_box(Vector2(500, 500))])
 	await ticks(60)
-	check("needs a HapticWorld2D" in elsewhere.explain(), elsewhere.explain())
+	check("2D needs a HapticWorld2D" in elsewhere.explain(), elsewhere.explain())
 	scene.free()
 
 

@@ -136,7 +136,7 @@ bool Direct::find(const char* className, const char* method, std::int64_t hash) 
     return bind != nullptr;
 }
 
-// What is wrong in one tick is wrong in the next one too, and a script may set a wrong value in every frame.
+// What is wrong in one tick is wrong in the next one too.
 void report(const std::string& line) {
     constexpr std::size_t most = 100, longest = 300; // a value may be a list of thousands
     static std::set<std::string> printed;
@@ -144,8 +144,6 @@ void report(const std::string& line) {
     if (printed.size() < most && printed.insert(text).second)
         api.printWarning(text.c_str(), text.c_str(), "", "physvib", 0, 1);
 }
-
-// Looks up Godot's functions by their names.
 
 Functions api;
 

@@ -92,7 +92,6 @@ std::vector<Value> nodesIn(const Value& scene, const char* kind) {
 
 namespace {
 int numberOf(const std::string& part) { return part.empty() ? 0 : physvib_part(part.c_str()); }
-// physvib_error() says why not.
 bool findPreset(physvib_body& body, const Value& material) {
     const std::string name =
         material.object() == nullptr ? std::string() : material.call("get_preset").text();
@@ -121,7 +120,7 @@ std::vector<std::string> HapticBody::warnings() const {
     const char* const kind =
         parent.call("is_class", "PhysicsBody3D").isTrue() ? "HapticWorld3D" : "HapticWorld2D";
     const std::vector<Value> worlds = nodesIn(scene, kind);
-    if (worlds.empty() && scene.object() != parent.object()) // else other scenes have it
+    if (worlds.empty() && scene.object() != parent.object())
         all.push_back(std::string("Nothing is felt without a ") + kind + " in the scene: add one.");
     const std::string name = get(part).text();
     if (!worlds.empty() && !hasPart(worlds.front(), numberOf(name)))

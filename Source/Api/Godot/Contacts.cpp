@@ -91,8 +91,8 @@ Watched* HapticWorld::moving(std::uint64_t id, std::uint64_t rid, const Vector& 
     return found;
 }
 
-// Jolt lists what comes near before it touches. Those contacts count of which one gets there in this tick,
-// and only if the solver has changed the velocity along them.
+// Jolt lists what comes near before it touches. It counts if it gets there in this tick, and the solver has
+// slowed it.
 bool HapticWorld::getsThere(const Watched& each, const Watched& met, const Surface& surface) const {
     if (!(surface.gap > 0.0)) return true;
     const Vector own = velocityAt(each, surface.at), its = velocityAt(met, surface.at);
@@ -107,9 +107,9 @@ Surface HapticWorld::surfaceOf(const Watched& each, int i) const {
     return {at, there, normal, dot(minus(there, at), normal), length > 0.0};
 }
 
-// Where it touches, or where the plane on which it rolls or comes down holds it: an edge that does not stand
-// out of that plane, as between two tiles, strikes nothing, though Jolt's normal there points from the body
-// to the edge; unless the solver has stopped it there, as at the foot of a ramp.
+// Where it touches, or where the plane on which it rolls or lands holds it: an edge that does not stand out
+// of it, as between two tiles, strikes nothing, though Jolt's normal points there; unless the solver has
+// stopped it, as at a ramp's foot.
 Surface HapticWorld::overSeams(const Watched& each, int i) const {
     constexpr double outstanding = 0.005; // m
     const Surface own = surfaceOf(each, i);
@@ -171,8 +171,6 @@ void HapticWorld::touch(const Watched& each, int i) {
     contact.point_id = isRound || isOtherRound ? 0 : PHYSVIB_POINT_BY_PLACE;
     checkWorld(physvib_world_touch(world, &contact));
 }
-
-// Contacts of a CharacterBody, as its move_and_slide() lists them.
 
 // What a CharacterBody struck in its last move_and_slide(): straight on within the tick, as its script wants.
 void HapticWorld::slideAll(Watched& each) {

@@ -68,6 +68,7 @@ const std::vector<Method> methods{{"explain", type::text, calls<&HapticWorld::ex
                                   {"left", type::dictionary, calls<&HapticWorld::left>},
                                   {"actuator_places", type::places, calls<&HapticWorld::actuatorPlaces>},
                                   {"time_s", type::real, calls<&HapticWorld::timeSeconds>},
+                                  {"_begin_step", type::nil, calls<&HapticWorld::beginStep>},
                                   {"_finish_step", type::nil, calls<&HapticWorld::finishStep>},
                                   {"_solved", type::nil, calls<&HapticWorld::solved>, "Object"},
                                   {"_added", type::nil, added, "Node"}};

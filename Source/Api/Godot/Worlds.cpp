@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A tick: beginStep() reads motions after the last script and before the solver, finishStep() reads motions
-// and contacts after it. Nothing is written to Godot's physics.
+// beginStep() reads motions between the last script and the solver, finishStep() those after it, and
+// contacts. Nothing is written to Godot's physics.
 #include "Api/Godot/Worlds.h"
 #include "Api/Godot/Explanation.h"
 #include "Api/Godot/Touching.h"
@@ -62,7 +62,7 @@ void HapticWorld::moveBefore(Watched& each) {
                                            each.spin.data(), inverse.data()));
 }
 
-// body_entered and _integrate_forces come body by body, and may set any body's velocity: all are read before.
+// body_entered and _integrate_forces may set any body's velocity: all are read before.
 void HapticWorld::solved() {
     if (!isOpen || std::exchange(isSolved, true)) return;
     for (auto& [id, each] : watched) {
@@ -96,8 +96,6 @@ void HapticWorld::moveAfter(Watched& each) {
     checkWorld(physvib_world_moved_in_space(world, each.number, velocity.data(), spin.data()));
 }
 
-// A haptic world in the scene tree: it comes, waits if there is another one, has other properties, and goes.
-
 namespace {
 std::vector<const HapticWorld*> worldsInTree; // in the order in which they came
 } // namespace
@@ -112,7 +110,8 @@ HapticWorld::~HapticWorld() {
 }
 
 void HapticWorld::notified(int what) {
-    if (what == notifiedPhysicsProcess) return beginStep();
+    if (what == notifiedPhysicsProcess) // after what scripts deferred, too
+        return (void)self().call("call_deferred", "_begin_step");
     if (what == notifiedPaused) return outputs.rest();
     if (what == notifiedProcess) {
         if (areOutputsStale) configureOutputs();
@@ -142,7 +141,7 @@ void HapticWorld::enter() {
     self().call("set_physics_process_priority", afterAllScripts);
 }
 
-// It may come back, in another place and time: nothing is left of its bodies, and its time goes on.
+// It may come back: nothing is left of its bodies, and its time goes on.
 void HapticWorld::leave() {
     forget();
     outputs.close();
@@ -207,8 +206,7 @@ Value HapticWorld::explain() const {
     if (!isFirst()) return Value("Another haptic world of this kind is in the scene, and this one waits.");
     const auto isHere = [&](const HapticBody* each) { return each->spaceId() == space; };
     if (!hapticBodies().empty() && std::ranges::none_of(hapticBodies(), isHere))
-        return Value("Each HapticBody is in another space: 2D needs a HapticWorld2D, 3D a HapticWorld3D, in "
-                     "its viewport.");
+        return Value("No HapticBody is in its space: 2D needs a HapticWorld2D, 3D a HapticWorld3D.");
     physvib_output_facts facts;
     physvib_output_facts_init(&facts, sizeof facts);
     facts.is_missing = get(godot::outputs).elements().empty() ? 1 : 0;
@@ -227,8 +225,6 @@ Value HapticWorld::left() const {
 Value HapticWorld::timeSeconds() const {
     return Value(world == nullptr ? 0.0 : static_cast<double>(physvib_world_time_ns(world)) * 1e-9);
 }
-
-// The field of a haptic world, and where the actuators are in it.
 
 void HapticWorld::mapField() {
     unit = get(metresPerUnit).real();
@@ -267,8 +263,6 @@ Value HapticWorld::actuatorPlaces() {
     }
     return list;
 }
-
-// Events of a world, as outputs play them and as the signal `felt` says them.
 
 // What the signal calls may free the world: it is looked for before each event.
 void HapticWorld::emitAll() {
@@ -340,8 +334,6 @@ physvib_event HapticWorld::asSeen(const physvib_event& event) const {
     return seen;
 }
 
-// Which bodies a haptic world observes, and what they are to physvib.
-
 namespace {
 constexpr int listed = 16; // contacts of a body that Godot lists per tick, unless the game wants more
 // Ids of nodes have no highest bit.
@@ -364,7 +356,7 @@ bool HapticWorld::isThere(const Watched& each) const {
     return each.isNode ? there != nullptr && isInTree(there) : each.isMet;
 }
 
-// Bodies that were freed go, those of new HapticBody nodes come, masses are as they are now.
+// Freed bodies go, those of new HapticBody nodes come, masses are as they are now.
 void HapticWorld::watchAll() {
     for (auto& [id, each] : watched) each.values = nullptr;
     for (const HapticBody* haptic : hapticBodies())
@@ -383,8 +375,7 @@ void HapticWorld::watchAll() {
     }
 }
 
-// Only rigid bodies have lists of contacts. So what strikes a felt body of another kind is asked for its
-// list.
+// Only rigid bodies list contacts. So what strikes a felt body of another kind is asked for its list.
 void HapticWorld::watchStrikers() {
     const bool isWanted = std::any_of(watched.begin(), watched.end(), [](const auto& each) {
         return each.second.values != nullptr && !each.second.isRigid && each.second.values->isFelt();

@@ -51,6 +51,7 @@ public:
     void changed() override { isStale = areOutputsStale = true; }
     std::vector<std::string> warnings() const override;
 
+    void beginStep();              ///< all scripts are done, and the solver begins
     void solved();                 ///< the solver is done, and no signal or script has changed a body yet
     void finishStep();             ///< at the start of the next tick, before any script but those
     void added(const Value& node); ///< to the tree
@@ -67,7 +68,6 @@ private:
     void configureOutputs();
     void mapField();
     std::string findLayout(physvib_layout& layout) const; ///< the error; empty: it is there
-    void beginStep();
     void watchAll();
     void watchStrikers();
     bool isThere(const Watched& watched) const;
