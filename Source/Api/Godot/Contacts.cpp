@@ -49,7 +49,7 @@ void HapticWorld::touchAll(Watched& each) {
     each.under = under;
 }
 
-// Without this tick's gravity, which all that holds it takes.
+// Without this tick's gravity.
 double HapticWorld::approach(const Watched& each, const Surface& surface, int i) const {
     const Vector its = direction(each.state.contactOtherVelocity(i));
     return dot(minus(velocityAt(each, surface.at), its), surface.normal) -
