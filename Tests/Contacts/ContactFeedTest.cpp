@@ -2,7 +2,6 @@
 // A world of numbers: what an engine would tell of it is written here, and what is felt is known by pencil
 // and paper.
 #include "Contacts/ContactFeed.h"
-#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -31,10 +30,7 @@ protected:
     void beginStep(double seconds) {
         EXPECT_EQ(feed.beginStep(feed.timeNs() + std::llround(seconds * 1.0e9), g), "");
     }
-    void step() {
-        beginStep(0.01);
-        endStep();
-    }
+    void step() { beginStep(0.01), endStep(); }
     void endStep() { EXPECT_EQ(feed.endStep(), ""); }
     std::vector<CollisionEvent> events() {
         std::vector<CollisionEvent> all;
@@ -168,17 +164,16 @@ TEST_F(ContactFeedTest, ACollisionOfASoftContactIsItsSpeedsAndNotWhatOneStepPush
 // A face ahead leaves the speed that its gap takes, a spring most of it, an edge that is rolled over nearly
 // all.
 TEST_F(ContactFeedTest, ACollisionIsWhatTheSolverChangedAndLeft) {
-    for (const auto [gap, after, newtonSeconds] :
-         {std::array{0.02, 2.0, 6.0}, {-0.001, 2.9, 6.0}, {0.001, 2.9, 0.4}}) {
+    FedContact contact = landing();
+    contact.isSoft = true;
+    for (const double gap : {0.02, -0.001, 0.001}) {
         beginStep(0.01);
         EXPECT_EQ(feed.move(ball, {}, {{0.0F, -3.0F}, 0.0F}), "");
-        EXPECT_EQ(feed.moved(ball, {{0.0F, static_cast<float>(-after)}, 0.0F}), "");
-        FedContact contact = landing();
-        contact.isSoft = true, contact.gapMetres = gap;
+        EXPECT_EQ(feed.moved(ball, {{0.0F, gap == 0.02 ? -2.0F : -2.9F}, 0.0F}), "");
+        contact.gapMetres = gap;
         EXPECT_EQ(feed.touch(contact), "");
-        endStep();
-        step();
-        EXPECT_NEAR(events().at(0).source.impulseNewtonSeconds, newtonSeconds, 1e-6);
+        endStep(), step();
+        EXPECT_NEAR(events().at(0).source.impulseNewtonSeconds, gap == 0.001 ? 0.4 : 6.0, 1e-6);
     }
 }
 
