@@ -180,13 +180,15 @@ void ReportedContacts::tell(Pair& pair, const FedContact& contact, bool isNew, b
 // Impacts of single points: impulse and time of each. A point without an impact is a load of its pair.
 
 // A struck body may stand on something, hang in joints or carry others. Then the engine's impulse of the step
-// is larger than speed and mass of the two bodies say. What gravity adds after they met is a load.
-double ReportedContacts::supported(double bySpeed, double pushed, double gainedMetresPerSecond,
+// is larger than speed and mass of the two bodies say. What gravity adds after they met is a load. Where it
+// is smaller, and little is left to later steps, as over an edge, so was the impact.
+double ReportedContacts::supported(double bySpeed, Push push, double gainedMetresPerSecond,
                                    double fraction) const {
     constexpr double clearly = 1.2; // the impulse of a step also moves overlaps apart
     const double falls = gravity_ * events_.stepSeconds() * (1.0 - std::clamp(fraction, 0.0, 1.0));
-    const double ofCollision = pushed * gainedMetresPerSecond / (gainedMetresPerSecond + falls);
-    return ofCollision > clearly * bySpeed ? ofCollision : bySpeed;
+    const double ofCollision = push.first * gainedMetresPerSecond / (gainedMetresPerSecond + falls);
+    if (ofCollision > clearly * bySpeed) return ofCollision;
+    return bySpeed > clearly * push.second ? push.second : bySpeed;
 }
 
 double ReportedContacts::speedOf(const FedContact& contact) const {
@@ -213,7 +215,7 @@ void ReportedContacts::passOver(const TouchingPairs::Name& pair, const FedContac
     }
 }
 
-void ReportedContacts::strike(const FedContact& contact, double pushed) {
+void ReportedContacts::strike(const FedContact& contact, Push push) {
     CollisionCatcher& catcher = events_.catcher();
     const TouchingPairs::Name pair = nameOf(contact);
     const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
@@ -223,8 +225,8 @@ void ReportedContacts::strike(const FedContact& contact, double pushed) {
     const bool isImpulseTold = contact.impulseNewtonSeconds && !contact.isSoft;
     double impulse = isImpulseTold ? *contact.impulseNewtonSeconds
                                    : mass * std::max(0.0, told) * (1.0 + contact.restitution);
-    if (pushed > 0.0 && told > 0.0)
-        impulse = supported(impulse, pushed, told * (1.0 + contact.restitution), fractionOf(contact, told));
+    if (told > 0.0)
+        impulse = supported(impulse, push, told * (1.0 + contact.restitution), fractionOf(contact, told));
     if (!(impulse > 0.0 && std::isfinite(impulse))) { // they separate, or neither can be moved
         passOver(pair, contact, told, 0.0);
         return contact.isSoft ? load(contact) : void();
@@ -315,13 +317,16 @@ FedContact ReportedContacts::withMomentum(const Waiting& each) const {
     return contact;
 }
 
-double ReportedContacts::pushed(const Waiting& each) const {
-    const FedContact& contact = each.contact;
-    if (!contact.isSoft) return 0.0;
-    const double told = contact.isPushWhole ? contact.impulseNewtonSeconds.value_or(0.0) : 0.0;
-    return each.momentum == FedPoints::none
-               ? told
-               : std::max(told, momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum)));
+ReportedContacts::Push ReportedContacts::pushed(const Waiting& each) const {
+    const FedContact& of = each.contact;
+    if (!of.isSoft) return anyPush;
+    const double told = of.isPushWhole ? of.impulseNewtonSeconds.value_or(0.0) : 0.0;
+    if (each.momentum == FedPoints::none) return {told, anyPush.second};
+    const double pushed = std::max(told, momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum)));
+    const double gap = of.gapMetres > 0.0 ? of.gapMetres / events_.stepSeconds() : HUGE_VAL;
+    const double left = std::clamp(bodies_.approach(of.a, of.b, of.point, of.normal, true), 0.0, gap);
+    const double mass = bodies_.effectiveMassKg(of.a, of.b, of.point, of.normal);
+    return {pushed, pushed + (1.0 + of.restitution) * left * mass};
 }
 
 // Of contacts that are not soft: the impulse of the impact is that of the new points.
@@ -378,7 +383,7 @@ void ReportedContacts::settle(Pair& pair) {
     }
     if (together_.size() == 1 || std::ranges::any_of(together_, hasMass)) {
         for (const Waiting* each : together_)
-            if (each->isNew) strike(withMomentum(*each), hasMass(each) ? 0.0 : pushed(*each));
+            if (each->isNew) strike(withMomentum(*each), hasMass(each) ? anyPush : pushed(*each));
         return;
     }
     meeting_.clear();
@@ -405,12 +410,14 @@ void ReportedContacts::strikeTogether() {
     CollisionCatcher& catcher = events_.catcher();
     const FedContact& first = together_.front()->contact;
     const TouchingPairs::Name pair = nameOf(first);
-    double all = 0.0, ofNew = 0.0, fastest = 0.0, fraction = FedContact::latestFraction, ofPush = 0.0;
+    double all = 0.0, ofNew = 0.0, fastest = 0.0, fraction = FedContact::latestFraction;
+    Push push{0.0, 0.0};
     Vector3 point;
     for (std::size_t i = 0; i < meeting_.size(); ++i) {
         const MeetingPoint& each = meeting_[i];
         all += each.newtonSeconds;
-        if (each.isNew) ofPush += pushed(*together_[i]);
+        if (const auto [now, most] = pushed(*together_[i]); each.isNew)
+            push.first += now, push.second += most;
         if (!each.isNew || !(each.newtonSeconds > 0.0)) continue;
         ofNew += each.newtonSeconds;
         point += static_cast<float>(each.newtonSeconds / ofNew) * (each.point - point);
@@ -420,8 +427,7 @@ void ReportedContacts::strikeTogether() {
     const float gravityScale =
         std::max(events_.fixtures()[pair.a].gravityScale(), events_.fixtures()[pair.b].gravityScale());
     const double share = all > 0.0 ? ofNew / all : 0.0;
-    if (ofPush > 0.0 && fastest > 0.0)
-        ofNew = supported(ofNew, ofPush, (1.0 + first.restitution) * fastest, fraction);
+    if (fastest > 0.0) ofNew = supported(ofNew, push, (1.0 + first.restitution) * fastest, fraction);
     const double impulse = first.isImpulseOfPair ? share * *first.impulseNewtonSeconds : ofNew;
     const bool isCollision =
         impulse > 0.0 && std::isfinite(impulse) && catcher.isCollision(gravityScale, fastest);

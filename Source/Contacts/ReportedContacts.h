@@ -9,6 +9,7 @@
 #include "Contacts/LastingContacts.h"
 #include "Contacts/Vectors.h"
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -292,8 +293,10 @@ private:
     }
     void strikeByMomentum();
     FedContact withMomentum(const Waiting& each) const;
-    double pushed(const Waiting& each) const;
-    double supported(double bySpeed, double pushed, double gainedMetresPerSecond, double fraction) const;
+    using Push = std::pair<double, double>; // N s of a step; the most that its impact can have had
+    static constexpr Push anyPush{0.0, HUGE_VAL};
+    Push pushed(const Waiting& each) const;
+    double supported(double bySpeed, Push push, double gainedMetresPerSecond, double fraction) const;
     static bool waits(const FedContact& contact) noexcept {
         return contact.isSoft || contact.isImpulseOfPair || !contact.impulseNewtonSeconds;
     }
@@ -313,7 +316,7 @@ private:
     Pair& know(const FedContact& contact, bool isAsked);
     void drop(std::size_t pair);
     void dropAllOf(std::int32_t slot);
-    void strike(const FedContact& contact, double pushed = 0.0);
+    void strike(const FedContact& contact, Push push = anyPush);
     void passOver(const TouchingPairs::Name& pair, const FedContact& contact, double speed, double impulse);
     void strikeTogether();
     double fastestOfNew() const;

@@ -53,11 +53,11 @@ def is_inside(row: dict, kind: str, is_package: bool = False) -> bool:
     return kind in row["held"].split() and (row["sonames"] == "-" or not is_package and row["name"] in ("Box2D", "Highway", "qr-code-generator"))
 
 
-def licences(kind: str) -> str:
+def licences(kind: str, *without: str) -> str:
     """Theirs as their packages or sources have them, with each whole text to which they refer. Godot's interface is a header that names its own."""
     texts, common = [], {}
     for row in table:
-        if not is_inside(row, kind) or row["package"] == "-":
+        if not is_inside(row, kind) or row["package"] == "-" or row["name"] in without:
             continue
         sources = root / "build/web"
         places = [Path("/usr/share/doc", row["package"], "copyright"), *root.glob(f"build/*/usr/share/doc/{row['package']}/copyright"),
@@ -128,5 +128,5 @@ if __name__ == "__main__":
     if sys.argv[1] == "--opened":
         opened(sys.argv[2:])
     if sys.argv[1] == "--licences":
-        sys.exit(print(licences(sys.argv[2])))
+        sys.exit(print(licences(*sys.argv[2:])))
     write(sys.argv[1], Path(sys.argv[2]))

@@ -29,10 +29,7 @@ protected:
     void beginStep(double seconds) {
         EXPECT_EQ(feed.beginStep(feed.timeNs() + std::llround(seconds * 1.0e9), g), "");
     }
-    void step() {
-        beginStep(0.01);
-        endStep();
-    }
+    void step() { beginStep(0.01), endStep(); }
     void endStep() { EXPECT_EQ(feed.endStep(), ""); }
     std::vector<CollisionEvent> events() {
         std::vector<CollisionEvent> all;
@@ -178,6 +175,22 @@ TEST_F(ContactFeedTest, ACollisionOfASoftContactIsItsSpeedsAndNotWhatOneStepPush
     const auto felt = events();
     ASSERT_EQ(felt.size(), 1U);
     EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 2.0 * 2.0 * 1.5);
+}
+
+// A face ahead leaves the speed that its gap takes, a spring most of it, an edge that is rolled over nearly
+// all.
+TEST_F(ContactFeedTest, ACollisionIsWhatTheSolverChangedAndLeft) {
+    FedContact contact = landing();
+    contact.isSoft = true;
+    for (const double gap : {0.02, -0.001, 0.001}) {
+        beginStep(0.01);
+        EXPECT_EQ(feed.move(ball, {}, {{0.0F, -3.0F}, 0.0F}), "");
+        EXPECT_EQ(feed.moved(ball, {{0.0F, gap == 0.02 ? -2.0F : -2.9F}, 0.0F}), "");
+        contact.gapMetres = gap;
+        EXPECT_EQ(feed.touch(contact), "");
+        endStep(), step();
+        EXPECT_NEAR(events().at(0).source.impulseNewtonSeconds, gap == 0.001 ? 0.4 : 6.0, 1e-6);
+    }
 }
 
 TEST_F(ContactFeedTest, SoftContactsHandOnWhatTheyPush) {

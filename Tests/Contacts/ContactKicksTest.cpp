@@ -200,8 +200,7 @@ TEST_P(Kicks, ASecondKickIsFeltAsWell) {
 TEST_P(Kicks, EveryBallOfABreakIsFelt) {
     constexpr std::size_t count = 8;
     Row row(telling, rate, 0.0, std::vector<double>(count, 0.17), 3);
-    row.setPlace(0, -0.3);
-    row.setSpeed(0, 6.0);
+    row.setPlace(0, -0.3), row.setSpeed(0, 6.0);
     row.run(0.6, [](double) { return 0.0; });
     std::array<bool, count> isFelt{};
     for (const auto& event : row.felt()) isFelt[static_cast<std::size_t>(event.source.fixture)] = true;
@@ -215,8 +214,7 @@ TEST_P(Kicks, EveryBallOfABreakIsFelt) {
 TEST_P(Kicks, WhatTheGroundGivesBackToABlowIsNoSecondOne) {
     Row row = this->row({0.0, 1.0, 1.0});
     rest(row);
-    row.setPlace(2, 0.9);
-    row.solveOnceFromBelow();
+    row.setPlace(2, 0.9), row.solveOnceFromBelow();
     row.run(0.8, [](double) { return 0.0; });
     EXPECT_EQ(row.felt().size(), 2U) << "the falling one and what it falls on";
 }

@@ -7,6 +7,8 @@ extends "checks.gd"
 var space := 2
 var hits := []
 var scene: Node
+var judged := 0
+var above := []
 
 
 func at(x: float, y: float):
@@ -119,6 +121,17 @@ func bumper():
 	await end()
 
 
+# What a script defers comes before the solver: it fell, and rests now.
+func respawn():
+	var falls = made("RigidBody", at(0, 20), Vector2(0.5, 0.5), true)
+	await begin([made("StaticBody", at(0, -0.5), Vector2(20, 1)), falls])
+	falls.position = at(0, 0.25)
+	falls.set_deferred("linear_velocity", along(0, 0))
+	await ticks(int(0.5 * Engine.physics_ticks_per_second))
+	check(hits.is_empty(), named("a fall that ends by set_deferred"))
+	await end()
+
+
 # Balls that touch in a row, on a table that is smooth.
 func breaks():
 	var balls := []
@@ -135,8 +148,8 @@ func breaks():
 	await end()
 
 
-# A ball that rolls smoothly is not felt. Where the engine throws it up, no hit is above what the solver gave it in two
-# ticks.
+# A ball that rolls smoothly is not felt. Where the engine throws it up, one hit in twenty at most is more than 1.3 times
+# what the solver gave it in five ticks: Jolt announces edges that the ball then flies over.
 func seams(floor_name: String, speed: float):
 	var hz := float(Engine.physics_ticks_per_second)
 	var nodes := []
@@ -159,18 +172,41 @@ func seams(floor_name: String, speed: float):
 	await begin(nodes + [ball])
 	ball.linear_velocity = Vector3(speed, 0, 0)
 	ball.angular_velocity = Vector3(0, 0, -speed / 0.2)
-	var gave := {}
+	var gave := []
+	var known := 0
 	var last: Vector3 = ball.linear_velocity
 	for i in int(1.2 * hz):
 		await physics_frame
-		gave[i] = (ball.linear_velocity - last + Vector3(0, 9.8 / hz, 0)).length()
+		gave.append((ball.linear_velocity - last + Vector3(0, 9.8 / hz, 0)).length())
 		last = ball.linear_velocity
+		for hit in hits.slice(known):
+			var own: float = gave.slice(maxi(0, i - 4)).reduce(func(sum, each): return sum + each, 0.0)
+			judged += 1
+			if hit.strength_n_s > 1.3 * own: above.append(hit.strength_n_s / own)
+		known = hits.size()
 	var most := 0.0
 	for i in range(1, gave.size()): most = maxf(most, gave[i] + gave[i - 1])
-	var above := hits.filter(func(hit): return hit.strength_n_s > 1.3 * most)
-	var is_smooth := hz >= 60 and most < 2 * 9.8 / hz + 0.15 # at 30 ticks a second gravity's own share is a hit's
-	check(hits.is_empty() if is_smooth else above.is_empty(), named("a ball that rolls at %.0f m/s over %s, the solver gave at most %.2f N s" % [speed, floor_name, most]))
+	var is_smooth := most < 2 * 9.8 / hz + 0.15
+	check(hits.is_empty() or not is_smooth, named("a ball that rolls at %.0f m/s over %s, the solver gave at most %.2f N s" % [speed, floor_name, most]))
 	await end()
+
+
+# Where it stops a ball, the foot of a ramp is no seam, as flat as it may be.
+func ramps():
+	for degrees in [10, 20, 40]:
+		var slope := deg_to_rad(degrees)
+		var ramp = made("StaticBody", at(0, 0), Vector2(4, 0.2))
+		ramp.rotation.z = slope
+		ramp.position = Vector3(2, 0, 0).rotated(Vector3.BACK, slope) + Vector3(0, -0.1, 0).rotated(Vector3.BACK, slope)
+		var ball = made("RigidBody", at(-1.5, 0.2), 0.2, true)
+		ball.linear_damp_mode = 1
+		await begin([made("StaticBody", at(0, -0.5), Vector2(20, 1)), ramp, ball])
+		ball.linear_velocity = Vector3(7, 0, 0)
+		ball.angular_velocity = Vector3(0, 0, -7 / 0.2)
+		await ticks(int(0.335 * Engine.physics_ticks_per_second))
+		var share: float = hits[0].strength_n_s / (7 * sin(slope)) if hits else 0.0
+		check(share < 1.1 and share > (0.9 if degrees > 10 else 0.25), named("a ramp of %d degrees, %.2f N s" % [degrees, 7 * sin(slope)]))
+		await end()
 
 
 func ragdoll():
@@ -221,9 +257,11 @@ func _initialize():
 		if word.begins_with("space="): space = int(word.substr(6))
 		if word.begins_with("hz="): Engine.physics_ticks_per_second = int(word.substr(3))
 	await ticks(2)
-	for act in [platforms, flipper, lever, bumper, breaks, freed, words]: await act.call()
+	for act in [platforms, flipper, lever, bumper, respawn, breaks, freed, words]: await act.call()
 	if space == 3:
 		await ragdoll()
+		await ramps()
 		for floor_name in ["boxes", "gridmap"]: for speed in [1.0, 2.0, 4.0, 7.0]: await seams(floor_name, speed)
+		check(20 * above.size() <= judged + 20, "of %d hits at seams, above what the solver gave: %s" % [judged, above])
 	print("%d wrong" % wrong)
 	quit(1 if wrong else 0)

@@ -234,6 +234,11 @@ func explains():
 	await ticks(60)
 	says.call("silent of the world is on")
 	scene.free()
+	var elsewhere := HapticWorld3D.new()
+	scene = scene_of([elsewhere, felt_box(Vector2(500, 500))])
+	await ticks(60)
+	check("2D needs a HapticWorld2D" in elsewhere.explain(), elsewhere.explain())
+	scene.free()
 
 
 func _initialize():

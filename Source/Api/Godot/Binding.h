@@ -12,42 +12,75 @@
 
 namespace physvib::godot {
 
+/// Godot's types of values.
+namespace type {
+constexpr auto object = GDEXTENSION_VARIANT_TYPE_OBJECT, nil = GDEXTENSION_VARIANT_TYPE_NIL,
+               dictionary = GDEXTENSION_VARIANT_TYPE_DICTIONARY, real = GDEXTENSION_VARIANT_TYPE_FLOAT,
+               boolean = GDEXTENSION_VARIANT_TYPE_BOOL, text = GDEXTENSION_VARIANT_TYPE_STRING,
+               whole = GDEXTENSION_VARIANT_TYPE_INT, vector2 = GDEXTENSION_VARIANT_TYPE_VECTOR2,
+               rid = GDEXTENSION_VARIANT_TYPE_RID, vector3 = GDEXTENSION_VARIANT_TYPE_VECTOR3,
+               places = GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR2_ARRAY,
+               texts = GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY,
+               name = GDEXTENSION_VARIANT_TYPE_STRING_NAME,
+               bytes = GDEXTENSION_VARIANT_TYPE_PACKED_BYTE_ARRAY,
+               callable = GDEXTENSION_VARIANT_TYPE_CALLABLE;
+} // namespace type
+
 using Vector = std::array<double, 3>; ///< a Vector3, or a Vector2 and 0
+
+/// A function of a library, of the type that is asked for; null: it lacks it.
+struct Symbol {
+    void* address;
+    template <class Function>
+    operator Function() const {
+        return reinterpret_cast<Function>(address);
+    }
+};
 
 /// The functions of Godot that are used here, looked up once when Godot loads the extension.
 struct Functions {
+    GDExtensionInterfaceGetProcAddress get = nullptr;
     GDExtensionClassLibraryPtr library = nullptr;
-    GDExtensionInterfaceVariantNewNil newNil = nullptr;
-    GDExtensionInterfaceVariantNewCopy newCopy = nullptr;
-    GDExtensionInterfaceVariantDestroy destroy = nullptr;
-    GDExtensionInterfaceVariantCall call = nullptr;
-    GDExtensionInterfaceVariantConstruct construct = nullptr;
-    GDExtensionInterfaceVariantGetType getType = nullptr;
-    GDExtensionInterfaceVariantGetNamed getNamed = nullptr;
-    GDExtensionInterfaceVariantSetKeyed setKeyed = nullptr;
-    GDExtensionInterfaceGetVariantFromTypeConstructor fromType = nullptr;
-    GDExtensionInterfaceGetVariantToTypeConstructor toType = nullptr;
-    GDExtensionInterfaceStringNameNewWithLatin1Chars newName = nullptr;
-    GDExtensionInterfaceStringNewWithUtf8Chars newText = nullptr;
-    GDExtensionInterfaceStringToUtf8Chars toUtf8 = nullptr;
-    GDExtensionInterfaceVariantStringify stringify = nullptr;
+    bool isWhole = true;
+    Symbol find(const char* name);
+    GDExtensionInterfaceVariantNewNil newNil = find("variant_new_nil");
+    GDExtensionInterfaceVariantNewCopy newCopy = find("variant_new_copy");
+    GDExtensionInterfaceVariantDestroy destroy = find("variant_destroy");
+    GDExtensionInterfaceVariantCall call = find("variant_call");
+    GDExtensionInterfaceVariantConstruct construct = find("variant_construct");
+    GDExtensionInterfaceVariantGetType getType = find("variant_get_type");
+    GDExtensionInterfaceVariantGetNamed getNamed = find("variant_get_named");
+    GDExtensionInterfaceVariantSetKeyed setKeyed = find("variant_set_keyed");
+    GDExtensionInterfaceGetVariantFromTypeConstructor fromType = find("get_variant_from_type_constructor");
+    GDExtensionInterfaceGetVariantToTypeConstructor toType = find("get_variant_to_type_constructor");
+    GDExtensionInterfaceStringNameNewWithLatin1Chars newName = find("string_name_new_with_latin1_chars");
+    GDExtensionInterfaceStringNewWithUtf8Chars newText = find("string_new_with_utf8_chars");
+    GDExtensionInterfaceStringToUtf8Chars toUtf8 = find("string_to_utf8_chars");
+    GDExtensionInterfaceVariantStringify stringify = find("variant_stringify");
+    GDExtensionInterfaceVariantGetPtrDestructor destructor = find("variant_get_ptr_destructor");
     GDExtensionPtrDestructor freeText = nullptr;
-    GDExtensionInterfaceGlobalGetSingleton singleton = nullptr;
-    GDExtensionInterfaceObjectGetInstanceFromId instanceFromId = nullptr;
-    GDExtensionInterfaceObjectGetInstanceId instanceId = nullptr;
-    GDExtensionInterfaceObjectSetInstance setInstance = nullptr;
-    GDExtensionInterfaceClassdbConstructObject2 constructObject = nullptr;
-    GDExtensionInterfaceClassdbRegisterExtensionClass4 registerClass = nullptr;
-    GDExtensionInterfaceClassdbRegisterExtensionClassMethod registerMethod = nullptr;
-    GDExtensionInterfaceClassdbRegisterExtensionClassProperty registerProperty = nullptr;
-    GDExtensionInterfaceClassdbRegisterExtensionClassPropertyGroup registerGroup = nullptr;
-    GDExtensionInterfaceClassdbRegisterExtensionClassSignal registerSignal = nullptr;
-    GDExtensionInterfaceClassdbUnregisterExtensionClass unregisterClass = nullptr;
-    GDExtensionInterfaceGetLibraryPath libraryPath = nullptr;
-    GDExtensionInterfacePrintWarningWithMessage printWarning = nullptr;
-    GDExtensionInterfaceClassdbGetMethodBind methodBind = nullptr;
-    GDExtensionInterfaceObjectMethodBindPtrcall pointerCall = nullptr;
-    GDExtensionInterfaceRefSetObject setReference = nullptr;
+    GDExtensionInterfaceGlobalGetSingleton singleton = find("global_get_singleton");
+    GDExtensionInterfaceObjectGetInstanceFromId instanceFromId = find("object_get_instance_from_id");
+    GDExtensionInterfaceObjectGetInstanceId instanceId = find("object_get_instance_id");
+    GDExtensionInterfaceObjectSetInstance setInstance = find("object_set_instance");
+    GDExtensionInterfaceClassdbConstructObject2 constructObject = find("classdb_construct_object2");
+    GDExtensionInterfaceClassdbRegisterExtensionClass4 registerClass =
+        find("classdb_register_extension_class4");
+    GDExtensionInterfaceClassdbRegisterExtensionClassMethod registerMethod =
+        find("classdb_register_extension_class_method");
+    GDExtensionInterfaceClassdbRegisterExtensionClassProperty registerProperty =
+        find("classdb_register_extension_class_property");
+    GDExtensionInterfaceClassdbRegisterExtensionClassPropertyGroup registerGroup =
+        find("classdb_register_extension_class_property_group");
+    GDExtensionInterfaceClassdbRegisterExtensionClassSignal registerSignal =
+        find("classdb_register_extension_class_signal");
+    GDExtensionInterfaceClassdbUnregisterExtensionClass unregisterClass =
+        find("classdb_unregister_extension_class");
+    GDExtensionInterfaceGetLibraryPath libraryPath = find("get_library_path");
+    GDExtensionInterfacePrintWarningWithMessage printWarning = find("print_warning_with_message");
+    GDExtensionInterfaceClassdbGetMethodBind methodBind = find("classdb_get_method_bind");
+    GDExtensionInterfaceObjectMethodBindPtrcall pointerCall = find("object_method_bind_ptrcall");
+    GDExtensionInterfaceRefSetObject setReference = find("ref_set_object");
     GDExtensionsInterfaceEditorHelpLoadXmlFromUtf8Chars loadHelp = nullptr;
 };
 extern Functions api;
@@ -84,15 +117,15 @@ public:
     Value& operator=(const Value& other);
     ~Value() { api.destroy(data.data()); }
     Value(double number)
-        : Value(GDEXTENSION_VARIANT_TYPE_FLOAT, &number) {}
+        : Value(type::real, &number) {}
     Value(std::int64_t number)
-        : Value(GDEXTENSION_VARIANT_TYPE_INT, &number) {}
+        : Value(type::whole, &number) {}
     Value(int number)
         : Value(std::int64_t{number}) {}
     Value(bool is);
     Value(const char* text);
     Value(GDExtensionObjectPtr object)
-        : Value(GDEXTENSION_VARIANT_TYPE_OBJECT, &object) {}
+        : Value(type::object, &object) {}
     /// Of Godot's own form, as in calls by pointer.
     Value(GDExtensionVariantType type, void* typed) { api.fromType(type)(data.data(), typed); }
     static Value copyOf(GDExtensionConstVariantPtr variant);
@@ -128,6 +161,8 @@ public:
     void* raw() { return data.data(); }
 
 private:
+    template <class Typed>
+    Typed typed(GDExtensionVariantType wanted) const; ///< 0 if it is of another type
     Value callWith(const char* name, const GDExtensionConstVariantPtr* arguments, std::size_t count) const;
     alignas(8) std::array<unsigned char, 24> data{};
 };

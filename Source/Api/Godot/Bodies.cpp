@@ -4,26 +4,22 @@
 #include <algorithm>
 
 namespace physvib::godot {
-
 namespace {
 std::vector<HapticBody*> bodiesInTree;
 enum BodyProperty { material, felt, gain, staticMass, part, controller };
 enum MaterialProperty { preset, frequency, decay, grain, roughness };
 
-constexpr auto real = GDEXTENSION_VARIANT_TYPE_FLOAT;
 constexpr int hintRange = 1, hintEnumSuggestion = 3, hintResource = 17; // Godot's PropertyHint
 
 const std::vector<Property>& bodyProperties() {
     static const std::vector<Property> all{
-        {"material", GDEXTENSION_VARIANT_TYPE_OBJECT, [] { return Value(); }, 0, 0, "", hintResource,
-         "HapticMaterial"},
-        {"felt", GDEXTENSION_VARIANT_TYPE_BOOL, [] { return Value(true); }, 0, 0, ""},
-        {"gain", real, [] { return Value(1.0); }, 0, 10'000, "", hintRange, "0,10,0.01,or_greater"},
-        {"static_mass_kg", real, [] { return Value(1.0); }, 1e-6, 1e6, "Without Mass", hintRange,
+        {"material", type::object, [] { return Value(); }, 0, 0, "", hintResource, "HapticMaterial"},
+        {"felt", type::boolean, [] { return Value(true); }, 0, 0, ""},
+        {"gain", type::real, [] { return Value(1.0); }, 0, 10'000, "", hintRange, "0,10,0.01,or_greater"},
+        {"static_mass_kg", type::real, [] { return Value(1.0); }, 1e-6, 1e6, "Without Mass", hintRange,
          "0.001,100,0.001,or_greater,exp,suffix:kg"},
-        {"part", GDEXTENSION_VARIANT_TYPE_STRING, [] { return Value(""); }, 0, 0, "Player"},
-        {"controller", GDEXTENSION_VARIANT_TYPE_INT, [] { return Value(-1); }, -1, 7, "Player", hintRange,
-         "-1,7,1"}};
+        {"part", type::text, [] { return Value(""); }, 0, 0, "Player"},
+        {"controller", type::whole, [] { return Value(-1); }, -1, 7, "Player", hintRange, "-1,7,1"}};
     return all;
 }
 
@@ -41,15 +37,14 @@ const char* presets() {
 
 const std::vector<Property>& materialProperties() {
     static const std::vector<Property> all{
-        {"preset", GDEXTENSION_VARIANT_TYPE_STRING, [] { return Value(""); }, 0, 0, "", hintEnumSuggestion,
-         presets()},
-        {"frequency_hz", real, [] { return Value(200.0); }, 1.0, 20'000, "Without Preset", hintRange,
+        {"preset", type::text, [] { return Value(""); }, 0, 0, "", hintEnumSuggestion, presets()},
+        {"frequency_hz", type::real, [] { return Value(200.0); }, 1.0, 20'000, "Without Preset", hintRange,
          "1,1000,0.1,or_greater,exp,suffix:Hz"},
-        {"decay_per_s", real, [] { return Value(30.0); }, 0.1, 2'000, "Without Preset", hintRange,
+        {"decay_per_s", type::real, [] { return Value(30.0); }, 0.1, 2'000, "Without Preset", hintRange,
          "0.1,2000,0.1,exp,suffix:1/s"},
-        {"grain_m", real, [] { return Value(0.0); }, 0.0, 1.0, "Without Preset", hintRange,
+        {"grain_m", type::real, [] { return Value(0.0); }, 0.0, 1.0, "Without Preset", hintRange,
          "0,1,0.0001,suffix:m"},
-        {"roughness", real, [] { return Value(1.0); }, 0.0, 1'000, "Without Preset", hintRange,
+        {"roughness", type::real, [] { return Value(1.0); }, 0.0, 1'000, "Without Preset", hintRange,
          "0,10,0.01,or_greater"}};
     return all;
 }
@@ -89,13 +84,53 @@ std::uint64_t spaceOf(const Value& node, bool isSpace) {
 
 bool HapticBody::isFelt() const { return get(felt).isTrue(); }
 
+std::vector<Value> nodesIn(const Value& scene, const char* kind) {
+    std::vector<Value> all = scene.call("find_children", "*", kind, true, false).elements();
+    if (scene.call("is_class", kind).isTrue()) all.push_back(scene);
+    return all;
+}
+
+namespace {
+int numberOf(const std::string& part) { return part.empty() ? 0 : physvib_part(part.c_str()); }
+bool findPreset(physvib_body& body, const Value& material) {
+    const std::string name =
+        material.object() == nullptr ? std::string() : material.call("get_preset").text();
+    return name.empty() || physvib_material(name.c_str(), &body) == PHYSVIB_OK;
+}
+bool hasPart(const Value& world, int part) {
+    physvib_layout its{};
+    its.size = sizeof its;
+    if (world.call("get_actuators").elements().empty())
+        physvib_layout_preset(world.call("get_layout").text().c_str(), &its);
+    return part == 0 || std::ranges::find(its.part, part) != std::end(its.part);
+}
+} // namespace
+
+void HapticBody::changed() {
+    if (isInEditor()) self().call("update_configuration_warnings");
+}
+
 std::vector<std::string> HapticBody::warnings() const {
     const Value parent = self().call("get_parent");
     if (!isPhysicsBody(parent))
         return {
-            "A HapticBody makes its parent felt: make it a child of a RigidBody2D, RigidBody3D or another "
-            "physics body."};
-    return {};
+            "It makes its parent felt: make it a child of a RigidBody2D, RigidBody3D or other physics body."};
+    std::vector<std::string> all;
+    const Value scene = self().call("get_tree").call("get_edited_scene_root");
+    const char* const kind =
+        parent.call("is_class", "PhysicsBody3D").isTrue() ? "HapticWorld3D" : "HapticWorld2D";
+    const std::vector<Value> worlds = nodesIn(scene, kind);
+    if (worlds.empty() && scene.object() != parent.object())
+        all.push_back(std::string("Nothing is felt without a ") + kind + " in the scene: add one.");
+    const std::string name = get(part).text();
+    if (!worlds.empty() && !hasPart(worlds.front(), numberOf(name)))
+        all.push_back("No actuator of the layout is on the part \"" + name + "\", so all play it.");
+    if (parent.call("find_children", "*", "HapticBody", false, false).elements().size() > 1)
+        all.emplace_back("Its body has another HapticBody, and one counts: remove one.");
+    physvib_body body{};
+    body.size = sizeof body;
+    if (!findPreset(body, get(material))) all.emplace_back(physvib_error());
+    return all;
 }
 
 void HapticBody::describe(physvib_body& body, const Value& standard) const {
@@ -103,33 +138,20 @@ void HapticBody::describe(physvib_body& body, const Value& standard) const {
     body.gain = get(gain).real();
     body.static_mass_kg = get(staticMass).real();
     body.device = static_cast<int>(get(controller).whole()) + 1; // 0: all
-    const std::string itsPart = get(part).text();
-    const int number = itsPart.empty() ? 0 : physvib_part(itsPart.c_str());
-    const Value node = self().call("get_parent");
-    if (number < 0) report("HapticBody of " + pathOf(node) + ": " + physvib_error());
-    body.part = std::max(0, number);
+    body.part = numberOf(get(part).text());
     body.frequency_hz = 200.0, body.decay_per_s = 30.0;
-    describeMaterial(body, get(material).object() != nullptr ? get(material) : standard, node);
+    describeMaterial(body, get(material).object() != nullptr ? get(material) : standard,
+                     self().call("get_parent"));
 }
 
 void describeMaterial(physvib_body& body, const Value& material, const Value& node) {
     if (material.object() == nullptr) return;
-    const std::string name = material.call("get_preset").text();
     body.frequency_hz = material.call("get_frequency_hz").real();
     body.decay_per_s = material.call("get_decay_per_s").real();
     body.grain_m = material.call("get_grain_m").real();
     body.roughness = material.call("get_roughness").real();
-    if (!name.empty() && physvib_material(name.c_str(), &body) != PHYSVIB_OK)
-        report("HapticMaterial of " + pathOf(node) + ": " + physvib_error());
+    if (!findPreset(body, material)) report("HapticMaterial of " + pathOf(node) + ": " + physvib_error());
 }
-
-namespace {
-class HapticMaterial final : public Instance {
-public:
-    explicit HapticMaterial(GDExtensionObjectPtr itsObject)
-        : Instance(itsObject, materialProperties()) {}
-};
-} // namespace
 
 const Class hapticBodyClass{
     "HapticBody", "Node",  &bodyProperties(),
@@ -140,6 +162,6 @@ const Class hapticMaterialClass{
     &materialProperties(),
     {},
     nullptr,
-    [](GDExtensionObjectPtr object) -> Instance* { return new HapticMaterial(object); }};
+    [](GDExtensionObjectPtr object) -> Instance* { return new Instance(object, materialProperties()); }};
 
 } // namespace physvib::godot

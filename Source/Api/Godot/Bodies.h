@@ -16,6 +16,7 @@ public:
     explicit HapticBody(GDExtensionObjectPtr object);
     ~HapticBody() override;
     void notified(int what) override;
+    void changed() override;
     std::vector<std::string> warnings() const override;
 
     /// Of Godot's physics body; 0: there is none.
@@ -24,7 +25,7 @@ public:
     std::uint64_t spaceId() const { return space; }
     bool isFelt() const;
     /// Sets vibration, gain and part, not the mass. `standard`: the HapticMaterial if it has none of its own;
-    /// nil: the built-in one. Reports what is unknown, with the body's path; its default counts then.
+    /// nil: the built-in one. Reports an unknown preset, with the body's path.
     void describe(physvib_body& body, const Value& standard) const;
 
 private:
@@ -37,6 +38,8 @@ void describeMaterial(physvib_body& body, const Value& material, const Value& no
 /// RID of the space of a node of the plane or of space that is in a scene tree.
 std::uint64_t spaceOf(const Value& node, bool isSpace);
 
+/// Those of a class in a scene.
+std::vector<Value> nodesIn(const Value& scene, const char* kind);
 /// Those that are in a scene tree now.
 const std::vector<HapticBody*>& hapticBodies();
 

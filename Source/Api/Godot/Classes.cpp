@@ -22,7 +22,7 @@ std::list<Accessor> accessors; // Godot keeps their addresses
 struct Described {
     Described(GDExtensionVariantType type, const char* literal, int hint = 0, const char* hintText = "")
         : name(literal)
-        , className(type == GDEXTENSION_VARIANT_TYPE_OBJECT ? hintText : "")
+        , className(type == type::object ? hintText : "")
         , text(hintText) {
         info = {type,       name.get(),  className.get(), static_cast<std::uint32_t>(hint),
                 text.get(), usageDefault};
@@ -51,8 +51,8 @@ void callGet(void* data, GDExtensionClassInstancePtr instance, const GDExtension
              GDExtensionInt, GDExtensionVariantPtr result, GDExtensionCallError*) {
     const Accessor& at = accessorAt(data);
     const Value& value = instanceAt(instance).get(at.index);
-    if (at.property->type == GDEXTENSION_VARIANT_TYPE_OBJECT) return value.copyTo(result);
-    const bool isShared = at.property->type == GDEXTENSION_VARIANT_TYPE_DICTIONARY;
+    if (at.property->type == type::object) return value.copyTo(result);
+    const bool isShared = at.property->type == type::dictionary;
     // Dictionaries are shared, arrays are not: the caller gets a copy of its own.
     (isShared ? value.call("duplicate") : value.as(at.property->type)).copyTo(result);
 }
@@ -60,11 +60,11 @@ void pointerGet(void* data, GDExtensionClassInstancePtr instance, const GDExtens
                 GDExtensionTypePtr result) {
     const Accessor& at = accessorAt(data);
     const Value& its = instanceAt(instance).get(at.index);
-    if (at.property->type == GDEXTENSION_VARIANT_TYPE_OBJECT) { // setReference counts it
+    if (at.property->type == type::object) { // setReference counts it
         if (its.object() != nullptr) api.setReference(result, its.object());
         return;
     }
-    const bool isShared = at.property->type == GDEXTENSION_VARIANT_TYPE_DICTIONARY;
+    const bool isShared = at.property->type == type::dictionary;
     Value value = isShared ? its.call("duplicate") : its.as(at.property->type);
     if (value.type() == at.property->type) api.toType(value.type())(result, value.raw());
 }
@@ -82,11 +82,10 @@ void callMethod(void* data, GDExtensionClassInstancePtr instance, const GDExtens
 void pointerMethod(void* data, GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr* arguments,
                    GDExtensionTypePtr result) {
     const Method& method = *static_cast<Method*>(data);
-    Value value = method.call(instanceAt(instance),
-                              method.argumentClass == nullptr
-                                  ? Value()
-                                  : Value(GDEXTENSION_VARIANT_TYPE_OBJECT, const_cast<void*>(arguments[0])));
-    if (value.type() != GDEXTENSION_VARIANT_TYPE_NIL) api.toType(value.type())(result, value.raw());
+    Value value = method.call(
+        instanceAt(instance),
+        method.argumentClass == nullptr ? Value() : Value(type::object, const_cast<void*>(arguments[0])));
+    if (value.type() != type::nil) api.toType(value.type())(result, value.raw());
 }
 
 void addMethod(const Class& type, const char* name, void* data, GDExtensionClassMethodCall call,
@@ -108,8 +107,7 @@ void addProperty(const Class& type, std::size_t index) {
     Accessor& at = accessors.emplace_back(
         Accessor{&property, index, std::string("get_") + property.name, std::string("set_") + property.name});
     Described described(property.type, property.name, property.hint, property.hintText);
-    Described value(property.type, "value", 0,
-                    property.type == GDEXTENSION_VARIANT_TYPE_OBJECT ? property.hintText : "");
+    Described value(property.type, "value", 0, property.type == type::object ? property.hintText : "");
     addMethod(type, at.getter.c_str(), &at, callGet, pointerGet, &value, nullptr);
     addMethod(type, at.setter.c_str(), &at, callSet, pointerSet, nullptr, &value);
     Name className(type.name), getter(at.getter.c_str()), setter(at.setter.c_str());
@@ -138,9 +136,9 @@ void notify(GDExtensionClassInstancePtr instance, std::int32_t what, GDExtension
     instanceAt(instance).notified(what);
 }
 void warn(GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr*, GDExtensionTypePtr result) {
-    Value list = Value::empty(GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY);
+    Value list = Value::empty(type::texts);
     for (const std::string& line : instanceAt(instance).warnings()) list.call("append", line.c_str());
-    api.toType(GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY)(result, list.raw());
+    api.toType(type::texts)(result, list.raw());
 }
 GDExtensionClassCallVirtual virtualOf(void*, GDExtensionConstStringNamePtr name, std::uint32_t) {
     const Name wanted("_get_configuration_warnings");
@@ -164,15 +162,15 @@ void registerClass(const Class& type) {
     }
     for (const Method& method : type.methods) {
         Described result(method.result, "");
-        Described argument(GDEXTENSION_VARIANT_TYPE_OBJECT, "object", 0,
+        Described argument(type::object, "object", 0,
                            method.argumentClass != nullptr ? method.argumentClass : "");
         addMethod(type, method.name, const_cast<Method*>(&method), callMethod, pointerMethod,
-                  method.result == GDEXTENSION_VARIANT_TYPE_NIL ? nullptr : &result,
+                  method.result == type::nil ? nullptr : &result,
                   method.argumentClass != nullptr ? &argument : nullptr);
     }
     if (type.signal == nullptr) return;
     Name signal(type.signal);
-    const Described hit(GDEXTENSION_VARIANT_TYPE_DICTIONARY, "hit");
+    const Described hit(type::dictionary, "hit");
     api.registerSignal(api.library, name.get(), signal.get(), &hit.info, 1);
 }
 
@@ -183,19 +181,18 @@ std::uint64_t changes = 0;
 
 // The value as the property stores it; nil if it cannot be used.
 Value converted(const Property& property, const Value& value) {
-    if (property.type == GDEXTENSION_VARIANT_TYPE_OBJECT)
+    if (property.type == type::object)
         return value.call("is_class", property.hintText).isTrue() ? value : Value();
     const auto isNumber = [](GDExtensionVariantType type) { // which Godot also makes of a text: 0
-        return type == GDEXTENSION_VARIANT_TYPE_BOOL || type == GDEXTENSION_VARIANT_TYPE_INT ||
-               type == GDEXTENSION_VARIANT_TYPE_FLOAT;
+        return type == type::boolean || type == type::whole || type == type::real;
     };
     if (isNumber(property.type) && !isNumber(value.type())) return {};
     const Value its = value.as(property.type);
     // A dictionary is shared until it is copied, so a script could change it without a call of set().
-    return its.type() == GDEXTENSION_VARIANT_TYPE_DICTIONARY ? its.call("duplicate") : its;
+    return its.type() == type::dictionary ? its.call("duplicate") : its;
 }
 bool isFinite(const Value& value) {
-    if (value.type() == GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR2_ARRAY) {
+    if (value.type() == type::places) {
         const std::vector<Value> all = value.elements();
         return std::all_of(all.begin(), all.end(), isFinite);
     }
@@ -205,7 +202,7 @@ bool isFinite(const Value& value) {
 bool isWithin(const Property& property, const Value& value) {
     const auto fits = [&](double x) { return x >= property.smallest && x <= property.largest; };
     if (!(property.smallest < property.largest)) return true;
-    if (property.type != GDEXTENSION_VARIANT_TYPE_VECTOR2) return fits(value.real());
+    if (property.type != type::vector2) return fits(value.real());
     return fits(value.vector()[0]) && fits(value.vector()[1]);
 }
 std::string expected(const Property& property) {
@@ -224,10 +221,10 @@ std::uint64_t Instance::revision() { return changes; }
 
 void Instance::set(std::size_t index, const Value& value) {
     const Property& property = properties[index];
-    const bool isNone = property.type == GDEXTENSION_VARIANT_TYPE_OBJECT && value.object() == nullptr &&
-                        (value.type() == property.type || value.type() == GDEXTENSION_VARIANT_TYPE_NIL);
+    const bool isNone = property.type == type::object && value.object() == nullptr &&
+                        (value.type() == property.type || value.type() == type::nil);
     const Value its = converted(property, value);
-    if (its.type() == GDEXTENSION_VARIANT_TYPE_NIL && !isNone)
+    if (its.type() == type::nil && !isNone)
         return report(std::string(property.name) + ": expected a value such as '" +
                       property.standard().text() + "', found " + value.text());
     if (!isFinite(its) || !isWithin(property, its))

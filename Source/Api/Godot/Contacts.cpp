@@ -33,16 +33,27 @@ bool HapticWorld::isOtherThere(const Watched& each, int i) {
 double HapticWorld::bounceOf(std::uint64_t rid) {
     const auto [found, isNew] = bounces.try_emplace(rid, 0.0);
     constexpr int bounce = 0; // PhysicsServer's BODY_PARAM_BOUNCE
-    if (isNew)
-        found->second =
-            server().call("body_get_param", Value(GDEXTENSION_VARIANT_TYPE_RID, &rid), bounce).real();
+    if (isNew) found->second = server().call("body_get_param", Value(type::rid, &rid), bounce).real();
     return found->second;
 }
 
-void HapticWorld::touchAll(const Watched& each) {
-    const int count = each.state.contacts();
-    for (int i = 0; i < count; ++i)
+void HapticWorld::touchAll(Watched& each) {
+    Surface under{};
+    double slowest = HUGE_VAL;
+    for (int i = 0; i < each.state.contacts(); ++i) {
         if (isOfInterest(each, i) && isOtherThere(each, i)) touch(each, i);
+        const Surface its = surfaceOf(each, i);
+        if (const double speed = std::abs(approach(each, its, i)); speed < slowest)
+            under = its, slowest = speed;
+    }
+    each.under = under;
+}
+
+// Without this tick's gravity.
+double HapticWorld::approach(const Watched& each, const Surface& surface, int i) const {
+    const Vector its = direction(each.state.contactOtherVelocity(i));
+    return dot(minus(velocityAt(each, surface.at), its), surface.normal) -
+           seconds * dot(each.pull, surface.normal);
 }
 
 // What strikes felt bodies only, strikes thousands of others too.
@@ -80,8 +91,8 @@ Watched* HapticWorld::moving(std::uint64_t id, std::uint64_t rid, const Vector& 
     return found;
 }
 
-// Jolt lists what comes near before it touches. Those contacts count of which one gets there in this tick,
-// and only if the solver has changed the velocity along them.
+// Jolt lists what comes near before it touches. It counts if it gets there in this tick, and the solver has
+// slowed it.
 bool HapticWorld::getsThere(const Watched& each, const Watched& met, const Surface& surface) const {
     if (!(surface.gap > 0.0)) return true;
     const Vector own = velocityAt(each, surface.at), its = velocityAt(met, surface.at);
@@ -96,25 +107,30 @@ Surface HapticWorld::surfaceOf(const Watched& each, int i) const {
     return {at, there, normal, dot(minus(there, at), normal), length > 0.0};
 }
 
-// Where it touches, or where the plane on which it rolls holds it: an edge that does not stand out of that
-// plane, as between two tiles, strikes nothing, though Jolt's normal there points from the body to the edge.
+// Where it touches, or where the plane on which it rolls or lands holds it: an edge that does not stand out
+// of it, as between two tiles, strikes nothing, though Jolt's normal points there; unless the solver has
+// stopped it, as at a ramp's foot.
 Surface HapticWorld::overSeams(const Watched& each, int i) const {
     constexpr double outstanding = 0.005; // m
     const Surface own = surfaceOf(each, i);
     const bool isRound = goesThroughCentre(each, own.at, own.normal);
     const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch a wall as high as the floor
-    const auto approach = [&](const Surface& of, int k) {
-        const Vector its = direction(each.state.contactOtherVelocity(k));
-        return dot(minus(velocityAt(each, of.at), its), of.normal);
-    };
     Surface found = own;
-    double slowest = approach(own, i);
-    for (int j = 0; j < each.state.contacts(); ++j) {
-        const Surface under = surfaceOf(each, j);
+    double slowest = approach(each, own, i);
+    if (-dot(each.change, own.normal) - seconds * dot(each.pull, own.normal) > 0.5 * slowest) return found;
+    for (int j = isRound ? -1 : 0; j < each.state.contacts(); ++j) { // -1: of the last tick
+        Surface under = j < 0 ? each.under : surfaceOf(each, j);
         const double height = dot(minus(own.there, under.there), under.normal),
                      alike = dot(own.normal, under.normal);
         if (!under.isOne || !(std::abs(height) < outstanding) || !(alike > least) || alike > 0.9999) continue;
-        if (const double its = approach(under, j); its < 0.5 * slowest) found = under, slowest = its;
+        if (j < 0) { // as a ball goes on over it
+            const Vector arm = minus(own.at, each.centre);
+            for (std::size_t k = 0; k < 3; ++k)
+                under.at[k] = each.centre[k] + std::sqrt(dot(arm, arm)) * under.normal[k];
+            under.there = own.there, under.gap = own.gap;
+        }
+        if (const double its = approach(each, under, std::max(0, j)); its < 0.5 * slowest)
+            found = under, slowest = its;
     }
     return found;
 }
@@ -155,8 +171,6 @@ void HapticWorld::touch(const Watched& each, int i) {
     contact.point_id = isRound || isOtherRound ? 0 : PHYSVIB_POINT_BY_PLACE;
     checkWorld(physvib_world_touch(world, &contact));
 }
-
-// Contacts of a CharacterBody, as its move_and_slide() lists them.
 
 // What a CharacterBody struck in its last move_and_slide(): straight on within the tick, as its script wants.
 void HapticWorld::slideAll(Watched& each) {

@@ -5,7 +5,6 @@
 #include <array>
 
 namespace physvib::godot {
-
 namespace {
 struct Phrase {
     std::string_view inC, inGodot;

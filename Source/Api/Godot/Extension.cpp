@@ -9,7 +9,6 @@
 #include <iterator>
 
 namespace physvib::godot {
-
 namespace {
 const Class* const classes[] = {&hapticMaterialClass, &hapticBodyClass, &hapticWorld2dClass,
                                 &hapticWorld3dClass};

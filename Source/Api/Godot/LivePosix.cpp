@@ -1,44 +1,38 @@
 // SPDX-License-Identifier: MIT
+#include "Api/Godot/Binding.h"
 #include "Api/Godot/Live.h"
 
 #include <algorithm>
 #include <dlfcn.h>
 
 namespace physvib::godot {
-
 namespace {
 struct Library {
-    decltype(&physvib_live_open) open = nullptr;
-    decltype(&physvib_live_close) close = nullptr;
-    decltype(&physvib_live_align) align = nullptr;
-    decltype(&physvib_live_strike) strike = nullptr;
-    decltype(&physvib_live_set_level) setLevel = nullptr;
-    decltype(&physvib_live_now_ns) now = nullptr;
-    decltype(&physvib_live_latency_ns) latency = nullptr;
-    decltype(&physvib_live_receipt_init) beginReceipt = nullptr;
-    decltype(&physvib_live_left) left = nullptr;
-    decltype(&physvib_live_settings_init) initialise = nullptr;
-    decltype(&physvib_live_error) error = nullptr;
     std::string missing; ///< why it could not be loaded
+    void* handle = load();
+    decltype(&physvib_live_open) open = find("physvib_live_open");
+    decltype(&physvib_live_close) close = find("physvib_live_close");
+    decltype(&physvib_live_align) align = find("physvib_live_align");
+    decltype(&physvib_live_strike) strike = find("physvib_live_strike");
+    decltype(&physvib_live_set_level) setLevel = find("physvib_live_set_level");
+    decltype(&physvib_live_now_ns) now = find("physvib_live_now_ns");
+    decltype(&physvib_live_latency_ns) latency = find("physvib_live_latency_ns");
+    decltype(&physvib_live_receipt_init) beginReceipt = find("physvib_live_receipt_init");
+    decltype(&physvib_live_left) left = find("physvib_live_left");
+    decltype(&physvib_live_settings_init) initialise = find("physvib_live_settings_init");
+    decltype(&physvib_live_error) error = find("physvib_live_error");
 
-    Library() {
-        void* handle = dlopen("libphysvib-live.so.1", RTLD_NOW | RTLD_LOCAL);
-        if (handle == nullptr) {
-            const char* reason = dlerror();
-            missing = reason != nullptr ? reason : "libphysvib-live.so.1: expected beside the addon";
-            return;
-        }
-        find(handle, "physvib_live_open", open), find(handle, "physvib_live_close", close);
-        find(handle, "physvib_live_align", align), find(handle, "physvib_live_strike", strike);
-        find(handle, "physvib_live_set_level", setLevel);
-        find(handle, "physvib_live_now_ns", now), find(handle, "physvib_live_latency_ns", latency);
-        find(handle, "physvib_live_receipt_init", beginReceipt), find(handle, "physvib_live_left", left);
-        find(handle, "physvib_live_settings_init", initialise), find(handle, "physvib_live_error", error);
+    void* load() {
+        void* found = dlopen("libphysvib-live.so.1", RTLD_NOW | RTLD_LOCAL);
+        const char* reason = found == nullptr ? dlerror() : "";
+        missing = reason != nullptr ? reason : "libphysvib-live.so.1: expected beside the addon";
+        return found;
     }
-    template <class Function>
-    void find(void* handle, const char* name, Function& function) {
-        function = reinterpret_cast<Function>(dlsym(handle, name));
-        if (function == nullptr) missing = std::string("libphysvib-live.so.1 lacks ") + name;
+    Symbol find(const char* name) {
+        const Symbol found{handle == nullptr ? nullptr : dlsym(handle, name)};
+        if (handle != nullptr && found.address == nullptr)
+            missing = std::string("libphysvib-live.so.1 lacks ") + name;
+        return found;
     }
 };
 const Library& library() {

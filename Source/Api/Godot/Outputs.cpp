@@ -144,7 +144,7 @@ public:
 
 private:
     void add(char byte) { data.call("append", static_cast<unsigned char>(byte)); }
-    Value data = Value::empty(GDEXTENSION_VARIANT_TYPE_PACKED_BYTE_ARRAY);
+    Value data = Value::empty(type::bytes);
 };
 } // namespace
 

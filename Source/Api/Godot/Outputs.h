@@ -10,8 +10,7 @@
 
 namespace physvib::godot {
 
-// Sends events to a program that speaks Open Sound Control. For Godot's main thread.
-
+/// Sends events to a program that speaks Open Sound Control.
 class Osc {
 public:
     /// `address`: such as 127.0.0.1:9000. Returns the error; empty: it will send. Waits for a host's address.

@@ -2,7 +2,6 @@
 #include "Api/Godot/State.h"
 
 namespace physvib::godot {
-
 namespace {
 using Triple = std::array<float, 3>; // a Vector2, or a Vector3
 using Whole = std::int64_t;
@@ -28,29 +27,28 @@ enum Which {
     countOfMethods
 };
 struct Described {
-    const char *plane, *space;
+    const char* name;
     Whole planeHash, spaceHash;
 };
 // In the order of Which; hashes from Godot's extension_api.json, of types that have not changed since 4.4.
 const std::array<Described, countOfMethods> methods{{
-    {"get_transform", "get_transform", 3'814'499'831, 3'229'777'777},
-    {"get_center_of_mass", "get_center_of_mass", 3'341'600'327, 3'360'562'783},
-    {"is_sleeping", "is_sleeping", 36'873'697, 36'873'697},
-    {"get_linear_velocity", "get_linear_velocity", 3'341'600'327, 3'360'562'783},
-    {"get_angular_velocity", "get_angular_velocity", 1'740'695'150, 3'360'562'783},
-    {"get_total_gravity", "get_total_gravity", 3'341'600'327, 3'360'562'783},
-    {"get_total_linear_damp", "get_total_linear_damp", 1'740'695'150, 1'740'695'150},
-    {"get_total_angular_damp", "get_total_angular_damp", 1'740'695'150, 1'740'695'150},
-    {"get_inverse_inertia", "get_inverse_inertia_tensor", 1'740'695'150, 2'716'978'435},
-    {"get_inverse_mass", "get_inverse_mass", 1'740'695'150, 1'740'695'150},
-    {"get_contact_count", "get_contact_count", 3'905'245'786, 3'905'245'786},
-    {"get_contact_local_position", "get_contact_local_position", 2'299'179'447, 711'720'468},
-    {"get_contact_collider_position", "get_contact_collider_position", 2'299'179'447, 711'720'468},
-    {"get_contact_local_normal", "get_contact_local_normal", 2'299'179'447, 711'720'468},
-    {"get_contact_collider_velocity_at_position", "get_contact_collider_velocity_at_position", 2'299'179'447,
-     711'720'468},
-    {"get_contact_collider_id", "get_contact_collider_id", 923'996'154, 923'996'154},
-    {"get_contact_collider", "get_contact_collider", 495'598'643, 495'598'643},
+    {"get_transform", 3'814'499'831, 3'229'777'777},
+    {"get_center_of_mass", 3'341'600'327, 3'360'562'783},
+    {"is_sleeping", 36'873'697, 36'873'697},
+    {"get_linear_velocity", 3'341'600'327, 3'360'562'783},
+    {"get_angular_velocity", 1'740'695'150, 3'360'562'783},
+    {"get_total_gravity", 3'341'600'327, 3'360'562'783},
+    {"get_total_linear_damp", 1'740'695'150, 1'740'695'150},
+    {"get_total_angular_damp", 1'740'695'150, 1'740'695'150},
+    {"get_inverse_inertia", 1'740'695'150, 2'716'978'435},
+    {"get_inverse_mass", 1'740'695'150, 1'740'695'150},
+    {"get_contact_count", 3'905'245'786, 3'905'245'786},
+    {"get_contact_local_position", 2'299'179'447, 711'720'468},
+    {"get_contact_collider_position", 2'299'179'447, 711'720'468},
+    {"get_contact_local_normal", 2'299'179'447, 711'720'468},
+    {"get_contact_collider_velocity_at_position", 2'299'179'447, 711'720'468},
+    {"get_contact_collider_id", 923'996'154, 923'996'154},
+    {"get_contact_collider", 495'598'643, 495'598'643},
 }};
 
 struct Space {
@@ -83,8 +81,9 @@ bool findStateMethods() {
         const char* const state = isSpace ? "PhysicsDirectBodyState3D" : "PhysicsDirectBodyState2D";
         const char* const server = isSpace ? "PhysicsServer3D" : "PhysicsServer2D";
         for (std::size_t i = 0; i < countOfMethods; ++i)
-            all &= its.state[i].find(state, isSpace ? methods[i].space : methods[i].plane,
-                                     isSpace ? methods[i].spaceHash : methods[i].planeHash);
+            all &= its.state[i].find(
+                state, isSpace && i == inverseOfInertia ? "get_inverse_inertia_tensor" : methods[i].name,
+                isSpace ? methods[i].spaceHash : methods[i].planeHash);
         all &= its.stateOfBody.find(server, "body_get_direct_state", isSpace ? 3'029'727'957 : 1'191'931'871);
         all &= its.listedContacts.find(server, "body_get_max_contacts_reported", 2'198'884'583);
         all &= its.listContacts.find(server, "body_set_max_contacts_reported", 3'411'492'887);
@@ -133,18 +132,13 @@ std::array<double, 6> BodyState::inverseInertia() const {
 }
 
 int BodyState::contacts() const { return static_cast<int>(get<Whole>(contactCount, isSpace, object)); }
-Vector BodyState::contactPlace(int i) const {
-    return vectorOf(get<Triple>(contactLocalPosition, isSpace, object, Whole{i}));
+Vector BodyState::ofContact(int which, int i) const {
+    return vectorOf(get<Triple>(static_cast<Which>(which), isSpace, object, Whole{i}));
 }
-Vector BodyState::contactOtherPlace(int i) const {
-    return vectorOf(get<Triple>(contactColliderPosition, isSpace, object, Whole{i}));
-}
-Vector BodyState::contactNormal(int i) const {
-    return vectorOf(get<Triple>(contactLocalNormal, isSpace, object, Whole{i}));
-}
-Vector BodyState::contactOtherVelocity(int i) const {
-    return vectorOf(get<Triple>(contactColliderVelocity, isSpace, object, Whole{i}));
-}
+Vector BodyState::contactPlace(int i) const { return ofContact(contactLocalPosition, i); }
+Vector BodyState::contactOtherPlace(int i) const { return ofContact(contactColliderPosition, i); }
+Vector BodyState::contactNormal(int i) const { return ofContact(contactLocalNormal, i); }
+Vector BodyState::contactOtherVelocity(int i) const { return ofContact(contactColliderVelocity, i); }
 std::uint64_t BodyState::contactObject(int i) const {
     return static_cast<std::uint64_t>(get<Whole>(contactColliderId, isSpace, object, Whole{i}));
 }

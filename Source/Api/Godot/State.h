@@ -37,6 +37,7 @@ public:
     std::uint64_t contactBody(int i) const;   ///< RID of the other body
 
 private:
+    Vector ofContact(int which, int i) const;
     GDExtensionObjectPtr object = nullptr;
     bool isSpace = false;
 };

@@ -17,14 +17,12 @@ inline physvib_contact contactOf(const Watched& a, const Watched& b, const Vecto
     return contact;
 }
 
-// Sums of vectors, and errors of a world. Any thread but checkWorld(), which is for Godot's main thread.
-
 inline double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// Reports an error of physvib.h to Godot.
+/// Reports an error of physvib.h to Godot. Its main thread.
 inline void checkWorld(int code) {
     if (code < 0) report(std::string("HapticWorld: ") + physvib_error());
 }

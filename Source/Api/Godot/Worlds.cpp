@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A tick: beginStep() reads motions after the last script and before the solver, finishStep() reads motions
-// and contacts after it. Nothing is written to Godot's physics.
+// beginStep() reads motions between the last script and the solver, finishStep() those after it, and
+// contacts. Nothing is written to Godot's physics.
 #include "Api/Godot/Worlds.h"
 #include "Api/Godot/Explanation.h"
 #include "Api/Godot/Touching.h"
@@ -62,7 +62,7 @@ void HapticWorld::moveBefore(Watched& each) {
                                            each.spin.data(), inverse.data()));
 }
 
-// body_entered and _integrate_forces come body by body, and may set any body's velocity: all are read before.
+// body_entered and _integrate_forces may set any body's velocity: all are read before.
 void HapticWorld::solved() {
     if (!isOpen || std::exchange(isSolved, true)) return;
     for (auto& [id, each] : watched) {
@@ -76,13 +76,13 @@ void HapticWorld::finishStep() {
     if (!isOpen) return;
     isOpen = isSolved = false;
     bounces.clear();
-    std::vector<const Watched*> rigid; // contacts add bodies, and leave these where they are
+    std::vector<Watched*> rigid; // contacts add bodies, and leave these where they are
     for (auto& [id, each] : watched) {
         if (!each.isRigid || !isThere(each)) each.state = {};
         each.isMet = false;
         if (each.state) rigid.push_back(&each);
     }
-    for (const Watched* each : rigid) touchAll(*each);
+    for (Watched* each : rigid) touchAll(*each);
     checkWorld(physvib_world_end_step(world));
     emitAll();
 }
@@ -95,8 +95,6 @@ void HapticWorld::moveAfter(Watched& each) {
     each.change = minus(velocity, each.before);
     checkWorld(physvib_world_moved_in_space(world, each.number, velocity.data(), spin.data()));
 }
-
-// A haptic world in the scene tree: it comes, waits if there is another one, has other properties, and goes.
 
 namespace {
 std::vector<const HapticWorld*> worldsInTree; // in the order in which they came
@@ -112,7 +110,8 @@ HapticWorld::~HapticWorld() {
 }
 
 void HapticWorld::notified(int what) {
-    if (what == notifiedPhysicsProcess) return beginStep();
+    if (what == notifiedPhysicsProcess) // after what scripts deferred, too
+        return (void)self().call("call_deferred", "_begin_step");
     if (what == notifiedPaused) return outputs.rest();
     if (what == notifiedProcess) {
         if (areOutputsStale) configureOutputs();
@@ -142,7 +141,7 @@ void HapticWorld::enter() {
     self().call("set_physics_process_priority", afterAllScripts);
 }
 
-// It may come back, in another place and time: nothing is left of its bodies, and its time goes on.
+// It may come back: nothing is left of its bodies, and its time goes on.
 void HapticWorld::leave() {
     forget();
     outputs.close();
@@ -193,14 +192,10 @@ std::vector<std::string> HapticWorld::warnings() const {
                            ? self().call("get_tree").call("get_edited_scene_root")
                            : Value();
     if (root.object() == nullptr) return {};
-    const auto count = [&](const char* kind) {
-        return root.call("find_children", "*", kind, true, false).elements().size() +
-               (root.call("is_class", kind).isTrue() ? 1 : 0);
-    };
     std::vector<std::string> all;
-    if (count(isSpace ? "HapticWorld3D" : "HapticWorld2D") > 1)
+    if (nodesIn(root, isSpace ? "HapticWorld3D" : "HapticWorld2D").size() > 1)
         all.emplace_back("One haptic world is enough for a scene: the others wait until it leaves.");
-    if (count("HapticBody") == 0)
+    if (nodesIn(root, "HapticBody").empty())
         all.emplace_back("Nothing in this scene is felt: add a HapticBody as a child of a physics body.");
     return all;
 }
@@ -209,6 +204,9 @@ Value HapticWorld::explain() const {
     std::array<char, 512> sentence{};
     if (world == nullptr) return Value("The world is not in a scene that plays.");
     if (!isFirst()) return Value("Another haptic world of this kind is in the scene, and this one waits.");
+    const auto isHere = [&](const HapticBody* each) { return each->spaceId() == space; };
+    if (!hapticBodies().empty() && std::ranges::none_of(hapticBodies(), isHere))
+        return Value("No HapticBody is in its space: 2D needs a HapticWorld2D, 3D a HapticWorld3D.");
     physvib_output_facts facts;
     physvib_output_facts_init(&facts, sizeof facts);
     facts.is_missing = get(godot::outputs).elements().empty() ? 1 : 0;
@@ -218,7 +216,7 @@ Value HapticWorld::explain() const {
 }
 
 Value HapticWorld::left() const {
-    Value peaks = Value::empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY);
+    Value peaks = Value::empty(type::dictionary);
     int actuator = 0;
     for (const double peak : outputs.left()) peaks.set(actuator++, peak);
     return peaks;
@@ -227,8 +225,6 @@ Value HapticWorld::left() const {
 Value HapticWorld::timeSeconds() const {
     return Value(world == nullptr ? 0.0 : static_cast<double>(physvib_world_time_ns(world)) * 1e-9);
 }
-
-// The field of a haptic world, and where the actuators are in it.
 
 void HapticWorld::mapField() {
     unit = get(metresPerUnit).real();
@@ -256,7 +252,7 @@ std::string HapticWorld::findLayout(physvib_layout& found) const {
 Value HapticWorld::actuatorPlaces() {
     mapField();
     physvib_layout found{};
-    Value list = Value::empty(GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR2_ARRAY);
+    Value list = Value::empty(type::places);
     if (!findLayout(found).empty()) return list;
     const Vector size = get(fieldSize).vector();
     for (int j = 0; j < found.count; ++j) {
@@ -267,8 +263,6 @@ Value HapticWorld::actuatorPlaces() {
     }
     return list;
 }
-
-// Events of a world, as outputs play them and as the signal `felt` says them.
 
 // What the signal calls may free the world: it is looked for before each event.
 void HapticWorld::emitAll() {
@@ -293,7 +287,7 @@ void HapticWorld::emitAll() {
 }
 
 Value HapticWorld::hitOf(const physvib_event& event) const {
-    Value hit = Value::empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY);
+    Value hit = Value::empty(type::dictionary);
     hit.set("position", Value::vector(inScene(event), isSpace));
     hit.set("strength_n_s", event.impulse_n_s);
     hit.set("speed_m_per_s", event.mass_kg > 0.0 ? event.impulse_n_s / event.mass_kg : 0.0);
@@ -340,8 +334,6 @@ physvib_event HapticWorld::asSeen(const physvib_event& event) const {
     return seen;
 }
 
-// Which bodies a haptic world observes, and what they are to physvib.
-
 namespace {
 constexpr int listed = 16; // contacts of a body that Godot lists per tick, unless the game wants more
 // Ids of nodes have no highest bit.
@@ -364,7 +356,7 @@ bool HapticWorld::isThere(const Watched& each) const {
     return each.isNode ? there != nullptr && isInTree(there) : each.isMet;
 }
 
-// Bodies that were freed go, those of new HapticBody nodes come, masses are as they are now.
+// Freed bodies go, those of new HapticBody nodes come, masses are as they are now.
 void HapticWorld::watchAll() {
     for (auto& [id, each] : watched) each.values = nullptr;
     for (const HapticBody* haptic : hapticBodies())
@@ -383,8 +375,7 @@ void HapticWorld::watchAll() {
     }
 }
 
-// Only rigid bodies have lists of contacts. So what strikes a felt body of another kind is asked for its
-// list.
+// Only rigid bodies list contacts. So what strikes a felt body of another kind is asked for its list.
 void HapticWorld::watchStrikers() {
     const bool isWanted = std::any_of(watched.begin(), watched.end(), [](const auto& each) {
         return each.second.values != nullptr && !each.second.isRigid && each.second.values->isFelt();
@@ -418,7 +409,7 @@ Watched* HapticWorld::watch(std::uint64_t id, std::uint64_t rid, const HapticBod
     added.slides = added.body.call("is_class", isSpace ? "CharacterBody3D" : "CharacterBody2D").isTrue();
     if (added.isRigid) {
         added.rid = added.body.call("get_rid").rid();
-        server().call("body_set_force_integration_callback", Value(GDEXTENSION_VARIANT_TYPE_RID, &added.rid),
+        server().call("body_set_force_integration_callback", Value(type::rid, &added.rid),
                       Value::callable(object, "_solved"));
     }
     objects[added.number] = key;

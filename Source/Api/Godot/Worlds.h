@@ -12,6 +12,13 @@
 
 namespace physvib::godot {
 
+/// Where a body touches another one, or nearly does: a place on each, m, a unit normal from it to the other.
+struct Surface {
+    Vector at, there, normal;
+    double gap; ///< m, below 0: they overlap
+    bool isOne; ///< false: Godot gave no normal
+};
+
 /// One thing with collision shapes that the world observes.
 struct Watched {
     std::uint64_t id;                   ///< of Godot's object, or made of a RID that has none
@@ -31,15 +38,9 @@ struct Watched {
     Vector gravity = {};           ///< m/s^2, where it is
     Vector pull = {};              ///< the same; 0 of a body that does not fall
     Vector change = {};            ///< of velocity by the solver
+    Surface under = {};            ///< where it was slowest in the last tick
     Vector at = {}, step = {};     ///< of a CharacterBody: after its last tick, and how far it came in it
     bool wasAt = false;            ///< of a CharacterBody: `at` is known
-};
-
-/// Where a body touches another one, or nearly does: a place on each, m, a unit normal from it to the other.
-struct Surface {
-    Vector at, there, normal;
-    double gap; ///< m, below 0: they overlap
-    bool isOne; ///< false: Godot gave no normal
 };
 
 class HapticWorld final : public Instance {
@@ -50,6 +51,7 @@ public:
     void changed() override { isStale = areOutputsStale = true; }
     std::vector<std::string> warnings() const override;
 
+    void beginStep();              ///< all scripts are done, and the solver begins
     void solved();                 ///< the solver is done, and no signal or script has changed a body yet
     void finishStep();             ///< at the start of the next tick, before any script but those
     void added(const Value& node); ///< to the tree
@@ -66,7 +68,6 @@ private:
     void configureOutputs();
     void mapField();
     std::string findLayout(physvib_layout& layout) const; ///< the error; empty: it is there
-    void beginStep();
     void watchAll();
     void watchStrikers();
     bool isThere(const Watched& watched) const;
@@ -76,7 +77,8 @@ private:
     Value materialOf(const Watched& watched) const; ///< by its PhysicsMaterial; nil: none
     void moveBefore(Watched& watched);
     void moveAfter(Watched& watched);
-    void touchAll(const Watched& watched);
+    void touchAll(Watched& watched);
+    double approach(const Watched& watched, const Surface& surface, int contact) const;
     bool isOfInterest(const Watched& watched, int contact) const;
     static bool isOtherThere(const Watched& watched, int contact);
     void touch(const Watched& watched, int contact);

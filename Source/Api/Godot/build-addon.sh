@@ -60,8 +60,10 @@ for system in "$@"; do
     "$strip" --strip-unneeded "$made"/*/*
     cp -r "$made"/. "$bin"
 done
-python3 Standalone/Packaging/sbom.py --licences godot >"$bin/THIRD-PARTY.txt"
+case " $* " in *" windows "*) without= ;; *) without=MinGW-w64 ;; esac # who builds for this system alone has none
+python3 Standalone/Packaging/sbom.py --licences godot $without >"$bin/THIRD-PARTY.txt"
 version=$(sed -n 's/^version="\(.*\)"/\1/p' "$work/addons/physvib/plugin.cfg")
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git show -s --format=%ct)} python3 Standalone/Packaging/pack.py "$work/addons" "$work/physvib-$version.zip"
+python3 Tests/Godot/rules.py "$work/physvib-$version.zip"
 say "build/godot/physvib-$version.zip: $(wc -c <"$work/physvib-$version.zip") bytes"
 say "build/godot/addons is ready: copy it into your project"

@@ -68,4 +68,18 @@ func look():
 	await mouse(from + Vector2(60, 40), false)
 	print("dragged: %s" % [world.actuators])
 	await picture("dragged")
+	EditorInterface.open_scene_from_path("res://warned.tscn")
+	await frames(100)
+	for tree in EditorInterface.get_base_control().find_children("*", "Tree", true, false): print_warnings(tree.get_root(), "")
 	get_tree().quit()
+
+
+# What the scene's tree warns of, as one reads it over the sign.
+func print_warnings(item: TreeItem, path: String):
+	while item:
+		var its := path + "/" + item.get_text(0)
+		for i in item.get_button_count(0):
+			var text := item.get_button_tooltip_text(0, i).replace("\n", " ")
+			if "onfiguration warning" in text: print("warned: %s %s" % [its, text])
+		print_warnings(item.get_first_child(), its)
+		item = item.get_next()
