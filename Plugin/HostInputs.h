@@ -227,7 +227,8 @@ private:
 
 /// The host's quarter notes, and where a script that follows them is: it begins with the first one of its
 /// take, and has two of them a second where the scene's own time is the host's. What a host does not tell in
-/// a block goes on as it was; without any tempo there is nothing to follow. R only.
+/// a block goes on as it was, a place that jumps within a take moves the script by half a note at most, and
+/// without any tempo there is nothing to follow. R only.
 class HostBeats {
 public:
     struct Script {
@@ -237,7 +238,7 @@ public:
 
     /// Before each block, of that length. A tempo that is none is as one that is not told.
     void follow(std::optional<double> perMinute, std::optional<double> place, double blockSeconds) noexcept {
-        place_ = place && std::isfinite(*place) ? *place : next_;
+        place_ = place && std::abs(*place) < 1e9 ? *place : next_;
         if (perMinute && *perMinute >= 1.0 && *perMinute <= 1000.0) perSecond_ = *perMinute / 60.0;
         next_ = place_ + blockSeconds * perSecond_;
     }
@@ -254,8 +255,9 @@ public:
     void news(double seconds, double takeSeconds, Tell tell) noexcept {
         if (perSecond_ <= 0.0) return;
         constexpr double scene = scenePerMinute / 60.0;
-        const Script now{(at(seconds) - first_) / scene, perSecond_ / scene};
         const double expected = told_.seconds + (takeSeconds - toldAt_) * told_.rate;
+        if (toldAt_ >= 0.0) first_ += std::round(at(seconds) - first_ - expected * scene);
+        const Script now{(at(seconds) - first_) / scene, perSecond_ / scene};
         const bool isAsTold = std::abs(now.seconds - expected) * scene < nearBeats &&
                               std::abs(now.rate - told_.rate) < 1e-6 * told_.rate;
         if ((toldAt_ >= 0.0 && isAsTold) || !tell(now)) return;

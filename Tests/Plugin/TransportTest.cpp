@@ -263,6 +263,10 @@ TEST(Tempo, WithoutOneOrAtTheScenesAllIsAsWithRestartOnPlay) {
         EXPECT_TRUE(playedBy(inTempo, 120.0, 16.0).samples == wanted.samples) << scene.name;
         for (const double none : {1e-9, 1e9, std::numeric_limits<double>::infinity()})
             EXPECT_TRUE(playedBy(inTempo, none).samples == wanted.samples) << scene.name << " " << none;
+        const auto jumps = [](TestHost& host, int block) {
+            if (block % 50 == 49) host.playHead.quarter += block % 100 == 49 ? 1e6 : -1e300;
+        };
+        EXPECT_TRUE(playedBy(inTempo, 120.0, 0.0, true, 480, jumps).samples == wanted.samples) << scene.name;
         EXPECT_FALSE(playedBy(inTempo, 400.0).samples == wanted.samples) << scene.name;
     }
 }

@@ -23,9 +23,11 @@ struct RenderInput {
     static constexpr int device = -1, script = -2;
     int group = device; ///< index into SessionSetup::groups
     double scale = 1.0; ///< factor on the group's impulses, and on the velocities of bodies that it spawns
-    HoldAction hold;    ///< if `group` is device
-    double scriptSeconds = 0.0; ///< if it is script: where that is, going on at the rate `scale`; in no log
-    std::int64_t timeNs = 0;    ///< set by the session
+    union {
+        HoldAction hold{};    ///< if `group` is device
+        double scriptSeconds; ///< if it is script: where that is, going on at the rate `scale`; in no log
+    };
+    std::int64_t timeNs = 0; ///< set by the session
 };
 
 /// Low-latency mode for what needs no world: events from outside and controls. The world's own collisions
