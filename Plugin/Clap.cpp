@@ -137,6 +137,9 @@ struct HostTransport final : juce::AudioPlayHead {
         if ((now->flags & CLAP_TRANSPORT_HAS_SECONDS_TIMELINE) != 0)
             info.setTimeInSamples(
                 std::llround(static_cast<double>(now->song_pos_seconds) / CLAP_SECTIME_FACTOR * rateHz));
+        if ((now->flags & CLAP_TRANSPORT_HAS_TEMPO) != 0) info.setBpm(now->tempo);
+        if ((now->flags & CLAP_TRANSPORT_HAS_BEATS_TIMELINE) != 0)
+            info.setPpqPosition(static_cast<double>(now->song_pos_beats) / CLAP_BEATTIME_FACTOR);
         return info;
     }
 };

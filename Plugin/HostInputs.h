@@ -225,6 +225,55 @@ private:
     std::optional<std::int64_t> expected_;
 };
 
+/// The host's quarter notes, and where a script that follows them is: it begins with the first one of its
+/// take, and has two of them a second where the scene's own time is the host's. What a host does not tell in
+/// a block goes on as it was, a place that jumps within a take moves the script by half a note at most, and
+/// without any tempo there is nothing to follow. R only.
+class HostBeats {
+public:
+    struct Script {
+        double seconds = 0.0, rate = 1.0; ///< where it is, and how fast it goes on
+    };
+    static constexpr double scenePerMinute = 120.0;
+
+    /// Before each block, of that length. A tempo that is none is as one that is not told.
+    void follow(std::optional<double> perMinute, std::optional<double> place, double blockSeconds) noexcept {
+        place_ = place && std::abs(*place) < 1e9 ? *place : next_;
+        if (perMinute && *perMinute >= 1.0 && *perMinute <= 1000.0) perSecond_ = *perMinute / 60.0;
+        next_ = place_ + blockSeconds * perSecond_;
+    }
+
+    /// A take begins, so far into the block.
+    void begin(double seconds) noexcept {
+        first_ = std::ceil(at(seconds) - nearBeats);
+        told_ = {};
+        toldAt_ = -1.0;
+    }
+
+    /// What `tell(const Script&)` has to say, so far into the block and the take; false: again.
+    template <class Tell>
+    void news(double seconds, double takeSeconds, Tell tell) noexcept {
+        if (perSecond_ <= 0.0) return;
+        constexpr double scene = scenePerMinute / 60.0;
+        const double expected = told_.seconds + (takeSeconds - toldAt_) * told_.rate;
+        if (toldAt_ >= 0.0) first_ += std::round(at(seconds) - first_ - expected * scene);
+        const Script now{(at(seconds) - first_) / scene, perSecond_ / scene};
+        const bool isAsTold = std::abs(now.seconds - expected) * scene < nearBeats &&
+                              std::abs(now.rate - told_.rate) < 1e-6 * told_.rate;
+        if ((toldAt_ >= 0.0 && isAsTold) || !tell(now)) return;
+        told_ = now;
+        toldAt_ = takeSeconds;
+    }
+
+private:
+    static constexpr double nearBeats = 0.01; // hosts round
+    double at(double seconds) const noexcept { return place_ + seconds * perSecond_; }
+
+    double perSecond_ = 0.0; // 0: never told
+    double place_ = 0.0, next_ = 0.0, first_ = 0.0, toldAt_ = -1.0;
+    Script told_;
+};
+
 /// Limits one kind of control change, so that automation cannot fill the session's control queue: at most one
 /// control of a kind in so many frames of session time; of what comes faster the value then present goes. The
 /// same whatever the block and L are, so that a bounce in blocks of another size is the same samples. In

@@ -95,7 +95,8 @@ bool sendToHost(void* nativeWindow, const HostKey& key) noexcept {
     const X11 x;
     if (!x.display || key.symbol == 0) return false;
     Window root = None;
-    const Window host = topLevelAbove(x, reinterpret_cast<Window>(nativeWindow), root);
+    const auto own = reinterpret_cast<Window>(nativeWindow);
+    const Window host = isManaged(x, own) ? None : topLevelAbove(x, own, root); // else that is a frame
     const KeyCode code = x.code(x.display, key.symbol);
     if (host == None || code == 0) return false;
     XEvent event{};

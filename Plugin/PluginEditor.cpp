@@ -121,8 +121,9 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     firstSteps_.setInterceptsMouseClicks(false, false);
     files_.setButtonText("Files");
     for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &title_, &scene_, &layout_, &files_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_,
-             &silence_, &direct_, &fold_, &world_, &firstSteps_, &midiPanel_, &mix_, &keys_, &status_})
+             &title_, &scene_,      &layout_,    &files_,   &seedName_, &seed_,  &stepsName_,
+             &steps_, &restart_,    &midi_,      &silence_, &direct_,   &tempo_, &fold_,
+             &world_, &firstSteps_, &midiPanel_, &mix_,     &keys_,     &status_})
         addAndMakeVisible(c);
     fillGroups();
     fillChoices();
@@ -181,6 +182,10 @@ void PluginEditor::fillChoices() {
     restart_.setClickingTogglesState(true);
     restart_.setTooltip(
         "The scene starts at its seed whenever the transport starts or jumps, and is silent while it stands");
+    tempo_.setClickingTogglesState(true);
+    tempo_.setTooltip(
+        "The same, and the scene's script and motors follow the host's tempo, from a beat on: at 120 "
+        "a minute as the scene has them");
     direct_.setClickingTogglesState(true);
     direct_.setTooltip("Low-latency mode for notes: the host is told the limiter's latency only. Collisions "
                        "keep the output latency L, so they are felt later than the track beside them");
@@ -221,11 +226,13 @@ void PluginEditor::fillChoices() {
                 std::min<juce::int64>(seed_.getText().getLargeIntValue(), 0xffffffff));
         });
     };
-    restart_.onClick = [this] {
-        edit([this](PluginState& s) {
-            s.transport = restart_.getToggleState() ? TransportMode::restartOnPlay : TransportMode::free;
-        });
+    const auto turns = [this](juce::Button& button, TransportMode on, TransportMode off) {
+        button.onClick = [this, &button, on, off] {
+            edit([&](PluginState& s) { s.transport = button.getToggleState() ? on : off; });
+        };
     };
+    turns(restart_, TransportMode::restartOnPlay, TransportMode::free);
+    turns(tempo_, TransportMode::inTempo, TransportMode::restartOnPlay);
     direct_.onClick = [this] { edit([this](PluginState& s) { s.isDirect = direct_.getToggleState(); }); };
     files_.onClick = [this] { showFiles(); };
     midi_.onClick = [this] { showMidi(!midiPanel_.isVisible()); };
@@ -325,11 +332,12 @@ void PluginEditor::stateChanged() {
     select(layout_, state_.layout.name);
     steps_.setText(juce::String{state_.stepsPerSecond} + " /s", juce::dontSendNotification);
     seed_.setText(juce::String{static_cast<juce::int64>(state_.seed)}, false);
-    restart_.setToggleState(state_.transport == TransportMode::restartOnPlay, juce::dontSendNotification);
+    restart_.setToggleState(state_.transport != TransportMode::free, juce::dontSendNotification);
+    tempo_.setToggleState(state_.transport == TransportMode::inTempo, juce::dontSendNotification);
     direct_.setToggleState(state_.isDirect, juce::dontSendNotification);
     const bool moves = hasWorld(state_);
     for (auto* const c :
-         std::initializer_list<juce::Component*>{&direct_, &stepsName_, &steps_, &seedName_, &seed_})
+         std::initializer_list<juce::Component*>{&direct_, &tempo_, &stepsName_, &steps_, &seedName_, &seed_})
         c->setVisible(moves);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     world_.show(state_.scene);
@@ -480,7 +488,7 @@ void PluginEditor::resized() {
     silence_.setBounds(bar.removeFromRight(92));
     bar.removeFromRight(panelGap);
     left(title_, 78);
-    left(scene_, std::min(170, bar.getWidth() - 616)); // the others take as much
+    left(scene_, std::min(170, bar.getWidth() - 676)); // the others take as much
     left(layout_, 86);
     left(files_, 60);
     left(midi_, 50);
@@ -489,6 +497,7 @@ void PluginEditor::resized() {
     left(stepsName_, 34, 4);
     left(steps_, 78);
     left(restart_, 108, 4);
+    left(tempo_, 56, 4);
     left(direct_, 58, 0);
     keys_.setBounds(area.removeFromBottom(KeyboardPanel::height));
     area.removeFromBottom(panelGap);

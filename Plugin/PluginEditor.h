@@ -113,7 +113,7 @@ private:
     juce::ComboBox scene_, layout_, steps_;
     juce::TextEditor seed_;
     juce::TextButton restart_{"Restart on play"}, files_, midi_{"MIDI"}, silence_{"SILENCE"},
-        direct_{"Direct"}, fold_;
+        direct_{"Direct"}, tempo_{"Tempo"}, fold_;
     juce::ButtonParameterAttachment silenceAttachment_;
     WorldView world_;
     MidiPanel midiPanel_;

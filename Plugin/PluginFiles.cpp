@@ -25,12 +25,18 @@ void setParameter(PluginState& state, Parameter which, double value) {
     kept.second = std::clamp(value, row.least, row.most);
 }
 
+/// In the unit of that parameter, as a state has it or as it comes.
+double valueIn(const PluginState& state, Parameter which) {
+    const auto& row = rowOf(which);
+    const auto found =
+        std::ranges::find(state.parameters, row.id, &std::pair<std::string, ParameterValue>::first);
+    return found == state.parameters.end() ? row.initial
+                                           : valueOfState(row, found->second).value_or(row.initial);
+}
+
 /// As the person at this instance has left it; enchanter j leaves by channel j.
 DeskLimits limitsOf(const PluginState& state) {
-    const auto level = std::ranges::find(state.parameters, rowOf(Parameter::level).id,
-                                         &std::pair<std::string, ParameterValue>::first);
-    const auto* const set = level == state.parameters.end() ? nullptr : std::get_if<double>(&level->second);
-    DeskLimits limits{set ? *set : rowOf(Parameter::level).initial, state.strips};
+    DeskLimits limits{valueIn(state, Parameter::level), state.strips};
     resizeStrips(limits.strips, state.layout.geometry.count);
     for (std::size_t j = 0; j < limits.strips.size(); ++j) limits.strips[j].output = static_cast<int>(j);
     return limits;
@@ -69,15 +75,6 @@ bool isPlayedOtherwise(const SavedSession& session) {
            session.run.location != ImpactLocation::contact;
 }
 
-/// In the unit of that parameter, as a state has it or as it comes.
-double valueIn(const PluginState& state, Parameter which) {
-    const auto& row = rowOf(which);
-    const auto found =
-        std::ranges::find(state.parameters, row.id, &std::pair<std::string, ParameterValue>::first);
-    return found == state.parameters.end() ? row.initial
-                                           : valueOfState(row, found->second).value_or(row.initial);
-}
-
 /// A preset sounds as it is meant, up to the level, the strips and the limiter of this instance; strikes and
 /// music up to what they are here or what is usual.
 Result<OpenedFile> openPreset(const std::filesystem::path& path, const PluginState& now) {
@@ -112,6 +109,8 @@ Result<OpenedFile> openPreset(const std::filesystem::path& path, const PluginSta
     state.editorHeight = now.editorHeight;
     return OpenedFile{std::move(state), noteOf(path, lowered)};
 }
+
+juce::File lookFile() { return presetFolder().getSiblingFile("look"); }
 
 } // namespace
 
@@ -175,12 +174,6 @@ std::string savePreset(PluginState state, const juce::File& file) {
                made.getErrorMessage().toStdString();
     return writeFile(file.getFullPathName().toStdString(), pluginStateJson(state));
 }
-
-namespace {
-
-juce::File lookFile() { return presetFolder().getSiblingFile("look"); }
-
-} // namespace
 
 Theme savedTheme() { return lookFile().loadFileAsString().trim() == "light" ? Theme::light : Theme::dark; }
 

@@ -277,6 +277,7 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
                   parameter(Parameter::bypass).value() > 0.5 || isStopped() ? 0.0f : 1.0f);
     prepareGuard(rate);
     transport_.reset();
+    tempo_ = {};
     points_.reset();
     measured_ = {};
     expression_ = {};

@@ -174,6 +174,7 @@ private:
     int renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message,
                    const juce::MidiBuffer& midi, int first) noexcept;
     void followTransport(int frames) noexcept;
+    void followTempo(double seconds) noexcept;
     void forgetControls() noexcept;
     bool hasNews(Parameter which) const noexcept;
     template <class Send>
@@ -239,6 +240,7 @@ private:
     BeatInput beats_;
     MusicInput music_;
     Transport transport_;
+    HostBeats tempo_;
     int blockFrames_ = 0;
     GainRamp open_;     // shut by bypass
     OutputGuard guard_; // of what takes add up to while one follows another

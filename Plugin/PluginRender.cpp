@@ -94,7 +94,9 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
         return std::clamp(m.samplePosition, first, frames - 1);
     };
     int end = std::min(frames, first + blockFrames_);
-    if (takes_.begin(mode)) forgetControls();
+    const double seconds = first / sampleRateHz_.load(std::memory_order_relaxed);
+    if (takes_.begin(mode)) forgetControls(), tempo_.begin(seconds);
+    followTempo(seconds);
     for (int at = first; at < end;) {
         readPoints(at);
         if (at == first) isShut_ = isStopped() || value(Parameter::bypass) > 0.5, playKeys(0);
@@ -126,13 +128,20 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
 void PluginProcessor::followTransport(int frames) noexcept {
     std::optional<bool> plays;
     std::optional<std::int64_t> at;
+    std::optional<double> beats, tempo;
+    const auto told = [](auto& to, const auto& from) {
+        if (from) to = *from;
+    };
     if (auto* host = getPlayHead())
         if (const auto position = host->getPosition()) {
             plays = position->getIsPlaying();
-            if (const auto samples = position->getTimeInSamples()) at = *samples;
+            told(at, position->getTimeInSamples());
+            told(tempo, position->getBpm());
+            told(beats, position->getPpqPosition());
         }
+    tempo_.follow(tempo, beats, frames / sampleRateHz_.load(std::memory_order_relaxed));
     const auto change = transport_.follow(plays, at, frames);
-    const bool restarts = takes_.lookForNew() == TransportMode::restartOnPlay;
+    const bool restarts = takes_.lookForNew() != TransportMode::free;
     if (restarts && change == Transport::Change::started)
         takes_.start();
     else if (restarts && !transport_.isPlaying())
@@ -141,6 +150,20 @@ void PluginProcessor::followTransport(int frames) noexcept {
         takes_.start();
     else if (change == Transport::Change::stopped)
         stopAll(0);
+}
+
+void PluginProcessor::followTempo(double seconds) noexcept {
+    Session* const session = takes_.session();
+    if (!session || takes_.settings().transport != TransportMode::inTempo) return;
+    const auto takeSeconds = static_cast<double>(session->timeline().framesRendered()) /
+                             sampleRateHz_.load(std::memory_order_relaxed);
+    tempo_.news(seconds, takeSeconds, [session](const HostBeats::Script& script) {
+        RenderInput input;
+        input.group = RenderInput::script;
+        input.scriptSeconds = script.seconds;
+        input.scale = script.rate;
+        return session->callback().perform(input, 0);
+    });
 }
 
 // A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.

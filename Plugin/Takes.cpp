@@ -45,9 +45,7 @@ void checkGroups(const SessionSetup& setup) {
     check(setup.groups.size());
 }
 
-bool startsQuickly(const TakeSpec& order) noexcept {
-    return order.settings.transport == TransportMode::restartOnPlay;
-}
+bool startsQuickly(const TakeSpec& order) noexcept { return order.settings.transport != TransportMode::free; }
 
 } // namespace
 

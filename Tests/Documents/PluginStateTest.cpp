@@ -146,7 +146,7 @@ TEST(PluginState, WhatIsWrongIsNamed) {
     EXPECT_EQ(refusal(text, "\"controller\": 1", "\"controller\": 120"),
               "f: controllers[0].controller: expected 0 to 119, found 120");
     EXPECT_EQ(refusal(text, "restart-on-play", "sometimes"),
-              "f: transport: expected one of free, restart-on-play, found \"sometimes\"");
+              "f: transport: expected one of free, restart-on-play, in-tempo, found \"sometimes\"");
     EXPECT_EQ(refusal(text, "\"steps_per_second\": 500", "\"steps_per_second\": 1"),
               "f: steps_per_second: expected 10 to 10000, found 1");
     EXPECT_EQ(refusal(text, "\"seed\": 4294967295", "\"seed\": 1.5"),

@@ -26,7 +26,7 @@ TEST(PluginChunk, RoundTripsToTheByteAndToTheSample) {
         state.scene = builtInScenes()[static_cast<std::size_t>(random.below(5))];
         state.seed = static_cast<std::uint32_t>(random.below(1000));
         state.layout = presetLayout(layoutPresetNames[static_cast<std::size_t>(random.below(8))]);
-        state.transport = static_cast<TransportMode>(random.below(2));
+        state.transport = static_cast<TransportMode>(random.below(3));
         state.limiterEnabled = random.below(2) == 0;
         ASSERT_TRUE(first.plugin->apply(state));
         for (auto* p : first.plugin->getParameters()) p->setValue(static_cast<float>(random.uniform(0, 1)));

@@ -19,10 +19,19 @@ struct TestPlayHead final : juce::AudioPlayHead {
         PositionInfo info;
         info.setIsPlaying(isPlaying);
         info.setTimeInSamples(frame);
+        if (perMinute > 0.0) {
+            info.setBpm(perMinute);
+            info.setPpqPosition(quarter);
+        }
         return info;
+    }
+    void move(int frames, double rateHz) {
+        frame += frames;
+        quarter += perMinute / 60.0 * frames / rateHz;
     }
     bool isThere = false, isPlaying = false;
     std::int64_t frame = 0;
+    double perMinute = 0.0, quarter = 0.0; // 0: no tempo is told
 };
 
 using Samples = std::vector<std::vector<float>>; // [channel][frame]
@@ -61,7 +70,7 @@ public:
     juce::AudioBuffer<float>& block(int frames, juce::MidiBuffer midi = {}) {
         buffer.setSize(buffer.getNumChannels(), frames, false, false, true);
         plugin->processBlock(buffer, midi);
-        if (playHead.isPlaying) playHead.frame += frames;
+        if (playHead.isPlaying) playHead.move(frames, plugin->getSampleRate());
         return buffer;
     }
 

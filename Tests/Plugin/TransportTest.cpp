@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What counts as a start and a stop, and that takes of a loop are the same.
+// What counts as a start and a stop, that takes of a loop are the same, and worlds in the tempo of a host.
 #include "PluginTesting.h"
 
 namespace physvib {
@@ -168,6 +168,147 @@ TEST(Transport, FreeRunningScenesIgnoreItButForAStop) {
     host.play(5 * 48000, playing);
     EXPECT_TRUE(standing == playing);
     EXPECT_EQ(host.plugin->takes().status().take, 1);
+}
+
+// In the tempo of a host.
+
+constexpr double rateHz = 48000;
+
+/// Discs that rain on a floor, one every half second from 0.5 s on: at 120 a minute one on each beat.
+PluginState rain(TransportMode transport = TransportMode::inTempo) {
+    PluginState s = shakenBox();
+    s.transport = transport;
+    s.stepsPerSecond = 1000;
+    s.seed = 0;
+    auto& scene = s.scene;
+    scene.joints.clear();
+    scene.script.clear();
+    scene.bodies.clear();
+    scene.gravityMetresPerSecond2 = {};
+    const auto bodyOf = [](std::string name, BodyType type, Shape shape, Vector place) {
+        BodyDescription body;
+        body.name = std::move(name);
+        body.type = type;
+        body.fixtures.push_back({std::move(shape), {}, 0.0, 3, true});
+        body.positionMetres = place;
+        body.massKg = 1.0;
+        return body;
+    };
+    const double width = scene.fieldWidthMetres;
+    scene.bodies.push_back(bodyOf("floor", BodyType::staticBody, BoxShape{width, 0.1}, {0.5 * width, 0.05}));
+    SpawnAction drop{bodyOf("drop", BodyType::dynamicBody, CircleShape{0.01}, {0.05, 0.12}), {0.04, 0.0}};
+    drop.body.velocityMetresPerSecond = {0.0, -2.0};
+    scene.script.push_back({0.5, 8, 0.5, drop});
+    return s;
+}
+
+struct Played {
+    Samples samples;
+    std::vector<double> seconds; // of the first collision of each drop
+    std::uint64_t delayed = 0;   // blocks that waited for a take
+};
+
+/// Of a transport that starts at that beat; `change(host, block)` comes before each block.
+template <class Change>
+Played playedBy(const PluginState& state, double perMinute, double quarter, bool offline, int frames,
+                Change change, double forSeconds = 3.0) {
+    TestHost host;
+    EXPECT_TRUE(host.plugin->apply(state));
+    host.prepare(rateHz, frames, offline);
+    host.playHead.isThere = host.playHead.isPlaying = true;
+    host.playHead.perMinute = perMinute;
+    host.playHead.quarter = quarter;
+    Played played;
+    const int blocks = static_cast<int>(forSeconds * rateHz) / frames;
+    for (int b = 0; b < blocks; ++b) {
+        change(host, b);
+        host.play(frames, played.samples);
+    }
+    host.plugin->releaseResources();
+    played.delayed = host.plugin->takes().status().delayedBlocks;
+    for (const auto& e : host.plugin->takes().drainLog())
+        if (const double at = static_cast<double>(e.played.event.timeNs) * 1e-9;
+            played.seconds.empty() || at > played.seconds.back() + 0.05)
+            played.seconds.push_back(at);
+    return played;
+}
+Played playedBy(const PluginState& state, double perMinute, double quarter = 0.0, bool offline = true,
+                int frames = 480) {
+    return playedBy(state, perMinute, quarter, offline, frames, [](TestHost&, int) {});
+}
+
+void expectTimes(const Played& played, const std::vector<double>& seconds) {
+    constexpr double falls = 0.005; // 1 cm at 2 m/s
+    ASSERT_EQ(played.seconds.size(), seconds.size());
+    for (std::size_t i = 0; i < seconds.size(); ++i)
+        EXPECT_NEAR(played.seconds[i], seconds[i] + falls, 0.004) << "drop " << i;
+}
+
+TEST(Tempo, RainFallsOnTheBeats) {
+    expectTimes(playedBy(rain(), 120.0), {0.5, 1.0, 1.5, 2.0, 2.5});
+    expectTimes(playedBy(rain(), 180.0), {1 / 3., 2 / 3., 1.0, 4 / 3., 5 / 3., 2.0, 7 / 3., 8 / 3.});
+    expectTimes(playedBy(rain(), 60.0), {1.0, 2.0});
+    expectTimes(playedBy(rain(), 120.0, 7.5), {0.75, 1.25, 1.75, 2.25, 2.75}); // from the next beat on
+}
+
+TEST(Tempo, WithoutOneOrAtTheScenesAllIsAsWithRestartOnPlay) {
+    for (const auto& scene : builtInScenes()) {
+        PluginState restarting = shakenBox();
+        useScene(restarting, scene);
+        restarting.transport = TransportMode::restartOnPlay;
+        PluginState inTempo = restarting;
+        inTempo.transport = TransportMode::inTempo;
+        const auto wanted = playedBy(restarting, 0.0);
+        EXPECT_TRUE(playedBy(inTempo, 0.0).samples == wanted.samples) << scene.name;
+        EXPECT_TRUE(playedBy(inTempo, 120.0, 16.0).samples == wanted.samples) << scene.name;
+        for (const double none : {1e-9, 1e9, std::numeric_limits<double>::infinity()})
+            EXPECT_TRUE(playedBy(inTempo, none).samples == wanted.samples) << scene.name << " " << none;
+        const auto jumps = [](TestHost& host, int block) {
+            if (block % 50 == 49) host.playHead.quarter += block % 100 == 49 ? 1e6 : -1e300;
+        };
+        EXPECT_TRUE(playedBy(inTempo, 120.0, 0.0, true, 480, jumps).samples == wanted.samples) << scene.name;
+        EXPECT_FALSE(playedBy(inTempo, 400.0).samples == wanted.samples) << scene.name;
+    }
+}
+
+TEST(Tempo, AChangeMovesTheDropsThatAreToCome) {
+    const auto faster = [](TestHost& host, int block) {
+        if (block == 110) host.playHead.perMinute = 240.0; // at 1.1 s, beat 2.2
+    };
+    expectTimes(playedBy(rain(), 120.0, 0.0, true, 480, faster), {0.5, 1.0, 1.3, 1.55, 1.8, 2.05, 2.3, 2.55});
+}
+
+TEST(Tempo, LiveIsTheBounceWithChangesAStopAndALoop) {
+    const auto song = [](TestHost& host, int block) {
+        auto& head = host.playHead;
+        head.perMinute = block < 60 ? 120.0 : 120.0 + block; // then it rises in each block
+        head.isPlaying = block < 130 || block >= 150;
+        if (block != 150 && block != 220) return;
+        head.frame = 9'600;
+        head.quarter = 1.25;
+        if (!host.plugin->isNonRealtime()) std::this_thread::sleep_for(std::chrono::milliseconds{300});
+    };
+    for (const auto& state : {rain(), [] {
+                                  PluginState s = shakenBox();
+                                  useScene(s, builtInScenes()[2]); // motors drive
+                                  s.transport = TransportMode::inTempo;
+                                  return s;
+                              }()}) {
+        const auto bounce = playedBy(state, 120.0, 0.0, true, 480, song);
+        EXPECT_GT(peakOf(bounce.samples), 0.01f);
+        EXPECT_TRUE(playedBy(state, 120.0, 0.0, true, 480, song).samples == bounce.samples);
+        auto live = playedBy(state, 120.0, 0.0, false, 480, song);
+        for (int again = 0; live.delayed > 0 && again < 5; ++again)
+            live = playedBy(state, 120.0, 0.0, false, 480, song);
+        if (live.delayed > 0) GTEST_SKIP() << "this machine is too busy to be live";
+        EXPECT_TRUE(live.samples == bounce.samples);
+    }
+}
+
+TEST(Tempo, ATempoThatStaysMakesTheSameOfEveryBlockSize) {
+    const auto of = [](int frames) { return playedBy(rain(), 133.0, 2.9, true, frames).seconds; };
+    EXPECT_EQ(of(480), of(96));
+    EXPECT_EQ(of(480), of(1920));
 }
 
 } // namespace

@@ -23,13 +23,15 @@ namespace physvib {
 constexpr int pluginStateVersion = 5;
 
 enum class TransportMode {
-    free,         ///< the scene runs whenever the host renders
-    restartOnPlay ///< the scene starts from its seed when the transport starts or jumps, and is silent while
-                  ///< it is stopped
+    free,          ///< the scene runs whenever the host renders
+    restartOnPlay, ///< the scene starts from its seed when the transport starts or jumps, and is silent while
+                   ///< it is stopped
+    inTempo ///< the same; its script begins with a beat of the host's and, as its motors, is as fast: by
+            ///< the scene at 120 beats a minute
 };
 
 // indexed by TransportMode
-inline constexpr std::array<std::string_view, 2> transportNames{"free", "restart-on-play"};
+inline constexpr std::array<std::string_view, 3> transportNames{"free", "restart-on-play", "in-tempo"};
 
 enum class NoteKind {
     strike, ///< plays a material at a place, at once

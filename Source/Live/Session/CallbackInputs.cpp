@@ -45,6 +45,7 @@ void CallbackInputs::forget() noexcept {
 
 void CallbackInputs::handTo(SessionWorld& world) {
     for (RenderInput input; inputs_.pop(input);) {
+        if (input.group == RenderInput::script) world.pace(input.timeNs, input.scriptSeconds, input.scale);
         if (input.group == RenderInput::device) world.addInput(input.timeNs, input.hold);
         if (input.group < 0 || input.group >= static_cast<int>(groups_.size())) continue;
         for (Action action : groups_[static_cast<std::size_t>(input.group)]) {

@@ -20,10 +20,13 @@ namespace physvib {
 /// An input from the render call to the world: a new orientation of the device, or a prepared group of
 /// actions.
 struct RenderInput {
-    static constexpr int device = -1;
+    static constexpr int device = -1, script = -2;
     int group = device; ///< index into SessionSetup::groups
     double scale = 1.0; ///< factor on the group's impulses, and on the velocities of bodies that it spawns
-    HoldAction hold;    ///< if `group` is device
+    union {
+        HoldAction hold{};    ///< if `group` is device
+        double scriptSeconds; ///< if it is script: where that is, going on at the rate `scale`; in no log
+    };
     std::int64_t timeNs = 0; ///< set by the session
 };
 

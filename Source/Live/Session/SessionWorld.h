@@ -44,6 +44,9 @@ public:
     /// Adds a valid input that acts at `sessionNs`, or in the next step if that is past.
     void addInput(std::int64_t sessionNs, Action action);
 
+    /// Where the script is at that time, and its rate (ScriptPace). In no log.
+    void pace(std::int64_t sessionNs, double scriptSeconds, double rate);
+
     /// the current run, with inputs and stalls that have not been read
     const SceneRun& take() const noexcept { return take_; }
     std::size_t takeCount() const noexcept { return takeCount_; }

@@ -352,6 +352,10 @@ void SessionWorld::addInput(std::int64_t sessionNs, Action action) {
     if (isLogged_) take_.inputs.push_back(world_->scene().inputs.back());
 }
 
+void SessionWorld::pace(std::int64_t sessionNs, double scriptSeconds, double rate) {
+    world_->pace({static_cast<double>(sessionNs - originNs_) * 1e-9, scriptSeconds, rate});
+}
+
 void SessionWorld::readPoses(std::vector<BodyPose>& poses) const {
     constexpr BodyPose gone{0.0, 0.0, 0.0, false};
     poses.clear();

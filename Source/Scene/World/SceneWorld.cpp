@@ -52,6 +52,13 @@ void makeRoom(b2World& world, const Scene& scene) {
     manager.m_broadPhase.DestroyProxy(first);
 }
 
+/// What turns with a motor.
+template <class Set>
+void forMotor(b2Joint& made, Set set) {
+    if (made.GetType() == e_revoluteJoint) set(static_cast<b2RevoluteJoint&>(made));
+    if (made.GetType() == e_wheelJoint) set(static_cast<b2WheelJoint&>(made));
+}
+
 } // namespace
 
 SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& clock)
@@ -66,6 +73,7 @@ SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& 
     , lastInputSeconds_(scene.inputs.empty() ? 0.0 : scene.inputs.back().timeSeconds) {
     if (!scene_.bodies.empty()) {
         scene_.inputs.reserve(scene_.inputs.size() + expectedInputs);
+        paces_.reserve(expectedInputs);
         makeRoom(world_, scene_);
     }
     world_.SetContactFilter(&bound_);
@@ -199,9 +207,20 @@ bool SceneWorld::actOnInputs(std::int64_t step) {
 
 bool SceneWorld::actOnScript(std::int64_t step) {
     bool fixturesChanged = false;
-    for (DueAction due = script_.next(step); due.action != nullptr; due = script_.next(step))
+    const auto isDue = [&](const ScriptPace& pace) { return clock_.firstStepAt(pace.fromSeconds) <= step; };
+    const auto later = std::ranges::find_if_not(paces_, isDue);
+    std::for_each(paces_.begin(), later, [this](const ScriptPace& pace) { take(pace); });
+    paces_.erase(paces_.begin(), later);
+    const std::int64_t now = pace_.scriptStep(step, clock_);
+    for (DueAction due = script_.next(now); due.action != nullptr; due = script_.next(now))
         fixturesChanged |= act(due);
     return fixturesChanged;
+}
+
+void SceneWorld::take(const ScriptPace& pace) {
+    const auto factor = static_cast<float>(pace.rate / std::exchange(pace_, pace).rate);
+    const auto drive = [factor](auto& joint) { joint.SetMotorSpeed(joint.GetMotorSpeed() * factor); };
+    for (auto& [name, joint] : joints_) forMotor(*joint.made, drive);
 }
 
 bool SceneWorld::act(const DueAction& due) {
@@ -362,14 +381,12 @@ template <>
 bool SceneWorld::act(const MotorAction& action) {
     const auto place = joints_.find(action.joint);
     if (place == joints_.end()) return false;
-    const auto set = [&action](auto& joint) {
-        joint.SetMotorSpeed(static_cast<float>(action.radiansPerSecond));
+    const auto set = [&](auto& joint) {
+        joint.SetMotorSpeed(static_cast<float>(action.radiansPerSecond * pace_.rate));
         if (action.maxTorqueNewtonMetres)
             joint.SetMaxMotorTorque(static_cast<float>(*action.maxTorqueNewtonMetres));
     };
-    b2Joint& made = *place->second.made;
-    if (made.GetType() == e_revoluteJoint) set(static_cast<b2RevoluteJoint&>(made));
-    if (made.GetType() == e_wheelJoint) set(static_cast<b2WheelJoint&>(made));
+    forMotor(*place->second.made, set);
     return false;
 }
 

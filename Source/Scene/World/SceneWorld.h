@@ -90,6 +90,19 @@ private:
     std::size_t next_ = 0;
 };
 
+/// From a world time on the script is at a time of its own, and runs at that rate, as do the motors of
+/// joints: by the scene at 1.
+struct ScriptPace {
+    double fromSeconds = 0.0, scriptSeconds = 0.0, rate = 1.0;
+
+    std::int64_t scriptStep(std::int64_t step, const StepClock& clock) const noexcept {
+        constexpr double rounding = 1.0e-6;
+        return static_cast<std::int64_t>(
+            std::floor((scriptSeconds - fromSeconds * rate) * clock.stepsPerSecond +
+                       static_cast<double>(step) * rate + rounding));
+    }
+};
+
 // Limits the number of simultaneous contacts in a world, to bound time and memory per step.
 
 /// Bodies in one place touch pairwise, and pairs grow with the square of the bodies: two thousand would need
@@ -238,6 +251,9 @@ public:
     /// Adds a valid input (see InputCheck) that acts in `step`, or once earlier ones have acted.
     void addInput(std::int64_t step, Action action);
 
+    /// From the first step on that begins at or after it; in the order of their times.
+    void pace(const ScriptPace& pace) { paces_.push_back(pace); }
+
     /// Executes the live inputs, then the script's actions, that are due in `step`. True if a fixture may be
     /// new or have a new sound, texture or source flag. Allocates for new bodies only,
     /// and for more grips than SceneGrips::expected.
@@ -298,6 +314,7 @@ private:
     void destroyRemoved(std::int64_t step);
     bool actOnInputs(std::int64_t step);
     bool actOnScript(std::int64_t step);
+    void take(const ScriptPace& pace);
     bool apply(const Action& action);
     bool spawn(const BodyDescription& body);
     BodyStart startOf(const BodyDescription& body);
@@ -328,7 +345,9 @@ private:
     bool jitters_;
     std::mt19937 random_;
     SceneScript script_;
-    Vector gravity_; // before hold_
+    ScriptPace pace_;
+    std::vector<ScriptPace> paces_; // that are to come
+    Vector gravity_;                // before hold_
     HoldAction hold_;
     b2World world_;
     ContactBound bound_{world_};

@@ -33,6 +33,9 @@ public:
     /// `timeSeconds`, or in the next one if that is past, or when those added before it have acted.
     void addInput(double timeSeconds, Action action);
 
+    /// Is in no scene().
+    void pace(const ScriptPace& pace) { world_.pace(pace); }
+
     /// The scene with all inputs so far: a simulation of it, with the same seed and rate, repeats everything.
     const Scene& scene() const noexcept { return world_.scene(); }
 
