@@ -191,7 +191,7 @@ TEST_F(Report, AnswersAtLevelsOfOtherProgramsGetFunctionsInTheirOwnWords) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const std::string html = page();
     EXPECT_TRUE(has(html, "Share of answers \u201cfaster\u201d by speed."));
-    EXPECT_TRUE(has(html, "with a guess rate of 0 %"));
+    EXPECT_TRUE(has(html, "with lapse rates of up to 2 % at both ends"));
     EXPECT_TRUE(has(html, "reversals are not looked for"));
     for (const char* bad : {"Orders of the conditions", "level (dB)", "Trainings", "own level"})
         EXPECT_FALSE(has(html, bad)) << bad;

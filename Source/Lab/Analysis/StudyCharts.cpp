@@ -260,8 +260,8 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         chart.thresholdWords = "threshold " + fixedNumber(told->estimate, 1);
     } else if (!thresholds.empty()) {
         if (!isAdaptive) {
-            LineSeries mean = curve(
-                {model.shape, meanOf(thresholds), meanOf(widths), model.guess, meanOf(lapses)}, least, most);
+            LineSeries mean =
+                curve(model.with(meanOf(thresholds), meanOf(widths), meanOf(lapses)), least, most);
             mean.name = "function of the mean threshold and width";
             mean.style = 4;
             chart.series.push_back(std::move(mean));

@@ -77,12 +77,12 @@ void tellThresholds(ReportBuilder& report, const StudyFiles& tables,
         caption += "The functions are ";
     report.page.figure(
         charts,
-        caption + std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) +
-            ", with a guess rate of " +
-            fixedNumber(100.0 * fit.model.guess,
-                        std::abs(100.0 * fit.model.guess - std::round(100.0 * fit.model.guess)) < 1e-9 ? 0
-                                                                                                       : 1) +
-            " % and lapse rates of up to " + numberText(100.0 * fit.model.lapseUpTo) + " %.");
+        caption + std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) + ", with " +
+            (fit.model.guess > 0.0
+                 ? "a guess rate of " + numberText(std::round(1000.0 * fit.model.guess) / 10.0) + " % and "
+                 : "") +
+            "lapse rates of up to " + numberText(100.0 * fit.model.mostLapses()) +
+            (fit.model.guess > 0.0 ? " %." : " % at both ends, the same at each."));
 }
 
 void tellMagnitudes(ReportBuilder& report) {

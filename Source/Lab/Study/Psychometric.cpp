@@ -48,8 +48,8 @@ public:
     }
     PsychometricFunction function(const Point& at) const {
         // The cosine maps any real number to a lapse rate within its bounds.
-        const double lapse = model_.lapseUpTo * 0.5 * (1.0 - std::cos(at[2]));
-        return {model_.shape, least_ + range_ * at[0], range_ * std::exp(at[1]), model_.guess, lapse};
+        const double lapse = model_.mostLapses() * 0.5 * (1.0 - std::cos(at[2]));
+        return model_.with(least_ + range_ * at[0], range_ * std::exp(at[1]), lapse);
     }
     /// Negative log-likelihood.
     double operator()(const Point& at) const {
@@ -158,13 +158,11 @@ std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricMod
     for (const LevelCount& c : counts)
         for (const double lapse : {f.lapse, 0.0})
             for (const std::uint64_t own : {std::uint64_t{0}, c.hits, c.trials}) {
-                const double share =
-                    (static_cast<double>(own) / static_cast<double>(c.trials) - model.guess) /
-                    (1.0 - model.guess - lapse);
-                const double at =
-                    c.level - width * whereRisen(model.shape, std::clamp(share, 1e-3, 1.0 - 1e-3));
-                if (hasJnd && logLikelihood(counts, {model.shape, at, width, model.guess, lapse}) >
-                                  likeliest - sameLikelihood)
+                PsychometricFunction step = model.with(c.level, width, lapse);
+                const double share = (static_cast<double>(own) / static_cast<double>(c.trials) - step.guess) /
+                                     (1.0 - step.guess - lapse);
+                step.threshold -= width * whereRisen(model.shape, std::clamp(share, 1e-3, 1.0 - 1e-3));
+                if (hasJnd && logLikelihood(counts, step) > likeliest - sameLikelihood)
                     return "a step fits as well, so the answers tell no JND";
             }
     if (f.threshold < least.level || f.threshold > most.level)
