@@ -83,12 +83,12 @@ struct PsychometricFit {
     std::string fault; ///< why it is no fit, in one line; if set, the rest is of no account
     PsychometricFunction function{};
     double logLikelihood = 0.0;
+    bool hasJnd = false; ///< else the width and the JND are of no account
 };
 
 /// Maximum-likelihood fit; `counts` by rising levels. Errors: fewer than two levels, answers that do not rise
-/// with the level or as a step alone, a width at the bound of the search (20 times the levels' range), a
-/// threshold outside the levels. `hasJnd`: the width is wanted, too, so a step is no fit. Any thread
-/// (allocates).
+/// with the level, a width at the bound of the search (20 times the levels' range), a threshold outside the
+/// levels. `hasJnd`: the width is wanted, too; a step has none. Any thread (allocates).
 PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model,
                                 bool hasJnd = true);
 
