@@ -40,8 +40,12 @@ level <- function(d, factor) {
   if (nrow(d) > 0 && !anyNA(found)) return(unname(found)) # a word, though a column may have its name
   if (factor %in% names(d)) return(d[[factor]])
   column <- sub("\\.[1-9]$", "", factor)
-  if (column != factor && column %in% names(d)) return(sapply(strsplit(d[[column]], "-", fixed = TRUE), `[`, as.integer(sub(".*\\.", "", factor))))
+  if (column != factor && column %in% names(d)) return(sapply(parts.of(d[[column]]), `[`, as.integer(sub(".*\\.", "", factor))))
   unname(found)
+}
+parts.of <- function(cells) { # PHONE-3x3, index_60Hz
+  parts <- strsplit(cells, "-", fixed = TRUE)
+  if (all(lengths(parts) == 2)) parts else strsplit(cells, "_", fixed = TRUE)
 }
 in.order <- function(levels) { # numbers by size
   levels <- sort(unique(levels), method = "radix"); numbers <- suppressWarnings(as.numeric(levels))
@@ -281,10 +285,10 @@ alternatives.of <- function(d) {
   sort(setdiff(unique(c(d$choice, parts)), ""), method = "radix")
 }
 
-# Names of the factors in a column: words (pair=wood), the letters of the thesis' methods, two parts that are crossed (PHONE-3x3), or the column.
+# Names of the factors in a column: words (pair=wood), the letters of the thesis' methods, two parts that are crossed (PHONE-3x3, index_60Hz), or the column.
 factor.names <- function(column, d) {
   if (!(column %in% names(d))) return(character())
-  cells <- unique(d[[column]]); words <- unlist(strsplit(cells, " ", fixed = TRUE)); parts <- strsplit(cells, "-", fixed = TRUE)
+  cells <- unique(d[[column]]); words <- unlist(strsplit(cells, " ", fixed = TRUE)); parts <- parts.of(cells)
   if (length(words) > 0 && all(grepl("=", words, fixed = TRUE))) return(unique(sub("=.*", "", words)))
   if (length(cells) > 1 && all(grepl("^A[VF]-F[VF]-DR[VF]$", cells))) return(c("A", "F", "DR"))
   if (column == "condition" && all(lengths(parts) == 2)) {

@@ -120,6 +120,8 @@ ours <- told(anova.test("t", "trials.csv", "y", c("condition.2", "A"), where = "
 ring <- d[startsWith(d$condition, "RING"), ]
 for (f in names(ring)[1:3]) ring[[f]] <- factor(ring[[f]])
 r <- summary(aov(y ~ condition * stimulus + Error(participant / (condition * stimulus)), ring))
+rows(transform(d, condition = sub("-", "_", d$condition)))
+same("index_60Hz", line(told(anova.test("t", "trials.csv", "y", design.of(table.of("trials.csv"))$within)), "condition.1")$p, line(told({ rows(d); anova.test("t", "trials.csv", "y", c("condition.1", "condition.2", "A")) }), "condition.1")$p)
 same("condition.2", line(ours, "condition.2")$p, r[["Error: participant:condition"]][[1]][1, "Pr(>F)"])
 same("A of AV", line(ours, "A")$p, r[["Error: participant:stimulus"]][[1]][1, "Pr(>F)"])
 # Nothing to be found is told, and the other lines stand.
