@@ -331,8 +331,7 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     return taken;
 }
 
-/// Where the levels of a table are: a column of that name, or `name=level` among the words of a condition or
-/// stimulus.
+/// Where a table's levels are: a column of that name, or `name=level` in the words of condition or stimulus.
 struct LevelSource {
     std::size_t column = 0;
     std::string mark{}; ///< "level_g="; empty: the whole cell

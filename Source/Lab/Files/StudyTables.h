@@ -147,8 +147,7 @@ private:
 };
 } // namespace physvib::detail
 
-// Finds participants who occur in more than one table: one person with several files, or two people with the
-// same code.
+// Participants in more than one table: one person with several files, or two people with the same code.
 
 namespace physvib {
 class SharedParticipants {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report sections on identification (information transfer, percent correct by condition and by stimulus) and
-// on pointing.
+// Report sections on identification (information transfer, percent correct) and on pointing.
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ReportBuilder.h"
@@ -187,8 +186,7 @@ void tellIdentification(ReportBuilder& report) {
     if (isGrid(conditionsOf(data.value, 0))) tellCriterion(report, data.value, 1);
 }
 
-// Pointing: responses with normal distributions, perceived rows and columns, most likely targets, percent
-// counts.
+// Pointing: responses with normals, perceived rows and columns, likeliest targets, percent counts.
 
 namespace {
 

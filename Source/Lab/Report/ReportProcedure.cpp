@@ -133,8 +133,7 @@ void tellCalls(ReportBuilder& report) {
     }
 }
 
-/// "6 female, 5 male, 1 not known": counts of each word. `strangers` is the number of participants without an
-/// entry.
+/// "6 female, 5 male, 1 not known": counts of each word. `strangers`: participants without an entry.
 std::string countsOf(const std::vector<const PersonFacts*>& people, std::size_t strangers,
                      std::string PersonFacts::*field) {
     std::map<std::string, std::size_t> counts;
@@ -148,8 +147,7 @@ std::string countsOf(const std::vector<const PersonFacts*>& people, std::size_t 
     return words;
 }
 
-/// Reports the facts given by the user on participants whose trials count, and lists missing facts as
-/// reminders.
+/// The facts given by the user on participants whose trials count; missing ones as reminders.
 void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, Attended>>& attended) {
     const StudyFacts& facts = report.trials.facts;
     std::vector<const PersonFacts*> people;

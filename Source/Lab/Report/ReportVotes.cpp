@@ -127,8 +127,7 @@ void tellRatings(ReportBuilder& report) {
                        "Mean scores by factor" + report.asThesis("Fig. 5.13") + report.intervals() + ".");
 }
 
-// Report section on answers in words, from the columns task, phase, condition, session, stimulus and
-// response.
+// Report section on answers in words.
 
 bool tellDescriptions(ReportBuilder& report) {
     const Cells cell{report.trials.all};

@@ -36,8 +36,7 @@ double whereRisen(PsychometricShape shape, double share) {
 
 using Point = std::array<double, 3>; // threshold, log of the width, lapse, each in search units
 
-/// Objective function of the fit: maps a point to a psychometric function and to the likelihood of the
-/// trials.
+/// Objective function of the fit: maps a point to a psychometric function and to its likelihood.
 class Likelihood {
 public:
     Likelihood(std::span<const LevelCount> counts, const PsychometricModel& model)

@@ -22,8 +22,7 @@ enum class PsychometricShape {
 
 inline constexpr std::array<std::string_view, 3> psychometricShapeNames{"logistic", "normal", "weibull"};
 
-/// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold and rises from 0.05 to 0.95 within
-/// the width.
+/// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold, from 0.05 to 0.95 within the width.
 struct PsychometricFunction {
     PsychometricShape shape = PsychometricShape::logistic;
     double threshold = 0.0, width = 1.0; ///< in the unit of the levels; width > 0
@@ -75,8 +74,7 @@ std::vector<LevelCount> countByLevel(const Trials& trials, Of of) {
     return all;
 }
 
-/// Natural logarithm of the probability of the answers. A probability of 0 or 1 counts as 1e-12 away from it.
-/// Any thread.
+/// Natural logarithm of the answers' probability. 0 and 1 count as 1e-12 away from it. Any thread.
 double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function);
 
 struct PsychometricFit {

@@ -240,8 +240,7 @@ auto labelKey(const std::string& label) {
 
 using Run = std::vector<const LevelTrial*>; // one participant's trials of a session
 
-/// Levels that stayed though as many answers in a row were given as moved others: the ends of a staircase's
-/// levels.
+/// Levels that stayed though as many answers in a row moved others: the ends of a staircase's levels.
 std::set<double> endsOf(const Run& run) {
     std::set<double> ends;
     std::array<std::size_t, 2> enough{run.size(), run.size()}; // wrong, right
