@@ -44,7 +44,7 @@ step() {
         mixer) Tests/Mixer/soak.sh && ensure_packages openbox && Tests/Mixer/headphones.sh $bin ;;
         breaks) Tests/breaks.py build/release build/nightly/breaks ;;
         studies) ensure_packages r-cran-lme4 && Tests/Study/R/run.sh Tests/Study/R/analysis_test.R Source/Lab/Script/analysis.R && Tests/Studies/recorded.sh $bin && Tests/Studies/faults.sh $bin && Tests/Studies/every-fault.sh $bin ;;
-        coverage) $bin/physvib-study-coverage ;;
+        coverage) $bin/physvib-study-coverage && ensure_packages r-cran-lme4 && Tests/Study/R/run.sh Tests/Study/R/alarms.R Source/Lab/Script/analysis.R ;;
         hours) Tests/ten-hours.sh ;;
         realtime) Tests/Realtime/rtsan.sh ;;
         projucer) Tests/House/projucer.sh ;;

@@ -91,11 +91,11 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
     ASSERT_EQ(call("report t.csv --out out --columns participant=p,group=g,correct=ok,level_db=x").exitCode,
               0);
     EXPECT_TRUE(has(page(), "Groups: 2 old, 1 young."));
-    EXPECT_TRUE(has(page(), "1 row with nothing in one of the named columns left out")) << page();
+    EXPECT_TRUE(has(page(), "participant P1: 1 trial without an answer left out")) << page();
     EXPECT_FALSE(has(page(), "Nobody and no main trial is left out."));
     write("t.csv", "participant,group,ease\nA,x,4\nB,x,5\nC,y,1\nD,y,2\n");
     ASSERT_EQ(call("report t.csv --out ease").exitCode, 0);
-    EXPECT_TRUE(has(read("ease/index.html"), "all trials: 4 trials of 4 participants, ease 3.0 +- "));
+    EXPECT_TRUE(has(read("ease/index.html"), "group=x: 2 trials of 2 participants, ease 4.5 +- "));
 }
 
 TEST_F(Report, ANotebookOfTheTestsIsWrittenOnRequestAndStaysOnceEdited) {
@@ -191,12 +191,28 @@ TEST_F(Report, AnswersAtLevelsOfOtherProgramsGetFunctionsInTheirOwnWords) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const std::string html = page();
     EXPECT_TRUE(has(html, "Share of answers \u201cfaster\u201d by speed."));
-    EXPECT_TRUE(has(html, "with a guess rate of 0 %"));
+    EXPECT_TRUE(has(html, "with lapse rates of up to 2 % at both ends"));
     EXPECT_TRUE(has(html, "reversals are not looked for"));
     for (const char* bad : {"Orders of the conditions", "level (dB)", "Trainings", "own level"})
         EXPECT_FALSE(has(html, bad)) << bad;
     const auto analysed = call("analyse psychometric f.csv --guess 0 --lapse 0" + columns);
     EXPECT_TRUE(has(html, "none: threshold ") && has(analysed.out, "none: threshold ")) << analysed.err;
+}
+
+TEST_F(Report, OfOtherProgramsTablesItTellsWhatIsNotAnsweredNotNamedAndGrouped) {
+    write("f.csv", fasterTable(1.0) + "a,none,4,None\na,,,\n");
+    const auto told = call("report f.csv --out out --guess 0 --columns "
+                           "participant=who,level_db=speed,correct=faster");
+    EXPECT_TRUE(has(told.err, "that are not used: masker")) << told.err;
+    EXPECT_TRUE(has(page(), "participant a: 1 trial without an answer left out"));
+    EXPECT_TRUE(has(page(), "1 row with nothing in one of the named columns left out"));
+    std::string ratings = "who,team,glove,ease\n";
+    for (const char* who : {"a,x", "b,x", "c,y", "d,y"})
+        ratings += std::string{who} + ",on,40\n" + who + ",off,50\n";
+    write("r.csv", ratings);
+    call("report r.csv --out out --columns participant=who,group=team,condition=glove,ease=ease");
+    for (const char* bar : {"condition=on group=y,ease,2,2,40", "group=x,ease,4,2,"})
+        EXPECT_TRUE(has(read("out/ratings.csv"), bar)) << bar;
 }
 
 TEST_F(Report, SmallLevelsKeepTheirDigitsAndFewPeopleTheirInterval) {

@@ -160,10 +160,9 @@ std::string prefixOf(const std::string& condition) {
     return condition.empty() ? "" : printable(condition) + ": ";
 }
 
-void leaveOut(AnalysisReport& report, const std::string& condition, const std::string& participant,
-              const std::string& fault) {
-    report.warnings.push_back(prefixOf(condition) + "participant " + printable(participant) +
-                              " left out: " + fault);
+void warnOf(AnalysisReport& report, const std::string& condition, const std::string& participant,
+            const std::string& words) {
+    report.warnings.push_back(prefixOf(condition) + "participant " + printable(participant) + words);
 }
 
 void tellNobodyFitted(const Findings& to) {
@@ -191,23 +190,35 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
     for (const auto& condition : data.conditions) {
         std::vector<double> thresholds, jnds;
         const bool isAdaptive = condition.trials.front().isAdaptive;
-        const auto ifKnown = [=](double slope) { return isAdaptive ? std::nullopt : std::optional{slope}; };
         for (const auto& own : psychometricByParticipant(condition.trials, o.model)) {
             if (!own.fit.fault.empty()) {
-                leaveOut(report, condition.name, own.participant, own.fit.fault);
+                warnOf(report, condition.name, own.participant, " left out: " + own.fit.fault);
                 continue;
             }
             const PsychometricFunction& f = own.fit.function;
+            const auto ifKnown = [&](double slope) {
+                return own.fit.hasJnd ? std::optional{slope} : std::nullopt;
+            };
             thresholds.push_back(f.threshold);
-            jnds.push_back(f.jnd());
+            if (own.fit.hasJnd || isAdaptive)
+                jnds.push_back(f.jnd());
+            else
+                warnOf(
+                    report, condition.name, own.participant,
+                    ": a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be "
+                    "the smallest");
             table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),
                       ifKnown(f.jnd()), f.guess, f.lapse, own.fit.logLikelihood);
         }
         if (thresholds.empty()) return tellNobodyFitted(to);
-        const int decimals = decimalsOf(Moments(jnds).mean);
+        const int decimals = decimalsOf(Moments(jnds.empty() ? thresholds : jnds).mean);
         out << prefixOf(condition.name) << meanWords("threshold", thresholds, decimals) << ", "
             << (isAdaptive ? "no JND (answers chose the levels, which makes slopes too steep)"
-                           : meanWords("JND", jnds, decimals))
+                : jnds.empty()
+                    ? "no JND (a step fits as well)"
+                    : meanWords("JND", jnds, decimals) + (jnds.size() < thresholds.size()
+                                                              ? " (n = " + std::to_string(jnds.size()) + ")"
+                                                              : ""))
             << ", " << counted(thresholds.size(), "participant") << '\n';
     }
     const auto& first = data.conditions.front();
@@ -223,7 +234,7 @@ void analysePowerLaw(const LevelAnswers& data, const Findings& to) {
         std::vector<double> exponents;
         for (const auto& own : powerLawByParticipant(condition.trials)) {
             if (!own.law.fault.empty()) {
-                leaveOut(report, condition.name, own.participant, own.law.fault);
+                warnOf(report, condition.name, own.participant, " left out: " + own.law.fault);
                 continue;
             }
             exponents.push_back(own.law.exponent);

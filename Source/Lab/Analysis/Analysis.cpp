@@ -2,6 +2,7 @@
 // List of all analyses, and selection of those that fit a table.
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Files/TrialLog.h"
+#include "Lab/Report/ReportTrials.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
 #include <set>
@@ -13,6 +14,25 @@ namespace {
 template <auto reader>
 auto fromFiles(const AnalysisJob& job) {
     return readStudyFiles(job, reader);
+}
+
+/// Without the staircases and QUEST+ that did not come to their end, where the protocol is known.
+Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
+    return readStudyFiles(job, [](const std::vector<NamedText>& files) {
+        auto data = readLevels(files);
+        for (const NamedText& file : files) {
+            const auto trials = readReportTrials({{std::string{file.name}, std::string{file.text}}}, {}, {});
+            if (!data || !trials) continue;
+            for (const UnfinishedRun& run : unfinishedRuns(trials.value))
+                if (run.isAdaptive &&
+                    std::erase_if(data.value.conditions.front().trials, [&](const LevelTrial& trial) {
+                        return trial.participant == run.participant && trial.condition == run.condition &&
+                               trial.session.substr(0, trial.session.find('/')) == run.session;
+                    }) > 0)
+                    data.value.warnings.push_back(run.words());
+        }
+        return data;
+    });
 }
 
 /// What `analyse` finds in the trials that `read` finds.
@@ -54,7 +74,7 @@ constexpr Analysis analyses[] = {
     {Analysis::Kind::results, "levels",
      "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means",
      "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation,half_interval",
-     analysed<fromFiles<readLevels>, analyseLevels>},
+     analysed<readFinishedLevels, analyseLevels>},
     {Analysis::Kind::results, "icons", "stimulus,response per trial: the patterns that are confused least",
      "condition,stimulus,percent_correct", analysed<readLabels, analyseIcons>},
     {Analysis::Kind::fit, "psychometric",
@@ -125,7 +145,7 @@ std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
     std::vector<std::string> names;
     bool hasPlaces = false;
     const auto look = [&](const std::vector<NamedText>& files) -> Result<bool> {
-        std::size_t leftOut = 0;
+        RowsLeftOut leftOut;
         const auto table = readStudyTable(files[0].text, files[0].name, job.columns, leftOut);
         if (table) names = analysesFor(table.value);
         hasPlaces = table.value.column("target_x").has_value();

@@ -240,7 +240,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
     for (const auto& own : psychometricByParticipant(trials, model)) {
         if (!own.fit.fault.empty()) continue;
         thresholds.push_back(own.fit.function.threshold);
-        widths.push_back(own.fit.function.width);
+        if (own.fit.hasJnd || isAdaptive) widths.push_back(own.fit.function.width);
         lapses.push_back(own.fit.function.lapse);
         if (isAdaptive) continue;
         chart.series.push_back(curve(own.fit.function, least, most));
@@ -259,9 +259,9 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
             ChartValue::around(told->estimate, told->participants > 1 ? told->halfInterval : 0.0);
         chart.thresholdWords = "threshold " + fixedNumber(told->estimate, 1);
     } else if (!thresholds.empty()) {
-        if (!isAdaptive) {
-            LineSeries mean = curve(
-                {model.shape, meanOf(thresholds), meanOf(widths), model.guess, meanOf(lapses)}, least, most);
+        if (!isAdaptive && !widths.empty()) {
+            LineSeries mean =
+                curve(model.with(meanOf(thresholds), meanOf(widths), meanOf(lapses)), least, most);
             mean.name = "function of the mean threshold and width";
             mean.style = 4;
             chart.series.push_back(std::move(mean));

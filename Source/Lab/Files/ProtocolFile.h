@@ -53,15 +53,13 @@ std::string besideProtocol(const std::string& folder, const std::string& path);
 /// Message thread only.
 std::string linkFault(const std::string& folder, const std::string& path);
 
-/// One of knownProtocols() by name, else the protocol of a file, whose folder becomes `folder`. Message
-/// thread only.
+/// One of knownProtocols() by name, else that of a file, whose folder becomes `folder`. Message thread only.
 Result<Protocol> findProtocol(const std::string& nameOrPath);
 
 // Versions NAME-thesis of the built-in protocols, with all applicable changes of ThesisDeviations.h, so that
 // they run as published.
 
-/// One version per built-in protocol with an applicable change, in listing order. Created on first use; any
-/// thread.
+/// One version per built-in protocol with an applicable change, as listed. Created on first use; any thread.
 const std::vector<Protocol>& thesisVersions();
 
 // CSV files of stimulus levels that experts adjusted, used by another study.

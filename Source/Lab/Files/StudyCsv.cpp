@@ -244,7 +244,7 @@ std::vector<std::size_t> scaleColumns(const CsvTable& table, std::vector<std::st
 std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     const auto scales = scaleColumns(rows.table(), ratings.warnings);
     const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
-               participant = rows.optional("participant");
+               participant = rows.optional("participant"), group = rows.optional(trialColumns::group);
     std::vector<std::string> names;
     for (const auto c : scales) names.push_back(rows.table().columns[c]);
     if (names.empty())
@@ -254,6 +254,7 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     ratings.scales = names;
     return rows.each(AnswerKind::scores, [&](const CsvRow& row) {
         RatingTrial trial{StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), {}};
+        if (group) trial.condition.append(stimulus ? " group=" : "group=").append(row.cells[*group]);
         for (const auto c : scales) // of this session; others lack answers
             trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));
         conditionNamed(rows, ratings, {}).push_back(std::move(trial));
@@ -330,8 +331,7 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     return taken;
 }
 
-/// Where the levels of a table are: a column of that name, or `name=level` among the words of a condition or
-/// stimulus.
+/// Where a table's levels are: a column of that name, or `name=level` in the words of condition or stimulus.
 struct LevelSource {
     std::size_t column = 0;
     std::string mark{}; ///< "level_g="; empty: the whole cell

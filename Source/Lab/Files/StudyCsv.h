@@ -43,11 +43,9 @@ struct NamedText {
 };
 
 // For all readers: other columns are ignored. Training trials and trials of other tasks in files of `study
-// run` are omitted. The first error is reported as `name:17: column x: expected what, found "cell"`. Any
-// thread.
+// run` are omitted. The first error is `name:17: column x: expected what, found "cell"`. Any thread.
 
-/// Columns stimulus, response; optional condition, participant. Trials without a response are omitted with a
-/// warning.
+/// Columns stimulus, response; optional condition, participant. Of trials without a response it warns.
 Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedText> files);
 
 /// Columns target_column, target_row (1 to mostGridLines), x, y (0 to 1); optional condition.

@@ -112,7 +112,7 @@ std::string doubledRowFault(const CsvTable& table) {
     return {};
 }
 
-std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut) {
+std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, RowsLeftOut& leftOut) {
     if (names.empty()) return {};
     std::vector<std::size_t> from;
     std::vector<std::string> columns;
@@ -127,19 +127,30 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std:
         from.push_back(*observer);
         columns.emplace_back(trialColumns::observer);
     }
+    for (const std::string& column : table.columns)
+        if (trialHeadOf(table.comments).empty() && !column.empty() &&
+            std::ranges::find(names, column, &ColumnName::theirs) == names.end())
+            leftOut.columns.insert(column);
     const bool hasScales = !std::ranges::all_of(names, trialColumns::has, &ColumnName::ours);
-    const auto isWhole = [&](const CsvRow& row) { // of scales one is enough
-        bool isRated = !hasScales;
+    const auto who = std::ranges::find(columns, "participant") - columns.begin();
+    std::erase_if(table.rows, [&](const CsvRow& row) {
+        bool isRated = !hasScales, isAnswered = true, isTrial = false, isWhole = true;
         for (std::size_t c = 0; c < names.size(); ++c) {
-            const bool has = !row.cells[from[c]].empty() && !isNoAnswer(names[c].ours, row.cells[from[c]]);
-            if (!trialColumns::has(names[c].ours))
-                isRated |= has;
-            else if (!has)
-                return false;
+            const std::string& ours = names[c].ours;
+            const bool has = !row.cells[from[c]].empty() && !isNoAnswer(ours, row.cells[from[c]]);
+            if (!trialColumns::has(ours))
+                isRated |= has; // of scales one is enough
+            else if (holds(answerColumns, ours))
+                isAnswered &= has;
+            else
+                isWhole &= has, isTrial |= ours != "participant" && ours != trialColumns::group;
         }
-        return isRated;
-    };
-    rowsLeftOut += std::erase_if(table.rows, [&](const CsvRow& row) { return !isWhole(row); });
+        if (isWhole && isRated && isAnswered) return false;
+        ++leftOut.rows;
+        if (isWhole && isTrial && who < std::ssize(columns))
+            ++leftOut.unanswered[row.cells[from[static_cast<std::size_t>(who)]]];
+        return true;
+    });
     for (CsvRow& row : table.rows) {
         std::vector<std::string> cells;
         for (const std::size_t c : from) cells.push_back(row.cells[c]);
@@ -186,13 +197,13 @@ std::string unitFault(std::span<const ColumnName> names) {
 }
 
 Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
-                                std::span<const ColumnName> names, std::size_t& rowsLeftOut) {
+                                std::span<const ColumnName> names, RowsLeftOut& leftOut) {
     auto read = readCsvTable(text, name, names.empty() ? CsvHeader::named : CsvHeader::loose);
     if (!read) return read;
     CsvTable& table = read.value;
     if (!isUtf8(text))
         return Failure{table.name + ": expected UTF-8, found Latin-1 or the like: save it as CSV UTF-8"};
-    if (std::string fault = takeColumns(table, names, rowsLeftOut); !fault.empty())
+    if (std::string fault = takeColumns(table, names, leftOut); !fault.empty())
         return Failure{std::move(fault)};
     takeOthersWords(table);
     if (std::string fault = doubledRowFault(table); !fault.empty()) return Failure{std::move(fault)};

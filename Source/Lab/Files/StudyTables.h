@@ -37,15 +37,25 @@ Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> wo
 /// differ. Any thread (allocates).
 std::string unitFault(std::span<const ColumnName> names);
 
+/// Columns of answers, beside those of scales.
+inline constexpr std::string_view answerColumns[] = {"response", "choice", "correct", "value", "x", "y"};
+
+/// What of other programs' tables is not read.
+struct RowsLeftOut {
+    std::size_t rows = 0;                          ///< instructions, fixations, trials without an answer
+    std::map<std::string, std::size_t> unanswered; ///< of them these trials, by participant
+    std::set<std::string> columns;                 ///< that are not named
+};
+
 /// A table of trials in UTF-8, with one row per trial; otherwise one line on what is not as expected. With
 /// `names` it has the named columns alone, under our names, and `observer`, as that may mark simulated data.
-/// Rows with an empty cell in one of them (instructions, fixations, trials without an answer) are dropped and
-/// counted. From numeric true places target_x and target_y, columns target_column and target_row are derived,
-/// ascending from 1, if each axis has at most mostGridLines of them. In tables of other programs, answers
-/// that are none (null, None, NaN, NA, n/a) become empty cells, and right or wrong as true, TRUE, 1.0 become
-/// 1 or 0. Codes and labels stay: NA may be a participant. Any thread (allocates).
+/// Rows with an empty cell in one of them are dropped and counted. From numeric true places target_x and
+/// target_y, columns target_column and target_row are derived, ascending from 1, if each axis has at most
+/// mostGridLines of them. In tables of other programs, answers that are none (null, None, NaN, NA, n/a)
+/// become empty cells, and right or wrong as true, TRUE, 1.0 become 1 or 0. Codes and labels stay: NA may be
+/// a participant. Any thread (allocates).
 Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
-                                std::span<const ColumnName> names, std::size_t& rowsLeftOut);
+                                std::span<const ColumnName> names, RowsLeftOut& leftOut);
 
 /// Whether a simulated observer gave one of the answers. Any thread.
 bool saysSimulated(const CsvTable& table);
@@ -72,7 +82,7 @@ public:
         notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return rows.didNotLeave(row); });
     }
 
-    std::size_t leftOut() const noexcept { return leftOut_; } ///< rows dropped for an empty mapped cell
+    std::size_t leftOut() const noexcept { return leftOut_.rows; } ///< rows dropped for an empty mapped cell
 
     std::size_t notLeft() const noexcept {
         return notLeft_;
@@ -132,12 +142,12 @@ public:
 
 private:
     CsvTable table_;
-    std::size_t leftOut_ = 0, notLeft_ = 0, ranOut_ = 0;
+    RowsLeftOut leftOut_;
+    std::size_t notLeft_ = 0, ranOut_ = 0;
 };
 } // namespace physvib::detail
 
-// Finds participants who occur in more than one table: one person with several files, or two people with the
-// same code.
+// Participants in more than one table: one person with several files, or two people with the same code.
 
 namespace physvib {
 class SharedParticipants {

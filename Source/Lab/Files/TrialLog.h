@@ -43,9 +43,8 @@ struct TrialLog {
     std::size_t wholeBytes = 0; ///< size up to the last complete row; the rest was interrupted while writing
 };
 
-/// Reads the complete rows of this protocol's and participant's file, or returns one line on the first error.
-/// Of each trial only condition, session, number, stimulus and level are set; Experiment supplies the rest.
-/// Any thread.
+/// The complete rows of this protocol's and participant's file, or one line on the first error. Of each trial
+/// only condition, session, number, stimulus and level are set; Experiment supplies the rest. Any thread.
 Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol,
                               const Participant& participant);
 
@@ -110,8 +109,7 @@ constexpr std::string_view ranOut = "ran_out";
 /// Only in other programs' tables: the group of a participant who is compared with those of others.
 constexpr std::string_view group = "group";
 
-/// Measured values of each trial, after those. Files that older versions began without them stay without
-/// them.
+/// Measured values of each trial, after those. Files begun without them stay without them.
 constexpr std::string_view peakG = "peak_g", rmsG = "rms_g", exposure = "a8_m_per_s2";
 inline constexpr std::array<std::string_view, 3> measured{peakG, rmsG, exposure};
 
@@ -121,9 +119,8 @@ constexpr std::string_view limiterDb = "limiter_db", masterDb = "master_db", noi
 inline constexpr std::array<std::string_view, 5> apparatus{limiterDb, masterDb, noiseDb, device, version};
 constexpr std::string_view noNoise = "off"; ///< cell of noise_db without noise
 
-/// What of the trial left, the last columns; older files stay without them. `left`: 1 if every part left as
-/// it was planned, 0 if one did not, empty if nothing is known. `again`: plays that did not leave and were
-/// repeated.
+/// What of the trial left, the last columns; older files have none. `left`: 1 if every part left as planned,
+/// 0 if one did not, empty if nothing is known. `again`: plays that did not leave and were repeated.
 constexpr std::string_view left = "left", again = "again";
 inline constexpr std::array<std::string_view, 2> receipts{left, again};
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes analysis.R: a line of its origin with a hash, the functions, then one call; and the notebook
-// likewise.
+// Writes analysis.R: a line of its origin with a hash, the functions, one call; and the notebook.
 #include "Lab/Report/AnalysisScript.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/Embedded.h"

@@ -11,8 +11,7 @@
 
 namespace physvib {
 
-/// Name of the script beside a report's tables, and of what it writes: a line per figure, and the same in
-/// words.
+/// The script beside a report's tables, and what it writes: a line per figure, and the same in words.
 inline constexpr const char *analysisScriptName = "analysis.R", *notebookName = "analysis.qmd";
 inline constexpr const char* testsTable = "tests.csv";
 inline constexpr const char* testsWords = "tests.txt";

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Exports trials as a dataset of the Brain Imaging Data Structure (BIDS 1.8, behaviour without imaging), as
-// files in memory.
+// Trials as a dataset of the Brain Imaging Data Structure (BIDS 1.8, without imaging), in memory.
 #pragma once
 #include "Io/Text/CsvTable.h"
 #include <map>

@@ -104,11 +104,11 @@ std::string staircaseWords(const StaircasePlan& plan) {
     return "; staircase on " + plan.alternative + ": " + std::to_string(plan.down) + " down, 1 up, " +
            (plan.upRatio != 1.0 ? "steps up " + numberText(plan.upRatio) + " times as large, "
                                 : std::string{}) +
-           (plan.startsDb.empty() ? "starting at " + numberText(plan.startDb)
-                                  : std::to_string(plan.startsDb.size()) +
-                                        " staircases, each trial of one that is not over, at random, "
-                                        "starting at " +
-                                        joinedWords(plan.startsDb, ", ", numberText)) +
+           (plan.startsDb.empty()
+                ? "starting at " + numberText(plan.startDb)
+                : std::to_string(plan.startsDb.size()) +
+                      " staircases, each trial of one that is not over, at random, starting at " +
+                      joinedWords(plan.startsDb, ", ", numberText)) +
            " dB in steps of " + dbWords(plan.stepDb) + ", halved at each reversal down to " +
            dbWords(plan.leastStepDb) + ", " + rangeWords(plan.leastDb, plan.mostDb) + ", until " +
            std::to_string(plan.reversals) + " reversals or " + std::to_string(plan.mostTrials) + " trials";

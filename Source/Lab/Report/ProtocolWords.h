@@ -9,8 +9,7 @@
 #include <vector>
 
 namespace physvib {
-/// What a score of a session's scale, or of an object that is rated side by side, means. Any thread
-/// (allocates).
+/// What a score of a scale, or of an object that is rated side by side, means. Any thread (allocates).
 std::string scoreWords(const SessionPlan& session, const std::string& scale);
 
 /// Sentences on the protocol as a whole. Message thread only.
@@ -22,8 +21,7 @@ std::string conditionWords(const ConditionPlan& condition);
 /// One line on the question, repetitions and breaks of a session of that protocol. Any thread (allocates).
 std::string sessionWords(const SessionPlan& session, const Protocol& protocol);
 
-/// What a level in dB moves in the protocol's calls besides how strong they are; empty: nothing. Any thread
-/// (allocates).
+/// What a level in dB moves in the protocol's calls besides their strength. Any thread (allocates).
 std::vector<std::string> movedBesideStrength(const Protocol& protocol, bool byRove = false);
 
 /// One line per recording that calls with --method SV play. Any thread (allocates).

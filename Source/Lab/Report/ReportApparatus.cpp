@@ -126,8 +126,7 @@ std::string meaningOf(std::string_view column, const std::vector<std::string>& m
                "; where participants set a level, that at the start. ";
     if (column == trialColumns::peakG)
         return "peak_g: the peak of the signal that left for the strongest actuator, of each part of a "
-               "trial, "
-               "times the full scale that its layout states, in g. ";
+               "trial, times the full scale that its layout states, in g. ";
     if (column == trialColumns::rmsG) return "rms_g: its root mean square, likewise. ";
     if (column == trialColumns::exposure)
         return "a8_m_per_s2: the participant's exposure up to there, A(8) by ISO 5349-1. ";
@@ -138,8 +137,7 @@ std::string meaningOf(std::string_view column, const std::vector<std::string>& m
 std::string chainOf(const ReportTrials& trials) {
     if (trials.protocol) return levelChain(*trials.protocol, "as they left (measured)");
     return "Levels in g are samples as they left (measured), times a full scale that is assumed, as the "
-           "layouts are "
-           "not known here: no accelerometer measured them.";
+           "layouts are not known here: no accelerometer measured them.";
 }
 
 /// Table of the levels of every part of every stimulus, where they are in the rows.

@@ -4,6 +4,7 @@
 #include "Io/Charts/Charts.h"
 #include "Io/Text/CsvTable.h"
 #include "Lab/Analysis/Analysis.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Report/ReportPage.h"
 #include "Lab/Report/ReportTrials.h"
 #include "Lab/Study/ThesisDeviations.h"
@@ -147,6 +148,9 @@ void tellPlaceErrors(ReportBuilder& report);    ///< targets without a grid: con
 void tellChoices(ReportBuilder& report);        ///< Fig. 5.8, 5.9
 void tellRatings(ReportBuilder& report);        ///< Fig. 5.13, 5.14
 void tellLevels(ReportBuilder& report); ///< staircases, adjustments, magnitudes; psychometric functions
+/// A chart of each condition's answers and functions. Of QUEST+, `quest` has the thresholds.
+void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const PsychometricModel& model,
+                   const FitWords& words, const std::vector<LevelSummary>& quest = {});
 /// Counts answers in words by stimulus; true if there are any.
 bool tellDescriptions(ReportBuilder& report);
 

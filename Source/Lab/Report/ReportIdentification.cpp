@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report sections on identification (information transfer, percent correct by condition and by stimulus) and
-// on pointing.
+// Report sections on identification (information transfer, percent correct) and on pointing.
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ReportBuilder.h"
@@ -140,17 +139,18 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
                 barsOf(axes, all, [](const auto& c) { return ChartValue::around(c.transfer.bits); })};
     it.ceilings = ceilingsOf(axes, all);
     it.ceilingWords = "most possible";
-    report.page.figure({barChart(it)}, "Information transfer of all participants' trials together" + words +
-                                           report.asThesis("Fig. 3.11, 4.2") +
-                                           ": one estimate per condition, so it "
-                                           "has no interval. Dotted: log2 of the number of stimuli.");
+    report.page.figure(
+        {barChart(it)},
+        "Information transfer of all participants' trials together" + words +
+            report.asThesis("Fig. 3.11, 4.2") +
+            ": one estimate per condition, so it has no interval. Dotted: log2 of the number of stimuli.");
     if (hasPeople) {
         it.frame = report.frame("Information transfer of participants" + words);
         it.series = barsOf(axes, all, [](const auto& c) { return withInterval(c.bits); });
         report.page.figure({barChart(it)}, "Mean of the participants' own information transfer" + words +
                                                report.intervals() +
-                                               ". Few trials make everyone's too high: "
-                                               "compare conditions of as many stimuli and trials only.");
+                                               ". Few trials make everyone's too high: compare conditions of "
+                                               "as many stimuli and trials only.");
     }
     BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)", axes.groups,
                 barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
@@ -186,8 +186,7 @@ void tellIdentification(ReportBuilder& report) {
     if (isGrid(conditionsOf(data.value, 0))) tellCriterion(report, data.value, 1);
 }
 
-// Pointing: responses with normal distributions, perceived rows and columns, most likely targets, percent
-// counts.
+// Pointing: responses with normals, perceived rows and columns, likeliest targets, percent counts.
 
 namespace {
 
@@ -253,19 +252,17 @@ void tellPlaces(ReportBuilder& report) {
         if (!one.resolution.resolution.ties.empty())
             grids.push_back(mergedChart(report.frame(one.condition), one.resolution));
     }
-    report.page.figure(
-        responses,
-        "Every response (coloured by target, shaped by its row) and the normal distribution of each "
-        "target's responses (ellipses of one standard deviation)" +
-            report.asThesis("Fig. 4.6") + ".");
+    report.page.figure(responses,
+                       "Every response (coloured by target, shaped by its row) and the normal distribution "
+                       "of each target's responses (ellipses of one standard deviation)" +
+                           report.asThesis("Fig. 4.6") + ".");
     report.page.figure({perceivedChart(report, places, false), perceivedChart(report, places, true)},
                        "Mean perceived column and row against the intended one" +
                            report.asThesis("Fig. 4.7") + report.intervals() + ".");
     report.page.figure(territories,
                        "The likeliest target of every place" + report.asThesis("Fig. 4.8") +
-                           ". "
-                           "Numbers, row,column of the target, stand at the mean of its responses; "
-                           "where one lies in another's territory, it is not told apart.");
+                           ". Numbers, row,column of the target, stand at the mean of its responses; where "
+                           "one lies in another's territory, it is not told apart.");
     report.page.figure(counts, "Percent counts: the share of the field that each target is likeliest for" +
                                    report.asThesis("Fig. 4.9 a") + ". Framed: below 1.42 %.");
     if (!grids.empty())

@@ -53,36 +53,7 @@ void tellThresholds(ReportBuilder& report, const StudyFiles& tables,
     const NamedText file{tables.at(trialsTable), trialsTable};
     const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
-    const FitWords words = fitWords(report.trials.columns);
-    std::vector<std::string> charts;
-    for (const auto& condition : data.value.conditions)
-        if (const auto* const told = conditionNamed(quest, condition.name); told || quest.empty())
-            charts.push_back(psychometricChart(
-                report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
-                condition.trials, fit.model, words, told));
-    std::string caption = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
-                          ". Circles: all participants' trials, larger where there were more; ";
-    const bool isAdaptive = data.value.conditions.front().trials.front().isAdaptive;
-    caption += isAdaptive
-                   ? "no functions are drawn, as answers chose the levels. "
-                   : "thin lines: the function of each participant; thick: their mean threshold and width. ";
-    caption += report.people() > 1 ? "Dotted: mean threshold, shaded its 95 % interval over participants. "
-                                   : "Dotted: threshold. ";
-    if (!quest.empty()) return report.page.figure(charts, caption + "It is that of QUEST+ (levels.csv).");
-    if (isAdaptive)
-        caption += "Thresholds are where the function is half way between guessing and certainty, which need "
-                   "not be where "
-                   "the method ends (levels.csv); the functions are ";
-    else
-        caption += "The functions are ";
-    report.page.figure(
-        charts,
-        caption + std::string(psychometricShapeNames[static_cast<std::size_t>(fit.model.shape)]) +
-            ", with a guess rate of " +
-            fixedNumber(100.0 * fit.model.guess,
-                        std::abs(100.0 * fit.model.guess - std::round(100.0 * fit.model.guess)) < 1e-9 ? 0
-                                                                                                       : 1) +
-            " % and lapse rates of up to " + numberText(100.0 * fit.model.lapseUpTo) + " %.");
+    tellFunctions(report, data.value, fit.model, fitWords(report.trials.columns), quest);
 }
 
 void tellMagnitudes(ReportBuilder& report) {
@@ -96,11 +67,9 @@ void tellMagnitudes(ReportBuilder& report) {
     for (const auto& condition : data.value.conditions)
         charts.push_back(powerLawChart(report.frame(condition.name.empty() ? "Magnitudes" : condition.name),
                                        condition.trials, "level"));
-    report.page.figure(
-        charts, "Magnitude estimations: geometric means" + report.intervals() +
-                    ", and "
-                    "the mean power law, both axes logarithmic. Each participant's numbers are divided by "
-                    "their own geometric mean first.");
+    report.page.figure(charts, "Magnitude estimations: geometric means" + report.intervals() +
+                                   ", and the mean power law, both axes logarithmic. Each participant's "
+                                   "numbers are divided by their own geometric mean first.");
 }
 
 std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
@@ -133,6 +102,38 @@ void tellEndsOfRanges(ReportBuilder& report) {
 }
 
 } // namespace
+
+void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const PsychometricModel& model,
+                   const FitWords& words, const std::vector<LevelSummary>& quest) {
+    std::vector<std::string> charts;
+    for (const auto& condition : data.conditions)
+        if (const auto* const told = conditionNamed(quest, condition.name); told || quest.empty())
+            charts.push_back(psychometricChart(
+                report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
+                condition.trials, model, words, told));
+    std::string caption = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
+                          ". Circles: all participants' trials, larger where there were more; ";
+    const bool isAdaptive = data.conditions.front().trials.front().isAdaptive;
+    caption += isAdaptive ? "no functions are drawn, as answers chose the levels. "
+                          : "thin lines: the function of each participant who has one; thick: their mean "
+                            "threshold and width. ";
+    caption += report.people() > 1 ? "Dotted: mean threshold, shaded its 95 % interval over participants. "
+                                   : "Dotted: threshold. ";
+    if (!quest.empty()) return report.page.figure(charts, caption + "It is that of QUEST+ (levels.csv).");
+    if (isAdaptive)
+        caption += "Thresholds are where the function is half way between guessing and certainty, which need "
+                   "not be where the method ends (levels.csv); the functions are ";
+    else
+        caption += "The functions are ";
+    report.page.figure(
+        charts,
+        caption + std::string(psychometricShapeNames[static_cast<std::size_t>(model.shape)]) + ", with " +
+            (model.guess > 0.0
+                 ? "a guess rate of " + numberText(std::round(1000.0 * model.guess) / 10.0) + " % and "
+                 : "") +
+            "lapse rates of up to " + numberText(100.0 * model.mostLapses()) +
+            (model.guess > 0.0 ? " %." : " % at both ends, the same at each."));
+}
 
 void tellLevels(ReportBuilder& report) {
     report.page.heading("Levels");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A self-contained HTML page, without network access or scripts, for screen and A4 print. Text from files is
-// escaped here.
+// An HTML page without network access or scripts, for screen and A4. Text from files is escaped here.
 #pragma once
 #include <string>
 #include <string_view>

@@ -25,25 +25,23 @@ struct Attended {
 
 /// Of other programs' tables: columns of answers, and nothing in them.
 bool hasNoAnswer(const Cells& cell, const CsvRow& row) {
-    constexpr std::string_view columns[] = {"response", "choice", "correct", "value", "x"};
-    return std::ranges::any_of(columns, [&](auto c) { return cell.has(c); }) &&
-           std::ranges::all_of(columns, [&](auto c) { return cell(row, c).empty(); });
+    return std::ranges::any_of(answerColumns, [&](auto c) { return cell.has(c); }) &&
+           std::ranges::all_of(answerColumns, [&](auto c) { return cell(row, c).empty(); });
 }
 
 /// Attendance of all participants, in file order.
 std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& trials) {
     std::vector<std::pair<std::string, Attended>> people;
+    const auto person = [&](const std::string& code) -> Attended& {
+        const auto found = std::ranges::find(people, code, &std::pair<std::string, Attended>::first);
+        return (found == people.end() ? people.emplace_back(code, Attended{}) : *found).second;
+    };
     for (const TrialFile& file : trials.files) {
         const Cells cell{file.table};
         for (const CsvRow& row : file.table.rows) {
-            const std::string& code = cell(row, "participant");
-            auto found = std::ranges::find(people, code, &std::pair<std::string, Attended>::first);
-            if (found == people.end()) {
-                found = people.insert(people.end(), {code, {}});
-                const auto number = file.head.find("number");
-                if (number != file.head.end()) found->second.number = number->second;
-            }
-            Attended& own = found->second;
+            Attended& own = person(cell(row, "participant"));
+            if (const auto number = file.head.find("number"); number != file.head.end() && own.number.empty())
+                own.number = number->second;
             own.observer = cell(row, trialColumns::observer);
             (cell(row, trialColumns::phase) == trialColumns::training ? own.training : own.main) += 1;
             const bool ranOut = cell(row, trialColumns::ranOut) == "1";
@@ -58,6 +56,8 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
                 own.seconds.push_back(*seconds);
         }
     }
+    for (const auto& [code, unanswered] : trials.leftOut.unanswered)
+        person(code).main += unanswered, person(code).unanswered += unanswered;
     return people;
 }
 
@@ -133,8 +133,7 @@ void tellCalls(ReportBuilder& report) {
     }
 }
 
-/// "6 female, 5 male, 1 not known": counts of each word. `strangers` is the number of participants without an
-/// entry.
+/// "6 female, 5 male, 1 not known": counts of each word. `strangers`: participants without an entry.
 std::string countsOf(const std::vector<const PersonFacts*>& people, std::size_t strangers,
                      std::string PersonFacts::*field) {
     std::map<std::string, std::size_t> counts;
@@ -148,8 +147,7 @@ std::string countsOf(const std::vector<const PersonFacts*>& people, std::size_t 
     return words;
 }
 
-/// Reports the facts given by the user on participants whose trials count, and lists missing facts as
-/// reminders.
+/// The facts given by the user on participants whose trials count; missing ones as reminders.
 void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, Attended>>& attended) {
     const StudyFacts& facts = report.trials.facts;
     std::vector<const PersonFacts*> people;
@@ -240,13 +238,14 @@ void tellParticipants(ReportBuilder& report) {
     report.addTable("participants.csv", table.text());
     report.page.paragraph(counted(people.size(), "participant") + " in " +
                           counted(report.trials.files.size(), "file") + ".");
-    if (!report.trials.sharedNote.empty()) report.page.note(report.trials.sharedNote);
+    for (const std::string& note : report.trials.notes) report.page.note(note);
     tellFacts(report, people);
     if (people.size() == 1)
         report.page.note("one participant: intervals and tests over participants are not possible, and "
                          "nothing here says anything about other people");
     report.page.table(table.text(), "participants.csv");
     std::vector<std::string> exclusions;
+    std::size_t rows = report.trials.leftOut.rows;
     for (const UnfinishedRun& run : unfinishedRuns(report.trials)) exclusions.push_back(run.words());
     // Without a protocol only others tell how many trials there were; adaptive sessions have no fixed number.
     const bool canCompare = !report.trials.protocol && !hasAdaptiveRows(report.trials);
@@ -262,13 +261,13 @@ void tellParticipants(ReportBuilder& report) {
         if (own.ranOut > 0)
             exclusions.push_back("participant " + code + ": " + ranOutWords(own.ranOut) +
                                  ": analyses leave them out");
+        rows -= std::min(rows, own.unanswered);
         if (own.unanswered > 0)
             exclusions.push_back("participant " + code + ": " + counted(own.unanswered, "trial") +
                                  " without an answer left out");
     }
-    if (report.trials.rowsLeftOut > 0)
-        exclusions.push_back(counted(report.trials.rowsLeftOut, "row") +
-                             " with nothing in one of the named columns left out");
+    if (rows > 0)
+        exclusions.push_back(counted(rows, "row") + " with nothing in one of the named columns left out");
     if (!report.trials.notLeft.empty()) exclusions.push_back(notLeftWords(report.trials.notLeft.size()));
     tellSameNumbers(report.page, people);
     report.page.subheading("Exclusions");

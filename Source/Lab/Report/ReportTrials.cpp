@@ -110,7 +110,7 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
     ReportTrials trials;
     SharedParticipants shared;
     for (const auto& [path, text] : texts) {
-        auto table = readStudyTable(text, path, columns, trials.rowsLeftOut);
+        auto table = readStudyTable(text, path, columns, trials.leftOut);
         if (!table) return Failure{table.error};
         if (std::string fault = callsFault(table.value, callFault); !fault.empty())
             return Failure{std::move(fault)};
@@ -140,7 +140,10 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
     if (trials.all.rows.empty())
         return Failure{texts.front().first + ": expected a trial that left as planned, found none: " +
                        notLeftWords(trials.notLeft.size())};
-    trials.sharedNote = shared.note();
+    if (std::string note = shared.note(); !note.empty()) trials.notes.push_back(std::move(note));
+    if (const auto& unused = trials.leftOut.columns; !unused.empty())
+        trials.notes.push_back("columns that --columns does not name, and that are not used: " +
+                               joined(unused, ", "));
     findProtocolOf(trials, protocol);
     return trials;
 }
@@ -156,6 +159,15 @@ std::string takeFacts(ReportTrials& trials, StudyFacts facts) {
     for (auto* const rows : {&trials.all.rows, &trials.notLeft})
         std::erase_if(*rows,
                       [&](const CsvRow& row) { return trials.facts.isExcluded(row.cells[*participant]); });
+    const auto& people = trials.facts.people;
+    if (!trials.all.column(trialColumns::group) &&
+        std::ranges::any_of(people, [](const PersonFacts& one) { return !one.group.empty(); })) {
+        trials.all.columns.emplace_back(trialColumns::group);
+        for (CsvRow& row : trials.all.rows) {
+            const PersonFacts* const person = trials.facts.person(row.cells[*participant]);
+            row.cells.push_back(person != nullptr ? person->group : std::string{});
+        }
+    }
     return trials.all.rows.empty() ? trials.files.front().name +
                                          ": --people: expected a participant who is not excluded, found none"
                                    : std::string{};
@@ -203,10 +215,10 @@ Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_v
     const CsvTable& table = read.value;
     for (const std::string& column : table.columns)
         if (std::ranges::find(peopleColumns, column) == peopleColumns.end())
-            return Failure{table.name +
-                           ": expected the columns participant, age, sex, handedness, group, excluded, "
-                           "found " +
-                           inQuotes(column)};
+            return Failure{
+                table.name +
+                ": expected the columns participant, age, sex, handedness, group, excluded, found " +
+                inQuotes(column)};
     if (!table.column("participant"))
         return Failure{table.name + ": expected a column participant, found none"};
     std::vector<PersonFacts> people;

@@ -60,8 +60,8 @@ struct ReportTrials {
     CsvTable all;                ///< rows of all files, file by file, without `notLeft`
     std::vector<CsvRow> notLeft; ///< rows of trials that did not leave as planned, with the columns of `all`
     bool isSimulated = false;
-    std::size_t rowsLeftOut = 0;              ///< rows dropped for an empty cell in a mapped column
-    std::string sharedNote{};                 ///< participants in several files (StudyTables.h); empty: none
+    RowsLeftOut leftOut;                      ///< of other programs' tables
+    std::vector<std::string> notes{};         ///< participants in several files, columns not used
     std::vector<ColumnName> columns{};        ///< column mapping for tables of another program
     double guess = PsychometricModel{}.guess; ///< guess rate of psychometric functions if no protocol
                                               ///< specifies it

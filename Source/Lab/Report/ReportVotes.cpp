@@ -63,15 +63,7 @@ void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
     if (!data || !report.trials.knowTasks()) return;
     report.page.subheading("Psychometric functions");
     report.analysis("psychometric", fit, "psychometric-stimuli.csv"); // who has no fit is drawn all the same
-    const std::string answers =
-        measure == "correct" ? "right answers" : "answers " + measure.substr(measure.find('=') + 1);
-    std::vector<std::string> charts;
-    for (const auto& condition : data.value.conditions)
-        charts.push_back(psychometricChart(report.frame(answers + ": " + condition.name), condition.trials,
-                                           fit.model, fitWords(report.trials.columns, fit.level, measure)));
-    report.page.figure(charts, "Share of " + answers +
-                                   " by stimulus. Circles: all participants' trials; thin lines: the "
-                                   "function of each participant; thick: their mean threshold and width.");
+    tellFunctions(report, data.value, fit.model, fitWords(report.trials.columns, fit.level, measure));
 }
 
 } // namespace
@@ -135,8 +127,7 @@ void tellRatings(ReportBuilder& report) {
                        "Mean scores by factor" + report.asThesis("Fig. 5.13") + report.intervals() + ".");
 }
 
-// Report section on answers in words, from the columns task, phase, condition, session, stimulus and
-// response.
+// Report section on answers in words.
 
 bool tellDescriptions(ReportBuilder& report) {
     const Cells cell{report.trials.all};

@@ -100,7 +100,7 @@ void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run
 
 StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) {
     StudyReport made;
-    if (!trials.sharedNote.empty()) made.notes.push_back(trials.sharedNote);
+    made.notes = trials.notes;
     if (!trials.notLeft.empty()) made.notes.push_back(notLeftWords(trials.notLeft.size()));
     ReportBuilder report{trials, titleOf(trials)};
     report.addTable(trialsTable, trialsCsv(trials, firstLine(trials)));

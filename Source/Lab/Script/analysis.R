@@ -40,8 +40,12 @@ level <- function(d, factor) {
   if (nrow(d) > 0 && !anyNA(found)) return(unname(found)) # a word, though a column may have its name
   if (factor %in% names(d)) return(d[[factor]])
   column <- sub("\\.[1-9]$", "", factor)
-  if (column != factor && column %in% names(d)) return(sapply(strsplit(d[[column]], "-", fixed = TRUE), `[`, as.integer(sub(".*\\.", "", factor))))
+  if (column != factor && column %in% names(d)) return(sapply(parts.of(d[[column]]), `[`, as.integer(sub(".*\\.", "", factor))))
   unname(found)
+}
+parts.of <- function(cells) { # PHONE-3x3, index_60Hz
+  parts <- strsplit(cells, "-", fixed = TRUE)
+  if (all(lengths(parts) == 2)) parts else strsplit(cells, "_", fixed = TRUE)
 }
 in.order <- function(levels) { # numbers by size
   levels <- sort(unique(levels), method = "radix"); numbers <- suppressWarnings(as.numeric(levels))
@@ -93,8 +97,11 @@ result <- function(test, effect, statistic, value, p, n, df1 = NA, df2 = NA, p_c
   middle <- if (statistic == "V") "median difference" else if (statistic == "W") "difference of medians" else "difference"
   words <- paste0(statistic, df, " = ", near(value), ", p ", p.words(p), if (lines > 1) known(paste(whose, "p"), p_corrected, p.words(p_corrected)),
                   known("epsilon", epsilon), known(middle, difference), interval, known(paste(size, "="), effect_size))
-  cat("  ", effect, ": ", if (note == "") words else if (effect %in% c("factors", "left out", "hidden reference")) note else paste("not tested:", note), if (!is.na(n)) paste(", n =", n), "\n", sep = "")
+  cat("  ", effect, ": ", if (note == "" || !is.na(p)) words else if (effect %in% c("factors", "left out", "hidden reference")) note else paste("not tested:", note),
+      if (!is.na(n)) paste(", n =", n), if (note != "" && !is.na(p)) paste0(", ", note), "\n", sep = "")
 }
+# What a test by ranks did not count, and how it came to its p.
+ranks.note <- function(t, equal, words) paste(c(if (equal > 0) paste(equal, "of them", words), if (grepl("rank", t$method) && !grepl("exact", t$method)) "p by a normal approximation"), collapse = ", ")
 # A test that R refuses is a line that says why; the others go on.
 attempt <- function(test, effect, run) tryCatch(run, error = function(e) result(test, effect, "", NA, NA, NA, note = gsub("\n", "", conditionMessage(e), fixed = TRUE)))
 tell.lacking <- function(test, cells) {
@@ -154,7 +161,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   }
   if (length(between) > 0) attempt(test, "groups homogeneity", {
     cell <- interaction(people); own <- rowMeans(cells); away <- abs(own - ave(own, cell, FUN = median)); a <- anova(lm(away ~ cell))
-    if (a[2, 2] > 1e-20 * sum(away^2)) result(test, "groups homogeneity", "Levene's F of medians", a[1, 4], a[1, 5], n, a[1, 1], a[2, 1])
+    if (a[2, 2] > 1e-20 * sum(away^2)) result(test, "groups homogeneity", "Levene's F of medians", round(a[1, 4], 12), a[1, 5], n, a[1, 1], a[2, 1])
   })
   attempt(test, "residuals normality", {
     left <- as.matrix(lm.fit(x, cells)$residuals)
@@ -202,6 +209,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
     own <- if (is.within) by.level(rows, cells, match(f, within)) else split(unname(rowMeans(cells)), of.people(file, measure, f, rownames(cells), where))
     two <- combn(names(if (is.within) as.data.frame(own, optional = TRUE) else own), 2, simplify = FALSE)
     level.of <- function(l) if (is.within) own[, l] else own[[l]]
+    groups <- if (is.within && length(between) > 0) interaction(lapply(between, function(b) of.people(file, measure, b, rownames(cells), where)), drop = TRUE)
     deviation <- if (!is.within) sqrt(sum(sapply(own, function(y) sum((y - mean(y))^2))) / (n - length(own))) # of all groups
     tests <- lapply(two, function(l) {
       a <- level.of(l[1]); b <- level.of(l[2])
@@ -210,13 +218,19 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
         return(list(p = 2 * pt(-abs(t), df), value = t, df = df, size = "d", effect = (mean(a) - mean(b)) / deviation, difference = mean(a) - mean(b),
                     interval = mean(a) - mean(b) + c(-1, 1) * qt(0.975, df) * se, n = length(a) + length(b)))
       }
+      if (by == "t" && nlevels(groups) > 1) { # as the analysis of variance has it: each group counts alike
+        m <- lm(a - b ~ groups, contrasts = list(groups = "contr.sum")); s <- coef(summary(m))[1, ]; df <- m$df.residual
+        if (sum(m$residuals^2) <= 1e-26 * sum(a^2 + b^2)) return(list(p = NaN, n = n))
+        return(list(p = s[[4]], value = s[[3]], df = df, size = "d_z", effect = s[[1]] / sigma(m), difference = s[[1]], interval = s[[1]] + c(-1, 1) * qt(0.975, df) * s[[2]], n = n))
+      }
       size <- max(abs(c(a, b)), 1e-300); different <- if (is.signed) even(a - b, size)
       t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else if (is.signed) wilcox.test(different) else wilcox.test(even(a, size), even(b, size)), error = function(e) list(p.value = NaN))
       out <- list(p = t$p.value, value = t$statistic, df = NA, size = "rank-biserial r", interval = c(NA, NA), n = if (is.within) n else length(a) + length(b))
       if (is.nan(t$p.value)) return(out)
       if (by == "t") return(modifyList(out, list(df = t$parameter, size = "d_z", effect = mean(a - b) / sd(a - b), difference = mean(a - b), interval = t$conf.int)))
       share <- if (is.signed) t$statistic / sum(seq_len(sum(different != 0))) else t$statistic / (length(a) * length(b))
-      modifyList(out, list(effect = 2 * share - 1, difference = if (is.signed) median(a - b) else median(a) - median(b)))
+      modifyList(out, list(effect = 2 * share - 1, difference = if (is.signed) median(a - b) else median(a) - median(b),
+                           note = ranks.note(t, if (is.signed) sum(different == 0) else 0, "without a difference")))
     })
     ps <- sapply(tests, function(one) one$p)
     corrected <- p.adjust(ps, correction, length(ps))
@@ -226,7 +240,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
       one <- tests[[k]]; effect <- paste0(f, ": ", two[[k]][1], " - ", two[[k]][2])
       if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = "the differences do not vary")
       else result(test, effect, if (by == "t") "t" else if (is.signed) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], correction, size = one$size,
-                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], lines = length(ps))
+                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], note = c(one$note, "")[1], lines = length(ps))
     }
     if (by == "t" && is.within && n > 1) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
       found <- power.t.test(n, power = 0.8, sd = 1, sig.level = alpha, type = "paired")$delta
@@ -255,7 +269,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
     lead <- (k * hits - n) / n # leads of the same size tie to the bit
     away <- lead[lead != 0]
     t <- if (length(n) < 2 || length(away) == 0) NULL else if (k == 2 && length(unique(abs(away))) == 1) binom.test(sum(away > 0), length(away)) else wilcox.test(lead)
-    list(share = mean(hits / n), n = length(n), t = t)
+    list(share = mean(hits / n), n = length(n), t = t, equal = sum(lead == 0))
   }, lines$group, lines$word)
   ps <- sapply(tests, function(one) if (is.null(one$t)) NA else one$t$p.value)
   corrected <- p.adjust(ps, "holm")
@@ -263,7 +277,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
     one <- tests[[i]]; effect <- if (k == 2) lines$group[i] else paste0(lines$word[i], ", ", lines$group[i])
     if (is.na(ps[i])) result(test, effect, "V", NA, NA, one$n, note = "one participant, or shares of chance alone")
     else result(test, effect, if (is.null(one$t$parameter)) "V" else paste("of", one$t$parameter, "people who lean to one side, to", lines$word[i], "by an exact binomial"), one$t$statistic, ps[i], one$n, p_corrected = corrected[i],
-                correction = "holm", size = paste("share of", lines$word[i]), effect_size = one$share)
+                correction = "holm", size = paste("share of", lines$word[i]), effect_size = one$share, note = ranks.note(one$t, one$equal, "at chance"))
   }
 }) }
 alternatives.of <- function(d) {
@@ -271,10 +285,10 @@ alternatives.of <- function(d) {
   sort(setdiff(unique(c(d$choice, parts)), ""), method = "radix")
 }
 
-# Names of the factors in a column: words (pair=wood), the letters of the thesis' methods, two parts that are crossed (PHONE-3x3), or the column.
+# Names of the factors in a column: words (pair=wood), the letters of the thesis' methods, two parts that are crossed (PHONE-3x3, index_60Hz), or the column.
 factor.names <- function(column, d) {
   if (!(column %in% names(d))) return(character())
-  cells <- unique(d[[column]]); words <- unlist(strsplit(cells, " ", fixed = TRUE)); parts <- strsplit(cells, "-", fixed = TRUE)
+  cells <- unique(d[[column]]); words <- unlist(strsplit(cells, " ", fixed = TRUE)); parts <- parts.of(cells)
   if (length(words) > 0 && all(grepl("=", words, fixed = TRUE))) return(unique(sub("=.*", "", words)))
   if (length(cells) > 1 && all(grepl("^A[VF]-F[VF]-DR[VF]$", cells))) return(c("A", "F", "DR"))
   if (column == "condition" && all(lengths(parts) == 2)) {
@@ -430,7 +444,8 @@ study <- function(study, scales = character(), points = character()) {
     choices(paste0("shares of the alternatives", words, " against chance"), own)
     names <- alternatives.of(own)
     before <- unique(results$test)
-    for (a in if (length(names) == 2) names[1] else names) compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks")
+    columns <- c("group", "condition", if (!file.exists("psychometric-stimuli.csv")) "stimulus") # of levels the function tells more
+    for (a in if (length(names) == 2) names[1] else names) compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks", columns)
     across(setdiff(unique(results$test), before), "alternatives", c("chi-squared", "V", "W"))
   })
   before <- unique(results$test)

@@ -53,8 +53,7 @@ CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double mostDec
     return drivesAt(coupling, std::exp(high));
 }
 
-// For a given phase direction, the drive is largest with gain 1 for every positive contribution and gain 0
-// for the rest.
+// For a phase direction, the drive is largest with gain 1 for each positive contribution, 0 for the rest.
 double strongestDrive(const CouplingMatrix& drives) {
     constexpr int directions = 360;
     double most = 0.0;

@@ -83,8 +83,7 @@ CouplingResidual residualOf(const MeasuredCoupling& measured);
 /// Eq. 3.1: 1 - A / A_ref per axis; negative where the isolated side vibrates more. `reference` > 0.
 std::vector<double> attenuationRatios(std::span<const double> isolated, std::span<const double> reference);
 
-/// Eq. 3.2: root of the sum of squares. It can exceed 1 (three axes of 0.9 give 1.56), so it is not a
-/// proportion.
+/// Eq. 3.2: root of the sum of squares. It can exceed 1 (three axes of 0.9 give 1.56).
 double combinedAttenuation(std::span<const double> ratios);
 
 } // namespace physvib

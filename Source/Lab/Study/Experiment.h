@@ -109,12 +109,10 @@ using TrialJob = std::variant<StimulusJob, WrittenCall>;
 /// Message thread only (allocates).
 std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record);
 
-/// Texts of the jobs, joined by " ; "; for interactive worlds, the saved sessions. Message thread only
-/// (allocates).
+/// Texts of the jobs, joined by " ; "; of interactive worlds the saved sessions. Message thread only.
 std::string callsOf(const Protocol& protocol, const TrialRecord& record);
 
-/// Progress of the current trial: decides when an answer is allowed. The caller measures times; this class
-/// has no clock.
+/// Progress of the current trial: decides when an answer is allowed. The caller has the clock.
 class TrialProgress {
 public:
     TrialProgress(const SessionPlan& session, const Trial& trial);
@@ -127,8 +125,7 @@ public:
     void lost(std::size_t part) noexcept;
     /// Adds time spent with `part`.
     void spent(std::size_t part, double seconds) noexcept;
-    /// True if every part was played, none is to be felt again, and each had its minimum time from the
-    /// protocol.
+    /// True if every part was played, none is to be felt again, and each had its minimum time.
     bool canAnswer() const noexcept;
     int plays() const noexcept;
     int again() const noexcept { return again_; } ///< plays that were lost
@@ -149,8 +146,7 @@ private:
 /// Message thread only. `protocol` is valid and outlives the experiment.
 class Experiment {
 public:
-    /// `explorersEnd`: the participant ends an exploration by endSession(). Otherwise it ends as soon as it
-    /// may.
+    /// `explorersEnd`: the participant ends an exploration by endSession(); else it ends as soon as it may.
     Experiment(const Protocol& protocol, Participant participant, bool explorersEnd = false);
 
     bool isDone() const noexcept { return !trial_; }
@@ -178,8 +174,7 @@ public:
 
     int trialsTaken() const noexcept { return taken_; }
 
-    /// Trials of the current session; 0 if its length depends on the answers (a staircase, an open
-    /// exploration).
+    /// Trials of the current session; 0 if answers decide (a staircase, an open exploration).
     int sessionTrials() const noexcept;
 
     /// Number of the current session among those of all conditions, from 1, in this participant's order.

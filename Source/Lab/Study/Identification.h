@@ -101,8 +101,7 @@ struct ParticipantTransfer {
     InformationTransfer transfer;
 };
 
-/// In the order of first trials. If participants are unknown, one entry with an empty name. Any thread
-/// (allocates).
+/// In the order of first trials; without participants one of an empty name. Any thread (allocates).
 std::vector<ParticipantTransfer> transferByParticipant(const std::vector<IdentificationTrial>& trials);
 
 // Selects the stimuli that participants confused least, for use as tactile icons (thesis 3.2.3).

@@ -181,8 +181,7 @@ ConditionResolution resolveCondition(std::string condition, const std::vector<Lo
     return made;
 }
 
-// Computes pointing errors in two passes (sums, then deviations), because pixel coordinates can be far from
-// 0.
+// Pointing errors in two passes (sums, then deviations), as pixel coordinates can be far from 0.
 
 namespace {
 

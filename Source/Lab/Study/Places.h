@@ -9,8 +9,7 @@
 #include <vector>
 
 namespace physvib {
-/// One pointing trial. Row and column of the target start at 1; x and y of the response are in [0, 1], y
-/// downwards.
+/// One pointing trial. The target's row and column start at 1; the response's x and y are in [0, 1], y down.
 struct LocationTrial {
     int targetColumn = 0, targetRow = 0;
     double x = 0.0, y = 0.0;
@@ -65,8 +64,7 @@ struct ConditionResolution {
 ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
                                      double thresholdPercent = defaultPercentThreshold);
 
-// Pointing errors for targets at arbitrary places: constant error (bias), variable error (scatter) and mean
-// distance.
+// Pointing errors for targets anywhere: constant error (bias), variable error (scatter), mean distance.
 
 /// One pointing trial, true and answered place in the same unit. On a line, y and trueY are 0.
 struct PlaceTrial {

@@ -260,8 +260,7 @@ double countOf(const CallSet& set) noexcept {
 
 namespace {
 
-/// Checks that every stimulus of a session with a levels file has a level there, of one of the session's
-/// alternatives.
+/// That every stimulus of a session with a levels file has a level there, of one of its alternatives.
 std::string levelsFault(const Protocol& p, const SessionPlan& s) {
     for (const ConditionPlan& c : p.conditions)
         for (const StimulusItem& item : stimuliOf(c)) {

@@ -70,8 +70,7 @@ struct CallSet {
 
 /// Scenes that the participant sees and feels: calls of `render` with options of its scene.
 struct WorldSet : CallSet {
-    /// The participant drags bodies and tilts the world, for any length of time; else the scene runs for the
-    /// call's seconds.
+    /// The participant drags bodies and tilts the world, for any time; else the scene runs for the call's.
     bool hasHands = false;
     /// Metres of the world per metre on the display (50: 1:50); 0: as large as fits.
     double displayScale = 0.0;
@@ -107,8 +106,7 @@ struct ConditionPlan {
     double frequencyHz = 205.0, levelG = 1.0;
     StimulusSet stimuli;
     bool isAtResonance = false; ///< use the resonance of the layout's actuators instead of frequencyHz
-    /// Localisation blur of simulated observers in this condition, as a share of the field; 0: the observer's
-    /// own.
+    /// Localisation blur of simulated observers here, as a share of the field; 0: the observer's own.
     double observerBlur = 0.0;
     bool operator==(const ConditionPlan&) const = default;
 };
@@ -265,8 +263,7 @@ std::vector<StimulusItem> itemsOf(const SessionPlan& session, const ConditionPla
 /// True if a variable of the condition's calls follows rove_db alone. Any thread.
 bool rovesApart(const ConditionPlan& condition) noexcept;
 
-/// The call of a stimulus with all names replaced; `part` is the alternative or object. Any thread
-/// (allocates).
+/// The call of a stimulus, names replaced; `part`: the alternative or object. Any thread (allocates).
 std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, double levelDb,
                    double roveDb = 0.0);
 
@@ -278,8 +275,7 @@ bool namesParts(const ConditionPlan& condition);
 /// --level-db. `byRove`: what rove_db changes. Any thread (allocates).
 std::vector<std::string> movedBesideStrength(const ConditionPlan& condition, bool byRove = false);
 
-/// All alternatives and objects that can be put into calls; if there are none, one empty name. Any thread
-/// (allocates).
+/// All alternatives and objects that can be put into calls; else one empty name. Any thread (allocates).
 std::set<std::string> callPartsOf(const Protocol& protocol);
 
 /// Empty, or the first error that `faultOf` returns for the calls of the condition, each as it stands in a

@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 namespace physvib {
 namespace {
@@ -35,8 +36,7 @@ double whereRisen(PsychometricShape shape, double share) {
 
 using Point = std::array<double, 3>; // threshold, log of the width, lapse, each in search units
 
-/// Objective function of the fit: maps a point to a psychometric function and to the likelihood of the
-/// trials.
+/// Objective function of the fit: maps a point to a psychometric function and to its likelihood.
 class Likelihood {
 public:
     Likelihood(std::span<const LevelCount> counts, const PsychometricModel& model)
@@ -48,8 +48,8 @@ public:
     }
     PsychometricFunction function(const Point& at) const {
         // The cosine maps any real number to a lapse rate within its bounds.
-        const double lapse = model_.lapseUpTo * 0.5 * (1.0 - std::cos(at[2]));
-        return {model_.shape, least_ + range_ * at[0], range_ * std::exp(at[1]), model_.guess, lapse};
+        const double lapse = model_.mostLapses() * 0.5 * (1.0 - std::cos(at[2]));
+        return model_.with(least_ + range_ * at[0], range_ * std::exp(at[1]), lapse);
     }
     /// Negative log-likelihood.
     double operator()(const Point& at) const {
@@ -139,41 +139,47 @@ std::string faultOfCounts(std::span<const LevelCount> counts) {
 
 constexpr double sameLikelihood = 0.01; // of its logarithm
 
+/// True if the answers tell no width: a step at a level, or beside it, is as likely as `f`, which then
+/// becomes the one half way between the first and the last such step.
+bool becomesStep(std::span<const LevelCount> counts, const PsychometricModel& model, PsychometricFunction& f,
+                 double likeliest) {
+    const double width = 1e-3 * (counts.back().level - counts.front().level);
+    std::vector<double> at;
+    for (const LevelCount& c : counts)
+        for (const double lapse : {f.lapse, 0.0})
+            for (const std::uint64_t own : {std::uint64_t{0}, c.hits, c.trials}) {
+                PsychometricFunction step = model.with(c.level, width, lapse);
+                const double share = (static_cast<double>(own) / static_cast<double>(c.trials) - step.guess) /
+                                     (1.0 - step.guess - lapse);
+                step.threshold -= width * whereRisen(model.shape, std::clamp(share, 1e-4, 1.0 - 1e-4));
+                if (logLikelihood(counts, step) > likeliest - sameLikelihood) at.push_back(step.threshold);
+            }
+    if (at.empty()) return false;
+    const auto [least, most] = std::ranges::minmax(at);
+    f = model.with(std::midpoint(least, most), width, f.lapse);
+    return true;
+}
+
 /// What the levels and answers do not tell, though a likeliest function was found.
-std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricModel& model,
-                       const PsychometricFunction& f, double likeliest, bool hasJnd) {
-    const auto [least, most] = std::ranges::minmax(counts, {}, &LevelCount::level);
-    const double range = most.level - least.level;
+std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricFunction& f, double likeliest,
+                       bool hasJnd) {
+    const double least = counts.front().level, most = counts.back().level, range = most - least;
     double trials = 0.0, level = 0.0, hits = 0.0, product = 0.0;
     for (const LevelCount& c : counts) {
         const auto n = static_cast<double>(c.trials), h = static_cast<double>(c.hits);
         trials += n, level += n * c.level, hits += h, product += h * c.level;
     }
-    const double slope = product - level * hits / trials;
-    if (slope <= 0.0) return "the share of answers does not rise with the level";
-    constexpr const char* still = "the answers hardly change within the levels that were played";
-    if (f.width > 19.5 * range) return still;
-    // A step at a level, or beside it, that is as likely as the fit: the answers do not tell how wide it is.
-    const double width = 1e-3 * range;
-    for (const LevelCount& c : counts)
-        for (const double lapse : {f.lapse, 0.0})
-            for (const std::uint64_t own : {std::uint64_t{0}, c.hits, c.trials}) {
-                const double share =
-                    (static_cast<double>(own) / static_cast<double>(c.trials) - model.guess) /
-                    (1.0 - model.guess - lapse);
-                const double at =
-                    c.level - width * whereRisen(model.shape, std::clamp(share, 1e-3, 1.0 - 1e-3));
-                if (hasJnd && logLikelihood(counts, {model.shape, at, width, model.guess, lapse}) >
-                                  likeliest - sameLikelihood)
-                    return "a step fits as well, so the answers tell no JND";
-            }
-    if (f.threshold < least.level || f.threshold > most.level)
+    if (product - level * hits / trials <= 0.0) return "the share of answers does not rise with the level";
+    const double flat = hits * std::log(hits / trials) + (trials - hits) * std::log1p(-hits / trials);
+    const bool isFlat = hasJnd && 2.0 * (likeliest - flat) < 3.84; // chi-squared, 5 %
+    const bool isWide = f.width > 19.5 * range;
+    if (isWide || (isFlat && f.threshold >= least && f.threshold <= most))
+        return "the answers hardly change within the levels that were played";
+    if (f.threshold < least || f.threshold > most)
         return "the threshold, " +
                fixedNumber(f.threshold, std::max(0, 2 - static_cast<int>(std::floor(std::log10(range))))) +
-               ", lies outside the levels that were played, " + plainNumber(least.level) + " to " +
-               plainNumber(most.level);
-    const double flat = hits * std::log(hits / trials) + (trials - hits) * std::log1p(-hits / trials);
-    if (hasJnd && 2.0 * (likeliest - flat) < 3.84 /* chi-squared, 5 % */) return still;
+               ", lies outside the levels that were played, " + plainNumber(least) + " to " +
+               plainNumber(most);
     return {};
 }
 
@@ -209,9 +215,10 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
     for (const double width : {0.1, 0.25, 0.5, 1.0, 2.0})
         tops.push_back(climb(likelihood, bestOfGrid(likelihood, width)));
     const Point best = climb(likelihood, std::ranges::min(tops, {}, likelihood)); // step 3
-    const PsychometricFunction found = likelihood.function(best);
+    PsychometricFunction found = likelihood.function(best);
     const double likeliest = -likelihood(best);
-    return {faultOfFit(counts, model, found, likeliest, hasJnd), found, likeliest};
+    const bool isStep = hasJnd && becomesStep(counts, model, found, likeliest);
+    return {faultOfFit(counts, found, likeliest, hasJnd), found, likeliest, hasJnd && !isStep};
 }
 
 // Groups trials by participant and fits each group.

@@ -22,22 +22,11 @@ enum class PsychometricShape {
 
 inline constexpr std::array<std::string_view, 3> psychometricShapeNames{"logistic", "normal", "weibull"};
 
-constexpr double mostLapse = 0.1; // maximum plausible lapse rate
-
-/// Model choices, made before the fit.
-struct PsychometricModel {
-    PsychometricShape shape = PsychometricShape::logistic;
-    double guess = 0.5;           ///< 1 / alternatives of a forced choice; 0: answers yes and no
-    double lapseUpTo = mostLapse; ///< upper bound of the fitted lapse rate
-    bool operator==(const PsychometricModel&) const = default;
-};
-
-/// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold and rises from 0.05 to 0.95 within
-/// the width.
+/// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold, from 0.05 to 0.95 within the width.
 struct PsychometricFunction {
     PsychometricShape shape = PsychometricShape::logistic;
     double threshold = 0.0, width = 1.0; ///< in the unit of the levels; width > 0
-    double guess = 0.0, lapse = 0.0;     ///< guess: 1 / alternatives of a forced choice
+    double guess = 0.0, lapse = 0.0;     ///< guess: 1 / alternatives of a forced choice, else the lapse rate
 
     /// Any thread.
     double probability(double level) const noexcept;
@@ -45,6 +34,23 @@ struct PsychometricFunction {
                                               ///< lapse
     /// Just noticeable difference: half the distance from F = 0.25 to F = 0.75.
     double jnd() const noexcept;
+};
+
+constexpr double mostLapse = 0.1;   // maximum plausible lapse rate
+constexpr double mostOfBoth = 0.02; // of lapses at both ends: higher bounds take from the width
+
+/// Model choices, made before the fit.
+struct PsychometricModel {
+    PsychometricShape shape = PsychometricShape::logistic;
+    double guess = 0.5;           ///< 1 / alternatives of a forced choice; 0: answers yes and no
+    double lapseUpTo = mostLapse; ///< upper bound of the fitted lapse rate
+    bool operator==(const PsychometricModel&) const = default;
+
+    /// Yes and no lapse equally often: lapses at one end alone would move the threshold. Any thread.
+    PsychometricFunction with(double threshold, double width, double lapse) const noexcept {
+        return {shape, threshold, width, guess > 0.0 ? guess : lapse, lapse};
+    }
+    double mostLapses() const noexcept { return guess > 0.0 ? lapseUpTo : std::fmin(lapseUpTo, mostOfBoth); }
 };
 
 /// Trials at one level.
@@ -68,20 +74,19 @@ std::vector<LevelCount> countByLevel(const Trials& trials, Of of) {
     return all;
 }
 
-/// Natural logarithm of the probability of the answers. A probability of 0 or 1 counts as 1e-12 away from it.
-/// Any thread.
+/// Natural logarithm of the answers' probability. 0 and 1 count as 1e-12 away from it. Any thread.
 double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function);
 
 struct PsychometricFit {
     std::string fault; ///< why it is no fit, in one line; if set, the rest is of no account
     PsychometricFunction function{};
     double logLikelihood = 0.0;
+    bool hasJnd = false; ///< else the width and the JND are of no account
 };
 
 /// Maximum-likelihood fit; `counts` by rising levels. Errors: fewer than two levels, answers that do not rise
-/// with the level or as a step alone, a width at the bound of the search (20 times the levels' range), a
-/// threshold outside the levels. `hasJnd`: the width is wanted, too, so a step is no fit. Any thread
-/// (allocates).
+/// with the level, a width at the bound of the search (20 times the levels' range), a threshold outside the
+/// levels. `hasJnd`: the width is wanted, too; a step has none. Any thread (allocates).
 PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model,
                                 bool hasJnd = true);
 

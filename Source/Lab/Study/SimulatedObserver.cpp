@@ -214,8 +214,7 @@ std::string SimulatedObserver::answered(const SessionPlan& session, const Condit
                                                     static_cast<double>(session.answers.size()))];
 }
 
-/// Words that a table, a page and a spreadsheet must leave as they are; now and then none, where that is
-/// taken.
+/// Words that a table, a page and a spreadsheet must leave as they are; now and then none.
 std::string SimulatedObserver::described(const SessionPlan& session, SeededRandom& random) {
     static constexpr std::array words{"weak, short", "like \"tapping\"", "=strong", "<rough> & deep",
                                       "\uac15\ud55c"};

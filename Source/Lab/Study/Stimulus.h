@@ -76,8 +76,7 @@ struct StimulusJob {
     bool operator==(const StimulusJob&) const = default;
 };
 
-/// Option names in the text of a job, each before its value. Writers and readers of such text share this
-/// list.
+/// Option names in the text of a job, each before its value, for its writers and readers.
 namespace stimulusWords {
 inline constexpr char at[] = "--at", grid[] = "--grid", cell[] = "--cell", points[] = "--points",
                       layout[] = "--layout", frequency[] = "--frequency", levelG[] = "--level-g",

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plan of a study from its protocol: stimuli at their maximum levels, number of trials, duration, and balance
-// of orders.
+// Plan of a study from its protocol: stimuli at their maximum levels, trials, duration, balance of orders.
 #pragma once
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/Protocol.h"
@@ -22,8 +21,7 @@ struct PlannedStimulus {
     TrialJob job(const Protocol& protocol) const;
 };
 
-/// Of a part that can have more levels than these, one more is planned, evenly spread from its lowest level
-/// to its highest.
+/// Of a part that can have more levels than these, one more is planned, spread evenly over them.
 inline constexpr std::size_t mostPlannedLevels = 512;
 
 /// All planned stimuli in the order of conditions, each with its levels from the lowest. A level that is only

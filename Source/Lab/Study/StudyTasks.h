@@ -130,8 +130,7 @@ static_assert(
     }(),
     "each task at the place of its number");
 
-/// "the task rate", "the tasks choose and adjust": tasks whose answer is of one of these kinds. Any thread
-/// (allocates).
+/// "the task rate", "the tasks choose and adjust": those with answers of these kinds. Any thread (allocates).
 inline std::string tasksThatAnswer(std::initializer_list<AnswerKind> kinds) {
     std::string names;
     std::size_t count = 0;

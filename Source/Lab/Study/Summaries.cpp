@@ -3,6 +3,7 @@
 // dB or in logarithms.
 #include "Lab/Study/Summaries.h"
 #include "Core/EventShaping.h"
+#include "Io/Text/CsvText.h"
 #include "Lab/Study/QuestMethod.h"
 #include <algorithm>
 #include <array>
@@ -70,19 +71,18 @@ RankInterval rankInterval(std::vector<double> values) {
 
 namespace {
 
-/// The factors in a condition's name: "size=small" of "pair=wood size=small".
+/// The factors in a condition's name: "size=small" of "pair=wood size=small", the letters of a method.
 std::vector<std::string> factorsOf(const std::string& condition) {
-    std::vector<std::string> parts;
-    RenderingMethod method;
-    const bool isMethod = renderingMethodNamed(condition, method);
-    for (std::size_t from = 0; from < condition.size();) {
-        const std::size_t to = std::min(condition.find(isMethod ? '-' : ' ', from), condition.size());
-        if (std::string part = condition.substr(from, to - from);
-            isMethod || part.find('=') != std::string::npos)
-            parts.push_back(std::move(part));
-        from = to + 1;
+    std::vector<std::string> factors;
+    for (std::string_view rest = condition; !rest.empty();) {
+        std::string_view word = takeUntil(' ', rest);
+        RenderingMethod method;
+        const bool isMethod = renderingMethodNamed(word, method);
+        if (word.find('=') != word.npos || (isMethod && word.size() < condition.size()))
+            factors.emplace_back(word);
+        while (isMethod && !word.empty()) factors.emplace_back(takeUntil('-', word));
     }
-    return parts;
+    return factors;
 }
 
 ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uint64_t trials,
@@ -240,8 +240,7 @@ auto labelKey(const std::string& label) {
 
 using Run = std::vector<const LevelTrial*>; // one participant's trials of a session
 
-/// Levels that stayed though as many answers in a row were given as moved others: the ends of a staircase's
-/// levels.
+/// Levels that stayed though as many answers in a row moved others: the ends of a staircase's levels.
 std::set<double> endsOf(const Run& run) {
     std::set<double> ends;
     std::array<std::size_t, 2> enough{run.size(), run.size()}; // wrong, right

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What trials say of each condition: means, shares and thresholds, with 95 % intervals. The unit is the
-// participant: trials of one are averaged first, so that many trials of a few people do not look like many
-// people.
+// participant: trials of one are averaged first, so that many trials of a few do not look like many people.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -141,8 +140,7 @@ struct RatingSummary {
 /// names like AV-FF-DRV. Precondition: every trial has the same number of scores. Any thread (allocates).
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials);
 
-// Results of staircases, adjustments, magnitude estimations and QUEST+: thresholds, levels and magnitudes per
-// condition.
+// Staircases, adjustments, magnitude estimations and QUEST+: thresholds, levels, magnitudes per condition.
 
 /// One trial of a staircase, an adjustment, a magnitude estimation or QUEST+.
 struct LevelTrial {

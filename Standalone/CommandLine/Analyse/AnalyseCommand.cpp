@@ -70,7 +70,7 @@ void declareFit(OptionTable& command, AnalysisJob& o) {
         .add("--guess", o.model.guess,
              "share of right answers without a percept: 1 / alternatives; 0 of stronger or weaker")
         .in(0.0, 0.9);
-    command.add("--lapse", o.model.lapseUpTo, "highest lapse rate that is fitted; 0: none")
+    command.add("--lapse", o.model.lapseUpTo, "highest lapse rate fitted (--guess 0: at most 0.02); 0: none")
         .in(0.0, mostLapse);
 }
 

@@ -79,6 +79,8 @@ for (n in c(1, 6, 49, 50)) {
   share <- function(d) tapply(d$choice == "A", d$participant, function(x) (2 * sum(x) - length(x)) / length(x))
   if (n == 1) { if (!all(ours$note != "")) fault("one person is tested") } else {
     same(paste("choices, n", n), line(ours, "all")$p, wilcox.test(share(d))$p.value)
+    at <- sum(share(d) == 0); if (grepl("at chance", line(ours, "all")$note) != (at > 0) || at > 0 && !startsWith(line(ours, "all")$note, paste(at, "of them at chance"))) fault("people at chance are not told")
+    if (grepl("normal approximation", line(ours, "all")$note) != !grepl("exact", wilcox.test(share(d))$method)) fault("how p was found is not told")
     same(paste("choices of wood, n", n), line(ours, "pair=wood")$p, wilcox.test(share(d[grepl("wood", d$stimulus), ]))$p.value)
     same(paste("share, n", n), line(ours, "all")$effect_size, mean((share(d) + 1) / 2))
     same(paste("Holm, n", n), min(ours$p_corrected), min(p.adjust(ours$p, "holm")))
@@ -118,6 +120,8 @@ ours <- told(anova.test("t", "trials.csv", "y", c("condition.2", "A"), where = "
 ring <- d[startsWith(d$condition, "RING"), ]
 for (f in names(ring)[1:3]) ring[[f]] <- factor(ring[[f]])
 r <- summary(aov(y ~ condition * stimulus + Error(participant / (condition * stimulus)), ring))
+rows(transform(d, condition = sub("-", "_", d$condition)))
+same("index_60Hz", line(told(anova.test("t", "trials.csv", "y", design.of(table.of("trials.csv"))$within)), "condition.1")$p, line(told({ rows(d); anova.test("t", "trials.csv", "y", c("condition.1", "condition.2", "A")) }), "condition.1")$p)
 same("condition.2", line(ours, "condition.2")$p, r[["Error: participant:condition"]][[1]][1, "Pr(>F)"])
 same("A of AV", line(ours, "A")$p, r[["Error: participant:stimulus"]][[1]][1, "Pr(>F)"])
 # Nothing to be found is told, and the other lines stand.
@@ -149,6 +153,7 @@ for (sizes in list(c(6, 6), c(4, 7), c(5, 3, 6))) {
   model <- lm(score ~ g, data.frame(score, g = factor(group)), contrasts = list(g = "contr.sum"))
   same(paste(words, "f"), line(ours, "f")$p, coef(summary(model))[1, 4])
   same(paste(words, "group:f"), line(ours, "group:f")$p, anova(model)[["Pr(>F)"]][1])
+  same(paste(words, "f by t"), line(told(pairs.test("t", "trials.csv", "y", c("f", "l"), between = "group")), "f: 1 - 2")$p, coef(summary(model))[1, 4])
   all <- tapply(m$y, m$participant, mean)
   same(paste(words, "group"), line(ours, "group")$p, anova(lm(all ~ group))[["Pr(>F)"]][1])
   pooled <- pairwise.t.test(all, group, p.adjust.method = "none")$p.value

@@ -46,16 +46,16 @@ for (scale in c("effort", "frustration")) within("load", scale, transform(d, y =
 own <- p[p$effect == "condition" & p$statistic == "F" & grepl("of (effort|frustration) by", p$test), ]
 for (i in 1:2) same("over both scales", own$p_across[i], p.adjust(own$p_corrected, "holm")[i])
 
-# Subjective equality of each person: the likeliest logistic function, with lapses of up to a tenth; thresholds that the page has.
+# Subjective equality of each person: the likeliest logistic function, with as many lapses at its lower as at its upper end, up to 2 %.
 d <- trials("sides"); fits <- read("sides/psychometric-stimuli.csv")
 loss <- function(v, x, right) {
-  f <- (1 - v[3]) * plogis(2 * log(19) * (x - v[1]) / v[2]); f <- pmin(pmax(f, 1e-12), 1 - 1e-12)
+  f <- v[3] + (1 - 2 * v[3]) * plogis(2 * log(19) * (x - v[1]) / v[2]); f <- pmin(pmax(f, 1e-12), 1 - 1e-12)
   -sum(ifelse(right, log(f), log(1 - f)))
 }
 for (i in seq_len(nrow(fits))) {
   own <- d[d$participant == fits$participant[i] & d$condition == fits$condition[i], ]; x <- as.numeric(own$stimulus)
-  best <- lapply(c(0.05, 0.2, 0.5, 1), function(width) optim(c(0.5, width, 0.02), loss, x = x, right = own$choice == "right", method = "L-BFGS-B",
-                                                            lower = c(0, 0.01, 0), upper = c(1, 10, 0.1), control = list(factr = 10)))
+  best <- lapply(c(0.05, 0.2, 0.5, 1), function(width) optim(c(0.5, width, 0.01), loss, x = x, right = own$choice == "right", method = "L-BFGS-B",
+                                                            lower = c(0, 0.01, 0), upper = c(1, 10, 0.02), control = list(factr = 10)))
   best <- best[[which.min(sapply(best, `[[`, "value"))]]
   same(paste("sides likelihood", fits$participant[i]), as.numeric(fits$log_likelihood[i]), -best$value, 1e-4)
   same(paste("sides threshold", fits$participant[i]), as.numeric(fits$threshold[i]), best$par[1], 1e-2)
