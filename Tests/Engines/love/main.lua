@@ -75,6 +75,7 @@ function make.starting(...) ax, ay, turn = ... end -- the same of others
 function make.oneway(id) platform = bodies[id] end
 
 function love.load(words)
+    if words[1] == "--kit" then return require("kit")() end
     love.physics.setMeter(metre)
     for line in io.lines(words[1]) do
         local word, rest, numbers = line:match("^(%S+)"), line:gsub("^%S+", ""), {}
