@@ -103,8 +103,8 @@ const ImpactSettings& ContactFeed::settings() const noexcept { return contacts_-
 
 std::string_view ContactFeed::set(std::int32_t id, const FedBody& body, const HapticFixture& values) {
     if (id < 0) return "body: expected a number from 0 on";
-    if (const std::string_view fault = physvib::faultOf(body); !fault.empty()) return fault;
-    if (const std::string_view fault = physvib::faultOf(values); !fault.empty()) return fault;
+    if (const std::string_view refusal = physvib::faultOf(body); !refusal.empty()) return refusal;
+    if (const std::string_view refusal = physvib::faultOf(values); !refusal.empty()) return refusal;
     ReportedBodies& bodies = contacts_->bodies();
     bodies.set(id, body);
     const std::uint64_t name = ReportedBodies::idOf(id);
@@ -118,7 +118,7 @@ std::string_view ContactFeed::setMass(std::int32_t id, double massKg) {
     if (massKg == body.massKg) return {};
     if (body.massKg > 0.0 && massKg > 0.0) body.inertiaKgSquareMetres *= massKg / body.massKg;
     body.massKg = massKg;
-    if (const std::string_view fault = physvib::faultOf(body); !fault.empty()) return fault;
+    if (const std::string_view refusal = physvib::faultOf(body); !refusal.empty()) return refusal;
     bodies.set(id, body);
     const std::uint64_t name = ReportedBodies::idOf(id);
     if (const auto slot = contacts_->events().fixtures().find(name); slot != FixtureTable::none)

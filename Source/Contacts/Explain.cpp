@@ -52,7 +52,7 @@ std::string noContact(const ContactCounts& c) {
     if (std::string why = noted(c); !why.empty()) return why;
     if (c.longestStepSeconds > frameSeconds) return longStep(c);
     return "No contact has begun in " + counted(c.steps, "step") +
-           (c.mayBePushed ? "" : " (haptic sources have a mass of 0: they meet only what is dynamic)") +
+           (c.mayBePushed ? "" : " (what is to be felt has a mass of 0: it meets only what moves freely)") +
            ": nothing has touched, or contacts are not reported (physvib_world_touch).";
 }
 

@@ -9,15 +9,14 @@ import sys
 import xml.etree.ElementTree as xml
 
 root = pathlib.Path(sys.argv[1]) / "Source/Api/Godot"
-types = {"real": "float", "boolean": "bool", "text": "String", "vector2": "Vector2", "texts": "PackedStringArray", "places": "PackedVector2Array", "dictionary": "Dictionary", "GDEXTENSION_VARIANT_TYPE_VECTOR3": "Vector3",
-         "GDEXTENSION_VARIANT_TYPE_BOOL": "bool", "GDEXTENSION_VARIANT_TYPE_INT": "int", "GDEXTENSION_VARIANT_TYPE_STRING": "String", "GDEXTENSION_VARIANT_TYPE_OBJECT": "HapticMaterial",
-         "GDEXTENSION_VARIANT_TYPE_NIL": "void"}
+types = {"real": "float", "boolean": "bool", "text": "String", "vector2": "Vector2", "texts": "PackedStringArray", "places": "PackedVector2Array", "dictionary": "Dictionary",
+         "whole": "int", "object": "HapticMaterial", "nil": "void"}
 bodies, worlds = (root / name for name in ("Bodies.cpp", "WorldClasses.cpp"))
 
 
 def rows(text):
     """Names and types of a table in C++."""
-    return [(name, types[kind]) for name, kind in re.findall(r'\{\s*"(\w+)",\s*(\w+),', text) if kind in types]
+    return [(name, types[kind]) for name, kind in re.findall(r'\{\s*"(\w+)",\s*type::(\w+),', text) if kind in types]
 
 
 def between(path, begin, end):
@@ -27,10 +26,8 @@ def between(path, begin, end):
 def world(is_space):
     text = between(worlds, "propertiesOf(bool isSpace)", "\n}")
     found = rows(text)
-    corners = [row for row in found if row[0] == "field_corner"]
-    found = [row for row in found if row[0] != "field_corner"]
+    assert '{"field_corner", isSpace ? type::vector3 : type::vector2,' in text, "field_corner: expected one of 2D and of 3D"
     found.insert(1, ("field_corner", "Vector3" if is_space else "Vector2"))
-    assert len(corners) == 2, "field_corner: expected a row of 2D and one of 3D"
     return found
 
 

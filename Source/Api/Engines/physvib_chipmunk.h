@@ -6,7 +6,6 @@
 #ifndef PHYSVIB_CHIPMUNK_H
 #define PHYSVIB_CHIPMUNK_H
 #include <chipmunk/chipmunk.h>
-#include <math.h>
 #include <physvib/physvib.h>
 #include <stdint.h>
 #include <string.h>
@@ -53,21 +52,12 @@ PHYSVIB_UNUSED static cpBool physvib_chipmunk_look(cpArbiter* arbiter, cpSpace* 
     return (void)space, cpTrue;
 }
 
-/* Impulse that gravity adds in this step: a load, not part of an impact. It is that of the mass that the
- * middle of the points feels. */
-PHYSVIB_UNUSED static double physvib_chipmunk_load(cpSpace* space, cpBody* a, cpBody* b, cpVect normal,
-                                                   const cpContactPointSet* points) {
+/* Impulse that gravity adds in this step: a load, not part of an impact. */
+PHYSVIB_UNUSED static double physvib_chipmunk_load(cpSpace* space, cpBody* a, cpBody* b, cpVect normal) {
+    const double pull = cpvdot(cpSpaceGetGravity(space), normal) * cpSpaceGetCurrentTimeStep(space);
     const int falls_a = cpBodyGetType(a) == CP_BODY_TYPE_DYNAMIC,
               falls_b = cpBodyGetType(b) == CP_BODY_TYPE_DYNAMIC;
-    cpBody* body = falls_a ? a : b;
-    const cpVect centre = cpBodyLocalToWorld(body, cpBodyGetCenterOfGravity(body));
-    const double pull = cpvdot(cpSpaceGetGravity(space), normal) * cpSpaceGetCurrentTimeStep(space);
-    double lever = 0;
-    int i;
-    if (falls_a == falls_b || (falls_a ? pull : -pull) <= 0) return 0;
-    for (i = 0; i < points->count; ++i)
-        lever += cpvcross(cpvsub(points->points[i].pointA, centre), normal) / points->count;
-    return fabs(pull) / (1 / cpBodyGetMass(body) + lever * lever / cpBodyGetMoment(body));
+    return falls_a == falls_b ? 0 : cpfmax(0, falls_a ? pull * cpBodyGetMass(a) : -pull * cpBodyGetMass(b));
 }
 
 PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter* arbiter, cpSpace* space, cpDataPointer world) {
@@ -83,7 +73,7 @@ PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter* arbiter, cpSpace* sp
         return;
     }
     if (cpArbiterIsFirstContact(arbiter))
-        impulse -= physvib_chipmunk_load(space, cpShapeGetBody(a), cpShapeGetBody(b), normal, &points);
+        impulse -= physvib_chipmunk_load(space, cpShapeGetBody(a), cpShapeGetBody(b), normal);
     for (i = 0; i < points.count; ++i) {
         physvib_contact contact;
         physvib_contact_init(&contact, sizeof contact);

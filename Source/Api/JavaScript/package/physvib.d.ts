@@ -194,6 +194,8 @@ export interface World {
     readonly fieldHeight: number;
     configure(settings: WorldSettings): void;
     setBody(body: number, values?: BodyValues): void;
+    /** The mass that the engine gives a body now, 0: it does not move; its inertia changes by as much. */
+    setMass(body: number, massKg: number): void;
     removeBody(body: number): void;
     /** `device` of a body, also after it was removed. */
     deviceOf(body: number): number;

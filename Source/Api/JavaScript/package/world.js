@@ -32,6 +32,7 @@ export class World {
     }
 
     setBody(body, values = {}) { this.#module.filled('body', values, at => this.#module.call('world_set_body', this.#name, body, at)); }
+    setMass(body, massKg) { this.#module.call('world_set_mass', this.#name, body, massKg); }
     deviceOf(body) { return this.#module.call('world_device', this.#name, body); }
     removeBody(body) { this.#module.call('world_remove_body', this.#name, body); }
     move(body, x, y, vx, vy, spin = 0) { this.#module.call('world_move', this.#name, body, x, y, vx, vy, spin); }
