@@ -30,7 +30,7 @@ step() {
         receipts) ensure_packages valgrind && Tests/Benchmarks/receipts.sh $bin ;;
         full-disk) Tests/CommandLine/full-disk.sh $bin ;;
         kinds) ensure_packages ffmpeg sox && Tests/Live/sounds.py $bin/physvib-sound-kinds --judges && Tests/Formats/texts.py $bin/physvib ;;
-        skipped) Tests/Plugin/skipped.sh $bin ;;
+        skipped) ensure_packages openbox && Tests/Plugin/skipped.sh $bin ;;
         engines) engines ;;
         box2d3) Tests/Engines/box2d3.sh build/release ;;
         farseer) ensure_packages git mono-mcs mono-runtime && Tests/Engines/farseer.sh build/release ;;

@@ -11,4 +11,5 @@ run() {
     tail -n 1 "$log"
 }
 run "$1/physvib-engine-tests" --gtest_also_run_disabled_tests --gtest_filter='*.DISABLED_*'
-run "$1/physvib-plugin-tests" --gtest_also_run_disabled_tests --gtest_filter='*.DISABLED_*:*.LiveIsTheBounce:*.LiveTakesOfALoopAreEqualToo-*ForHours*'
+run "$1/physvib-plugin-tests" --gtest_also_run_disabled_tests --gtest_filter='*.DISABLED_*:*.LiveIsTheBounce*:*.LiveTakesOfALoopAreEqualToo-*ForHours*'
+run "$(dirname "$0")/../Mixer/Window/with-display.sh" sh -c 'openbox & sleep 1; "$0"; got=$?; kill $!; exit $got' "$1/physvib-editor-keys"
