@@ -469,7 +469,7 @@ PHYSVIB_API int physvib_world_configure(physvib_world world, const physvib_world
 /** Adds a body, or changes its values. */
 PHYSVIB_API int physvib_world_set_body(physvib_world world, int body, const physvib_body* values);
 /** Sets the mass that the engine gives a body now, 0: it does not move; its inertia changes by as much.
- * Nothing is done, at no cost, where it is the same. */
+ * Nothing is done where it is the same. */
 PHYSVIB_API int physvib_world_set_mass(physvib_world world, int body, double mass_kg);
 /** `device` of a body, also after it was removed; 0: of one that was never added. */
 PHYSVIB_API int physvib_world_device(physvib_world world, int body);

@@ -127,6 +127,14 @@ namespace {
 
 constexpr std::size_t mostKinds = 12; // at most some megabytes
 
+/// A picture in pixels of the display, of which the component has `scale` each, its middle at one of them.
+void drawAround(juce::Graphics& g, const juce::Image& picture, juce::Point<int> pixel, float scale,
+                float opacity) {
+    const auto corner = (pixel - juce::Point<int>{1, 1} * (picture.getWidth() / 2)).toFloat();
+    g.setOpacity(opacity);
+    g.drawImageTransformed(picture, juce::AffineTransform::translation(corner).scaled(1.0f / scale));
+}
+
 int sideOf(float radius, float scale) {
     return 2 * static_cast<int>(std::ceil((radius + 0.5f * BallPictures::rimWidth) * scale)) + 3;
 }
@@ -176,9 +184,7 @@ bool BallPictures::draw(juce::Graphics& g, const Ball& ball, juce::Point<float> 
     auto& picture =
         kindOf(ball).pictures[static_cast<std::size_t>((turn * phases + phase.y) * phases + phase.x)];
     if (picture.isNull()) picture = pictureOf(ball, turn, phase);
-    const auto corner = (pixel - juce::Point<int>{1, 1} * (picture.getWidth() / 2)).toFloat();
-    g.setOpacity(1.0f);
-    g.drawImageTransformed(picture, juce::AffineTransform::translation(corner).scaled(1.0f / scale));
+    drawAround(g, picture, pixel, scale, 1.0f);
     return true;
 }
 
@@ -199,9 +205,7 @@ void GlowPictures::draw(juce::Graphics& g, juce::Point<float> centre, float radi
         light.fillAll();
         known = glows_.insert(glows_.end(), {opaque, r, image});
     }
-    const auto corner = ((centre * scale).roundToInt() - juce::Point<int>{r, r}).toFloat();
-    g.setOpacity(colour.getFloatAlpha());
-    g.drawImageTransformed(known->picture, juce::AffineTransform::translation(corner).scaled(1.0f / scale));
+    drawAround(g, known->picture, (centre * scale).roundToInt(), scale, colour.getFloatAlpha());
 }
 
 // Sizes badges by the nearest neighbour, then moves what still overlaps to a free place.

@@ -11,7 +11,7 @@ const types = ['fixed', 'kinematic', 'dynamic'], traits = { chipmunk: { halfStep
 export const native = (name, command) => async (_, __, { gravity }) => {
     const folder = mkdtempSync(join(tmpdir(), 'physvib-kit-')), [asks, answers] = ['asks', 'answers'].map(end => join(folder, end)), [program, ...words] = command.split(' ');
     execFileSync('mkfifo', [asks, answers]);
-    const child = spawn('sh', ['-c', 'exec "$@" <"$0.asks" >"$0.answers"'.replaceAll('$0.', `${folder}/`), 'kit', program, ...words], { stdio: ['ignore', 'ignore', 'inherit'] });
+    const child = spawn('sh', ['-c', 'exec "$@" <"$0/asks" >"$0/answers"', folder, program, ...words], { stdio: ['ignore', 'ignore', 'inherit'] });
     const to = openSync(asks, 'w'), from = openSync(answers, 'r'), bytes = Buffer.alloc(1 << 16);
     let rest = '';
     const say = (...told) => writeSync(to, `${told.join(' ')}\n`), line = () => {
