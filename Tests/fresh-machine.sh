@@ -7,6 +7,7 @@
 #   --programs      run.sh, then run.sh with the programs and a plug-in of each format
 #   --own-juce      instead of them, these programs with the JUCE of that suite (8 or 9), installed, and not Debian 12's
 #   --tutorials     instead of them, README and the tutorials, typed by follow.py, and what they make felt
+#   --packages DIR  instead of them, Debian's packages, built there and put into DIR, which bare-debian.sh tries
 #   --pages         instead of them, what the pages of C, Chipmunk, Python, Lua and C# say
 #   --keep          leave the folder behind
 #   --cache FOLDER  a compiler cache to use: tries everything sooner, and says less about times
@@ -30,11 +31,12 @@ while [ $# -gt 0 ]; do
         --programs) commands="run.sh programs" ;;
         --own-juce) commands="own-juce programs" ;;
         --tutorials) commands="Tests/Docs/tutorials.sh" ;;
+        --packages) commands="release.sh" && release=$(realpath -m "${2:?"--packages needs a folder"}") && shift ;;
         --pages) commands="Tests/Api/ten-minutes.sh" ;;
         --keep) keep=yes ;;
         --cache) cache=$(realpath "${2:?"--cache needs a folder"}") && shift ;;
         --mirror) mirror=${2:?"--mirror needs a URL"} && shift ;;
-        *) say "expected --suite NAME, --same-as BUILD, --run-only, --programs, --own-juce, --tutorials, --pages, --keep, --cache FOLDER or --mirror URL, not $1" && exit 2 ;;
+        *) say "expected --suite NAME, --same-as BUILD, --run-only, --programs, --own-juce, --tutorials, --packages DIR, --pages, --keep, --cache FOLDER or --mirror URL, not $1" && exit 2 ;;
     esac
     shift
 done
@@ -58,6 +60,10 @@ for command in $commands; do
     started=$(date +%s) before_work=$worked
     case $command in
         own-juce) in_machine sh -c "apt-get install -y -qq --no-install-recommends juce-modules-source >/dev/null" ;;
+        release.sh)
+            in_machine sh -c "apt-get install -y -qq --no-install-recommends git ${cache:+ccache} >/dev/null && cd /root/PhysVib && Standalone/Packaging/release.sh /root/release HEAD dsc packages"
+            cp -r "$machine/root/release" "$release"
+            ;;
         programs) command=$programs && in_machine sh -c "exec /root/PhysVib/$programs" ;;
         *) in_machine "/root/PhysVib/$command" ;;
     esac
@@ -69,7 +75,7 @@ for command in $commands; do
         [ ! -e "$report" ] || say "$(basename "$report" .xml): $(counted tests "$report") tests, $(counted failures "$report") failed, $(counted skipped "$report") skipped"
     done
 done
-case $commands in Tests/* | own-juce*) exit 0 ;; esac
+case $commands in Tests/* | own-juce* | release.sh) exit 0 ;; esac
 for file in shake-the-box.wav shake-the-box.csv shake-the-box.png; do
     [ -s "$machine/root/PhysVib/out/$file" ] || { say "out/$file is missing" && exit 1; }
 done

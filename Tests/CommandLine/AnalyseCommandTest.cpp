@@ -33,6 +33,7 @@ TEST_F(Analyse, AStaircaseWithoutReversalsHasNoThreshold) {
     EXPECT_NE(flat.err.find("PHONE: participant P01 left out: a staircase has fewer than two reversals"),
               std::string::npos)
         << flat.err;
+    EXPECT_NE(flat.err.find("P01.csv: of no built-in protocol: whether all"), std::string::npos);
     ASSERT_EQ(call("study run level-steps --observer simulated --participant P02").exitCode, 0);
     const auto other = call("analyse levels level-steps-P02.csv");
     EXPECT_EQ(other.err.find("fewer than two"), std::string::npos);

@@ -93,9 +93,13 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
     EXPECT_TRUE(has(page(), "Groups: 2 old, 1 young."));
     EXPECT_TRUE(has(page(), "participant P1: 1 trial without an answer left out")) << page();
     EXPECT_FALSE(has(page(), "Nobody and no main trial is left out."));
-    write("t.csv", "participant,group,ease\nA,x,4\nB,x,5\nC,y,1\nD,y,2\n");
+    write("t.csv", "participant,group,ease,fun\nA,x,4,1\nA,x,4,\nB,x,5,2\nB,x,6,4\nC,y,1,\nD,y,2,3\n");
     ASSERT_EQ(call("report t.csv --out ease").exitCode, 0);
-    EXPECT_TRUE(has(read("ease/index.html"), "group=x: 2 trials of 2 participants, ease 4.5 +- "));
+    const std::string ease = read("ease/index.html");
+    EXPECT_TRUE(has(ease, "group=x: 4 trials of 2 participants, ease 4.8 +- ")) << ease;
+    EXPECT_TRUE(has(ease, "(of 3 trials)") && has(read("ease/ratings.csv"), "group=y,fun,1,1,3,"));
+    EXPECT_TRUE(has(ease, "participant C: 1 trial without a score of fun") &&
+                !has(ease, "main trial is left"));
 }
 
 TEST_F(Report, ANotebookOfTheTestsIsWrittenOnRequestAndStaysOnceEdited) {

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Installs the packages of a release on a bare Debian 12 that it makes in a folder of its own, uses all of them, and removes them: nothing
+# Installs the packages of a release on a bare Debian that it makes in a folder of its own, uses all of them, and removes them: nothing
 # may be left. Before that lintian reads them, after it piuparts tries them. Needs root and a network.
-#   --release FOLDER   of release.sh; else it is made of HEAD
+#   --release FOLDER   of release.sh, or of fresh-machine.sh --packages; else it is made of HEAD
+#   --suite NAME       bookworm (Debian 12, as is said without it), or the one that the packages were built on
 #   --picture FILE.png keep what the mixer shows
 #   --keep             leave the folder behind
 #   --mirror URL       instead of the mirror in this system's apt sources
@@ -11,14 +12,15 @@ set -eu
 cd "$(dirname "$0")/../.."
 . .ci/packages.sh
 . Tests/bare-machine.sh
-release="" picture="" keep="" mirror=""
+release="" picture="" keep="" mirror="" suite=bookworm
 while [ $# -gt 0 ]; do
     case $1 in
         --release) release=$(realpath "${2:?"--release needs a folder"}") && shift ;;
+        --suite) suite=${2:?"--suite needs a name"} && shift ;;
         --picture) picture=${2:?"--picture needs a file"} && shift ;;
         --keep) keep=yes ;;
         --mirror) mirror=${2:?"--mirror needs a URL"} && shift ;;
-        *) say "expected --release FOLDER, --picture FILE.png, --keep or --mirror URL, not $1" && exit 2 ;;
+        *) say "expected --release FOLDER, --suite NAME, --picture FILE.png, --keep or --mirror URL, not $1" && exit 2 ;;
     esac
     shift
 done
@@ -68,9 +70,10 @@ there 'export JACK_DEFAULT_SERVER=physvib-release
     kill $host $server'
 step "lilv finds five LV2; jalv plays one on eight ports"
 cp Tests/Release/ardour.lua "$machine/root"
-there 'export LD_LIBRARY_PATH=/usr/lib/ardour7
-    for name in PhysVib PhysVib-Pairs; do timeout 120 /usr/lib/ardour7/ardour-vst3-scanner -f /usr/lib/vst3/$name.vst3 >scan-$name.log 2>&1; done
-    timeout 120 ardour7-lua ../ardour.lua session ABCDEF019182FAEB5068566250687973 2>&1 | grep "^Ardour: PhysVib on a track" || { cat scan-*.log; exit 1; }'
+there 'ardour=$(cd /usr/lib && echo ardour[0-9]*)
+    export LD_LIBRARY_PATH=/usr/lib/$ardour
+    for name in PhysVib PhysVib-Pairs; do timeout 120 /usr/lib/$ardour/ardour-vst3-scanner -f /usr/lib/vst3/$name.vst3 >scan-$name.log 2>&1; done
+    timeout 120 $ardour-lua ../ardour.lua session ABCDEF019182FAEB5068566250687973 2>&1 | grep "^Ardour: PhysVib on a track" || { cat scan-*.log; exit 1; }'
 
 there 'man physvib-render | grep -q -- --law && man physvib-mixer | grep -q -- --summary
     for shell in bash zsh fish; do command -v $shell >/dev/null; done
@@ -113,6 +116,6 @@ step "$(diff "$machine/root/before" "$machine/root/between" | grep -c '^>') file
 apt purge $names
 files | diff "$machine/root/before" - && step "none of them stays"
 
-apart piuparts --basetgz="$bare" --distribution=bookworm --mirror="$mirror main" --warn-on-leftovers-after-purge --no-eatmydata \
+apart piuparts --basetgz="$bare" --distribution="$suite" --mirror="$mirror main" --warn-on-leftovers-after-purge --no-eatmydata \
     "$release"/*.deb >"$machine.log" 2>&1 || { tail -n 40 "$machine.log" && exit 1; }
 step "piuparts: $(tail -n 1 "$machine.log")"

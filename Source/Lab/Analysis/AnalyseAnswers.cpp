@@ -97,7 +97,9 @@ void analyseRatings(const RatingData& data, const Findings& to) {
             if (std::isnan(summary.means[s])) continue;
             out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
             if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
-            table.row(summary.condition, scales[s], summary.trials, summary.participants, summary.means[s],
+            if (summary.scored[s] < summary.trials)
+                out << " (of " << counted(summary.scored[s], "trial") << ')';
+            table.row(summary.condition, scales[s], summary.scored[s], summary.raters[s], summary.means[s],
                       summary.deviations[s], summary.halfIntervals[s]);
         }
         out << '\n';

@@ -23,6 +23,10 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
         for (const NamedText& file : files) {
             const auto trials = readReportTrials({{std::string{file.name}, std::string{file.text}}}, {}, {});
             if (!data || !trials) continue;
+            if (!trials.value.protocol && hasAdaptiveRows(trials.value))
+                data.value.warnings.push_back(std::string{file.name} +
+                                              ": of no built-in protocol: whether all levels came to their "
+                                              "end is known to `physvib report --protocol`");
             for (const UnfinishedRun& run : unfinishedRuns(trials.value))
                 if (run.isAdaptive &&
                     std::erase_if(data.value.conditions.front().trials, [&](const LevelTrial& trial) {

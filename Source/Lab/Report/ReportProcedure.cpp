@@ -61,14 +61,23 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
     return people;
 }
 
-/// True if a main trial of our own files was right or wrong at a level that followed the answers.
-bool hasAdaptiveRows(const ReportTrials& trials) {
-    const Cells cell{trials.all};
-    return trials.knowTasks() && std::ranges::any_of(trials.all.rows, [&](const CsvRow& row) {
-               return cell(row, trialColumns::phase) != trialColumns::training &&
-                      answerOf(cell(row, trialColumns::task)) == AnswerKind::choice &&
-                      !cell(row, "correct").empty() && !cell(row, "level_db").empty();
-           });
+/// Of other programs' tables: scales that some trials have no score of.
+std::vector<std::string> lackingScores(const ReportBuilder& report) {
+    const auto kinds = analysesFor(report.trials.all);
+    if (report.trials.knowTasks() || std::ranges::find(kinds, "ratings") == kinds.end()) return {};
+    const NamedText file{report.tableText(trialsTable), trialsTable};
+    const auto data = readRatings({&file, 1});
+    std::vector<std::string> lacking;
+    for (std::size_t s = 0; s < data.value.scales.size(); ++s) {
+        std::map<std::string, std::size_t> trials;
+        for (const RatingTrial& trial : data.value.conditions.front().trials)
+            if (std::isnan(trial.scores[s])) ++trials[trial.participant];
+        for (const auto& [code, count] : trials)
+            lacking.push_back("participant " + code + ": " + counted(count, "trial") +
+                              " without a score of " + printable(data.value.scales[s]) +
+                              ", whose means and tests leave them out");
+    }
+    return lacking;
 }
 
 /// Lists the deviations of a built-in protocol from the thesis.
@@ -256,8 +265,8 @@ void tellParticipants(ReportBuilder& report) {
             continue;
         }
         if (canCompare && own.main < most)
-            exclusions.push_back("participant " + code + " has " + std::to_string(own.main) +
-                                 " trials, others have up to " + std::to_string(most));
+            exclusions.push_back("participant " + code + " has " + counted(own.main, "trial") +
+                                 ", others have up to " + std::to_string(most));
         if (own.ranOut > 0)
             exclusions.push_back("participant " + code + ": " + ranOutWords(own.ranOut) +
                                  ": analyses leave them out");
@@ -268,6 +277,7 @@ void tellParticipants(ReportBuilder& report) {
     }
     if (rows > 0)
         exclusions.push_back(counted(rows, "row") + " with nothing in one of the named columns left out");
+    std::ranges::move(lackingScores(report), std::back_inserter(exclusions));
     if (!report.trials.notLeft.empty()) exclusions.push_back(notLeftWords(report.trials.notLeft.size()));
     tellSameNumbers(report.page, people);
     report.page.subheading("Exclusions");

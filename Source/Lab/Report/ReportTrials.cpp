@@ -273,6 +273,15 @@ bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t p
 
 } // namespace
 
+bool hasAdaptiveRows(const ReportTrials& trials) {
+    const Cells cell{trials.all};
+    return trials.knowTasks() && std::ranges::any_of(trials.all.rows, [&](const CsvRow& row) {
+               return cell(row, trialColumns::phase) != trialColumns::training &&
+                      answerOf(cell(row, trialColumns::task)) == AnswerKind::choice &&
+                      !cell(row, "correct").empty() && !cell(row, "level_db").empty();
+           });
+}
+
 std::string UnfinishedRun::words() const {
     return "participant " + participant + " did not finish " + session + " in " + condition + ": " +
            std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +

@@ -92,6 +92,9 @@ std::string takeFacts(ReportTrials& trials, StudyFacts facts);
 /// All rows as one table with that first line, without unanswered training touches. Any thread.
 std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine);
 
+/// True if a main trial of our own files was right or wrong at a level that followed the answers.
+bool hasAdaptiveRows(const ReportTrials& trials);
+
 // Sessions of the protocol that a participant's rows do not bring to their end.
 
 /// A session in a condition that ended before the protocol ends it.

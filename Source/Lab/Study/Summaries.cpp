@@ -134,13 +134,15 @@ std::vector<double> participantMeans(const Chosen& trials, std::size_t scale) {
 }
 
 RatingSummary summarise(const std::string& condition, const Chosen& trials) {
-    RatingSummary summary{condition, trials.size(), 0, {}, {}, {}};
+    RatingSummary summary{condition, trials.size(), 0, {}, {}, {}, {}, {}};
     for (std::size_t scale = 0; scale < trials.front()->scores.size(); ++scale) {
         std::vector<double> scores;
         for (const auto* trial : trials)
             if (!std::isnan(trial->scores[scale])) scores.push_back(trial->scores[scale]);
+        summary.scored.push_back(scores.size());
         const Moments moments{scores};
         const auto means = participantMeans(trials, scale);
+        summary.raters.push_back(means.size());
         summary.participants = std::max(summary.participants, means.size());
         summary.means.push_back(scores.empty() ? std::nan("") : Moments(means).mean);
         summary.deviations.push_back(moments.deviation);
