@@ -138,7 +138,7 @@ TEST_F(ReportFields, PeopleOfOneNumberAreNamed) {
 
 /// Methods as rows and facts can tell them; the protocol's own sentences come on top.
 const char* const rowSentences[] = {
-    R"(\d+ participants? in \d+ files?\.)",
+    R"(\d+ participants? in \d+ files?(; what follows is of the \d+ who are not excluded)?\.)",
     R"(Age: mean [0-9.]+ years, standard deviation [0-9.]+, \d+ to \d+ \(\d+ of \d+ known\)\.)",
     R"((Sex|Handedness): [^.]+\.)",
     R"(Ethics: Approved by the board, no\. 7\.)",
@@ -147,7 +147,7 @@ const char* const rowSentences[] = {
     R"(to be filled in: (age, sex and handedness of the participants \(--people\)|approval by an ethics board \(--ethics\)|consent of the participants \(--consent\)|the noise as the participants heard it, e\.g\. its level in dB\(A\) \(--noise\)))",
     R"(one participant: intervals and tests over participants are not possible, and nothing here says anything about other people)",
     R"(participant P04 is excluded, with all trials: took off the headphones)",
-    R"(Nobody and no main trial is left out\.)",
+    R"(Nobody and no main trial is left out before the analyses, each of which names whom it leaves out\.)",
     R"(Trainings are left out of all analyses\.)",
     R"(A condition was at one place of the order \d+ to \d+ times; \d+ of 30 successions of two conditions occurred\.)",
     R"(Device, master level in dB, root mean square of the pink noise in dB of full scale \(off: there was none\), version of the program, and by how much the limiter lowered what was felt\.)",

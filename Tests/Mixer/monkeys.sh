@@ -82,5 +82,6 @@ while [ "$seed" -lt $((first + seeds)) ]; do
     case $status in 0 | 143) ;; *) fail "it ended with $status when it began again" ;; esac # 143: where it has been busy for 0.8 s
     ! ls "$folder"/address* >/dev/null 2>&1 || fail "an error of memory"
     echo "seed $seed: $actions actions, $quits times quit by them, after Esc ${ports:-no device} carries at most $loud, $kept copies kept and rendered"
+    pkill -f "$folder/home-$seed" 2>/dev/null || : # what a page was opened in
     seed=$((seed + 1))
 done

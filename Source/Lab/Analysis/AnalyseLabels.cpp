@@ -59,8 +59,10 @@ std::string correctWords(const ConfusionMatrix& matrix, const std::vector<Partic
         shares.push_back(static_cast<double>(own.matrix.correct()) /
                          static_cast<double>(own.matrix.trials()));
     const Moments moments{shares};
-    return share + "; mean of participants " + percent(moments.mean) + " (95 % interval over " +
-           counted(people.size(), "participant") + " " +
+    const std::string mean = share + "; mean of participants " + percent(moments.mean);
+    if (moments.halfInterval() == 0.0)
+        return mean + " (" + counted(people.size(), "participant") + ", all the same)";
+    return mean + " (95 % interval over " + counted(people.size(), "participant") + " " +
            percent(std::max(0.0, moments.mean - moments.halfInterval())) + " to " +
            percent(std::min(1.0, moments.mean + moments.halfInterval())) + ")";
 }

@@ -18,12 +18,12 @@ auto fromFiles(const AnalysisJob& job) {
 
 /// Without the staircases and QUEST+ that did not come to their end, where the protocol is known.
 Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
-    return readStudyFiles(job, [](const std::vector<NamedText>& files) {
+    return readStudyFiles(job, [&job](const std::vector<NamedText>& files) {
         auto data = readLevels(files);
         for (const NamedText& file : files) {
             const auto trials = readReportTrials({{std::string{file.name}, std::string{file.text}}}, {}, {});
             if (!data || !trials) continue;
-            if (!trials.value.protocol && hasAdaptiveRows(trials.value))
+            if (job.made == nullptr && !trials.value.protocol && hasAdaptiveRows(trials.value))
                 data.value.warnings.push_back(std::string{file.name} +
                                               ": of no built-in protocol: whether all levels came to their "
                                               "end is known to `physvib report --protocol`");

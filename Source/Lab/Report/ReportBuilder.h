@@ -31,9 +31,12 @@ public:
     /// Number of participants in the rows, by the column participant; 1 without it.
     std::size_t people() const;
 
-    /// ", 95 % intervals over participants"; of one participant, who has none, that there are none.
-    std::string intervals() const {
-        return people() > 1 ? ", 95 % intervals over participants" : ", of one participant without intervals";
+    /// ", 95 % intervals over participants"; of one participant, who has none, that there are none. Some
+    /// bars may be of one participant alone.
+    std::string intervals(bool someAlone = false) const {
+        return people() < 2 ? ", of one participant without intervals"
+               : someAlone  ? ", 95 % intervals over participants, or over trials where there was one"
+                            : ", 95 % intervals over participants";
     }
 
     /// Of a version NAME-thesis.

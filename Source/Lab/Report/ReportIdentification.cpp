@@ -147,10 +147,11 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     if (hasPeople) {
         it.frame = report.frame("Information transfer of participants" + words);
         it.series = barsOf(axes, all, [](const auto& c) { return withInterval(c.bits); });
-        report.page.figure({barChart(it)}, "Mean of the participants' own information transfer" + words +
-                                               report.intervals() +
-                                               ". Few trials make everyone's too high: compare conditions of "
-                                               "as many stimuli and trials only.");
+        report.page.figure({barChart(it)},
+                           "Mean of the participants' own information transfer" + words + report.intervals() +
+                               ". Few trials make everyone's too high, though never higher than "
+                               "their logarithm: compare conditions of as many stimuli and "
+                               "trials only.");
     }
     BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)", axes.groups,
                 barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};

@@ -115,8 +115,8 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, co
                           ". Circles: all participants' trials, larger where there were more; ";
     const bool isAdaptive = data.conditions.front().trials.front().isAdaptive;
     caption += isAdaptive ? "no functions are drawn, as answers chose the levels. "
-                          : "thin lines: the function of each participant who has one; thick: their mean "
-                            "threshold and width. ";
+                          : "thin lines: the function of each participant who has one; thick: the mean of "
+                            "the thresholds and that of the widths that there are. ";
     caption += report.people() > 1 ? "Dotted: mean threshold, shaded its 95 % interval over participants. "
                                    : "Dotted: threshold. ";
     if (!quest.empty()) return report.page.figure(charts, caption + "It is that of QUEST+ (levels.csv).");
@@ -160,6 +160,8 @@ void tellLevels(ReportBuilder& report) {
     tellEndsOfRanges(report);
     if (const std::string chart = matchesChart(report, summaries); !chart.empty())
         report.page.figure({chart}, "Levels that were set by adjustment: means" + report.intervals() + ".");
+    if (has(LevelTrial::Kind::staircase) && has(LevelTrial::Kind::quest))
+        report.page.paragraph("Functions are of the staircases' trials: QUEST+ has thresholds of its own.");
     if (has(LevelTrial::Kind::staircase))
         tellThresholds(report, tables);
     else if (std::erase_if(

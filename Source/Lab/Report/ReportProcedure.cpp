@@ -245,8 +245,13 @@ void tellParticipants(ReportBuilder& report) {
         if (!facts.isExcluded(code)) most = std::max(most, own.main);
     }
     report.addTable("participants.csv", table.text());
-    report.page.paragraph(counted(people.size(), "participant") + " in " +
-                          counted(report.trials.files.size(), "file") + ".");
+    const auto analysed = static_cast<std::size_t>(
+        std::ranges::count_if(people, [&](const auto& one) { return !facts.isExcluded(one.first); }));
+    report.page.paragraph(
+        counted(people.size(), "participant") + " in " + counted(report.trials.files.size(), "file") +
+        (analysed < people.size()
+             ? "; what follows is of the " + std::to_string(analysed) + " who are not excluded."
+             : "."));
     for (const std::string& note : report.trials.notes) report.page.note(note);
     tellFacts(report, people);
     if (people.size() == 1)
@@ -285,7 +290,8 @@ void tellParticipants(ReportBuilder& report) {
         report.page.note("whether everyone finished is not known: levels followed the answers, and the "
                          "protocol, which says when that ends, is not known");
     if (exclusions.empty())
-        report.page.paragraph("Nobody and no main trial is left out.");
+        report.page.paragraph("Nobody and no main trial is left out before the analyses, each of which names "
+                              "whom it leaves out.");
     else
         report.page.list(exclusions);
     if (std::ranges::any_of(people, [](const auto& one) { return one.second.training > 0; }))

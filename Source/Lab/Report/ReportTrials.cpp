@@ -285,7 +285,9 @@ bool hasAdaptiveRows(const ReportTrials& trials) {
 std::string UnfinishedRun::words() const {
     return "participant " + participant + " did not finish " + session + " in " + condition + ": " +
            std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +
-           (isAdaptive ? ", so this threshold is left out of means and tests" : "");
+           (isAdaptive   ? ", so this threshold is left out of means and tests"
+            : trials > 0 ? ", which means and tests count like the whole"
+                         : "");
 }
 
 std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {

@@ -112,19 +112,21 @@ void tellRatings(ReportBuilder& report) {
     const auto summaries = summariseRatings(trials);
     std::set<std::string> conditions;
     for (const RatingTrial& trial : trials) conditions.insert(trial.condition);
+    const bool isSomeAlone = std::ranges::count(summaries, 1, &RatingSummary::participants) > 0;
     // In reverse order, so that AV-FV-DRV comes first; of many combinations the levels of factors.
     const bool isMany = conditions.size() > mostShown && summaries.size() > conditions.size();
     std::vector<const RatingSummary*> shown;
     for (auto at = summaries.rbegin(); at != summaries.rend(); ++at)
         if (conditions.contains(at->condition) != isMany) shown.push_back(&*at);
     report.page.figure({scoresChart(report.frame("Mean scores"), scales, shown)},
-                       "Mean scores" + report.asThesis("Fig. 5.14") + report.intervals() + ".");
+                       "Mean scores" + report.asThesis("Fig. 5.14") + report.intervals(isSomeAlone) + ".");
     std::vector<const RatingSummary*> factors;
     for (const RatingSummary& each : summaries)
         if (!conditions.contains(each.condition)) factors.push_back(&each);
     if (factors.empty() || isMany) return; // of many they are shown already
     report.page.figure({scoresChart(report.frame("Mean scores by factor"), scales, factors)},
-                       "Mean scores by factor" + report.asThesis("Fig. 5.13") + report.intervals() + ".");
+                       "Mean scores by factor" + report.asThesis("Fig. 5.13") +
+                           report.intervals(isSomeAlone) + ".");
 }
 
 // Report section on answers in words.

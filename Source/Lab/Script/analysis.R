@@ -100,13 +100,27 @@ result <- function(test, effect, statistic, value, p, n, df1 = NA, df2 = NA, p_c
   cat("  ", effect, ": ", if (note == "" || !is.na(p)) words else if (effect %in% c("factors", "left out", "hidden reference")) note else paste("not tested:", note),
       if (!is.na(n)) paste(", n =", n), if (note != "" && !is.na(p)) paste0(", ", note), "\n", sep = "")
 }
+# Signed ranks, or of two arguments Mann and Whitney's: p of all signs, or of all ways to divide the ranks, also where they are tied. Of more ranks R's own.
+rank.test <- function(a, b = NULL) {
+  t <- if (is.null(b)) wilcox.test(a) else wilcox.test(a, b)
+  d <- if (is.null(b)) a[a != 0] else c(a, b)
+  if (is.nan(t$p.value) || length(d) > 60) return(t)
+  ranks <- as.integer(round(2 * rank(if (is.null(b)) abs(d) else d))); sums <- sum(ranks) + 1; chosen <- if (is.null(b)) d > 0 else seq_along(d) <= length(a)
+  ways <- matrix(0, length(d) + 1, sums); ways[1, 1] <- 1 # by number of ranks chosen and their sum
+  for (r in ranks) ways[-1, (r + 1):sums] <- ways[-1, (r + 1):sums] + ways[-nrow(ways), 1:(sums - r)]
+  ways <- if (is.null(b)) colSums(ways) else ways[length(a) + 1, ]
+  at <- sum(ranks[chosen]) + 1
+  t$p.value <- min(1, 2 * min(sum(ways[1:at]), sum(ways[at:sums])) / sum(ways)); t$method <- "ranks, exact"
+  t
+}
 # What a test by ranks did not count, and how it came to its p.
 ranks.note <- function(t, equal, words) paste(c(if (equal > 0) paste(equal, "of them", words), if (grepl("rank", t$method) && !grepl("exact", t$method)) "p by a normal approximation"), collapse = ", ")
 # A test that R refuses is a line that says why; the others go on.
 attempt <- function(test, effect, run) tryCatch(run, error = function(e) result(test, effect, "", NA, NA, NA, note = gsub("\n", "", conditionMessage(e), fixed = TRUE)))
-tell.lacking <- function(test, cells) {
+tell.lacking <- function(test, cells) { # once of the same cells
   lacking <- attr(cells, "lacking")
-  if (length(lacking) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = paste("some levels are lacking of", paste(lacking, collapse = ", ")))
+  of <- function(test) sub("^(analysis of variance|.* test|pairs by (t|ranks)) of ", "", test)
+  if (length(lacking) > 0 && !any(results$effect == "left out" & of(results$test) == of(test))) result(test, "left out", "", NA, NA, nrow(cells), note = paste("some levels are lacking of", paste(lacking, collapse = ", ")))
 }
 
 # Of each group its means of the levels within participants, where they are few.
@@ -165,7 +179,10 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   })
   attempt(test, "residuals normality", {
     left <- as.matrix(lm.fit(x, cells)$residuals)
-    s <- shapiro.test(left - rowMeans(left) * (ncol(cells) > 1)); result(test, "residuals normality", "Shapiro-Wilk W", s$statistic, s$p.value, n)
+    shapiro <- function(effect, left) { s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n) }
+    # of two cells the differences: what is left of both of them is the same with two signs
+    shapiro("residuals normality", if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
+    if (length(between) > 0 && ncol(cells) > 1) shapiro("participants' means normality", rowMeans(left))
   })
   if (length(attr(cells, "lacking")) > 0 && requireNamespace("lme4", quietly = TRUE)) attempt(test, "mixed model", mixed(test, file, measure, within, between, where))
 }) }
@@ -179,7 +196,9 @@ mixed <- function(test, file, measure, within, between, where) {
   terms <- attr(x, "assign"); labels <- unlist(lapply(seq_along(own), function(m) combn(factors, m, paste, collapse = ":")))
   slopes <- if (length(within) > 1) sprintf(" + (1 | id:w%d)", seq_along(within))
   model <- as.formula(paste(c("y ~ 0 + x + (1 | id)", slopes), collapse = ""))
-  fit <- function(x) as.numeric(logLik(suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE))))
+  of <- function(x) suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE))
+  fit <- function(x) as.numeric(logLik(of(x)))
+  if (lme4::isSingular(of(x))) stop("participants' variance is estimated as 0, so cells would count as people")
   for (t in seq_along(labels)) {
     chi <- max(0, 2 * (fit(x) - fit(x[, terms != t, drop = FALSE])))
     result(test, paste(labels[t], "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t))
@@ -204,6 +223,7 @@ friedman <- function(test, file, measure, within = character(), where = characte
 pairs.test <- function(test, file, measure, within = character(), where = character(), by = "t", correction = "holm", between = character(), paired = TRUE) {
   cat(test, "\n", sep = ""); attempt(test, "all", {
   rows <- rows.of(file, measure, within, where); cells <- cells.of(rows); n <- nrow(cells)
+  tell.lacking(test, cells)
   for (f in c(within, between)) {
     is.within <- f %in% within; is.signed <- is.within && paired
     own <- if (is.within) by.level(rows, cells, match(f, within)) else split(unname(rowMeans(cells)), of.people(file, measure, f, rownames(cells), where))
@@ -216,7 +236,8 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
       if (by == "t" && !is.within) {
         se <- deviation * sqrt(1 / length(a) + 1 / length(b)); df <- n - length(own); t <- (mean(a) - mean(b)) / se
         return(list(p = 2 * pt(-abs(t), df), value = t, df = df, size = "d", effect = (mean(a) - mean(b)) / deviation, difference = mean(a) - mean(b),
-                    interval = mean(a) - mean(b) + c(-1, 1) * qt(0.975, df) * se, n = length(a) + length(b)))
+                    interval = mean(a) - mean(b) + c(-1, 1) * qt(0.975, df) * se, n = length(a) + length(b),
+                    note = if (length(own) > 2) paste("its error that of all", n)))
       }
       if (by == "t" && nlevels(groups) > 1) { # as the analysis of variance has it: each group counts alike
         m <- lm(a - b ~ groups, contrasts = list(groups = "contr.sum")); s <- coef(summary(m))[1, ]; df <- m$df.residual
@@ -224,7 +245,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
         return(list(p = s[[4]], value = s[[3]], df = df, size = "d_z", effect = s[[1]] / sigma(m), difference = s[[1]], interval = s[[1]] + c(-1, 1) * qt(0.975, df) * s[[2]], n = n))
       }
       size <- max(abs(c(a, b)), 1e-300); different <- if (is.signed) even(a - b, size)
-      t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else if (is.signed) wilcox.test(different) else wilcox.test(even(a, size), even(b, size)), error = function(e) list(p.value = NaN))
+      t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else if (is.signed) rank.test(different) else rank.test(even(a, size), even(b, size)), error = function(e) list(p.value = NaN))
       out <- list(p = t$p.value, value = t$statistic, df = NA, size = "rank-biserial r", interval = c(NA, NA), n = if (is.within) n else length(a) + length(b))
       if (is.nan(t$p.value)) return(out)
       if (by == "t") return(modifyList(out, list(df = t$parameter, size = "d_z", effect = mean(a - b) / sd(a - b), difference = mean(a - b), interval = t$conf.int)))
@@ -243,7 +264,8 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
                   effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], note = c(one$note, "")[1], lines = length(ps))
     }
     if (by == "t" && is.within && n > 1) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
-      found <- power.t.test(n, power = 0.8, sd = 1, sig.level = alpha, type = "paired")$delta
+      of <- if (nlevels(groups) > 1) table(groups) else n
+      found <- uniroot(function(d) pt(qt(1 - alpha / 2, n - length(of)), n - length(of), d * length(of) / sqrt(sum(1 / of)), lower.tail = FALSE) - 0.8, c(0, 100), tol = 1e-9)$root
       cat("  power: n = ", n, " finds d_z = ", round(found, 2), " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
     })
   }
@@ -268,7 +290,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
     hits <- tapply(d$choice[of] == word, d$participant[of], sum); n <- tapply(of[of], d$participant[of], length)
     lead <- (k * hits - n) / n # leads of the same size tie to the bit
     away <- lead[lead != 0]
-    t <- if (length(n) < 2 || length(away) == 0) NULL else if (k == 2 && length(unique(abs(away))) == 1) binom.test(sum(away > 0), length(away)) else wilcox.test(lead)
+    t <- if (length(n) < 2 || length(away) == 0) NULL else if (k == 2 && length(unique(abs(away))) == 1) binom.test(sum(away > 0), length(away)) else rank.test(lead)
     list(share = mean(hits / n), n = length(n), t = t, equal = sum(lead == 0))
   }, lines$group, lines$word)
   ps <- sapply(tests, function(one) if (is.null(one$t)) NA else one$t$p.value)
@@ -330,10 +352,13 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   column <- sub("=.*", "", measure)
   d <- d[!(d[[column]] %in% c("", "NA")), ]
   if (length(unique(d$participant)) < 2) return(invisible())
+  if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
   design <- design.of(d, columns); factors <- c(design$within, design$between)
-  for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = note)
+  if (kind == "magnitudes" && length(unique(d$level_db)) > 1) design$notes <- c(design$notes, paste0("level_db (", length(unique(d$level_db)), " levels): averaged over"))
+  if (length(design$notes) > 0) cat(what, "\n", sep = "")
+  for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over", "not tested", note))
   if (length(factors) == 0) return(invisible())
-  if (kind == "magnitudes" && length(factors) > 1) { d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what); kind <- "scores" }
+  if (kind == "magnitudes" && length(factors) > 1) kind <- "scores"
   few <- function(some) Filter(function(f) length(unique(level(d, f))) <= most.levels, some)
   name <- paste(what, "by", paste(factors, collapse = ", "))
   if (kind == "scores") anova.test(paste("analysis of variance of", name), d, measure, design$within, between = design$between)

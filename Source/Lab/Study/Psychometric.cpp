@@ -176,10 +176,8 @@ std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricFun
     if (isWide || (isFlat && f.threshold >= least && f.threshold <= most))
         return "the answers hardly change within the levels that were played";
     if (f.threshold < least || f.threshold > most)
-        return "the threshold, " +
-               fixedNumber(f.threshold, std::max(0, 2 - static_cast<int>(std::floor(std::log10(range))))) +
-               ", lies outside the levels that were played, " + plainNumber(least) + " to " +
-               plainNumber(most);
+        return "the fitted threshold lies outside the levels that were played, " + plainNumber(least) +
+               " to " + plainNumber(most);
     return {};
 }
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Rscript analysis_test.R ANALYSIS.R: what the script of a report says of designs at the edges, beside what R's own functions say of them.
 script <- normalizePath(commandArgs(TRUE)[1])
+source(file.path(dirname(sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE))), "exact.R"))
 own <- tempfile(); dir.create(own)
 options(warn = -1)
 source(script)
@@ -37,6 +38,15 @@ for (n in c(2, 3, 4, 12, 49, 50)) for (levels in list(2, 3, 6, c(2, 3), c(2, 2, 
     same(words, own$value, row[["F value"]]); same(paste(words, "p"), own$p, row[["Pr(>F)"]]); same(paste(words, "df"), own$df1, row[["Df"]])
     if (own$n != length(unique(m$participant))) fault(words, "has n", own$n)
   }
+  if (length(levels) == 1 && levels == 2 && n > 3) {
+    wide <- with(m, tapply(y, list(participant, a), mean))
+    same(paste("normality of differences, n", n), line(ours, "residuals normality")$p, shapiro.test(wide[, 1] - wide[, 2])$p.value)
+    if (n == 12) { # pairs by ranks alone tell who is lacking; beside another test they do not say it again
+      if (line(told(pairs.test("pairs by ranks of y by a", "trials.csv", "y", "a", by = "ranks")), "left out")$n != 11) fault("who lacks a level of pairs by ranks is not told")
+      both <- told({ anova.test("analysis of variance of y by a", "trials.csv", "y", "a"); pairs.test("pairs by t of y by a", "trials.csv", "y", "a") })
+      if (sum(both$effect == "left out") != 1) fault("who lacks a level is told twice")
+    }
+  }
   if (length(levels) == 1 && levels > 2 && n > levels) {
     wide <- with(m, tapply(y, list(participant, a), mean)); fit <- lm(wide ~ 1)
     r <- anova(fit, update(fit, ~ 0), X = ~ 1, M = ~ a, idata = data.frame(a = factor(seq_len(levels))), test = "Spherical")
@@ -60,7 +70,7 @@ for (n in c(2, 3, 6, 49, 50, 51)) for (digits in c(0, 6)) for (k in c(2, 3)) {
     ours <- told(pairs.test("t", "trials.csv", "y", "pair", by = sub("unpaired ", "", by), correction = correction, paired = paired))
     two <- combn(k, 2)
     ps <- apply(two, 2, function(i) { a <- wide[, i[1]]; b <- wide[, i[2]]
-      tryCatch(if (by == "t") t.test(a, b, paired = TRUE)$p.value else wilcox.test(a, b, paired = paired)$p.value, error = function(e) NaN) })
+      tryCatch(if (by == "t") t.test(a, b, paired = TRUE)$p.value else if (paired) exact.p(a - b) else exact.p(a, b), error = function(e) NaN) })
     corrected <- p.adjust(ps, correction, length(ps))
     for (i in seq_along(ps)) { own <- line(ours, paste0("pair: c", two[1, i], " - c", two[2, i]))
       if (is.nan(ps[i])) { if (own$note == "") fault("pair of ties", words) } else {
@@ -78,10 +88,9 @@ for (n in c(1, 6, 49, 50)) {
   ours <- told(choices("t", "trials.csv"))
   share <- function(d) tapply(d$choice == "A", d$participant, function(x) (2 * sum(x) - length(x)) / length(x))
   if (n == 1) { if (!all(ours$note != "")) fault("one person is tested") } else {
-    same(paste("choices, n", n), line(ours, "all")$p, wilcox.test(share(d))$p.value)
+    same(paste("choices, n", n), line(ours, "all")$p, exact.p(share(d)))
     at <- sum(share(d) == 0); if (grepl("at chance", line(ours, "all")$note) != (at > 0) || at > 0 && !startsWith(line(ours, "all")$note, paste(at, "of them at chance"))) fault("people at chance are not told")
-    if (grepl("normal approximation", line(ours, "all")$note) != !grepl("exact", wilcox.test(share(d))$method)) fault("how p was found is not told")
-    same(paste("choices of wood, n", n), line(ours, "pair=wood")$p, wilcox.test(share(d[grepl("wood", d$stimulus), ]))$p.value)
+    same(paste("choices of wood, n", n), line(ours, "pair=wood")$p, exact.p(share(d[grepl("wood", d$stimulus), ])))
     same(paste("share, n", n), line(ours, "all")$effect_size, mean((share(d) + 1) / 2))
     same(paste("Holm, n", n), min(ours$p_corrected), min(p.adjust(ours$p, "holm")))
     names(d)[names(d) == "choice"] <- "response"; rows(d)
@@ -94,7 +103,7 @@ d$choice <- sample(c("A", "B", "C"), nrow(d), TRUE)
 rows(d)
 ours <- told(choices("t", "trials.csv"))
 for (word in c("A", "B", "C")) same(paste(word, "of three"), line(ours, paste0(word, ", all"))$p,
-  wilcox.test(as.vector(tapply(d$choice == word, d$participant, function(x) (3 * sum(x) - length(x)) / length(x))))$p.value)
+  exact.p(as.vector(tapply(d$choice == word, d$participant, function(x) (3 * sum(x) - length(x)) / length(x)))))
 # Unanimous: exact binomials of people, though the other alternative was only there to choose.
 d <- expand.grid(trial = 1:4, stimulus = c("s", "t"), participant = person(8), stringsAsFactors = FALSE)
 d$choice <- "80"; d$parts <- "80|200"; rows(d)
@@ -160,8 +169,20 @@ for (sizes in list(c(6, 6), c(4, 7), c(5, 3, 6))) {
   ours <- told(pairs.test("t", "trials.csv", "y", between = "group"))
   same(paste(words, "pair"), line(ours, "group: g1 - g2")$p, pooled[1, 1])
   same(paste(words, "ranks"), line(told(pairs.test("t", "trials.csv", "y", between = "group", by = "ranks")), "group: g1 - g2")$p,
-       wilcox.test(all[group == "g1"], all[group == "g2"])$p.value)
+       exact.p(all[group == "g1"], all[group == "g2"]))
 }
+# Where people do not differ beyond their trials, a mixed model would count cells as people: it is withheld.
+if (requireNamespace("lme4", quietly = TRUE)) {
+  d <- expand.grid(condition = c("x", "y", "z"), participant = person(8), stringsAsFactors = FALSE); d$y <- rnorm(nrow(d)); d$y <- d$y - ave(d$y, d$participant); rows(d[-1, ])
+  ours <- told(anova.test("t", "trials.csv", "y", "condition"))
+  if (!grepl("estimated as 0", line(ours, "mixed model")$note) || any(ours$effect == "condition mixed model")) fault("a model of cells as people is told")
+}
+# Magnitudes are averaged as logarithms, over levels in dB with a word.
+d <- expand.grid(level_db = c(0, 6), participant = person(8), stringsAsFactors = FALSE); d$group <- ifelse(as.integer(d$participant) %% 2 == 0, "a", "b"); d$value <- round(exp(rnorm(nrow(d), 2)), 2)
+rows(d)
+ours <- told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes")); logs <- tapply(log10(d$value), d$participant, mean); in.a <- tapply(d$group == "a", d$participant, all)
+same("logarithms by ranks", line(ours, "group: a - b")$p, exact.p(logs[in.a], logs[!in.a]))
+if (!any(grepl("level_db (2 levels): averaged over", ours$note, fixed = TRUE))) fault("levels that are averaged over are not told")
 # People who lack levels, in a mixed model of all: the likelihood ratios of lmer's own formulas, with factors within and between.
 if (requireNamespace("lme4", quietly = TRUE)) {
   d <- expand.grid(trial = 1:2, condition = c("x", "y", "z"), participant = person(14), stringsAsFactors = FALSE)
@@ -211,7 +232,7 @@ d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$stimulus <- ""; d$pa
 d$ran_out <- ifelse(runif(nrow(d)) < ifelse(d$condition == "c2", 0.6, 0.1) & d$trial > 1, 1, 0); d$effort[d$ran_out == 1] <- NA
 ours <- whole(d, "effort"); late <- tapply(d$ran_out, list(d$participant, d$condition), mean); effort <- tapply(d$effort, list(d$participant, d$condition), mean, na.rm = TRUE)
 # Shares of thirds: equal differences are ties, whatever their last binary digit is.
-same("ran out", ours$p[grepl("ran out of time in main", ours$test)], wilcox.test(round(late[, 1] - late[, 2], 9))$p.value)
+same("ran out", ours$p[grepl("ran out of time in main", ours$test)], exact.p(round(late[, 1] - late[, 2], 9)))
 same("answers in time", line(ours[!grepl("ran out", ours$test), ], "condition: c1 - c2")$p, t.test(effort[, 1], effort[, 2], paired = TRUE)$p.value)
 # Shares of several alternatives are one question; groups have their Levene's test, around medians.
 d <- expand.grid(trial = 1:9, participant = person(12), condition = c("c1", "c2"), stringsAsFactors = FALSE)

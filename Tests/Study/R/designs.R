@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Rscript designs.R, in the folder of designs.sh: each design from its trial files, by R's own functions and without a look at analysis.R.
 options(warn = -1)
+source(file.path(dirname(sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE))), "exact.R"))
 faults <- 0; figures <- 0
 fault <- function(...) { faults <<- faults + 1; cat("FAULT:", ..., "\n") }
 read <- function(file) read.csv(file, comment.char = "#", colClasses = "character")
@@ -82,7 +83,7 @@ d <- d[d$choice != "", ]
 
 d <- trials("hurried"); p <- page("hurried"); late <- tapply(d$ran_out == "1", list(d$participant, d$condition), mean)
 if (all(late == 0) || !all(d$correct[d$ran_out == "1"] == "" & d$response[d$ran_out == "1"] == "")) fault("a trial that ran out has an answer, or none ran out")
-same("hurried, ran out", p$p[grepl("ran out of time in main", p$test) & !is.na(p$p)], wilcox.test(round(late[, 1] - late[, 2], 9))$p.value)
+same("hurried, ran out", p$p[grepl("ran out of time in main", p$test) & !is.na(p$p)], exact.p(round(late[, 1] - late[, 2], 9)))
 d <- d[d$ran_out == "0", ]
 right <- 100 * tapply(d$correct == "1", list(d$participant, d$condition), mean)
 same("hurried, percent correct", p$p[startsWith(p$test, "pairs by t of percent correct by ")], t.test(right[, 1], right[, 2], paired = TRUE)$p.value)
