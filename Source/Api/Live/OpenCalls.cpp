@@ -90,7 +90,7 @@ SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& ren
     setup.scene.name = "live"; // empty: the caller simulates the world
     setup.scene.fieldWidthMetres = setup.scene.fieldHeightMetres = 1.0;
     setup.stepsPerSecond = s.steps_per_s;
-    setup.longestGapSeconds = s.longest_gap_s;
+    setup.longestGapSeconds = threadGapSeconds(s.steps_per_s, s.longest_gap_s);
     setup.channels = renderer.outputs();
     setup.panner = renderer.panner;
     setup.limiterEnabled = renderer.limiterEnabled;
@@ -110,7 +110,7 @@ std::vector<std::uintptr_t> api::openLives() {
 int physvib_live_settings_init(physvib_live_settings* settings, size_t size) {
     auto values = zeroed<physvib_live_settings>();
     values.steps_per_s = 100;
-    values.longest_gap_s = messageTimerGapSeconds;
+    values.longest_gap_s = driverThreadGapSeconds;
     values.level_db = safeStartDecibels;
     return begin(settings, size, values);
 }

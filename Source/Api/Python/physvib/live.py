@@ -87,7 +87,7 @@ class Live:
 
     def __init__(self, device: str = "JACK:system", *, layout: str | Layout = "phone4", channels: int = 0, law: str = "auto", exponent: float = 1.0,
                  field_m: tuple[float, float] | None = None, limiter: bool = True, rate_hz: int = 0, block_frames: int = 0, steps_per_s: int = 100,
-                 longest_gap_s: float = 0.026, level_db: float = -12.0, save: str | os.PathLike[str] = "", first_output: int = 0) -> None:
+                 longest_gap_s: float = 0.001, level_db: float = -12.0, save: str | os.PathLike[str] = "", first_output: int = 0) -> None:
         self._handle = c_void_p()
         wanted = CLiveSettings()
         live_call("live_settings_init", ctypes.byref(wanted), ctypes.sizeof(wanted))
@@ -126,8 +126,8 @@ class Live:
         return live_call("live_send", self._handle, world._handle, start_ns, int(at_once))
 
     def follow(self, world: World, start_ns: int = 0) -> int:
-        """For a world that is stepped as time goes on, after each step: sends what is final, and returns the session time of the world's time 0,
-        to be given to the next call. It stays the same unless the world is held up, or runs ahead, by more than longest_gap_s."""
+        """For a world that is stepped as time goes on, after each step: sends its events, and returns the session time of the world's time 0,
+        to be given to the next call. It stays the same unless the world runs ahead, or is held up by more than the latency."""
         start = c_int64(start_ns)
         live_call("live_align", self._handle, world._handle, ctypes.byref(start))
         self.send(world, start.value)
