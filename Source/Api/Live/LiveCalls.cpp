@@ -117,12 +117,13 @@ int physvib_live_align(physvib_live name, physvib_world world, physvib_int64* st
         if (startNs == nullptr) return nothingThere("start: expected a place for it, found NULL");
         const physvib_int64 timeNs = physvib_world_time_ns(world);
         if (timeNs < 0) return fail(static_cast<int>(timeNs), physvib_error());
-        // The step that has been made begins now. The earliest call sets the pace: one that is late, within
-        // L, is still on time, and a world that runs ahead would be felt that much later.
+        // The step that has been made begins now. A call that is late, within L, is still on time; a world
+        // that runs ahead, as after an xrun, is felt that much later, so less of that is let pass.
         const Timeline& session = live.session().timeline();
-        const physvib_int64 wanted = session.presentNs() + 1'000'000'000 / live.stepsPerSecond() - timeNs;
+        const physvib_int64 stepNs = 1'000'000'000 / live.stepsPerSecond(),
+                            wanted = session.presentNs() + stepNs - timeNs;
         const auto latencyNs = static_cast<physvib_int64>(session.outputLatencySeconds() * 1.0e9);
-        if (*startNs < wanted - latencyNs || *startNs > wanted) *startNs = wanted;
+        if (*startNs < wanted - latencyNs || *startNs > wanted + latencyNs - stepNs) *startNs = wanted;
         return PHYSVIB_OK;
     });
 }

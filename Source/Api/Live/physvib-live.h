@@ -143,9 +143,9 @@ PHYSVIB_API int physvib_live_impact(physvib_live live, double x_m, double y_m, d
 PHYSVIB_API int physvib_live_impact_of(physvib_live live, const char* material, double x_m, double y_m,
                                        double strength);
 /** For a world that is stepped as time goes on, after each step, which is taken to begin now: `*start_ns`, at
- * first 0, becomes the session time of the world's time 0, and stays so for as long as the world does not run
- * ahead of that, and lags behind by at most the output latency. Else it is set again. Any thread; one at a
- * time per world. */
+ * first 0, becomes the session time of the world's time 0, and stays so for as long as the world lags behind
+ * that by at most the output latency, or runs ahead by at most that less a step. Else it is set again. Any
+ * thread; one at a time per world. */
 PHYSVIB_API int physvib_live_align(physvib_live live, physvib_world world, physvib_int64* start_ns);
 /** Takes the events of a world, whose time 0 is session time `start_ns`, and plays them in time order, final
  * or not; `at_once` is not looked at. Returns their number. Any thread; one at a time per world. */

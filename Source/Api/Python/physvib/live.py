@@ -127,7 +127,7 @@ class Live:
 
     def follow(self, world: World, start_ns: int = 0) -> int:
         """For a world that is stepped as time goes on, after each step: sends its events, and returns the session time of the world's time 0,
-        to be given to the next call. It stays the same unless the world runs ahead, or is held up by more than the latency."""
+        to be given to the next call. It stays the same unless the world is held up, or runs ahead, by more than the latency."""
         start = c_int64(start_ns)
         live_call("live_align", self._handle, world._handle, ctypes.byref(start))
         self.send(world, start.value)
