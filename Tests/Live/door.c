@@ -47,7 +47,7 @@ int main(int count, char** words) {
             if (physvib_world_touch(world, &contact) != PHYSVIB_OK) return failed();
         }
         physvib_world_end_step(world);
-        if (physvib_live_align(live, world, &start) != PHYSVIB_OK || physvib_live_send(live, world, start, 0) < 0) return failed();
+        if (physvib_live_align(live, world, &start) != PHYSVIB_OK || physvib_live_send(live, world, start, 1) < 0) return failed();
     }
     for (step = 0; door_onset(step) != 0; ++step) printf("- %lld\n", (long long)door_onset(step));
     physvib_live_status_init(&status, sizeof status);

@@ -152,7 +152,8 @@ public partial struct LiveSettings {
     public int RateHz, BlockFrames, StepsPerS;
     public double LongestGapS, LevelDb;
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 1024)] byte[] save;
-    public int FirstOutput;
+    public int FirstOutput, SoundOutput;
+    public double SoundDb;
 }
 
 [StructLayout(LayoutKind.Sequential)]

@@ -37,6 +37,9 @@ typedef struct physvib_live_settings {
     char save[1024];  /**< a session file (.json, UTF-8) of all events, written while it plays, a list of its
                          events beside it; "": none ("") */
     int first_output; /**< actuator j is output first_output + j of the device, from 0 (0) */
+    int sound_output; /**< this output and the next are the left and right loudspeaker or ear: each hit is
+                         heard there by its place, on the frame on which it is felt; -1: none (-1) */
+    double sound_db;  /**< there, of a hit at full scale: -90 to 0; the level above does not count (-20) */
 } physvib_live_settings;
 
 #define PHYSVIB_BOARD_NONE 0   /**< no board was opened */
