@@ -107,10 +107,7 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
         .add("--contact-sound", o.contactSound,
              "what is heard of each hit, for headphones or loudspeakers, in sync with --out")
         .written("FILE.wav");
-    command
-        .add("--contact-sound-channels", o.contactSoundEars,
-             "1, or 2: left and right, by the place of the hit")
-        .in(1, 2);
+    command.add("--contact-sound-channels", o.contactSoundEars, "2: left and right, by place").in(1, 2);
     command.add("--marker", o.marker, "a pulse at the sample of each onset: one channel, in sync with --out")
         .written("FILE.wav");
     command.add("--rate", o.sampleRateHz, "sample rate")

@@ -136,8 +136,7 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
         .in(PinkNoise::leastDb, PinkNoise::mostDb);
     command
         .add("--contact-sound", o.scene.contactSound,
-             "other outputs of the device on which each hit is heard, from 1; of two, left and right by its "
-             "place")
+             "other outputs of the device on which each hit is heard, from 1; two: left and right")
         .as("5,6");
     command
         .add(
