@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* When a hit leaves a JACK server, in the session time of what plays it: a library, for programs in any language. */
+/* When a hit leaves a JACK server, in the session time of what plays it: a library, for programs in any
+ * language. */
 #include <jack/jack.h>
 #include <math.h>
-#include <stdio.h>
 #include <physvib/physvib-live.h>
+#include <stdio.h>
 
 enum { ports = 4, most = 4096, silent = 2400 }; /* frames of silence before an onset: 50 ms */
 
@@ -20,7 +21,8 @@ static int process(jack_nframes_t frames, void* rate) {
     int j;
     for (n = 0; n < frames; ++n) {
         int loud = 0;
-        for (j = 0; j < ports; ++j) loud |= fabsf(((const float*)jack_port_get_buffer(inputs[j], frames))[n]) > 0.0005f;
+        for (j = 0; j < ports; ++j)
+            loud |= fabsf(((const float*)jack_port_get_buffer(inputs[j], frames))[n]) > 0.0005f;
         if (loud && quiet >= silent && count < most)
             times[count++] = end - (physvib_int64)((frames - n) * 1e9 / *(const double*)rate);
         quiet = loud ? 0 : quiet + 1;
