@@ -36,6 +36,7 @@ node Tests/JavaScript/react.mjs "$work"
 node Tests/JavaScript/space-examples.mjs "$work" Source/Api/JavaScript/examples/space
 node Tests/JavaScript/xr.mjs "$work"
 node Tests/JavaScript/lives.mjs "$work"
+node Tests/JavaScript/storm.mjs "$work"
 node Tests/JavaScript/memory.mjs "$work"
 node Tests/JavaScript/cost.mjs "$work" 100
 node Tests/JavaScript/space.mjs "$work"

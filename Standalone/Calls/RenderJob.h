@@ -74,7 +74,8 @@ struct RenderJob {
     std::string contactSound; ///< output of the contact sound: a WAV of `render`, outputs of `play`; empty:
                               ///< none
     double contactSoundDb = usualContactDb; ///< of a full-scale impact
-    std::string marker; ///< output of onset markers: a WAV of `render`, outputs of `play`; empty: none
+    int contactSoundEars = 1; ///< of `render`; 2: left and right, by the impact's place in the field
+    std::string marker;       ///< output of onset markers: a WAV of `render`, outputs of `play`; empty: none
     MarkedOnsets marked = MarkedOnsets::all;
     std::string actuator = "none";               ///< or "layout", a profile's name, a profile's path
     bool isEqualised = true, isRemapped = false; ///< effective with an actuator

@@ -105,8 +105,9 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
         .in(0.001, 1000.0, " V");
     command
         .add("--contact-sound", o.contactSound,
-             "what is heard of each hit, for headphones: one channel, in sync with --out")
+             "what is heard of each hit, for headphones or loudspeakers, in sync with --out")
         .written("FILE.wav");
+    command.add("--contact-sound-channels", o.contactSoundEars, "2: left and right, by place").in(1, 2);
     command.add("--marker", o.marker, "a pulse at the sample of each onset: one channel, in sync with --out")
         .written("FILE.wav");
     command.add("--rate", o.sampleRateHz, "sample rate")

@@ -63,6 +63,7 @@ TEST_F(EveryOption, OfARenderCountsOrIsPromisedNotTo) {
         {"--picture", "out.png", list, "out.wav", false},
         {"--pattern", "out.pattern.csv", list, "out.wav", false},
         {"--contact-sound", "out.sound.wav", scene, "out.wav", false},
+        {"--contact-sound-channels", "2", scene + "--contact-sound out.sound.wav ", "out.sound.wav"},
         {"--marker", "out.marks.wav", scene, "out.wav", false},
     };
     for (const Row& row : rows) {

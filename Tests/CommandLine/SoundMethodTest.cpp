@@ -116,6 +116,15 @@ TEST_F(SoundMethod, TheContactSoundIsAFileOfItsOwnInSyncWithWhatIsFelt) {
     EXPECT_NEAR(peakOf(recorded, 0.2, 0.55, 48000), 0.4f * 0.5012f, 1e-4f);
     EXPECT_EQ(peakOf(recorded, 0.0, 0.2, 48000), 0.0f);
     EXPECT_EQ(samplesOf("a.wav"), felt) << "the hands feel the mode";
+    ASSERT_EQ(call(render + "--contact-sound-channels 2").exitCode, 0);
+    const auto both = samplesOf("b.wav"); // interleaved; every place has the power of the one channel
+    ASSERT_EQ(both.size(), 2 * felt.size());
+    float apart = 0.0f;
+    for (std::size_t n = 0; n < felt.size(); ++n) {
+        ASSERT_NEAR(std::hypot(both[2 * n], both[2 * n + 1]), std::abs(heard[n]), 1e-6f) << n;
+        apart = std::max(apart, std::abs(both[2 * n] - both[2 * n + 1]));
+    }
+    EXPECT_GT(apart, 0.001f) << "by place";
 }
 
 TEST_F(SoundMethod, LevelsMoveAllHitsAndRecordingsCanBeAsStrongAsTheMode) {

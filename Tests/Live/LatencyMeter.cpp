@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measures how long after its contact a collision comes out of a JACK server: a session on it, and in the
 // same process a client that records what it plays and notes which frame of the session each cycle is. Prints
-// a row of a table. Usage: physvib-latency-meter message|thread STEPS_PER_SECOND SECONDS
+// a row of a table. Usage: physvib-latency-meter message|thread|mixer STEPS_PER_SECOND SECONDS
+#include "Host/MessageLoop.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/SimulationDriver.h"
 #include "MeterClient.h"
+#include "Mixer/Model/MixerModel.h"
 #include "Scene/SceneFile.h"
 #include "Scene/World/RunSettings.h"
 #include <chrono>
@@ -29,10 +31,47 @@ SessionSetup setupFor(const std::string& driver, int stepsPerSecond) {
     return s;
 }
 
+/// Prints the row; 0 if what was recorded is what the log gives, L later.
+int tell(const std::string& name, Session& session, const SessionSetup& setup, test::MeterClient& client,
+         const SessionLog& log, double seconds) {
+    const auto made = runTakes(log.takes, setup.run(), std::llround(seconds * 1e9));
+    const auto render = test::rendered(made.events, setup, client.rate, seconds);
+    const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
+    if (!result.isAligned) return std::puts("the recording is not the render"), 1;
+    const auto ms = [&](std::int64_t frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
+    const std::int64_t measured = client.firstFrame + result.offset,
+                       law = session.timeline().outputLatencyFrames();
+    std::printf(
+        "| `%s`, %d steps/s | %d | %lld (%.1f ms) | %lld (%.1f ms) | %d (%.1f ms) | %.1f ms | %llu of %llu | "
+        "%lld of %lld |\n",
+        name.c_str(), setup.stepsPerSecond, client.block, static_cast<long long>(law), ms(law),
+        static_cast<long long>(measured), ms(measured), client.playbackLatencyFrames(),
+        ms(client.playbackLatencyFrames()), ms(measured + client.playbackLatencyFrames()),
+        static_cast<unsigned long long>(session.status().render.late),
+        static_cast<unsigned long long>(session.status().render.played), static_cast<long long>(result.equal),
+        static_cast<long long>(result.blocks));
+    return measured == law ? 0 : 1;
+}
+
+/// The mixer as it starts, with its message loop, at full level.
+int measureMixer(double seconds) {
+    const juce::ScopedJuceInitialiser_GUI juce;
+    Mix mix = MixerModel::firstMix();
+    mix.levelDb = 0.0;
+    for (Strip& strip : mix.strips) strip.gainDb = 0.0;
+    MixerModel mixer{systemAudioDrivers, {.name = "JACK:system"}, mix};
+    if (mixer.trouble().isNotEmpty()) return std::puts(mixer.trouble().toRawUTF8()), 1;
+    test::MeterClient client{mixer.session(), seconds};
+    test::runFor(seconds + 0.2);
+    client.stop();
+    return tell("mixer", mixer.session(), mixer.rig().settings().setup, client, mixer.saved().log, seconds);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     if (argc != 4) return 2;
+    if (std::string{argv[1]} == "mixer") return measureMixer(std::atof(argv[3]));
     const std::string driverName = argv[1];
     const double seconds = std::atof(argv[3]);
     const SessionSetup setup = setupFor(driverName, std::atoi(argv[2]));
@@ -52,21 +91,5 @@ int main(int argc, char** argv) {
     client.stop();
     SessionLog log; // stalls, if there were any
     session.readLog(log);
-    const auto made = runTakes(log.takes, setup.run(), std::llround(seconds * 1e9));
-    const auto render = test::rendered(made.events, setup, client.rate, seconds);
-    const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
-    if (!result.isAligned) return std::puts("the recording is not the render"), 1;
-    const auto ms = [&](std::int64_t frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
-    const std::int64_t measured = client.firstFrame + result.offset,
-                       law = session.timeline().outputLatencyFrames();
-    std::printf(
-        "| `%s`, %d steps/s | %d | %lld (%.1f ms) | %lld (%.1f ms) | %d (%.1f ms) | %.1f ms | %llu of %llu | "
-        "%lld of %lld |\n",
-        driverName.c_str(), setup.stepsPerSecond, client.block, static_cast<long long>(law), ms(law),
-        static_cast<long long>(measured), ms(measured), client.playbackLatencyFrames(),
-        ms(client.playbackLatencyFrames()), ms(measured + client.playbackLatencyFrames()),
-        static_cast<unsigned long long>(session.status().render.late),
-        static_cast<unsigned long long>(session.status().render.played), static_cast<long long>(result.equal),
-        static_cast<long long>(result.blocks));
-    return measured == law ? 0 : 1;
+    return tell(driverName, session, setup, client, log, seconds);
 }

@@ -74,3 +74,28 @@ rounds = [(s["x_m"], s["y_m"]) for s in others]
 assert set(rounds[:4]) == corners and rounds[4:8] == rounds[: len(rounds[4:8])], rounds
 print(f"music-rings: {len(times)} beats for all, {len(others)} round the table")
 PYTHON
+
+# Hits at the left and at the right, as oscdump (liblo) reads what a strap would get.
+if command -v oscdump >/dev/null; then
+    oscdump -L 9871 >"$folder/strap" &
+    strap=$!
+    "$examples/vest.py" pat_left=0,0.5 pat_right=2,0.5 --from 9872 --to 127.0.0.1:9871 &
+    vest=$!
+    playing="$strap $vest"
+    { sleep 3; for place in A B A A B A; do echo "{\"message\": \"strike\", \"material\": \"wood\", \"place\": \"$place\", \"level\": 0.8}"; sleep 0.5; done; } |
+        "$bin/physvib" play "$examples/quiet.json" --device JACK:system --listen --osc-to 127.0.0.1:9872 --seconds 8 >"$folder/out" 2>&1 || { cat "$folder/out"; exit 1; }
+    sleep 0.5
+    kill "$vest"
+    wait "$vest"
+    kill "$strap"
+    playing=
+    python3 - "$folder/strap" <<'PYTHON'
+import sys
+rows = [(line.split()[-3], float(line.split()[-1])) for line in open(sys.argv[1])]
+assert all(name in ("/avatar/parameters/pat_left", "/avatar/parameters/pat_right") and 0.0 <= level <= 1.0 for name, level in rows), rows
+for side, most in (("left", 4), ("right", 2)):  # a busy machine drops some
+    levels = [level for name, level in rows if name.endswith(side)]
+    assert levels[-1] == 0.0 and 0 < sum(b > 0.0 and a == 0.0 for a, b in zip([0.0] + levels, levels)) <= most and max(levels) > 0.1, (side, levels)
+print("vest: the hits at the left motor and at the right, then 0")
+PYTHON
+fi

@@ -90,7 +90,7 @@ int main(int count, char** words) {
             }
         }
         physvib_live_align(live, world, &start); /* world time to session time */
-        felt += physvib_live_send(live, world, start, 0);
+        felt += physvib_live_send(live, world, start, 1);
         SDL_SetRenderDrawColor(screen, 0, 0, 0, 255), SDL_RenderClear(screen);
         SDL_SetRenderDrawColor(screen, 255, 255, 255, 255);
         for (i = 0; i < parts; ++i) draw(screen, from[i], to[i], kinds[kindOf(i)].thickness);

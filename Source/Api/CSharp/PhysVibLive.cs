@@ -82,7 +82,7 @@ public sealed class Live : IDisposable {
     }
     /// <summary>The events of a world whose time 0 is session time startNs. How many.</summary>
     public int Send(World world, long startNs, bool atOnce = false) { return (int)LiveNative.Check(LiveNative.physvib_live_send(name, world.name, startNs, atOnce ? 1 : 0)); }
-    /// <summary>For a world that is stepped as time goes on, after each step: sends what is final. How many. Each world keeps a rhythm of its own.</summary>
+    /// <summary>For a world that is stepped as time goes on, after each step: sends its events. How many. Each world keeps a rhythm of its own.</summary>
     public int Follow(World world) {
         var start = starts.GetValue(world, _ => new long[1]);
         LiveNative.Check(LiveNative.physvib_live_align(name, world.name, ref start[0]));
@@ -152,7 +152,8 @@ public partial struct LiveSettings {
     public int RateHz, BlockFrames, StepsPerS;
     public double LongestGapS, LevelDb;
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 1024)] byte[] save;
-    public int FirstOutput;
+    public int FirstOutput, SoundOutput;
+    public double SoundDb;
 }
 
 [StructLayout(LayoutKind.Sequential)]

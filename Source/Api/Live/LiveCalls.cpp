@@ -43,13 +43,14 @@ int strike(Live& live, const physvib_event* given, std::int64_t count, std::int6
                : fail(PHYSVIB_ERROR_FULL, "events: expected fewer that wait for their time");
 }
 
-/// Takes all events of a world, in parts; returns their number, or the first error.
+/// Takes all events of a world, in parts, final or not: a device plays them in time order anyway. Returns
+/// their number, or the first error.
 template <class Play>
-physvib_int64 takeAll(physvib_world world, int atOnce, Play play) {
+physvib_int64 takeAll(physvib_world world, Play play) {
     std::array<physvib_event, 128> part{};
     part.front().size = sizeof part.front(); // the other library may know a longer one
     for (physvib_int64 sent = 0;;) {
-        const physvib_int64 count = physvib_world_take(world, part.data(), part.size(), atOnce);
+        const physvib_int64 count = physvib_world_take(world, part.data(), part.size(), 1);
         if (count < 0) return fail(static_cast<int>(count), physvib_error());
         if (const int code = play(std::span{part}.first(static_cast<std::size_t>(count))); code != PHYSVIB_OK)
             return code;
@@ -116,18 +117,22 @@ int physvib_live_align(physvib_live name, physvib_world world, physvib_int64* st
         if (startNs == nullptr) return nothingThere("start: expected a place for it, found NULL");
         const physvib_int64 timeNs = physvib_world_time_ns(world);
         if (timeNs < 0) return fail(static_cast<int>(timeNs), physvib_error());
-        const physvib_int64 wanted = live.session().timeline().presentNs() - timeNs;
-        const auto gapNs = static_cast<physvib_int64>(live.longestGapSeconds() * 1.0e9);
-        if (*startNs < wanted - gapNs || *startNs > wanted + gapNs) *startNs = wanted;
+        // The step that has been made begins now. A call that is late, within L, is still on time; a world
+        // that runs ahead, as after an xrun, is felt that much later, so less of that is let pass.
+        const Timeline& session = live.session().timeline();
+        const physvib_int64 stepNs = 1'000'000'000 / live.stepsPerSecond(),
+                            wanted = session.presentNs() + stepNs - timeNs;
+        const auto latencyNs = static_cast<physvib_int64>(session.outputLatencySeconds() * 1.0e9);
+        if (*startNs < wanted - latencyNs || *startNs > wanted + latencyNs - stepNs) *startNs = wanted;
         return PHYSVIB_OK;
     });
 }
 
-physvib_int64 physvib_live_send(physvib_live name, physvib_world world, physvib_int64 startNs, int atOnce) {
+physvib_int64 physvib_live_send(physvib_live name, physvib_world world, physvib_int64 startNs, int) {
     return in(name, [&](Live& live) -> physvib_int64 {
         if (startNs < -limits::maxTimeNs / 4 || startNs > limits::maxTimeNs / 4)
             return nothingThere("start: expected at most 2.5 * 10^16 ns from 0");
-        return takeAll(world, atOnce, [&](std::span<const physvib_event> part) {
+        return takeAll(world, [&](std::span<const physvib_event> part) {
             return strike(live, part.data(), std::ssize(part), startNs);
         });
     });
@@ -142,7 +147,7 @@ physvib_int64 physvib_live_send_each(const physvib_live* names, int count, physv
             if (const int code = physvib_live_align(names[k], world, startsNs + k); code != PHYSVIB_OK)
                 return code;
         std::vector<physvib_event> own;
-        return takeAll(world, 0, [&](std::span<const physvib_event> part) {
+        return takeAll(world, [&](std::span<const physvib_event> part) {
             int code = PHYSVIB_OK;
             for (int k = 0; k < count && code == PHYSVIB_OK; ++k) {
                 own.clear();

@@ -51,7 +51,7 @@ public:
     AudioOutput& output() noexcept { return rig_->output(); }
     LiveStatus status() const;
     bool isOfThisProcess() const noexcept { return process_ == thisProcess(); }
-    double longestGapSeconds() const noexcept { return rig_->settings().setup.longestGapSeconds; }
+    int stepsPerSecond() const noexcept { return rig_->settings().setup.stepsPerSecond; }
 
 private:
     static constexpr int watchesPerSecond = 50;

@@ -79,7 +79,8 @@ std::string_view faultOf(const physvib_live_settings& s) noexcept {
     if (s.steps_per_s < 20 || s.steps_per_s > 1000) return "steps: expected 20 to 1000 per second";
     if (!(s.longest_gap_s >= 0.0 && s.longest_gap_s <= 1.0)) return "longest gap: expected 0 to 1 s";
     if (s.first_output < 0 || s.first_output >= 65536) return "first output: expected 0 to 65535";
-    if (!isLevel(s.level_db)) return "level: expected -90 to 0 dB";
+    if (s.sound_output < -1 || s.sound_output >= 65535) return "sound output: expected -1, or 0 to 65534";
+    if (!isLevel(s.level_db) || !isLevel(s.sound_db)) return "level: expected -90 to 0 dB";
     if (std::memchr(s.save, '\0', sizeof s.save) == nullptr)
         return "save: expected a path of at most 1023 bytes";
     return {};
@@ -90,11 +91,12 @@ SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& ren
     setup.scene.name = "live"; // empty: the caller simulates the world
     setup.scene.fieldWidthMetres = setup.scene.fieldHeightMetres = 1.0;
     setup.stepsPerSecond = s.steps_per_s;
-    setup.longestGapSeconds = s.longest_gap_s;
+    setup.longestGapSeconds = threadGapSeconds(s.steps_per_s, s.longest_gap_s);
     setup.channels = renderer.outputs();
     setup.panner = renderer.panner;
     setup.limiterEnabled = renderer.limiterEnabled;
     setup.log = LogUse::none;
+    if (s.sound_output >= 0) setup.contactSound.emplace(), setup.ears = 2;
     return setup;
 }
 
@@ -110,8 +112,10 @@ std::vector<std::uintptr_t> api::openLives() {
 int physvib_live_settings_init(physvib_live_settings* settings, size_t size) {
     auto values = zeroed<physvib_live_settings>();
     values.steps_per_s = 100;
-    values.longest_gap_s = messageTimerGapSeconds;
+    values.longest_gap_s = driverThreadGapSeconds;
     values.level_db = safeStartDecibels;
+    values.sound_output = -1;
+    values.sound_db = safeContactDb;
     return begin(settings, size, values);
 }
 
@@ -145,22 +149,27 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
         all.output.enchanters = wanted.panner.channels();
         all.output.channelMap.resize(static_cast<std::size_t>(wanted.outputs()));
         std::iota(all.output.channelMap.begin(), all.output.channelMap.end(), taken.first_output);
+        all.output.listening.contactDb = taken.sound_db;
+        if (taken.sound_output >= 0)
+            all.output.listening.contacts = {taken.sound_output, taken.sound_output + 1};
         auto live = std::make_unique<Live>(std::move(all));
         if (const std::string error = live->open(); !error.empty()) return fail(PHYSVIB_ERROR_DEVICE, error);
-        Open open{0, live->status().device, taken.first_output, wanted.outputs()};
-        if (areOutputsInUse(open)) {
+        std::vector<Open> open{{0, live->status().device, taken.first_output, wanted.outputs()}};
+        if (taken.sound_output >= 0) open.push_back({0, open[0].device, taken.sound_output, 2});
+        if (std::ranges::any_of(open, areOutputsInUse)) {
             live->end();
-            return fail(PHYSVIB_ERROR_FULL, open.device + ": these outputs are open already; expected others "
-                                                          "(first_output), or that device to be closed");
+            return fail(PHYSVIB_ERROR_FULL, open[0].device + ": these outputs are open already; expected "
+                                                             "others (first_output, sound_output), or that "
+                                                             "device to be closed");
         }
-        if ((open.name = lives().add(std::move(live))) == 0)
-            return fail(PHYSVIB_ERROR_FULL, "live: expected at most 256 open devices");
+        const std::uintptr_t made = lives().add(std::move(live));
+        if (made == 0) return fail(PHYSVIB_ERROR_FULL, "live: expected at most 256 open devices");
         {
             const std::lock_guard listed{opened().mutex};
-            opened().all.push_back(open);
+            for (Open& one : open) opened().all.push_back((one.name = made, one));
         }
         closeAtExit();
-        *name = reinterpret_cast<physvib_live>(open.name);
+        *name = reinterpret_cast<physvib_live>(made);
         return PHYSVIB_OK;
     });
 }

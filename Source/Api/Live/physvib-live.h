@@ -31,12 +31,15 @@ typedef struct physvib_live_settings {
     int rate_hz;          /**< 0: the device default (0) */
     int block_frames;     /**< 0: the device default (0) */
     int steps_per_s;      /**< of your world: 20 to 1,000 (100) */
-    double longest_gap_s; /**< longest pause of the thread that plays events during which events are still on
-                             time: 0 to 1 (0.026) */
+    double longest_gap_s; /**< by how much an event may be told later than a step after its time, and still be
+                             on time: 0 to 1 (0.001) */
     double level_db;      /**< of all channels: -90 to 0 (-12) */
     char save[1024];  /**< a session file (.json, UTF-8) of all events, written while it plays, a list of its
                          events beside it; "": none ("") */
     int first_output; /**< actuator j is output first_output + j of the device, from 0 (0) */
+    int sound_output; /**< this output and the next are the left and right loudspeaker or ear: each hit is
+                         heard there by its place, on the frame on which it is felt; -1: none (-1) */
+    double sound_db;  /**< there, of a hit at full scale: -90 to 0; the level above does not count (-20) */
 } physvib_live_settings;
 
 #define PHYSVIB_BOARD_NONE 0   /**< no board was opened */
@@ -142,12 +145,13 @@ PHYSVIB_API int physvib_live_impact(physvib_live live, double x_m, double y_m, d
 /** The same of a built-in material, see physvib_material_name(). Any thread. */
 PHYSVIB_API int physvib_live_impact_of(physvib_live live, const char* material, double x_m, double y_m,
                                        double strength);
-/** For a world that is stepped as time goes on: `*start_ns`, at first 0, becomes the session time of the
- * world's time 0, and stays so for as long as the world is within `longest_gap_s` of session time. If the
- * world lags behind or runs ahead, it is set again. Any thread; one at a time per world. */
+/** For a world that is stepped as time goes on, after each step, which is taken to begin now: `*start_ns`, at
+ * first 0, becomes the session time of the world's time 0, and stays so for as long as the world lags behind
+ * that by at most the output latency, or runs ahead by at most that less a step. Else it is set again. Any
+ * thread; one at a time per world. */
 PHYSVIB_API int physvib_live_align(physvib_live live, physvib_world world, physvib_int64* start_ns);
-/** Takes the events of a world (as physvib_world_take), whose time 0 is session time `start_ns`, and plays
- * them. Returns their number. Any thread; one at a time per world. */
+/** Takes the events of a world, whose time 0 is session time `start_ns`, and plays them in time order, final
+ * or not; `at_once` is not looked at. Returns their number. Any thread; one at a time per world. */
 PHYSVIB_API physvib_int64 physvib_live_send(physvib_live live, physvib_world world, physvib_int64 start_ns,
                                             int at_once);
 

@@ -76,6 +76,7 @@ bool parseCeilings(const std::string& text, int channels,
 SessionSetup setupOf(const PlayOptions& o, const LoadedRender& job) {
     SessionSetup setup = sessionSetup(job);
     if (!o.scene.contactSound.empty()) setup.contactSound = job.recordings;
+    if (o.scene.contactSound.find(',') != std::string::npos) setup.ears = 2;
     setup.marks = o.scene.marks();
     if (o.isDirect) setup.direct = Direct::told;
     setup.longestGapSeconds =
@@ -135,7 +136,7 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
         .in(PinkNoise::leastDb, PinkNoise::mostDb);
     command
         .add("--contact-sound", o.scene.contactSound,
-             "other outputs of the device on which each hit is heard, from 1")
+             "other outputs of the device on which each hit is heard, from 1; two: left and right")
         .as("5,6");
     command
         .add(

@@ -69,13 +69,15 @@ OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderCont
     return {renderer, job.frames(), o.blockFrames, controls, contacts};
 }
 
-/// The same events once more, in one channel; controls of the enchanters say nothing here, but that all shall
-/// stop.
+/// The same events once more, in one channel or two; of the enchanters' controls only a stop, and with two a
+/// field, says something here.
 void renderContactSound(const LoadedRender& job, std::vector<RenderControl> controls,
                         RenderOutputs& outputs) {
     const RenderJob& o = job.options;
     const ContactSounds sounds{job.recordings, o.sampleRateHz};
     ContactAudioRender heard{o.sampleRateHz, job.frames(), o.blockFrames};
+    heard.ears = o.contactSoundEars;
+    heard.field = job.panner();
     heard.levelDb = o.contactSoundDb;
     heard.recordings = {sounds.contacts(), true};
     renderContactAudio(

@@ -101,7 +101,7 @@ std::string RenderOutputs::open() {
         error = physvib::open(wav_, o.pad.empty() ? o.wavPath : "", job_.channels(), o.sampleRateHz,
                               provenanceText());
     if (error.empty())
-        error = physvib::open(contactWav_, o.contactSound, 1, o.sampleRateHz,
+        error = physvib::open(contactWav_, o.contactSound, o.contactSoundEars, o.sampleRateHz,
                               provenanceText() + " heard=contact_sound");
     if (error.empty())
         error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz,
@@ -110,7 +110,8 @@ std::string RenderOutputs::open() {
                                      {&pictureFile_, &o.picturePath},
                                      {&patternFile_, &o.patternPath}})
         if (error.empty()) error = physvib::open(*file, *path);
-    if (error.empty() && !o.moviePath.empty()) error = movie_.emplace(o.moviePath, o.sampleRateHz).error();
+    if (error.empty() && !o.moviePath.empty())
+        error = movie_.emplace(o.moviePath, o.sampleRateHz, o.contactSoundEars).error();
     return error;
 }
 
@@ -281,7 +282,8 @@ void RenderOutputs::summarise(std::ostream& out) const {
     if (patternFile_)
         out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
     if (contactWav_)
-        out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale "
+        out << o.contactSound << "  what is heard of each hit: " << o.contactSoundEars
+            << (o.contactSoundEars == 1 ? " channel" : " channels") << ", at full scale "
             << numberText(o.contactSoundDb) << " dBFS\n";
     if (markerWav_) out << o.marker << "  a pulse at each onset: 1 channel, " << markWords_ << '\n';
     if (movie_)

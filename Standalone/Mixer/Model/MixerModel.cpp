@@ -22,7 +22,7 @@ SessionSetup setupOf(const Mix& mix) {
     setup.channels = MixerModel::channels;
     setup.panner = mix.panner();
     setup.layout = mix.layout;
-    setup.longestGapSeconds = threadGapSeconds(stepsPerSecond, MixerModel::lateSeconds);
+    setup.longestGapSeconds = threadGapSeconds(stepsPerSecond);
     setup.contactSound.emplace();
     setup.ears = 2;
     setup.marks = MarkedOnsets::all;

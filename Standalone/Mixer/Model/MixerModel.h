@@ -26,7 +26,6 @@ class MixerModel final : public juce::ChangeBroadcaster {
 public:
     static constexpr int channels = limits::maxEnchanters; ///< of the session: the maximum number of
                                                            ///< actuators
-    static constexpr double lateSeconds = 0.005; ///< the simulation thread shares the processor with painting
 
     /// Plays `mix` on `device`, one of `types`; trouble() reports a failure. Sample rate and block size stay
     /// until another device is opened.

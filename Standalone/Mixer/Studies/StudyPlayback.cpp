@@ -287,7 +287,7 @@ std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesys
     if (auto fault = refusal(model_, world); !fault.empty()) return fault;
     setup_ = std::move(world.setup);
     if (hasHands) setup_.scene = sceneForHands(std::move(setup_.scene));
-    setup_.longestGapSeconds = threadGapSeconds(setup_.stepsPerSecond, MixerModel::lateSeconds);
+    setup_.longestGapSeconds = threadGapSeconds(setup_.stepsPerSecond);
     setup_.log = LogUse::stream;
     setup_.marks = MarkedOnsets::all;
     seconds_ = hasHands ? 0.0 : world.seconds;

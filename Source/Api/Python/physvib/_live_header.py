@@ -17,7 +17,7 @@ DEVICE_BOARD = 2
 
 class CLiveSettings(Structure):
     _fields_ = [("size", c_size_t), ("rate_hz", c_int), ("block_frames", c_int), ("steps_per_s", c_int), ("longest_gap_s", c_double), ("level_db", c_double),
-                ("save", c_char * 1024), ("first_output", c_int)]
+                ("save", c_char * 1024), ("first_output", c_int), ("sound_output", c_int), ("sound_db", c_double)]
 
 
 class CLiveStatus(Structure):

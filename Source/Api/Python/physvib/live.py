@@ -87,12 +87,14 @@ class Live:
 
     def __init__(self, device: str = "JACK:system", *, layout: str | Layout = "phone4", channels: int = 0, law: str = "auto", exponent: float = 1.0,
                  field_m: tuple[float, float] | None = None, limiter: bool = True, rate_hz: int = 0, block_frames: int = 0, steps_per_s: int = 100,
-                 longest_gap_s: float = 0.026, level_db: float = -12.0, save: str | os.PathLike[str] = "", first_output: int = 0) -> None:
+                 longest_gap_s: float = 0.001, level_db: float = -12.0, save: str | os.PathLike[str] = "", first_output: int = 0,
+                 sound_output: int = -1, sound_db: float = -20.0) -> None:
         self._handle = c_void_p()
         wanted = CLiveSettings()
         live_call("live_settings_init", ctypes.byref(wanted), ctypes.sizeof(wanted))
         wanted.rate_hz, wanted.block_frames, wanted.steps_per_s = rate_hz, block_frames, steps_per_s
         wanted.longest_gap_s, wanted.level_db, wanted.first_output = longest_gap_s, level_db, first_output
+        wanted.sound_output, wanted.sound_db = sound_output, sound_db
         if len(encoded(save)) >= CLiveSettings.save.size:
             raise PhysVibError("save: expected a path of at most 1023 bytes", -2)
         wanted.save = encoded(save)
@@ -126,8 +128,8 @@ class Live:
         return live_call("live_send", self._handle, world._handle, start_ns, int(at_once))
 
     def follow(self, world: World, start_ns: int = 0) -> int:
-        """For a world that is stepped as time goes on, after each step: sends what is final, and returns the session time of the world's time 0,
-        to be given to the next call. It stays the same unless the world is held up, or runs ahead, by more than longest_gap_s."""
+        """For a world that is stepped as time goes on, after each step: sends its events, and returns the session time of the world's time 0,
+        to be given to the next call. It stays the same unless the world is held up, or runs ahead, by more than the latency."""
         start = c_int64(start_ns)
         live_call("live_align", self._handle, world._handle, ctypes.byref(start))
         self.send(world, start.value)
