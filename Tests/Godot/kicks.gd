@@ -125,10 +125,10 @@ func bumper():
 func respawn():
 	var falls = made("RigidBody", at(0, 20), Vector2(0.5, 0.5), true)
 	await begin([made("StaticBody", at(0, -0.5), Vector2(20, 1)), falls])
-	falls.position = at(0, 0.25)
+	falls.global_transform.origin = at(0, 0.25) # a new `position` alone does not reach 2D physics (godot 94633)
 	falls.set_deferred("linear_velocity", along(0, 0))
 	await ticks(int(0.5 * Engine.physics_ticks_per_second))
-	check(hits.is_empty(), named("a fall that ends by set_deferred"))
+	check(hits.is_empty() and falls.position.distance_to(at(0, 0.25)) < (2.0 if space == 2 else 0.02), named("a fall that ends by set_deferred"))
 	await end()
 
 
