@@ -148,8 +148,8 @@ func breaks():
 	await end()
 
 
-# A ball that rolls smoothly is not felt. Where the engine throws it up, one hit in twenty at most is more than 1.3 times
-# what the solver gave it in five ticks: Jolt announces edges that the ball then flies over.
+# A ball that rolls smoothly is not felt. Where the engine throws it up, no hit is more than 1.3 times what the solver gave
+# it in the ticks about it: Jolt announces edges that the ball then flies over.
 func seams(floor_name: String, speed: float):
 	var hz := float(Engine.physics_ticks_per_second)
 	var nodes := []
@@ -173,17 +173,19 @@ func seams(floor_name: String, speed: float):
 	ball.linear_velocity = Vector3(speed, 0, 0)
 	ball.angular_velocity = Vector3(0, 0, -speed / 0.2)
 	var gave := []
+	var when := []
 	var known := 0
 	var last: Vector3 = ball.linear_velocity
 	for i in int(1.2 * hz):
 		await physics_frame
 		gave.append((ball.linear_velocity - last + Vector3(0, 9.8 / hz, 0)).length())
 		last = ball.linear_velocity
-		for hit in hits.slice(known):
-			var own: float = gave.slice(maxi(0, i - 4)).reduce(func(sum, each): return sum + each, 0.0)
-			judged += 1
-			if hit.strength_n_s > 1.3 * own: above.append(hit.strength_n_s / own)
+		for hit in hits.slice(known): when.append(i)
 		known = hits.size()
+	for j in hits.size(): # what Jolt sees coming it stops in two ticks
+		var own: float = gave.slice(maxi(0, when[j] - 4), when[j] + 2).reduce(func(sum, each): return sum + each, 0.0)
+		judged += 1
+		if hits[j].strength_n_s > 1.3 * own: above.append(hits[j].strength_n_s / own)
 	var most := 0.0
 	for i in range(1, gave.size()): most = maxf(most, gave[i] + gave[i - 1])
 	var is_smooth := most < 2 * 9.8 / hz + 0.15
@@ -205,7 +207,7 @@ func ramps():
 		ball.angular_velocity = Vector3(0, 0, -7 / 0.2)
 		await ticks(int(0.335 * Engine.physics_ticks_per_second))
 		var share: float = hits[0].strength_n_s / (7 * sin(slope)) if hits else 0.0
-		check(share < 1.1 and share > (0.9 if degrees > 10 else 0.25), named("a ramp of %d degrees, %.2f N s" % [degrees, 7 * sin(slope)]))
+		check(share < 1.1 and share > 0.9, named("a ramp of %d degrees, %.2f N s" % [degrees, 7 * sin(slope)]))
 		await end()
 
 
@@ -262,6 +264,6 @@ func _initialize():
 		await ragdoll()
 		await ramps()
 		for floor_name in ["boxes", "gridmap"]: for speed in [1.0, 2.0, 4.0, 7.0]: await seams(floor_name, speed)
-		check(20 * above.size() <= judged + 20, "of %d hits at seams, above what the solver gave: %s" % [judged, above])
+		check(above.is_empty(), "of %d hits at seams, above what the solver gave: %s" % [judged, above])
 	print("%d wrong" % wrong)
 	quit(1 if wrong else 0)
