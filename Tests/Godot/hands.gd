@@ -54,6 +54,27 @@ func at(hand: String, frame: int) -> float:
 	return sent[-1][3] if sent and (frame - sent[-1][0]) / 60.0 < sent[-1][4] else 0.0
 
 
+# The demo by itself, and with a tracker that taps the drum of 190 Hz with the left hand.
+func drums():
+	var demo = load("res://addons/physvib/demos/drums.tscn").instantiate()
+	root.add_child(demo)
+	headset.pulses.clear()
+	await frames(240)
+	var hertz := func(hand): return of(hand).reduce(func(all, pulse): all[roundi(pulse[2])] = true; return all, {}).keys()
+	check(hertz.call("left_hand") == [90, 60] and hertz.call("right_hand") == [130, 190], "drums: %s Hz on the left, %s on the right" % [hertz.call("left_hand"), hertz.call("right_hand")])
+	var tracker := XRControllerTracker.new()
+	tracker.name = "left_hand"
+	XRServer.add_tracker(tracker)
+	headset.pulses.clear()
+	for i in 120:
+		var place: Vector3 = demo.drums[3].position + Vector3(0, 0.25 + 0.2 * cos(i / 10.0), 0)
+		tracker.set_pose("aim", Transform3D(Basis(), place), Vector3.ZERO, Vector3.ZERO, XRPose.XR_TRACKING_CONFIDENCE_HIGH)
+		await physics_frame
+	check(190 in hertz.call("left_hand"), "drums: a tracker's hand taps: %s" % [hertz.call("left_hand")])
+	XRServer.remove_tracker(tracker)
+	demo.free()
+
+
 func _initialize():
 	XRServer.add_interface(headset)
 	XRServer.primary_interface = headset
@@ -113,9 +134,16 @@ func _initialize():
 	await frames(45)
 	ball.queue_free()
 	check(headset.pulses.is_empty(), "silent: none")
+	for node in root.get_children(): node.free()
+	await drums()
+	world = ClassDB.instantiate("HapticWorld3D")
+	world.outputs = ["xr"]
+	root.add_child(world)
+	plate(0, "right_hand", 250)
+	await frames(60)
+	headset.pulses.clear()
 	XRServer.primary_interface = null
 	XRServer.remove_interface(headset)
-	world.silent = false
 	drop(0, 1.0)
 	await frames(45)
 	check(headset.pulses.is_empty(), "without a headset: none, and no error")
