@@ -118,8 +118,9 @@ Surface HapticWorld::overSeams(const Watched& each, int i, std::optional<double>
     const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch a wall as high as the floor
     Surface found = own;
     double slowest = approach(each, own, i);
-    if (!isRound && pushOf(each, own.normal) > 0.5 * slowest) return found;
-    for (int j = isRound ? -1 : 0; j < each.state.contacts(); ++j) { // -1: of the last tick
+    const bool isPlain = isRound ? slowest < 0.05 : pushOf(each, own.normal) > 0.5 * slowest; // it rolls;
+                                                                                              // stops
+    for (int j = isRound ? -1 : 0; !isPlain && j < each.state.contacts(); ++j) { // -1: of the last tick
         Surface under = j < 0 ? each.under : surfaceOf(each, j);
         const double height = dot(minus(own.there, under.there), under.normal),
                      alike = dot(own.normal, under.normal);
@@ -153,7 +154,7 @@ void HapticWorld::strikeDoubtful(const Watched& each, const Watched& met, physvi
                                  const Vector& normal, double known) {
     const auto isSame = [&](const Doubt& of) { return of.a == each.id && of.b == met.id; };
     const double came = contact.approach_m_per_s, pushed = pushOf(each, normal) - pushOf(met, normal) - known;
-    if (std::ranges::any_of(decided, isSame) || pushed < 0.1 * came) return;
+    if (std::ranges::any_of(decided, isSame) || pushed < 0.1 * std::abs(came)) return;
     const double its = met.described.mass_kg, own = each.described.mass_kg;
     contact.effective_mass_kg = its > 0.0 ? own * its / (own + its) : own;
     contact.restitution = 0.0, contact.point_id = 1, contact.approach_m_per_s = pushed;
