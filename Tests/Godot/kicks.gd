@@ -211,6 +211,31 @@ func ramps():
 		await end()
 
 
+# A ball that lands, and runs into a wall of the same body in that tick or soon after.
+func corners():
+	var hz := float(Engine.physics_ticks_per_second)
+	var shares := []
+	for k in 24:
+		var ground = made("StaticBody", at(0, -0.5), Vector2(20, 1))
+		var wall = made("StaticBody", at(0, 0), Vector2(1, 1)).get_child(0)
+		var other = wall.get_parent()
+		other.remove_child(wall)
+		other.free()
+		ground.add_child(wall)
+		wall.position = along(3, 1)
+		var ball = made("RigidBody", at(1.87 - 0.72 * k / hz, 0.28), 0.2, true)
+		ball.linear_damp_mode = 1
+		ball.physics_material_override = PhysicsMaterial.new()
+		ball.physics_material_override.friction = 0.0
+		await begin([ground])
+		ball.linear_velocity = along(5, -0.4)
+		scene.add_child(ball)
+		await ticks(int(0.3 * hz) + 3)
+		shares.append(strengths().max() / 5.0 if hits else 0.0)
+		await end()
+	check(shares.min() > 0.95 and shares.max() < 1.3, named("a ball that lands beside a wall of the same body, 5 N s, of which %.2f to %.2f" % [shares.min(), shares.max()]))
+
+
 func ragdoll():
 	var skeleton := Skeleton3D.new()
 	skeleton.add_bone("bone")
@@ -259,7 +284,7 @@ func _initialize():
 		if word.begins_with("space="): space = int(word.substr(6))
 		if word.begins_with("hz="): Engine.physics_ticks_per_second = int(word.substr(3))
 	await ticks(2)
-	for act in [platforms, flipper, lever, bumper, respawn, breaks, freed, words]: await act.call()
+	for act in [platforms, flipper, lever, bumper, respawn, breaks, corners, freed, words]: await act.call()
 	if space == 3:
 		await ragdoll()
 		await ramps()

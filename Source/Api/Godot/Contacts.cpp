@@ -23,6 +23,11 @@ bool goesThroughCentre(const Watched& body, const Vector& at, const Vector& norm
     const Vector arm = minus(at, body.centre), beside = across(arm, normal);
     return body.isRigid && dot(beside, beside) < 4e-4 * dot(arm, arm);
 }
+// 0 to 5: that of a ball on which a floor, or a wall of the same body, is.
+int sideOf(const Vector& normal) {
+    const auto longest = std::ranges::max_element(normal, {}, [](double x) { return std::abs(x); });
+    return 2 * static_cast<int>(longest - normal.begin()) + (*longest < 0.0 ? 1 : 0);
+}
 } // namespace
 
 // What sleeps keeps its list of contacts, also with what was freed.
@@ -118,8 +123,8 @@ Surface HapticWorld::overSeams(const Watched& each, int i, std::optional<double>
     const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch a wall as high as the floor
     Surface found = own;
     double slowest = approach(each, own, i);
-    const bool isPlain = isRound ? slowest < 0.05 : pushOf(each, own.normal) > 0.5 * slowest; // it rolls;
-                                                                                              // stops
+    // Which rolls, or is stopped there.
+    const bool isPlain = isRound ? slowest < 0.05 : pushOf(each, own.normal) > 0.5 * slowest;
     for (int j = isRound ? -1 : 0; !isPlain && j < each.state.contacts(); ++j) { // -1: of the last tick
         Surface under = j < 0 ? each.under : surfaceOf(each, j);
         const double height = dot(minus(own.there, under.there), under.normal),
@@ -157,7 +162,7 @@ void HapticWorld::strikeDoubtful(const Watched& each, const Watched& met, physvi
     if (std::ranges::any_of(decided, isSame) || pushed < 0.1 * std::abs(came)) return;
     const double its = met.described.mass_kg, own = each.described.mass_kg;
     contact.effective_mass_kg = its > 0.0 ? own * its / (own + its) : own;
-    contact.restitution = 0.0, contact.point_id = 1, contact.approach_m_per_s = pushed;
+    contact.restitution = 0.0, contact.point_id = 6, contact.approach_m_per_s = pushed;
     const Doubt doubt{each.id, met.id, normal, contact, came - pushed};
     if (const auto same = std::ranges::find_if(doubts, isSame); same != doubts.end()) {
         if (same->contact.approach_m_per_s < pushed) *same = doubt;
@@ -221,7 +226,7 @@ void HapticWorld::touch(const Watched& each, int i) {
     contact.along_a_m_per_s = dot(overOwn, way) / speed, contact.along_b_m_per_s = dot(overIts, way) / speed;
     contact.is_soft = PHYSVIB_SOFT; // an impact is as hard as its speed; what the solver pushed is a load
     if (met->slides) contact.effective_mass_kg = each.described.mass_kg; // which Godot does not push
-    contact.point_id = isRound || isOtherRound ? 0 : PHYSVIB_POINT_BY_PLACE;
+    contact.point_id = isRound || isOtherRound ? sideOf(normal) : PHYSVIB_POINT_BY_PLACE;
     if (doubt) return strikeDoubtful(each, *met, contact, normal, *doubt);
     checkWorld(physvib_world_touch(world, &contact));
 }
