@@ -65,7 +65,7 @@ for engine in GodotPhysics3D "Jolt Physics"; do
         done
     done
 done
-for script in outputs life nodes; do
+for script in outputs life nodes games hands; do
     godot -s $script.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1
     grep -E '^(right|WRONG|[0-9]+ wrong)' "$project/out" || failed=1
     grep -q '^0 wrong' "$project/out" || failed=1

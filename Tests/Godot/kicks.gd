@@ -125,10 +125,10 @@ func bumper():
 func respawn():
 	var falls = made("RigidBody", at(0, 20), Vector2(0.5, 0.5), true)
 	await begin([made("StaticBody", at(0, -0.5), Vector2(20, 1)), falls])
-	falls.position = at(0, 0.25)
+	falls.global_transform.origin = at(0, 0.25) # a new `position` alone does not reach 2D physics (godot 94633)
 	falls.set_deferred("linear_velocity", along(0, 0))
 	await ticks(int(0.5 * Engine.physics_ticks_per_second))
-	check(hits.is_empty(), named("a fall that ends by set_deferred"))
+	check(hits.is_empty() and falls.position.distance_to(at(0, 0.25)) < (2.0 if space == 2 else 0.02), named("a fall that ends by set_deferred"))
 	await end()
 
 
@@ -148,8 +148,8 @@ func breaks():
 	await end()
 
 
-# A ball that rolls smoothly is not felt. Where the engine throws it up, one hit in twenty at most is more than 1.3 times
-# what the solver gave it in five ticks: Jolt announces edges that the ball then flies over.
+# A ball that rolls smoothly is not felt. Where the engine throws it up, no hit is more than 1.3 times what the solver gave
+# it in the ticks about it: Jolt announces edges that the ball then flies over.
 func seams(floor_name: String, speed: float):
 	var hz := float(Engine.physics_ticks_per_second)
 	var nodes := []
@@ -173,17 +173,19 @@ func seams(floor_name: String, speed: float):
 	ball.linear_velocity = Vector3(speed, 0, 0)
 	ball.angular_velocity = Vector3(0, 0, -speed / 0.2)
 	var gave := []
+	var when := []
 	var known := 0
 	var last: Vector3 = ball.linear_velocity
 	for i in int(1.2 * hz):
 		await physics_frame
 		gave.append((ball.linear_velocity - last + Vector3(0, 9.8 / hz, 0)).length())
 		last = ball.linear_velocity
-		for hit in hits.slice(known):
-			var own: float = gave.slice(maxi(0, i - 4)).reduce(func(sum, each): return sum + each, 0.0)
-			judged += 1
-			if hit.strength_n_s > 1.3 * own: above.append(hit.strength_n_s / own)
+		for hit in hits.slice(known): when.append(i)
 		known = hits.size()
+	for j in hits.size(): # what Jolt sees coming it stops in two ticks
+		var own: float = gave.slice(maxi(0, when[j] - 4), when[j] + 2).reduce(func(sum, each): return sum + each, 0.0)
+		judged += 1
+		if hits[j].strength_n_s > 1.3 * own: above.append(hits[j].strength_n_s / own)
 	var most := 0.0
 	for i in range(1, gave.size()): most = maxf(most, gave[i] + gave[i - 1])
 	var is_smooth := most < 2 * 9.8 / hz + 0.15
@@ -205,8 +207,33 @@ func ramps():
 		ball.angular_velocity = Vector3(0, 0, -7 / 0.2)
 		await ticks(int(0.335 * Engine.physics_ticks_per_second))
 		var share: float = hits[0].strength_n_s / (7 * sin(slope)) if hits else 0.0
-		check(share < 1.1 and share > (0.9 if degrees > 10 else 0.25), named("a ramp of %d degrees, %.2f N s" % [degrees, 7 * sin(slope)]))
+		check(share < 1.1 and share > 0.9, named("a ramp of %d degrees, %.2f N s" % [degrees, 7 * sin(slope)]))
 		await end()
+
+
+# A ball that lands, and runs into a wall of the same body in that tick or soon after.
+func corners():
+	var hz := float(Engine.physics_ticks_per_second)
+	var shares := []
+	for k in 24:
+		var ground = made("StaticBody", at(0, -0.5), Vector2(20, 1))
+		var wall = made("StaticBody", at(0, 0), Vector2(1, 1)).get_child(0)
+		var other = wall.get_parent()
+		other.remove_child(wall)
+		other.free()
+		ground.add_child(wall)
+		wall.position = along(3, 1)
+		var ball = made("RigidBody", at(1.87 - 0.72 * k / hz, 0.28), 0.2, true)
+		ball.linear_damp_mode = 1
+		ball.physics_material_override = PhysicsMaterial.new()
+		ball.physics_material_override.friction = 0.0
+		await begin([ground])
+		ball.linear_velocity = along(5, -0.4)
+		scene.add_child(ball)
+		await ticks(int(0.3 * hz) + 3)
+		shares.append(strengths().max() / 5.0 if hits else 0.0)
+		await end()
+	check(shares.min() > 0.95 and shares.max() < 1.3, named("a ball that lands beside a wall of the same body, 5 N s, of which %.2f to %.2f" % [shares.min(), shares.max()]))
 
 
 func ragdoll():
@@ -257,11 +284,11 @@ func _initialize():
 		if word.begins_with("space="): space = int(word.substr(6))
 		if word.begins_with("hz="): Engine.physics_ticks_per_second = int(word.substr(3))
 	await ticks(2)
-	for act in [platforms, flipper, lever, bumper, respawn, breaks, freed, words]: await act.call()
+	for act in [platforms, flipper, lever, bumper, respawn, breaks, corners, freed, words]: await act.call()
 	if space == 3:
 		await ragdoll()
 		await ramps()
 		for floor_name in ["boxes", "gridmap"]: for speed in [1.0, 2.0, 4.0, 7.0]: await seams(floor_name, speed)
-		check(20 * above.size() <= judged + 20, "of %d hits at seams, above what the solver gave: %s" % [judged, above])
+		check(above.is_empty(), "of %d hits at seams, above what the solver gave: %s" % [judged, above])
 	print("%d wrong" % wrong)
 	quit(1 if wrong else 0)

@@ -116,7 +116,11 @@ func materials():
 	var copy: Dictionary = world.physics_materials
 	copy.clear()
 	check(world.physics_materials.size() == 1, "a changed copy of the mapping changes nothing")
-	world.physics_materials = {bouncy: 3, 5: material, null: null}
+	for wrong_one in [{bouncy: 3}, {5: material}, {bouncy: bouncy}, {material: material}]:
+		world.physics_materials = wrong_one # which is said
+		check(world.physics_materials == {bouncy: material}, "what is no HapticMaterial by PhysicsMaterial changes nothing: %s" % [wrong_one])
+	world.physics_materials = {bouncy: null}
+	check(world.physics_materials == {bouncy: null}, "a row that the editor has just made is kept")
 	world.physics_materials = {}
 	scene.free()
 

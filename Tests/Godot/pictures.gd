@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Plays a demo and takes pictures of it, 640 pixels wide: NAME.webp in the end, and NAME-001.png... of each fourth tick
-# of its last ones, for a movie. Those of Docs/godot.md are of tick 260, 75 and 900, and the movie of 620:
+# of its last ones, for a movie. Those of Docs/godot.md are of tick 260, 75 and 900, and the movies of 620 and (pinball) 1420:
 #   xvfb-run godot --rendering-driver opengl3 -s pictures.gd --fixed-fps 60 -- demo=PATH ticks=620 movie=60
 #   ffmpeg -framerate 15 -i marble_run-%03d.png -vf scale=480:-1 -loop 0 -c:v libwebp_anim -q:v 35 OUT.webp
 extends SceneTree

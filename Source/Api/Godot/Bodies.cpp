@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Api/Godot/Bodies.h"
+#include "Api/Godot/Outputs.h"
 
 #include <algorithm>
 
@@ -102,6 +103,9 @@ bool hasPart(const Value& world, int part) {
     its.size = sizeof its;
     if (world.call("get_actuators").elements().empty())
         physvib_layout_preset(world.call("get_layout").text().c_str(), &its);
+    const auto isHand = [&](const char* name) { return part == physvib_part(name); };
+    if (world.call("get_outputs").call("has", "xr").isTrue() && std::ranges::any_of(XrHands::names, isHand))
+        return true;
     return part == 0 || std::ranges::find(its.part, part) != std::end(its.part);
 }
 } // namespace

@@ -179,6 +179,20 @@ void registerClass(const Class& type) {
 namespace {
 std::uint64_t changes = 0;
 
+// Of a dictionary by objects, whose hint names the two classes: each key and value is of its class, or null,
+// as of a row that the editor has just made.
+bool isOfItsClasses(const Property& property, const Value& dictionary) {
+    const std::string hint = property.hintText;
+    const std::size_t first = hint.find(':') + 1, end = hint.find(';'), second = hint.find(':', end) + 1;
+    const auto areAll = [&](const char* list, const std::string& name) {
+        const std::vector<Value> all = dictionary.call(list).elements();
+        return std::ranges::all_of(all, [&](const Value& each) {
+            return each.type() == type::nil || each.call("is_class", name.c_str()).isTrue();
+        });
+    };
+    return areAll("keys", hint.substr(first, end - first)) && areAll("values", hint.substr(second));
+}
+
 // The value as the property stores it; nil if it cannot be used.
 Value converted(const Property& property, const Value& value) {
     if (property.type == type::object)
@@ -188,8 +202,9 @@ Value converted(const Property& property, const Value& value) {
     };
     if (isNumber(property.type) && !isNumber(value.type())) return {};
     const Value its = value.as(property.type);
-    // A dictionary is shared until it is copied, so a script could change it without a call of set().
-    return its.type() == type::dictionary ? its.call("duplicate") : its;
+    if (its.type() != type::dictionary) return its;
+    // It is shared until it is copied, so a script could change it without a call of set().
+    return isOfItsClasses(property, its) ? its.call("duplicate") : Value();
 }
 bool isFinite(const Value& value) {
     if (value.type() == type::places) {
@@ -225,8 +240,11 @@ void Instance::set(std::size_t index, const Value& value) {
                         (value.type() == property.type || value.type() == type::nil);
     const Value its = converted(property, value);
     if (its.type() == type::nil && !isNone)
-        return report(std::string(property.name) + ": expected a value such as '" +
-                      property.standard().text() + "', found " + value.text());
+        return report(std::string(property.name) + ": expected " +
+                      (property.type == type::dictionary
+                           ? "a HapticMaterial by each PhysicsMaterial"
+                           : "a value such as '" + property.standard().text() + "'") +
+                      ", found " + value.text());
     if (!isFinite(its) || !isWithin(property, its))
         return report(std::string(property.name) + ": expected " + expected(property) + ", found " +
                       value.text());

@@ -5,6 +5,7 @@
 #include "Api/Godot/Worlds.h"
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace physvib::godot {
 namespace {
@@ -21,6 +22,11 @@ Vector across(const Vector& v, const Vector& normal) {
 bool goesThroughCentre(const Watched& body, const Vector& at, const Vector& normal) {
     const Vector arm = minus(at, body.centre), beside = across(arm, normal);
     return body.isRigid && dot(beside, beside) < 4e-4 * dot(arm, arm);
+}
+// 0 to 5: that of a ball on which a floor, or a wall of the same body, is.
+int sideOf(const Vector& normal) {
+    const auto longest = std::ranges::max_element(normal, {}, [](double x) { return std::abs(x); });
+    return 2 * static_cast<int>(longest - normal.begin()) + (*longest < 0.0 ? 1 : 0);
 }
 } // namespace
 
@@ -108,36 +114,88 @@ Surface HapticWorld::surfaceOf(const Watched& each, int i) const {
 }
 
 // Where it touches, or where the plane on which it rolls or lands holds it: an edge that does not stand out
-// of it, as between two tiles, strikes nothing, though Jolt's normal points there; unless the solver has
-// stopped it, as at a ramp's foot.
-Surface HapticWorld::overSeams(const Watched& each, int i) const {
+// of it, as between two tiles, strikes nothing, though Jolt's normal points there; unless the solver stops
+// it, as at a ramp's foot. In `doubt`, of a ball: the speed at which it comes down on that plane.
+Surface HapticWorld::overSeams(const Watched& each, int i, std::optional<double>& doubt) const {
     constexpr double outstanding = 0.005; // m
     const Surface own = surfaceOf(each, i);
     const bool isRound = goesThroughCentre(each, own.at, own.normal);
     const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch a wall as high as the floor
     Surface found = own;
     double slowest = approach(each, own, i);
-    if (-dot(each.change, own.normal) - seconds * dot(each.pull, own.normal) > 0.5 * slowest) return found;
-    for (int j = isRound ? -1 : 0; j < each.state.contacts(); ++j) { // -1: of the last tick
+    // Which rolls, or is stopped there.
+    const bool isPlain = isRound ? slowest < 0.05 : pushOf(each, own.normal) > 0.5 * slowest;
+    for (int j = isRound ? -1 : 0; !isPlain && j < each.state.contacts(); ++j) { // -1: of the last tick
         Surface under = j < 0 ? each.under : surfaceOf(each, j);
         const double height = dot(minus(own.there, under.there), under.normal),
                      alike = dot(own.normal, under.normal);
-        if (!under.isOne || !(std::abs(height) < outstanding) || !(alike > least) || alike > 0.9999) continue;
+        const bool isNear = std::abs(height) < outstanding || (isRound && alike > 0.9);
+        if (!under.isOne || !isNear || !(alike > least) || alike > 0.9999) continue;
         if (j < 0) { // as a ball goes on over it
             const Vector arm = minus(own.at, each.centre);
             for (std::size_t k = 0; k < 3; ++k)
                 under.at[k] = each.centre[k] + std::sqrt(dot(arm, arm)) * under.normal[k];
             under.there = own.there, under.gap = own.gap;
         }
-        if (const double its = approach(each, under, std::max(0, j)); its < 0.5 * slowest)
+        // Of one body, what strikes at two places is solved together.
+        const bool isAlone = j < 0 || each.state.contactBody(j) != each.state.contactBody(i);
+        const double most = !isRound ? 0.5 : isAlone ? 0.9 : 0.1;
+        if (const double its = approach(each, under, std::max(0, j)); its < most * slowest) {
             found = under, slowest = its;
+            if (isRound) doubt = j < 0 ? 0.0 : std::max(0.0, its);
+        }
     }
-    return found;
+    return doubt ? own : found;
+}
+
+// Speed that the solver has taken along a normal, beyond this tick's gravity.
+double HapticWorld::pushOf(const Watched& each, const Vector& normal) const {
+    return -dot(each.change, normal) - seconds * dot(each.pull, normal);
+}
+
+// A ball at an edge or a flat ramp is struck as hard as the solver pushes there beyond what is `known`: in
+// this tick, and where it leaves something, as Jolt does that sees it coming, in the next.
+void HapticWorld::strikeDoubtful(const Watched& each, const Watched& met, physvib_contact contact,
+                                 const Vector& normal, double known) {
+    const auto isSame = [&](const Doubt& of) { return of.a == each.id && of.b == met.id; };
+    const double came = contact.approach_m_per_s, pushed = pushOf(each, normal) - pushOf(met, normal) - known;
+    if (std::ranges::any_of(decided, isSame) || pushed < 0.1 * std::abs(came)) return;
+    const double its = met.described.mass_kg, own = each.described.mass_kg;
+    contact.effective_mass_kg = its > 0.0 ? own * its / (own + its) : own;
+    contact.restitution = 0.0, contact.point_id = 6, contact.approach_m_per_s = pushed;
+    const Doubt doubt{each.id, met.id, normal, contact, came - pushed};
+    if (const auto same = std::ranges::find_if(doubts, isSame); same != doubts.end()) {
+        if (same->contact.approach_m_per_s < pushed) *same = doubt;
+    } else if (came > 1.1 * pushed) {
+        doubts.push_back(doubt);
+    } else {
+        checkWorld(physvib_world_touch(world, &contact));
+    }
+}
+
+void HapticWorld::decide() {
+    constexpr int longest = 3; // ticks
+    decided.swap(doubts);
+    doubts.clear();
+    for (Doubt& of : decided) {
+        const auto each = watched.find(of.a), met = watched.find(of.b);
+        if (each == watched.end() || met == watched.end()) continue;
+        double& speed = of.contact.approach_m_per_s;
+        const double pushed = pushOf(each->second, of.normal) - pushOf(met->second, of.normal);
+        speed += std::max(0.0, pushed);
+        of.contact.fraction = std::max(-1.0, of.contact.fraction - 1.0); // a tick ago
+        of.left -= pushed;
+        if (pushed > 0.1 * speed && of.left > 0.1 * speed && ++of.ticks < longest)
+            doubts.push_back(of);
+        else
+            checkWorld(physvib_world_touch(world, &of.contact));
+    }
 }
 
 void HapticWorld::touch(const Watched& each, int i) {
     const BodyState& state = each.state;
-    const Surface surface = overSeams(each, i);
+    std::optional<double> doubt;
+    const Surface surface = overSeams(each, i, doubt);
     const auto& [at, there, normal, gap, isOne] = surface;
     const double before = dot(each.before, normal);
     const bool isPushed = std::abs(dot(each.change, normal)) > 1e-3 * std::abs(before) + 1e-4;
@@ -168,7 +226,8 @@ void HapticWorld::touch(const Watched& each, int i) {
     contact.along_a_m_per_s = dot(overOwn, way) / speed, contact.along_b_m_per_s = dot(overIts, way) / speed;
     contact.is_soft = PHYSVIB_SOFT; // an impact is as hard as its speed; what the solver pushed is a load
     if (met->slides) contact.effective_mass_kg = each.described.mass_kg; // which Godot does not push
-    contact.point_id = isRound || isOtherRound ? 0 : PHYSVIB_POINT_BY_PLACE;
+    contact.point_id = isRound || isOtherRound ? sideOf(normal) : PHYSVIB_POINT_BY_PLACE;
+    if (doubt) return strikeDoubtful(each, *met, contact, normal, *doubt);
     checkWorld(physvib_world_touch(world, &contact));
 }
 

@@ -39,6 +39,7 @@ std::string Outputs::open(const std::string& name) {
     constexpr std::string_view osc = "osc:";
     if (name.empty() || (name == "controllers" && pads != nullptr)) return "";
     if (name == "phone") return hasPhone = true, "";
+    if (name == "xr") return hasHands = true, "";
     if (name == "controllers")
         return physvib_pads_create(maxPads, settings.fieldWidthMetres, settings.fieldHeightMetres, nullptr,
                                    &pads) == PHYSVIB_OK
@@ -64,6 +65,7 @@ void Outputs::play(physvib_world world, const physvib_event& event) {
     for (const auto& device : devices) device->play(world, event);
     for (const Osc& receiver : receivers) receiver.play(event);
     if (pads != nullptr) strikePads(world, event);
+    if (hasHands) hands.play(event, clockSeconds);
     if (!hasPhone || event.kind != PHYSVIB_HIT) return;
     constexpr double toATenth = 2.3, longestMs = 500.0; // ln 10: a phone's motor has no decay of its own
     const double milliseconds = std::min(longestMs, 1000.0 * toATenth / std::max(event.decay_per_s, 1.0));
@@ -91,6 +93,7 @@ void Outputs::update(double gameSeconds) {
     timeScale = singleton("Engine").call("get_time_scale").real();
     clockSeconds += timeScale > 0.0 ? gameSeconds / timeScale : 1e-6 * static_cast<double>(now - lastUpdate);
     lastUpdate = now;
+    if (hasHands && !settings.isSilent) hands.update(clockSeconds);
     if (pads == nullptr) return;
     std::array<physvib_motors, maxPads> motors{};
     if (physvib_pads_pull(pads, std::llround(1e9 * clockSeconds), motors.data(), maxPads) < 0) return;
@@ -114,6 +117,7 @@ std::vector<double> Outputs::left() const {
 }
 
 void Outputs::rest() {
+    hands.rest();
     for (int pad = 0; pad < maxPads; ++pad)
         if ((rumbling >> static_cast<unsigned>(pad) & 1U) != 0)
             singleton("Input").call("stop_joy_vibration", pad);
@@ -125,10 +129,45 @@ void Outputs::close() {
     isOpen = false;
     devices.clear();
     receivers.clear();
-    hasPhone = false;
+    hasPhone = hasHands = false;
     if (pads != nullptr) physvib_pads_free(pads);
     pads = nullptr;
 }
+
+void XrHands::play(const physvib_event& event, double nowSeconds) {
+    static const std::array parts{physvib_part(names[0]), physvib_part(names[1])};
+    for (std::size_t i = 0; i < hands.size(); ++i)
+        if (event.part != parts[1 - i] && event.amplitude > left(hands[i], nowSeconds))
+            hands[i] = {event.amplitude, event.decay_per_s, event.frequency_hz, nowSeconds, true};
+}
+
+double XrHands::left(const Ringing& of, double nowSeconds) {
+    return of.amplitude * std::exp(-of.decayPerSecond * (nowSeconds - of.sinceSeconds));
+}
+
+void XrHands::update(double nowSeconds) {
+    constexpr double least = 0.01;
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+        if (!hands[i].isRinging) continue;
+        const double amplitude = left(hands[i], nowSeconds);
+        hands[i].isRinging = amplitude > least;
+        send(i, hands[i].hertz, amplitude > least ? std::min(1.0, amplitude) : 0.0);
+    }
+}
+
+void XrHands::rest() {
+    for (std::size_t i = 0; i < hands.size(); ++i)
+        if (hands[i].isRinging) send(i, hands[i].hertz, 0.0);
+    hands = {};
+}
+
+// By the action of Godot's own action map.
+void XrHands::send(std::size_t hand, double hertz, double amplitude) {
+    const Value interface = singleton("XRServer").call("get_primary_interface");
+    if (interface.object() != nullptr)
+        interface.call("trigger_haptic_pulse", "haptic", names[hand], hertz, amplitude, commandSeconds, 0.0);
+}
+
 namespace {
 class Packet {
 public:

@@ -3,6 +3,7 @@
 // libphysvib-live. For Godot's main thread.
 #pragma once
 #include "Api/Godot/Binding.h"
+#include <array>
 #include <memory>
 #include <physvib/physvib.h>
 #include <string>
@@ -24,8 +25,28 @@ private:
 
 class Live;
 
+/// Pulses of the two hands of an XR interface, in the hertz of what is felt. Each frame sends how strong the
+/// strongest hit still rings, so that a weak one never ends a strong one.
+class XrHands {
+public:
+    static constexpr const char* names[] = {"left_hand", "right_hand"}; ///< Godot's trackers, and parts
+    /// On the hand that the event's part names; otherwise on both.
+    void play(const physvib_event& event, double nowSeconds);
+    void update(double nowSeconds);
+    void rest();
+
+private:
+    struct Ringing {
+        double amplitude, decayPerSecond, hertz, sinceSeconds;
+        bool isRinging;
+    };
+    static double left(const Ringing& of, double nowSeconds);
+    static void send(std::size_t hand, double hertz, double amplitude);
+    std::array<Ringing, 2> hands{};
+};
+
 struct OutputSettings {
-    std::vector<std::string> names; ///< controllers, phone, osc:HOST:PORT, or a device of libphysvib-live
+    std::vector<std::string> names; ///< controllers, phone, xr, osc:HOST:PORT, or a device of libphysvib-live
     bool isSilent;
     physvib_layout layout;
     double levelDb, fieldWidthMetres, fieldHeightMetres;
@@ -55,7 +76,8 @@ private:
 
     OutputSettings settings{};
     physvib_pads pads = nullptr;
-    bool isOpen = false, hasPhone = false;
+    bool isOpen = false, hasPhone = false, hasHands = false;
+    XrHands hands;
     std::vector<std::unique_ptr<Live>> devices;
     std::vector<Osc> receivers;
     unsigned rumbling = 0;                      ///< bit j: the motors of controller j have a command

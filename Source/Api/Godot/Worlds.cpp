@@ -82,6 +82,7 @@ void HapticWorld::finishStep() {
         each.isMet = false;
         if (each.state) rigid.push_back(&each);
     }
+    decide();
     for (Watched* each : rigid) touchAll(*each);
     checkWorld(physvib_world_end_step(world));
     emitAll();
@@ -428,6 +429,7 @@ void HapticWorld::forget() {
     for (const auto& [id, each] : watched) physvib_world_remove_body(world, each.number);
     watched.clear();
     objects.clear();
+    doubts.clear();
 }
 
 // What did not change since is not described again.

@@ -7,6 +7,7 @@
 #include "Api/Godot/State.h"
 
 #include <map>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -41,6 +42,15 @@ struct Watched {
     Surface under = {};            ///< where it was slowest in the last tick
     Vector at = {}, step = {};     ///< of a CharacterBody: after its last tick, and how far it came in it
     bool wasAt = false;            ///< of a CharacterBody: `at` is known
+};
+
+/// A contact of two bodies whose strength the next tick tells.
+struct Doubt {
+    std::uint64_t a, b; ///< of Watched
+    Vector normal;      ///< from a to b
+    physvib_contact contact;
+    double left; ///< m/s, still approaching
+    int ticks = 0;
 };
 
 class HapticWorld final : public Instance {
@@ -83,7 +93,11 @@ private:
     static bool isOtherThere(const Watched& watched, int contact);
     void touch(const Watched& watched, int contact);
     Surface surfaceOf(const Watched& watched, int contact) const;
-    Surface overSeams(const Watched& watched, int contact) const;
+    Surface overSeams(const Watched& watched, int contact, std::optional<double>& doubt) const;
+    double pushOf(const Watched& watched, const Vector& normal) const;
+    void strikeDoubtful(const Watched& watched, const Watched& met, physvib_contact contact,
+                        const Vector& normal, double known);
+    void decide(); ///< what was in doubt in the last tick
     bool getsThere(const Watched& watched, const Watched& met, const Surface& surface) const;
     Watched* other(const Watched& watched, int contact, const Vector& place);
     Watched* moving(std::uint64_t id, std::uint64_t rid, const Vector& velocity, const Vector& place);
@@ -109,6 +123,7 @@ private:
     std::map<int, std::uint64_t> objects; ///< by number
     std::set<std::uint64_t> rigidBodies;  ///< of the space, whether they have a HapticBody or not
     std::unordered_map<std::uint64_t, double> bounces; ///< of this tick, by RID
+    std::vector<Doubt> doubts, decided;                ///< of this tick, of the last
     int next = 0;
     Outputs outputs;
 };

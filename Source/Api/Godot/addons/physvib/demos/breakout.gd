@@ -66,7 +66,7 @@ func _physics_process(delta):
 		paddles[i].position.x = clampf(paddles[i].position.x + 520 * way * delta, 75, SIZE.x - 75)
 		glow[i] = move_toward(glow[i], 0, 3 * delta)
 	if ball.position.y < 0 or ball.position.y > SIZE.y:
-		ball.position = Vector2(SIZE.x / 2, 500 if ball.position.y > SIZE.y else 150)
+		ball.global_transform.origin = Vector2(SIZE.x / 2, 500 if ball.position.y > SIZE.y else 150) # godot 94633
 		ball.linear_velocity = Vector2(0.4, 1)
 	var steep := 0.4 * SPEED
 	if absf(ball.linear_velocity.y) < steep: ball.linear_velocity.y = steep * (1 if ball.linear_velocity.y >= 0 else -1)
