@@ -272,7 +272,7 @@ void HapticWorld::emitAll() {
     std::vector<Value> hits;
     physvib_int64 count = 0;
     do {
-        count = physvib_world_take(world, events.data(), static_cast<physvib_int64>(events.size()), 0);
+        count = physvib_world_take(world, events.data(), static_cast<physvib_int64>(events.size()), 1);
         for (physvib_int64 i = 0; i < count; ++i) {
             const physvib_event& event = events[static_cast<std::size_t>(i)];
             outputs.play(world, asSeen(event));
