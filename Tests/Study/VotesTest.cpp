@@ -81,8 +81,9 @@ TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
     EXPECT_NEAR(summaries[0].estimate, 4.75, 1e-12);
     EXPECT_EQ(summaries[0].leftOut.at(0),
               "participant P2 left out: a staircase has fewer than two reversals");
-    EXPECT_EQ(summaries[0].leftOut.at(1),
-              "participant P3 left out: a staircase came to an end of its levels");
+    EXPECT_EQ(
+        summaries[0].leftOut.at(1),
+        "participant P3 left out: half or more of the reversals that count were at an end of its levels");
 }
 
 TEST(LevelTrials, MatchesAreMeansAndMagnitudesGeometricMeans) {

@@ -169,6 +169,13 @@ void warnOf(AnalysisReport& report, const std::string& condition, const std::str
     report.warnings.push_back(prefixOf(condition) + "participant " + printable(participant) + words);
 }
 
+/// Four standard errors below what guessing gives.
+bool isBelowGuess(const LevelCount& at, double guess) {
+    const auto n = static_cast<double>(at.trials);
+    return guess > 0.0 &&
+           static_cast<double>(at.hits) - n * guess < -4.0 * std::sqrt(n * guess * (1.0 - guess));
+}
+
 void tellNobodyFitted(const Findings& to) {
     to.report.error = to.job.files.front() + ": nobody can be fitted";
     for (const std::string& one : std::exchange(to.report.warnings, {})) to.report.error += "; " + one;
@@ -194,6 +201,14 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
     for (const auto& condition : data.conditions) {
         std::vector<double> thresholds, jnds;
         const bool isAdaptive = condition.trials.front().isAdaptive;
+        for (const LevelCount& at :
+             countByLevel(condition.trials, [](const LevelAnswer& one) { return one.counted(); }))
+            if (isBelowGuess(at, o.model.guess)) {
+                report.warnings.push_back(prefixOf(condition.name) + "answers at " + plainNumber(at.level) +
+                                          " lie far below the guess rate of " + percent(o.model.guess) +
+                                          " %: of yes or no, stronger or weaker, it is 0 (--guess 0)");
+                break;
+            }
         for (const auto& own : psychometricByParticipant(condition.trials, o.model)) {
             if (!own.fit.fault.empty()) {
                 warnOf(report, condition.name, own.participant, " left out: " + own.fit.fault);

@@ -76,7 +76,8 @@ void tell(std::ostream& out, const std::string& indent, const ConfusionMatrix& m
         out << indent << "corrected IT: " << bits(it.correctedBits()) << '\n';
     else
         out << indent << "IT bound: at least " << bits(it.leastBits) << " (Fano)\n";
-    out << indent << "2^IT: " << fixedNumber(std::exp2(it.bestBits()), 1) << '\n';
+    out << indent << (it.canBeCorrected() ? "2^corrected IT: " : "2^IT: ")
+        << fixedNumber(std::exp2(it.bestBits()), 1) << '\n';
 }
 
 void exportMatrix(ExportTable& table, const std::string& condition, const ParticipantTransfer& own) {
@@ -123,6 +124,19 @@ std::string patternsOf(const ConfusionMatrix& matrix) {
            counted(static_cast<std::size_t>(enchanters), "actuator");
 }
 
+/// What answers that are all equally frequent would come to, where near ones count as right.
+void tellChance(std::ostream& out, const std::string& indent, const ConfusionMatrix& matrix, int tolerance) {
+    std::vector<IdentificationTrial> guessed;
+    for (std::size_t i = 0; i < matrix.stimuli(); ++i)
+        for (std::size_t j = 0; j < matrix.stimuli(); ++j)
+            guessed.push_back({matrix.label(i), matrix.label(j)});
+    const ConfusionMatrix chance{withTolerance(std::move(guessed), tolerance)};
+    out << indent << "answers within " << counted(static_cast<std::size_t>(tolerance), "step")
+        << " count as the stimulus: by chance "
+        << percent(proportion(chance.correct(), chance.trials()).share) << " % and "
+        << bits(informationTransfer(chance).bits) << '\n';
+}
+
 std::string nameOr(const std::string& name, const char* other) { return name.empty() ? other : name; }
 
 } // namespace
@@ -139,6 +153,7 @@ void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings
         for (const auto& words : matrixWarnings(matrix, it)) report.warnings.push_back(prefix + words);
         if (!condition.name.empty()) out << printable(condition.name) << '\n';
         tell(out, condition.name.empty() ? "" : "  ", matrix, it, transferByParticipant(condition.trials));
+        if (job.tolerance > 0) tellChance(out, condition.name.empty() ? "" : "  ", matrix, job.tolerance);
         tellAndExport(out, condition.name.empty() ? "" : "  ", condition, table, each);
         matrices.emplace_back(nameOr(condition.name, "all trials"), matrix);
     }

@@ -58,7 +58,8 @@ rows.of <- function(file, measure, factors, where = character()) {
   d <- where.is(d, where)
   column <- if (measure %in% names(d)) measure else sub("=.*", "", measure)
   d <- d[!(d[[column]] %in% c("", "NA")), ]
-  y <- if (measure %in% names(d)) as.numeric(d[[column]]) else as.numeric(d[[column]] == sub("^[^=]*=", "", measure))
+  y <- if (measure %in% names(d)) suppressWarnings(as.numeric(d[[column]])) else as.numeric(d[[column]] == sub("^[^=]*=", "", measure))
+  if (anyNA(y)) stop(paste0("expected numbers in the column ", column, ", found ", d[[column]][is.na(y)][1]))
   rows <- data.frame(id = d$participant, y = y)
   for (i in seq_along(factors)) { own <- level(d, factors[i]); rows[[paste0("w", i)]] <- factor(own, levels = in.order(own)) }
   rows
@@ -198,10 +199,11 @@ mixed <- function(test, file, measure, within, between, where) {
   model <- as.formula(paste(c("y ~ 0 + x + (1 | id)", slopes), collapse = ""))
   of <- function(x) suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE))
   fit <- function(x) as.numeric(logLik(of(x)))
-  if (lme4::isSingular(of(x))) stop("participants' variance is estimated as 0, so cells would count as people")
+  if (lme4::VarCorr(of(x))$id[1] == 0) stop("participants' variance is estimated as 0, so cells would count as people")
   for (t in seq_along(labels)) {
     chi <- max(0, 2 * (fit(x) - fit(x[, terms != t, drop = FALSE])))
-    result(test, paste(labels[t], "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t))
+    result(test, paste(labels[t], "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t),
+           note = "p too small where people are few")
   }
 }
 friedman <- function(test, file, measure, within = character(), where = character(), between = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
@@ -284,6 +286,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   marks <- lapply(factors, words.of)
   if (length(factors) > 1) marks <- c(marks, list(do.call(paste, marks)))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
+  if (length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("level_db (", length(unique(d$level_db)), " levels): averaged over"))
   lines <- expand.grid(group = groups, word = if (k == 2) words[1] else words, stringsAsFactors = FALSE)
   tests <- Map(function(group, word) {
     of <- if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m == group))

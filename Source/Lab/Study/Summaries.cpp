@@ -327,9 +327,10 @@ double poolThresholds(const std::map<std::string, Run>& participants, std::vecto
 /// Why this is no threshold; null: it is one.
 const char* faultOf(LevelTrial::Kind kind, const Run& trials, double threshold) {
     if (kind == LevelTrial::Kind::staircase)
-        return std::isnan(threshold)   ? "a staircase has fewer than two reversals"
-               : std::isinf(threshold) ? "a staircase came to an end of its levels"
-                                       : nullptr;
+        return std::isnan(threshold) ? "a staircase has fewer than two reversals"
+               : std::isinf(threshold)
+                   ? "half or more of the reversals that count were at an end of its levels"
+                   : nullptr;
     double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();
     for (const LevelTrial* trial : trials) {
         const auto levels = questPlan(trial->quest)->levels;
@@ -343,17 +344,20 @@ const char* faultOf(LevelTrial::Kind kind, const Run& trials, double threshold) 
 
 void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>& participants) {
     std::vector<std::vector<double>> own;
+    std::vector<std::size_t> reversals(participants.size());
     double shared = 0.0;
     if (summary.kind == LevelTrial::Kind::quest && participants.size() > 1)
         shared = poolThresholds(participants, own);
     else
         for (const auto& [participant, trials] : participants) {
+            const std::size_t before = summary.reversals;
             auto& thresholds = own.emplace_back();
             for (const auto& [session, run] : runsOf(trials))
                 thresholds.push_back(summary.kind == LevelTrial::Kind::quest
                                          ? questThreshold(run, summary)
                                          : staircaseThreshold(run, summary));
             summary.halfInterval /= static_cast<double>(thresholds.size());
+            reversals[own.size() - 1] = summary.reversals - before;
         }
     std::vector<double> thresholds;
     std::size_t at = 0;
@@ -361,11 +365,14 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
         const double threshold = meanOf(own[at++]);
         if (const char* const why = faultOf(summary.kind, trials, threshold)) {
             summary.leftOut.push_back("participant " + participant + " left out: " + why);
+            summary.trials -= trials.size();
+            summary.reversals -= reversals[at - 1];
             continue;
         }
         thresholds.push_back(threshold);
         summary.thresholds.emplace_back(participant, threshold);
     }
+    summary.participants = thresholds.size();
     const Moments moments{thresholds};
     summary.estimate = thresholds.empty() ? std::numeric_limits<double>::quiet_NaN() : moments.mean;
     summary.deviation = moments.deviation;
