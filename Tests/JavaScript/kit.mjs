@@ -81,8 +81,12 @@ function ownImpacts({ motions, gravity, scales, driver }, body, others) {
         const pull = gravity * (scales.get(body) ?? 1) * seconds, dx = b.vx - a.vx, dy = b.vy - a.vy, least = Math.max(0.15, 1.5 * Math.abs(pull));
         if (!(Math.hypot(dx, dy + pull) > least)) continue;
         const last = found.at(-1), strengths = [Math.hypot(dx, dy), Math.hypot(dx, dy + pull)].map(change => b.massKg * change);
-        // What an engine adds to push overlaps apart is no blow: that is how fast it came.
-        if (driver.pushesApart) strengths.push(b.massKg * Math.max(0, -(a.vx * dx + a.vy * dy) / Math.hypot(dx, dy)));
+        // What an engine adds to push overlaps apart is no blow: that is how fast they came.
+        if (driver.pushesApart) for (const other of others) {
+            const o = before.get(other), moved = o?.massKg > 0 ? o : after.get(other); // what is kinematic may have its velocity in the step alone
+            const came = o && moved && other !== body ? ((moved.vx - a.vx) * dx + (moved.vy - a.vy) * dy) / Math.hypot(dx, dy) : 0;
+            if (came > 0.02 && !(gapOf(a, o)?.gap > came * seconds + 0.02)) strengths.push(came / (1 / b.massKg + (o.massKg > 0 ? 1 / o.massKg : 0)));
+        }
         // A push that lasts some steps is one.
         if (last && k - last.k <= 1) { last.k = k; last.sumX += dx; last.sumY += dy + pull; last.most = Math.max(last.most, b.massKg * Math.hypot(last.sumX, last.sumY), strengths[1]); continue; }
         found.push({ k, at: time, end: time + seconds, seconds: Math.max(seconds, motions[k - 1]?.seconds ?? 0), least: Math.min(...strengths), most: Math.max(...strengths), sumX: dx, sumY: dy + pull, onset: onsetOf(motions, k, body, others, gravity, driver.halfStep < 0, [dx, dy + pull]) });

@@ -17,10 +17,13 @@
 /* maximum of the sub-steps: a lower bound */
 #define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse)
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetInertiaTensor(body)
+#elif defined(B2_NULL_INDEX) /* after 3.1 */
+#define PHYSVIB_BOX2D3_INERTIA(body)                                                                         \
+    (b2Body_GetMotionLocks(body).angularZ ? 0 : b2Body_GetRotationalInertia(body))
 #else
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetRotationalInertia(body)
 #endif
-#if defined(B2_NULL_INDEX) /* after 3.1 */
+#if defined(B2_NULL_INDEX)
 #define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->totalNormalImpulse)
 #define PHYSVIB_BOX2D3_CENTRE(body) b2Body_GetWorldCenter(body)
 #else
@@ -258,8 +261,10 @@ PHYSVIB_UNUSED static void physvib_box2d3_before(physvib_box2d3* haptics, physvi
     const b2Vec2 g = b2World_GetGravity(haptics->box2d), v = b2Body_GetLinearVelocity(body);
     const double x = PHYSVIB_BOX2D3_CENTRE(body).x, y = PHYSVIB_BOX2D3_CENTRE(body).y,
                  mass = b2Body_GetType(body) == b2_dynamicBody ? b2Body_GetMass(body) : 0,
-                 scale = b2Body_GetGravityScale(body), pull = mass > 0 ? seconds * scale : 0;
-    if (mass != number->values.mass_kg || scale != number->values.gravity_scale)
+                 inertia = mass > 0 ? PHYSVIB_BOX2D3_INERTIA(body) : 0, scale = b2Body_GetGravityScale(body),
+                 pull = mass > 0 ? seconds * scale : 0;
+    if (mass != number->values.mass_kg || inertia != number->values.inertia_kg_m2 ||
+        scale != number->values.gravity_scale)
         physvib_box2d3_fail(haptics, number, physvib_box2d3_set(haptics, body, number->id, number->values),
                             physvib_error());
     if (number->x_m != x || number->y_m != y || number->vx != v.x || number->vy != v.y)

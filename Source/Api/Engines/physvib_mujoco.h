@@ -20,7 +20,7 @@ PHYSVIB_UNUSED static void physvib_mujoco_turned(const mjtNum* from, double to[3
 PHYSVIB_UNUSED static void physvib_mujoco_turning(const mjModel* m, const mjData* d, int body, double to[6]) {
     int i;
     for (i = 0; i < 6; ++i) to[i] = 0;
-    for (i = 0; i < 3; ++i) {
+    for (i = 0; i < 3 && m->body_invweight0[2 * body + 1] > 1e-12; ++i) { /* its joints let it turn */
         const mjtNum inertia = m->body_inertia[3 * body + i], *turned = d->ximat + 9 * body + i;
         const mjtNum column[3] = {turned[0], turned[3], turned[6]};
         double axis[3];
@@ -34,8 +34,11 @@ PHYSVIB_UNUSED static void physvib_mujoco_turning(const mjModel* m, const mjData
 
 PHYSVIB_UNUSED static int physvib_mujoco_move(const mjModel* m, const mjData* d, physvib_world world,
                                               int body, int is_plane) {
+    const int is_still = m->body_weldid[body] == 0 || m->body_mocapid[body] >= 0;
+    const int code = physvib_world_set_mass(world, body, is_still ? 0 : m->body_mass[body]);
     double centre[3], velocity[3], spin[3], turning[6];
     mjtNum v[6];
+    if (code < 0) return code;
     mj_objectVelocity(m, d, mjOBJ_BODY, body, v, 0);
     physvib_mujoco_turned(d->xipos + 3 * body, centre);
     physvib_mujoco_turned(v + 3, velocity);
@@ -46,12 +49,20 @@ PHYSVIB_UNUSED static int physvib_mujoco_move(const mjModel* m, const mjData* d,
     return physvib_world_move_in_space(world, body, centre, velocity, spin, turning);
 }
 
+/* Before 3.4 MuJoCo tells half of how deep two boxes overlap. */
+PHYSVIB_UNUSED static mjtNum physvib_mujoco_distance(const mjModel* m, const mjContact* found) {
+    const int is_half = mjVERSION_HEADER < 340 && found->dist < 0 &&
+                        m->geom_type[found->geom1] == mjGEOM_BOX && m->geom_type[found->geom2] == mjGEOM_BOX;
+    return is_half ? 2 * found->dist : found->dist;
+}
+
 PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel* m, const mjData* d, physvib_world world,
                                                int index, double restitution, int is_plane) {
     const mjContact* found = &d->contact[index];
     double at[3], normal[3];
     mjtNum force[6];
-    const mjtNum gap = found->dist - found->includemargin; /* with a margin geoms push before they overlap */
+    /* with a margin geoms push before they overlap */
+    const mjtNum gap = physvib_mujoco_distance(m, found) - found->includemargin;
     physvib_contact contact;
     if (gap > 0) return PHYSVIB_OK; /* near, but not touching yet */
     physvib_contact_init(&contact, sizeof contact);
