@@ -20,7 +20,7 @@ struct MuJoCo final : scenes::Engine {
         how << " condim='3' friction='" << mu << " 0.005 0.0001' solref='0.02 "
             << (e > 0 ? -log / std::hypot(3.14159265358979, log) : 1.0) << "'";
         xml = head.str(), surface = how.str(), joints = "";
-        restitution = e;
+        dt = stepSeconds, restitution = e;
         bodies.clear();
         model.reset();
     }
@@ -122,8 +122,8 @@ struct MuJoCo final : scenes::Engine {
         if (!model) return {body.x, body.y, body.vx, body.vy, body.spin, body.angle};
         if (!body.moves()) return {body.x, body.y, 0, 0, 0, body.angle};
         const mjtNum *at = data->qpos + joint(i), *v = data->qvel + joint(i);
-        return {body.x + at[0],           body.y + at[1], v[0], v[1], body.turns ? v[2] : 0,
-                body.angle + (body.turns ? at[2] : 0)};
+        return {body.x + at[0], body.y + at[1],        v[0],
+                v[1],           body.turns ? v[2] : 0, body.angle + (body.turns ? at[2] : 0)};
     }
     struct Free {
         void operator()(mjModel* m) const { mj_deleteModel(m); }

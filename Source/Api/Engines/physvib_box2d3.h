@@ -190,6 +190,9 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b
     double one = b2Shape_GetRestitution(found->shapeIdA), other = b2Shape_GetRestitution(found->shapeIdB),
            meets, impulse = PHYSVIB_BOX2D3_PUSHED(point);
     physvib_contact contact;
+#if !defined(B2_NULL_INDEX)
+    if (point->separation < -0.005) impulse = 0; /* told with what pushes an overlap beyond the slop apart */
+#endif
     if (impulse <= 0 && point->separation > 0) return; /* near, but not touching yet */
     /* Box2D's speed is that at the start of the step; gravity accelerates the bodies until they meet. */
     meets = speed > 0 && root > 0 ? sqrt(root) : speed;
