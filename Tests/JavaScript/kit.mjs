@@ -193,7 +193,7 @@ if (isTable) {
     for (const [title, row] of table) console.log(`| ${title} | ${columns.map(name => shown[row[name]]).join(' | ')} |`);
 }
 // As PAGE has it.
-const titles = { matter: 'Matter 0.20', planck: 'Planck 1.4', rapier2d: 'Rapier 2D 0.21', rapier3d: 'Rapier 3D 0.21', box2d3: 'Box2D 3 (wasm 5.2)', velocities: '`physvib/velocities`', cannon: 'cannon-es 0.20', havok: 'Havok 1.3', babylon: 'Babylon 9', jolt: 'Jolt 1.1', mujoco: 'MuJoCo 3.14', box2d: '[In C](engines.md): Box2D 2.4', chipmunk: 'Chipmunk 7', bullet: 'Bullet 3', ode: 'ODE 0.16', love: 'LÖVE 11', 'mujoco@2': 'MuJoCo 2.2', 'box2d3@v3.1.1': 'Box2D 3.1' };
+const titles = { matter: 'Matter 0.20', planck: 'Planck 1.4', rapier2d: 'Rapier 2D 0.21', rapier3d: 'Rapier 3D 0.21', box2d3: 'Box2D 3 (wasm 5.2)', velocities: '`physvib/velocities`', cannon: 'cannon-es 0.20', havok: 'Havok 1.3', babylon: 'Babylon 9', jolt: 'Jolt 1.1', mujoco: 'MuJoCo 3.14', box2d: '[In C](engines.md): Box2D 2.4', chipmunk: 'Chipmunk 7', bullet: 'Bullet 3', ode: 'ODE 0.16', love: 'LÖVE 11', pymunk: 'pymunk 7.3', 'mujoco@2': 'MuJoCo 2.2', 'box2d3@v3.1.1': 'Box2D 3.1' };
 const rows = Object.entries(counts).map(([name, of]) => `| ${titles[name] ?? name} | ${of.right} | ${of.own} | ${of.wrong} | ${of['not there']} |`);
 if (page) {
     const text = readFileSync(page, 'utf8'), missing = rows.filter(row => !text.includes(row));
