@@ -3,8 +3,8 @@
  * mj_step. Contacts are those in space. The field is the x, z plane: an event's y is MuJoCo's z, upwards, and
  * its z is MuJoCo's -y, towards the viewer. physvib_mujoco_step_in_plane is for a model whose bodies stay in
  * that plane: all contacts then count at y = 0, and a normal that is not in the plane is an error.
- * All integrators but RK4. MuJoCo's contacts are soft and spread their
- * impulse over many steps, so an impact is computed from its speed and a restitution that the caller sets. */
+ * All integrators but RK4. MuJoCo's contacts are soft, their impulse lasts: an impact follows from speed and
+ * a restitution that the caller sets. Masses are the model's. */
 #ifndef PHYSVIB_MUJOCO_H
 #define PHYSVIB_MUJOCO_H
 #include <math.h>
@@ -49,20 +49,15 @@ PHYSVIB_UNUSED static int physvib_mujoco_move(const mjModel* m, const mjData* d,
     return physvib_world_move_in_space(world, body, centre, velocity, spin, turning);
 }
 
-/* Before 3.4 MuJoCo tells half of how deep two boxes overlap. */
-PHYSVIB_UNUSED static mjtNum physvib_mujoco_distance(const mjModel* m, const mjContact* found) {
-    const int is_half = mjVERSION_HEADER < 340 && found->dist < 0 &&
-                        m->geom_type[found->geom1] == mjGEOM_BOX && m->geom_type[found->geom2] == mjGEOM_BOX;
-    return is_half ? 2 * found->dist : found->dist;
-}
-
 PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel* m, const mjData* d, physvib_world world,
                                                int index, double restitution, int is_plane) {
     const mjContact* found = &d->contact[index];
     double at[3], normal[3];
     mjtNum force[6];
-    /* with a margin geoms push before they overlap */
-    const mjtNum gap = physvib_mujoco_distance(m, found) - found->includemargin;
+    /* before 3.4 boxes are told to overlap half as deep; with a margin geoms push before they do */
+    const int is_box = m->geom_type[found->geom1] == mjGEOM_BOX && m->geom_type[found->geom2] == mjGEOM_BOX;
+    const mjtNum deeper = mjVERSION_HEADER < 340 && is_box ? fmin(found->dist, 0) : 0,
+                 gap = found->dist + deeper - found->includemargin;
     physvib_contact contact;
     if (gap > 0) return PHYSVIB_OK; /* near, but not touching yet */
     physvib_contact_init(&contact, sizeof contact);

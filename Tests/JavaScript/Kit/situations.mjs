@@ -3,7 +3,7 @@
 // what happens then, to engine and bodies), `felt` (each hit of a source, in order: `at`, seconds, and `newtonSeconds` from the closed form; left out, the
 // engine's own velocities say), or `felt: []` and what explain() then `says`. `own`: there is no closed form, each impact of the engine's own motion is felt.
 // `steps`: lengths of steps, of their number. `open`: engines in which it is known to be wrong: what reaches a source through what rests on it adds up to nothing while its own
-// support pushes back; a box that something carries is struck as if nothing did (-6 %).
+// support pushes back; a box that something carries is struck as if nothing did (-6 %); ODE's header takes a lift's own load off twice (-16 %).
 export const g = 9.81, radius = 0.1;
 export const secondsOf = metres => Math.sqrt(2 * metres / g), speedOf = metres => Math.sqrt(2 * g * metres);
 const kg = 0.3, floor = { type: 'fixed', x: 0, y: -0.5, half: [30, 0.5] };
@@ -65,7 +65,7 @@ export const situations = [
     { group: 'platforms', name: 'rises at 2 m/s', bodies: { platform: { ...platform, vy: 2 }, ball: ball(1.5, { }) }, felt: [{ at: (-2 + Math.sqrt(4 + 2 * g * 1.5)) / g, newtonSeconds: kg * Math.sqrt(4 + 2 * g * 1.5) }], seconds: 0.6 },
     { group: 'platforms', name: 'falls at 3 m/s', bodies: { platform: { ...platform, vy: -3 }, ball: ball(1, { vy: -4 }) }, felt: [{ at: (Math.sqrt(1 + 2 * g) - 1) / g, newtonSeconds: kg * Math.sqrt(1 + 2 * g) }], seconds: 0.7, open: 'bullet' },
     { group: 'platforms', name: 'a lift of 0.5 m/s is ridden', bodies: { platform, box: box(0) }, acts: [[0.5, (e, { platform, box }) => { e.moves(platform, 0, 0.5); e.fling(box, 0, 0.5); }]], from: 0.6, own: true, felt: [], seconds: 2 },
-    { group: 'platforms', name: 'a lift starts with 1 m/s under what rests on it: no impact', bodies: { platform, box: box(0) }, acts: [[0.5, (e, { platform }) => e.moves(platform, 0, 1)]], from: 0.4, own: true, mayMiss: true, seconds: 1 },
+    { group: 'platforms', name: 'a lift starts with 1 m/s under what rests on it: no impact', bodies: { platform, box: box(0) }, acts: [[0.5, (e, { platform }) => e.moves(platform, 0, 1)]], from: 0.4, own: true, mayMiss: true, seconds: 1, open: 'ode' },
     { group: 'platforms', name: 'a lift of 2 m/s stops', bodies: { platform: { ...platform, vy: 2 }, box: box(0, { vy: 2 }) }, acts: [[0.5, (e, { platform }) => e.moves(platform, 0, 0)]], from: 0.5, own: true, most: 1, atLeast: 1, seconds: 1.3 },
     { group: 'platforms', name: 'a belt is ridden', bodies: { platform: { ...platform, half: [30, 0.5] }, box: box(0) }, acts: [[0.5, (e, { platform }) => e.moves(platform, 1, 0)]], from: 0.4, own: true, mayMiss: true, felt: [], seconds: 1.5 },
     { group: 'platforms', name: 'put by its place each step, strikes a ball', gravity: 0, bodies: { ram: { type: 'kinematic', x: -1, y: 0, half: [0.2, 0.2] }, ball: ball(-radius) }, each(e, { ram }, time, seconds) { e.moveTo(ram, -1 + 2 * Math.max(0, time + seconds - 0.3), 0, seconds); }, felt: [{ at: 0.3 + 0.7 / 2, newtonSeconds: 2 * kg }], seconds: 1 },
