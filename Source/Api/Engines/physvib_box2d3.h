@@ -189,7 +189,7 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b
            meets, impulse = PHYSVIB_BOX2D3_PUSHED(point);
     physvib_contact contact;
 #if !defined(B2_NULL_INDEX)
-    if (point->separation < -0.005) impulse = 0; /* told with what pushes an overlap beyond the slop apart */
+    if (point->separation < -0.005) impulse = 0; /* with what pushes an overlap apart */
 #endif
     if (impulse <= 0 && point->separation > 0) return; /* near, but not touching yet */
     /* Box2D's speed is that at the step's start; gravity adds until they meet */

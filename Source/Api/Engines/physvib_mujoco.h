@@ -54,7 +54,7 @@ PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel* m, const mjData* d
     const mjContact* found = &d->contact[index];
     double at[3], normal[3];
     mjtNum force[6];
-    /* before 3.4 boxes are told to overlap half as deep; with a margin geoms push before they do */
+    /* before 3.4 boxes overlap half as deep; with a margin geoms push before they do */
     const int is_box = m->geom_type[found->geom1] == mjGEOM_BOX && m->geom_type[found->geom2] == mjGEOM_BOX;
     const mjtNum deeper = mjVERSION_HEADER < 340 && is_box ? fmin(found->dist, 0) : 0,
                  gap = found->dist + deeper - found->includemargin;
