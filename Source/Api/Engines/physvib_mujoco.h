@@ -20,7 +20,7 @@ PHYSVIB_UNUSED static void physvib_mujoco_turned(const mjtNum* from, double to[3
 PHYSVIB_UNUSED static void physvib_mujoco_turning(const mjModel* m, const mjData* d, int body, double to[6]) {
     int i;
     for (i = 0; i < 6; ++i) to[i] = 0;
-    for (i = 0; i < 3 && m->body_invweight0[2 * body + 1] > 1e-12; ++i) { /* its joints let it turn */
+    for (i = 0; i < 3 && m->body_invweight0[2 * body + 1] > 1e-12; ++i) { /* joints let it turn */
         const mjtNum inertia = m->body_inertia[3 * body + i], *turned = d->ximat + 9 * body + i;
         const mjtNum column[3] = {turned[0], turned[3], turned[6]};
         double axis[3];
@@ -56,7 +56,7 @@ PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel* m, const mjData* d
     mjtNum force[6];
     /* before 3.4 boxes overlap half as deep; with a margin geoms push before they do */
     const int is_box = m->geom_type[found->geom1] == mjGEOM_BOX && m->geom_type[found->geom2] == mjGEOM_BOX;
-    const mjtNum deeper = mjVERSION_HEADER < 340 && is_box ? fmin(found->dist, 0) : 0,
+    const mjtNum deeper = mjVERSION_HEADER < 340 && is_box ? mju_min(found->dist, 0) : 0,
                  gap = found->dist + deeper - found->includemargin;
     physvib_contact contact;
     if (gap > 0) return PHYSVIB_OK; /* near, but not touching yet */
