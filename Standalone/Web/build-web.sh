@@ -34,7 +34,7 @@ if ! { cmake -S Standalone/Web -B build/web/wasm -G Ninja --toolchain "$PWD/Stan
 fi
 rm -rf build/web/page
 mkdir build/web/page
-Source/Api/JavaScript/shrink.sh build/web/wasm/physvib.wasm build/web/page/physvib.wasm "-Oz --flatten --rereloop -Oz -Os" # 21 KB less, compressed
+Source/Api/JavaScript/shrink.sh build/web/wasm/physvib.wasm build/web/page/physvib.wasm "-Oz --flatten --rereloop -Oz -Oz" # 21 KB less, compressed
 cp build/web/wasm/package/profiles.js Standalone/Web/Page/* build/web/page
 for module in clock device files gamepad module names pad settings waves; do cp "Source/Api/JavaScript/package/$module.js" build/web/page; done
 cd build/web/page
