@@ -9,7 +9,10 @@
 #include <physvib/engines/physvib_box2d3.h>
 
 struct Box2d3 final : scenes::Engine {
-    Box2d3() { subSteps = 4, slowest = 60, handedOnPart = 0.05; }
+    Box2d3() {
+        subSteps = 4, slowest = 60, handedOnPart = 0.05;
+        verbs = "type put fling moves mass lockTurn gravityScale gravity remove passes sleep enable";
+    }
     ~Box2d3() override { end(); }
     void begin(double stepSeconds, double g, double e, double mu) override {
         end();
@@ -50,7 +53,7 @@ struct Box2d3 final : scenes::Engine {
     }
     void add(const scenes::Body& from) override {
         b2BodyDef def = b2DefaultBodyDef();
-        def.type = from.massKg > 0 ? b2_dynamicBody : b2_staticBody;
+        def.type = from.massKg > 0 || from.type != scenes::Type::dynamic ? typeOf(from.type) : b2_staticBody;
         def.position = {static_cast<float>(from.x), static_cast<float>(from.y)};
         // b2MakeRot of 3.1 is off by up to 0.1 degrees
         def.rotation = {std::cos(static_cast<float>(from.angle)), std::sin(static_cast<float>(from.angle))};
@@ -75,7 +78,55 @@ struct Box2d3 final : scenes::Engine {
             b2CreatePolygonShape(body, &shape, &box);
         else
             b2CreateCircleShape(body, &shape, &disc);
+        if (!from.turns) lockTurn(body);
         number(body, from.id, from.isSource);
+    }
+    static b2BodyType typeOf(scenes::Type type) {
+        return type == scenes::Type::fixed       ? b2_staticBody
+               : type == scenes::Type::kinematic ? b2_kinematicBody
+                                                 : b2_dynamicBody;
+    }
+    static void lockTurn(b2BodyId body) {
+#if defined(B2_NULL_INDEX)
+        b2MotionLocks locks{};
+        locks.angularZ = true;
+        b2Body_SetMotionLocks(body, locks);
+#else
+        b2Body_SetFixedRotation(body, true);
+#endif
+    }
+    void feel(const scenes::Body& body) override { number(bodies.at(body.id), body.id, true); }
+    void act(const std::string& verb, int id, double x, double y, double z) override {
+        const b2Vec2 at{static_cast<float>(x), static_cast<float>(y)};
+        if (verb == "gravity") return b2World_SetGravity(haptics.box2d, {0, -at.x});
+        const b2BodyId body = bodies.at(id);
+        if (verb != "sleep" && verb != "enable") b2Body_SetAwake(body, true);
+        if (verb == "type") b2Body_SetType(body, typeOf(static_cast<scenes::Type>(x)));
+        if (verb == "put") b2Body_SetTransform(body, {at.x, at.y}, b2Body_GetRotation(body));
+        if (verb == "fling" || verb == "moves")
+            b2Body_SetLinearVelocity(body, at), b2Body_SetAngularVelocity(body, static_cast<float>(z));
+        if (verb == "mass") {
+            b2MassData data = b2Body_GetMassData(body);
+            data.rotationalInertia *= at.x / data.mass, data.mass = at.x;
+            b2Body_SetMassData(body, data);
+        }
+        if (verb == "lockTurn") lockTurn(body);
+        if (verb == "gravityScale") b2Body_SetGravityScale(body, at.x);
+        if (verb == "enable") x != 0 ? b2Body_Enable(body) : b2Body_Disable(body);
+        if (verb == "passes") {
+            b2ShapeId shape;
+            b2Body_GetShapes(body, &shape, 1);
+            b2Filter filter = b2DefaultFilter();
+            if (x != 0) filter.maskBits = 0;
+            b2Shape_SetFilter(shape, filter);
+        }
+        if (verb == "sleep") b2World_EnableSleeping(haptics.box2d, true), b2Body_SetAwake(body, false);
+        if (verb == "remove") physvib_box2d3_remove(&haptics, body), b2DestroyBody(body);
+    }
+    std::string explain() override {
+        char text[512];
+        physvib_box2d3_explain(&haptics, text, sizeof text);
+        return text;
     }
     void number(b2BodyId which, int id, bool isSource) {
         physvib_body values;
@@ -147,7 +198,6 @@ struct Box2d3 final : scenes::Engine {
                 b2Body_GetAngularVelocity(body),
                 b2Rot_GetAngle(b2Body_GetRotation(body))};
     }
-    double dt = 0;
     float elasticity = 0, friction = 0;
     physvib_box2d3 haptics{};
     std::map<int, b2BodyId> bodies;

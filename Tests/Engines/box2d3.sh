@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Box2D 3 through its adapter, of which Debian has no package: its versions are fetched and compiled in a temporary folder, and judged as the other
-# engines are (Scenes.h). Needs a network, git, and a build of the library.
+# engines are (Scenes.h). Needs a network, git, node, and a build of the library.
 # Usage: box2d3.sh BUILD [VERSION...]
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -33,5 +33,6 @@ for version in "$@"; do
     ! grep -q FAILED "$folder/log" || failed=1
     python3 "$root/Tests/Engines/worlds.py" "$version=$folder/run" || failed=1
     python3 "$root/Tests/Engines/acts.py" "Box2D 3, $version=$folder/run" || failed=1
+    node "$root/Tests/JavaScript/kit.mjs" - "box2d3@$version=$folder/run --kit" || failed=1
 done
 exit $failed

@@ -28,9 +28,9 @@ async function play(make, seed) {
         ball => { engine.remove(ball.body); balls = balls.filter(other => other !== ball); }, ({ body }) => haptics.set(body, source),
         ball => { ball.scale = 0.5 * random(3) + 0.5; engine.gravityScale?.(ball.body, ball.scale); if (!engine.gravityScale) ball.scale = 1; },
         ball => put(ball, radius - 0.01 * random(3), -random(4))];
-    for (let k = 0; k < steps; ++k) {
-        if (k === 0 || random(6) === 0) add();
-        if (balls.length > 0 && random(4) === 0) {
+    for (let k = 0; k <= steps; ++k) { // the last one for the rest of a bounce alone
+        if (k === 0 || (k < steps && random(6) === 0)) add();
+        if (k < steps && balls.length > 0 && random(4) === 0) {
             const act = acts[random(acts.length)], ball = balls[random(balls.length)];
             if (ball.blow?.k === k - 1) ball.blow.isDisturbed = true; // the rest of a bounce, of engines that take two steps for it, may be lost
             act(ball);
@@ -40,7 +40,7 @@ async function play(make, seed) {
         for (const ball of balls) {
             const { vy, massKg, y } = engine.get(ball.body), { before } = ball, change = vy - before.vy, newtonSeconds = massKg * (change + g * ball.scale * seconds);
             if (ball.blow?.k === k - 1) { if (change > 0) ball.blow.newtonSeconds += newtonSeconds; } // an engine may let a gap close first, and bounce in the next step
-            else if (change > 3 * threshold && before.vy < -0.5 && before.y - radius > -(engine.sinks ?? 0.03) && (engine.sinks ? ball.lastGap : ball.gap) > nearMetres) blows.push(ball.blow = { id: ball.id, k, newtonSeconds });
+            else if (k < steps && change > 3 * threshold && before.vy < -0.5 && before.y - radius > -(engine.sinks ?? 0.03) && (engine.sinks ? ball.lastGap : ball.gap) > nearMetres) blows.push(ball.blow = { id: ball.id, k, newtonSeconds });
             ball.lastGap = ball.gap;
             ball.gap = Math.min(before.y, y) - radius;
         }

@@ -81,8 +81,12 @@ function ownImpacts({ motions, gravity, scales, driver }, body, others) {
         const pull = gravity * (scales.get(body) ?? 1) * seconds, dx = b.vx - a.vx, dy = b.vy - a.vy, least = Math.max(0.15, 1.5 * Math.abs(pull));
         if (!(Math.hypot(dx, dy + pull) > least)) continue;
         const last = found.at(-1), strengths = [Math.hypot(dx, dy), Math.hypot(dx, dy + pull)].map(change => b.massKg * change);
-        // What an engine adds to push overlaps apart is no blow: that is how fast it came.
-        if (driver.pushesApart) strengths.push(b.massKg * Math.max(0, -(a.vx * dx + a.vy * dy) / Math.hypot(dx, dy)));
+        // What an engine adds to push overlaps apart is no blow: that is how fast they came.
+        if (driver.pushesApart) for (const other of others) {
+            const o = before.get(other), moved = o?.massKg > 0 ? o : after.get(other); // what is kinematic may have its velocity in the step alone
+            const came = o && moved && other !== body ? ((moved.vx - a.vx) * dx + (moved.vy - a.vy) * dy) / Math.hypot(dx, dy) : 0;
+            if (came > 0.02 && !(gapOf(a, o)?.gap > came * seconds + 0.02)) strengths.push(came / (1 / b.massKg + (o.massKg > 0 ? 1 / o.massKg : 0)));
+        }
         // A push that lasts some steps is one.
         if (last && k - last.k <= 1) { last.k = k; last.sumX += dx; last.sumY += dy + pull; last.most = Math.max(last.most, b.massKg * Math.hypot(last.sumX, last.sumY), strengths[1]); continue; }
         found.push({ k, at: time, end: time + seconds, seconds: Math.max(seconds, motions[k - 1]?.seconds ?? 0), least: Math.min(...strengths), most: Math.max(...strengths), sumX: dx, sumY: dy + pull, onset: onsetOf(motions, k, body, others, gravity, driver.halfStep < 0, [dx, dy + pull]) });
@@ -189,8 +193,8 @@ if (isTable) {
     for (const [title, row] of table) console.log(`| ${title} | ${columns.map(name => shown[row[name]]).join(' | ')} |`);
 }
 // As PAGE has it.
-const titles = { matter: 'Matter 0.20', planck: 'Planck 1.4', rapier2d: 'Rapier 2D 0.21', rapier3d: 'Rapier 3D 0.21', box2d3: 'Box2D 3 (wasm 5.2)', velocities: '`physvib/velocities`', cannon: 'cannon-es 0.20', havok: 'Havok 1.3', babylon: 'Babylon 9', jolt: 'Jolt 1.1', mujoco: 'MuJoCo 3.14', box2d: '[In C](engines.md): Box2D 2.4', chipmunk: 'Chipmunk 7', bullet: 'Bullet 3', ode: 'ODE 0.16', love: 'LÖVE 11' };
-const rows = Object.entries(counts).map(([name, of]) => `| ${titles[name]} | ${of.right} | ${of.own} | ${of.wrong} | ${of['not there']} |`);
+const titles = { matter: 'Matter 0.20', planck: 'Planck 1.4', rapier2d: 'Rapier 2D 0.21', rapier3d: 'Rapier 3D 0.21', box2d3: 'Box2D 3 (wasm 5.2)', velocities: '`physvib/velocities`', cannon: 'cannon-es 0.20', havok: 'Havok 1.3', babylon: 'Babylon 9', jolt: 'Jolt 1.1', mujoco: 'MuJoCo 3.14', box2d: '[In C](engines.md): Box2D 2.4', chipmunk: 'Chipmunk 7', bullet: 'Bullet 3', ode: 'ODE 0.16', love: 'LÖVE 11', pymunk: 'pymunk 7.3', 'mujoco@2': 'MuJoCo 2.2', 'box2d3@v3.1.1': 'Box2D 3.1' };
+const rows = Object.entries(counts).map(([name, of]) => `| ${titles[name] ?? name} | ${of.right} | ${of.own} | ${of.wrong} | ${of['not there']} |`);
 if (page) {
     const text = readFileSync(page, 'utf8'), missing = rows.filter(row => !text.includes(row));
     for (const row of rows) console.log(row);

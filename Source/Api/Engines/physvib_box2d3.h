@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Box2D 3 (3.0, 3.1 and its state of August 2026). physvib_box2d3_set assigns a body its number (from 0) and
  * its values; call physvib_box2d3_step instead of b2World_Step. Shapes need no hit events: contacts are read
- * after the step, so impacts slower than Box2D's hitEventThreshold are felt too. C and C++; one world, one
- * thread. */
+ * after the step. C and C++; one world, one thread. */
 #ifndef PHYSVIB_BOX2D3_H
 #define PHYSVIB_BOX2D3_H
 #include <box2d/box2d.h>
@@ -17,10 +16,13 @@
 /* maximum of the sub-steps: a lower bound */
 #define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse)
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetInertiaTensor(body)
+#elif defined(B2_NULL_INDEX) /* after 3.1 */
+#define PHYSVIB_BOX2D3_INERTIA(body)                                                                         \
+    (b2Body_GetMotionLocks(body).angularZ ? 0 : b2Body_GetRotationalInertia(body))
 #else
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetRotationalInertia(body)
 #endif
-#if defined(B2_NULL_INDEX) /* after 3.1 */
+#if defined(B2_NULL_INDEX)
 #define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->totalNormalImpulse)
 #define PHYSVIB_BOX2D3_CENTRE(body) b2Body_GetWorldCenter(body)
 #else
@@ -106,7 +108,7 @@ PHYSVIB_UNUSED static physvib_box2d3_number* physvib_box2d3_entry(physvib_box2d3
     return numbers;
 }
 
-/* Call at the end; freeing `world` is left to the caller. */
+/* Call at the end; `world` is the caller's. */
 PHYSVIB_UNUSED static void physvib_box2d3_free(physvib_box2d3* haptics) {
     free(haptics->numbers), free(haptics->found);
     haptics->numbers = NULL, haptics->capacity = 0;
@@ -121,8 +123,7 @@ PHYSVIB_UNUSED static int physvib_box2d3_remove(physvib_box2d3* haptics, b2BodyI
     return physvib_world_remove_body(haptics->world, id);
 }
 
-/* Sets the values of a body (from physvib_body_init); mass, inertia and gravity scale are Box2D's, as they
- * are in each step. */
+/* Sets a body's values (from physvib_body_init); mass, inertia and gravity scale are Box2D's of the step. */
 PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3* haptics, b2BodyId body, int id,
                                              physvib_body values) {
     const int falls = b2Body_GetType(body) == b2_dynamicBody;
@@ -147,8 +148,8 @@ PHYSVIB_UNUSED static double physvib_box2d3_pull(b2WorldId world, b2BodyId body,
                : 0;
 }
 
-/* How far the last step would have moved a body's point on, along the normal: 0 unless continuous collision
- * stopped the body. `arm`: from the centre of mass to the point. */
+/* How far the last step would have moved a body's point on along the normal, had it not been stopped. `arm`:
+ * from the centre of mass to the point. */
 PHYSVIB_UNUSED static double physvib_box2d3_lost(const physvib_box2d3* haptics, b2BodyId body, b2Vec2 normal,
                                                  b2Vec2 arm) {
     const physvib_box2d3_number* number = &haptics->numbers[body.index1];
@@ -156,16 +157,16 @@ PHYSVIB_UNUSED static double physvib_box2d3_lost(const physvib_box2d3* haptics, 
            (number->lost_y_m + number->lost_rad * arm.x) * normal.y;
 }
 
-/* Acceleration of a body's point towards its centre, along the normal. */
+/* Acceleration of a point towards its body's centre, along the normal. */
 PHYSVIB_UNUSED static double physvib_box2d3_turn(const physvib_box2d3* haptics, b2BodyId body, b2Vec2 normal,
                                                  b2Vec2 arm) {
     const double spin = haptics->numbers[body.index1].spin;
     return -spin * spin * (arm.x * normal.x + arm.y * normal.y);
 }
 
-/* When a gap closes, in steps after the start of this one; a gap below 0 has closed in the step before.
- * Sub-steps change the velocity before they move a body, so its path is that of a body that is faster by half
- * a sub-step's gravity. Box2D pushes up to a sub-step before they meet: then it closes after this step. */
+/* When a gap closes, in steps after the start of this one; below 0: in the step before. Sub-steps change the
+ * velocity before they move a body: its path is faster by half a sub-step's gravity. Box2D pushes up to a
+ * sub-step before they meet: then it closes after this step. */
 PHYSVIB_UNUSED static double physvib_box2d3_fraction(const physvib_box2d3* haptics, double gap, double speed,
                                                      double pull, double seconds) {
     const double start = fmax(0.5 * speed, speed + 0.5 * pull * haptics->sub_step_s),
@@ -187,8 +188,11 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b
     double one = b2Shape_GetRestitution(found->shapeIdA), other = b2Shape_GetRestitution(found->shapeIdB),
            meets, impulse = PHYSVIB_BOX2D3_PUSHED(point);
     physvib_contact contact;
+#if !defined(B2_NULL_INDEX)
+    if (point->separation < -0.005) impulse = 0; /* with what pushes an overlap apart */
+#endif
     if (impulse <= 0 && point->separation > 0) return; /* near, but not touching yet */
-    /* Box2D's speed is that at the start of the step; gravity accelerates the bodies until they meet. */
+    /* Box2D's speed is that at the step's start; gravity adds until they meet */
     meets = speed > 0 && root > 0 ? sqrt(root) : speed;
     physvib_contact_init(&contact, sizeof contact);
     contact.a = physvib_box2d3_id(haptics, a), contact.b = physvib_box2d3_id(haptics, b);
@@ -226,8 +230,7 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b
                         physvib_error());
 }
 
-/* Reports the contacts of an awake body. Each contact is reported once: with its second body, or with the
- * first if the second is static or asleep. */
+/* An awake body's contacts: each once, with its second body, or the first if that is static or asleep. */
 PHYSVIB_UNUSED static void physvib_box2d3_body(physvib_box2d3* haptics, b2BodyId body, double seconds) {
     const int most = b2Body_GetContactCapacity(body);
     b2ContactData* found = haptics->found;
@@ -258,8 +261,10 @@ PHYSVIB_UNUSED static void physvib_box2d3_before(physvib_box2d3* haptics, physvi
     const b2Vec2 g = b2World_GetGravity(haptics->box2d), v = b2Body_GetLinearVelocity(body);
     const double x = PHYSVIB_BOX2D3_CENTRE(body).x, y = PHYSVIB_BOX2D3_CENTRE(body).y,
                  mass = b2Body_GetType(body) == b2_dynamicBody ? b2Body_GetMass(body) : 0,
-                 scale = b2Body_GetGravityScale(body), pull = mass > 0 ? seconds * scale : 0;
-    if (mass != number->values.mass_kg || scale != number->values.gravity_scale)
+                 inertia = mass > 0 ? PHYSVIB_BOX2D3_INERTIA(body) : 0, scale = b2Body_GetGravityScale(body),
+                 pull = mass > 0 ? seconds * scale : 0;
+    if (mass != number->values.mass_kg || inertia != number->values.inertia_kg_m2 ||
+        scale != number->values.gravity_scale)
         physvib_box2d3_fail(haptics, number, physvib_box2d3_set(haptics, body, number->id, number->values),
                             physvib_error());
     if (number->x_m != x || number->y_m != y || number->vx != v.x || number->vy != v.y)
@@ -273,10 +278,9 @@ PHYSVIB_UNUSED static void physvib_box2d3_before(physvib_box2d3* haptics, physvi
         physvib_error());
 }
 
-/* Continuous collision stops a body where it first touches, with the velocity that it would have had at the
- * step's end. It collides in the next step. What the step would have moved it on is lost;
- * physvib_box2d3_point adds it to the overlap. What contacts of this step may have moved the body is no loss.
- * A body that moves less than Box2D's slop, 5 mm, is not stopped. */
+/* Continuous collision stops a body where it first touches, with its velocity at the step's end; it collides
+ * in the next step. What it would have moved on is lost: physvib_box2d3_point adds it to the overlap. What
+ * contacts of this step may have moved is no loss; less than Box2D's slop, 5 mm, is not stopped. */
 PHYSVIB_UNUSED static void physvib_box2d3_stop(const physvib_box2d3* haptics, physvib_box2d3_number* number,
                                                double seconds) {
     const b2Vec2 v = b2Body_GetLinearVelocity(number->body);
@@ -295,8 +299,7 @@ PHYSVIB_UNUSED static void physvib_box2d3_stop(const physvib_box2d3* haptics, ph
     number->x_m = x, number->y_m = y, number->vx = v.x, number->vy = v.y;
 }
 
-/* After the step. Impulses are computed from changes of momentum, because Box2D's own differ between
- * versions. */
+/* After the step. Impulses follow from changes of momentum: Box2D's own differ between versions. */
 PHYSVIB_UNUSED static void physvib_box2d3_after(physvib_box2d3* haptics, const b2BodyEvents* moved) {
     int i;
     for (i = 0; i < moved->moveCount; ++i) {
@@ -310,8 +313,8 @@ PHYSVIB_UNUSED static void physvib_box2d3_after(physvib_box2d3* haptics, const b
     }
 }
 
-/* Call instead of b2World_Step. Returns PHYSVIB_OK, or an error of this step that no step before has
- * returned: that of a body is told once. haptics->code and haptics->error last as long as the error does. */
+/* Call instead of b2World_Step. Returns PHYSVIB_OK, or an error that no step before has returned: that of a
+ * body is told once. haptics->code and haptics->error last as long as the error does. */
 PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double seconds, int sub_steps) {
     const b2Vec2 g = b2World_GetGravity(haptics->box2d);
     b2BodyEvents moved;
@@ -347,7 +350,7 @@ PHYSVIB_UNUSED static int physvib_box2d3_may_touch(b2Filter a, b2Filter b) {
 
 #define PHYSVIB_BOX2D3_SHAPES 32 /* of a body that an explanation looks at; the others are left out */
 
-/* True if a filter keeps the body from all other bodies that have numbers. */
+/* True if a filter keeps the body from all others that have numbers. */
 PHYSVIB_UNUSED static int physvib_box2d3_is_filtered(const physvib_box2d3* haptics, b2BodyId body) {
     b2ShapeId own[PHYSVIB_BOX2D3_SHAPES], theirs[PHYSVIB_BOX2D3_SHAPES];
     const int count = b2Body_GetShapes(body, own, PHYSVIB_BOX2D3_SHAPES);
@@ -379,8 +382,8 @@ PHYSVIB_UNUSED static int physvib_box2d3_note(const physvib_box2d3* haptics, b2B
     return b2Body_GetType(body) != b2_staticBody && !b2Body_IsAwake(body) ? PHYSVIB_NOTE_ASLEEP : -1;
 }
 
-/* Writes to `text` why nothing is felt since the last call, in one sentence: an error of this header, or what
- * physvib_world_explain says after a look at all bodies that have numbers. */
+/* Writes to `text` why nothing is felt since the last call: an error of this header, or what
+ * physvib_world_explain says after a look at all numbered bodies. */
 PHYSVIB_UNUSED static void physvib_box2d3_explain(const physvib_box2d3* haptics, char* text, size_t size) {
     int i, note;
     if (size == 0) return;

@@ -12,8 +12,7 @@
 class PhysVibBullet {
 public:
     /// Of a game whose bodies stay in the x, y plane (setLinearFactor, setAngularFactor): all contacts count
-    /// at z = 0. A normal is projected onto the plane, and a contact whose normal is more than 60 degrees out
-    /// of it is left out.
+    /// at z = 0, normals are projected onto the plane; more than 60 degrees out of it, a contact is left out.
     enum Contacts { inSpace, inPlane };
 
     /// Both arguments outlive this object; bodies have the same numbers in both.
@@ -84,8 +83,8 @@ public:
     }
 
 private:
-    // Where continuous collision predicts a contact, its restitution is 0: the gap closes first, and what is
-    // left of the speed bounces a step later.
+    // A contact that continuous collision predicts has restitution 0: the rest of the speed bounces a step
+    // later.
     static double bounce(const btPersistentManifold& of, const btManifoldPoint& point) {
         const btRigidBody *a = btRigidBody::upcast(of.getBody0()), *b = btRigidBody::upcast(of.getBody1());
         const double told = std::clamp(double(point.m_combinedRestitution), 0.0, 1.0);

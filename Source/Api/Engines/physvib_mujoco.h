@@ -3,8 +3,8 @@
  * mj_step. Contacts are those in space. The field is the x, z plane: an event's y is MuJoCo's z, upwards, and
  * its z is MuJoCo's -y, towards the viewer. physvib_mujoco_step_in_plane is for a model whose bodies stay in
  * that plane: all contacts then count at y = 0, and a normal that is not in the plane is an error.
- * All integrators but RK4. MuJoCo's contacts are soft and spread their
- * impulse over many steps, so an impact is computed from its speed and a restitution that the caller sets. */
+ * All integrators but RK4. MuJoCo's contacts are soft, their impulse lasts: an impact follows from speed and
+ * a restitution that the caller sets. Masses are the model's. */
 #ifndef PHYSVIB_MUJOCO_H
 #define PHYSVIB_MUJOCO_H
 #include <math.h>
@@ -20,7 +20,7 @@ PHYSVIB_UNUSED static void physvib_mujoco_turned(const mjtNum* from, double to[3
 PHYSVIB_UNUSED static void physvib_mujoco_turning(const mjModel* m, const mjData* d, int body, double to[6]) {
     int i;
     for (i = 0; i < 6; ++i) to[i] = 0;
-    for (i = 0; i < 3; ++i) {
+    for (i = 0; i < 3 && m->body_invweight0[2 * body + 1] > 1e-12; ++i) { /* joints let it turn */
         const mjtNum inertia = m->body_inertia[3 * body + i], *turned = d->ximat + 9 * body + i;
         const mjtNum column[3] = {turned[0], turned[3], turned[6]};
         double axis[3];
@@ -34,8 +34,11 @@ PHYSVIB_UNUSED static void physvib_mujoco_turning(const mjModel* m, const mjData
 
 PHYSVIB_UNUSED static int physvib_mujoco_move(const mjModel* m, const mjData* d, physvib_world world,
                                               int body, int is_plane) {
+    const int is_still = m->body_weldid[body] == 0 || m->body_mocapid[body] >= 0;
+    const int code = physvib_world_set_mass(world, body, is_still ? 0 : m->body_mass[body]);
     double centre[3], velocity[3], spin[3], turning[6];
     mjtNum v[6];
+    if (code < 0) return code;
     mj_objectVelocity(m, d, mjOBJ_BODY, body, v, 0);
     physvib_mujoco_turned(d->xipos + 3 * body, centre);
     physvib_mujoco_turned(v + 3, velocity);
@@ -51,7 +54,10 @@ PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel* m, const mjData* d
     const mjContact* found = &d->contact[index];
     double at[3], normal[3];
     mjtNum force[6];
-    const mjtNum gap = found->dist - found->includemargin; /* with a margin geoms push before they overlap */
+    /* before 3.4 boxes overlap half as deep; with a margin geoms push before they do */
+    const int is_box = m->geom_type[found->geom1] == mjGEOM_BOX && m->geom_type[found->geom2] == mjGEOM_BOX;
+    const mjtNum deeper = mjVERSION_HEADER < 340 && is_box ? mju_min(found->dist, 0) : 0,
+                 gap = found->dist + deeper - found->includemargin;
     physvib_contact contact;
     if (gap > 0) return PHYSVIB_OK; /* near, but not touching yet */
     physvib_contact_init(&contact, sizeof contact);

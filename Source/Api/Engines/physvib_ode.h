@@ -83,10 +83,9 @@ PHYSVIB_UNUSED static double physvib_ode_speed(dBodyID body, const dContactGeom*
     return dCalcVectorDot3(v, at->normal);
 }
 
-/* The part of a contact's impulse that is the impact. Gravity of the step adds a load. ODE's error correction
- * (dWorldSetERP) moves an overlap apart by a speed that the bodies keep: what should stay leaves up to a
- * fifth as fast as it came. Surfaces that part no faster than that are taken as not bouncing, so a
- * restitution below it counts as 0. */
+/* The impact's part of a contact's impulse: gravity of the step adds a load. ODE's error correction
+ * (dWorldSetERP) moves overlaps apart by a speed that the bodies keep: what should stay leaves up to a fifth
+ * as fast as it came. What parts no faster does not bounce: a restitution below that counts as 0. */
 PHYSVIB_UNUSED static double physvib_ode_share(const physvib_ode* ode, int index, dWorldID world,
                                                double seconds) {
     const dContactGeom* geom = &ode->geom[index];
@@ -138,7 +137,7 @@ PHYSVIB_UNUSED static void physvib_ode_touch(physvib_ode* ode, dJointID joint, c
 }
 
 /* The inverse of a body's moments of inertia, xx, yy, zz, xy, xz, yz in the world's axes, by Cholesky's
- * factors. All 0, i.e. nothing turns it, if its moments are those of no body (one is 0, below 0 or NaN). */
+ * factors. All 0 (nothing turns it) if they are those of no body. */
 PHYSVIB_UNUSED static void physvib_ode_turning(dBodyID body, double to[6]) {
     const dReal* turned = dBodyGetRotation(body);
     double factor[3][3], solved[3][3];
@@ -180,10 +179,9 @@ PHYSVIB_UNUSED static void physvib_ode_soften(physvib_ode* ode, dBodyID body, in
     }
 }
 
-/* The same, with what the surfaces are made of. The impulse of a soft contact (dContactSoftERP or
- * dContactSoftCFM in `mode`) is that of a spring over many steps, or pushes an overlap apart: no measure of
- * an impact. It follows from speed, masses and `bounce` instead. In a plane that needs inertia_kg_m2 of the
- * bodies. */
+/* The same, with what the surfaces are made of. A soft contact's impulse (dContactSoftERP or dContactSoftCFM
+ * in `mode`) is a spring's over many steps, or pushes an overlap apart: no impact. That follows from speed,
+ * masses and `bounce`. In a plane that needs inertia_kg_m2 of the bodies. */
 PHYSVIB_UNUSED static void physvib_ode_touch_contact(physvib_ode* ode, dJointID joint, const dContact* from) {
     const int mode = from->surface.mode, before = ode->count;
     physvib_contact* contact;
@@ -248,7 +246,7 @@ PHYSVIB_UNUSED static int physvib_ode_note(dSpaceID space, dGeomID geom) {
     return body && !dBodyIsEnabled(body) ? PHYSVIB_NOTE_ASLEEP : -1;
 }
 
-/* Writes to `text` why nothing is felt since the last call, in one sentence: an error of this header, or what
+/* Writes to `text` why nothing is felt since the last call: an error of this header, or what
  * physvib_world_explain says after a look at the geoms of `space`. */
 PHYSVIB_UNUSED static void physvib_ode_explain(physvib_ode* ode, dSpaceID space, char* text, size_t size) {
     int i, note;

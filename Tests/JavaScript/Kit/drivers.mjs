@@ -295,7 +295,7 @@ async function mujoco(folder, physvib, { gravity }) {
     // Slide, slide, hinge: three numbers of each moving body, in order.
     const placeOf = body => all.slice(0, body).reduce((sum, of) => sum + (isDynamic(of) ? 3 - (of.lockTurn ? 1 : 0) : 0), 0);
     const driver = {
-        hasNoKinematic: true, isClosed: true, halfStep: 1, halfSeconds: 0.002, count: () => all.length, sinks: 0.12,
+        hasNoKinematic: true, isClosed: true, pushesApart: true, halfStep: 1, halfSeconds: 0.002, count: () => all.length, sinks: 0.12,
         attach() { options = field; return { set(body, values) { waiting.push([body, values]); if (haptics) haptics.set(`b${body}`, values); return body + 1; }, take(atOnce) { const numbers = new Map(all.map((_, i) => [haptics.id(i + 1), i + 1])); return haptics.take(atOnce).map(event => ({ ...event, fixture: numbers.get(event.fixture) })); }, explain: () => haptics?.explain() ?? '', get error() { return haptics?.error ?? null; }, free: () => haptics?.free() }; },
         create(of) { all.push({ ...of }); return all.length - 1; },
         get(body) { const of = all[body], at = placeOf(body), q = data?.qpos, v = data?.qvel, isFree = isDynamic(of) && data; return { x: of.x + (isFree ? q[at] : 0), y: of.y + (isFree ? q[at + 1] : 0), vx: isFree ? v[at] : of.vx ?? 0, vy: isFree ? v[at + 1] : of.vy ?? 0, angle: (of.angle ?? 0) + (isFree && !of.lockTurn ? q[at + 2] : 0), spin: isFree && !of.lockTurn ? v[at + 2] : 0, massKg: isDynamic(of) ? data ? model.body_mass[body + 1] : of.massKg : 0 }; },

@@ -5,10 +5,11 @@ import { mkdtempSync, openSync, closeSync, readSync, rmSync, writeSync } from 'n
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
-const types = ['fixed', 'kinematic', 'dynamic'], traits = { chipmunk: { halfStep: -1 }, ode: { pushesApart: true }, bullet: { pushesApart: true } };
+const types = ['fixed', 'kinematic', 'dynamic'], traits = { chipmunk: { halfStep: -1 }, pymunk: { halfStep: -1 }, ode: { pushesApart: true }, bullet: { pushesApart: true }, box2d3: { halfStep: 1 / 4 }, mujoco: { pushesApart: true, halfSeconds: 0.002, isClosed: true, hasNoKinematic: true } };
 
 /** A driver as those of drivers.mjs, of a command; both pipes wait, as a step's answer is needed before the next. */
 export const native = (name, command) => async (_, __, { gravity }) => {
+    const own = traits[name.split('@')[0]]; // NAME@VERSION
     const folder = mkdtempSync(join(tmpdir(), 'physvib-kit-')), [asks, answers] = ['asks', 'answers'].map(end => join(folder, end)), [program, ...words] = command.split(' ');
     execFileSync('mkfifo', [asks, answers]);
     const child = spawn('sh', ['-c', 'exec "$@" <"$0/asks" >"$0/answers"', folder, program, ...words], { stdio: ['ignore', 'ignore', 'inherit'] });
@@ -27,7 +28,7 @@ export const native = (name, command) => async (_, __, { gravity }) => {
     const verbs = line().split(' '), kilograms = new Map(), kinds = new Map(), fixtures = new Map(), pace = 1 / 60, numbers = told => told.trim().split(' ').map(Number), live = body => { if (!kinds.has(body)) throw new Error('gone'); return body; };
     let bodies = 0, isBegun = false;
     const driver = {
-        ...traits[name], halfStep: traits[name]?.halfStep ?? 1, isSingle: true, count: () => kinds.size,
+        ...own, halfStep: own?.halfStep ?? 1, isSingle: true, count: () => kinds.size,
         attach: () => ({
             set(body) { say('feel', body); return body; },
             take() { say('take'); const all = line().trim(), told = all === '' ? [] : numbers(all); return Array.from({ length: told.length / 4 }, (_, i) => ({ timeNs: told[4 * i], fixture: told[4 * i + 1], impulse: told[4 * i + 2], kind: told[4 * i + 3] === 0 ? 'hit' : 'lasting' })); },
@@ -50,12 +51,12 @@ export const native = (name, command) => async (_, __, { gravity }) => {
         step: seconds => say('step', seconds), pin: (a, b, x, y) => say('pin', a, b, x, y),
         end() { closeSync(to); closeSync(from); rmSync(folder, { recursive: true }); child.unref(); },
     };
-    const act = (verb, body = 0, x = 0, y = 0, z = 0) => say(verb, body, x, y, z), own = {
+    const act = (verb, body = 0, x = 0, y = 0, z = 0) => say(verb, body, x, y, z), acts = {
         type(body, type) { kinds.set(body, type); act('type', body, types.indexOf(type)); }, mass(body, kg) { kilograms.set(body, kg); act('mass', body, kg); },
         remove(body) { act('remove', live(body)); kinds.delete(body); }, gravity: y => act('gravity', 0, y),
         passes: (body, is) => act('passes', body, is ? 1 : 0), sensor: (body, is) => act('sensor', body, is ? 1 : 0), enable: (body, is) => act('enable', body, is ? 1 : 0),
     };
-    for (const verb of verbs) driver[verb] = own[verb] ?? ((...told) => act(verb, ...told));
+    for (const verb of verbs) driver[verb] = acts[verb] ?? ((...told) => act(verb, ...told));
     if (driver.moves) driver.moveTo = (body, x, y, seconds) => { const at = driver.get(body); driver.moves(body, (x - at.x) / seconds, (y - at.y) / seconds); };
     return driver;
 };

@@ -19,6 +19,7 @@ class SpaceHaptics:
         self.space, self.world, self.metres = space, World(**settings), metres_per_unit
         self._ids: dict[Any, int] = {}
         self._values: dict[Any, dict[str, Any]] = {}
+        self._met: dict[Any, Any] = {}  # velocities before the solver
         self._last = -1
         self._error: Exception | None = None
         if hasattr(space, "on_collision"):  # pymunk 7
@@ -58,6 +59,7 @@ class SpaceHaptics:
     def step(self, seconds: float) -> None:
         """Instead of space.step."""
         self._sweep()
+        self._met.clear()
         with self.world.step(seconds, self.metres * math.hypot(*self.space.gravity)):
             self.space.step(seconds)
         if self._error is not None:
@@ -86,11 +88,10 @@ class SpaceHaptics:
     def look(self, arbiter: Any) -> None:
         """Before the solver. If you have callbacks for a pair of collision types in pymunk 6, call this and `push` from yours."""
         for shape in arbiter.shapes:
-            body = shape.body
-            number = self.id(shape)
-            if body.body_type != body.DYNAMIC:
-                continue
+            body, number = shape.body, self.id(shape)
+            self.world.set_mass(number, self._values[shape].get("mass_kg", self._mass(body)))
             at, v = body.local_to_world(body.center_of_gravity), body.velocity
+            self._met[body] = v
             self.world.move(number, at[0] * self.metres, at[1] * self.metres, v[0] * self.metres, v[1] * self.metres, body.angular_velocity)
 
     def push(self, arbiter: Any) -> None:
@@ -102,6 +103,8 @@ class SpaceHaptics:
         impulse = self.metres * abs(pushed[0] * nx + pushed[1] * ny)
         if arbiter.is_first_contact:  # what gravity adds in this step is a load, and no part of an impact
             impulse -= self._load(a.body, b.body, nx, ny)
+            # a pair that meets again within three steps has the impulse of before, too, which moved nobody
+            impulse = min(impulse, max(self._gained(body, nx, ny) for body in (a.body, b.body)))
         for point in points.points:
             self.world.touch(self.id(a), self.id(b), point.point_a[0] * self.metres, point.point_a[1] * self.metres, normal_x=nx, normal_y=ny, impulse_n_s=impulse,
                              is_impulse_of_pair=1, restitution=min(1.0, max(0.0, arbiter.restitution)), gap_m=point.distance * self.metres,
@@ -115,6 +118,14 @@ class SpaceHaptics:
             return 0.0
         return max(0.0, pull * a.mass if falls_a else -pull * b.mass)
 
+    def _gained(self, body: Any, nx: float, ny: float) -> float:
+        before, now = self._met.get(body, body.velocity), body.velocity
+        return self.metres * self._mass(body) * abs((now[0] - before[0]) * nx + (now[1] - before[1]) * ny)
+
+    @staticmethod
+    def _mass(body: Any) -> float:
+        return body.mass if body.body_type == body.DYNAMIC else 0.0
+
     def _guard(self, call: Any, arbiter: Any) -> bool:
         """pymunk prints what its callbacks raise, and goes on: step raises it."""
         try:
@@ -125,9 +136,9 @@ class SpaceHaptics:
 
     def _tell(self, shape: Any) -> None:
         body, values = shape.body, dict(self._values[shape])
-        falls = body.body_type == body.DYNAMIC
-        values.setdefault("mass_kg", body.mass if falls else 0.0)
-        values.setdefault("inertia_kg_m2", body.moment * self.metres ** 2 if falls and math.isfinite(body.moment) else 0.0)
+        mass = self._mass(body)
+        values.setdefault("mass_kg", mass)
+        values.setdefault("inertia_kg_m2", body.moment * self.metres ** 2 if mass > 0 and math.isfinite(body.moment) else 0.0)
         self.world.set_body(self._ids[shape], **values)
 
     def _sweep(self) -> None:
