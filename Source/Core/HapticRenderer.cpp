@@ -29,8 +29,6 @@ bool HapticRenderer::prepare(const RendererSettings& settings) noexcept {
     clock_ = FrameClock{settings.sampleRateHz};
     panners_ = settings.panner;
     gains_.fill(0.0);
-    player_.prepare(settings.sampleRateHz, channels_);
-    moving_.prepare(settings.sampleRateHz, channels_);
     guard_.prepare(settings.sampleRateHz, channels_, GuardPlace::rendered, settings.instructions);
     silentUntilNs_ = strikesSilentUntilNs_ = INT64_MIN;
     return isPrepared_ = takeMemory();
@@ -42,10 +40,15 @@ bool HapticRenderer::takeMemory() noexcept {
     };
     return bank_.prepare(settings_.sampleRateHz, channels_, settings_.instructions,
                          share(limits::maxModes, 1), share(limits::maxGates, 256)) &&
-           actuators_.prepare(settings_.sampleRateHz, channels_, settings_.equalised) && prepareLimiter() &&
-           pending_.resize(share(limits::maxPending, 512)) &&
-           playedQueue_.resize(std::bit_ceil(static_cast<unsigned>(share(limits::playedQueueSize, 1024)))) &&
+           prepareVoices() && actuators_.prepare(settings_.sampleRateHz, channels_, settings_.equalised) &&
+           prepareLimiter() && pending_.resize(share(limits::maxPending, 512)) &&
+           playedQueue_.resize(std::bit_ceil(static_cast<unsigned>(share(limits::playedQueueSize, 512)))) &&
            panners_.prepare(channels_) && controls_.resize(share(limits::maxControls, 64));
+}
+
+bool HapticRenderer::prepareVoices() noexcept {
+    return player_.prepare(settings_.sampleRateHz, channels_) &&
+           moving_.prepare(settings_.sampleRateHz, channels_);
 }
 
 bool HapticRenderer::prepareLimiter() noexcept {
@@ -66,11 +69,9 @@ bool HapticRenderer::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     bank_.moveTo(position_, sampleRateHz, frame);
     settings_.sampleRateHz = sampleRateHz;
     clock_ = FrameClock{sampleRateHz};
-    player_.prepare(sampleRateHz, channels_);
-    moving_.prepare(sampleRateHz, channels_);
     guard_.changeRate(sampleRateHz);
     position_ = frame;
-    return isPrepared_ = actuators_.changeRate(sampleRateHz) && prepareLimiter();
+    return isPrepared_ = prepareVoices() && actuators_.changeRate(sampleRateHz) && prepareLimiter();
 }
 
 void HapticRenderer::apply(const RenderControl& control) noexcept {

@@ -164,6 +164,7 @@ private:
     template <class Source>
     void actOnDue(Source& source) noexcept;
     void apply(const RenderControl& control) noexcept;
+    bool prepareVoices() noexcept;
     bool prepareLimiter() noexcept;
     bool takeMemory() noexcept;
     bool strike(const CollisionEvent& event, FramePosition onset) noexcept;
