@@ -29,8 +29,9 @@ public:
         load(property, "XGetWindowProperty");
         load(code, "XKeysymToKeycode");
         load(send, "XSendEvent");
+        load(focus, "XSetInputFocus");
         load(onError_, "XSetErrorHandler");
-        isThere_ = open_ && close_ && tree && free && atom && property && code && send && onError_;
+        isThere_ = open_ && close_ && tree && free && atom && property && code && send && focus && onError_;
         if (isThere_) display = open_(nullptr);
         if (display)
             before_ = onError_([](Display*, XErrorEvent*) { return 0; }); // a window may just be gone
@@ -50,6 +51,7 @@ public:
     decltype(&XGetWindowProperty) property = nullptr;
     decltype(&XKeysymToKeycode) code = nullptr;
     decltype(&XSendEvent) send = nullptr;
+    decltype(&XSetInputFocus) focus = nullptr;
 
 private:
     template <class Function>
@@ -114,7 +116,15 @@ bool sendToHost(void* nativeWindow, const HostKey& key) noexcept {
     }
     return true;
 }
+
+// JUCE asks by the time of the last event that it has seen, and the server ignores what is older than
+// another's.
+void takeKeys(void* nativeWindow) noexcept {
+    if (const X11 x; x.display)
+        x.focus(x.display, reinterpret_cast<Window>(nativeWindow), RevertToParent, CurrentTime);
+}
 #else
+void takeKeys(void*) noexcept {}
 bool sendToHost(void*, const HostKey&) noexcept { return false; }
 #endif
 

@@ -97,11 +97,13 @@ local function play(folder, song, column)
     print("Ardour: xruns " .. session:get_xrun_count())
     take:rec_enable_control():set_value(0, PBD.GroupControlDisposition.NoGroup)
     session:save_state("")
-    local export = session:simple_export()
-    export:set_preset("5d1a1d3e-6f0c-4a57-9d3b-2f6c3f7a9e11")
-    export:set_folder(song .. "/export")
-    export:set_range(0, 576000)
-    assert(export:run_export(), "Ardour did not export")
+    for name, preset in pairs({ export = "5d1a1d3e-6f0c-4a57-9d3b-2f6c3f7a9e11", stems = "7c0e5b52-4d0e-4a0b-8a55-3f1d2c9b6e20" }) do
+        local export = session:simple_export()
+        assert(export:set_preset(preset), "no preset " .. name)
+        export:set_folder(song .. "/" .. name)
+        export:set_range(0, 576000)
+        assert(export:run_export(), "Ardour did not export")
+    end
     io.flush()
 end
 

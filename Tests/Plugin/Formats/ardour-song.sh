@@ -61,6 +61,14 @@ cat >"$folder/.config/ardour7/export/float.preset" <<'END'
   </ExportFilename>
 </ExportPreset>
 END
+# Export to Audio File(s) of the plug-in's own outputs with Split to mono files, as the dialog keeps it with a session.
+stems=7c0e5b52-4d0e-4a0b-8a55-3f1d2c9b6e20
+sed "s/id=\"5d1a[^\"]*\" name=\"float\"/id=\"$stems\" name=\"stems\"/" "$folder/.config/ardour7/export/float.preset" >"$folder/.config/ardour7/export/stems.preset"
+{
+    echo "<instant><ExportPresets><ExportPreset id=\"$stems\"><ExportChannelConfiguration split=\"1\" channels=\"4\">"
+    for channel in 1 2 3 4; do echo "<Channel number=\"$channel\"><Port name=\"PhysVib/audio_out $channel\"/></Channel>"; done
+    echo '</ExportChannelConfiguration></ExportPreset></ExportPresets></instant>'
+} >"$folder/song/instant.xml"
 lua play "$folder/song" "$folder" "$column"
 grep '^Ardour' "$folder/play.log"
 xruns=$(sed -n 's/^Ardour: xruns //p' "$folder/play.log")
@@ -72,6 +80,11 @@ for channel in 1 2 3 4; do
     samples "$(find "$interchange/audiofiles" -name 'Take*.wav' | sort -V | sed -n "${channel}p")" >"$folder/live-$channel.raw"
     printf 'live, channel %s: ' "$channel"
     "$build/bin/physvib-compare-recording" "$folder/live-$channel.raw" "$folder/song-$channel.raw" 1 "$block" "$xruns" || failed=1
+done
+for channel in 1 2 3 4; do
+    samples "$(find "$folder/stems" -name '*.wav' | sort | sed -n "${channel}p")" >"$folder/stem-$channel.raw"
+    printf 'stem, channel %s: ' "$channel"
+    "$build/bin/physvib-compare-recording" "$folder/stem-$channel.raw" "$folder/song-$channel.raw" 1 "$block" 0 || failed=1
 done
 samples "$(find "$folder/export" -name "*.wav")" >"$folder/export.raw"
 printf 'export: '
