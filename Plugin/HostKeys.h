@@ -24,8 +24,7 @@ constexpr unsigned long keySymbolOf(int juceKeyCode) noexcept {
 /// of the windows.
 bool sendToHost(void* nativeWindow, const HostKey& key) noexcept;
 
-/// Keys go to that window of JUCE's from now on, whatever a window manager did with the click. Elsewhere than
-/// under X11 nothing is done. Thread of the windows.
+/// Gives the keyboard to that window of JUCE's, under X11. Thread of the windows.
 void takeKeys(void* nativeWindow) noexcept;
 
 } // namespace physvib

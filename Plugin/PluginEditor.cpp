@@ -248,13 +248,13 @@ bool PluginEditor::closesFirst() {
     return modal != nullptr && dynamic_cast<const juce::TopLevelWindow*>(modal) == nullptr;
 }
 
-// While a value is typed its box gets the keys: under some window managers they come here, after a list was
-// open or something else was clicked. While anything is open, none is the host's.
 juce::TextEditor* PluginEditor::openBox() const {
     const auto* const value = dynamic_cast<juce::Label*>(juce::Component::getCurrentlyModalComponent());
     return isParentOf(value) ? value->getCurrentTextEditor() : nullptr;
 }
 
+// A value's box gets the keys also before it has the keyboard (refresh). While anything is open, none is the
+// host's.
 bool PluginEditor::keyPressed(const juce::KeyPress& key) {
     if (auto* const box = openBox()) return box->keyPressed(key);
     if (juce::Component::getCurrentlyModalComponent() != nullptr) return false;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Voice pool: voices that sound between two frames and can be faded out together. Shared by the players of
-// recordings and of moving tones.
+// Voices that sound between two frames and fade out together: those of recordings and of moving tones.
 #pragma once
 #include "Core/ClockLaw.h"
 #include "Core/CollisionEvent.h"
@@ -25,7 +24,7 @@ struct VoiceTime {
 
 /// At most `mostSounding` voices at once, of a type derived from VoiceTime whose `gains` point to `mostGains`
 /// values at most. Render thread (R) only; prepare: message thread (M).
-template <class Voice, int mostSounding, std::size_t mostGains>
+template <class Voice, int mostSounding, int mostGains>
 class FadingVoices {
 public:
     /// Ends all voices, and gives each one `width` gains. False: no memory. M, not while rendering.
@@ -165,7 +164,7 @@ private:
 
     int channels_ = 0;
     std::span<const RecordedContact> contacts_;
-    FadingVoices<Voice, limits::maxSampleVoices, static_cast<std::size_t>(limits::maxEnchanters)> voices_;
+    FadingVoices<Voice, limits::maxSampleVoices, limits::maxEnchanters> voices_;
 };
 
 // Player of moving tones: one decaying sinusoid per event, whose channel gains change with its place.
@@ -177,11 +176,6 @@ private:
 /// Adds moving tones to the output of the modes. Render thread (R) only; prepare: message thread (M).
 class MovingTones {
 public:
-    /// Gain per output of the part in phase with the tone and of the part a quarter turn ahead.
-    struct Drive {
-        std::array<double, static_cast<std::size_t>(limits::maxEnchanters)> inPhase{}, ahead{};
-    };
-
     /// Ends all tones. False: no memory. M, not while rendering.
     bool prepare(int sampleRateHz, int channels) noexcept {
         rate_ = sampleRateHz;
@@ -196,7 +190,8 @@ public:
     int count() const noexcept { return voices_.count(); }
 
     /// Adds to io[j][0..frames) for absolute frames [first, first + frames), which lie within one tile.
-    /// `driveAt(event, x, y)` returns the Drive of an event at that place. False if there was nothing to add.
+    /// `driveAt(event, inPhase, ahead)` writes the gain per output of the part in phase with the tone and of
+    /// that a quarter turn ahead; what it leaves is 0. False if there was nothing to add.
     template <class DriveAt>
     bool render(float* const* io, std::int64_t first, int frames, DriveAt driveAt) noexcept {
         bool sounds = false;
@@ -229,27 +224,24 @@ private:
         voice.last = std::min(tile + limits::tileFrames, voice.closeFrame);
         // the gains of the tile before, because the panning law may have changed since
         double *const from = voice.gains, *const to = from + 2 * channels_;
+        const auto drive = [&](std::int64_t frame, double* gains) {
+            std::fill_n(gains, 2 * channels_, 0.0);
+            driveAt(at(voice, frame), gains, gains + channels_);
+        };
         if (voice.first == voice.onset)
-            keep(at(voice, voice.first, driveAt), from);
+            drive(voice.first, from);
         else
             std::copy_n(to, 2 * channels_, from);
-        keep(at(voice, voice.last, driveAt), to);
-    }
-
-    void keep(const Drive& drive, double* to) const noexcept {
-        std::copy_n(drive.ahead.data(), channels_, std::copy_n(drive.inPhase.data(), channels_, to));
+        drive(voice.last, to);
     }
 
     double ageFrames(const Voice& voice, std::int64_t frame) const noexcept {
         return static_cast<double>(frame - voice.onset) + voice.leadFrames;
     }
 
-    template <class DriveAt>
-    Drive at(const Voice& voice, std::int64_t frame, DriveAt driveAt) const noexcept {
-        const CollisionEvent& e = voice.event;
-        const double share =
-            std::min(1.0, ageFrames(voice, frame) * 1e9 / (static_cast<double>(e.course.travelNs) * rate_));
-        return driveAt(movedAlong(e, share));
+    CollisionEvent at(const Voice& voice, std::int64_t frame) const noexcept {
+        const auto travelNs = static_cast<double>(voice.event.course.travelNs);
+        return movedAlong(voice.event, std::min(1.0, ageFrames(voice, frame) * 1e9 / (travelNs * rate_)));
     }
 
     void add(const Voice& voice, std::int64_t frame, float* const* io, std::int64_t n) const noexcept {
@@ -273,7 +265,7 @@ private:
 
     double rate_ = 48000.0;
     std::size_t channels_ = 1;
-    FadingVoices<Voice, limits::maxMovingTones, static_cast<std::size_t>(4 * limits::maxEnchanters)> voices_;
+    FadingVoices<Voice, limits::maxMovingTones, 4 * limits::maxEnchanters> voices_;
 };
 
 } // namespace physvib

@@ -130,19 +130,6 @@ private:
     int most_ = 0, silentFrames_ = 0; // silentFrames_: trailing silent inputs, at most most_
 };
 
-/// No delay where there is no memory for one.
-template <>
-class ChannelDelay<0> {
-public:
-    bool prepare(int, int, int) noexcept { return true; }
-    void moveTo(int) noexcept {}
-    bool isOut() const noexcept { return true; }
-    bool isResting() const noexcept { return true; }
-    float* placeFor(int) noexcept { return nullptr; }
-    void pass(int) noexcept {}
-    bool process(float*, int, bool isSilent) noexcept { return isSilent; }
-};
-
 /// Per channel: out = gain * delayed, equalised in. Every change is a ramp of limits::channelRampSeconds,
 /// except before the first frame. Render thread (R) only; prepare: message thread (M).
 class ActuatorStage {

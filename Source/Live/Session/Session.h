@@ -38,7 +38,7 @@ public:
     /// M. Throws std::invalid_argument if the scene is not valid.
     explicit Session(const SessionSetup& setup)
         : Session{std::make_shared<const SessionSetup>(setup)} {}
-    /// Without a copy of what others have too, and nobody changes.
+    /// Without a copy.
     explicit Session(std::shared_ptr<const SessionSetup> setup);
 
     /// Sets the output latency. Session time 0, silence, the scene at its start, an empty log. M, while no
