@@ -163,7 +163,7 @@ private:
     template <class Source>
     void actOnDue(Source& source) noexcept;
     void apply(const RenderControl& control) noexcept;
-    bool prepareAtRate() noexcept; // limiter and voices
+    bool prepareAtRate() noexcept;
     bool takeMemory() noexcept;
     bool strike(const CollisionEvent& event, FramePosition onset) noexcept;
     bool isSilenced(const CollisionEvent& event) const noexcept;
