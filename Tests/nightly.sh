@@ -38,6 +38,7 @@ step() {
         quick) Tests/quick.py build/release ;;
         osc) Tests/Osc/run.sh $bin ;;
         jalv) ensure_packages jalv && Tests/Plugin/Formats/jalv.sh "$PWD/build/release" 5 ;;
+        ardour) ensure_packages $physvib_host_packages && for format in lv2 vst3; do Tests/Plugin/Formats/ardour-song.sh build/release $format || return 1; done ;;
         daws) Tests/Plugin/Formats/Daws/daws.sh build/release build/nightly/daws ;;
         apply) ensure_packages $physvib_apply_packages && Tests/Plugin/Formats/apply.sh "$PWD/build/release" ;;
         live) Tests/Live/soak.sh ;;
