@@ -100,14 +100,14 @@ bool sendToHost(void* nativeWindow, const HostKey& key) noexcept {
     event.xkey.keycode = code;
     event.xkey.state =
         (key.shift ? ShiftMask : 0u) | (key.control ? ControlMask : 0u) | (key.alt ? Mod1Mask : 0u);
-    for (const int kind : {KeyPress, KeyRelease}) {
+    for (int kind = KeyPress; kind <= KeyRelease; ++kind) {
         event.type = kind;
         x.send(x.display, host, True, kind == KeyPress ? KeyPressMask : KeyReleaseMask, &event);
     }
     return true;
 }
 
-// JUCE asks by the time of the last event it saw; the server ignores what is older than another's.
+// JUCE asks by the time of its last event; the server ignores what is older than another's.
 void takeKeys(void* nativeWindow) noexcept {
     if (const X11 x; x.display)
         x.focus(x.display, reinterpret_cast<Window>(nativeWindow), RevertToParent, CurrentTime);
