@@ -16,7 +16,9 @@ libraries=/usr/lib/ardour7
 mkdir -p "$folder/.lv2" "$folder/.vst3" "$folder/.config/ardour7"
 "$build/bin/physvib-plugin-song" "$block" "$folder" "$format"
 session=$folder/song/song.ardour interchange=$folder/song/interchange/song
-lua() { ardour7-lua "$here/ardour-song.lua" "$@" >"$folder/$1.log" 2>&1 || { tail -n 20 "$folder/$1.log"; exit 1; }; }
+ardour() { ardour7-lua "$here/ardour-song.lua" "$@" >"$folder/$1.log" 2>&1; }
+lua() { ardour "$@" || { tail -n 20 "$folder/$1.log"; exit 1; }; }
+stems() { ardour stems "$folder/song" "$folder"; }
 if [ "$format" = lv2 ]; then
     ln -s "$build/plugins/PhysVib-Music.lv2" "$folder/.lv2/"
     mv "$folder/state.lv2" "$folder/.lv2/"
@@ -68,6 +70,7 @@ END
     echo '</ExportChannelConfiguration></ExportPreset></ExportPresets></instant>'
 } >"$folder/song/instant.xml"
 lua play "$folder/song" "$folder" "$column"
+stems || stems || stems || lua stems "$folder/song" "$folder" # Ardour 7.3 sometimes falls when it splits
 grep '^Ardour' "$folder/play.log"
 xruns=$(sed -n 's/^Ardour: xruns //p' "$folder/play.log")
 
