@@ -22,17 +22,17 @@ struct VoiceTime {
     std::int64_t onset = 0, end = 0, fadeFrame = never;
 };
 
-/// At most `mostSounding` voices at once, of a type derived from VoiceTime whose `gains` point to `mostGains`
-/// values at most. Render thread (R) only; prepare: message thread (M).
-template <class Voice, int mostSounding, int mostGains>
+/// At most `mostSounding` voices at once, of a type derived from VoiceTime whose `gains` point to up to
+/// `maxGains` values. Render thread (R) only; prepare: message thread (M).
+template <class Voice, int mostSounding, int maxGains>
 class FadingVoices {
 public:
     /// Ends all voices, and gives each one `width` gains. False: no memory. M, not while rendering.
     bool prepare(int sampleRateHz, std::size_t width) noexcept {
         fadeFrames_ = std::max(1, static_cast<int>(limits::channelRampSeconds * sampleRateHz));
         count_ = 0;
-        if (!gains_.resize(most * width)) return false;
-        for (std::size_t i = 0; i < most; ++i) voices_[i].gains = gains_.data() + i * width;
+        if (!gains_.resize(size * width)) return false;
+        for (std::size_t i = 0; i < size; ++i) voices_[i].gains = gains_.data() + i * width;
         return true;
     }
 
@@ -83,10 +83,10 @@ private:
     }
 
     // twice as many, because voices that end within a tile are removed only after it
-    static constexpr auto most = static_cast<std::size_t>(2 * mostSounding);
+    static constexpr auto size = static_cast<std::size_t>(2 * mostSounding);
     int fadeFrames_ = 1;
-    std::array<Voice, most> voices_{};
-    Storage<std::remove_pointer_t<decltype(Voice::gains)>, most * mostGains, true> gains_;
+    std::array<Voice, size> voices_{};
+    Storage<std::remove_pointer_t<decltype(Voice::gains)>, size * maxGains, true> gains_;
     std::size_t count_ = 0;
 };
 
