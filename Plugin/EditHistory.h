@@ -5,9 +5,9 @@
 #include "Parameters.h"
 #include <bitset>
 #include <chrono>
-#include <deque>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace physvib {
 
@@ -44,7 +44,7 @@ public:
             return;
         }
         here_.undo.push_back({std::move(before), touched});
-        if (here_.undo.size() > most) here_.undo.pop_front();
+        if (here_.undo.size() > most) here_.undo.erase(here_.undo.begin());
     }
 
     bool canUndo() const noexcept { return !here_.undo.empty(); }
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    using Steps = std::deque<Step>;
+    using Steps = std::vector<Step>;
     std::optional<Step> move(Steps& from, Steps& to, PluginState now) {
         if (from.empty()) return {};
         last_ = {};

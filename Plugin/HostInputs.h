@@ -57,7 +57,7 @@ struct NoteSound {
 /// A held note is a row of strikes without decay, each a whole number of periods long: where one ends the
 /// next begins, both at the zero of a sine. So pitch, level and place follow bend, pressure and slide a few
 /// times a hundredth of a second, without a click, and all of it is strikes: in the log, on the board, in the
-/// picture. When the key is let go, the last one decays. R only; nothing here allocates.
+/// picture. When the key is let go, the last one decays. R only.
 class HeldNotes {
 public:
     static constexpr std::size_t most = 32;           ///< a further one takes the place of the oldest
@@ -275,9 +275,8 @@ private:
 };
 
 /// Limits one kind of control change, so that automation cannot fill the session's control queue: at most one
-/// control of a kind in so many frames of session time; of what comes faster the value then present goes. The
-/// same whatever the block and L are, so that a bounce in blocks of another size is the same samples. In
-/// frames of the session; R only.
+/// in so many frames of session time; of what comes faster the value then present goes. The same whatever the
+/// block and L are. R only.
 class ControlPace {
 public:
     static constexpr int perSecond = 1500; // every 32 frames at 48 kHz: gains move in ramps of 10 ms, worlds

@@ -24,4 +24,7 @@ constexpr unsigned long keySymbolOf(int juceKeyCode) noexcept {
 /// of the windows.
 bool sendToHost(void* nativeWindow, const HostKey& key) noexcept;
 
+/// Gives the keyboard to that window of JUCE's, under X11. Thread of the windows.
+void takeKeys(void* nativeWindow) noexcept;
+
 } // namespace physvib

@@ -6,7 +6,6 @@
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <dlfcn.h>
-#include <initializer_list>
 #endif
 
 namespace physvib {
@@ -16,22 +15,36 @@ namespace {
 
 /// The functions of X11 that are needed, and a connection of its own while one key is sent.
 class X11 {
+    struct Found {
+        void* at;
+        template <class Function>
+        operator Function() const noexcept {
+            return reinterpret_cast<Function>(at);
+        }
+    };
+    Found find(const char* name) noexcept {
+        void* const at = isThere_ ? dlsym(library_, name) : nullptr;
+        isThere_ = at != nullptr;
+        return {at};
+    }
+    void* const library_ = dlopen("libX11.so.6", RTLD_LAZY);
+    bool isThere_ = library_ != nullptr;
+    decltype(&XOpenDisplay) open_ = find("XOpenDisplay");
+    decltype(&XCloseDisplay) close_ = find("XCloseDisplay");
+    decltype(&XSetErrorHandler) onError_ = find("XSetErrorHandler");
+    XErrorHandler before_ = nullptr;
+
 public:
-    X11()
-    noexcept
-        : library_{dlopen("libX11.so.6", RTLD_LAZY)} {
-        if (library_ == nullptr) return;
-        load(open_, "XOpenDisplay");
-        load(close_, "XCloseDisplay");
-        load(tree, "XQueryTree");
-        load(free, "XFree");
-        load(atom, "XInternAtom");
-        load(property, "XGetWindowProperty");
-        load(code, "XKeysymToKeycode");
-        load(send, "XSendEvent");
-        load(onError_, "XSetErrorHandler");
-        isThere_ = open_ && close_ && tree && free && atom && property && code && send && onError_;
-        if (isThere_) display = open_(nullptr);
+    decltype(&XQueryTree) tree = find("XQueryTree");
+    decltype(&XFree) free = find("XFree");
+    decltype(&XInternAtom) atom = find("XInternAtom");
+    decltype(&XGetWindowProperty) property = find("XGetWindowProperty");
+    decltype(&XKeysymToKeycode) code = find("XKeysymToKeycode");
+    decltype(&XSendEvent) send = find("XSendEvent");
+    decltype(&XSetInputFocus) focus = find("XSetInputFocus");
+    Display* const display = isThere_ ? open_(nullptr) : nullptr;
+
+    X11() noexcept {
         if (display)
             before_ = onError_([](Display*, XErrorEvent*) { return 0; }); // a window may just be gone
     }
@@ -41,27 +54,6 @@ public:
         if (library_ != nullptr) dlclose(library_);
     }
     X11(const X11&) = delete;
-    X11& operator=(const X11&) = delete;
-
-    Display* display = nullptr;
-    decltype(&XQueryTree) tree = nullptr;
-    decltype(&XFree) free = nullptr;
-    decltype(&XInternAtom) atom = nullptr;
-    decltype(&XGetWindowProperty) property = nullptr;
-    decltype(&XKeysymToKeycode) code = nullptr;
-    decltype(&XSendEvent) send = nullptr;
-
-private:
-    template <class Function>
-    void load(Function& function, const char* name) noexcept {
-        function = reinterpret_cast<Function>(dlsym(library_, name));
-    }
-    void* const library_;
-    bool isThere_ = false;
-    decltype(&XOpenDisplay) open_ = nullptr;
-    decltype(&XCloseDisplay) close_ = nullptr;
-    decltype(&XSetErrorHandler) onError_ = nullptr;
-    XErrorHandler before_ = nullptr;
 };
 
 bool isManaged(const X11& x, Window window) noexcept {
@@ -108,13 +100,20 @@ bool sendToHost(void* nativeWindow, const HostKey& key) noexcept {
     event.xkey.keycode = code;
     event.xkey.state =
         (key.shift ? ShiftMask : 0u) | (key.control ? ControlMask : 0u) | (key.alt ? Mod1Mask : 0u);
-    for (const int kind : {KeyPress, KeyRelease}) {
+    for (int kind = KeyPress; kind <= KeyRelease; ++kind) {
         event.type = kind;
         x.send(x.display, host, True, kind == KeyPress ? KeyPressMask : KeyReleaseMask, &event);
     }
     return true;
 }
+
+// JUCE asks by the time of its last event; the server ignores what is older than another's.
+void takeKeys(void* nativeWindow) noexcept {
+    if (const X11 x; x.display)
+        x.focus(x.display, reinterpret_cast<Window>(nativeWindow), RevertToParent, CurrentTime);
+}
 #else
+void takeKeys(void*) noexcept {}
 bool sendToHost(void*, const HostKey&) noexcept { return false; }
 #endif
 

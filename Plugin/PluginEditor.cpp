@@ -248,14 +248,16 @@ bool PluginEditor::closesFirst() {
     return modal != nullptr && dynamic_cast<const juce::TopLevelWindow*>(modal) == nullptr;
 }
 
-// While a value is typed its box gets the keys: under some window managers they come here, after a list was
-// open or something else was clicked. While anything is open, none is the host's.
+juce::TextEditor* PluginEditor::openBox() const {
+    const auto* const value = dynamic_cast<juce::Label*>(juce::Component::getCurrentlyModalComponent());
+    return isParentOf(value) ? value->getCurrentTextEditor() : nullptr;
+}
+
+// A value's box gets the keys also before it has the keyboard (refresh). While anything is open, none is the
+// host's.
 bool PluginEditor::keyPressed(const juce::KeyPress& key) {
-    if (auto* const modal = juce::Component::getCurrentlyModalComponent()) {
-        const auto* const value = dynamic_cast<juce::Label*>(modal);
-        auto* const box = isParentOf(value) ? value->getCurrentTextEditor() : nullptr;
-        return box != nullptr && box->keyPressed(key);
-    }
+    if (auto* const box = openBox()) return box->keyPressed(key);
+    if (juce::Component::getCurrentlyModalComponent() != nullptr) return false;
     const auto* const peer = getPeer();
     const auto mods = key.getModifiers();
     return peer != nullptr && !key.isKeyCode(juce::KeyPress::escapeKey) &&
@@ -353,6 +355,10 @@ void PluginEditor::refresh() {
     if (plugin_.stateCount() != shown_) stateChanged();
     if (plugin_.noteKnobs() != knobs_) readKnobs();
     followLearning();
+    if (auto* const box = openBox(); box && !box->hasKeyboardFocus(false)) {
+        takeKeys(getPeer()->getNativeHandle());
+        box->grabKeyboardFocus();
+    }
     const auto hits = plugin_.drainEvents();
     const auto meters = plugin_.meters();
     const auto status = plugin_.takes().status();

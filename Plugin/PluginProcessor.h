@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // PhysVib as an instrument of a host: takes of a session, parameters, MIDI strikes, the host's transport.
 //
-// The threading model is that of Live/Session/Session.h: processBlock is R, everything else is M or any
-// thread but R. What the host calls non-realtime is rendered with RenderMode::offline, so that a bounce is
-// the live take at any speed.
+// Threads as in Live/Session/Session.h: processBlock is R, all else M or any thread but R. What the host
+// calls non-realtime is rendered with RenderMode::offline, so that a bounce is the live take at any speed.
 #pragma once
 #include "BusPlan.h"
 #include "Core/Actuators/OutputGuard.h"

@@ -7,7 +7,7 @@ namespace physvib {
 
 Take::Take(std::shared_ptr<const TakeSpec> order, int sampleRateHz, int blockFrames, TakeTiming timing,
            bool hasMusic)
-    : session{order->setup}
+    : session{std::shared_ptr<const SessionSetup>{order, &order->setup}}
     , order_{std::move(order)}
     , sampleRateHz_{sampleRateHz}
     , sliceFrames_{std::max(1, sampleRateHz / slicesPerSecond)} {

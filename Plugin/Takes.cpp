@@ -393,10 +393,8 @@ void Takes::render(int frames, RenderMode mode) noexcept {
     if (playing_) writeStatus();
 }
 
-// The world is stepped in the render call where it has to be: in tight timing, and where the host asks for
-// frames ahead of the thread that steps it, whatever the host says of itself. A live host whose world is in
-// time never comes here. A world that takes longer than real time holds such a host up, as any plug-in does
-// that is too much for the machine, and the host shows that; the samples are the same.
+// In tight timing, and where the host asks for frames ahead of the stepping thread. A world that takes longer
+// than real time holds a live host up, as any plug-in does that is too much; the samples are the same.
 RenderMode Takes::modeFor(const Take& take, int frames, RenderMode asked) noexcept {
     if (asked == RenderMode::offline) return asked;
     if (timing() == TakeTiming::tight) return RenderMode::offline;

@@ -3,22 +3,19 @@
 // render role.
 //
 // Each take is a session of its own that begins at session time 0, so that takes with equal inputs are equal
-// to the bit. Those that are replaced play on for L frames - what happened before is owed to the host, which
-// shifts our output by L - and fade then. One thread of the process steps the worlds of all instances and
-// does nothing else (Stepper); another, of each instance, makes takes ready, of ended ones where it can,
-// and frees what is left over, beside it.
+// to the bit. Those that are replaced play on for L frames, which are owed to the host, and fade then. One
+// thread of the process steps the worlds of all instances (Stepper); another, of each instance, makes takes
+// ready, of ended ones where it can, and frees what is left over.
 //
 // Who owns what: `takes_` is under `mutex_` (the threads and M; R only in non-realtime blocks). R holds
 // pointers to the playing take, to the next one and to those that are ending; it gets one by taking `spare_`,
 // and gives it up by `isEnded`, one atomic store. A take that is being made or freed is in nobody's list, so
 // no mutex is held meanwhile.
 //
-// Hosts ahead of time. L covers one block. If a host asks for more at once - a bounce that it does not call
-// one, twenty blocks in a row, half a second ahead, a block larger than announced - the thread has not
-// stepped the world that far. R sees that (Session::framesMissing) and steps it in the render call, as it
-// does where the host calls a block non-realtime. So L never changes and every bounce is the live take. No
-// clock has a say in that: which steps R makes follows from counts of steps alone, so a busy machine changes
-// no sample, and as soon as the thread is in time again R makes none.
+// Hosts ahead of time. L covers one block. If a host asks for more at once (a bounce that it does not call
+// one, twenty blocks in a row, a block larger than announced), the thread has not stepped the world that far:
+// R sees it (Session::framesMissing) and steps it, as in a non-realtime block. So L never changes and every
+// bounce is the live take. Counts of steps alone decide which R makes: a busy machine changes no sample.
 #pragma once
 #include "Take.h"
 #include <atomic>
@@ -48,7 +45,7 @@ protected:
 };
 
 /// The thread that steps the worlds of all instances of the process. Runs while there is anybody to step, and
-/// comes seldom to who renders nothing. A juce::SharedResourcePointer holds it: the last one ends the thread.
+/// comes seldom to who renders nothing. A juce::SharedResourcePointer holds it.
 class Stepper final : private juce::Thread {
 public:
     Stepper();
@@ -115,8 +112,7 @@ struct TakesStatus {
     std::uint64_t late = 0;          ///< events played after their time, in all takes
     std::int64_t slippedNs = 0;      ///< stalls of the worlds of all takes
     std::uint64_t delayedBlocks = 0; ///< blocks that a start had to wait for a take to be ready
-    std::uint64_t aheadBlocks = 0;   ///< for which the world was stepped in the render call, since the host
-                                     ///< asked ahead of its thread, or that was late
+    std::uint64_t aheadBlocks = 0;   ///< for which the render call stepped the world
 };
 
 class Takes final : private Stepped {

@@ -29,8 +29,6 @@ bool HapticRenderer::prepare(const RendererSettings& settings) noexcept {
     clock_ = FrameClock{settings.sampleRateHz};
     panners_ = settings.panner;
     gains_.fill(0.0);
-    player_.prepare(settings.sampleRateHz, channels_);
-    moving_.prepare(settings.sampleRateHz, channels_);
     guard_.prepare(settings.sampleRateHz, channels_, GuardPlace::rendered, settings.instructions);
     silentUntilNs_ = strikesSilentUntilNs_ = INT64_MIN;
     return isPrepared_ = takeMemory();
@@ -42,18 +40,19 @@ bool HapticRenderer::takeMemory() noexcept {
     };
     return bank_.prepare(settings_.sampleRateHz, channels_, settings_.instructions,
                          share(limits::maxModes, 1), share(limits::maxGates, 256)) &&
-           actuators_.prepare(settings_.sampleRateHz, channels_, settings_.equalised) && prepareLimiter() &&
+           actuators_.prepare(settings_.sampleRateHz, channels_, settings_.equalised) && prepareAtRate() &&
            pending_.resize(share(limits::maxPending, 512)) &&
-           playedQueue_.resize(std::bit_ceil(static_cast<unsigned>(share(limits::playedQueueSize, 1024)))) &&
+           playedQueue_.resize(std::bit_ceil(static_cast<unsigned>(share(limits::playedQueueSize, 512)))) &&
            panners_.prepare(channels_) && controls_.resize(share(limits::maxControls, 64));
 }
 
-bool HapticRenderer::prepareLimiter() noexcept {
+bool HapticRenderer::prepareAtRate() noexcept {
     const bool has =
         limiter_.prepare(settings_.sampleRateHz, channels_, settings_.limiterEnabled, settings_.instructions);
     for (int j = 0; j < channels_; ++j)
         limiter_.setCeiling(j, settings_.ceilings[static_cast<std::size_t>(j)]);
-    return has;
+    return has && player_.prepare(settings_.sampleRateHz, channels_) &&
+           moving_.prepare(settings_.sampleRateHz, channels_);
 }
 
 void HapticRenderer::setContacts(const RecordedContacts& contacts) noexcept {
@@ -66,11 +65,9 @@ bool HapticRenderer::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     bank_.moveTo(position_, sampleRateHz, frame);
     settings_.sampleRateHz = sampleRateHz;
     clock_ = FrameClock{sampleRateHz};
-    player_.prepare(sampleRateHz, channels_);
-    moving_.prepare(sampleRateHz, channels_);
     guard_.changeRate(sampleRateHz);
     position_ = frame;
-    return isPrepared_ = actuators_.changeRate(sampleRateHz) && prepareLimiter();
+    return isPrepared_ = actuators_.changeRate(sampleRateHz) && prepareAtRate();
 }
 
 void HapticRenderer::apply(const RenderControl& control) noexcept {
@@ -154,14 +151,12 @@ bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onse
     return isCoupled() ? strikeCoupled(s) : bank_.strike(s, gains_.data());
 }
 
-MovingTones::Drive HapticRenderer::driveAt(const CollisionEvent& event) noexcept {
-    MovingTones::Drive drive;
+void HapticRenderer::driveAt(const CollisionEvent& event, double* inPhase, double* ahead) noexcept {
     panners_.gainsAt(event, gains_);
     if (isCoupled())
-        settings_.drives.apply(event.frequencyHz, gains_.data(), drive.inPhase.data(), drive.ahead.data());
+        settings_.drives.apply(event.frequencyHz, gains_.data(), inPhase, ahead);
     else
-        std::copy_n(gains_.begin(), panners_.whole().channels(), drive.inPhase.begin());
-    return drive;
+        std::copy_n(gains_.begin(), panners_.whole().channels(), inPhase);
 }
 
 // A complex drive is two strikes of one mode, a quarter turn apart. They merge, so they use one mode. Either
@@ -198,7 +193,7 @@ void HapticRenderer::playAll(const Channels& out, int frames, const float* const
                recordingsSound = player_.render(out.data(), position_, frames);
     const bool movingSounds =
         moving_.count() > 0 &&
-        moving_.render(out.data(), position_, frames, [this](const CollisionEvent& e) { return driveAt(e); });
+        moving_.render(out.data(), position_, frames, [this](const auto&... drive) { driveAt(drive...); });
     for (int j = 0; added && j < channels_; ++j)
         std::transform(added[j], added[j] + frames, out[static_cast<std::size_t>(j)],
                        out[static_cast<std::size_t>(j)], [](float a, float b) { return a + b; });

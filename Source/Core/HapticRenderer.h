@@ -97,8 +97,7 @@ struct WaitingEvents {
     }
 };
 
-/// Memory depends on channels and modes and is allocated in prepare. The object itself is large: keep it on
-/// the heap.
+/// Memory depends on channels and modes and is allocated in prepare.
 class HapticRenderer {
 public:
     /// Queue of events that were played, with their frames.
@@ -164,14 +163,14 @@ private:
     template <class Source>
     void actOnDue(Source& source) noexcept;
     void apply(const RenderControl& control) noexcept;
-    bool prepareLimiter() noexcept;
+    bool prepareAtRate() noexcept;
     bool takeMemory() noexcept;
     bool strike(const CollisionEvent& event, FramePosition onset) noexcept;
     bool isSilenced(const CollisionEvent& event) const noexcept;
     int discardWaiting(const WaitingEvents& which) noexcept;
     bool strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
     bool strikeCoupled(Strike strike) noexcept;
-    MovingTones::Drive driveAt(const CollisionEvent& event) noexcept;
+    void driveAt(const CollisionEvent& event, double* inPhase, double* ahead) noexcept;
     bool isCoupled() const noexcept {
         return settings_.drives.isOn() &&
                settings_.drives.channels == static_cast<std::size_t>(panners_.whole().channels());

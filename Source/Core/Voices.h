@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Voice pool: voices that sound between two frames and can be faded out together. Shared by the players of
-// recordings and of moving tones.
+// Voices that sound between two frames and fade out together: those of recordings and of moving tones.
 #pragma once
 #include "Core/ClockLaw.h"
 #include "Core/CollisionEvent.h"
 #include "Core/Limits.h"
 #include "Core/RenderControl.h"
+#include "Core/Storage.h"
 #include "Core/Trigonometry.h"
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
+#include <utility>
 
 namespace physvib {
 /// When a voice sounds, in absolute frames.
@@ -19,23 +22,29 @@ struct VoiceTime {
     std::int64_t onset = 0, end = 0, fadeFrame = never;
 };
 
-/// At most `mostSounding` voices at once, of a type derived from VoiceTime. Render thread (R) only; prepare:
-/// message thread (M).
-template <class Voice, int mostSounding>
+/// At most `mostSounding` voices at once, of a type derived from VoiceTime whose `gains` point to up to
+/// `maxGains` values. Render thread (R) only; prepare: message thread (M).
+template <class Voice, int mostSounding, int maxGains>
 class FadingVoices {
 public:
-    /// Ends all voices. M, not while rendering.
-    void prepare(int sampleRateHz) noexcept {
+    /// Ends all voices, and gives each one `width` gains. False: no memory. M, not while rendering.
+    bool prepare(int sampleRateHz, std::size_t width) noexcept {
         fadeFrames_ = std::max(1, static_cast<int>(limits::channelRampSeconds * sampleRateHz));
         count_ = 0;
+        if (!gains_.resize(size * width)) return false;
+        for (std::size_t i = 0; i < size; ++i) voices_[i].gains = gains_.data() + i * width;
+        return true;
     }
 
     /// A new voice that begins at `onset`; null if `mostSounding` already sound then.
     Voice* add(std::int64_t onset) noexcept {
         if (count_ == voices_.size() || soundingAt(onset) >= mostSounding) return nullptr;
-        voices_[count_] = {};
-        voices_[count_].onset = onset;
-        return &voices_[count_++];
+        Voice& voice = voices_[count_++];
+        const auto gains = voice.gains;
+        voice = {};
+        voice.onset = onset;
+        voice.gains = gains;
+        return &voice;
     }
 
     /// Fades out all voices from `frame` on, within limits::channelRampSeconds.
@@ -55,8 +64,10 @@ public:
     /// Removes the voices that have ended by `frame`. The others keep their order, in which their samples are
     /// added.
     void forget(std::int64_t frame) noexcept {
-        count_ = static_cast<std::size_t>(
-            std::remove_if(begin(), end(), [=](const Voice& v) { return v.end <= frame; }) - begin());
+        Voice* kept = begin();
+        for (Voice& voice : *this)
+            if (voice.end > frame) std::swap(*kept++, voice);
+        count_ = static_cast<std::size_t>(kept - begin());
     }
 
     int count() const noexcept { return static_cast<int>(count_); }
@@ -71,9 +82,11 @@ private:
                                               [=](const Voice& v) { return v.end > frame; }));
     }
 
-    int fadeFrames_ = 1;
     // twice as many, because voices that end within a tile are removed only after it
-    std::array<Voice, static_cast<std::size_t>(2 * mostSounding)> voices_{};
+    static constexpr auto size = static_cast<std::size_t>(2 * mostSounding);
+    int fadeFrames_ = 1;
+    std::array<Voice, size> voices_{};
+    Storage<std::remove_pointer_t<decltype(Voice::gains)>, size * maxGains, true> gains_;
     std::size_t count_ = 0;
 };
 
@@ -84,11 +97,11 @@ private:
 /// and setContacts: message thread (M).
 class SamplePlayer {
 public:
-    /// Forgets all recordings; silence. M, not while rendering.
-    void prepare(int sampleRateHz, int channels) noexcept {
+    /// Forgets all recordings; silence. False: no memory. M, not while rendering.
+    bool prepare(int sampleRateHz, int channels) noexcept {
         channels_ = channels;
         contacts_ = {};
-        voices_.prepare(sampleRateHz);
+        return voices_.prepare(sampleRateHz, static_cast<std::size_t>(channels));
     }
 
     /// Recordings of later events; those that sound continue. M, not while rendering, or R.
@@ -146,12 +159,12 @@ public:
 private:
     struct Voice : VoiceTime {
         std::span<const float> samples;
-        std::array<float, static_cast<std::size_t>(limits::maxEnchanters)> gains{};
+        float* gains = nullptr; // one per channel
     };
 
     int channels_ = 0;
     std::span<const RecordedContact> contacts_;
-    FadingVoices<Voice, limits::maxSampleVoices> voices_;
+    FadingVoices<Voice, limits::maxSampleVoices, limits::maxEnchanters> voices_;
 };
 
 // Player of moving tones: one decaying sinusoid per event, whose channel gains change with its place.
@@ -160,20 +173,14 @@ private:
 // and interpolated linearly between them. A sample depends on its own frame alone, so block sizes do not
 // matter. Why linear, and the cost: Docs/decisions/0069-what-moves-is-a-row-of-strikes.md.
 
-/// Adds moving tones to the output of the modes. All memory is inside the object. Render thread (R) only;
-/// prepare: message thread (M).
+/// Adds moving tones to the output of the modes. Render thread (R) only; prepare: message thread (M).
 class MovingTones {
 public:
-    /// Gain per output of the part in phase with the tone and of the part a quarter turn ahead.
-    struct Drive {
-        std::array<double, static_cast<std::size_t>(limits::maxEnchanters)> inPhase{}, ahead{};
-    };
-
-    /// Ends all tones. M, not while rendering.
-    void prepare(int sampleRateHz, int channels) noexcept {
+    /// Ends all tones. False: no memory. M, not while rendering.
+    bool prepare(int sampleRateHz, int channels) noexcept {
         rate_ = sampleRateHz;
         channels_ = static_cast<std::size_t>(channels);
-        voices_.prepare(sampleRateHz);
+        return voices_.prepare(sampleRateHz, 4 * channels_);
     }
 
     /// From `onset` on, until `closeFrame`. False if too many sound at once.
@@ -183,7 +190,8 @@ public:
     int count() const noexcept { return voices_.count(); }
 
     /// Adds to io[j][0..frames) for absolute frames [first, first + frames), which lie within one tile.
-    /// `driveAt(event, x, y)` returns the Drive of an event at that place. False if there was nothing to add.
+    /// `driveAt(event, inPhase, ahead)` writes the gain per output of the part in phase with the tone and of
+    /// that a quarter turn ahead; what it leaves is 0. False if there was nothing to add.
     template <class DriveAt>
     bool render(float* const* io, std::int64_t first, int frames, DriveAt driveAt) noexcept {
         bool sounds = false;
@@ -206,7 +214,7 @@ private:
         std::int64_t decayIncrement = 0, closeFrame = 0; // end without a fade-out
         double level = 0;
         std::int64_t first = 0, last = 0; // the gains are interpolated between these frames
-        Drive from, to;
+        double* gains = nullptr; // per channel: at the first frame in phase, then ahead; likewise at the last
     };
 
     template <class DriveAt>
@@ -215,20 +223,25 @@ private:
         voice.first = std::max(tile, voice.onset);
         voice.last = std::min(tile + limits::tileFrames, voice.closeFrame);
         // the gains of the tile before, because the panning law may have changed since
-        voice.from = voice.first == voice.onset ? at(voice, voice.first, driveAt) : voice.to;
-        voice.to = at(voice, voice.last, driveAt);
+        double *const from = voice.gains, *const to = from + 2 * channels_;
+        const auto drive = [&](std::int64_t frame, double* gains) {
+            std::fill_n(gains, 2 * channels_, 0.0);
+            driveAt(at(voice, frame), gains, gains + channels_);
+        };
+        if (voice.first == voice.onset)
+            drive(voice.first, from);
+        else
+            std::copy_n(to, 2 * channels_, from);
+        drive(voice.last, to);
     }
 
     double ageFrames(const Voice& voice, std::int64_t frame) const noexcept {
         return static_cast<double>(frame - voice.onset) + voice.leadFrames;
     }
 
-    template <class DriveAt>
-    Drive at(const Voice& voice, std::int64_t frame, DriveAt driveAt) const noexcept {
-        const CollisionEvent& e = voice.event;
-        const double share =
-            std::min(1.0, ageFrames(voice, frame) * 1e9 / (static_cast<double>(e.course.travelNs) * rate_));
-        return driveAt(movedAlong(e, share));
+    CollisionEvent at(const Voice& voice, std::int64_t frame) const noexcept {
+        const auto travelNs = static_cast<double>(voice.event.course.travelNs);
+        return movedAlong(voice.event, std::min(1.0, ageFrames(voice, frame) * 1e9 / (travelNs * rate_)));
     }
 
     void add(const Voice& voice, std::int64_t frame, float* const* io, std::int64_t n) const noexcept {
@@ -242,17 +255,17 @@ private:
                            voice.level * static_cast<double>(voices_.fadeAt(voice, frame)));
         const auto share =
             static_cast<double>(frame - voice.first) / static_cast<double>(voice.last - voice.first);
-        const auto between = [share](double from, double to) {
-            return static_cast<double>(from) + share * static_cast<double>(to - from);
+        const auto between = [&](std::size_t i) {
+            const double from = voice.gains[i];
+            return from + share * (voice.gains[i + 2 * channels_] - from);
         };
         for (std::size_t j = 0; j < channels_; ++j)
-            io[j][n] += static_cast<float>(between(voice.from.inPhase[j], voice.to.inPhase[j]) * tone.im +
-                                           between(voice.from.ahead[j], voice.to.ahead[j]) * tone.re);
+            io[j][n] += static_cast<float>(between(j) * tone.im + between(j + channels_) * tone.re);
     }
 
     double rate_ = 48000.0;
     std::size_t channels_ = 1;
-    FadingVoices<Voice, limits::maxMovingTones> voices_;
+    FadingVoices<Voice, limits::maxMovingTones, 4 * limits::maxEnchanters> voices_;
 };
 
 } // namespace physvib

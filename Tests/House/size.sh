@@ -33,8 +33,8 @@ if [ -n "$bin" ]; then
         say "a prepared session: bytes" "${3:-999999999}" 2000000
     fi
     if [ -x "$bin/physvib-plugin-tests" ]; then
-        told=$("$bin/physvib-plugin-tests" --gtest_filter='PluginMemory.*' | sed -n 's/^an instance of the plug-in, prepared: \([0-9]*\) bytes$/\1/p')
-        say "a prepared instance of the plug-in: bytes" "${told:-999999999}" 2000000
+        told=$("$bin/physvib-plugin-tests" --gtest_filter='PluginMemory.*' | sed -n 's/^an instance of the plug-in, prepared: \([0-9]*\) bytes, .*/\1/p' | sort -n | tail -n 1)
+        say "the largest prepared instance of the plug-in: bytes" "${told:-999999999}" 2000000
     fi
     if [ -x "$bin/physvib" ] && command -v valgrind >/dev/null; then
         counts=$(mktemp)

@@ -80,7 +80,7 @@ TEST(PluginMemory, APreparedInstanceTakesTwoMegabytes) {
         std::printf("an instance of the plug-in, prepared: %zu bytes, %s\n", bytes,
                     one->state().scene.name.c_str());
         // a world's with what Timing tight would else take in the render call
-        EXPECT_LT(bytes, preset < 0 ? 2'000'000U : 2'275'000U);
+        EXPECT_LT(bytes, 2'000'000U);
         EXPECT_GT(bytes, 500'000U) << "it is counted";
     }
 }

@@ -239,13 +239,14 @@ TEST(PluginChunk, APresetIsTheSameWhateverWasChosenBefore) {
         std::ranges::sort(state.parameters, {}, [](const auto& p) { return p.first; });
         return state;
     };
+    int same = 0;
     for (int to = 0; to < count; ++to) {
         const std::string at = pluginStateJson(chosen(newPluginState(), to));
         for (int via = 0; via < count; ++via)
-            EXPECT_EQ(pluginStateJson(chosen(chosen(newPluginState(), via), to)), at)
-                << presetNames()[static_cast<std::size_t>(via)] << ", then "
-                << presetNames()[static_cast<std::size_t>(to)];
+            same += pluginStateJson(chosen(chosen(newPluginState(), via), to)) == at;
     }
+    std::printf("presets: %d of %d ways to one give the same state\n", same, count * count);
+    EXPECT_EQ(same, count * count);
 }
 
 TEST(PluginChunk, AStopIsSilentAndNoPartOfIt) {

@@ -126,6 +126,9 @@ TEST(RealtimePlugin, TightTakesNoMemory) {
             EXPECT_EQ(RealtimeGuard::count(which), 0u)
                 << RealtimeGuard::names[which] << ' ' << host.plugin->getProgramName(preset);
         EXPECT_GT(host.plugin->drainEvents().size(), 10u) << host.plugin->getProgramName(preset);
+        std::printf("Timing tight: %d pieces of memory taken in 3,000 render calls, %s\n",
+                    static_cast<int>(RealtimeGuard::count(RealtimeGuard::allocates)),
+                    host.plugin->getProgramName(preset).toRawUTF8());
     }
 }
 

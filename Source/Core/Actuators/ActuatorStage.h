@@ -130,19 +130,6 @@ private:
     int most_ = 0, silentFrames_ = 0; // silentFrames_: trailing silent inputs, at most most_
 };
 
-/// No delay where there is no memory for one.
-template <>
-class ChannelDelay<0> {
-public:
-    bool prepare(int, int, int) noexcept { return true; }
-    void moveTo(int) noexcept {}
-    bool isOut() const noexcept { return true; }
-    bool isResting() const noexcept { return true; }
-    float* placeFor(int) noexcept { return nullptr; }
-    void pass(int) noexcept {}
-    bool process(float*, int, bool isSilent) noexcept { return isSilent; }
-};
-
 /// Per channel: out = gain * delayed, equalised in. Every change is a ramp of limits::channelRampSeconds,
 /// except before the first frame. Render thread (R) only; prepare: message thread (M).
 class ActuatorStage {
@@ -152,22 +139,20 @@ public:
         channels_ = channels;
         hasBegun_ = false;
         actuators_ = equalised;
-        prepareEqualisers(sampleRateHz);
         for (auto& ramp : ramps_) ramp.prepare(sampleRateHz, limits::channelRampSeconds, 1.0f);
         gains_.fill(1.0f);
         level_ = 1.0f;
         muted_.fill(false);
         delaySeconds_.fill(0.0f);
-        return prepareDelays(sampleRateHz);
+        return prepareEqualisers(sampleRateHz) && prepareDelays(sampleRateHz);
     }
 
     /// Continues at another sample rate. Settings stay; samples inside equalisers and delays are lost. False:
     /// no memory. M, not while rendering.
     bool changeRate(int sampleRateHz) noexcept {
-        prepareEqualisers(sampleRateHz);
         for (int j = 0; j < channels_; ++j)
             ramps_[index(j)].prepare(sampleRateHz, limits::channelRampSeconds, aimOf(j));
-        return prepareDelays(sampleRateHz);
+        return prepareEqualisers(sampleRateHz) && prepareDelays(sampleRateHz);
     }
 
     /// Negative gains invert the polarity.
@@ -235,8 +220,10 @@ public:
     }
 
 private:
-    void prepareEqualisers(int sampleRateHz) noexcept {
+    bool prepareEqualisers(int sampleRateHz) noexcept {
+        if (!equalisers_.resize(index(channels_))) return false;
         for (int j = 0; j < channels_; ++j) equalisers_[index(j)] = {actuators_[index(j)], sampleRateHz};
+        return true;
     }
     static constexpr std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
     float aimOf(int channel) const noexcept {
@@ -276,7 +263,7 @@ private:
     std::array<ChannelDelay<limits::maxDelayFrames>, width> delays_{};
     std::array<float, width> delaySeconds_{};
     EqualisedActuators actuators_{};
-    std::array<ActuatorEqualiser, width> equalisers_{};
+    Storage<ActuatorEqualiser, width, true> equalisers_;
     std::array<GainRamp, width> ramps_{};
     std::array<float, width> gains_{};
     float level_ = 1.0f;

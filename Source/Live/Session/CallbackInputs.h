@@ -51,7 +51,7 @@ private:
     friend class Session;
     friend class WorldRunner;
 
-    /// `time` outlives it; of `setup` it uses the shaping of events and the groups of actions.
+    /// Both outlive it; of `setup` it uses the shaping of events and the groups of actions.
     CallbackInputs(const Timeline& time, const SessionSetup& setup)
         : time_{time}
         , hasWorld_{setup.hasWorld}
@@ -78,7 +78,7 @@ private:
     const Timeline& time_;
     const bool hasWorld_;
     const EventShaping shaping_;
-    const std::vector<std::vector<Action>> groups_;
+    const std::vector<std::vector<Action>>& groups_;
     EventQueue<CollisionEvent, 1024> strikes_; // written and read by R: room for a dense chord in a block of
                                                // 8192 frames
     ControlQueue<128, 16> controls_;           // senders limit their rate

@@ -40,12 +40,13 @@ struct Session::Source {
     }
 };
 
-Session::Session(const SessionSetup& setup)
-    : setup_{setup}
+Session::Session(std::shared_ptr<const SessionSetup> setup)
+    : order_{std::move(setup)}
+    , setup_{*order_}
     , renderer_{std::make_unique<HapticRenderer>()}
     , channels_{setup_}
     , callback_{time_, setup_}
-    , world_{setup_, time_, pulse_, callback_, sinks_}
+    , world_{order_, time_, pulse_, callback_, sinks_}
     , scheduler_{setup_, time_, pulse_, world_, channels_, sinks_} {}
 
 void Session::prepare(int sampleRateHz, int maxBlockFrames) {

@@ -36,7 +36,10 @@ namespace physvib {
 class Session {
 public:
     /// M. Throws std::invalid_argument if the scene is not valid.
-    explicit Session(const SessionSetup& setup);
+    explicit Session(const SessionSetup& setup)
+        : Session{std::make_shared<const SessionSetup>(setup)} {}
+    /// Without a copy.
+    explicit Session(std::shared_ptr<const SessionSetup> setup);
 
     /// Sets the output latency. Session time 0, silence, the scene at its start, an empty log. M, while no
     /// thread renders or drives. Throws std::bad_alloc without memory, as resume does.
@@ -127,7 +130,8 @@ private:
         time_.set(law, setup_.direct != Direct::no, setup_.direct == Direct::fromStart, frames);
     }
 
-    const SessionSetup setup_;
+    const std::shared_ptr<const SessionSetup> order_;
+    const SessionSetup& setup_;
     const std::unique_ptr<HapticRenderer> renderer_;
     SinkSet sinks_;
     Timeline time_;

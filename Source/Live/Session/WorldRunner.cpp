@@ -16,16 +16,16 @@ constexpr int posesTries = 8; // a millisecond apart: most steps are shorter, an
 
 } // namespace
 
-WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, DevicePulse& pulse,
-                         CallbackInputs& callback, SinkSet& sinks)
-    : setup_{setup}
+WorldRunner::WorldRunner(const std::shared_ptr<const SessionSetup>& setup, const Timeline& time,
+                         DevicePulse& pulse, CallbackInputs& callback, SinkSet& sinks)
+    : setup_{*setup}
     , time_{time}
     , pulse_{pulse}
     , callback_{callback}
     , sinks_{sinks}
-    , world_{setup.run(), setup.shaping, setup.log != LogUse::none}
-    , state_{std::make_shared<const Scene>(setup.scene), setup.seed} {
-    if (setup.hasWorld) made_.reserve(32); // more than most steps make
+    , world_{setup_.run(), setup_.shaping, setup_.log != LogUse::none}
+    , state_{{setup, &setup->scene}, setup_.seed} {
+    if (setup_.hasWorld) made_.reserve(32); // more than most steps make
     world_.start(0, state_.scene, state_.seed);
     showPoses();
 }

@@ -116,8 +116,8 @@ private:
     friend class Scheduler;
 
     /// All must outlive it. Throws std::invalid_argument if the scene is not valid.
-    WorldRunner(const SessionSetup& setup, const Timeline& time, DevicePulse& pulse, CallbackInputs& callback,
-                SinkSet& sinks);
+    WorldRunner(const std::shared_ptr<const SessionSetup>& setup, const Timeline& time, DevicePulse& pulse,
+                CallbackInputs& callback, SinkSet& sinks);
 
     // For Session:
     void prepare();                            // resets the scene; the world mutex is held, also for resume

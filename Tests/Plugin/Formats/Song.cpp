@@ -2,8 +2,8 @@
 // A song for hosts from outside, and what the plug-in makes of it in blocks of that size, without a host:
 // notes on channel 1, notes with bend, slide and pressure on channels of their own (MPE), steps of
 // automation, music at the side chain. The folder gets song.mid, music.wav, automation.txt (id, frame,
-// value, value from 0 to 1), the state as state.lv2 and state.vstpreset, what is played as song.raw,
-// interleaved, and song-1.raw to song-4.raw.
+// value, value from 0 to 1), the state as state.lv2 and state.vstpreset, what is played as
+// song-1.raw to song-4.raw.
 // With a third word as Ardour 7.3 plays it: notes come earlier by the latency that is reported, which makes
 // up for it; what is at the side chain, and automation, do not. As an LV2 it tells a value of automation at
 // the beginning of the next block. As a VST3 it tells a parameter's value at the beginning of each block,
@@ -204,13 +204,13 @@ private:
     static bool write(const std::vector<float>& played, const juce::File& folder) {
         std::array<std::vector<float>, channels> each;
         for (std::size_t i = 0; i < played.size(); ++i) each[i % channels].push_back(played[i]);
-        const auto writeAs = [&folder](const juce::String& name, const std::vector<float>& samples) {
-            return folder.getChildFile(name).replaceWithData(samples.data(), samples.size() * sizeof(float));
-        };
-        bool isWritten = writeAs("song.raw", played);
-        for (int c = 0; c < channels; ++c)
-            isWritten = writeAs("song-" + juce::String{c + 1} + ".raw", each[static_cast<std::size_t>(c)]) &&
+        bool isWritten = true;
+        for (int c = 0; c < channels; ++c) {
+            const auto& samples = each[static_cast<std::size_t>(c)];
+            isWritten = folder.getChildFile("song-" + juce::String{c + 1} + ".raw")
+                            .replaceWithData(samples.data(), samples.size() * sizeof(float)) &&
                         isWritten;
+        }
         return isWritten;
     }
 

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- What ardour-song.sh has Ardour's Lua shell do, without a device. make FOLDER lv2|vst3 PLUGIN_ID [PRESET]: a session with the
 -- plug-in on a MIDI track, a track for its side chain and one that records it. play FOLDER SONG_FOLDER COLUMN: the song's
--- automation (column 3 of automation.txt: in units, 4: from 0 to 1), recorded live, then exported.
+-- automation (column 3 of automation.txt: in units, 4: from 0 to 1), recorded live. stems FOLDER SONG_FOLDER: exports it.
 local block, channels = 512, 4
 AudioEngine:set_backend("None (Dummy)", "", "")
 AudioEngine:set_buffer_size(block)
@@ -24,9 +24,6 @@ local function make(folder, format, id, preset)
     assert(not plugin:isnil(), "Ardour does not know " .. id)
     assert(track:add_processor_by_index(plugin, 0, nil, true) == 0)
     assert(track:add_sidechain(plugin))
-    for _, io in ipairs({ session:master_out():input(), session:master_out():output() }) do
-        while io:n_ports():n_audio() < channels do assert(io:add_port("", nil, ARDOUR.DataType("audio")) == 0) end
-    end
     session:save_state("")
 end
 
@@ -86,7 +83,6 @@ local function play(folder, song, column)
     insert:set_input_map(0, pins)
     automate(insert, song .. "/automation.txt", tonumber(column))
     connect(instrument, take)
-    connect(instrument, master)
     print("Ardour: " .. instrument:n_outputs():n_audio() .. " channels, latency " .. instrument:signal_latency() .. " frames")
     take:rec_enable_control():set_value(1, PBD.GroupControlDisposition.NoGroup)
     session:maybe_enable_record(false)
@@ -97,13 +93,16 @@ local function play(folder, song, column)
     print("Ardour: xruns " .. session:get_xrun_count())
     take:rec_enable_control():set_value(0, PBD.GroupControlDisposition.NoGroup)
     session:save_state("")
-    local export = session:simple_export()
-    export:set_preset("5d1a1d3e-6f0c-4a57-9d3b-2f6c3f7a9e11")
-    export:set_folder(song .. "/export")
-    export:set_range(0, 576000)
-    assert(export:run_export(), "Ardour did not export")
     io.flush()
 end
 
-local what = arg[1] == "make" and make or play
-what(table.unpack(arg, 2))
+local function stems(folder, song)
+    local export = load_session(folder, "song"):simple_export()
+    assert(export:set_preset("5d1a1d3e-6f0c-4a57-9d3b-2f6c3f7a9e11"), "Ardour has not found the preset")
+    export:set_folder(song .. "/export")
+    export:set_range(0, 576000)
+    assert(export:run_export(), "Ardour did not export")
+end
+
+local what = { make = make, play = play, stems = stems }
+what[arg[1]](table.unpack(arg, 2))

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A song in Ardour's Lua shell, without a window or a device: notes, MPE, steps of automation and music at the side chain (Song.cpp).
-# Compared: Ardour's own recording of it, live; Ardour's export; and what physvib-plugin-song renders without a host.
+# Compared: Ardour's own recording of it, live; its stems, a file an actuator; and what physvib-plugin-song renders without a host.
 # Usage: ardour-song.sh BUILD_FOLDER lv2|vst3; 77: Ardour is not installed (physvib_host_packages in .ci/packages.sh)
 set -eu
 build=$(realpath "$1") format=$2 block=512
@@ -16,7 +16,9 @@ libraries=/usr/lib/ardour7
 mkdir -p "$folder/.lv2" "$folder/.vst3" "$folder/.config/ardour7"
 "$build/bin/physvib-plugin-song" "$block" "$folder" "$format"
 session=$folder/song/song.ardour interchange=$folder/song/interchange/song
-lua() { ardour7-lua "$here/ardour-song.lua" "$@" >"$folder/$1.log" 2>&1 || { tail -n 20 "$folder/$1.log"; exit 1; }; }
+ardour() { ardour7-lua "$here/ardour-song.lua" "$@" >"$folder/$1.log" 2>&1; }
+lua() { ardour "$@" || { tail -n 20 "$folder/$1.log"; exit 1; }; }
+stems() { ardour stems "$folder/song" "$folder"; }
 if [ "$format" = lv2 ]; then
     ln -s "$build/plugins/PhysVib-Music.lv2" "$folder/.lv2/"
     mv "$folder/state.lv2" "$folder/.lv2/"
@@ -61,7 +63,14 @@ cat >"$folder/.config/ardour7/export/float.preset" <<'END'
   </ExportFilename>
 </ExportPreset>
 END
+# Export to Audio File(s), only the plug-in's track ticked, with Split to mono files: as the dialog keeps it with a session.
+{
+    echo "<instant><ExportPresets><ExportPreset id=\"5d1a1d3e-6f0c-4a57-9d3b-2f6c3f7a9e11\"><ExportChannelConfiguration split=\"1\" channels=\"4\">"
+    for channel in 1 2 3 4; do echo "<Channel number=\"$channel\"><Port name=\"PhysVib/audio_out $channel\"/></Channel>"; done
+    echo '</ExportChannelConfiguration></ExportPreset></ExportPresets></instant>'
+} >"$folder/song/instant.xml"
 lua play "$folder/song" "$folder" "$column"
+stems || stems || stems || lua stems "$folder/song" "$folder" # Ardour 7.3 sometimes falls when it splits
 grep '^Ardour' "$folder/play.log"
 xruns=$(sed -n 's/^Ardour: xruns //p' "$folder/play.log")
 
@@ -73,7 +82,9 @@ for channel in 1 2 3 4; do
     printf 'live, channel %s: ' "$channel"
     "$build/bin/physvib-compare-recording" "$folder/live-$channel.raw" "$folder/song-$channel.raw" 1 "$block" "$xruns" || failed=1
 done
-samples "$(find "$folder/export" -name "*.wav")" >"$folder/export.raw"
-printf 'export: '
-"$build/bin/physvib-compare-recording" "$folder/export.raw" "$folder/song.raw" 4 "$block" 0 || failed=1
+for channel in 1 2 3 4; do
+    samples "$(find "$folder/export" -name '*.wav' | sort | sed -n "${channel}p")" >"$folder/stem-$channel.raw"
+    printf 'stem, channel %s: ' "$channel"
+    "$build/bin/physvib-compare-recording" "$folder/stem-$channel.raw" "$folder/song-$channel.raw" 1 "$block" 0 || failed=1
+done
 exit "$failed"
