@@ -40,7 +40,8 @@ for module in clock device files gamepad module names pad settings waves; do cp 
 cd build/web/page
 sed -i -e '2,$ { /^ *\/\/ /d; /^ *\/\/\/ /d; /^ *\/\*\* .*\*\/$/d; /^ *\/\*\* /,/\*\/$/d }' ./*.js # lines of comment, 4 KB
 sed -i -e '2,$ s| // .*||; s/^ *//; /^$/d' ./*.js # no string of theirs goes over a line, or has " // " in it
-sed -i -e '2,$ { /^ *\/\* .*\*\/$/d }; s/^ *//; /^$/d' style.css index.html
+sed -i -e '2,$ { /^ *\/\* .*\*\/$/d }; s/^ *//; /^$/d' style.css index.html manifest.webmanifest icon.svg
+sed -i -e '2,$ { s/\([:;,{]\) /\1/g; s/ \([{}]\)/\1/g }' style.css
 homepage=${PHYSVIB_HOMEPAGE:+<a href=\"${PHYSVIB_HOMEPAGE%/}/web.html\">Documentation</a>}
 sed -i -e "s|@URL@|${PHYSVIB_PAGE_URL:-}|" -e "s|@HOMEPAGE@|$homepage|" index.html
 # The service worker keeps these files, as they are now.
