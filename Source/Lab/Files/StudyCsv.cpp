@@ -213,11 +213,18 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     const auto choice = named ? *named : rows.required("response");
     const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
                participant = rows.optional("participant");
-    return rows.each(AnswerKind::choice, [&](const CsvRow& row) {
+    const auto correct = rows.optional("correct"), level = rows.optional("level_db");
+    const bool isOwn = rows.optional(trialColumns::task).has_value();
+    std::size_t taken = 0;
+    rows.each(AnswerKind::choice, [&](const CsvRow& row) {
+        // Where levels follow the answers, the method makes the shares.
+        if (isOwn && correct && level && !row.cells[*correct].empty() && !row.cells[*level].empty()) return;
+        ++taken;
         conditionNamed(rows, data, {})
             .push_back({StudyRows::textIf(row, participant), kindOf(row, stimulus, condition),
                         rows.text(row, choice)});
     });
+    return taken;
 }
 
 /// Whether another program's column tells of people, as age does: one value of each, more rows.
@@ -306,7 +313,7 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
 }
 
 std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
-    std::size_t taken = 0, ofTraining = 0;
+    std::size_t taken = 0, ofTraining = 0, zeros = 0;
     const auto task = rows.optional(trialColumns::task);
     if (!task && !rows.optional("value")) rows.required("correct");
     const auto phase = rows.optional(trialColumns::phase);
@@ -321,6 +328,11 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
         const auto answer = task ? answerOf(row.cells[*task]) : std::nullopt;
         if (isTraining(row) && (answer != AnswerKind::level || hasMatches)) continue;
         if (answer == AnswerKind::wish) continue; // explorations have no stimulus
+        if (task ? answer == AnswerKind::number : rows.optional("value").has_value())
+            if (parseNumber<double>(row.cells[rows.required("value")]) == 0.0) {
+                ++zeros;
+                continue;
+            }
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
             ofTraining += isTraining(row);
@@ -328,6 +340,8 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
         }
     }
     if (ofTraining > 0) data.warnings.emplace_back("levels were set in a training, and no others: it counts");
+    if (zeros > 0)
+        data.warnings.push_back(counted(zeros, "magnitude") + " of 0, which has no logarithm, left out");
     return taken;
 }
 
@@ -385,6 +399,7 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     std::size_t taken = 0;
     rows.each(columns.isMagnitude ? AnswerKind::number : AnswerKind::choice, [&](const CsvRow& row) {
         if (row.cells[measure].empty()) return;
+        if (columns.isMagnitude && parseNumber<double>(row.cells[measure]) == 0.0) return;
         const bool isAdaptive = isOwn && !row.cells[*moved].empty();
         if (isOwn && (columns.level == "level_db" ? !isAdaptive : isAdaptive && hasFixed)) return;
         if (isAdaptive && hasStaircase && quest && !row.cells[*quest].empty()) return;

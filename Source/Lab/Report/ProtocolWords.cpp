@@ -57,7 +57,7 @@ std::string setWords(const GridSet& set) {
 }
 
 std::string setWords(const CallSet& set) {
-    return "calls of physvib by " +
+    return std::string{"calls of physvib"} + (set.factors.empty() ? "" : " by ") +
            joinedWords(set.factors, ", ",
                        [](const StudyFactor& factor) {
                            return factor.name + " (" +

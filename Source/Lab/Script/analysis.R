@@ -355,9 +355,11 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   column <- sub("=.*", "", measure)
   d <- d[!(d[[column]] %in% c("", "NA")), ]
   if (length(unique(d$participant)) < 2) return(invisible())
+  zeros <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) <= 0) else 0
   if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
   design <- design.of(d, columns); factors <- c(design$within, design$between)
   if (kind == "magnitudes" && length(unique(d$level_db)) > 1) design$notes <- c(design$notes, paste0("level_db (", length(unique(d$level_db)), " levels): averaged over"))
+  if (zeros > 0) design$notes <- c(design$notes, paste(zeros, "magnitudes of 0, which has no logarithm, left out"))
   if (length(design$notes) > 0) cat(what, "\n", sep = "")
   for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over", "not tested", note))
   if (length(factors) == 0) return(invisible())
@@ -491,7 +493,10 @@ study <- function(study, scales = character(), points = character()) {
       compare(paste0(scale, words), own, scale, columns = c("group", "condition"))
     } else compare(paste0(scale, words), own, scale, if (scale %in% points) "ranks" else "scores")
   })
-  if (length(scales) > 1) across(setdiff(unique(results$test), before), "scales")
+  if (length(scales) > 1) { # pairs alone, as of points in two conditions, are corrected over scales themselves
+    own <- setdiff(unique(results$test), before)
+    across(own, "scales", if (any(results$statistic[results$test %in% own] %in% c("F", "chi-squared"))) c("F", "chi-squared") else c("V", "W"))
+  }
   if (file.exists("thresholds.csv")) {
     own <- table.of("thresholds.csv")
     for (m in unique(own$method)) compare(paste("threshold by", m), own[own$method == m, ], "threshold", columns = c("group", "condition"))
