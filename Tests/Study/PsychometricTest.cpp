@@ -92,7 +92,7 @@ TEST(Psychometric, WhatCannotBeFittedIsNamed) {
         EXPECT_TRUE(fit.fault.empty() && !fit.hasJnd) << fit.fault;
         EXPECT_NEAR(fit.function.threshold, threshold, 0.003);
     }
-    EXPECT_EQ(faultOf({{1, 4, 40}, {2, 7, 40}, {3, 10, 40}}, 0.0).find("the threshold, "), 0u);
+    EXPECT_EQ(faultOf({{1, 4, 40}, {2, 7, 40}, {3, 10, 40}}, 0.0).find("the fitted threshold lies"), 0u);
     EXPECT_EQ(faultOf({{1, 60, 100}, {2, 60, 100}, {3, 61, 100}}, 0.0),
               "the answers hardly change within the levels that were played");
     EXPECT_EQ(faultOf({{1, 4, 40}, {2, 20, 40}, {3, 35, 40}}, 0.0), "");

@@ -286,7 +286,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   marks <- lapply(factors, words.of)
   if (length(factors) > 1) marks <- c(marks, list(do.call(paste, marks)))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
-  if (length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("level_db (", length(unique(d$level_db)), " levels): averaged over"))
+  if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("level_db (", length(unique(d$level_db)), " levels): averaged over"))
   lines <- expand.grid(group = groups, word = if (k == 2) words[1] else words, stringsAsFactors = FALSE)
   tests <- Map(function(group, word) {
     of <- if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m == group))

@@ -14,7 +14,7 @@ for study in patterns phantom-grids phantom-places model-or-sound eight-methods 
     cp "$study/tests.csv" beside.csv
     Rscript "$study/analysis.R" >"$study/out.txt" || { cat "$study/out.txt"; exit 1; }
     cmp beside.csv "$study/tests.csv"
-    run=$(Rscript -e "t <- read.csv('$study/tests.csv', comment.char = '#'); cat(length(unique(t$""test[t$""p <= 1])))")
+    run=$(Rscript -e "t <- read.csv('$study/tests.csv', comment.char = '#'); cat(length(unique(t$""test[which(t$""p <= 1)])))")
     echo "$study: $ran tests, $run with a p"
     [ "$ran" = "$run" ]
 done
