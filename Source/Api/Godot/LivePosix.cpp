@@ -55,6 +55,7 @@ std::string Live::open(const std::string& device, const physvib_layout& layout, 
     physvib_live_settings settings;
     library().initialise(&settings, sizeof settings);
     settings.level_db = levelDb;
+    settings.longest_gap_s = 0.026; // a frame makes no tick, one or two of them
     if (sessionFile.size() >= sizeof settings.save) return "session_file: its name is too long";
     std::copy(sessionFile.begin(), sessionFile.end(), settings.save);
     return library().open(device.c_str(), &renderer, &settings, &live) == PHYSVIB_OK ? "" : library().error();
