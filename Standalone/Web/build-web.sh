@@ -42,6 +42,8 @@ sed -i -e '2,$ { /^ *\/\/ /d; /^ *\/\/\/ /d; /^ *\/\*\* .*\*\/$/d; /^ *\/\*\* /,
 sed -i -e '2,$ s| // .*||; s/^ *//; /^$/d' ./*.js # no string of theirs goes over a line, or has " // " in it
 sed -i -e '2,$ { /^ *\/\* .*\*\/$/d }; s/^ *//; /^$/d' style.css index.html manifest.webmanifest icon.svg
 sed -i -e '2,$ { s/\([:;,{]\) /\1/g; s/ \([{}]\)/\1/g }' style.css
+# The package reads files; the page has its own way.
+sed -i -e '/^export const \(parseLayout\|parseEvents\|readClip\) /,/^})\{2,3\};$/d; /^const fieldSaid /,/^});$/d; /^const bytesOf /d' files.js
 homepage=${PHYSVIB_HOMEPAGE:+<a href=\"${PHYSVIB_HOMEPAGE%/}/web.html\">Documentation</a>}
 sed -i -e "s|@URL@|${PHYSVIB_PAGE_URL:-}|" -e "s|@HOMEPAGE@|$homepage|" index.html
 # The service worker keeps these files, as they are now.
