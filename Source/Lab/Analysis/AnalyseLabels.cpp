@@ -124,7 +124,7 @@ std::string patternsOf(const ConfusionMatrix& matrix) {
            counted(static_cast<std::size_t>(enchanters), "actuator");
 }
 
-/// What answers that are all equally frequent would come to, where near ones count as right.
+/// What guessing would come to, where near answers count as right.
 void tellChance(std::ostream& out, const std::string& indent, const ConfusionMatrix& matrix, int tolerance) {
     std::vector<IdentificationTrial> guessed;
     for (std::size_t i = 0; i < matrix.stimuli(); ++i)

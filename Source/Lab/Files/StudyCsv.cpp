@@ -217,7 +217,7 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     const bool isOwn = rows.optional(trialColumns::task).has_value();
     std::size_t taken = 0;
     rows.each(AnswerKind::choice, [&](const CsvRow& row) {
-        // Where levels follow the answers, the method makes the shares.
+        // Of adaptive levels the method makes the shares.
         if (isOwn && correct && level && !row.cells[*correct].empty() && !row.cells[*level].empty()) return;
         ++taken;
         conditionNamed(rows, data, {})

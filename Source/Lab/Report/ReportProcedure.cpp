@@ -61,7 +61,7 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
     return people;
 }
 
-/// Of other programs' tables: scales that some trials have no score of.
+/// Of other programs' tables: scales that lack scores.
 std::vector<std::string> lackingScores(const ReportBuilder& report) {
     const auto kinds = analysesFor(report.trials.all);
     if (report.trials.knowTasks() || std::ranges::find(kinds, "ratings") == kinds.end()) return {};
