@@ -64,7 +64,6 @@ public:
 
     /// One picture of what is going on; the timer calls it, at most 25 times a second.
     void refresh();
-    juce::TextEditor* openBox() const; // in which a value is typed; null: none
     juce::String statusText() const { return status_.getText(); }
     /// What the lower edge says while the mouse is over that component: its help, or that of what it is in.
     juce::String helpOf(juce::Component* underMouse) const;
@@ -101,6 +100,7 @@ private:
     void followLearning();
     void silence();
     bool closesFirst();
+    juce::TextEditor* openBox() const; // in which a value is typed; null: none
     void fillPresets();
     void edit(const std::function<void(PluginState&)>& change);
     void report(const juce::String& news) { news_ = news; }

@@ -21,28 +21,13 @@ gcc -shared -fPIC -o "$folder/alsa-sequencer.so" "$here/alsa-sequencer.c"
 ln -sfn "$build/plugins/PhysVib-2.lv2" "$folder/lv2/PhysVib-2.lv2"
 daws() { /usr/bin/python3 "$here/daws.py" "$@"; }
 
-started=''
-trap 'kill $started 2>/dev/null || :' EXIT
-trap 'exit 1' HUP INT TERM
-background() {
-    "$@" >>"$folder/log" 2>&1 &
-    started="$started $!"
-}
+. "$here/windows.sh"
 background Xvfb $DISPLAY -screen 0 1400x900x24
 sleep 1
 background openbox
 background jackd -n $JACK_DEFAULT_SERVER -d dummy -r 48000 -p 1024
 sleep 2
 
-window() { # TITLE: waits for it, and prints its number
-    for _ in $(seq 60); do
-        xdotool search --onlyvisible --name "$1" 2>/dev/null | tail -n 1 | grep . && return
-        sleep 0.5
-    done
-    import -window root "$folder/no-window.png"
-    say "expected a window \"$1\"; the screen is $folder/no-window.png" && exit 1
-}
-press() { for key in "$@"; do xdotool key "$key" && sleep 0.5; done; }
 click() { xdotool mousemove --window "$1" "$2" "$3" click 1 && sleep 0.7; }
 written() { # FILE: waits until it grows no more
     last=0

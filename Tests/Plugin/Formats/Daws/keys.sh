@@ -3,7 +3,7 @@
 # Keys typed into the plug-in's window in jalv (GTK 3) under Xvfb: what is typed into a value box is the box's, at once, after a click elsewhere and after a list was
 # open; Esc silences. A row per window manager, of those that are installed; pictures stay. Usage: keys.sh BUILD_FOLDER FOLDER [none|openbox|metacity|icewm]...
 set -eu
-build=$(realpath "$1")
+build=$(realpath "$1") here=$(realpath "$(dirname "$0")")
 mkdir -p "$2"
 folder=$(realpath "$2")
 shift 2
@@ -11,21 +11,7 @@ export HOME="$folder" XDG_RUNTIME_DIR="$folder" JACK_NO_AUDIO_RESERVATION=1 JACK
 mkdir -p "$folder/lv2"
 ln -sfn "$build/plugins/PhysVib.lv2" "$folder/lv2/PhysVib.lv2"
 
-started=''
-trap 'kill $started 2>/dev/null || :' EXIT
-trap 'exit 1' HUP INT TERM
-background() {
-    "$@" >>"$folder/log" 2>&1 &
-    started="$started $!"
-}
-window() { # TITLE: waits for it, and prints its number
-    for _ in $(seq 60); do
-        xdotool search --onlyvisible --name "$1" 2>/dev/null | tail -n 1 | grep . && return
-        sleep 0.5
-    done
-    echo "expected a window \"$1\"" >&2 && return 1
-}
-press() { for key in "$@"; do xdotool key "$key" && sleep 0.4; done; }
+. "$here/windows.sh"
 click() { xdotool mousemove --window "$plugin" "$1" "$2" && sleep 0.2 && xdotool click 1 && sleep 0.7; }
 silence() { import -window "$plugin" -crop 90x30+1075+12 +repage "txt:-" | md5sum; }
 value() { import -window "$plugin" -crop 70x20+314+561 +repage "txt:-" | md5sum; } # the text below the knob
