@@ -36,6 +36,10 @@ for engine in GodotPhysics3D "Jolt Physics"; do
     echo "3d/physics_engine=\"$engine\"" >>"$project/project.godot"
     godot -s floors.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1
     grep -E '^(right|WRONG)' "$project/out" || { cat "$project/out" && failed=1; }
+    for rate in 60 240; do
+        godot -s edges.gd --fixed-fps "$rate" -- "hz=$rate" >"$project/out" 2>&1 || failed=1
+        grep -E '^(right|WRONG)' "$project/out" || { cat "$project/out" && failed=1; }
+    done
     for space in 2 3; do
         [ "$engine$space" != "Jolt Physics2" ] || continue # the plane has one engine
         for shape in ball box; do

@@ -61,29 +61,44 @@ double wantedOf(const MeetingPoint& point) noexcept {
 
 } // namespace
 
-void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points) {
-    for (MeetingPoint& point : points) point.newtonSeconds = 0.0;
+namespace {
+
+// False: it does not settle, or neither body is movable.
+bool settle(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points,
+            bool isDragged) {
     Problem problem{};
     problem.count = std::min(points.size(), maxPoints);
     for (std::size_t i = 0; i < problem.count; ++i) {
         problem.wanted[i] = wantedOf(points[i]);
-        for (std::size_t j = 0; j < problem.count; ++j)
+        for (std::size_t j = 0; j < problem.count; ++j) {
+            const Vector3 push = isDragged ? points[j].normal + points[j].drag : points[j].normal;
             problem.coupling[i][j] =
-                bodies.coupling(a, b, points[i].point, points[i].normal, points[j].point, points[j].normal);
-        if (!(problem.coupling[i][i] > 0.0)) return; // neither body is movable
+                bodies.coupling(a, b, points[j].point, push, points[i].point, points[i].normal);
+        }
+        if (!(problem.coupling[i][i] > 0.0)) return false;
     }
     for (std::size_t i = 0; i < problem.count; ++i) // exact start if all points behave alike
         if (const double sum = problem.sumOf(i); sum > 0.0)
             problem.impulse[i] = std::max(0.0, problem.wanted[i] / sum);
-    double whole = 0.0;
+    double change = 0.0, whole = 0.0;
     for (int sweep = 0; sweep < mostLandingSweeps; ++sweep) {
         problem.levelSum();
-        const double change = problem.sweep();
+        change = problem.sweep();
         whole = 0.0;
         for (std::size_t i = 0; i < problem.count; ++i) whole += problem.impulse[i];
         if (change <= 1.0e-9 * whole) break;
     }
     for (std::size_t i = 0; i < problem.count; ++i) points[i].newtonSeconds = problem.impulse[i];
+    return change <= 1.0e-3 * whole;
+}
+
+} // namespace
+
+void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points) {
+    for (MeetingPoint& point : points) point.newtonSeconds = 0.0;
+    const auto isDragged = [](const MeetingPoint& point) { return point.drag.lengthSquared() > 0.0F; };
+    if (std::ranges::any_of(points, isDragged) && settle(bodies, a, b, points, true)) return;
+    settle(bodies, a, b, points, false);
 }
 
 // Gauss-Seidel sweeps over all contact points of a step.
@@ -91,6 +106,7 @@ void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::sp
 namespace {
 
 constexpr int mostMomentumSweeps = 60;
+constexpr double roughest = 1.5;  // friction per normal impulse, of rubber
 constexpr double enough = 1.0e-4; // convergence: change in a sweep, relative to the strongest impulse
 
 } // namespace
@@ -111,23 +127,24 @@ std::int32_t MomentumImpulses::know(const ReportedBodies& bodies, std::int32_t i
     return static_cast<std::int32_t>(bodies_.size()) - 1;
 }
 
-std::size_t MomentumImpulses::add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
-                                  Vector3 normal) {
-    Point made{know(bodies, a),
-               know(bodies, b),
-               normal,
-               bodies.lever(a, point, normal),
-               bodies.lever(b, point, normal),
-               0.0,
-               0.0,
-               0.0};
+MomentumImpulses::Row MomentumImpulses::rowOf(const ReportedBodies& bodies, const Point& of,
+                                              Vector3 way) const {
+    Row made{way, bodies.lever(of.idA, of.place, way), bodies.lever(of.idB, of.place, way), 0.0, 0.0, 0.0};
     const auto ease = [&](std::int32_t body, Vector3 lever) {
         if (body == none) return 0.0;
-        const Body& of = bodies_[static_cast<std::size_t>(body)];
-        return of.perKg + of.turning.between(lever, lever);
+        const Body& its = bodies_[static_cast<std::size_t>(body)];
+        return its.perKg + its.turning.between(lever, lever);
     };
-    made.perNewtonSecond = ease(made.a, made.leverA) + ease(made.b, made.leverB);
-    made.change = bodies.approach(a, b, point, normal) - bodies.approach(a, b, point, normal, true);
+    made.perNewtonSecond = ease(of.a, made.leverA) + ease(of.b, made.leverB);
+    made.change =
+        bodies.approach(of.idA, of.idB, of.place, way) - bodies.approach(of.idA, of.idB, of.place, way, true);
+    return made;
+}
+
+std::size_t MomentumImpulses::add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
+                                  Vector3 normal) {
+    Point made{a, b, know(bodies, a), know(bodies, b), point};
+    made.normal = rowOf(bodies, made, normal);
     isInPlane_ = isInPlane_ && isInPlane(made);
     points_.push_back(made);
     return points_.size() - 1;
@@ -139,71 +156,101 @@ bool MomentumImpulses::isInPlane(const Point& point) const {
         const InverseInertia& turning = bodies_[static_cast<std::size_t>(body)].turning;
         return lever.x == 0.0F && lever.y == 0.0F && turning.xz == 0.0 && turning.yz == 0.0;
     };
-    return point.normal.z == 0.0F && turnsInPlane(point.a, point.leverA) &&
-           turnsInPlane(point.b, point.leverB);
+    const Row& row = point.normal;
+    return row.way.z == 0.0F && turnsInPlane(point.a, row.leverA) && turnsInPlane(point.b, row.leverB);
 }
 
-// Speed of the body's point along the normal.
-template <bool inPlane>
-double MomentumImpulses::along(const Body& body, Vector3 normal, Vector3 lever) noexcept {
-    const auto& v = body.velocity;
-    const auto& w = body.spin;
-    const double sideways = v[0] * static_cast<double>(normal.x) + v[1] * static_cast<double>(normal.y);
-    const double turned = w[2] * static_cast<double>(lever.z);
-    if constexpr (inPlane) return sideways + turned;
-    return sideways + v[2] * static_cast<double>(normal.z) +
-           (w[0] * static_cast<double>(lever.x) + w[1] * static_cast<double>(lever.y) + turned);
-}
-
-template <bool inPlane>
-double MomentumImpulses::found(const Point& point) const {
-    const auto of = [&](std::int32_t body, Vector3 lever) {
-        return along<inPlane>(bodies_[static_cast<std::size_t>(body)], point.normal, lever);
+double MomentumImpulses::found(const Point& point, const Row& row) const {
+    const auto of = [&](std::int32_t which, Vector3 lever) {
+        if (which == none) return 0.0;
+        const Body& body = bodies_[static_cast<std::size_t>(which)];
+        const auto &v = body.velocity, &w = body.spin;
+        const double inPlane = v[0] * static_cast<double>(row.way.x) + v[1] * static_cast<double>(row.way.y),
+                     turned = w[2] * static_cast<double>(lever.z);
+        if (isInPlane_) return inPlane + turned;
+        return inPlane + v[2] * static_cast<double>(row.way.z) +
+               (w[0] * static_cast<double>(lever.x) + w[1] * static_cast<double>(lever.y) + turned);
     };
-    double sum = 0.0;
-    if (point.a != none) sum -= of(point.a, point.leverA);
-    if (point.b != none) sum += of(point.b, point.leverB);
-    return sum;
+    return of(point.b, row.leverB) - of(point.a, row.leverA);
 }
 
-template <bool inPlane>
-void MomentumImpulses::push(const Point& point, double newtonSeconds) {
+void MomentumImpulses::push(const Point& point, const Row& row, double newtonSeconds) {
     const auto on = [&](std::int32_t which, double impulse, Vector3 lever) {
         if (which == none) return;
         Body& body = bodies_[static_cast<std::size_t>(which)];
-        body.velocity[0] += impulse * body.perKg * static_cast<double>(point.normal.x);
-        body.velocity[1] += impulse * body.perKg * static_cast<double>(point.normal.y);
-        if constexpr (inPlane) {
+        body.velocity[0] += impulse * body.perKg * static_cast<double>(row.way.x);
+        body.velocity[1] += impulse * body.perKg * static_cast<double>(row.way.y);
+        if (isInPlane_) {
             body.spin[2] += impulse * body.turning.zz * static_cast<double>(lever.z);
-        } else {
-            body.velocity[2] += impulse * body.perKg * static_cast<double>(point.normal.z);
-            const std::array<double, 3> spin = body.turning.spin(impulse, lever);
-            for (std::size_t axis = 0; axis < 3; ++axis) body.spin[axis] += spin[axis];
+            return;
         }
+        body.velocity[2] += impulse * body.perKg * static_cast<double>(row.way.z);
+        const std::array<double, 3> spin = body.turning.spin(impulse, lever);
+        for (std::size_t axis = 0; axis < 3; ++axis) body.spin[axis] += spin[axis];
     };
-    on(point.a, -newtonSeconds, point.leverA);
-    on(point.b, newtonSeconds, point.leverB);
+    on(point.a, -newtonSeconds, row.leverA);
+    on(point.b, newtonSeconds, row.leverB);
 }
 
-void MomentumImpulses::solve() {
-    if (isInPlane_)
-        sweep<true>();
-    else
-        sweep<false>();
+void MomentumImpulses::strike(std::size_t point) {
+    for (const std::int32_t body : {points_[point].a, points_[point].b})
+        if (body != none) bodies_[static_cast<std::size_t>(body)].from = 1;
 }
 
-template <bool inPlane>
-void MomentumImpulses::sweep() {
+// Where bodies are that something strikes, what they stand on, and what that stands on. The bounds stay, or
+// the sweeps would not settle: friction and the impulse that bounds it would drive each other.
+void MomentumImpulses::solveFriction(const ReportedBodies& bodies) {
+    const auto from = [&](std::int32_t body) {
+        return body == none ? 0 : bodies_[static_cast<std::size_t>(body)].from;
+    };
+    for (int hop = 1; hop < 3; ++hop)
+        for (const Point& point : points_)
+            for (const auto& [one, other] : {std::pair{point.a, point.b}, std::pair{point.b, point.a}})
+                if (from(one) == hop && other != none && from(other) == 0)
+                    bodies_[static_cast<std::size_t>(other)].from = hop + 1;
+    const auto leftOf = [&](const Point& of, Vector3 way) {
+        const Row row = rowOf(bodies, of, way);
+        return static_cast<float>(row.change - found(of, row));
+    };
+    for (Point& point : points_) {
+        if (from(point.a) + from(point.b) == 0) continue;
+        const Vector3 normal = point.normal.way;
+        const Vector3 left{leftOf(point, {1.0F, 0.0F, 0.0F}), leftOf(point, {0.0F, 1.0F, 0.0F}),
+                           leftOf(point, {0.0F, 0.0F, 1.0F})};
+        const Vector3 slide = left - static_cast<float>(dot(left, normal)) * normal;
+        point.isRough = true;
+        point.mostAcross = roughest * point.normal.newtonSeconds;
+        if (!(slide.length() > 0.0F)) continue;
+        const Vector3 along = 1.0F / slide.length() * slide;
+        point.across = {rowOf(bodies, point, along), rowOf(bodies, point, cross(normal, along))};
+    }
+    sweep(true);
+}
+
+Vector3 MomentumImpulses::friction(std::size_t point) const {
+    Vector3 sum;
+    for (const Row& row : points_[point].across) sum += static_cast<float>(row.newtonSeconds) * row.way;
+    return sum;
+}
+
+double MomentumImpulses::relax(const Point& point, Row& row, double least, double most) {
+    if (!(row.perNewtonSecond > 0.0)) return 0.0;
+    const double before = row.newtonSeconds;
+    row.newtonSeconds =
+        std::clamp(before + (row.change - found(point, row)) / row.perNewtonSecond, least, most);
+    push(point, row, row.newtonSeconds - before);
+    return std::abs(row.newtonSeconds - before);
+}
+
+void MomentumImpulses::sweep(bool isRough) {
     for (int sweep = 0; sweep < mostMomentumSweeps; ++sweep) {
         double change = 0.0, strongest = 0.0;
         for (Point& point : points_) {
-            if (!(point.perNewtonSecond > 0.0)) continue;
-            const double before = point.newtonSeconds;
-            point.newtonSeconds =
-                std::max(0.0, before + (point.change - found<inPlane>(point)) / point.perNewtonSecond);
-            push<inPlane>(point, point.newtonSeconds - before);
-            change = std::max(change, std::abs(point.newtonSeconds - before));
-            strongest = std::max(strongest, point.newtonSeconds);
+            if (isRough && !point.isRough) continue;
+            change = std::max(change, relax(point, point.normal, 0.0, HUGE_VAL));
+            strongest = std::max(strongest, point.normal.newtonSeconds);
+            for (std::size_t i = 0; isRough && i < 2; ++i)
+                change = std::max(change, relax(point, point.across[i], -point.mostAcross, point.mostAcross));
         }
         if (change <= enough * strongest) return;
     }

@@ -134,15 +134,25 @@ double ReportedBodies::coupling(std::int32_t a, std::int32_t b, Vector3 point, V
     return sum;
 }
 
-double ReportedBodies::effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const {
+double ReportedBodies::effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
+                                       Vector3 drag) const {
     double perKg = 0.0;
     for (const Body* body : {&at(idOf(a)), &at(idOf(b))}) {
         if (!(body->told.massKg > 0.0)) continue;
         perKg += 1.0 / body->told.massKg;
         const Vector3 lever = cross(point - body->centre, normal);
-        perKg += turning(*body, lever, lever);
+        perKg += turning(*body, cross(point - body->centre, normal + drag), lever);
     }
     return perKg > 0.0 ? 1.0 / perKg : std::numeric_limits<double>::infinity();
+}
+
+Vector3 ReportedBodies::held(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
+                             Vector3 drag) const {
+    const double across = lengthOf(drag);
+    if (!(across > 1.0e-6)) return {};
+    const Vector3 way = static_cast<float>(1.0 / across) * drag;
+    const double most = -coupling(a, b, point, way, point, normal) / coupling(a, b, point, way, point, way);
+    return most > 0.0 && most < across ? static_cast<float>(most) * way : drag;
 }
 
 BodyFacts ReportedBodies::facts(std::uint64_t body) const {

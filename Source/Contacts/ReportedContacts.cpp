@@ -127,11 +127,9 @@ bool ReportedContacts::isKick(Pair& pair, const FedContact& contact, bool isNew)
                                             : pair.load + std::max(0.0, *contact.impulseNewtonSeconds);
     const double speed = speedOf(contact), seconds = events_.stepSeconds();
     if (!(speed > 0.0) || (!isNew && contact.gapMetres > speed * seconds)) return false;
-    const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
-    const float gravityScale = std::max(a.gravityScale(), b.gravityScale());
     constexpr double clearly = 2.5; // no elevator that starts, no rest of an impact before
-    const double beyond = speed - gravity_ * seconds * std::abs(static_cast<double>(gravityScale));
-    if (!events_.catcher().isCollision(gravityScale, beyond / clearly)) return false;
+    const double beyond = speed - gravity_ * seconds * std::abs(gravityScaleOf(pair.a, pair.b));
+    if (!isImpact(pair.a, pair.b, beyond / clearly)) return false;
     pair.approach = std::max(pair.approach, speed);
     return !isNew && speed > 2.0 * pair.lastApproach && !isHeldUp(contact.a, contact.b) &&
            !isHeldUp(contact.b, contact.a);
@@ -191,6 +189,15 @@ double ReportedContacts::supported(double bySpeed, Push push, double gainedMetre
     return bySpeed > clearly * push.second ? push.second : bySpeed;
 }
 
+double ReportedContacts::gravityScaleOf(std::int32_t a, std::int32_t b) const {
+    return static_cast<double>(
+        std::max(events_.fixtures()[a].gravityScale(), events_.fixtures()[b].gravityScale()));
+}
+
+bool ReportedContacts::isImpact(std::int32_t a, std::int32_t b, double metresPerSecond) {
+    return events_.catcher().isCollision(static_cast<float>(gravityScaleOf(a, b)), metresPerSecond);
+}
+
 double ReportedContacts::speedOf(const FedContact& contact) const {
     return contact.approachMetresPerSecond.value_or(
         bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
@@ -207,7 +214,7 @@ void ReportedContacts::passOver(const TouchingPairs::Name& pair, const FedContac
     catcher.passOver(pair.a, pair.b, std::max(0.0, std::min(1.5 * speed, change)));
     if (!std::isfinite(lighter) || !catcher.touchesSource(pair.a, pair.b)) return;
     ContactCounts& tally = catcher.tally();
-    if (catcher.isCollision(std::max(a.gravityScale(), b.gravityScale()), -speed)) {
+    if (isImpact(pair.a, pair.b, -speed)) {
         ++tally.parting;
         tally.fastestParting = std::max(tally.fastestParting, -speed);
     } else if (speed == 0.0 && !contact.approachMetresPerSecond && !(impulse > 0.0)) {
@@ -221,7 +228,7 @@ void ReportedContacts::strike(const FedContact& contact, Push push) {
     const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
     const double told = speedOf(contact);
     const double mass = contact.effectiveMassKg.value_or(
-        bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal));
+        bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal, dragOf(contact)));
     const bool isImpulseTold = contact.impulseNewtonSeconds && !contact.isSoft;
     double impulse = isImpulseTold ? *contact.impulseNewtonSeconds
                                    : mass * std::max(0.0, told) * (1.0 + contact.restitution);
@@ -235,7 +242,7 @@ void ReportedContacts::strike(const FedContact& contact, Push push) {
     // speed before.
     const bool isSpeedKnown = contact.approachMetresPerSecond || !isImpulseTold || told > 0.0;
     const double speed = isSpeedKnown ? told : impulse / std::min(a.movableMassKg(), b.movableMassKg());
-    if (!catcher.isCollision(std::max(a.gravityScale(), b.gravityScale()), speed)) {
+    if (!isImpact(pair.a, pair.b, speed)) {
         passOver(pair, contact, speed, impulse);
         return load(contact);
     }
@@ -303,6 +310,15 @@ TouchingPairs::Name ReportedContacts::nameOf(const FedContact& contact) {
 void ReportedContacts::settleTogether() {
     if (waiting_.empty()) return;
     momentum_.solve();
+    bool isAnyStruck = false;
+    for (const Waiting& each : waiting_) {
+        if (!each.isNew || each.momentum == FedPoints::none ||
+            !isImpact(slotOf(each.contact.a), slotOf(each.contact.b), speedOf(each.contact)))
+            continue;
+        momentum_.strike(static_cast<std::size_t>(each.momentum));
+        isAnyStruck = true;
+    }
+    if (isAnyStruck) momentum_.solveFriction(bodies_);
     for (Pair& pair : pairs_)
         if (pair.waiting != FedPoints::none) settle(pair);
     momentum_.clear();
@@ -313,8 +329,17 @@ FedContact ReportedContacts::withMomentum(const Waiting& each) const {
     if (each.momentum == FedPoints::none) return contact;
     contact.impulseNewtonSeconds = momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum));
     contact.tangentialNewtonSeconds = 0.0;
-    contact.frictionNewtonSeconds = {};
+    contact.frictionNewtonSeconds = momentum_.friction(static_cast<std::size_t>(each.momentum));
     return contact;
+}
+
+// Of a soft contact, as the engine's own impulse shows.
+Vector3 ReportedContacts::dragOf(const FedContact& of) const {
+    const double along = of.impulseNewtonSeconds.value_or(0.0);
+    if (!of.isSoft || !(along > 0.0)) return {};
+    const Vector3 left = inPlane(of.normal).turnedLeft();
+    const Vector3 friction = of.frictionNewtonSeconds + static_cast<float>(of.tangentialNewtonSeconds) * left;
+    return bodies_.held(of.a, of.b, of.point, of.normal, static_cast<float>(1.0 / along) * friction);
 }
 
 ReportedContacts::Push ReportedContacts::pushed(const Waiting& each) const {
@@ -326,7 +351,10 @@ ReportedContacts::Push ReportedContacts::pushed(const Waiting& each) const {
     const double gap = of.gapMetres > 0.0 ? of.gapMetres / events_.stepSeconds() : HUGE_VAL;
     const double left = std::clamp(bodies_.approach(of.a, of.b, of.point, of.normal, true), 0.0, gap);
     const double mass = bodies_.effectiveMassKg(of.a, of.b, of.point, of.normal);
-    return {pushed, pushed + (1.0 + of.restitution) * left * mass};
+    // An engine that saw the surface coming leaves what closes the gap; the next step stops that likewise.
+    const double taken = bodies_.approach(of.a, of.b, of.point, of.normal) - left;
+    const bool goesOn = of.gapMetres > 0.0 && !each.isKick && left > 0.0 && taken > 0.05 * speedOf(of);
+    return {goesOn ? pushed * speedOf(of) / taken : pushed, pushed + (1.0 + of.restitution) * left * mass};
 }
 
 // Of contacts that are not soft: the impulse of the impact is that of the new points.
@@ -391,7 +419,7 @@ void ReportedContacts::settle(Pair& pair) {
         const FedContact& contact = each->contact;
         const bool isTurned = contact.a != first.a;
         meeting_.push_back({contact.point, isTurned ? -contact.normal : contact.normal, speedOf(contact),
-                            contact.restitution, each->isNew});
+                            contact.restitution, each->isNew, 0.0, dragOf(withMomentum(*each))});
     }
     solve(bodies_, first.a, first.b, meeting_);
     strikeTogether();
@@ -424,13 +452,10 @@ void ReportedContacts::strikeTogether() {
         fastest = std::max(fastest, each.approach);
         fraction = std::min(fraction, fractionOf(together_[i]->contact, each.approach));
     }
-    const float gravityScale =
-        std::max(events_.fixtures()[pair.a].gravityScale(), events_.fixtures()[pair.b].gravityScale());
     const double share = all > 0.0 ? ofNew / all : 0.0;
     if (fastest > 0.0) ofNew = supported(ofNew, push, (1.0 + first.restitution) * fastest, fraction);
     const double impulse = first.isImpulseOfPair ? share * *first.impulseNewtonSeconds : ofNew;
-    const bool isCollision =
-        impulse > 0.0 && std::isfinite(impulse) && catcher.isCollision(gravityScale, fastest);
+    const bool isCollision = impulse > 0.0 && std::isfinite(impulse) && isImpact(pair.a, pair.b, fastest);
     if (!isCollision) passOver(pair, first, fastest > 0.0 ? fastest : fastestOfNew(), impulse);
     if (!isCollision && first.isImpulseOfPair) return load(first);
     if (!isCollision) {

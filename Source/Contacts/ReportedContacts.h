@@ -113,7 +113,10 @@ public:
 
     /// Effective mass at a contact point, kg: impulse per change of the approach speed. Infinite if neither
     /// body is movable.
-    double effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal) const;
+    double effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
+                           Vector3 drag = {}) const;
+    /// As much of a drag (friction on B for each N s along the normal) as holds the point across it.
+    Vector3 held(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal, Vector3 drag) const;
 
     BodyFacts facts(std::uint64_t body) const override;
     // The part in the plane: release timing alone asks for motions, and feeds do not have it.
@@ -157,6 +160,7 @@ struct MeetingPoint {
     double restitution = 0.0;
     bool isNew = false;
     double newtonSeconds = 0.0; ///< result of solve
+    Vector3 drag{};             ///< friction on B for each N s along the normal
 };
 
 /// Computes the impulses along the normals such that none pulls, no surfaces approach, and none is larger
@@ -169,10 +173,10 @@ void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::sp
 // report impulses.
 
 /// Finds the impulses along the normals, none of them pulling, that together explain the bodies' change of
-/// momentum (least kinetic energy of the remainder, by projected Gauss-Seidel). Friction and joints are not
-/// known; their effects are attributed to the contacts as far as they act along the normals. A body between
-/// two others has the impulses on both sides, so a row transmits an impact, and a landing on a supported body
-/// counts the whole. World thread (M); allocates only to grow.
+/// momentum (least kinetic energy of the remainder, by projected Gauss-Seidel), and then what friction
+/// explains of the rest. Joints are not known; their effects are attributed to the contacts as far as they
+/// act along the normals. A body between two others has the impulses on both sides, so a row transmits an
+/// impact, and a landing on a supported body counts the whole. World thread (M); allocates only to grow.
 class MomentumImpulses {
 public:
     void clear();
@@ -180,8 +184,13 @@ public:
     /// from 0 on.
     std::size_t add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
                     Vector3 normal);
-    void solve();
-    double newtonSeconds(std::size_t point) const { return points_[point].newtonSeconds; }
+    void solve() { sweep(false); }
+    void strike(std::size_t point); ///< Something new happens to its bodies.
+    /// After solve() and strike(): at most 1.5 times what each impulse along a normal is then, whatever the
+    /// surfaces are.
+    void solveFriction(const ReportedBodies& bodies);
+    double newtonSeconds(std::size_t point) const { return points_[point].normal.newtonSeconds; }
+    Vector3 friction(std::size_t point) const; ///< N s on B
 
 private:
     static constexpr std::int32_t none = IntegerMap::none;
@@ -190,26 +199,31 @@ private:
         InverseInertia turning;
         // changes by the impulses found so far, m/s and rad/s
         std::array<double, 3> velocity{}, spin{};
+        int from = 0; // 1: struck; 2 and 3: its neighbours, and theirs
     };
-    struct Point {
-        std::int32_t a, b;              // bodies, or none: immovable
-        Vector3 normal, leverA, leverB; // m
-        double change;                  // m/s by which the contact has reduced the approach speed
+    struct Row {
+        Vector3 way, leverA, leverB; // on B; m
+        double change; // m/s by which the contact has changed the speed of A along it, seen from B
         double perNewtonSecond, newtonSeconds;
     };
+    struct Point {
+        std::int32_t idA, idB, a, b; // bodies, or none: immovable
+        Vector3 place;
+        Row normal{};
+        std::array<Row, 2> across{};
+        double mostAcross = 0.0; // N s
+        bool isRough = false;
+    };
     std::int32_t know(const ReportedBodies& bodies, std::int32_t id);
+    Row rowOf(const ReportedBodies& bodies, const Point& point, Vector3 way) const;
     bool isInPlane(const Point& point) const;
-    // `inPlane` leaves out what is 0 there.
-    template <bool inPlane>
-    static double along(const Body& body, Vector3 normal, Vector3 lever) noexcept;
-    template <bool inPlane>
-    double found(const Point& point) const;
-    template <bool inPlane>
-    void push(const Point& point, double newtonSeconds);
-    template <bool inPlane>
-    void sweep();
+    double found(const Point& point, const Row& row) const; // of its change
+    void push(const Point& point, const Row& row, double newtonSeconds);
+    double relax(const Point& point, Row& row, double least, double most);
+    void sweep(bool isRough);
 
-    bool isInPlane_ = true; // all points: normals along x and y, spin about z alone
+    bool isInPlane_ = true; // all points: normals along x and y, spin about z alone; what is 0 there is left
+                            // out
     std::vector<Body> bodies_;
     IntegerMap bodyOf_; // by ReportedBodies::idOf()
     std::vector<Point> points_;
@@ -296,6 +310,7 @@ private:
     using Push = std::pair<double, double>; // N s of a step; the most that its impact can have had
     static constexpr Push anyPush{0.0, HUGE_VAL};
     Push pushed(const Waiting& each) const;
+    Vector3 dragOf(const FedContact& contact) const;
     double supported(double bySpeed, Push push, double gainedMetresPerSecond, double fraction) const;
     static bool waits(const FedContact& contact) noexcept {
         return contact.isSoft || contact.isImpulseOfPair || !contact.impulseNewtonSeconds;
@@ -309,6 +324,8 @@ private:
     void settle(Pair& pair);
     void settleTogether();
     double speedOf(const FedContact& contact) const;
+    double gravityScaleOf(std::int32_t a, std::int32_t b) const; // of these slots, as the next
+    bool isImpact(std::int32_t a, std::int32_t b, double metresPerSecond);
     std::int32_t slotOf(std::int32_t id) const noexcept {
         return events_.fixtures().find(ReportedBodies::idOf(id));
     }

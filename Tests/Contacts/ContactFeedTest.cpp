@@ -193,6 +193,56 @@ TEST_F(ContactFeedTest, ACollisionIsWhatTheSolverChangedAndLeft) {
     }
 }
 
+// A corner at (0.25, -0.05) from the centre; friction holds it, or is 0.1 of what goes along the normal:
+// the impulses are those of two equations for the corner's velocity.
+TEST_F(ContactFeedTest, FrictionAtAnEdgeCountsAsTheEngineShowsIt) {
+    constexpr double mass = 2.0, inertia = 0.1, speed = 3.0, x = 0.25, y = -0.05;
+    constexpr double along = 1.0 / mass + x * x / inertia, across = 1.0 / mass + y * y / inertia,
+                     both = -x * y / inertia;
+    ASSERT_EQ(feed.set(ball, {.massKg = mass, .inertiaKgSquareMetres = inertia}, camera()), "");
+    for (const bool isHeld : {true, false}) {
+        const double push = speed / (isHeld ? along - both * both / across : along - 0.1 * both);
+        const double drag = isHeld ? -both / across * push : -0.1 * push;
+        FedContact contact = landing();
+        contact.isSoft = true;
+        contact.point = {static_cast<float>(x), 0.0F};
+        beginStep(0.01);
+        const Vector2 centre{0.0F, static_cast<float>(-y)};
+        EXPECT_EQ(feed.move(ball, centre, {{0.0F, static_cast<float>(-speed)}, 0.0F}), "");
+        EXPECT_EQ(
+            feed.moved(ball, {{static_cast<float>(drag / mass), static_cast<float>(push / mass - speed)},
+                              static_cast<float>((x * push - y * drag) / inertia)}),
+            "");
+        EXPECT_EQ(feed.touch(contact), "");
+        endStep(), step();
+        EXPECT_NEAR(events().at(0).source.impulseNewtonSeconds, push, 2e-3 * push) << isHeld;
+    }
+}
+
+// Of an engine that sees the surface coming: two of three metres per second are taken in this step, by twice
+// the impulse that two free bodies would need, as the lower one stands on the ground.
+TEST_F(ContactFeedTest, AStopOverTwoStepsIsWholeOnWhatStands) {
+    constexpr std::int32_t lower = 2;
+    ASSERT_EQ(feed.set(lower, {.massKg = 2.0}, {}), "");
+    for (int k = 0; k < 3; ++k) {
+        beginStep(0.01);
+        EXPECT_EQ(feed.move(lower, {}, {}), "");
+        EXPECT_EQ(feed.moved(lower, {}), "");
+        FedContact stands{.a = ground, .b = lower}, meets{.a = lower, .b = ball, .point = {0.0F, 1.0F}};
+        stands.isSoft = meets.isSoft = true;
+        EXPECT_EQ(feed.touch(stands), "");
+        if (k == 2) {
+            EXPECT_EQ(feed.move(ball, {0.0F, 2.0F}, {{0.0F, -3.0F}, 0.0F}), "");
+            EXPECT_EQ(feed.moved(ball, {{0.0F, -1.0F}, 0.0F}), "");
+            meets.gapMetres = 0.01;
+            EXPECT_EQ(feed.touch(meets), "");
+        }
+        endStep();
+    }
+    step();
+    EXPECT_NEAR(events().at(0).source.impulseNewtonSeconds, 6.0, 0.2);
+}
+
 TEST_F(ContactFeedTest, SoftContactsHandOnWhatTheyPush) {
     constexpr std::int32_t striker = 2;
     ASSERT_EQ(feed.set(ground, {.massKg = 2.0}, {}), "");

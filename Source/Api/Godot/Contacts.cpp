@@ -115,10 +115,13 @@ Surface HapticWorld::surfaceOf(const Watched& each, int i) const {
 
 // Where it touches, or where the plane on which it rolls or lands holds it: an edge that does not stand out
 // of it, as between two tiles, strikes nothing, though Jolt's normal points there; unless the solver stops
-// it, as at a ramp's foot. In `doubt`, of a ball: the speed at which it comes down on that plane.
-Surface HapticWorld::overSeams(const Watched& each, int i, std::optional<double>& doubt) const {
+// it, as at a ramp's foot. A ball has no edges. In `doubt`, of a ball: the speed at which it comes down on
+// that plane.
+Surface HapticWorld::overSeams(const Watched& each, const Watched& met, int i,
+                               std::optional<double>& doubt) const {
     constexpr double outstanding = 0.005; // m
     const Surface own = surfaceOf(each, i);
+    if (goesThroughCentre(met, own.at, own.normal)) return own;
     const bool isRound = goesThroughCentre(each, own.at, own.normal);
     const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch a wall as high as the floor
     Surface found = own;
@@ -194,14 +197,14 @@ void HapticWorld::decide() {
 
 void HapticWorld::touch(const Watched& each, int i) {
     const BodyState& state = each.state;
+    const Watched* met = other(each, i, place(state.contactOtherPlace(i)));
+    if (met == nullptr) return;
     std::optional<double> doubt;
-    const Surface surface = overSeams(each, i, doubt);
+    const Surface surface = overSeams(each, *met, i, doubt);
     const auto& [at, there, normal, gap, isOne] = surface;
     const double before = dot(each.before, normal);
     const bool isPushed = std::abs(dot(each.change, normal)) > 1e-3 * std::abs(before) + 1e-4;
     if (!isOne || (gap > 0.0 && !isPushed)) return;
-    const Watched* met = other(each, i, there);
-    if (met == nullptr) return;
     bool isThere = getsThere(each, *met, surface);
     for (int j = 0; !isThere && j < state.contacts(); ++j) // a box that lands turns, and its other corners
                                                            // follow
