@@ -2,7 +2,7 @@
 // What a plug-in of that width plays when the transport starts at 0 (restart on play), one enchanter a
 // channel in a line, and the pattern of notes, as a host that is not in real time gets it: raw interleaved
 // floats on stdout. The folder gets the state for other hosts: state.lv2 (a preset) and state.vstpreset.
-// With a file of lines FRAME NOTE VELOCITY: what a new instance plays of these.
+// A file NOTES of lines FRAME NOTE VELOCITY takes the pattern's place.
 // Usage: physvib-plugin-bounce CHANNELS SECONDS BLOCK_FRAMES FOLDER [NOTES]
 #include "Live/NotePattern.h"
 #include "Plugin/Formats/HostStates.h"
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
     const juce::String uri =
         "urn:physvib:plugin" + (channels == 4 ? juce::String{} : ":" + juce::String{channels});
     PluginProcessor plugin{"PhysVib", {BusPlan::Kind::oneBus, channels}};
-    if (argc == 5 && !plugin.apply(inALine(plugin.state(), channels))) return 1;
+    if (!plugin.apply(inALine(plugin.state(), channels))) return 1;
     juce::MemoryBlock chunk;
     plugin.getStateInformation(chunk);
     if (!test::writeLv2Preset(chunk, uri, folder.getChildFile("state.lv2"))) return 1;

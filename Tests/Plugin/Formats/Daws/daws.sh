@@ -3,7 +3,6 @@
 # Exports of qtractor and MuSE, driven by keys and pointer under Xvfb: three of the plug-in on a stereo track, as a new instance is (Keys), and one of a probe
 # that answers when the host plays its notes. The exports are to be equal, and each note as late as is told.
 # From qtractor also four stems as first-track.md has them, of the LV2 and, where a build has it, of the CLAP: they are to be what the plug-in plays without a host.
-# The CLAP's state is saved in a session at another level, and what that one gives when it is opened again is to be the same.
 # Usage: daws.sh BUILD_FOLDER FOLDER [qtractor|muse]...
 set -eu
 build=$(realpath "$1") here=$(realpath "$(dirname "$0")")
@@ -43,7 +42,7 @@ written() { # FILE: waits until it grows no more
     say "$1: expected an export; the screen is $folder/no-file.png" && exit 1
 }
 
-export_from_qtractor() { # SESSION FILE [SAVED]
+export_from_qtractor() { # SESSION FILE [save]
     LD_PRELOAD="$folder/alsa-sequencer.so" qtractor "$1" >>"$folder/log" 2>&1 &
     daw=$!
     main=$(window '[.]qtr')
@@ -55,18 +54,22 @@ export_from_qtractor() { # SESSION FILE [SAVED]
     press ctrl+a
     xdotool type "$2" && sleep 0.5
     click "$dialog" 176 93 # the sample format: float
-    press f Return
+    press Home f Return
     click "$dialog" 263 147 # the bus
     click "$dialog" 296 345 # OK
     written "$2"
     [ -z "${3:-}" ] || { xdotool windowfocus --sync "$main" && press ctrl+s && sleep 1; }
     kill -9 $daw
 }
-stems_from_qtractor() { # PLUG-IN NAME: its four channels, and whether they are ours
-    daws session qtractor "$folder/qtractor/$2.qtr" "$1" PhysVib 4
-    export_from_qtractor "$folder/qtractor/$2.qtr" "$folder/qtractor/$2.wav"
-    sndfile-deinterleave "$folder/qtractor/$2.wav" >>"$folder/log"
-    daws stems "$folder/ours.raw" "$folder/qtractor/$2"_0?.wav
+stems_from_qtractor() { # PLUG-IN NAME: its four channels, and whether they are ours, of the state that is loaded and that qtractor has saved
+    session=$folder/qtractor/$2.qtr
+    daws session qtractor "$session" "$1" PhysVib 4 "$folder"
+    for way in loaded saved; do
+        export_from_qtractor "$session" "$folder/qtractor/$2-$way.wav" save
+        grep -q 'version="Qtractor' "$session" || { say "$session: expected that qtractor saves it" && exit 1; }
+        sndfile-deinterleave "$folder/qtractor/$2-$way.wav" >>"$folder/log"
+        daws stems "$folder/ours.raw" "$folder/qtractor/$2-${way}"_0?.wav
+    done
 }
 more_of_qtractor() {
     daws notes "$folder/qtractor/probe.wav" >"$folder/notes.txt"
