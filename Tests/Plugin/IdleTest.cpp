@@ -105,14 +105,16 @@ TEST(PluginMemory, OfAnInstanceByKind) {
     const auto order = std::make_shared<TakeSpec>();
     order->setup = sessionSetupOf(newPluginState());
     const auto& setup = order->setup;
+    const RendererSettings settings{.channels = setup.channels, .panner = setup.panner, .modes = setup.modes};
     const std::size_t bank = heapOf([&] {
         auto one = std::make_unique<ModeBank>();
-        EXPECT_TRUE(one->prepare(48000, setup.channels, InstructionSet::best, setup.modes));
+        const int gates = settings.shareOf(limits::maxGates, limits::maxModes, 256);
+        EXPECT_TRUE(one->prepare(48000, setup.channels, settings.instructions, setup.modes, gates));
         return one;
     });
     const std::size_t renderer = heapOf([&] {
         auto one = std::make_unique<HapticRenderer>();
-        EXPECT_TRUE(one->prepare({.channels = setup.channels, .panner = setup.panner, .modes = setup.modes}));
+        EXPECT_TRUE(one->prepare(settings));
         return one;
     });
     const std::size_t session = heapOf([&] {
