@@ -51,7 +51,7 @@ def state_of(uri, bounce):
 
 
 def qtractor(folder, uri, channels=2, bounce=None):
-    """As first-track.md has it: a bus of its own for the instrument, above Master, since exports have as many channels as the first bus."""
+    """As first-track.md has it: exports have as many channels as Master, which is always the first bus."""
     kind = "CLAP" if uri.endswith(".clap") else "LV2"
     state = state_of(uri, bounce) if bounce else ""
     (folder / "notes.mid").write_bytes(midi_file())
@@ -60,8 +60,7 @@ def qtractor(folder, uri, channels=2, bounce=None):
  <properties><directory>{folder}</directory><sample-rate>{RATE_HZ}</sample-rate><tempo>{60 * BEATS_PER_SECOND}</tempo><ticks-per-beat>960</ticks-per-beat>
   <beats-per-bar>4</beats-per-bar><beat-divisor>2</beat-divisor></properties>
  <devices>
-  <audio-engine><audio-bus name="Actuators" mode="output"><channels>{channels}</channels></audio-bus>
-   <audio-bus name="Master" mode="duplex"><channels>2</channels><auto-connect>1</auto-connect></audio-bus></audio-engine>
+  <audio-engine><audio-bus name="Master" mode="duplex"><channels>{channels}</channels><auto-connect>1</auto-connect></audio-bus></audio-engine>
   <midi-engine><midi-bus name="Master" mode="duplex"/></midi-engine>
  </devices>
  <tracks><track name="notes" type="midi">
@@ -69,8 +68,7 @@ def qtractor(folder, uri, channels=2, bounce=None):
   <state><gain>1</gain><panning>0</panning></state>
   <clips><clip name="notes"><properties><name>notes</name><start>0</start><offset>0</offset><length>{SECONDS * RATE_HZ}</length><gain>1</gain></properties>
    <midi-clip><filename>notes.mid</filename><track-channel>0</track-channel></midi-clip></clip></clips>
-  <plugins><plugin type="{kind}"><filename>{uri}</filename><index>0</index><activated>1</activated><configs>{state}</configs></plugin>
-   <audio-output-bus-name>Actuators</audio-output-bus-name></plugins>
+  <plugins><plugin type="{kind}"><filename>{uri}</filename><index>0</index><activated>1</activated><configs>{state}</configs></plugin></plugins>
  </track></tracks>
 </session>
 """
