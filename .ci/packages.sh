@@ -55,7 +55,7 @@ physvib_host_packages="ardour jackd2 jack-example-tools"
 # Of Tests/Plugin/Formats/apply.sh alone.
 physvib_apply_packages="lilv-utils ecasound python3"
 # Of Tests/Plugin/Formats/Daws/daws.sh alone.
-physvib_daw_packages="qtractor muse openbox xdotool imagemagick xvfb jackd2 lv2-dev libasound2-dev libqt5svg5 gcc python3-numpy"
+physvib_daw_packages="qtractor muse openbox xdotool imagemagick xvfb jackd2 lv2-dev libasound2-dev libqt5svg5 sndfile-programs gcc python3-numpy"
 physvib_validator_packages="lv2-dev sordi"
 # Of the library alone (preset "library"), for Tests/Benchmarks.
 physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libhwy-dev"

@@ -41,6 +41,7 @@ step() {
         ardour) ensure_packages $physvib_host_packages && for format in lv2 vst3; do Tests/Plugin/Formats/ardour-song.sh build/release $format || return 1; done ;;
         daws) Tests/Plugin/Formats/Daws/daws.sh build/release build/nightly/daws ;;
         keys) ensure_packages jalv openbox xdotool imagemagick xvfb jackd2 && Tests/Plugin/Formats/Daws/keys.sh build/release build/nightly/keys ;;
+        hosts) Tests/Plugin/hosts.sh build/release ;;
         apply) ensure_packages $physvib_apply_packages && Tests/Plugin/Formats/apply.sh "$PWD/build/release" ;;
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh && ensure_packages openbox && Tests/Mixer/headphones.sh $bin ;;

@@ -63,25 +63,85 @@ TEST(Idle, DISABLED_FiftyInstancesSleepAndAreSmall) {
     EXPECT_LT(preparedMegabytes, 4.0); // a renderer of four channels and what it delays
 }
 
+std::unique_ptr<PluginProcessor> prepared(int preset) {
+    auto one = std::make_unique<PluginProcessor>("PhysVib", BusPlan{});
+    if (preset >= 0) one->setCurrentProgram(preset);
+    one->setRateAndBufferSizeDetails(48000, 512);
+    one->prepareToPlay(48000, 512);
+    return one;
+}
+
+/// Of what `make` returns, while it lives.
+template <class Make>
+std::size_t heapOf(Make make) {
+    const std::size_t before = heapBytes();
+    const auto made = make();
+    return heapBytes() - before;
+}
+
 TEST(PluginMemory, APreparedInstanceTakesTwoMegabytes) {
     if (!countsHeap) GTEST_SKIP() << "only glibc counts it";
-    const auto prepared = [](int preset) {
-        auto one = std::make_unique<PluginProcessor>("PhysVib", BusPlan{});
-        if (preset >= 0) one->setCurrentProgram(preset);
-        one->setRateAndBufferSizeDetails(48000, 512);
-        one->prepareToPlay(48000, 512);
-        return one;
-    };
     prepared(0); // what the process has once
     for (int preset = -1; preset < static_cast<int>(builtInScenes().size()); ++preset) {
-        const std::size_t before = heapBytes();
-        const auto one = prepared(preset);
-        const std::size_t bytes = heapBytes() - before;
-        std::printf("an instance of the plug-in, prepared: %zu bytes, %s\n", bytes,
-                    one->state().scene.name.c_str());
+        std::string name;
+        const std::size_t bytes = heapOf([&] {
+            auto one = prepared(preset);
+            name = one->state().scene.name;
+            return one;
+        });
+        std::printf("an instance of the plug-in, prepared: %zu bytes, %s\n", bytes, name.c_str());
         // a world's with what Timing tight would else take in the render call
         EXPECT_LT(bytes, 2'000'000U);
         EXPECT_GT(bytes, 500'000U) << "it is counted";
+    }
+}
+
+TEST(PluginMemory, OfAnInstanceByKind) {
+    if (!countsHeap) GTEST_SKIP() << "only glibc counts it";
+    const auto opened = [](PluginProcessor& of) {
+        return std::unique_ptr<juce::AudioProcessorEditor>{of.createEditorIfNeeded()};
+    };
+    opened(*prepared(0)).reset(); // what the process has once
+    const auto order = std::make_shared<TakeSpec>();
+    order->setup = sessionSetupOf(newPluginState());
+    const auto& setup = order->setup;
+    const RendererSettings settings{.channels = setup.channels, .panner = setup.panner, .modes = setup.modes};
+    const std::size_t bank = heapOf([&] {
+        auto one = std::make_unique<ModeBank>();
+        const int gates = settings.shareOf(limits::maxGates, limits::maxModes, 256);
+        EXPECT_TRUE(one->prepare(48000, setup.channels, settings.instructions, setup.modes, gates));
+        return one;
+    });
+    const std::size_t renderer = heapOf([&] {
+        auto one = std::make_unique<HapticRenderer>();
+        EXPECT_TRUE(one->prepare(settings));
+        return one;
+    });
+    const std::size_t session = heapOf([&] {
+        auto one = std::make_unique<Session>(std::shared_ptr<const SessionSetup>{order, &setup});
+        one->prepare(48000, 512);
+        return one;
+    });
+    const std::size_t take =
+        heapOf([&] { return std::make_unique<Take>(order, 48000, 512, TakeTiming::safe); });
+    const std::size_t made = heapOf([] { return std::make_unique<PluginProcessor>("PhysVib", BusPlan{}); });
+    const std::size_t keys = heapOf([] { return prepared(-1); });
+    const std::size_t world = heapOf([] { return prepared(0); });
+    const auto one = prepared(-1);
+    const std::size_t editor = heapOf([&] { return opened(*one); });
+    const std::pair<const char*, std::size_t> kinds[]{
+        {"a bank of modes", bank},
+        {"the rest of a renderer: tones, recordings, limiter, events", renderer - bank},
+        {"a session's queues and inputs", session - renderer},
+        {"a take's queues", take - session},
+        {"parameters, state and presets, as made", made},
+        {"beside it: meters, guard, music", keys - made - take},
+        {"a world, Shake the box", world - keys},
+        {"an open window, beside", editor}};
+    for (const auto& [kind, bytes] : kinds) {
+        std::printf("memory of an instance: %7zu bytes, %s\n", bytes, kind);
+        EXPECT_GT(bytes, 0U) << kind;
+        EXPECT_LT(bytes, 2'000'000U) << kind;
     }
 }
 

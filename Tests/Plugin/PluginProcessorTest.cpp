@@ -69,6 +69,20 @@ TEST(PluginProcessor, HostsSeeTheParametersInTheOrderOfTheTableAndInGroups) {
     EXPECT_EQ(groups.joinIntoString(", "), "Panning, World, Strikes by notes, Side chain, Time, Instrument");
 }
 
+TEST(PluginProcessor, HostsShowAUnitOnceAndNoMinusZero) {
+    TestHost host;
+    int twice = 0;
+    for (const auto& row : allParameters()) {
+        const auto& parameter = host.plugin->parameter(row.parameter);
+        const auto shown = parameter.getText(parameter.getDefaultValue(), 0);
+        twice += parameter.getLabel().isNotEmpty() && shown.endsWith(parameter.getLabel());
+    }
+    const auto zero = valueText(rowOf(Parameter::strikeLevel), -1.43e-6);
+    std::printf("hosts show: %d units twice, \"%s\"\n", twice, zero.c_str());
+    EXPECT_EQ(twice, 0);
+    EXPECT_EQ(zero, "0.0 dB");
+}
+
 TEST(PluginProcessor, AnyRateAndAnyBlockIsFiniteAndWithinFullScale) {
     TestHost host;
     Random random{1};

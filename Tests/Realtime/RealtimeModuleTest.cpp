@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The finished VST3 modules under guard, in a bare host with every bus on: JUCE's wrapper around the render
 // call takes no memory either.
+#include "Plugin/Formats/RawLv2.h"
 #include "Plugin/Formats/RawVst3.h"
 #include "Plugin/PluginTesting.h"
 #include "Realtime/RealtimeGuard.h"
@@ -86,6 +87,28 @@ TEST(RealtimeModule, TakesNoMemoryHoweverManyNotesComeInABlock) {
             EXPECT_EQ(RealtimeGuard::count(which), 0u) << RealtimeGuard::names[which];
     }
     host.stop();
+}
+
+TEST(RealtimeModule, OfLv2TakesNoMemoryAndNoLock) {
+    RawLv2 host{256, 256};
+    host.offline = 0.0f;
+    ASSERT_TRUE(host.isLoaded());
+    host.call = [](const LV2_Descriptor& to, LV2_Handle handle, std::uint32_t frames) {
+        const RealtimeGuard guard;
+        to.run(handle, frames);
+    };
+    host.activate();
+    for (int b = -10; b < 200; ++b) {
+        if (b == 0) RealtimeGuard::forget();
+        host.run(256);
+        keepPace();
+    }
+    std::printf("LV2: %d pieces of memory and %d locks taken in 200 render calls\n",
+                static_cast<int>(RealtimeGuard::count(RealtimeGuard::allocates)),
+                static_cast<int>(RealtimeGuard::count(RealtimeGuard::locks)));
+    for (const auto which : {RealtimeGuard::allocates, RealtimeGuard::frees, RealtimeGuard::locks})
+        EXPECT_EQ(RealtimeGuard::count(which), 0u) << RealtimeGuard::names[which];
+    host.deactivate();
 }
 
 } // namespace

@@ -140,7 +140,7 @@ public:
         for (const auto& [frame, parameter, value] : points) append(*in, frame, parameter, value);
         points.clear();
         sent->atom = {static_cast<std::uint32_t>(sizeof told_ - sizeof(LV2_Atom)), idOf(LV2_ATOM__Chunk)};
-        descriptor_->run(handle_, static_cast<std::uint32_t>(frames));
+        call(*descriptor_, handle_, static_cast<std::uint32_t>(frames));
         return sent->atom.size - sizeof(LV2_Atom_Sequence_Body);
     }
     /// What every enchanter plays in that many blocks.
@@ -164,6 +164,9 @@ public:
     std::array<std::vector<float>, channels> out;
     std::array<float, parameterCount> controls{}; ///< the parameters' ports, each in its unit
     float latency = 0.0f, offline = 1.0f, enabled = 1.0f;
+    /// How a block is run.
+    void (*call)(const LV2_Descriptor& to, LV2_Handle handle, std::uint32_t frames) =
+        [](const LV2_Descriptor& to, LV2_Handle handle, std::uint32_t frames) { to.run(handle, frames); };
 
 private:
     struct PatchSet { // as a forge would write it

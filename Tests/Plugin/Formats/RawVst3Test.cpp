@@ -283,6 +283,9 @@ TEST(RawVst3, ExpressionOfANoteIsHeardAndUnsortedEventsAreSorted) {
     pan(7, 0.0, 0), host.process();
     for (int b = 0; b < 20; ++b) host.process();
     const auto left = peaksAfter(host, [&] { pan(8, 1.0, 0); });
+    std::printf("VST3, a note's pan: left %.3f, right %.3f; before %.3f, %.3f\n",
+                static_cast<double>(left[0]), static_cast<double>(left[1]), static_cast<double>(middle[0]),
+                static_cast<double>(middle[1]));
     EXPECT_GT(left[0], 10.0f * left[1]) << "another note's pan moves nothing";
     const auto off = peaksAfter(host, [&] { // the off comes later, and is said first
         host.note(57, 300), host.event().type = vst::Event::kNoteOffEvent;

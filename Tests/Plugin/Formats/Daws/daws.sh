@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Exports of qtractor and MuSE, driven by keys and pointer under Xvfb: three of the plug-in on a stereo track, as a new instance is (Keys), and one of a probe
 # that answers when the host plays its notes. The exports are to be equal, and each note as late as is told.
+# From qtractor also four stems as first-track.md has them, of the LV2 and, where a build has it, of the CLAP: they are to be what the plug-in plays without a host.
 # Usage: daws.sh BUILD_FOLDER FOLDER [qtractor|muse]...
 set -eu
 build=$(realpath "$1") here=$(realpath "$(dirname "$0")")
@@ -18,7 +19,7 @@ mkdir -p "$folder/lv2/onset-probe.lv2"
 gcc -shared -fPIC -O2 -o "$folder/lv2/onset-probe.lv2/onset-probe.so" "$here/onset-probe.c"
 cp "$here/onset-probe.ttl" "$folder/lv2/onset-probe.lv2/manifest.ttl"
 gcc -shared -fPIC -o "$folder/alsa-sequencer.so" "$here/alsa-sequencer.c"
-ln -sfn "$build/plugins/PhysVib-2.lv2" "$folder/lv2/PhysVib-2.lv2"
+for width in PhysVib PhysVib-2; do ln -sfn "$build/plugins/$width.lv2" "$folder/lv2/$width.lv2"; done
 daws() { /usr/bin/python3 "$here/daws.py" "$@"; }
 
 . "$here/windows.sh"
@@ -41,7 +42,7 @@ written() { # FILE: waits until it grows no more
     say "$1: expected an export; the screen is $folder/no-file.png" && exit 1
 }
 
-export_from_qtractor() { # SESSION FILE
+export_from_qtractor() { # SESSION FILE [save]
     LD_PRELOAD="$folder/alsa-sequencer.so" qtractor "$1" >>"$folder/log" 2>&1 &
     daw=$!
     main=$(window '[.]qtr')
@@ -53,11 +54,29 @@ export_from_qtractor() { # SESSION FILE
     press ctrl+a
     xdotool type "$2" && sleep 0.5
     click "$dialog" 176 93 # the sample format: float
-    press f Return
+    press Home f Return
     click "$dialog" 263 147 # the bus
     click "$dialog" 296 345 # OK
     written "$2"
+    [ -z "${3:-}" ] || { xdotool windowfocus --sync "$main" && press ctrl+s && sleep 1; }
     kill -9 $daw
+}
+stems_from_qtractor() { # PLUG-IN NAME: its four channels, and whether they are ours, of the state that is loaded and that qtractor has saved
+    session=$folder/qtractor/$2.qtr
+    daws session qtractor "$session" "$1" PhysVib 4 "$folder"
+    for way in loaded saved; do
+        export_from_qtractor "$session" "$folder/qtractor/$2-$way.wav" save
+        grep -q 'version="Qtractor' "$session" || { say "$session: expected that qtractor saves it" && exit 1; }
+        sndfile-deinterleave "$folder/qtractor/$2-$way.wav" >>"$folder/log"
+        daws stems "$folder/ours.raw" "$folder/qtractor/$2-${way}"_0?.wav
+    done
+}
+more_of_qtractor() {
+    daws notes "$folder/qtractor/probe.wav" >"$folder/notes.txt"
+    "$build/bin/physvib-plugin-bounce" 4 9 64 "$folder" "$folder/notes.txt" >"$folder/ours.raw"
+    stems_from_qtractor urn:physvib:plugin lv2
+    [ -e "$build/plugins/PhysVib.clap" ] || { echo 'no CLAP in this build' && return; }
+    stems_from_qtractor "$build/plugins/PhysVib.clap" clap
 }
 export_from_muse() {
     muse "$1" >>"$folder/log" 2>&1 &
@@ -96,5 +115,6 @@ for daw in "${@:-qtractor muse}"; do
         for i in 1 2 3; do export_from_"$name" "$folder/$name/physvib.$extension" "$folder/$name/export-$i.wav"; done
         echo "$name"
         daws compare $told "$folder/$name/probe.wav" "$folder/$name"/export-?.wav
+        [ "$name" != qtractor ] || more_of_qtractor
     done
 done

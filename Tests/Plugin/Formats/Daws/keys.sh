@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Keys typed into the plug-in's window in jalv (GTK 3) under Xvfb: what is typed into a value box is the box's, at once, after a click elsewhere and after a list was
-# open; Esc silences. A row per window manager, of those that are installed; pictures stay. Usage: keys.sh BUILD_FOLDER FOLDER [none|openbox|metacity|icewm]...
+# open; Esc closes a list and silences nothing, then it silences. A row per window manager, of those that are installed; pictures stay. Usage: keys.sh BUILD_FOLDER FOLDER [none|openbox|metacity|icewm]...
 set -eu
 build=$(realpath "$1") here=$(realpath "$(dirname "$0")")
 mkdir -p "$2"
@@ -17,20 +17,26 @@ silence() { import -window "$plugin" -crop 90x30+1075+12 +repage "txt:-" | md5su
 value() { import -window "$plugin" -crop 70x20+314+561 +repage "txt:-" | md5sum; } # the text below the knob
 fault() { faults="$faults; $1"; }
 try() { # MANAGER
-    faults=''
+    faults='' typed=0 closed=0
     jalv.gtk3 urn:physvib:plugin >>"$folder/log" 2>&1 &
     host=$!
     plugin=$(window '^jalv.gtk3$')
     sleep 3
     for way in at-once after-a-click after-a-list; do
         [ $way = at-once ] || click 200 250
-        [ $way != after-a-list ] || { click 120 22 && press Escape; }
-        for typed in 3 6; do
+        [ $way != after-a-list ] || {
+            before=$(silence)
+            click 120 22
+            press Escape
+            sleep 0.5
+            [ "$(silence)" = "$before" ] && closed=1 || fault 'Esc that closes a list silences'
+        }
+        for key in 3 6; do
             before=$(value)
             click 349 571
-            press BackSpace $typed Return
+            press BackSpace $key Return
             sleep 0.5
-            [ "$(value)" != "$before" ] || fault "$way: $typed is not the value"
+            [ "$(value)" != "$before" ] && typed=$((typed + 1)) || fault "$way: $key is not the value"
         done
         import -window root "$folder/$1-$way.png"
     done
@@ -40,7 +46,7 @@ try() { # MANAGER
     sleep 0.5
     [ "$(silence)" != "$before" ] || fault 'Esc did not silence'
     kill -9 $host
-    printf '%-9s %s\n' "$1" "${faults:-; right}" | sed 's/; / /'
+    printf '%-9s %s of 6 values typed, %s of 1 lists closed by Esc without silence%s\n' "$1" "$typed" "$closed" "$faults"
     [ -z "$faults" ] || failed=1
 }
 
