@@ -30,7 +30,9 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
             for (const UnfinishedRun& run : unfinishedRuns(trials.value))
                 if (run.isAdaptive &&
                     std::erase_if(data.value.conditions.front().trials, [&](const LevelTrial& trial) {
-                        return trial.participant == run.participant && trial.condition == run.condition &&
+                        return trial.participant == run.participant &&
+                               (trial.condition == run.condition ||
+                                trial.condition == inSession(run.condition, run.session)) &&
                                trial.session.substr(0, trial.session.find('/')) == run.session;
                     }) > 0)
                     data.value.warnings.push_back(run.words());

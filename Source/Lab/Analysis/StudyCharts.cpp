@@ -84,37 +84,40 @@ std::string mergedChart(ChartFrame frame, const ConditionResolution& one) {
     return countsChart(std::move(frame), merged(one.counts, merge));
 }
 
-std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
-                        const std::vector<std::string>& groups,
-                        const std::vector<const ChoiceSummary*>& summaries, bool ofMedians) {
-    BarChart chart{std::move(frame), groupsWords, "chosen (%)", groups, {}};
-    for (const auto& share : summaries.front()->shares) chart.series.push_back({share.alternative, {}});
-    for (std::size_t i = 0; i < summaries.size(); ++i)
+std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries, bool ofMedians) {
+    BarChart chart{std::move(frame), "condition", "chosen (%)", {}, {}};
+    for (const auto& share : summaries.front().shares) chart.series.push_back({share.alternative, {}});
+    for (const ChoiceSummary& summary : summaries) {
+        chart.groups.push_back(summary.condition);
         for (std::size_t s = 0; s < chart.series.size(); ++s) {
-            const ChoiceShare& share = summaries[i]->shares[s];
+            const ChoiceShare& share = summary.shares[s];
             const RankInterval by = ofMedians ? share.ofMedian : RankInterval{share.least, share.most};
             chart.series[s].bars.push_back(ChartValue{100.0 * (ofMedians ? share.median : share.share),
                                                       100.0 * by.least, 100.0 * by.most});
         }
+    }
     chart.most = 100.0;
     chart.reference = {100.0 / static_cast<double>(chart.series.size()), "chance"};
     return barChart(chart);
 }
 
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
-                        const std::vector<const RatingSummary*>& summaries) {
+                        const std::vector<RatingSummary>& summaries) {
     BarChart chart{std::move(frame), "condition", "mean score", {}, {}};
     for (const std::string& scale : scales) chart.series.push_back({scale, {}});
-    for (const RatingSummary* const summary : summaries) {
-        chart.groups.push_back(summary->condition);
+    for (const RatingSummary& summary : summaries) {
+        chart.groups.push_back(summary.condition);
         for (std::size_t s = 0; s < scales.size(); ++s)
             chart.series[s].bars.push_back(
-                std::isnan(summary->means[s])
+                std::isnan(summary.means[s])
                     ? std::nullopt
-                    : std::optional{ChartValue::around(summary->means[s], summary->halfIntervals[s])});
+                    : std::optional{ChartValue::around(summary.means[s], summary.halfIntervals[s])});
         // scores of some points have an axis of their own
-        if (std::ranges::any_of(summary->means, [](double mean) { return mean > 11.0; })) chart.most = 100.0;
+        if (std::ranges::any_of(summary.means, [](double mean) { return mean > 11.0; })) chart.most = 100.0;
     }
+    std::erase_if(chart.series, [](const BarSeries& one) { // not asked in this session
+        return std::ranges::none_of(one.bars, [](const auto& bar) { return bar.has_value(); });
+    });
     return barChart(chart);
 }
 

@@ -31,14 +31,14 @@ std::string countsChart(ChartFrame frame, const PercentCounts& counts);
 /// Counts of the largest merged grid, with its size in the title. Precondition: such a grid was found.
 std::string mergedChart(ChartFrame frame, const ConditionResolution& one);
 
-/// One bar per alternative and summary: the mean of the participants' shares, or their median.
-std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
-                        const std::vector<std::string>& groups,
-                        const std::vector<const ChoiceSummary*>& summaries, bool ofMedians = false);
+/// One bar per alternative and summary, which have the same alternatives: the mean of the participants'
+/// shares, or their median.
+std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries,
+                        bool ofMedians = false);
 
 /// Mean scores of conditions, one series per scale.
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
-                        const std::vector<const RatingSummary*>& summaries);
+                        const std::vector<RatingSummary>& summaries);
 
 /// Bars of one series, shares in percent or levels; `valueWords` includes the unit.
 std::string barsChart(ChartFrame frame, const std::string& groupsWords, const std::string& valueWords,

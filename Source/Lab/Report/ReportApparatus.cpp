@@ -118,12 +118,18 @@ std::vector<double> numbersOf(std::string_view cell) {
 }
 
 /// A sentence on a column of the table of tellDoses(), followed by a space.
-std::string meaningOf(std::string_view column, const std::vector<std::string>& moved) {
-    if (column == "level_db")
-        return "level_db: in dB of " +
-               (moved.empty() ? "the condition's own level, or of a call's full scale"
-                              : listed(moved) + " at 0 dB (a ratio: 20 dB is 10 times as much)") +
-               "; where participants set a level, that at the start. ";
+std::string meaningOf(std::string_view column, const Moved& all) {
+    if (column == "level_db") {
+        std::string words = "level_db: ";
+        for (const auto& [moved, conditions] : all)
+            words.append(words.size() > 10 ? "; " : "")
+                .append(all.size() > 1 ? "of " + listed(conditions) + " " : std::string{})
+                .append(isLevelItself(moved) ? "what {level_db} is in the call"
+                        : moved.empty()
+                            ? "in dB of the condition's own level, or of a call's full scale"
+                            : "in dB of " + listed(moved) + " at 0 dB (a ratio: 20 dB is 10 times as much)");
+        return words + "; where participants set a level, that at the start. ";
+    }
     if (column == trialColumns::peakG)
         return "peak_g: the peak of the signal that left for the strongest actuator, of each part of a "
                "trial, times the full scale that its layout states, in g. ";
@@ -174,8 +180,7 @@ void tellDoses(ReportBuilder& report) {
     ExportTable table{"levels-and-exposure", report.isSimulated(),
                       "condition,session,measure,values,least,mean,most"};
     std::string meanings;
-    const auto moved =
-        report.trials.protocol ? movedBesideStrength(*report.trials.protocol) : std::vector<std::string>{};
+    const auto moved = report.trials.protocol ? movedIn(*report.trials.protocol) : Moved{{}};
     for (const std::string& column : all.columns) {
         if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
         std::map<std::pair<std::string, std::string>, std::vector<double>> values;

@@ -151,9 +151,10 @@ void tellPlaceErrors(ReportBuilder& report);    ///< targets without a grid: con
 void tellChoices(ReportBuilder& report);        ///< Fig. 5.8, 5.9
 void tellRatings(ReportBuilder& report);        ///< Fig. 5.13, 5.14
 void tellLevels(ReportBuilder& report); ///< staircases, adjustments, magnitudes; psychometric functions
-/// A chart of each condition's answers and functions. Of QUEST+, `quest` has the thresholds.
+/// A chart of each condition's answers and functions, if somebody has one. Of QUEST+, `quest` has the
+/// thresholds.
 void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const PsychometricModel& model,
-                   const FitWords& words, const std::vector<LevelSummary>& quest = {});
+                   const FitWords& words, bool isFitted, const std::vector<LevelSummary>& quest = {});
 /// Counts answers in words by stimulus; true if there are any.
 bool tellDescriptions(ReportBuilder& report);
 

@@ -49,11 +49,12 @@ void tellThresholds(ReportBuilder& report, const StudyFiles& tables,
     AnalysisJob fit = report.optionsFor(trialsTable);
     fit.made = &tables;
     fit.model = modelOf(report.trials);
-    if (quest.empty()) report.analysis("psychometric", fit, "psychometric.csv");
+    const bool isFitted =
+        !quest.empty() || report.analysis("psychometric", fit, "psychometric.csv").error.empty();
     const NamedText file{tables.at(trialsTable), trialsTable};
     const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
-    tellFunctions(report, data.value, fit.model, fitWords(report.trials.columns), quest);
+    tellFunctions(report, data.value, fit.model, fitWords(report.trials.columns), isFitted, quest);
 }
 
 void tellMagnitudes(ReportBuilder& report) {
@@ -73,12 +74,17 @@ void tellMagnitudes(ReportBuilder& report) {
 }
 
 std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
-    const ChartFrame frame = report.frame("Matched levels");
+    std::vector<LevelSummary> matches = summaries;
+    std::erase_if(matches, [](const auto& s) { return s.kind != LevelTrial::Kind::adjustment; });
+    if (matches.size() < 2) return {};
+    const bool isOne = std::ranges::count(matches, matches.front().condition, &LevelSummary::condition) ==
+                       std::ssize(matches);
     std::vector<std::pair<std::string, ChartValue>> bars;
-    for (const LevelSummary& s : summaries)
-        if (s.kind == LevelTrial::Kind::adjustment)
-            bars.emplace_back(s.stimulus, ChartValue::around(s.estimate, s.halfInterval));
-    return bars.size() < 2 ? std::string{} : barsChart(frame, "stimulus", "level (dB)", bars);
+    for (const LevelSummary& s : matches)
+        bars.emplace_back(isOne ? s.stimulus : s.condition + ", " + s.stimulus,
+                          ChartValue::around(s.estimate, s.halfInterval));
+    return barsChart(report.frame("Matched levels"), isOne ? "stimulus" : "condition, stimulus", "level (dB)",
+                     bars);
 }
 
 /// Warns about adjustments at the end of their range, which may have been limited by it.
@@ -104,7 +110,7 @@ void tellEndsOfRanges(ReportBuilder& report) {
 } // namespace
 
 void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const PsychometricModel& model,
-                   const FitWords& words, const std::vector<LevelSummary>& quest) {
+                   const FitWords& words, bool isFitted, const std::vector<LevelSummary>& quest) {
     std::vector<std::string> charts;
     for (const auto& condition : data.conditions)
         if (const auto* const told = conditionNamed(quest, condition.name); told || quest.empty())
@@ -112,10 +118,11 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, co
                 report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
                 condition.trials, model, words, told));
     std::string caption = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
-                          ". Circles: all participants' trials, larger where there were more; ";
+                          ". Circles: all participants' trials, larger where there were more";
+    if (!isFitted) return report.page.figure(charts, caption + ".");
     const bool isAdaptive = data.conditions.front().trials.front().isAdaptive;
-    caption += isAdaptive ? "no functions are drawn, as answers chose the levels. "
-                          : "thin lines: the function of each participant who has one; thick: the mean of "
+    caption += isAdaptive ? "; no functions are drawn, as answers chose the levels. "
+                          : "; thin lines: the function of each participant who has one; thick: the mean of "
                             "the thresholds and that of the widths that there are. ";
     caption += report.people() > 1 ? "Dotted: mean threshold, shaded its 95 % interval over participants. "
                                    : "Dotted: threshold. ";

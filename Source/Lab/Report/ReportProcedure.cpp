@@ -320,7 +320,8 @@ void tellProvenance(ReportBuilder& report) {
                                                                     {"hash", "hash of the protocol: "},
                                                                     {"seed", "seed of all orders: "}})
         if (const auto value = report.trials.common(key); !value.empty()) facts.push_back(words + value);
-    if (report.people() > 1) facts.emplace_back("intervals over participants: Student's t");
+    if (report.people() > 1)
+        facts.emplace_back("intervals over participants: Student's t, unless they are named");
     report.page.list(facts);
     report.page.paragraph(
         "Every table below is CSV with names of columns in its second line, after one of its origin.");

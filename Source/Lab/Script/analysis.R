@@ -450,10 +450,15 @@ study <- function(study, scales = character(), points = character()) {
     sessions <- if (is.told) unique(own$session) else ""
     for (s in sessions) run(if (is.told) own[own$session == s, ] else own, if (length(sessions) > 1) paste(" in", s) else "")
   }
-  from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) {
-    own <- table.of(file)
-    for (m in measures) compare(paste0(if (m %in% names(spoken)) spoken[[m]] else m, words), own, m, columns = columns)
+  parts.in <- function(own, run) { # a table's conditions are "low in second" where sessions are parted
+    word <- rep("", nrow(own))
+    for (s in unique(d$session)) word[endsWith(own$condition, paste(" in", s))] <- paste(" in", s)
+    own$condition <- substring(own$condition, 1, nchar(own$condition) - nchar(word))
+    for (w in unique(word)) run(own[word == w, ], w)
   }
+  from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) parts.in(table.of(file), function(own, session) {
+    for (m in measures) compare(paste0(if (m %in% names(spoken)) spoken[[m]] else m, words, session), own, m, columns = columns)
+  })
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
@@ -497,10 +502,9 @@ study <- function(study, scales = character(), points = character()) {
     own <- setdiff(unique(results$test), before)
     across(own, "scales", if (any(results$statistic[results$test %in% own] %in% c("F", "chi-squared"))) c("F", "chi-squared") else c("V", "W"))
   }
-  if (file.exists("thresholds.csv")) {
-    own <- table.of("thresholds.csv")
-    for (m in unique(own$method)) compare(paste("threshold by", m), own[own$method == m, ], "threshold", columns = c("group", "condition"))
-  } else from("psychometric.csv", c("threshold", "jnd"))
+  if (file.exists("thresholds.csv")) parts.in(table.of("thresholds.csv"), function(own, session) {
+    for (m in unique(own$method)) compare(paste0("threshold by ", m, session), own[own$method == m, ], "threshold", columns = c("group", "condition"))
+  }) else from("psychometric.csv", c("threshold", "jnd"))
   from("psychometric-stimuli.csv", c("threshold", "jnd"))
   if (!is.told && !any(file.exists(c("identification.csv", "psychometric.csv")))) each("", "correct", function(own, words) compare("share of right answers", own, "correct"))
   each("adjust", "value", function(own, words) if (is.told) compare(paste0("matched levels", words), own, "value"))

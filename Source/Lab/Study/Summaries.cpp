@@ -177,6 +177,14 @@ Groups<Trial> byFactor(const std::vector<Trial>& trials, const Groups<Trial>& co
 
 } // namespace
 
+std::string alikeWords(const std::vector<ChoiceSummary>& summaries) {
+    for (const ChoiceSummary& one : summaries)
+        if (one.participants > 1 &&
+            std::ranges::any_of(one.shares, [&](const auto& s) { return one.areAlike(s); }))
+            return ", Wilson's of as many people where all chose alike";
+    return {};
+}
+
 std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials) {
     std::vector<const ChoiceTrial*> all;
     std::set<std::string> alternatives;

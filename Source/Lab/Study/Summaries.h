@@ -111,11 +111,16 @@ struct ChoiceShare {
 };
 
 struct ChoiceSummary {
-    std::string condition; ///< "all": all conditions together
+    std::string condition; ///< "all": all conditions of a session together
     std::size_t participants = 0;
     std::uint64_t trials = 0;
     std::vector<ChoiceShare> shares; ///< by name of the alternative
+
+    bool areAlike(const ChoiceShare& share) const noexcept { return share.hits == 0 || share.hits == trials; }
 };
+
+/// Where Student's t has no width, ": Wilson's where all chose alike"; else empty. Any thread.
+std::string alikeWords(const std::vector<ChoiceSummary>& summaries);
 
 /// First all trials together. With several conditions, then each factor of names like "pair=wood size=small"
 /// and each condition, sorted by name. Any thread (allocates).
