@@ -5,7 +5,9 @@
 #include "Lab/Study/Psychometric.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -43,7 +45,8 @@ void tell(std::ostream& out, const LevelSummary& s) {
     if (s.halfInterval > 0.0)
         out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to "
             << fixedNumber(s.estimate + s.halfInterval, 1) << " dB"
-            << (s.participants > 1 ? " over participants" : " of what is still possible");
+            << (s.participants > 1 ? " over participants"
+                                   : " (1.96 standard deviations of what is still possible)");
     out << ", " << counted(s.trials, "trial") << " of "
         << counted(isThreshold ? s.thresholds.size() : s.participants, "participant");
     if (s.kind == LevelTrial::Kind::staircase)
@@ -83,6 +86,18 @@ void analyseRatings(const RatingData& data, const Findings& to) {
     auto& [job, report, out, table] = to;
     const auto& scales = data.scales;
     const auto summaries = bySession(data, summariseRatings);
+    std::map<std::array<std::string, 3>, std::size_t> lacking; // session, participant, scale
+    for (const auto& session : data.conditions)
+        for (std::size_t s = 0; s < scales.size(); ++s) {
+            const auto isEmpty = [s](const RatingTrial& trial) { return std::isnan(trial.scores[s]); };
+            if (!std::ranges::all_of(session.trials, isEmpty))
+                for (const RatingTrial& trial : session.trials)
+                    if (isEmpty(trial)) ++lacking[{session.name, trial.participant, scales[s]}];
+        }
+    for (const auto& [where, count] : lacking)
+        report.warnings.push_back(inSession("participant " + where[1], where[0]) + ": " +
+                                  counted(count, "trial") + " without a score of " + printable(where[2]) +
+                                  ", left out of its means and tests");
     std::set<bool> intervals; // true: over participants
     for (const auto& summary : summaries) {
         if (std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; }))
@@ -134,7 +149,16 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
                "together; intervals are Student's t and the error of these widths\n";
     report.participants = each.text();
     report.picture = [summaries, isSimulated = data.isSimulated] {
-        return chartSheet(levelCharts(summaries, isSimulated));
+        using Kind = LevelTrial::Kind;
+        std::vector<std::string> charts;
+        for (const auto& [kind, title] :
+             {std::pair{Kind::staircase, "Thresholds, mean of the later reversals"},
+              {Kind::adjustment, "Matched levels"},
+              {Kind::magnitude, "Magnitudes"},
+              {Kind::quest, "Thresholds by QUEST+"}})
+            charts.push_back(levelChart({chartName(charts.size()), title, isSimulated}, summaries, kind));
+        std::erase(charts, std::string{});
+        return chartSheet(charts);
     };
 }
 
@@ -202,7 +226,6 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
     bool isFitted = false;
     for (const auto& condition : data.conditions) {
         std::vector<double> thresholds, jnds;
-        const bool isAdaptive = condition.trials.front().isAdaptive;
         for (const LevelCount& at :
              countByLevel(condition.trials, [](const LevelAnswer& one) { return one.counted(); }))
             if (isBelowGuess(at, o.model.guess)) {
@@ -221,7 +244,7 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
                 return own.fit.hasJnd ? std::optional{slope} : std::nullopt;
             };
             thresholds.push_back(f.threshold);
-            if (own.fit.hasJnd || isAdaptive)
+            if (own.fit.hasJnd)
                 jnds.push_back(f.jnd());
             else
                 warnOf(
@@ -235,12 +258,10 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
         isFitted = true;
         const int decimals = decimalsOf(Moments(jnds.empty() ? thresholds : jnds).mean);
         out << prefixOf(condition.name) << meanWords("threshold", thresholds, decimals) << ", "
-            << (isAdaptive ? "no JND (answers chose the levels, which makes slopes too steep)"
-                : jnds.empty()
-                    ? "no JND (a step fits as well)"
-                    : meanWords("JND", jnds, decimals) + (jnds.size() < thresholds.size()
-                                                              ? " (n = " + std::to_string(jnds.size()) + ")"
-                                                              : ""))
+            << (jnds.empty() ? "no JND (a step fits as well)" : meanWords("JND", jnds, decimals))
+            << (!jnds.empty() && jnds.size() < thresholds.size()
+                    ? " (n = " + std::to_string(jnds.size()) + ")"
+                    : "")
             << ", " << counted(thresholds.size(), "participant") << '\n';
     }
     if (!isFitted) return tellNobodyFitted(to);

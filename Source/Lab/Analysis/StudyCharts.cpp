@@ -133,29 +133,16 @@ std::string barsChart(ChartFrame frame, const std::string& groupsWords, const st
     return barChart(chart);
 }
 
-std::vector<std::string> levelCharts(std::span<const LevelSummary> summaries, bool isSimulated) {
-    using Kind = LevelTrial::Kind;
-    struct Words {
-        Kind kind;
-        const char *title, *value;
-    };
-    constexpr Words kinds[] = {{Kind::staircase, "Thresholds", "level (dB), mean of the later reversals"},
-                               {Kind::adjustment, "Matched levels", "level (dB)"},
-                               {Kind::magnitude, "Magnitudes", "geometric mean"},
-                               {Kind::quest, "Thresholds by QUEST+", "level (dB)"}};
-    std::vector<std::string> charts;
-    for (const Words& words : kinds) {
-        std::vector<std::pair<std::string, ChartValue>> bars;
-        for (const LevelSummary& s : summaries)
-            if (s.kind == words.kind && !std::isnan(s.estimate))
-                bars.emplace_back(
-                    s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
-                    ChartValue::around(s.estimate, s.kind == Kind::magnitude ? 0.0 : s.deviation));
-        if (bars.empty()) continue;
-        const ChartFrame frame{chartName(charts.size()), words.title, isSimulated};
-        charts.push_back(barsChart(frame, "lines: one standard deviation", words.value, bars));
-    }
-    return charts;
+std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind) {
+    const bool isMagnitude = kind == LevelTrial::Kind::magnitude;
+    std::vector<std::pair<std::string, ChartValue>> bars;
+    for (const LevelSummary& s : summaries)
+        if (s.kind == kind && !std::isnan(s.estimate))
+            bars.emplace_back(s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
+                              ChartValue::around(s.estimate, s.halfInterval));
+    return bars.empty() ? std::string{}
+                        : barsChart(std::move(frame), isMagnitude ? "" : "lines: 95 % intervals",
+                                    isMagnitude ? "geometric mean" : "level (dB)", bars);
 }
 
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results) {
@@ -239,13 +226,11 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
     LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
-    const bool isAdaptive = trials.front().isAdaptive; // the slopes of its functions are no result
-    for (const auto& own : psychometricByParticipant(trials, model)) {
+    for (const auto& own : psychometricByParticipant(told ? std::vector<LevelAnswer>{} : trials, model)) {
         if (!own.fit.fault.empty()) continue;
         thresholds.push_back(own.fit.function.threshold);
-        if (own.fit.hasJnd || isAdaptive) widths.push_back(own.fit.function.width);
+        if (own.fit.hasJnd) widths.push_back(own.fit.function.width);
         lapses.push_back(own.fit.function.lapse);
-        if (isAdaptive) continue;
         chart.series.push_back(curve(own.fit.function, least, most));
         chart.series.back().isFaint = true;
     }
@@ -262,7 +247,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
             ChartValue::around(told->estimate, told->participants > 1 ? told->halfInterval : 0.0);
         chart.thresholdWords = "threshold " + fixedNumber(told->estimate, 1);
     } else if (!thresholds.empty()) {
-        if (!isAdaptive && !widths.empty()) {
+        if (!widths.empty()) {
             LineSeries mean =
                 curve(model.with(meanOf(thresholds), meanOf(widths), meanOf(lapses)), least, most);
             mean.name = "function of the mean threshold and width";

@@ -45,13 +45,13 @@ std::string barsChart(ChartFrame frame, const std::string& groupsWords, const st
                       const std::vector<std::pair<std::string, ChartValue>>& bars,
                       std::optional<double> most = {});
 
+/// Means of one kind, of each condition and stimulus; empty if there are none.
+std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind);
+
 /// Name of the chart with that number in a picture.
 inline std::string chartName(std::size_t number) { return "chart" + std::to_string(number); }
 
 // Functions that return several charts for a picture:
-
-/// Thresholds, adjusted levels and magnitudes: one chart per kind, with standard deviations for values in dB.
-std::vector<std::string> levelCharts(std::span<const LevelSummary> summaries, bool isSimulated);
 
 /// Gamma over frequency: one chart per axis, one curve per layer, or per voltage of a single one.
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results);

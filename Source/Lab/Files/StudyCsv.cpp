@@ -196,7 +196,8 @@ void nameKinds(std::vector<Trial>& trials, std::string Trial::*kind, const std::
         conditions.emplace(condition), stimuli.emplace(stimulus);
     }
     const auto words = [](const char* name, std::string_view cell) {
-        return (cell.find('=') == std::string_view::npos ? std::string{name} + "=" : "") + std::string{cell};
+        return (cell.substr(0, cell.find(' ')).find('=') == cell.npos ? std::string{name} + "=" : "") +
+               std::string{cell};
     };
     for (Trial& trial : trials) {
         const auto [condition, stimulus] = parts(trial.*kind);
@@ -215,6 +216,7 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
                participant = rows.optional("participant");
     const auto correct = rows.optional("correct"), level = rows.optional("level_db");
+    const auto parts = rows.optional("parts");
     const bool isOwn = rows.optional(trialColumns::task).has_value();
     std::size_t taken = 0;
     rows.each(AnswerKind::choice, [&](const CsvRow& row) {
@@ -223,7 +225,8 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
         ++taken;
         conditionNamed(rows, data, rows.sessionOf(row))
             .push_back({StudyRows::textIf(row, participant),
-                        kindOf(row, stimulus, StudyRows::textIf(row, condition)), rows.text(row, choice)});
+                        kindOf(row, stimulus, StudyRows::textIf(row, condition)), rows.text(row, choice),
+                        StudyRows::textIf(row, parts)});
     });
     return taken;
 }
@@ -386,25 +389,19 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     const auto participant = rows.optional("participant");
     const bool isFactor = columns.level == "level_db" && !rows.optional(trialColumns::task);
     const auto stimulus = isFactor ? rows.optional("stimulus") : std::nullopt; // of other programs
-    // Of our own files' right and wrong choices those with a level are adaptive.
+    // Levels of our own files' right and wrong choices were chosen by the answers, which tell no function.
     const auto moved = rows.optional("level_db");
     const bool isOwn = rows.optional(trialColumns::task) && columns.measure == "correct" && moved;
-    const auto quest = rows.optional(trialColumns::quest);
-    const auto has = [&](bool isMoved) {
-        return isOwn && std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
-                   return !row.cells[measure].empty() && row.cells[*moved].empty() != isMoved &&
-                          (!quest || row.cells[*quest].empty());
-               });
-    };
-    // Rows of QUEST+ have a fit of their own: they are fitted here only where nothing else is to be fitted.
-    const bool hasFixed = has(false), hasStaircase = has(true);
+    std::set<std::string> asked; // sessions with the answer "left"
+    if (words != std::string::npos)
+        for (const CsvRow& row : rows.table().rows)
+            if (row.cells[measure] == columns.measure.substr(words + 1)) asked.insert(rows.sessionOf(row));
     std::size_t taken = 0;
     rows.each(columns.isMagnitude ? AnswerKind::number : AnswerKind::choice, [&](const CsvRow& row) {
         if (row.cells[measure].empty()) return;
         if (columns.isMagnitude && parseNumber<double>(row.cells[measure]) == 0.0) return;
-        const bool isAdaptive = isOwn && !row.cells[*moved].empty();
-        if (isOwn && (columns.level == "level_db" ? !isAdaptive : isAdaptive && hasFixed)) return;
-        if (isAdaptive && hasStaircase && quest && !row.cells[*quest].empty()) return;
+        if (isOwn && !row.cells[*moved].empty()) return;
+        if (!asked.empty() && !asked.contains(rows.sessionOf(row))) return;
         const auto at = parseNumber<double>(level->level(row));
         if (!at || std::abs(*at) > largestLevel)
             throw StudyFault{rows.table().fault(row, level->column,
@@ -415,7 +412,7 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
                                   ? row.cells[measure] == columns.measure.substr(words + 1)
                                   : rows.wholeNumber(row, measure, 0, 1);
         conditionNamed(rows, data, kindOf(row, stimulus, rows.conditionOf(row)))
-            .push_back({StudyRows::textIf(row, participant), *at, answer, isAdaptive});
+            .push_back({StudyRows::textIf(row, participant), *at, answer});
     });
     return taken;
 }

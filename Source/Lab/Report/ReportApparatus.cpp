@@ -219,23 +219,18 @@ namespace {
 /// Conditions of each participant in the order of first main trials; participants in file order.
 using Orders = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// Calls `take` with participant and condition of each main trial.
-template <class Take>
-void eachMainTrial(const CsvTable& all, Take take) {
-    const Cells cell{all};
-    for (const CsvRow& row : all.rows)
-        if (cell(row, trialColumns::phase) != trialColumns::training)
-            take(cell(row, "participant"), cell(row, "condition"), row);
-}
-
 Orders ordersOf(const CsvTable& all) {
     Orders orders;
-    eachMainTrial(all, [&](const std::string& participant, const std::string& condition, const CsvRow&) {
+    const Cells cell{all};
+    for (const CsvRow& row : all.rows) {
+        if (cell(row, trialColumns::phase) == trialColumns::training) continue;
+        const std::string& participant = cell(row, "participant");
         auto found = std::ranges::find(orders, participant, &Orders::value_type::first);
         if (found == orders.end()) found = orders.insert(orders.end(), {participant, {}});
-        if (std::ranges::find(found->second, condition) == found->second.end())
+        if (const std::string& condition = cell(row, "condition");
+            std::ranges::find(found->second, condition) == found->second.end())
             found->second.push_back(condition);
-    });
+    }
     return orders;
 }
 
@@ -253,8 +248,9 @@ std::string balanceWords(const Orders& orders, const std::set<std::string>& cond
             const std::size_t count = atPlace[{condition, place}];
             fewest = std::min(fewest, count), most = std::max(most, count);
         }
-    return "A condition was at one place of the order " + std::to_string(fewest) + " to " +
-           std::to_string(most) + " times; " + std::to_string(successions.size()) + " of " +
+    return "A condition was at one place of the order " + std::to_string(fewest) +
+           (most > fewest ? " to " + std::to_string(most) : std::string{}) + " times; " +
+           std::to_string(successions.size()) + " of " +
            std::to_string(conditions.size() * (conditions.size() - 1)) +
            " successions of two conditions occurred.";
 }

@@ -47,26 +47,14 @@ ChartValue withInterval(const std::vector<double>& values) {
 
 /// One bar per condition, with the value that `value` returns.
 template <class Value>
-std::vector<BarSeries> barsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all,
-                              Value value) {
-    std::vector<BarSeries> series;
-    for (std::size_t s = 0; s < axes.series.size(); ++s) {
-        series.push_back({axes.series[s], {}});
-        for (std::size_t g = 0; g < axes.groups.size(); ++g) {
-            const auto* const condition = conditionNamed(all, axes.conditionOf(s, g));
-            series.back().bars.push_back(condition ? std::optional{value(*condition)} : std::nullopt);
-        }
+BarChart barsOf(ChartFrame frame, const char* words, const std::vector<IdentifiedCondition>& all,
+                Value value) {
+    BarChart chart{std::move(frame), "condition", words, {}, {{"", {}}}};
+    for (const IdentifiedCondition& one : all) {
+        chart.groups.push_back(one.condition);
+        chart.series.front().bars.emplace_back(value(one));
     }
-    return series;
-}
-
-std::vector<double> ceilingsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all) {
-    std::vector<double> most;
-    for (std::size_t g = 0; g < axes.groups.size(); ++g) {
-        const auto* const condition = conditionNamed(all, axes.conditionOf(0, g));
-        most.push_back(condition ? condition->transfer.mostBits : 0.0);
-    }
-    return most;
+    return chart;
 }
 
 /// Draws grids by place, and other stimuli as a confusion matrix.
@@ -131,13 +119,10 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     const std::string values = "identification" + suffix + ".csv";
     report.addTable(values, confusion.participants);
     const auto all = conditionsOf(data, tolerance);
-    std::vector<std::string> names;
-    for (const auto& one : all) names.push_back(one.condition);
-    const ConditionAxes axes = ConditionAxes::of(names);
     const bool hasPeople = all.front().shares.size() > 1;
-    BarChart it{report.frame("Information transfer" + words), "condition", "IT (bit)", axes.groups,
-                barsOf(axes, all, [](const auto& c) { return ChartValue::around(c.transfer.bits); })};
-    it.ceilings = ceilingsOf(axes, all);
+    BarChart it = barsOf(report.frame("Information transfer" + words), "IT (bit)", all,
+                         [](const auto& c) { return ChartValue::around(c.transfer.bits); });
+    for (const IdentifiedCondition& one : all) it.ceilings.push_back(one.transfer.mostBits);
     it.ceilingWords = "most possible";
     report.page.figure(
         {barChart(it)},
@@ -145,16 +130,17 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
             report.asThesis("Fig. 3.11, 4.2") +
             ": one estimate per condition, so it has no interval. Dotted: log2 of the number of stimuli.");
     if (hasPeople) {
-        it.frame = report.frame("Information transfer of participants" + words);
-        it.series = barsOf(axes, all, [](const auto& c) { return withInterval(c.bits); });
-        report.page.figure({barChart(it)},
+        auto own = barsOf(report.frame("Information transfer of participants" + words), "IT (bit)", all,
+                          [](const auto& c) { return withInterval(c.bits); });
+        own.ceilings = it.ceilings, own.ceilingWords = it.ceilingWords;
+        report.page.figure({barChart(own)},
                            "Mean of the participants' own information transfer" + words + report.intervals() +
                                ". Few trials make everyone's too high, though never higher than "
                                "their logarithm: compare conditions of as many stimuli and "
                                "trials only.");
     }
-    BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)", axes.groups,
-                barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
+    BarChart pc = barsOf(report.frame("Percent correct" + words), "correct (%)", all,
+                         [](const auto& c) { return withInterval(c.shares); });
     pc.most = 100.0;
     report.page.figure({barChart(pc)}, "Mean percent correct" + words + report.asThesis("Fig. 3.12, 4.3") +
                                            report.intervals() + ".");

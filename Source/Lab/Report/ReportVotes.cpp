@@ -106,7 +106,10 @@ void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
             fit.model.guess = 0.0, measure = fit.measure = "choice=" + session.answers.back();
     }
     const auto data = readLevelAnswers({&file, 1}, {"stimulus", measure, false});
-    if (!data || !report.trials.knowTasks()) return;
+    const auto hasLevels = [](const auto& one) { // two are a factor's
+        return countByLevel(one.trials, [](const LevelAnswer& trial) { return trial.counted(); }).size() > 2;
+    };
+    if (!data || !report.trials.knowTasks() || std::ranges::none_of(data.value.conditions, hasLevels)) return;
     report.page.subheading("Psychometric functions");
     const bool isFitted = report.analysis("psychometric", fit, "psychometric-stimuli.csv").error.empty();
     tellFunctions(report, data.value, fit.model, fitWords(report.trials.columns, fit.level, measure),

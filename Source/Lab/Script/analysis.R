@@ -180,7 +180,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   })
   attempt(test, "residuals normality", {
     left <- as.matrix(lm.fit(x, cells)$residuals)
-    shapiro <- function(effect, left) { s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n) }
+    shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n) }
     # of two cells the differences: what is left of both of them is the same with two signs
     shapiro("residuals normality", if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
     if (length(between) > 0 && ncol(cells) > 1) shapiro("participants' means normality", rowMeans(left))
@@ -286,7 +286,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   marks <- lapply(factors, words.of)
   if (length(factors) > 1) marks <- c(marks, list(do.call(paste, marks)))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
-  if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("level_db (", length(unique(d$level_db)), " levels): averaged over"))
+  if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
   lines <- expand.grid(group = groups, word = if (k == 2) words[1] else words, stringsAsFactors = FALSE)
   tests <- Map(function(group, word) {
     of <- if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m == group))
@@ -328,6 +328,8 @@ design.of <- function(d, columns = c("group", "condition", "stimulus")) {
   out <- list(within = character(), between = character(), notes = character())
   seen <- list()
   people <- length(unique(d$participant))
+  if (!("task" %in% names(d)) && "session" %in% names(d) && any(tapply(d$session, d$participant, function(s) length(unique(s))) > 1))
+    out$notes <- paste0("session (", length(unique(d$session)), "): averaged over")
   for (f in unlist(lapply(columns, factor.names, d))) {
     own <- level(d, f); levels <- unique(own)
     if (length(levels) < 2) next
@@ -358,7 +360,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   zeros <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) <= 0) else 0
   if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
   design <- design.of(d, columns); factors <- c(design$within, design$between)
-  if (kind == "magnitudes" && length(unique(d$level_db)) > 1) design$notes <- c(design$notes, paste0("level_db (", length(unique(d$level_db)), " levels): averaged over"))
+  if (kind == "magnitudes" && length(unique(d$level_db)) > 1) design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
   if (zeros > 0) design$notes <- c(design$notes, paste(zeros, "magnitudes of 0, which has no logarithm, left out"))
   if (length(design$notes) > 0) cat(what, "\n", sep = "")
   for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over", "not tested", note))

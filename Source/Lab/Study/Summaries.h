@@ -44,7 +44,9 @@ struct Moments {
         : n{values.size()} {
         for (const double v : values) mean += v / static_cast<double>(n);
         for (const double v : values) deviation += (v - mean) * (v - mean);
-        deviation = n > 1 ? std::sqrt(deviation / static_cast<double>(n - 1)) : 0.0;
+        deviation = n > 1 && std::ranges::count(values, values.front()) < std::ssize(values)
+                        ? std::sqrt(deviation / static_cast<double>(n - 1))
+                        : 0.0;
     }
     /// Of the mean; 0 for fewer than two values.
     double standardError() const noexcept {
@@ -97,6 +99,7 @@ inline Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept 
 /// One forced choice: alternative, condition and participant (which may be empty).
 struct ChoiceTrial {
     std::string participant, condition, choice;
+    std::string offered{}; ///< alternatives, "a|b|c"; empty: not known
 };
 
 /// How often an alternative was chosen. The unit is the participant, whose trials give one share.
