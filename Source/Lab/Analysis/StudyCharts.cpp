@@ -121,28 +121,15 @@ std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales
     return barChart(chart);
 }
 
-std::string barsChart(ChartFrame frame, const std::string& groupsWords, const std::string& valueWords,
-                      const std::vector<std::pair<std::string, ChartValue>>& bars,
-                      std::optional<double> most) {
-    BarChart chart{std::move(frame), groupsWords, valueWords, {}, {{"", {}}}};
-    for (const auto& [group, value] : bars) {
-        chart.groups.push_back(group);
-        chart.series.front().bars.emplace_back(value);
-    }
-    chart.most = most;
-    return barChart(chart);
-}
-
 std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind) {
     const bool isMagnitude = kind == LevelTrial::Kind::magnitude;
-    std::vector<std::pair<std::string, ChartValue>> bars;
+    BarChart chart{std::move(frame), isMagnitude ? "" : "lines: 95 % intervals",
+                   isMagnitude ? "geometric mean" : "level (dB)"};
     for (const LevelSummary& s : summaries)
         if (s.kind == kind && !std::isnan(s.estimate))
-            bars.emplace_back(s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
-                              ChartValue::around(s.estimate, s.halfInterval));
-    return bars.empty() ? std::string{}
-                        : barsChart(std::move(frame), isMagnitude ? "" : "lines: 95 % intervals",
-                                    isMagnitude ? "geometric mean" : "level (dB)", bars);
+            chart.add(s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
+                      ChartValue::around(s.estimate, s.halfInterval));
+    return chart.groups.empty() ? std::string{} : barChart(chart);
 }
 
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results) {

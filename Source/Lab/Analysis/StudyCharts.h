@@ -40,11 +40,6 @@ std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summ
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
                         const std::vector<RatingSummary>& summaries);
 
-/// Bars of one series, shares in percent or levels; `valueWords` includes the unit.
-std::string barsChart(ChartFrame frame, const std::string& groupsWords, const std::string& valueWords,
-                      const std::vector<std::pair<std::string, ChartValue>>& bars,
-                      std::optional<double> most = {});
-
 /// Means of one kind, of each condition and stimulus; empty if there are none.
 std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind);
 

@@ -333,11 +333,12 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
         const auto answer = task ? answerOf(row.cells[*task]) : std::nullopt;
         if (isTraining(row) && (answer != AnswerKind::level || hasMatches)) continue;
         if (answer == AnswerKind::wish) continue; // explorations have no stimulus
-        if (task ? answer == AnswerKind::number : rows.optional("value").has_value())
-            if (parseNumber<double>(row.cells[rows.required("value")]) == 0.0) {
-                ++zeros;
-                continue;
-            }
+        if (task ? answer == AnswerKind::number : rows.optional("value").has_value()) {
+            const std::string& value = row.cells[rows.required("value")];
+            const bool isZero = parseNumber<double>(value) == 0.0;
+            zeros += isZero;
+            if (isZero || value.empty()) continue;
+        }
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
             ofTraining += isTraining(row);

@@ -10,9 +10,9 @@
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
-#include <tuple>
 
 namespace physvib {
 namespace {
@@ -146,27 +146,31 @@ std::string chainOf(const ReportTrials& trials) {
            "layouts are not known here: no accelerometer measured them.";
 }
 
+/// Numbers of a column by condition and session; `isFine`: and by stimulus and part.
+std::map<std::array<std::string, 4>, std::vector<double>> levelsIn(const CsvTable& all,
+                                                                   std::string_view column, bool isFine) {
+    const Cells cell{all};
+    std::map<std::array<std::string, 4>, std::vector<double>> levels;
+    for (const CsvRow& row : all.rows) {
+        std::string_view parts = cell(row, "parts");
+        for (const double value : numbersOf(cell(row, column)))
+            levels[{cell(row, "condition"), cell(row, "session"), isFine ? cell(row, "stimulus") : "",
+                    std::string{isFine ? takeUntil('|', parts) : ""}}]
+                .push_back(value);
+    }
+    return levels;
+}
+
 /// Table of the levels of every part of every stimulus, where they are in the rows.
 void tellStimuli(ReportBuilder& report) {
-    using Key = std::tuple<std::string, std::string, std::string, std::string, std::string_view>;
-    const Cells cell{report.trials.all};
-    std::map<Key, std::vector<double>> values;
-    for (const CsvRow& row : report.trials.all.rows)
-        for (const std::string_view column : {trialColumns::peakG, trialColumns::rmsG}) {
-            std::string_view parts = cell(row, "parts");
-            for (const double value : numbersOf(cell(row, column)))
-                values[{cell(row, "condition"), cell(row, "session"), cell(row, "stimulus"),
-                        std::string{takeUntil('|', parts)}, column}]
-                    .push_back(value);
-        }
-    if (values.empty()) return;
     ExportTable table{"levels-by-stimulus", report.isSimulated(),
                       "condition,session,stimulus,part,measure,values,least,mean,most"};
-    for (const auto& [key, own] : values) {
-        const auto& [condition, session, stimulus, part, measure] = key;
-        table.row(condition, session, stimulus, part, measure, own.size(), *std::ranges::min_element(own),
-                  Moments(own).mean, *std::ranges::max_element(own));
-    }
+    const std::string empty = table.text();
+    for (const std::string_view column : {trialColumns::peakG, trialColumns::rmsG})
+        for (const auto& [key, own] : levelsIn(report.trials.all, column, true))
+            table.row(key[0], key[1], key[2], key[3], column, own.size(), *std::ranges::min_element(own),
+                      Moments(own).mean, *std::ranges::max_element(own));
+    if (table.text() == empty) return;
     report.addTable("levels-by-stimulus.csv", table.text());
     report.page.table(table.text(), "levels-by-stimulus.csv", 200, true);
 }
@@ -176,17 +180,13 @@ void tellStimuli(ReportBuilder& report) {
 void tellDoses(ReportBuilder& report) {
     if (!report.trials.knowTasks()) return; // units of other programs are unknown
     const CsvTable& all = report.trials.all;
-    const Cells cell{all};
     ExportTable table{"levels-and-exposure", report.isSimulated(),
                       "condition,session,measure,values,least,mean,most"};
     std::string meanings;
     const auto moved = report.trials.protocol ? movedIn(*report.trials.protocol) : Moved{{}};
     for (const std::string& column : all.columns) {
         if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
-        std::map<std::pair<std::string, std::string>, std::vector<double>> values;
-        for (const CsvRow& row : all.rows)
-            for (const double value : numbersOf(cell(row, column)))
-                values[{cell(row, "condition"), cell(row, "session")}].push_back(value);
+        const auto values = levelsIn(all, column, false);
         if (column == "level_db" && std::ranges::all_of(values, [](const auto& v) {
                 return std::ranges::all_of(v.second, [](double db) { return db == 0.0; });
             }))
@@ -195,7 +195,7 @@ void tellDoses(ReportBuilder& report) {
         for (const auto& [key, own] : values) {
             // means of adaptive levels and accumulated exposure have no meaning
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
-            table.row(key.first, key.second, column, own.size(), *std::ranges::min_element(own),
+            table.row(key[0], key[1], column, own.size(), *std::ranges::min_element(own),
                       hasMean ? std::optional{Moments(own).mean} : std::nullopt,
                       *std::ranges::max_element(own));
         }

@@ -49,11 +49,8 @@ ChartValue withInterval(const std::vector<double>& values) {
 template <class Value>
 BarChart barsOf(ChartFrame frame, const char* words, const std::vector<IdentifiedCondition>& all,
                 Value value) {
-    BarChart chart{std::move(frame), "condition", words, {}, {{"", {}}}};
-    for (const IdentifiedCondition& one : all) {
-        chart.groups.push_back(one.condition);
-        chart.series.front().bars.emplace_back(value(one));
-    }
+    BarChart chart{std::move(frame), "condition", words};
+    for (const IdentifiedCondition& one : all) chart.add(one.condition, value(one));
     return chart;
 }
 
@@ -100,11 +97,11 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
     return gridChart(chart);
 }
 
-bool isGrid(const std::vector<IdentifiedCondition>& all) {
-    for (const IdentifiedCondition& one : all)
-        for (std::size_t i = 0; i < one.matrix.stimuli(); ++i)
-            if (!parseGridCell(one.matrix.label(i))) return false;
-    return true;
+bool isGrid(const Identified& data) {
+    return std::ranges::all_of(data.conditions, [](const auto& one) {
+        return std::ranges::all_of(
+            one.trials, [](const auto& trial) { return parseGridCell(trial.stimulus).has_value(); });
+    });
 }
 
 /// Tables and charts for one criterion of a correct answer.
@@ -147,7 +144,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
         const auto& trials = data.conditions[c].trials;
-        charts.push_back(isGrid(all)
+        charts.push_back(isGrid(data)
                              ? stimulusChart(report, all[c],
                                              tolerance ? withTolerance(trials, tolerance) : trials, tolerance)
                              : confusionChart(report.frame(all[c].condition), all[c].matrix));
@@ -155,7 +152,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     std::erase(charts, std::string{});
     if (charts.empty()) return;
     report.page.figure(
-        charts, isGrid(all)
+        charts, isGrid(data)
                     ? "Percent correct by place" + words + report.asThesis("Fig. 4.4") + report.intervals() +
                           (hasPeople ? " where there is room." : ".")
                     : "Confusions: rows are stimuli, columns responses, darker is a larger share of the "
@@ -170,21 +167,17 @@ void tellIdentification(ReportBuilder& report) {
     const auto data = readIdentification({&file, 1});
     if (!data) return report.page.note(data.error);
     tellCriterion(report, data.value, 0);
-    if (isGrid(conditionsOf(data.value, 0))) tellCriterion(report, data.value, 1);
+    if (isGrid(data.value)) tellCriterion(report, data.value, 1);
 }
 
 // Pointing: responses with normals, perceived rows and columns, likeliest targets, percent counts.
 
 namespace {
 
-struct PlacesOf {
-    std::string condition;
-    std::vector<LocationTrial> trials;
-    ConditionResolution resolution;
-};
+using Places = std::vector<StudyCondition<LocationTrial>>;
 
 /// Mean perceived against intended place over participants, for rows (`isRow`) or columns.
-std::string perceivedChart(ReportBuilder& report, const std::vector<PlacesOf>& places, bool isRow) {
+std::string perceivedChart(ReportBuilder& report, const Places& places, bool isRow) {
     LineChart chart{report.frame(isRow ? "Perceived row" : "Perceived column"),
                     isRow ? "intended target row" : "intended target column",
                     isRow ? "perceived, share of the height" : "perceived, share of the width",
@@ -197,7 +190,7 @@ std::string perceivedChart(ReportBuilder& report, const std::vector<PlacesOf>& p
         for (const LocationTrial& trial : places[i].trials)
             answers[isRow ? trial.targetRow : trial.targetColumn][trial.participant].push_back(
                 isRow ? trial.y : trial.x);
-        LineSeries series{places[i].condition, {}};
+        LineSeries series{places[i].name, {}};
         series.style = i;
         for (const auto& [line, people] : answers) {
             std::vector<double> means;
@@ -219,25 +212,22 @@ std::string perceivedChart(ReportBuilder& report, const std::vector<PlacesOf>& p
 void tellPlaces(ReportBuilder& report) {
     report.page.heading("Perceived places");
     const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readLocations({&file, 1});
+    auto data = readLocations({&file, 1});
     if (!data) return report.page.note(data.error);
     AnalysisReport resolution =
         report.analysis("resolution", report.optionsFor(trialsTable), "resolution.csv");
     if (!resolution.error.empty()) return;
     report.addTable("percent-counts.csv", resolution.counts);
-    std::vector<PlacesOf> places;
-    for (const auto& condition : data.value.conditions) {
-        const std::string name = condition.name.empty() ? "all trials" : condition.name;
-        places.push_back({name, condition.trials, resolveCondition(name, condition.trials)});
-    }
-    std::ranges::sort(places, {}, &PlacesOf::condition);
+    Places& places = data.value.conditions;
+    std::ranges::sort(places, {}, &Places::value_type::name);
     std::vector<std::string> responses, territories, counts, grids;
-    for (const PlacesOf& one : places) {
-        responses.push_back(responsesChart(report.frame(one.condition), one.resolution, one.trials));
-        territories.push_back(territoryChart(report.frame(one.condition), one.resolution));
-        counts.push_back(countsChart(report.frame(one.condition), one.resolution.counts));
-        if (!one.resolution.resolution.ties.empty())
-            grids.push_back(mergedChart(report.frame(one.condition), one.resolution));
+    for (auto& [name, trials] : places) {
+        if (name.empty()) name = "all trials";
+        const auto made = resolveCondition(name, trials);
+        responses.push_back(responsesChart(report.frame(name), made, trials));
+        territories.push_back(territoryChart(report.frame(name), made));
+        counts.push_back(countsChart(report.frame(name), made.counts));
+        if (!made.resolution.ties.empty()) grids.push_back(mergedChart(report.frame(name), made));
     }
     report.page.figure(responses,
                        "Every response (coloured by target, shaped by its row) and the normal distribution "

@@ -301,7 +301,7 @@ void tellProvenance(ReportBuilder& report) {
                                                                     {"seed", "seed of all orders: "}})
         if (const auto value = report.trials.common(key); !value.empty()) facts.push_back(words + value);
     if (report.people() > 1)
-        facts.emplace_back("intervals over participants: Student's t, unless they are named");
+        facts.emplace_back("intervals over participants: Student's t, where nothing else is named");
     report.page.list(facts);
     report.page.paragraph(
         "Every table below is CSV with names of columns in its second line, after one of its origin.");
