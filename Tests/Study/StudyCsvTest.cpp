@@ -117,9 +117,10 @@ TEST(StudyCsv, OtherProgramsWordsForNothingAndForRight) {
 }
 
 TEST(StudyCsv, SessionsOfOneKindArePartedWhoeverDidBoth) {
-    const std::string head = "participant,condition,session,task,stimulus,choice,value,parts\n",
-                      one = head + "P,low,a,adjust,s,,3,\nP,low,c,choose,s,x,,x|y|z\n",
-                      two = head + "Q,low,b,adjust,s,,9,\nQ,low,d,choose,s,v,,v|w\n";
+    const std::string head =
+                          "participant,condition,session,task,stimulus,choice,value,parts,correct,level_db\n",
+                      one = head + "P,low,a,adjust,s,,3,,,\nP,low,c,choose,s,x,,x|y|z,,\n",
+                      two = head + "Q,low,b,adjust,s,,9,,,\nQ,low,d,choose,s,v,,v|w,,\n";
     const NamedText files[] = {{one, "P.csv"}, {two, "Q.csv"}};
     std::string told;
     for (const LevelSummary& s : summariseLevels(readLevels(files).value.conditions.front().trials))

@@ -31,12 +31,14 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
                                               "end is known to `physvib report --protocol`");
             for (const UnfinishedRun& run : unfinishedRuns(trials.value))
                 if (run.isAdaptive &&
-                    std::erase_if(data.value.conditions.front().trials, [&](const LevelTrial& trial) {
-                        return trial.participant == run.participant &&
-                               (trial.condition == run.condition ||
-                                trial.condition == inSession(run.condition, run.session)) &&
-                               trial.session.substr(0, trial.session.find('/')) == run.session;
-                    }) > 0)
+                    std::erase_if(data.value.conditions.front().trials,
+                                  [&](const LevelTrial& trial) {
+                                      return trial.participant == run.participant &&
+                                             (trial.condition == run.condition ||
+                                              trial.condition == inSession(run.condition, run.session)) &&
+                                             trial.session.substr(0, trial.session.find('/')) == run.session;
+                                  }) > 0 &&
+                    job.made == nullptr) // a report has told them
                     data.value.warnings.push_back(run.words());
         }
         return data;
