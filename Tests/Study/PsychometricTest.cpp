@@ -10,7 +10,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iostream>
-#include <map>
 #include <utility>
 
 namespace physvib {
