@@ -149,7 +149,7 @@ const char* const rowSentences[] = {
     R"(participant P04 is excluded, with all trials: took off the headphones)",
     R"(Nobody and no main trial is left out before the analyses, each of which names whom it leaves out\.)",
     R"(Trainings are left out of all analyses\.)",
-    R"(A condition was at one place of the order \d+ to \d+ times; \d+ of 30 successions of two conditions occurred\.)",
+    R"(A condition was at one place of the order \d+( to \d+)? times; \d+ of 30 successions of two conditions occurred\.)",
     R"(Device, master level in dB, root mean square of the pink noise in dB of full scale \(off: there was none\), version of the program, and by how much the limiter lowered what was felt\.)",
     R"(\d+ trials left through the device JACK:system, every part within 1 dB of its plan, at a master level of -3 dB, with pink noise of -30 dB of full scale \(root mean square\); the limiter lowered none of them\.)",
     R"(Each of these calls of physvib renders a stimulus again; one of each condition and session, all \d+ in stimuli\.csv:)",

@@ -31,6 +31,30 @@ Protocol places() {
         .value;
 }
 
+/// Two sessions each of ratings and of choices.
+Protocol sessions() {
+    return readProtocol(
+               R"({"physvib_protocol": 1, "name": "twice", "conditions": [{"name": "a", "layout": "phone1", "stimuli": "calls",
+     "factors": [{"name": "hz", "values": ["80", "120"]}], "call": "stimulus phantom --at 0.5,0.5 --layout phone1 --frequency {hz}"}],
+    "sessions": [{"name": "early", "task": "rate", "scales": ["rough"]}, {"name": "late", "task": "rate", "scales": ["rough", "old"]},
+     {"name": "what", "task": "choose", "answers": ["wood", "steel", "glass"]}, {"name": "which", "task": "choose", "answers": ["one", "two"]}]})",
+               "sessions")
+        .value;
+}
+
+/// Staircases on the level of `low` and on what `high` has as {hz}, or as {level_db} itself.
+Protocol variables(const std::string& hz, const std::string& name) {
+    return readProtocol(R"({"physvib_protocol": 1, "name": ")" + name + R"(", "conditions": [
+    {"name": "low", "layout": "phone1", "stimuli": "calls", "call": "stimulus phantom --at 0.5,0.5 --layout phone1 --level-db {level_db}"},
+    {"name": "high", "layout": "phone1", "stimuli": "calls", "call": "stimulus phantom --at 0.5,0.5 --layout phone1 --frequency )" +
+                            hz +
+                            R"( --level-g 0.3 --seconds 0.5", "variables": [{"name": "hz", "at_0_db": 200}]}],
+    "sessions": [{"name": "main", "task": "choose", "alternatives": [{"name": "standard"}, {"name": "other"}],
+     "staircase": {"alternative": "other", "start_db": 5, "step_db": 1, "least_step_db": 0.25, "reversals": 4, "most_db": 6}}]})",
+                        name)
+        .value;
+}
+
 Protocol example(const std::string& name) {
     return loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/" + name + ".json").value;
 }
@@ -46,7 +70,9 @@ std::vector<Sentence> sentences() {
                    quest = builtIn("level-quest"), methods = builtIn("eight-methods"),
                    fits = builtIn("model-or-sound"), field = places(),
                    constant = example("frequency-constant"), names = example("rhythm-names"),
-                   interleaved = example("level-mixed");
+                   interleaved = example("level-mixed"), twice = sessions(),
+                   moved = variables("{hz}", "moved"),
+                   itself = variables("2{level_db}0 --duty {hz}", "itself");
     Protocol matched = example("equal-sensation");
     Protocol told = grid;
     Protocol timed = grid;
@@ -61,6 +87,17 @@ std::vector<Sentence> sentences() {
     const Edit device = both(both(set("device", "JACK:x"), set("version", "0.2.0")),
                              both(both(set("master_db", "0"), set("noise_db", "off")),
                                   both(set("limiter_db", "0"), set("left", "1"))));
+    const Edit alike = set("correct", "1");
+    const Edit rising = [](Row& row) { // by frequency, from guessing to certainty
+        const int trial = std::stoi(row["trial"]), hz = std::stoi("0" + row["stimulus"]);
+        row["correct"] = trial * 7 % 10 < (hz - 150) / 12 ? "1" : "0";
+    };
+    const Edit step = [](Row& row) {
+        row["correct"] = row["stimulus"] > "230" || std::stoi(row["trial"]) % 2 ? "1" : "0";
+    };
+    const Edit unscored = [](Row& row) {
+        if (row["participant"] == "P2" && row["trial"] == "1") row["rough"].clear();
+    };
     const Edit noTraining = [](Row& row) {
         if (row["phase"] == "training") row["participant"].clear();
     };
@@ -110,9 +147,34 @@ std::vector<Sentence> sentences() {
         {"exposure was not measured in these trials", of(grid, 3, set("peak_g", "0.4")),
          of(grid, 3, set("a8_m_per_s2", "0.1"))},
         {"level_db: in dB of the condition", of(steps, 3), of(steps, 3, set("level_db", "0"))},
-        {"no functions are drawn, as answers chose the levels", of(steps, 3), of(numbers, 3)},
-        {"no JND (answers chose the levels", of(steps, 3), of(numbers, 3)},
-        {"Dotted: mean threshold, shaded its 95 % interval over participants.", of(steps, 3), of(steps, 1)},
+        {"Dotted: mean threshold, shaded its 95 % interval over participants (levels.csv).", of(steps, 3),
+         of(steps, 1)},
+        {"Dotted: mean threshold, shaded its 95 % interval over participants where there are several.",
+         of(constant, 3, rising, true), of(constant, 1, rising, true)},
+        {"Circles: all participants' trials, larger where there were more. Dotted", of(steps, 3),
+         of(numbers, 3)},
+        {"Circles: all participants' trials, larger where there were more.", of(constant, 3, alike, true),
+         of(constant, 3, rising, true)},
+        {"thin lines: the function of each participant who has one; thick: the mean of the thresholds and",
+         of(constant, 3, rising, true), of(constant, 3, alike, true)},
+        {"nobody can be fitted", of(constant, 3, alike, true), of(constant, 3, rising, true)},
+        {"a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be the smallest",
+         of(constant, 3, step, true), of(constant, 3, rising, true)},
+        {"functions are logistic, with a guess rate of", of(constant, 3, rising, true), of(quest, 3)},
+        {"thresholds by QUEST+: of each participant with the widths that all answers in the condition tell "
+         "together; "
+         "intervals are Student's t and the error of these widths",
+         of(quest, 3), of(quest, 1)},
+        {", 95 % intervals over participants, Wilson's of as many people where all chose alike.",
+         of(fits, 3, set("choice", "model")), of(fits, 3)},
+        {"95 % intervals over trials, Wilson's", of(fits, 1), of(fits, 3)},
+        {"Mean scores in late, 95 % intervals over participants.", of(twice, 3, {}, true), of(methods, 3)},
+        {"Mean of the participants' shares in which, 95", of(twice, 3, {}, true), of(fits, 3)},
+        {"without a score of", of(twice, 3, unscored, true), of(twice, 3, {}, true)},
+        {"level_db: of low in dB of the condition's own level, or of a call's full scale; of high in dB of "
+         "hz at 0 dB",
+         of(moved, 3, {}, true), of(steps, 3)},
+        {"what {level_db} is in the call", of(itself, 3, {}, true), of(moved, 3, {}, true)},
         {"of one participant without intervals", of(grid, 1), of(grid, 3)},
         {", 95 % intervals over participants", of(grid, 3), of(grid, 1)},
         {"intervals over participants: Student", of(grid, 3), of(grid, 1)},
@@ -153,31 +215,22 @@ std::vector<Sentence> sentences() {
         {"Percent counts: the share of the field", of(field, 3), of(grid, 3)},
         {"Framed: below 1.42 %.", of(field, 3), of(grid, 3)},
         {"Share of answers \u201ccorrect\u201d by stimulus.", of(constant, 3, {}, true), of(steps, 3)},
-        {"thin lines: the function of each participant who has one; thick: the mean of the thresholds and",
-         of(constant, 3, {}, true), of(steps, 3)},
         {"Mean of the participants' shares", of(fits, 3), of(steps, 3)},
         {"Mean scores (as thesis Fig. 5.14)", of(methods, 3), of(grid, 3)},
         {"Mean scores by factor (as thesis Fig. 5.13)", of(methods, 3), of(grid, 3)},
         {"Shares by two factors (as thesis Fig. 5.9)", of(fits, 3), of(steps, 3)},
         {"Share of answers \u201ccorrect\u201d by level (dB).", of(steps, 3), of(numbers, 3)},
-        {"Circles: all participants' trials, larger where there were more", of(steps, 3), of(numbers, 3)},
-        {"Thresholds are where the function is half way between guessing and certainty", of(steps, 3),
-         of(quest, 3)},
-        {"functions are logistic, with a guess rate of", of(steps, 3), of(quest, 3)},
-        {"Functions are of the staircases' trials: QUEST+ has thresholds", of(mixed, 3), of(steps, 3)},
-        {"It is that of QUEST+ (levels.csv).", of(quest, 3), of(mixed, 3)},
-        {"Dotted: threshold.", of(quest, 1), of(quest, 3)},
+        {"Dotted: threshold (levels.csv).", of(quest, 1), of(quest, 3)},
+        {"Dotted: threshold. ", of(constant, 1, rising, true), of(constant, 3, rising, true)},
         {"Each participant's numbers are divided by their own geometric mean first.", of(numbers, 3),
          of(steps, 3)},
         {"Levels that were set by adjustment: means", of(matched, 3, {}, true), of(steps, 3)},
         {"were set to an end of their range, -12 to 18 dB: the match may lie beyond it",
          of(matched, 3, set("value", "-12"), true), of(matched, 3, {}, true)},
-        {"which makes slopes too steep), 3 participants", of(mixed, 3), of(mixed, 3, noStaircase)},
         {"Neighbouring rows and columns merged until every cell reaches 1.42 %", of(field, 3), of(grid, 3)},
         {"trials per cell, expected at least", of(names, 3), of(numbers, 3)},
         {"left out: a staircase has fewer than two reversals", of(steps, 3, set("level_db", "0")),
          of(steps, 3)},
-        {"nobody can be fitted", of(steps, 3, set("level_db", "0")), of(steps, 3)},
         {"lies outside the levels that were played", of(constant, 3, {}, true), of(steps, 3)},
         {"one participant, or no column participant: intervals are over trials", of(fits, 1), of(fits, 3)},
         {"no response; trials left out for that: ", of(grid, 3, set("response", "", "P2")), of(grid, 3)},

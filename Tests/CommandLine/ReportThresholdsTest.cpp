@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Thresholds of conditions in a report: a row per person and condition, compared within people.
 #include "Calls.h"
+#include "Io/Text/CsvTable.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "System/Process.h"
 #include <algorithm>
@@ -26,30 +27,11 @@ protected:
         const auto outcome = call("report three-" + name + "-P*.csv --out out");
         ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     }
-    /// Rows of an exported table, by cells.
-    std::vector<std::vector<std::string>> rows(const std::string& file) const {
-        std::vector<std::vector<std::string>> all;
-        std::string text = read(file);
-        text.erase(0, text.find('\n') + 1); // where it comes from
-        text.erase(0, text.find('\n') + 1); // names
-        while (!text.empty()) {
-            std::string line = text.substr(0, text.find('\n'));
-            text.erase(0, line.size() + 1);
-            auto& cells = all.emplace_back();
-            for (std::size_t comma = 0; comma != std::string::npos; line.erase(0, comma + 1)) {
-                comma = line.find(',');
-                cells.push_back(line.substr(0, comma));
-                if (comma == std::string::npos) break;
-            }
-        }
-        return all;
-    }
     void expectPairs(const std::string& method, int participants) const {
         std::map<std::string, int> people;
-        for (const auto& row : rows("out/thresholds.csv")) {
-            ASSERT_EQ(row.size(), 4u);
-            EXPECT_EQ(row[0], method);
-            ++people[row[1]];
+        for (const CsvRow& row : readCsvTable(read("out/thresholds.csv"), "t").value.rows) {
+            EXPECT_EQ(row.cells[0], method);
+            ++people[row.cells[1]];
         }
         ASSERT_EQ(people.size(), 3u);
         for (const auto& [condition, number] : people) EXPECT_EQ(number, participants) << condition;

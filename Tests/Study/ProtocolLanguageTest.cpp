@@ -230,7 +230,6 @@ TEST(ProtocolLanguage, ConstantStimuliMoveOneAlternativeAndHaveARightOne) {
     const auto answers = readLevelAnswers({&file, 1}, {"stimulus", "correct", false});
     ASSERT_TRUE(answers) << answers.error;
     EXPECT_EQ(answers.value.conditions.front().trials.size(), 100u);
-    EXPECT_FALSE(answers.value.conditions.front().trials.front().isAdaptive);
     std::set<double> levels;
     for (const PlannedStimulus& s : plannedStimuli(protocol)) levels.insert(s.levelDb);
     EXPECT_EQ(*levels.begin(), -3.0);

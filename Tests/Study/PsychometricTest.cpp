@@ -10,7 +10,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iostream>
-#include <map>
 #include <utility>
 
 namespace physvib {
@@ -199,20 +198,6 @@ TEST(QuestPlus, BeliefGetsNarrower) {
     EXPECT_NEAR(quest.estimate().threshold, 10.0, 3.0);
 }
 
-TEST(QuestPlus, IntervalsHoldTheirShareOfTheBelief) {
-    QuestPlan plan;
-    for (int i = 0; i <= 30; ++i) plan.thresholds.push_back(i);
-    plan.levels = plan.thresholds;
-    plan.widths = {3, 6, 12};
-    EXPECT_NEAR(QuestPlus{plan}.thresholdHalfInterval(0.95), 0.95 * 15.5, 1e-9)
-        << "all alike likely, half a step beyond both ends";
-    plan.thresholds = {4.0};
-    EXPECT_EQ(QuestPlus{plan}.thresholdHalfInterval(0.95), 0.0) << "nothing else is possible";
-    plan.thresholds = {4.0, 5.0, 8.0};
-    const double third = 1.0 / 3.0; // of the belief each: 3.5 to 4.5, to 6.5, to 9.5; the mean is 17 / 3
-    EXPECT_NEAR(QuestPlus{plan}.thresholdHalfInterval(third * (2.0 * 0.5 / 2.0)), 0.5, 1e-9);
-}
-
 TEST(PowerLaw, ExponentAndFactorComeBack) {
     std::vector<MagnitudeTrial> trials;
     for (const double level : {0.1, 0.3, 1.0, 3.0}) trials.push_back({level, 4.0 * std::pow(level, 0.55)});
@@ -225,57 +210,35 @@ TEST(PowerLaw, ExponentAndFactorComeBack) {
     EXPECT_EQ(fitPowerLaw(trials).fault, "expected levels and magnitudes > 0");
 }
 
-/// Trials of an observer: at 8 levels (`session` null), or where the session's method puts them.
-std::vector<LevelCount> answered(const PsychometricFunction& observer, const SessionPlan* session,
-                                 SeededRandom& random) {
-    std::map<double, LevelCount> counts;
-    const auto ask = [&](double level) {
-        const bool isCorrect = random.chance(observer.probability(level));
-        LevelCount& count = counts[level];
-        count.level = level;
-        ++count.trials;
-        count.hits += isCorrect;
-        return isCorrect;
-    };
-    if (session == nullptr)
-        for (int trial = 0; trial < 160; ++trial) ask(1.5 * (trial % 8));
-    else
-        for (AdaptiveLevel level{*session}; !level.isDone();) level.answer(ask(level.levelDb()));
+/// Trials of an observer at 8 levels.
+std::vector<LevelCount> answered(const PsychometricFunction& observer, SeededRandom& random) {
     std::vector<LevelCount> all;
-    for (const auto& [level, count] : counts) all.push_back(count);
+    for (int level = 0; level < 8; ++level) {
+        LevelCount& count = all.emplace_back(LevelCount{1.5 * level, 0, 20});
+        for (int trial = 0; trial < 20; ++trial)
+            count.hits += random.chance(observer.probability(count.level));
+    }
     return all;
 }
 
-TEST(Psychometric, IntervalsOfThresholdsHoldWhoeverChoseTheLevelsAndSlopesDoNot) {
-    SessionPlan stairs, quest;
-    stairs.alternatives = quest.alternatives = {{"a", 0.0}, {"b", 0.0}};
-    stairs.staircase.emplace();
-    stairs.staircase->startDb = 12.0;
-    quest.quest.emplace();
+TEST(Psychometric, IntervalsOfThresholdsHold) {
     SeededRandom random{3, "coverage"};
-    for (const SessionPlan* const session :
-         {static_cast<const SessionPlan*>(nullptr), &std::as_const(stairs), &std::as_const(quest)})
-        for (const int people : {6, 12}) {
-            int held = 0;
-            double jnds = 0.0;
-            for (int study = 0; study < 100; ++study) {
-                std::vector<double> thresholds;
-                for (int person = 0; person < people; ++person) {
-                    const PsychometricFunction truth{PsychometricShape::weibull, 6.0 + 1.5 * random.normal(),
-                                                     6.0, 0.5, 0.02};
-                    const auto fit =
-                        fitPsychometric(answered(truth, session, random), {truth.shape, 0.5, 0.02}, !session);
-                    if (!fit.fault.empty()) continue;
-                    thresholds.push_back(fit.function.threshold);
-                    jnds += fit.function.jnd() / truth.jnd() / people / 100.0;
-                }
-                const auto interval = Moments(thresholds);
-                held += interval.least() <= 6.0 && 6.0 <= interval.most();
+    for (const int people : {6, 12}) {
+        int held = 0;
+        for (int study = 0; study < 100; ++study) {
+            std::vector<double> thresholds;
+            for (int person = 0; person < people; ++person) {
+                const PsychometricFunction truth{PsychometricShape::weibull, 6.0 + 1.5 * random.normal(), 6.0,
+                                                 0.5, 0.02};
+                const auto fit = fitPsychometric(answered(truth, random), {truth.shape, 0.5, 0.02});
+                if (fit.fault.empty()) thresholds.push_back(fit.function.threshold);
             }
-            std::cout << held << " of 100, JND " << jnds << '\n';
-            EXPECT_GE(held, 88) << people << " people: 95 of 100, of which 88 are rare";
-            if (session == &stairs) EXPECT_LT(jnds, 0.75) << "why slopes are withheld";
+            const auto interval = Moments(thresholds);
+            held += interval.least() <= 6.0 && 6.0 <= interval.most();
         }
+        std::cout << held << " of 100\n";
+        EXPECT_GE(held, 88) << people << " people: 95 of 100, of which 88 are rare";
+    }
 }
 
 } // namespace

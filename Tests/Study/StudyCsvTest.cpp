@@ -116,6 +116,22 @@ TEST(StudyCsv, OtherProgramsWordsForNothingAndForRight) {
               "f.csv:5: column trial: expected each trial once, not as in line 3, found \"1\"");
 }
 
+TEST(StudyCsv, SessionsOfOneKindArePartedWhoeverDidBoth) {
+    const std::string head =
+                          "participant,condition,session,task,stimulus,choice,value,parts,correct,level_db\n",
+                      one = head + "P,low,a,adjust,s,,3,,,\nP,low,c,choose,s,x,,x|y|z,,\n",
+                      two = head + "Q,low,b,adjust,s,,9,,,\nQ,low,d,choose,s,v,,v|w,,\n";
+    const NamedText files[] = {{one, "P.csv"}, {two, "Q.csv"}};
+    std::string told;
+    for (const LevelSummary& s : summariseLevels(readLevels(files).value.conditions.front().trials))
+        told += s.condition + " " + std::to_string(static_cast<int>(s.estimate)) + ", ";
+    for (const ChoiceSummary& s : bySession(readChoices(files).value, summariseChoices))
+        told += s.condition + " " + std::to_string(s.shares.size()) + ", ";
+    EXPECT_EQ(told, "low in a 3, low in b 9, all in c 3, all in d 2, ");
+    EXPECT_EQ(readOne(readLevels, one).value.conditions.front().trials.front().condition, "low");
+    EXPECT_TRUE(readOne(readLevels, "participant,stimulus,value\nP,1,2\nP,1,\n")) << "no answer";
+}
+
 TEST(StudyCsv, TrainingIsNoThreshold) {
     const std::string head = "participant,condition,session,phase,task,stimulus,level_db,correct,value\n";
     const auto trials = [&](const std::string& rows) {

@@ -33,12 +33,19 @@ struct BarSeries {
 struct BarChart {
     ChartFrame frame;
     std::string groupsWords, valueWords; ///< of the axes, with units
-    std::vector<std::string> groups;
-    std::vector<BarSeries> series;
+    std::vector<std::string> groups{};
+    std::vector<BarSeries> series{};
     std::optional<std::pair<double, std::string>> reference{}; ///< a line across all groups, and its label
     std::vector<double> ceilings{};                            ///< per group: the maximum possible value
     std::string ceilingWords{};
     std::optional<double> most{}; ///< end of the axis, which begins at 0 or below; nullopt: from the values
+
+    /// One more bar of a chart of one series.
+    void add(std::string group, ChartValue value) {
+        groups.push_back(std::move(group));
+        series.resize(1);
+        series.front().bars.emplace_back(value);
+    }
 };
 
 struct LinePoint {

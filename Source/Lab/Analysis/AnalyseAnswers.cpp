@@ -5,7 +5,9 @@
 #include "Lab/Study/Psychometric.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -43,7 +45,8 @@ void tell(std::ostream& out, const LevelSummary& s) {
     if (s.halfInterval > 0.0)
         out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to "
             << fixedNumber(s.estimate + s.halfInterval, 1) << " dB"
-            << (s.participants > 1 ? " over participants" : " of what is still possible");
+            << (s.participants > 1 ? " over participants"
+                                   : " (1.96 standard deviations of what is still possible)");
     out << ", " << counted(s.trials, "trial") << " of "
         << counted(isThreshold ? s.thresholds.size() : s.participants, "participant");
     if (s.kind == LevelTrial::Kind::staircase)
@@ -51,18 +54,11 @@ void tell(std::ostream& out, const LevelSummary& s) {
     out << '\n';
 }
 
-template <class Summary>
-std::vector<const Summary*> pointersTo(const std::vector<Summary>& summaries) {
-    std::vector<const Summary*> pointers;
-    for (const Summary& summary : summaries) pointers.push_back(&summary);
-    return pointers;
-}
-
 } // namespace
 
 void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
     auto& [job, report, out, table] = to;
-    const auto summaries = summariseChoices(data.conditions.front().trials);
+    const auto summaries = bySession(data, summariseChoices);
     if (summaries.front().participants == 1)
         report.warnings.push_back("one participant, or no column participant: intervals are over trials, and "
                                   "say nothing about other people");
@@ -74,19 +70,34 @@ void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
                       100.0 * share.most, summary.participants, 100.0 * share.median);
     }
     out << "(... to ...): 95 % interval over "
-        << (summaries.front().participants > 1 ? "participants\n" : "trials, of one participant\n");
-    report.picture = [summaries, isSimulated = data.isSimulated] {
-        std::vector<std::string> groups;
-        for (const ChoiceSummary& summary : summaries) groups.push_back(summary.condition);
-        return sharesChart({chartName(0), "Shares of the alternatives", isSimulated}, "condition", groups,
-                           pointersTo(summaries));
+        << (summaries.front().participants > 1 ? "participants" + alikeWords(summaries) + "\n"
+                                               : "trials, of one participant\n");
+    report.picture = [data] {
+        std::vector<std::string> charts;
+        for (const auto& [name, trials] : data.conditions)
+            charts.push_back(sharesChart(
+                {chartName(charts.size()), inSession("Shares of the alternatives", name), data.isSimulated},
+                summariseChoices(trials)));
+        return chartSheet(charts);
     };
 }
 
 void analyseRatings(const RatingData& data, const Findings& to) {
     auto& [job, report, out, table] = to;
     const auto& scales = data.scales;
-    const auto summaries = summariseRatings(data.conditions.front().trials);
+    const auto summaries = bySession(data, summariseRatings);
+    std::map<std::array<std::string, 3>, std::size_t> lacking; // session, participant, scale
+    for (const auto& session : data.conditions)
+        for (std::size_t s = 0; s < scales.size(); ++s) {
+            const auto isEmpty = [s](const RatingTrial& trial) { return std::isnan(trial.scores[s]); };
+            if (!std::ranges::all_of(session.trials, isEmpty))
+                for (const RatingTrial& trial : session.trials)
+                    if (isEmpty(trial)) ++lacking[{session.name, trial.participant, scales[s]}];
+        }
+    for (const auto& [where, count] : lacking)
+        report.warnings.push_back(inSession("participant " + where[1], where[0]) + ": " +
+                                  counted(count, "trial") + " without a score of " + printable(where[2]) +
+                                  ", left out of its means and tests");
     std::set<bool> intervals; // true: over participants
     for (const auto& summary : summaries) {
         if (std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; }))
@@ -113,7 +124,7 @@ void analyseRatings(const RatingData& data, const Findings& to) {
                                            : "trials, of one participant")
             << '\n';
     report.picture = [scales, summaries, isSimulated = data.isSimulated] {
-        return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, pointersTo(summaries));
+        return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, summaries);
     };
 }
 
@@ -131,9 +142,23 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
         table.row(kindWord(s.kind), s.condition, s.stimulus, s.trials, s.participants, s.reversals,
                   s.estimate, s.deviation, s.halfInterval);
     }
+    if (std::ranges::any_of(
+            summaries, [](const auto& s) { return s.kind == LevelTrial::Kind::quest && s.participants > 1; }))
+        out << "thresholds by QUEST+: of each participant with the widths that all answers in the condition "
+               "tell "
+               "together; intervals are Student's t and the error of these widths\n";
     report.participants = each.text();
     report.picture = [summaries, isSimulated = data.isSimulated] {
-        return chartSheet(levelCharts(summaries, isSimulated));
+        using Kind = LevelTrial::Kind;
+        std::vector<std::string> charts;
+        for (const auto& [kind, title] :
+             {std::pair{Kind::staircase, "Thresholds, mean of the later reversals"},
+              {Kind::adjustment, "Matched levels"},
+              {Kind::magnitude, "Magnitudes"},
+              {Kind::quest, "Thresholds by QUEST+"}})
+            charts.push_back(levelChart({chartName(charts.size()), title, isSimulated}, summaries, kind));
+        std::erase(charts, std::string{});
+        return chartSheet(charts);
     };
 }
 
@@ -198,9 +223,9 @@ Result<LevelAnswers> readMagnitudes(const AnalysisJob& o) {
 
 void analysePsychometric(const LevelAnswers& data, const Findings& to) {
     auto& [o, report, out, table] = to;
+    bool isFitted = false;
     for (const auto& condition : data.conditions) {
         std::vector<double> thresholds, jnds;
-        const bool isAdaptive = condition.trials.front().isAdaptive;
         for (const LevelCount& at :
              countByLevel(condition.trials, [](const LevelAnswer& one) { return one.counted(); }))
             if (isBelowGuess(at, o.model.guess)) {
@@ -219,7 +244,7 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
                 return own.fit.hasJnd ? std::optional{slope} : std::nullopt;
             };
             thresholds.push_back(f.threshold);
-            if (own.fit.hasJnd || isAdaptive)
+            if (own.fit.hasJnd)
                 jnds.push_back(f.jnd());
             else
                 warnOf(
@@ -229,17 +254,17 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
             table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),
                       ifKnown(f.jnd()), f.guess, f.lapse, own.fit.logLikelihood);
         }
-        if (thresholds.empty()) return tellNobodyFitted(to);
+        if (thresholds.empty()) continue;
+        isFitted = true;
         const int decimals = decimalsOf(Moments(jnds.empty() ? thresholds : jnds).mean);
         out << prefixOf(condition.name) << meanWords("threshold", thresholds, decimals) << ", "
-            << (isAdaptive ? "no JND (answers chose the levels, which makes slopes too steep)"
-                : jnds.empty()
-                    ? "no JND (a step fits as well)"
-                    : meanWords("JND", jnds, decimals) + (jnds.size() < thresholds.size()
-                                                              ? " (n = " + std::to_string(jnds.size()) + ")"
-                                                              : ""))
+            << (jnds.empty() ? "no JND (a step fits as well)" : meanWords("JND", jnds, decimals))
+            << (!jnds.empty() && jnds.size() < thresholds.size()
+                    ? " (n = " + std::to_string(jnds.size()) + ")"
+                    : "")
             << ", " << counted(thresholds.size(), "participant") << '\n';
     }
+    if (!isFitted) return tellNobodyFitted(to);
     const auto& first = data.conditions.front();
     report.picture = [first, model = o.model, words = fitWords(o.columns, o.level, o.measure),
                       frame = frameOf(o, first.name, report.isSimulated)] {

@@ -173,29 +173,26 @@ void analyseIcons(const StudyData<IdentificationTrial>& data, const Findings& to
     for (const auto& condition : data.conditions)
         matrices.emplace_back(condition.name, ConfusionMatrix{condition.trials});
     std::ranges::stable_sort(matrices, {}, [](const auto& m) { return m.second.stimuli(); });
-    std::string chosen; // condition from which the icons are selected
-    std::vector<std::pair<std::string, ChartValue>> icons;
+    BarChart icons{{chartName(0), "Tactile icons: ", data.isSimulated}, "stimulus", "correct (%)"};
+    icons.most = 100.0;
     for (const auto& [name, matrix] : matrices) {
         const InformationTransfer it = informationTransfer(matrix);
         const bool isEnough = it.bestBits() >= bitsFor(job.meanings);
         out << printable(nameOr(name, "all trials")) << ": " << patternsOf(matrix) << ", "
             << bits(it.bestBits()) << ": " << (isEnough ? "enough" : "too little") << '\n';
-        if (!isEnough || !icons.empty()) continue;
-        chosen = nameOr(name, "all trials");
+        if (!isEnough || !icons.groups.empty()) continue;
+        icons.frame.title += nameOr(name, "all trials");
         for (const std::size_t i : leastConfused(matrix, job.meanings)) {
             const double share = shareCorrect(matrix, i);
             out << "  " << printable(matrix.label(i)) << "  " << percent(share) << " % correct\n";
             table.row(name, matrix.label(i), 100.0 * share);
-            icons.emplace_back(matrix.label(i), ChartValue::around(100.0 * share));
+            icons.add(matrix.label(i), ChartValue::around(100.0 * share));
         }
     }
-    if (icons.empty())
+    if (icons.groups.empty())
         report.error = job.files.front() + ": expected a condition that transfers " +
                        bits(bitsFor(job.meanings)) + ", found none";
-    report.picture = [chosen, icons, isSimulated = data.isSimulated] {
-        return barsChart({chartName(0), "Tactile icons: " + chosen, isSimulated}, "stimulus", "correct (%)",
-                         icons, 100.0);
-    };
+    report.picture = [icons] { return barChart(icons); };
 }
 
 } // namespace physvib

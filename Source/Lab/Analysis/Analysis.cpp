@@ -16,12 +16,14 @@ auto fromFiles(const AnalysisJob& job) {
     return readStudyFiles(job, reader);
 }
 
-/// Without the staircases and QUEST+ that did not come to their end, where the protocol is known.
+} // namespace
+
 Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
     return readStudyFiles(job, [&job](const std::vector<NamedText>& files) {
         auto data = readLevels(files);
         for (const NamedText& file : files) {
-            const auto trials = readReportTrials({{std::string{file.name}, std::string{file.text}}}, {}, {});
+            const auto trials =
+                readReportTrials({{std::string{file.name}, std::string{file.text}}}, {}, job.protocol);
             if (!data || !trials) continue;
             if (job.made == nullptr && !trials.value.protocol && hasAdaptiveRows(trials.value))
                 data.value.warnings.push_back(std::string{file.name} +
@@ -29,15 +31,21 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
                                               "end is known to `physvib report --protocol`");
             for (const UnfinishedRun& run : unfinishedRuns(trials.value))
                 if (run.isAdaptive &&
-                    std::erase_if(data.value.conditions.front().trials, [&](const LevelTrial& trial) {
-                        return trial.participant == run.participant && trial.condition == run.condition &&
-                               trial.session.substr(0, trial.session.find('/')) == run.session;
-                    }) > 0)
+                    std::erase_if(data.value.conditions.front().trials,
+                                  [&](const LevelTrial& trial) {
+                                      return trial.participant == run.participant &&
+                                             (trial.condition == run.condition ||
+                                              trial.condition == inSession(run.condition, run.session)) &&
+                                             trial.session.substr(0, trial.session.find('/')) == run.session;
+                                  }) > 0 &&
+                    job.made == nullptr) // a report has told them
                     data.value.warnings.push_back(run.words());
         }
         return data;
     });
 }
+
+namespace {
 
 /// What `analyse` finds in the trials that `read` finds.
 template <auto read, auto analyse>
@@ -147,18 +155,19 @@ namespace {
 std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
     if (job.files.empty() || job.made != nullptr) return {};
     std::vector<std::string> names;
-    bool hasPlaces = false;
+    bool hasPlaces = false, isOwn = false;
     const auto look = [&](const std::vector<NamedText>& files) -> Result<bool> {
         RowsLeftOut leftOut;
         const auto table = readStudyTable(files[0].text, files[0].name, job.columns, leftOut);
         if (table) names = analysesFor(table.value);
         hasPlaces = table.value.column("target_x").has_value();
+        isOwn = table.value.column(trialColumns::task).has_value();
         return true;
     };
     readStudyFiles(job, look);
     std::string words;
     for (const std::string& name : names) {
-        if (name == asked.name || (asked.kind == Analysis::Kind::fit && name == "levels") ||
+        if (name == asked.name || (asked.kind == Analysis::Kind::fit && name == "levels" && !isOwn) ||
             (asked.name == "icons" && name == "confusion") ||
             (asked.name == "places" && name == "resolution" && hasPlaces))
             return {};

@@ -7,6 +7,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Protocol.h"
 #include "Lab/Study/Psychometric.h"
 #include <cstddef>
 #include <functional>
@@ -124,6 +125,7 @@ struct AnalysisJob : StudySources {
     // Fits to each participant's trials:
     std::string level, measure; ///< columns; empty: those of our own files
     PsychometricModel model{};
+    std::optional<Protocol> protocol{}; ///< of the trials; else a built-in one is looked up
 
     bool operator==(const AnalysisJob&) const = default;
 };
@@ -179,6 +181,8 @@ void analysePercentCounts(const StudyData<PercentCounts>& data, const Findings& 
 // Judgements and levels: forced choices, slider ratings, staircases, QUEST+, adjustments, magnitudes.
 void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to);
 void analyseRatings(const RatingData& data, const Findings& to);
+/// Without the staircases and QUEST+ that did not come to their end, where the protocol is known.
+Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job);
 void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to);
 
 // Functions fitted to each participant's trials.

@@ -84,75 +84,52 @@ std::string mergedChart(ChartFrame frame, const ConditionResolution& one) {
     return countsChart(std::move(frame), merged(one.counts, merge));
 }
 
-std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
-                        const std::vector<std::string>& groups,
-                        const std::vector<const ChoiceSummary*>& summaries, bool ofMedians) {
-    BarChart chart{std::move(frame), groupsWords, "chosen (%)", groups, {}};
-    for (const auto& share : summaries.front()->shares) chart.series.push_back({share.alternative, {}});
-    for (std::size_t i = 0; i < summaries.size(); ++i)
+std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries, bool ofMedians) {
+    BarChart chart{std::move(frame), "condition", "chosen (%)", {}, {}};
+    for (const auto& share : summaries.front().shares) chart.series.push_back({share.alternative, {}});
+    for (const ChoiceSummary& summary : summaries) {
+        chart.groups.push_back(summary.condition);
         for (std::size_t s = 0; s < chart.series.size(); ++s) {
-            const ChoiceShare& share = summaries[i]->shares[s];
+            const ChoiceShare& share = summary.shares[s];
             const RankInterval by = ofMedians ? share.ofMedian : RankInterval{share.least, share.most};
             chart.series[s].bars.push_back(ChartValue{100.0 * (ofMedians ? share.median : share.share),
                                                       100.0 * by.least, 100.0 * by.most});
         }
+    }
     chart.most = 100.0;
     chart.reference = {100.0 / static_cast<double>(chart.series.size()), "chance"};
     return barChart(chart);
 }
 
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
-                        const std::vector<const RatingSummary*>& summaries) {
+                        const std::vector<RatingSummary>& summaries) {
     BarChart chart{std::move(frame), "condition", "mean score", {}, {}};
     for (const std::string& scale : scales) chart.series.push_back({scale, {}});
-    for (const RatingSummary* const summary : summaries) {
-        chart.groups.push_back(summary->condition);
+    for (const RatingSummary& summary : summaries) {
+        chart.groups.push_back(summary.condition);
         for (std::size_t s = 0; s < scales.size(); ++s)
             chart.series[s].bars.push_back(
-                std::isnan(summary->means[s])
+                std::isnan(summary.means[s])
                     ? std::nullopt
-                    : std::optional{ChartValue::around(summary->means[s], summary->halfIntervals[s])});
+                    : std::optional{ChartValue::around(summary.means[s], summary.halfIntervals[s])});
         // scores of some points have an axis of their own
-        if (std::ranges::any_of(summary->means, [](double mean) { return mean > 11.0; })) chart.most = 100.0;
+        if (std::ranges::any_of(summary.means, [](double mean) { return mean > 11.0; })) chart.most = 100.0;
     }
+    std::erase_if(chart.series, [](const BarSeries& one) { // not asked in this session
+        return std::ranges::none_of(one.bars, [](const auto& bar) { return bar.has_value(); });
+    });
     return barChart(chart);
 }
 
-std::string barsChart(ChartFrame frame, const std::string& groupsWords, const std::string& valueWords,
-                      const std::vector<std::pair<std::string, ChartValue>>& bars,
-                      std::optional<double> most) {
-    BarChart chart{std::move(frame), groupsWords, valueWords, {}, {{"", {}}}};
-    for (const auto& [group, value] : bars) {
-        chart.groups.push_back(group);
-        chart.series.front().bars.emplace_back(value);
-    }
-    chart.most = most;
-    return barChart(chart);
-}
-
-std::vector<std::string> levelCharts(std::span<const LevelSummary> summaries, bool isSimulated) {
-    using Kind = LevelTrial::Kind;
-    struct Words {
-        Kind kind;
-        const char *title, *value;
-    };
-    constexpr Words kinds[] = {{Kind::staircase, "Thresholds", "level (dB), mean of the later reversals"},
-                               {Kind::adjustment, "Matched levels", "level (dB)"},
-                               {Kind::magnitude, "Magnitudes", "geometric mean"},
-                               {Kind::quest, "Thresholds by QUEST+", "level (dB)"}};
-    std::vector<std::string> charts;
-    for (const Words& words : kinds) {
-        std::vector<std::pair<std::string, ChartValue>> bars;
-        for (const LevelSummary& s : summaries)
-            if (s.kind == words.kind && !std::isnan(s.estimate))
-                bars.emplace_back(
-                    s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
-                    ChartValue::around(s.estimate, s.kind == Kind::magnitude ? 0.0 : s.deviation));
-        if (bars.empty()) continue;
-        const ChartFrame frame{chartName(charts.size()), words.title, isSimulated};
-        charts.push_back(barsChart(frame, "lines: one standard deviation", words.value, bars));
-    }
-    return charts;
+std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind) {
+    const bool isMagnitude = kind == LevelTrial::Kind::magnitude;
+    BarChart chart{std::move(frame), isMagnitude ? "" : "lines: 95 % intervals",
+                   isMagnitude ? "geometric mean" : "level (dB)"};
+    for (const LevelSummary& s : summaries)
+        if (s.kind == kind && !std::isnan(s.estimate))
+            chart.add(s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
+                      ChartValue::around(s.estimate, s.halfInterval));
+    return chart.groups.empty() ? std::string{} : barChart(chart);
 }
 
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results) {
@@ -236,13 +213,11 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
     LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
-    const bool isAdaptive = trials.front().isAdaptive; // the slopes of its functions are no result
-    for (const auto& own : psychometricByParticipant(trials, model)) {
+    for (const auto& own : psychometricByParticipant(told ? std::vector<LevelAnswer>{} : trials, model)) {
         if (!own.fit.fault.empty()) continue;
         thresholds.push_back(own.fit.function.threshold);
-        if (own.fit.hasJnd || isAdaptive) widths.push_back(own.fit.function.width);
+        if (own.fit.hasJnd) widths.push_back(own.fit.function.width);
         lapses.push_back(own.fit.function.lapse);
-        if (isAdaptive) continue;
         chart.series.push_back(curve(own.fit.function, least, most));
         chart.series.back().isFaint = true;
     }
@@ -259,7 +234,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
             ChartValue::around(told->estimate, told->participants > 1 ? told->halfInterval : 0.0);
         chart.thresholdWords = "threshold " + fixedNumber(told->estimate, 1);
     } else if (!thresholds.empty()) {
-        if (!isAdaptive && !widths.empty()) {
+        if (!widths.empty()) {
             LineSeries mean =
                 curve(model.with(meanOf(thresholds), meanOf(widths), meanOf(lapses)), least, most);
             mean.name = "function of the mean threshold and width";

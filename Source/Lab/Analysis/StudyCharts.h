@@ -31,27 +31,22 @@ std::string countsChart(ChartFrame frame, const PercentCounts& counts);
 /// Counts of the largest merged grid, with its size in the title. Precondition: such a grid was found.
 std::string mergedChart(ChartFrame frame, const ConditionResolution& one);
 
-/// One bar per alternative and summary: the mean of the participants' shares, or their median.
-std::string sharesChart(ChartFrame frame, const std::string& groupsWords,
-                        const std::vector<std::string>& groups,
-                        const std::vector<const ChoiceSummary*>& summaries, bool ofMedians = false);
+/// One bar per alternative and summary, which have the same alternatives: the mean of the participants'
+/// shares, or their median.
+std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries,
+                        bool ofMedians = false);
 
 /// Mean scores of conditions, one series per scale.
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
-                        const std::vector<const RatingSummary*>& summaries);
+                        const std::vector<RatingSummary>& summaries);
 
-/// Bars of one series, shares in percent or levels; `valueWords` includes the unit.
-std::string barsChart(ChartFrame frame, const std::string& groupsWords, const std::string& valueWords,
-                      const std::vector<std::pair<std::string, ChartValue>>& bars,
-                      std::optional<double> most = {});
+/// Means of one kind, of each condition and stimulus; empty if there are none.
+std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind);
 
 /// Name of the chart with that number in a picture.
 inline std::string chartName(std::size_t number) { return "chart" + std::to_string(number); }
 
 // Functions that return several charts for a picture:
-
-/// Thresholds, adjusted levels and magnitudes: one chart per kind, with standard deviations for values in dB.
-std::vector<std::string> levelCharts(std::span<const LevelSummary> summaries, bool isSimulated);
 
 /// Gamma over frequency: one chart per axis, one curve per layer, or per voltage of a single one.
 std::vector<std::string> isolationCharts(std::span<const IsolationResult> results);

@@ -39,8 +39,12 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
     Data data;
     SharedParticipants shared;
     try {
-        for (const NamedText& file : files) {
-            const StudyRows rows{file.text, file.name, file.columns};
+        std::vector<StudyRows> tables;
+        StudyRows::Sessions sessions;
+        for (const NamedText& file : files)
+            tables.emplace_back(file.text, file.name, file.columns).addSessions(sessions);
+        for (StudyRows& rows : tables) {
+            rows.partBy(sessions);
             if (auto fault = shared.add(rows.table()); !fault.empty()) throw StudyFault{std::move(fault)};
             data.isSimulated |= saysSimulated(rows.table());
             const std::size_t taken = take(rows, data);
@@ -53,7 +57,7 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
             if (rows.ranOut() > 0)
                 data.warnings.push_back(rows.table().name + ": left out: " + ranOutWords(rows.ranOut()));
             if (taken == 0)
-                throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
+                throw StudyFault{rows.table().name + ": expected trials of this kind, found none"};
         }
     } catch (const StudyFault& fault) {
         return Failure{fault.message};
@@ -77,14 +81,14 @@ void expectFewLabels(const std::string& file, const StudyData<IdentificationTria
 
 std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTrial>& data) {
     const auto stimulus = rows.required("stimulus"), response = rows.required("response");
-    const auto condition = rows.optional("condition"), participant = rows.optional("participant");
+    const auto participant = rows.optional("participant");
     std::size_t missing = 0, firstMissing = 0;
     const std::size_t taken = rows.each(AnswerKind::label, [&](const CsvRow& row) {
         if (row.cells[response].empty() && !rows.text(row, stimulus).empty()) {
             if (missing++ == 0) firstMissing = row.line;
             return;
         }
-        conditionNamed(rows, data, StudyRows::textIf(row, condition))
+        conditionNamed(rows, data, rows.conditionOf(row))
             .push_back({rows.text(row, stimulus), row.cells[response], StudyRows::textIf(row, participant)});
     });
     if (missing > 0)
@@ -103,10 +107,10 @@ std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data)
                 " different places, found more; `physvib analyse places` takes targets on no grid"};
     const auto column = rows.required("target_column"), row = rows.required("target_row"),
                x = rows.required("x"), y = rows.required("y");
-    const auto condition = rows.optional("condition"), participant = rows.optional("participant");
+    const auto participant = rows.optional("participant");
     constexpr int most = static_cast<int>(mostGridLines);
     return rows.each(AnswerKind::place, [&](const CsvRow& r) {
-        conditionNamed(rows, data, StudyRows::textIf(r, condition))
+        conditionNamed(rows, data, rows.conditionOf(r))
             .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most),
                         rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0),
                         StudyRows::textIf(r, participant)});
@@ -136,14 +140,13 @@ struct OwnTargets {
 
 std::size_t takeOwnPlaces(const StudyRows& rows, const OwnTargets& targets, StudyData<PlaceTrial>& data) {
     const auto x = rows.required("x"), y = rows.required("y");
-    const auto stimulus = rows.optional("stimulus"), condition = rows.optional("condition"),
-               participant = rows.optional("participant");
+    const auto stimulus = rows.optional("stimulus"), participant = rows.optional("participant");
     const std::string unit = "true places are those of the calls' grids, in shares of the field's width and "
                              "height, y downwards; a distance counts both shares alike";
     if (std::ranges::find(data.warnings, unit) == data.warnings.end()) data.warnings.push_back(unit);
     return rows.each(AnswerKind::place, [&](const CsvRow& row) {
         const FieldPlace truth = targets.placeIn(rows, row);
-        conditionNamed(rows, data, StudyRows::textIf(row, condition))
+        conditionNamed(rows, data, rows.conditionOf(row))
             .push_back({StudyRows::textIf(row, participant), StudyRows::textIf(row, stimulus), truth.x,
                         truth.y, rows.number(row, x, 0.0, 1.0), rows.number(row, y, 0.0, 1.0)});
     });
@@ -154,8 +157,7 @@ std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
     constexpr double farthest = 1e9; // limit in any unit
     const auto trueX = rows.required("target_x"), x = rows.required("x");
     const auto trueY = rows.optional("target_y"), y = rows.optional("y"),
-               stimulus = rows.optional("stimulus"), condition = rows.optional("condition"),
-               participant = rows.optional("participant");
+               stimulus = rows.optional("stimulus"), participant = rows.optional("participant");
     if (trueY.has_value() != y.has_value())
         throw StudyFault{rows.table().name +
                          ": expected both columns target_y and y, or none of them, found " +
@@ -169,16 +171,15 @@ std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
         trial.target =
             stimulus ? row.cells[*stimulus]
                      : numberText(trial.trueX) + (trueY ? "," + numberText(trial.trueY) : std::string{});
-        conditionNamed(rows, data, StudyRows::textIf(row, condition)).push_back(std::move(trial));
+        conditionNamed(rows, data, rows.conditionOf(row)).push_back(std::move(trial));
     });
 }
 
 constexpr char betweenKinds = '\n'; // in no cell
 
 /// Condition and stimulus, until nameKinds().
-std::string kindOf(const CsvRow& row, std::optional<std::size_t> stimulus,
-                   std::optional<std::size_t> condition) {
-    return StudyRows::textIf(row, condition) + betweenKinds + StudyRows::textIf(row, stimulus);
+std::string kindOf(const CsvRow& row, std::optional<std::size_t> stimulus, const std::string& condition) {
+    return condition + betweenKinds + StudyRows::textIf(row, stimulus);
 }
 
 /// Trials are told apart by condition or stimulus, or by words of both where both differ:
@@ -195,7 +196,8 @@ void nameKinds(std::vector<Trial>& trials, std::string Trial::*kind, const std::
         conditions.emplace(condition), stimuli.emplace(stimulus);
     }
     const auto words = [](const char* name, std::string_view cell) {
-        return (cell.find('=') == std::string_view::npos ? std::string{name} + "=" : "") + std::string{cell};
+        return (cell.substr(0, cell.find(' ')).find('=') == cell.npos ? std::string{name} + "=" : "") +
+               std::string{cell};
     };
     for (Trial& trial : trials) {
         const auto [condition, stimulus] = parts(trial.*kind);
@@ -214,15 +216,17 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
                participant = rows.optional("participant");
     const auto correct = rows.optional("correct"), level = rows.optional("level_db");
+    const auto parts = rows.optional("parts");
     const bool isOwn = rows.optional(trialColumns::task).has_value();
     std::size_t taken = 0;
     rows.each(AnswerKind::choice, [&](const CsvRow& row) {
         // Of adaptive levels the method makes the shares.
         if (isOwn && correct && level && !row.cells[*correct].empty() && !row.cells[*level].empty()) return;
         ++taken;
-        conditionNamed(rows, data, {})
-            .push_back({StudyRows::textIf(row, participant), kindOf(row, stimulus, condition),
-                        rows.text(row, choice)});
+        conditionNamed(rows, data, rows.sessionOf(row))
+            .push_back({StudyRows::textIf(row, participant),
+                        kindOf(row, stimulus, StudyRows::textIf(row, condition)), rows.text(row, choice),
+                        StudyRows::textIf(row, parts)});
     });
     return taken;
 }
@@ -260,11 +264,13 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
         throw StudyFault{rows.table().name + ": expected the scales of the files before"};
     ratings.scales = names;
     return rows.each(AnswerKind::scores, [&](const CsvRow& row) {
-        RatingTrial trial{StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), {}};
+        RatingTrial trial{StudyRows::textIf(row, participant),
+                          kindOf(row, stimulus, StudyRows::textIf(row, condition)),
+                          {}};
         if (group) trial.condition.append(stimulus ? " group=" : "group=").append(row.cells[*group]);
         for (const auto c : scales) // of this session; others lack answers
             trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));
-        conditionNamed(rows, ratings, {}).push_back(std::move(trial));
+        conditionNamed(rows, ratings, rows.sessionOf(row)).push_back(std::move(trial));
     });
 }
 
@@ -285,8 +291,7 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
                                              : rows.optional("value") ? AnswerKind::number
                                                                       : AnswerKind::choice;
     LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")),
-                     StudyRows::textIf(row, rows.optional("condition")),
-                     rows.text(row, rows.required("stimulus"))};
+                     rows.conditionOf(row), rows.text(row, rows.required("stimulus"))};
     if (answer == AnswerKind::level)
         trial.kind = LevelTrial::Kind::adjustment;
     else if (answer == AnswerKind::number)
@@ -328,11 +333,12 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
         const auto answer = task ? answerOf(row.cells[*task]) : std::nullopt;
         if (isTraining(row) && (answer != AnswerKind::level || hasMatches)) continue;
         if (answer == AnswerKind::wish) continue; // explorations have no stimulus
-        if (task ? answer == AnswerKind::number : rows.optional("value").has_value())
-            if (parseNumber<double>(row.cells[rows.required("value")]) == 0.0) {
-                ++zeros;
-                continue;
-            }
+        if (task ? answer == AnswerKind::number : rows.optional("value").has_value()) {
+            const std::string& value = row.cells[rows.required("value")];
+            const bool isZero = parseNumber<double>(value) == 0.0;
+            zeros += isZero;
+            if (isZero || value.empty()) continue;
+        }
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
             ofTraining += isTraining(row);
@@ -381,28 +387,22 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     const auto measure = rows.required(columns.measure.substr(0, words));
     const auto level = LevelSource::of(rows.table(), columns.level);
     if (!level) rows.required(columns.level);
-    const auto condition = rows.optional("condition"), participant = rows.optional("participant");
+    const auto participant = rows.optional("participant");
     const bool isFactor = columns.level == "level_db" && !rows.optional(trialColumns::task);
     const auto stimulus = isFactor ? rows.optional("stimulus") : std::nullopt; // of other programs
-    // Of our own files' right and wrong choices those with a level are adaptive.
+    // Levels of our own files' right and wrong choices were chosen by the answers, which tell no function.
     const auto moved = rows.optional("level_db");
     const bool isOwn = rows.optional(trialColumns::task) && columns.measure == "correct" && moved;
-    const auto quest = rows.optional(trialColumns::quest);
-    const auto has = [&](bool isMoved) {
-        return isOwn && std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
-                   return !row.cells[measure].empty() && row.cells[*moved].empty() != isMoved &&
-                          (!quest || row.cells[*quest].empty());
-               });
-    };
-    // Rows of QUEST+ have a fit of their own: they are fitted here only where nothing else is to be fitted.
-    const bool hasFixed = has(false), hasStaircase = has(true);
+    std::set<std::string> asked; // sessions with the answer "left"
+    if (words != std::string::npos)
+        for (const CsvRow& row : rows.table().rows)
+            if (row.cells[measure] == columns.measure.substr(words + 1)) asked.insert(rows.sessionOf(row));
     std::size_t taken = 0;
     rows.each(columns.isMagnitude ? AnswerKind::number : AnswerKind::choice, [&](const CsvRow& row) {
         if (row.cells[measure].empty()) return;
         if (columns.isMagnitude && parseNumber<double>(row.cells[measure]) == 0.0) return;
-        const bool isAdaptive = isOwn && !row.cells[*moved].empty();
-        if (isOwn && (columns.level == "level_db" ? !isAdaptive : isAdaptive && hasFixed)) return;
-        if (isAdaptive && hasStaircase && quest && !row.cells[*quest].empty()) return;
+        if (isOwn && !row.cells[*moved].empty()) return;
+        if (!asked.empty() && !asked.contains(rows.sessionOf(row))) return;
         const auto at = parseNumber<double>(level->level(row));
         if (!at || std::abs(*at) > largestLevel)
             throw StudyFault{rows.table().fault(row, level->column,
@@ -412,8 +412,8 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
                               : words != std::string::npos
                                   ? row.cells[measure] == columns.measure.substr(words + 1)
                                   : rows.wholeNumber(row, measure, 0, 1);
-        conditionNamed(rows, data, kindOf(row, stimulus, condition))
-            .push_back({StudyRows::textIf(row, participant), *at, answer, isAdaptive});
+        conditionNamed(rows, data, kindOf(row, stimulus, rows.conditionOf(row)))
+            .push_back({StudyRows::textIf(row, participant), *at, answer});
     });
     return taken;
 }

@@ -16,10 +16,10 @@
 
 namespace physvib {
 
-/// The trials of one condition, in the order of the file.
+/// The trials of one condition (of choices and ratings: of a session), in the order of the file.
 template <class Trial>
 struct StudyCondition {
-    std::string name; ///< empty if the file has no column `condition`
+    std::string name; ///< inSession(); empty if the file has no column `condition`
     std::vector<Trial> trials;
 };
 
@@ -34,6 +34,18 @@ struct StudyData {
 struct RatingData : StudyData<RatingTrial> {
     std::vector<std::string> scales; ///< names of a trial's scores
 };
+
+/// The summaries of all sessions, named by them. Any thread (allocates).
+template <class Trial, class Summarise>
+auto bySession(const StudyData<Trial>& data, Summarise summarise) {
+    decltype(summarise(data.conditions.front().trials)) all;
+    for (const auto& session : data.conditions)
+        for (auto& one : summarise(session.trials)) {
+            one.condition = inSession(std::move(one.condition), session.name);
+            all.push_back(std::move(one));
+        }
+    return all;
+}
 
 /// Contents and display name of a file.
 struct NamedText {
@@ -57,12 +69,13 @@ Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files)
 /// answers, with a warning.
 Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files);
 
-/// Columns choice (or response); optional condition, stimulus, participant. The result has one condition; a
-/// trial's names condition and stimulus, "condition=low stimulus=0.2", or the one that differs.
+/// Columns choice (or response); optional condition, stimulus, participant. The result's conditions are
+/// sessions, one without a name if it is alone; a trial's names condition and stimulus, "condition=low
+/// stimulus=0.2", or the one that differs.
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files);
 
-/// Columns stimulus or condition (as of choices), optional participant. Every column that trial files do not
-/// have is a scale from 0 to 100.
+/// Columns stimulus or condition (as of choices, and sessions too), optional participant. Every column that
+/// trial files do not have is a scale from 0 to 100.
 Result<RatingData> readRatings(std::span<const NamedText> files);
 
 /// Staircases, QUEST+ sessions, adjustments and magnitude estimations of a trial file. Of trainings only

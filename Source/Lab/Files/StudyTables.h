@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,11 @@ struct RowsLeftOut {
 /// a participant. Any thread (allocates).
 Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
                                 std::span<const ColumnName> names, RowsLeftOut& leftOut);
+
+/// "low in second": one of several sessions of a kind; analysis.R parts such names. Any thread (allocates).
+inline std::string inSession(std::string condition, const std::string& session) {
+    return session.empty() ? condition : condition + " in " + session;
+}
 
 /// Whether a simulated observer gave one of the answers. Any thread.
 bool saysSimulated(const CsvTable& table);
@@ -124,6 +130,25 @@ public:
         return column ? row.cells[*column] : std::string{};
     }
 
+    /// Sessions by what their rows are: training, kind of answer, whether answers chose levels, by QUEST+.
+    using Sessions = std::map<std::tuple<bool, std::optional<AnswerKind>, bool, bool>, std::set<std::string>>;
+    void addSessions(Sessions& all) const {
+        if (!optional(trialColumns::task)) return; // in tables of other programs it may be a date
+        for (const CsvRow& row : table_.rows) all[kindOf(row)].insert(named(row, "session"));
+    }
+    /// Where several of these sessions have rows of a kind, each is a study of its own.
+    void partBy(const Sessions& all) { sessions_ = all; }
+
+    /// The row's session where there are several; else empty.
+    std::string sessionOf(const CsvRow& row) const {
+        const auto own = sessions_.find(kindOf(row));
+        return own != sessions_.end() && own->second.size() > 1 ? named(row, "session") : std::string{};
+    }
+    /// The name of the row's condition, empty if it has none.
+    std::string conditionOf(const CsvRow& row) const {
+        return inSession(named(row, "condition"), sessionOf(row));
+    }
+
     double number(const CsvRow& row, std::size_t column, double least, double most) const {
         const auto found = parseNumber<double>(row.cells[column]);
         if (!found || *found < least || *found > most)
@@ -141,7 +166,18 @@ public:
     }
 
 private:
+    std::string named(const CsvRow& row, std::string_view column) const {
+        return textIf(row, optional(column));
+    }
+    Sessions::key_type kindOf(const CsvRow& row) const {
+        return {named(row, trialColumns::phase) == trialColumns::training,
+                answerOf(named(row, trialColumns::task)),
+                !named(row, "correct").empty() && !named(row, "level_db").empty(),
+                !named(row, trialColumns::quest).empty()};
+    }
+
     CsvTable table_;
+    Sessions sessions_;
     RowsLeftOut leftOut_;
     std::size_t notLeft_ = 0, ranOut_ = 0;
 };

@@ -125,12 +125,20 @@ std::string questClause(const QuestMethod& plan) {
                 : std::string{});
 }
 
-std::string roveWords(double db, const std::vector<std::string>& moved) {
-    return moved.empty()
-               ? "; each trial is stronger or weaker as a whole by up to " + dbWords(db) + ", at random"
-               : "; in each trial " + listed(moved) + " is multiplied as a whole by a ratio of up to " +
-                     dbWords(db) + " (a factor of " + fixedNumber(fromDecibels(db), 3) +
-                     ") up or down, at random";
+std::string roveWords(double db, const Protocol& protocol) {
+    const Moved all = movedIn(protocol, true);
+    return joinedWords(all, "", [&](const auto& one) {
+        const auto& [moved, conditions] = one;
+        const std::string where = all.size() > 1 ? " of " + listed(conditions) : std::string{};
+        return moved.empty() ? "; each trial" + where + " is stronger or weaker as a whole by up to " +
+                                   dbWords(db) + ", at random"
+               : isLevelItself(moved)
+                   ? "; in each trial" + where + " the call's {level_db} is up to " + numberText(db) +
+                         " higher or lower, at random"
+                   : "; in each trial" + where + " " + listed(moved) +
+                         " is multiplied as a whole by a ratio of up to " + dbWords(db) + " (a factor of " +
+                         fixedNumber(fromDecibels(db), 3) + ") up or down, at random";
+    });
 }
 
 std::string anchorWords(const SessionPlan& session, std::size_t end) {
@@ -202,12 +210,19 @@ std::string conditionWords(const ConditionPlan& condition) {
     return words;
 }
 
-std::vector<std::string> movedBesideStrength(const Protocol& protocol, bool byRove) {
-    std::vector<std::string> all;
-    for (const ConditionPlan& condition : protocol.conditions)
-        for (std::string& name : movedBesideStrength(condition, byRove))
-            if (std::ranges::find(all, name) == all.end()) all.push_back(std::move(name));
+Moved movedIn(const Protocol& protocol, bool byRove) {
+    Moved all;
+    for (const ConditionPlan& condition : protocol.conditions) {
+        auto names = movedBesideStrength(condition, byRove);
+        const auto found = std::ranges::find(all, names, &Moved::value_type::first);
+        (found == all.end() ? all.emplace_back(std::move(names), std::vector<std::string>{}) : *found)
+            .second.push_back(condition.name);
+    }
     return all;
+}
+
+bool isLevelItself(const std::vector<std::string>& moved) {
+    return std::ranges::find(moved, "level_db") != moved.end();
 }
 
 std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
@@ -250,7 +265,7 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     if (!session.correct.empty()) words += "; " + session.correct + " is right";
     if (session.untilCorrect > 0)
         words += "; until " + std::to_string(session.untilCorrect) + " right answers in a row, or all trials";
-    if (session.roveDb > 0.0) words += roveWords(session.roveDb, movedBesideStrength(protocol, true));
+    if (session.roveDb > 0.0) words += roveWords(session.roveDb, protocol);
     if (!session.modulus.empty())
         words += "; each trial begins with " + session.modulus + ", which counts as " +
                  numberText(session.modulusNumber);

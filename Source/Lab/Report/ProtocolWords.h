@@ -21,8 +21,11 @@ std::string conditionWords(const ConditionPlan& condition);
 /// One line on the question, repetitions and breaks of a session of that protocol. Any thread (allocates).
 std::string sessionWords(const SessionPlan& session, const Protocol& protocol);
 
-/// What a level in dB moves in the protocol's calls besides their strength. Any thread (allocates).
-std::vector<std::string> movedBesideStrength(const Protocol& protocol, bool byRove = false);
+/// Names, and the conditions whose calls move them by a level in dB; none: these move the strength alone.
+using Moved = std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>>;
+Moved movedIn(const Protocol& protocol, bool byRove = false); ///< Any thread (allocates).
+/// {level_db} in the call itself, which then says what it is. Any thread.
+bool isLevelItself(const std::vector<std::string>& moved);
 
 /// One line per recording that calls with --method SV play. Any thread (allocates).
 std::vector<std::string> soundLines(const Protocol& protocol);

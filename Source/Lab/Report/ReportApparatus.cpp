@@ -10,9 +10,9 @@
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
-#include <tuple>
 
 namespace physvib {
 namespace {
@@ -118,12 +118,18 @@ std::vector<double> numbersOf(std::string_view cell) {
 }
 
 /// A sentence on a column of the table of tellDoses(), followed by a space.
-std::string meaningOf(std::string_view column, const std::vector<std::string>& moved) {
-    if (column == "level_db")
-        return "level_db: in dB of " +
-               (moved.empty() ? "the condition's own level, or of a call's full scale"
-                              : listed(moved) + " at 0 dB (a ratio: 20 dB is 10 times as much)") +
-               "; where participants set a level, that at the start. ";
+std::string meaningOf(std::string_view column, const Moved& all) {
+    if (column == "level_db") {
+        std::string words = "level_db: ";
+        for (const auto& [moved, conditions] : all)
+            words.append(words.size() > 10 ? "; " : "")
+                .append(all.size() > 1 ? "of " + listed(conditions) + " " : std::string{})
+                .append(isLevelItself(moved) ? "what {level_db} is in the call"
+                        : moved.empty()
+                            ? "in dB of the condition's own level, or of a call's full scale"
+                            : "in dB of " + listed(moved) + " at 0 dB (a ratio: 20 dB is 10 times as much)");
+        return words + "; where participants set a level, that at the start. ";
+    }
     if (column == trialColumns::peakG)
         return "peak_g: the peak of the signal that left for the strongest actuator, of each part of a "
                "trial, times the full scale that its layout states, in g. ";
@@ -140,27 +146,31 @@ std::string chainOf(const ReportTrials& trials) {
            "layouts are not known here: no accelerometer measured them.";
 }
 
+/// Numbers of a column by condition and session; `isFine`: and by stimulus and part.
+std::map<std::array<std::string, 4>, std::vector<double>> levelsIn(const CsvTable& all,
+                                                                   std::string_view column, bool isFine) {
+    const Cells cell{all};
+    std::map<std::array<std::string, 4>, std::vector<double>> levels;
+    for (const CsvRow& row : all.rows) {
+        std::string_view parts = cell(row, "parts");
+        for (const double value : numbersOf(cell(row, column)))
+            levels[{cell(row, "condition"), cell(row, "session"), isFine ? cell(row, "stimulus") : "",
+                    std::string{isFine ? takeUntil('|', parts) : ""}}]
+                .push_back(value);
+    }
+    return levels;
+}
+
 /// Table of the levels of every part of every stimulus, where they are in the rows.
 void tellStimuli(ReportBuilder& report) {
-    using Key = std::tuple<std::string, std::string, std::string, std::string, std::string_view>;
-    const Cells cell{report.trials.all};
-    std::map<Key, std::vector<double>> values;
-    for (const CsvRow& row : report.trials.all.rows)
-        for (const std::string_view column : {trialColumns::peakG, trialColumns::rmsG}) {
-            std::string_view parts = cell(row, "parts");
-            for (const double value : numbersOf(cell(row, column)))
-                values[{cell(row, "condition"), cell(row, "session"), cell(row, "stimulus"),
-                        std::string{takeUntil('|', parts)}, column}]
-                    .push_back(value);
-        }
-    if (values.empty()) return;
     ExportTable table{"levels-by-stimulus", report.isSimulated(),
                       "condition,session,stimulus,part,measure,values,least,mean,most"};
-    for (const auto& [key, own] : values) {
-        const auto& [condition, session, stimulus, part, measure] = key;
-        table.row(condition, session, stimulus, part, measure, own.size(), *std::ranges::min_element(own),
-                  Moments(own).mean, *std::ranges::max_element(own));
-    }
+    const std::string empty = table.text();
+    for (const std::string_view column : {trialColumns::peakG, trialColumns::rmsG})
+        for (const auto& [key, own] : levelsIn(report.trials.all, column, true))
+            table.row(key[0], key[1], key[2], key[3], column, own.size(), *std::ranges::min_element(own),
+                      Moments(own).mean, *std::ranges::max_element(own));
+    if (table.text() == empty) return;
     report.addTable("levels-by-stimulus.csv", table.text());
     report.page.table(table.text(), "levels-by-stimulus.csv", 200, true);
 }
@@ -170,18 +180,13 @@ void tellStimuli(ReportBuilder& report) {
 void tellDoses(ReportBuilder& report) {
     if (!report.trials.knowTasks()) return; // units of other programs are unknown
     const CsvTable& all = report.trials.all;
-    const Cells cell{all};
     ExportTable table{"levels-and-exposure", report.isSimulated(),
                       "condition,session,measure,values,least,mean,most"};
     std::string meanings;
-    const auto moved =
-        report.trials.protocol ? movedBesideStrength(*report.trials.protocol) : std::vector<std::string>{};
+    const auto moved = report.trials.protocol ? movedIn(*report.trials.protocol) : Moved{{}};
     for (const std::string& column : all.columns) {
         if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
-        std::map<std::pair<std::string, std::string>, std::vector<double>> values;
-        for (const CsvRow& row : all.rows)
-            for (const double value : numbersOf(cell(row, column)))
-                values[{cell(row, "condition"), cell(row, "session")}].push_back(value);
+        const auto values = levelsIn(all, column, false);
         if (column == "level_db" && std::ranges::all_of(values, [](const auto& v) {
                 return std::ranges::all_of(v.second, [](double db) { return db == 0.0; });
             }))
@@ -190,7 +195,7 @@ void tellDoses(ReportBuilder& report) {
         for (const auto& [key, own] : values) {
             // means of adaptive levels and accumulated exposure have no meaning
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
-            table.row(key.first, key.second, column, own.size(), *std::ranges::min_element(own),
+            table.row(key[0], key[1], column, own.size(), *std::ranges::min_element(own),
                       hasMean ? std::optional{Moments(own).mean} : std::nullopt,
                       *std::ranges::max_element(own));
         }
@@ -214,23 +219,18 @@ namespace {
 /// Conditions of each participant in the order of first main trials; participants in file order.
 using Orders = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// Calls `take` with participant and condition of each main trial.
-template <class Take>
-void eachMainTrial(const CsvTable& all, Take take) {
-    const Cells cell{all};
-    for (const CsvRow& row : all.rows)
-        if (cell(row, trialColumns::phase) != trialColumns::training)
-            take(cell(row, "participant"), cell(row, "condition"), row);
-}
-
 Orders ordersOf(const CsvTable& all) {
     Orders orders;
-    eachMainTrial(all, [&](const std::string& participant, const std::string& condition, const CsvRow&) {
+    const Cells cell{all};
+    for (const CsvRow& row : all.rows) {
+        if (cell(row, trialColumns::phase) == trialColumns::training) continue;
+        const std::string& participant = cell(row, "participant");
         auto found = std::ranges::find(orders, participant, &Orders::value_type::first);
         if (found == orders.end()) found = orders.insert(orders.end(), {participant, {}});
-        if (std::ranges::find(found->second, condition) == found->second.end())
+        if (const std::string& condition = cell(row, "condition");
+            std::ranges::find(found->second, condition) == found->second.end())
             found->second.push_back(condition);
-    });
+    }
     return orders;
 }
 
@@ -248,8 +248,9 @@ std::string balanceWords(const Orders& orders, const std::set<std::string>& cond
             const std::size_t count = atPlace[{condition, place}];
             fewest = std::min(fewest, count), most = std::max(most, count);
         }
-    return "A condition was at one place of the order " + std::to_string(fewest) + " to " +
-           std::to_string(most) + " times; " + std::to_string(successions.size()) + " of " +
+    return "A condition was at one place of the order " + std::to_string(fewest) +
+           (most > fewest ? " to " + std::to_string(most) : std::string{}) + " times; " +
+           std::to_string(successions.size()) + " of " +
            std::to_string(conditions.size() * (conditions.size() - 1)) +
            " successions of two conditions occurred.";
 }

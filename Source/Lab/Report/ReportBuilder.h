@@ -94,45 +94,6 @@ private:
     const CsvTable& table_;
 };
 
-// Splits two-part condition names such as PHONE-3x3 into series and groups of a chart.
-
-/// The summary of a condition; null if there is none.
-template <class Summary>
-const Summary* conditionNamed(const std::vector<Summary>& all, const std::string& name) {
-    const auto found = std::ranges::find(all, name, &Summary::condition);
-    return found == all.end() ? nullptr : &*found;
-}
-
-struct ConditionAxes {
-    std::vector<std::string> series, groups; ///< one empty series if conditions are groups
-
-    std::string conditionOf(std::size_t s, std::size_t g) const {
-        return series[s].empty() ? groups[g] : series[s] + "-" + groups[g];
-    }
-
-    /// Precondition: `names` are unique. Any thread (allocates).
-    static ConditionAxes of(std::vector<std::string> names) {
-        std::ranges::sort(names);
-        ConditionAxes axes;
-        for (const std::string& name : names) {
-            const std::size_t hyphen = name.find('-');
-            if (hyphen == std::string::npos || name.find('-', hyphen + 1) != std::string::npos)
-                return plain(std::move(names));
-            add(axes.series, name.substr(0, hyphen));
-            add(axes.groups, name.substr(hyphen + 1));
-        }
-        if (axes.series.size() * axes.groups.size() != names.size() || axes.groups.size() < 2)
-            return plain(std::move(names));
-        return axes;
-    }
-
-private:
-    static ConditionAxes plain(std::vector<std::string> names) { return {{""}, std::move(names)}; }
-    static void add(std::vector<std::string>& words, std::string word) {
-        if (std::ranges::find(words, word) == words.end()) words.push_back(std::move(word));
-    }
-};
-
 // The sections of a report, in order.
 
 void tellParticipants(ReportBuilder& report); ///< participants, numbers of trials, exclusions, ethics and
@@ -151,9 +112,9 @@ void tellPlaceErrors(ReportBuilder& report);    ///< targets without a grid: con
 void tellChoices(ReportBuilder& report);        ///< Fig. 5.8, 5.9
 void tellRatings(ReportBuilder& report);        ///< Fig. 5.13, 5.14
 void tellLevels(ReportBuilder& report); ///< staircases, adjustments, magnitudes; psychometric functions
-/// A chart of each condition's answers and functions. Of QUEST+, `quest` has the thresholds.
+/// A chart of each condition's answers, and functions if somebody has one.
 void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const PsychometricModel& model,
-                   const FitWords& words, const std::vector<LevelSummary>& quest = {});
+                   const FitWords& words, bool isFitted);
 /// Counts answers in words by stimulus; true if there are any.
 bool tellDescriptions(ReportBuilder& report);
 

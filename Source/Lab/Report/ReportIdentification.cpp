@@ -47,26 +47,11 @@ ChartValue withInterval(const std::vector<double>& values) {
 
 /// One bar per condition, with the value that `value` returns.
 template <class Value>
-std::vector<BarSeries> barsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all,
-                              Value value) {
-    std::vector<BarSeries> series;
-    for (std::size_t s = 0; s < axes.series.size(); ++s) {
-        series.push_back({axes.series[s], {}});
-        for (std::size_t g = 0; g < axes.groups.size(); ++g) {
-            const auto* const condition = conditionNamed(all, axes.conditionOf(s, g));
-            series.back().bars.push_back(condition ? std::optional{value(*condition)} : std::nullopt);
-        }
-    }
-    return series;
-}
-
-std::vector<double> ceilingsOf(const ConditionAxes& axes, const std::vector<IdentifiedCondition>& all) {
-    std::vector<double> most;
-    for (std::size_t g = 0; g < axes.groups.size(); ++g) {
-        const auto* const condition = conditionNamed(all, axes.conditionOf(0, g));
-        most.push_back(condition ? condition->transfer.mostBits : 0.0);
-    }
-    return most;
+BarChart barsOf(ChartFrame frame, const char* words, const std::vector<IdentifiedCondition>& all,
+                Value value) {
+    BarChart chart{std::move(frame), "condition", words};
+    for (const IdentifiedCondition& one : all) chart.add(one.condition, value(one));
+    return chart;
 }
 
 /// Draws grids by place, and other stimuli as a confusion matrix.
@@ -112,11 +97,11 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
     return gridChart(chart);
 }
 
-bool isGrid(const std::vector<IdentifiedCondition>& all) {
-    for (const IdentifiedCondition& one : all)
-        for (std::size_t i = 0; i < one.matrix.stimuli(); ++i)
-            if (!parseGridCell(one.matrix.label(i))) return false;
-    return true;
+bool isGrid(const Identified& data) {
+    return std::ranges::all_of(data.conditions, [](const auto& one) {
+        return std::ranges::all_of(
+            one.trials, [](const auto& trial) { return parseGridCell(trial.stimulus).has_value(); });
+    });
 }
 
 /// Tables and charts for one criterion of a correct answer.
@@ -131,13 +116,10 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     const std::string values = "identification" + suffix + ".csv";
     report.addTable(values, confusion.participants);
     const auto all = conditionsOf(data, tolerance);
-    std::vector<std::string> names;
-    for (const auto& one : all) names.push_back(one.condition);
-    const ConditionAxes axes = ConditionAxes::of(names);
     const bool hasPeople = all.front().shares.size() > 1;
-    BarChart it{report.frame("Information transfer" + words), "condition", "IT (bit)", axes.groups,
-                barsOf(axes, all, [](const auto& c) { return ChartValue::around(c.transfer.bits); })};
-    it.ceilings = ceilingsOf(axes, all);
+    BarChart it = barsOf(report.frame("Information transfer" + words), "IT (bit)", all,
+                         [](const auto& c) { return ChartValue::around(c.transfer.bits); });
+    for (const IdentifiedCondition& one : all) it.ceilings.push_back(one.transfer.mostBits);
     it.ceilingWords = "most possible";
     report.page.figure(
         {barChart(it)},
@@ -145,23 +127,24 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
             report.asThesis("Fig. 3.11, 4.2") +
             ": one estimate per condition, so it has no interval. Dotted: log2 of the number of stimuli.");
     if (hasPeople) {
-        it.frame = report.frame("Information transfer of participants" + words);
-        it.series = barsOf(axes, all, [](const auto& c) { return withInterval(c.bits); });
-        report.page.figure({barChart(it)},
+        auto own = barsOf(report.frame("Information transfer of participants" + words), "IT (bit)", all,
+                          [](const auto& c) { return withInterval(c.bits); });
+        own.ceilings = it.ceilings, own.ceilingWords = it.ceilingWords;
+        report.page.figure({barChart(own)},
                            "Mean of the participants' own information transfer" + words + report.intervals() +
                                ". Few trials make everyone's too high, though never higher than "
                                "their logarithm: compare conditions of as many stimuli and "
                                "trials only.");
     }
-    BarChart pc{report.frame("Percent correct" + words), "condition", "correct (%)", axes.groups,
-                barsOf(axes, all, [](const auto& c) { return withInterval(c.shares); })};
+    BarChart pc = barsOf(report.frame("Percent correct" + words), "correct (%)", all,
+                         [](const auto& c) { return withInterval(c.shares); });
     pc.most = 100.0;
     report.page.figure({barChart(pc)}, "Mean percent correct" + words + report.asThesis("Fig. 3.12, 4.3") +
                                            report.intervals() + ".");
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
         const auto& trials = data.conditions[c].trials;
-        charts.push_back(isGrid(all)
+        charts.push_back(isGrid(data)
                              ? stimulusChart(report, all[c],
                                              tolerance ? withTolerance(trials, tolerance) : trials, tolerance)
                              : confusionChart(report.frame(all[c].condition), all[c].matrix));
@@ -169,7 +152,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     std::erase(charts, std::string{});
     if (charts.empty()) return;
     report.page.figure(
-        charts, isGrid(all)
+        charts, isGrid(data)
                     ? "Percent correct by place" + words + report.asThesis("Fig. 4.4") + report.intervals() +
                           (hasPeople ? " where there is room." : ".")
                     : "Confusions: rows are stimuli, columns responses, darker is a larger share of the "
@@ -184,21 +167,17 @@ void tellIdentification(ReportBuilder& report) {
     const auto data = readIdentification({&file, 1});
     if (!data) return report.page.note(data.error);
     tellCriterion(report, data.value, 0);
-    if (isGrid(conditionsOf(data.value, 0))) tellCriterion(report, data.value, 1);
+    if (isGrid(data.value)) tellCriterion(report, data.value, 1);
 }
 
 // Pointing: responses with normals, perceived rows and columns, likeliest targets, percent counts.
 
 namespace {
 
-struct PlacesOf {
-    std::string condition;
-    std::vector<LocationTrial> trials;
-    ConditionResolution resolution;
-};
+using Places = std::vector<StudyCondition<LocationTrial>>;
 
 /// Mean perceived against intended place over participants, for rows (`isRow`) or columns.
-std::string perceivedChart(ReportBuilder& report, const std::vector<PlacesOf>& places, bool isRow) {
+std::string perceivedChart(ReportBuilder& report, const Places& places, bool isRow) {
     LineChart chart{report.frame(isRow ? "Perceived row" : "Perceived column"),
                     isRow ? "intended target row" : "intended target column",
                     isRow ? "perceived, share of the height" : "perceived, share of the width",
@@ -211,7 +190,7 @@ std::string perceivedChart(ReportBuilder& report, const std::vector<PlacesOf>& p
         for (const LocationTrial& trial : places[i].trials)
             answers[isRow ? trial.targetRow : trial.targetColumn][trial.participant].push_back(
                 isRow ? trial.y : trial.x);
-        LineSeries series{places[i].condition, {}};
+        LineSeries series{places[i].name, {}};
         series.style = i;
         for (const auto& [line, people] : answers) {
             std::vector<double> means;
@@ -233,25 +212,22 @@ std::string perceivedChart(ReportBuilder& report, const std::vector<PlacesOf>& p
 void tellPlaces(ReportBuilder& report) {
     report.page.heading("Perceived places");
     const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readLocations({&file, 1});
+    auto data = readLocations({&file, 1});
     if (!data) return report.page.note(data.error);
     AnalysisReport resolution =
         report.analysis("resolution", report.optionsFor(trialsTable), "resolution.csv");
     if (!resolution.error.empty()) return;
     report.addTable("percent-counts.csv", resolution.counts);
-    std::vector<PlacesOf> places;
-    for (const auto& condition : data.value.conditions) {
-        const std::string name = condition.name.empty() ? "all trials" : condition.name;
-        places.push_back({name, condition.trials, resolveCondition(name, condition.trials)});
-    }
-    std::ranges::sort(places, {}, &PlacesOf::condition);
+    Places& places = data.value.conditions;
+    std::ranges::sort(places, {}, &Places::value_type::name);
     std::vector<std::string> responses, territories, counts, grids;
-    for (const PlacesOf& one : places) {
-        responses.push_back(responsesChart(report.frame(one.condition), one.resolution, one.trials));
-        territories.push_back(territoryChart(report.frame(one.condition), one.resolution));
-        counts.push_back(countsChart(report.frame(one.condition), one.resolution.counts));
-        if (!one.resolution.resolution.ties.empty())
-            grids.push_back(mergedChart(report.frame(one.condition), one.resolution));
+    for (auto& [name, trials] : places) {
+        if (name.empty()) name = "all trials";
+        const auto made = resolveCondition(name, trials);
+        responses.push_back(responsesChart(report.frame(name), made, trials));
+        territories.push_back(territoryChart(report.frame(name), made));
+        counts.push_back(countsChart(report.frame(name), made.counts));
+        if (!made.resolution.ties.empty()) grids.push_back(mergedChart(report.frame(name), made));
     }
     report.page.figure(responses,
                        "Every response (coloured by target, shaped by its row) and the normal distribution "

@@ -61,25 +61,6 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
     return people;
 }
 
-/// Of other programs' tables: scales that lack scores.
-std::vector<std::string> lackingScores(const ReportBuilder& report) {
-    const auto kinds = analysesFor(report.trials.all);
-    if (report.trials.knowTasks() || std::ranges::find(kinds, "ratings") == kinds.end()) return {};
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readRatings({&file, 1});
-    std::vector<std::string> lacking;
-    for (std::size_t s = 0; s < data.value.scales.size(); ++s) {
-        std::map<std::string, std::size_t> trials;
-        for (const RatingTrial& trial : data.value.conditions.front().trials)
-            if (std::isnan(trial.scores[s])) ++trials[trial.participant];
-        for (const auto& [code, count] : trials)
-            lacking.push_back("participant " + code + ": " + counted(count, "trial") +
-                              " without a score of " + printable(data.value.scales[s]) +
-                              ", whose means and tests leave them out");
-    }
-    return lacking;
-}
-
 /// Lists the deviations of a built-in protocol from the thesis.
 void tellDeviations(ReportPage& page, const Protocol& protocol) {
     std::vector<std::string> lines;
@@ -282,7 +263,6 @@ void tellParticipants(ReportBuilder& report) {
     }
     if (rows > 0)
         exclusions.push_back(counted(rows, "row") + " with nothing in one of the named columns left out");
-    std::ranges::move(lackingScores(report), std::back_inserter(exclusions));
     if (!report.trials.notLeft.empty()) exclusions.push_back(notLeftWords(report.trials.notLeft.size()));
     tellSameNumbers(report.page, people);
     report.page.subheading("Exclusions");
@@ -320,7 +300,8 @@ void tellProvenance(ReportBuilder& report) {
                                                                     {"hash", "hash of the protocol: "},
                                                                     {"seed", "seed of all orders: "}})
         if (const auto value = report.trials.common(key); !value.empty()) facts.push_back(words + value);
-    if (report.people() > 1) facts.emplace_back("intervals over participants: Student's t");
+    if (report.people() > 1)
+        facts.emplace_back("intervals over participants: Student's t, where nothing else is named");
     report.page.list(facts);
     report.page.paragraph(
         "Every table below is CSV with names of columns in its second line, after one of its origin.");

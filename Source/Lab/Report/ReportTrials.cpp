@@ -183,9 +183,19 @@ std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) 
         text += '\n';
     };
     addRow(trials.all.columns);
-    const auto task = trials.all.column(trialColumns::task);
-    for (const CsvRow& row : trials.all.rows)
-        if (!task || answerOf(row.cells[*task]) != AnswerKind::wish) addRow(row.cells);
+    std::map<std::string, std::string> offered; // answers to one stimulus, which stand in no row
+    if (trials.protocol)
+        for (const SessionPlan& session : trials.protocol->sessions)
+            if (!session.answers.empty()) offered[session.name] = joined(session.answers, "|");
+    const Cells cell{trials.all};
+    const auto parts = trials.all.column("parts");
+    for (const CsvRow& row : trials.all.rows) {
+        if (answerOf(cell(row, trialColumns::task)) == AnswerKind::wish) continue;
+        auto cells = row.cells;
+        if (const auto found = offered.find(cell(row, "session")); parts && found != offered.end())
+            cells[*parts] = found->second;
+        addRow(cells);
+    }
     return text;
 }
 

@@ -89,7 +89,8 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
 /// line if no participant remains, else an empty string. Any thread.
 std::string takeFacts(ReportTrials& trials, StudyFacts facts);
 
-/// All rows as one table with that first line, without unanswered training touches. Any thread.
+/// All rows as one table with that first line, without unanswered training touches. `parts` has the answers
+/// that there were to choose. Any thread.
 std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine);
 
 /// True if a main trial of our own files was right or wrong at a level that followed the answers.

@@ -21,13 +21,17 @@ constexpr std::size_t mostShown = 24; // bars side by side
 bool showsMedians(const ReportBuilder& report) { return report.isAsPublished() && report.people() >= 6; }
 
 /// Shares of one participant have Wilson's interval over trials.
-std::string shareIntervals(const ReportBuilder& report) {
+std::string shareIntervals(const ReportBuilder& report, const std::vector<ChoiceSummary>& shown) {
     if (showsMedians(report)) return ", 95 % intervals by ranks of participants";
-    return report.people() > 1 ? report.intervals() : ", of one participant: 95 % intervals over trials";
+    return report.people() > 1 ? report.intervals() + alikeWords(shown)
+                               : ", of one participant: 95 % intervals over trials, Wilson's";
 }
 
+using SessionOfChoices = StudyCondition<ChoiceTrial>;
+
 /// Shares by the last two factors of names like "pair=wood size=small", over the levels of the others.
-void tellTwoFactors(ReportBuilder& report, std::vector<ChoiceTrial> trials) {
+void tellTwoFactors(ReportBuilder& report, SessionOfChoices session) {
+    auto& trials = session.trials;
     std::set<std::string> both;
     for (ChoiceTrial& trial : trials) {
         const std::string& of = trial.condition;
@@ -37,14 +41,56 @@ void tellTwoFactors(ReportBuilder& report, std::vector<ChoiceTrial> trials) {
         both.insert(trial.condition);
     }
     if (both.size() > mostShown) return;
-    const auto summaries = summariseChoices(trials);
-    std::vector<const ChoiceSummary*> chosen;
-    for (const ChoiceSummary& each : summaries)
-        if (both.contains(each.condition)) chosen.push_back(&each);
-    report.page.figure({sharesChart(report.frame("Shares by two factors"), "condition",
-                                    {both.begin(), both.end()}, chosen, showsMedians(report))},
-                       (showsMedians(report) ? std::string{"Median shares"} : "Shares") + " by two factors" +
-                           report.asThesis("Fig. 5.9") + shareIntervals(report) + ".");
+    auto summaries = summariseChoices(trials);
+    std::erase_if(summaries, [&](const ChoiceSummary& each) { return !both.contains(each.condition); });
+    report.page.figure(
+        {sharesChart(report.frame(inSession("Shares by two factors", session.name)), summaries,
+                     showsMedians(report))},
+        inSession(showsMedians(report) ? "Median shares by two factors" : "Shares by two factors",
+                  session.name) +
+            report.asThesis("Fig. 5.9") + shareIntervals(report, summaries) + ".");
+}
+
+void tellShares(ReportBuilder& report, const SessionOfChoices& session) {
+    auto summaries = summariseChoices(session.trials);
+    std::set<std::string> conditions;
+    for (const ChoiceTrial& trial : session.trials) conditions.insert(trial.condition);
+    // Of factors their levels; else all trials, and conditions while there is room.
+    const bool hasFactors = summaries.size() > conditions.size() + 1;
+    std::erase_if(summaries, [&](const ChoiceSummary& each) {
+        return hasFactors && conditions.contains(each.condition);
+    });
+    if (summaries.size() > mostShown) summaries.resize(mostShown);
+    report.page.figure(
+        {sharesChart(report.frame(inSession("Shares of the alternatives", session.name)), summaries,
+                     showsMedians(report))},
+        inSession((showsMedians(report) ? "Median" : "Mean") + std::string{" of the participants' shares"},
+                  session.name) +
+            report.asThesis(showsMedians(report) ? "Fig. 5.8" : "Fig. 5.8, which has medians") +
+            shareIntervals(report, summaries) + ".");
+    if (hasFactors) tellTwoFactors(report, session);
+}
+
+void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondition<RatingTrial>& session) {
+    const auto summaries = summariseRatings(session.trials);
+    std::set<std::string> conditions;
+    for (const RatingTrial& trial : session.trials) conditions.insert(trial.condition);
+    const bool isSomeAlone = std::ranges::count(summaries, 1, &RatingSummary::participants) > 0;
+    const auto draw = [&](const char* words, const char* figure, const std::vector<RatingSummary>& shown) {
+        const std::string title = inSession(words, session.name);
+        report.page.figure({scoresChart(report.frame(title), data.scales, shown)},
+                           title + report.asThesis(figure) + report.intervals(isSomeAlone) + ".");
+    };
+    // In reverse order, so that AV-FV-DRV comes first; of many combinations the levels of factors.
+    const bool isMany = conditions.size() > mostShown && summaries.size() > conditions.size();
+    std::vector<RatingSummary> shown, factors;
+    for (const RatingSummary& each : summaries) {
+        if (conditions.contains(each.condition) != isMany) shown.insert(shown.begin(), each);
+        if (!conditions.contains(each.condition)) factors.push_back(each);
+    }
+    draw("Mean scores", "Fig. 5.14", shown);
+    if (!factors.empty() && !isMany) // of many they are shown already
+        draw("Mean scores by factor", "Fig. 5.13", factors);
 }
 
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.
@@ -60,10 +106,14 @@ void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
             fit.model.guess = 0.0, measure = fit.measure = "choice=" + session.answers.back();
     }
     const auto data = readLevelAnswers({&file, 1}, {"stimulus", measure, false});
-    if (!data || !report.trials.knowTasks()) return;
+    const auto hasLevels = [](const auto& one) { // two are a factor's
+        return countByLevel(one.trials, [](const LevelAnswer& trial) { return trial.counted(); }).size() > 2;
+    };
+    if (!data || !report.trials.knowTasks() || std::ranges::none_of(data.value.conditions, hasLevels)) return;
     report.page.subheading("Psychometric functions");
-    report.analysis("psychometric", fit, "psychometric-stimuli.csv"); // who has no fit is drawn all the same
-    tellFunctions(report, data.value, fit.model, fitWords(report.trials.columns, fit.level, measure));
+    const bool isFitted = report.analysis("psychometric", fit, "psychometric-stimuli.csv").error.empty();
+    tellFunctions(report, data.value, fit.model, fitWords(report.trials.columns, fit.level, measure),
+                  isFitted);
 }
 
 } // namespace
@@ -77,26 +127,7 @@ void tellChoices(ReportBuilder& report) {
         !words.error.empty())
         return;
     tellConstantStimuli(report, file);
-    const auto& trials = data.value.conditions.front().trials;
-    const auto summaries = summariseChoices(trials);
-    std::set<std::string> conditions;
-    for (const ChoiceTrial& trial : trials) conditions.insert(trial.condition);
-    // Of factors their levels; else all trials, and conditions while there is room.
-    const bool hasFactors = summaries.size() > conditions.size() + 1;
-    std::vector<std::string> groups;
-    std::vector<const ChoiceSummary*> chosen;
-    for (const ChoiceSummary& summary : summaries)
-        if (chosen.size() < mostShown && (!hasFactors || !conditions.contains(summary.condition))) {
-            groups.push_back(summary.condition);
-            chosen.push_back(&summary);
-        }
-    report.page.figure(
-        {sharesChart(report.frame("Shares of the alternatives"), "condition", groups, chosen,
-                     showsMedians(report))},
-        (showsMedians(report) ? "Median" : "Mean") + std::string{" of the participants' shares"} +
-            report.asThesis(showsMedians(report) ? "Fig. 5.8" : "Fig. 5.8, which has medians") +
-            shareIntervals(report) + ".");
-    if (hasFactors) tellTwoFactors(report, trials);
+    for (const auto& session : data.value.conditions) tellShares(report, session);
 }
 
 void tellRatings(ReportBuilder& report) {
@@ -107,26 +138,8 @@ void tellRatings(ReportBuilder& report) {
     if (const auto words = report.analysis("ratings", report.optionsFor(trialsTable), "ratings.csv");
         !words.error.empty())
         return;
-    const auto& trials = data.value.conditions.front().trials;
-    const auto& scales = report.scales = data.value.scales;
-    const auto summaries = summariseRatings(trials);
-    std::set<std::string> conditions;
-    for (const RatingTrial& trial : trials) conditions.insert(trial.condition);
-    const bool isSomeAlone = std::ranges::count(summaries, 1, &RatingSummary::participants) > 0;
-    // In reverse order, so that AV-FV-DRV comes first; of many combinations the levels of factors.
-    const bool isMany = conditions.size() > mostShown && summaries.size() > conditions.size();
-    std::vector<const RatingSummary*> shown;
-    for (auto at = summaries.rbegin(); at != summaries.rend(); ++at)
-        if (conditions.contains(at->condition) != isMany) shown.push_back(&*at);
-    report.page.figure({scoresChart(report.frame("Mean scores"), scales, shown)},
-                       "Mean scores" + report.asThesis("Fig. 5.14") + report.intervals(isSomeAlone) + ".");
-    std::vector<const RatingSummary*> factors;
-    for (const RatingSummary& each : summaries)
-        if (!conditions.contains(each.condition)) factors.push_back(&each);
-    if (factors.empty() || isMany) return; // of many they are shown already
-    report.page.figure({scoresChart(report.frame("Mean scores by factor"), scales, factors)},
-                       "Mean scores by factor" + report.asThesis("Fig. 5.13") +
-                           report.intervals(isSomeAlone) + ".");
+    report.scales = data.value.scales;
+    for (const auto& session : data.value.conditions) tellScores(report, data.value, session);
 }
 
 // Report section on answers in words.

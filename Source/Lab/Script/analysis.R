@@ -180,7 +180,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   })
   attempt(test, "residuals normality", {
     left <- as.matrix(lm.fit(x, cells)$residuals)
-    shapiro <- function(effect, left) { s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n) }
+    shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n) }
     # of two cells the differences: what is left of both of them is the same with two signs
     shapiro("residuals normality", if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
     if (length(between) > 0 && ncol(cells) > 1) shapiro("participants' means normality", rowMeans(left))
@@ -286,7 +286,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   marks <- lapply(factors, words.of)
   if (length(factors) > 1) marks <- c(marks, list(do.call(paste, marks)))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
-  if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("level_db (", length(unique(d$level_db)), " levels): averaged over"))
+  if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
   lines <- expand.grid(group = groups, word = if (k == 2) words[1] else words, stringsAsFactors = FALSE)
   tests <- Map(function(group, word) {
     of <- if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m == group))
@@ -328,6 +328,8 @@ design.of <- function(d, columns = c("group", "condition", "stimulus")) {
   out <- list(within = character(), between = character(), notes = character())
   seen <- list()
   people <- length(unique(d$participant))
+  if (!("task" %in% names(d)) && "session" %in% names(d) && any(tapply(d$session, d$participant, function(s) length(unique(s))) > 1))
+    out$notes <- paste0("session (", length(unique(d$session)), "): averaged over")
   for (f in unlist(lapply(columns, factor.names, d))) {
     own <- level(d, f); levels <- unique(own)
     if (length(levels) < 2) next
@@ -358,7 +360,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   zeros <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) <= 0) else 0
   if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
   design <- design.of(d, columns); factors <- c(design$within, design$between)
-  if (kind == "magnitudes" && length(unique(d$level_db)) > 1) design$notes <- c(design$notes, paste0("level_db (", length(unique(d$level_db)), " levels): averaged over"))
+  if (kind == "magnitudes" && length(unique(d$level_db)) > 1) design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
   if (zeros > 0) design$notes <- c(design$notes, paste(zeros, "magnitudes of 0, which has no logarithm, left out"))
   if (length(design$notes) > 0) cat(what, "\n", sep = "")
   for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over", "not tested", note))
@@ -450,10 +452,15 @@ study <- function(study, scales = character(), points = character()) {
     sessions <- if (is.told) unique(own$session) else ""
     for (s in sessions) run(if (is.told) own[own$session == s, ] else own, if (length(sessions) > 1) paste(" in", s) else "")
   }
-  from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) {
-    own <- table.of(file)
-    for (m in measures) compare(paste0(if (m %in% names(spoken)) spoken[[m]] else m, words), own, m, columns = columns)
+  parts.in <- function(own, run) { # a table's conditions are "low in second" where sessions are parted
+    word <- rep("", nrow(own))
+    for (s in unique(d$session)) word[endsWith(own$condition, paste(" in", s))] <- paste(" in", s)
+    own$condition <- substring(own$condition, 1, nchar(own$condition) - nchar(word))
+    for (w in unique(word)) run(own[word == w, ], w)
   }
+  from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) parts.in(table.of(file), function(own, session) {
+    for (m in measures) compare(paste0(if (m %in% names(spoken)) spoken[[m]] else m, words, session), own, m, columns = columns)
+  })
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
@@ -497,10 +504,9 @@ study <- function(study, scales = character(), points = character()) {
     own <- setdiff(unique(results$test), before)
     across(own, "scales", if (any(results$statistic[results$test %in% own] %in% c("F", "chi-squared"))) c("F", "chi-squared") else c("V", "W"))
   }
-  if (file.exists("thresholds.csv")) {
-    own <- table.of("thresholds.csv")
-    for (m in unique(own$method)) compare(paste("threshold by", m), own[own$method == m, ], "threshold", columns = c("group", "condition"))
-  } else from("psychometric.csv", c("threshold", "jnd"))
+  if (file.exists("thresholds.csv")) parts.in(table.of("thresholds.csv"), function(own, session) {
+    for (m in unique(own$method)) compare(paste0("threshold by ", m, session), own[own$method == m, ], "threshold", columns = c("group", "condition"))
+  }) else from("psychometric.csv", c("threshold", "jnd"))
   from("psychometric-stimuli.csv", c("threshold", "jnd"))
   if (!is.told && !any(file.exists(c("identification.csv", "psychometric.csv")))) each("", "correct", function(own, words) compare("share of right answers", own, "correct"))
   each("adjust", "value", function(own, words) if (is.told) compare(paste0("matched levels", words), own, "value"))

@@ -161,8 +161,7 @@ bool becomesStep(std::span<const LevelCount> counts, const PsychometricModel& mo
 }
 
 /// What the levels and answers do not tell, though a likeliest function was found.
-std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricFunction& f, double likeliest,
-                       bool hasJnd) {
+std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricFunction& f, double likeliest) {
     const double least = counts.front().level, most = counts.back().level, range = most - least;
     double trials = 0.0, level = 0.0, hits = 0.0, product = 0.0;
     for (const LevelCount& c : counts) {
@@ -171,7 +170,7 @@ std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricFun
     }
     if (product - level * hits / trials <= 0.0) return "the share of answers does not rise with the level";
     const double flat = hits * std::log(hits / trials) + (trials - hits) * std::log1p(-hits / trials);
-    const bool isFlat = hasJnd && 2.0 * (likeliest - flat) < 3.84; // chi-squared, 5 %
+    const bool isFlat = 2.0 * (likeliest - flat) < 3.84; // chi-squared, 5 %
     const bool isWide = f.width > 19.5 * range;
     if (isWide || (isFlat && f.threshold >= least && f.threshold <= most))
         return "the answers hardly change within the levels that were played";
@@ -205,8 +204,7 @@ double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunct
     return sum;
 }
 
-PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model,
-                                bool hasJnd) {
+PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model) {
     if (auto fault = faultOfCounts(counts); !fault.empty()) return {fault};
     const Likelihood likelihood{counts, model};
     std::vector<Point> tops;
@@ -215,8 +213,8 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
     const Point best = climb(likelihood, std::ranges::min(tops, {}, likelihood)); // step 3
     PsychometricFunction found = likelihood.function(best);
     const double likeliest = -likelihood(best);
-    const bool isStep = hasJnd && becomesStep(counts, model, found, likeliest);
-    return {faultOfFit(counts, found, likeliest, hasJnd), found, likeliest, hasJnd && !isStep};
+    const bool isStep = becomesStep(counts, model, found, likeliest);
+    return {faultOfFit(counts, found, likeliest), found, likeliest, !isStep};
 }
 
 // Groups trials by participant and fits each group.
@@ -226,7 +224,7 @@ std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector
     std::vector<ParticipantPsychometric> fits;
     for (const auto& [participant, own] : byParticipant(trials)) {
         const auto counts = countByLevel(own, [](const LevelAnswer& trial) { return trial.counted(); });
-        fits.push_back({participant, own.size(), fitPsychometric(counts, model, !own.front().isAdaptive)});
+        fits.push_back({participant, own.size(), fitPsychometric(counts, model)});
     }
     return fits;
 }

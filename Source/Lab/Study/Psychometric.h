@@ -86,9 +86,8 @@ struct PsychometricFit {
 
 /// Maximum-likelihood fit; `counts` by rising levels. Errors: fewer than two levels, answers that do not rise
 /// with the level, a width at the bound of the search (20 times the levels' range), a threshold outside the
-/// levels. `hasJnd`: the width is wanted, too; a step has none. Any thread (allocates).
-PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model,
-                                bool hasJnd = true);
+/// levels. A step has no width. Any thread (allocates).
+PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model);
 
 // Stevens' power law, magnitude = factor * level^exponent, fitted by least squares of logarithms.
 
@@ -127,7 +126,6 @@ inline PowerLaw fitPowerLaw(std::span<const MagnitudeTrial> trials) {
 struct LevelAnswer {
     std::string participant;
     double level = 0.0, answer = 0.0;
-    bool isAdaptive = false; ///< earlier answers chose the level, so the answers do not tell the slope
     std::pair<double, bool> counted() const noexcept { return {level, answer > 0.5}; } ///< for countByLevel()
 };
 

@@ -98,25 +98,6 @@ double answerEntropy(double p) {
     return p > 0.0 && p < 1.0 ? -p * std::log(p) - (1.0 - p) * std::log1p(-p) : 0.0;
 }
 
-/// Bin edges of the thresholds: midway between neighbours, and symmetric for the first and last.
-std::vector<double> edgesOf(const std::vector<double>& places) {
-    std::vector<double> edges{places.front()};
-    for (std::size_t i = 1; i < places.size(); ++i) edges.push_back(std::midpoint(places[i - 1], places[i]));
-    edges.push_back(places.back());
-    edges.front() += places.front() - edges[1];
-    edges.back() += places.back() - edges[places.size() - 1];
-    return edges;
-}
-
-double heldBetween(double least, double most, const std::vector<double>& belief,
-                   const std::vector<double>& edges) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < belief.size(); ++i)
-        if (const double part = std::min(edges[i + 1], most) - std::max(edges[i], least); part > 0.0)
-            sum += belief[i] * part / (edges[i + 1] - edges[i]);
-    return sum;
-}
-
 } // namespace
 
 QuestPlus::QuestPlus(QuestPlan plan)
@@ -181,24 +162,6 @@ double QuestPlus::thresholdDeviation() const {
     for (std::size_t i = 0; i < belief_.size(); ++i)
         variance += belief_[i] * (possible(i).threshold - mean) * (possible(i).threshold - mean);
     return std::sqrt(variance);
-}
-
-std::vector<double> QuestPlus::thresholdBelief() const {
-    std::vector<double> sums(plan_.thresholds.size());
-    for (std::size_t i = 0; i < belief_.size(); ++i)
-        sums[i / plan_.lapses.size() / plan_.widths.size()] += belief_[i];
-    return sums;
-}
-
-double QuestPlus::thresholdHalfInterval(double share) const {
-    const std::vector<double> belief = thresholdBelief(), edges = edgesOf(plan_.thresholds);
-    const double mean = estimate().threshold;
-    double least = 0.0, most = edges.back() - edges.front();
-    for (int halving = 0; halving < 50; ++halving) {
-        const double half = 0.5 * (least + most);
-        (heldBetween(mean - half, mean + half, belief, edges) < share ? least : most) = half;
-    }
-    return most;
 }
 
 // A hierarchical posterior on a grid. One run of 40 trials hardly tells the width, but a threshold depends on

@@ -33,13 +33,10 @@ public:
                                                  ///< of the plan
     PsychometricFunction estimate() const;       ///< posterior mean
     double thresholdDeviation() const;           ///< posterior standard deviation of the threshold
-    double thresholdHalfInterval(double share) const; ///< half-width of the interval around the mean
-                                                      ///< threshold that has this posterior probability
     int trials() const noexcept { return trials_; }
 
 private:
     PsychometricFunction possible(std::size_t index) const;
-    std::vector<double> thresholdBelief() const;
     double correct(std::size_t level, std::size_t index) const {
         return correct_[level * belief_.size() + index];
     }

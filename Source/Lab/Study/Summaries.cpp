@@ -177,10 +177,22 @@ Groups<Trial> byFactor(const std::vector<Trial>& trials, const Groups<Trial>& co
 
 } // namespace
 
+std::string alikeWords(const std::vector<ChoiceSummary>& summaries) {
+    for (const ChoiceSummary& one : summaries)
+        if (one.participants > 1 &&
+            std::ranges::any_of(one.shares, [&](const auto& s) { return one.areAlike(s); }))
+            return ", Wilson's of as many people where all chose alike";
+    return {};
+}
+
 std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials) {
     std::vector<const ChoiceTrial*> all;
     std::set<std::string> alternatives;
-    for (const auto& trial : trials) all.push_back(&trial), alternatives.insert(trial.choice);
+    for (const auto& trial : trials) {
+        all.push_back(&trial), alternatives.insert(trial.choice);
+        for (std::string_view rest = trial.offered; !rest.empty();)
+            alternatives.emplace(takeUntil('|', rest));
+    }
     std::vector<ChoiceSummary> summaries;
     if (all.empty()) return summaries;
     summaries.push_back(summarise("all", all, alternatives));
@@ -281,7 +293,8 @@ double questThreshold(const Run& run, LevelSummary& summary) {
     QuestPlus quest{*questPlan(run.front()->quest)};
     for (const LevelTrial* trial : run) quest.answerAt(trial->levelDb, trial->value > 0.5);
     // variances add up: this becomes the half-interval of the sum of thresholds
-    summary.halfInterval = std::hypot(summary.halfInterval, quest.thresholdHalfInterval(0.95));
+    summary.halfInterval =
+        std::hypot(summary.halfInterval, normalQuantile(0.975) * quest.thresholdDeviation());
     return quest.estimate().threshold;
 }
 

@@ -44,7 +44,9 @@ struct Moments {
         : n{values.size()} {
         for (const double v : values) mean += v / static_cast<double>(n);
         for (const double v : values) deviation += (v - mean) * (v - mean);
-        deviation = n > 1 ? std::sqrt(deviation / static_cast<double>(n - 1)) : 0.0;
+        deviation = n > 1 && std::ranges::count(values, values.front()) < std::ssize(values)
+                        ? std::sqrt(deviation / static_cast<double>(n - 1))
+                        : 0.0;
     }
     /// Of the mean; 0 for fewer than two values.
     double standardError() const noexcept {
@@ -97,6 +99,7 @@ inline Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept 
 /// One forced choice: alternative, condition and participant (which may be empty).
 struct ChoiceTrial {
     std::string participant, condition, choice;
+    std::string offered{}; ///< alternatives, "a|b|c"; empty: not known
 };
 
 /// How often an alternative was chosen. The unit is the participant, whose trials give one share.
@@ -111,11 +114,16 @@ struct ChoiceShare {
 };
 
 struct ChoiceSummary {
-    std::string condition; ///< "all": all conditions together
+    std::string condition; ///< "all": all conditions of a session together
     std::size_t participants = 0;
     std::uint64_t trials = 0;
     std::vector<ChoiceShare> shares; ///< by name of the alternative
+
+    bool areAlike(const ChoiceShare& share) const noexcept { return share.hits == 0 || share.hits == trials; }
 };
+
+/// Where Student's t has no width, ": Wilson's where all chose alike"; else empty. Any thread.
+std::string alikeWords(const std::vector<ChoiceSummary>& summaries);
 
 /// First all trials together. With several conditions, then each factor of names like "pair=wood size=small"
 /// and each condition, sorted by name. Any thread (allocates).

@@ -184,7 +184,7 @@ ours <- told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes"
 same("logarithms by ranks", line(ours, "group: a - b")$p, exact.p(logs[in.a], logs[!in.a]))
 d$value[3] <- 0; rows(d)
 if (!any(grepl("1 magnitudes of 0", told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes"))$note))) fault("a magnitude of 0 goes without a word")
-if (!any(grepl("level_db (2 levels): averaged over", ours$note, fixed = TRUE))) fault("levels that are averaged over are not told")
+if (!any(grepl("levels (2, column level_db of trials.csv): averaged over", ours$note, fixed = TRUE))) fault("levels that are averaged over are not told")
 # People who lack levels, in a mixed model of all: the likelihood ratios of lmer's own formulas, with factors within and between.
 if (requireNamespace("lme4", quietly = TRUE)) {
   d <- expand.grid(trial = 1:2, condition = c("x", "y", "z"), participant = person(14), stringsAsFactors = FALSE)
@@ -213,6 +213,14 @@ same("group of thresholds", line(ours[grepl("^analysis of variance of threshold"
      anova(lm(y ~ g, data.frame(y = tapply(as.numeric(d$threshold), d$participant, mean), g = rep(c("a", "b"), each = 4))))[["Pr(>F)"]][1])
 if (!any(grepl("Greenhouse and Geisser's p ", capture.output(from <- anova.test("t", "psychometric.csv", "threshold", "condition"))))) fault("the correction is not named")
 unlink("psychometric.csv")
+# Sessions of a kind are studies of their own, in tables of the report by the end of their conditions' names.
+d <- expand.grid(condition = c("x", "y", "z"), session = c("early", "late"), participant = person(8), stringsAsFactors = FALSE); d$task <- "choose"; d$phase <- "main"
+d$threshold <- rnorm(nrow(d)) + 4 * (d$session == "late"); d$method <- "staircase"; rows(d, "thresholds.csv"); own <- d; own$condition <- paste(d$condition, "in", d$session)
+rows(own[c("method", "condition", "participant", "threshold")], "thresholds.csv"); ours <- whole(d[c("participant", "condition", "session", "task", "phase")], NULL); unlink("thresholds.csv")
+for (s in c("early", "late")) { wide <- tapply(d$threshold[d$session == s], list(d$participant[d$session == s], d$condition[d$session == s]), mean)
+  same("a session's thresholds", line(ours[grepl(paste0("^pairs by t of threshold by staircase in ", s, " by condition"), ours$test), ], "condition: x - y")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value) }
+d$y <- d$threshold; rows(d[names(d) != "task"])
+if (!any(grepl("session (2): averaged over", told(compare("y", table.of("trials.csv"), "y"))$note, fixed = TRUE))) fault("another program's sessions are averaged without a word")
 d <- expand.grid(trial = 1:3, participant = person(8), stringsAsFactors = FALSE)
 d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$condition <- "c"; d$stimulus <- "s"; d$parts <- "ref|low|ref|mid"
 d$ref <- ifelse(d$participant == "05", 70, 97); d$low <- round(20 + 9 * rnorm(24)); d$mid <- round(60 + 9 * rnorm(24))
