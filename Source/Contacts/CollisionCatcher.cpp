@@ -156,34 +156,29 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
     ended_.reserve(expectedContacts);
 }
 
-// The smallest of the three before the newest; without branches, which could not be predicted here.
-inline const Vector3& ChainLoads::loadOf(const Contact& contact) noexcept {
-    const auto before = [&contact](unsigned steps) { return &contact.pushed[(contact.newest - steps) % 4]; };
-    const Vector3 *const one = before(1), *const two = before(2), *const three = before(3);
-    const float ofOne = one->lengthSquared(), ofTwo = two->lengthSquared();
-    const Vector3* const newer = ofTwo < ofOne ? two : one;
-    return *(three->lengthSquared() < std::min(ofOne, ofTwo) ? three : newer);
-}
-
 void ChainLoads::settle() {
+    passed_.resize(std::max(passed_.size(), static_cast<std::size_t>(table_.size())));
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const Contact& contact = contacts_[i];
         if (contact.step != step_ || contact.isUnknown) continue;
-        const Vector3 &now = contact.pushed[contact.newest], &load = loadOf(contact);
-        if (now.lengthSquared() <= load.lengthSquared()) continue;
-        const Vector3 beyond = now - load;
+        std::array<float, 4> squares;
+        for (unsigned k = 0; k < 4; ++k) squares[k] = contact.push(k).lengthSquared();
+        // the load is the smallest of the three before the newest
+        const unsigned one = (contact.newest - 1) % 4, two = (contact.newest - 2) % 4,
+                       three = (contact.newest - 3) % 4, newer = squares[two] < squares[one] ? two : one,
+                       load = squares[three] < squares[newer] ? three : newer;
+        if (squares[contact.newest] <= squares[load]) continue;
+        const Vector3 beyond = contact.push(contact.newest) - contact.push(load);
         const float size = beyond.length();
         pass(contact.of.a, contact.of.b, -beyond, size, i);
         pass(contact.of.b, contact.of.a, beyond, size, i);
     }
 }
 
-void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size,
-                      std::size_t contact) {
+inline void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size,
+                             std::size_t contact) {
     if (!table_.isCamera(slot)) return;
-    const auto index = static_cast<std::size_t>(slot);
-    if (passed_.size() <= index) passed_.resize(index + 1);
-    Passed& passed = passed_[index];
+    Passed& passed = passed_[static_cast<std::size_t>(slot)];
     if (passed.other == FixtureTable::none) receivers_.push_back(slot);
     passed.newtonSeconds += newtonSeconds;
     if (size <= passed.strongest) return;

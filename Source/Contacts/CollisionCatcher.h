@@ -143,7 +143,7 @@ public:
             load != TouchingPairs::none ? contacts_[static_cast<std::size_t>(load)] : meet(pair, true);
         if (contact.of.b != pair.b) newtonSeconds = -newtonSeconds;
         // Summed over the step's points and solver passes, and over the segments of a chain.
-        contact.pushed[contact.newest] = open(contact) + newtonSeconds;
+        contact.setPush(contact.newest, open(contact) + newtonSeconds);
         return contact.place;
     }
 
@@ -178,26 +178,29 @@ private:
     struct Contact {
         TouchingPairs::Name of;
         std::uint32_t step = 0, newest = 0; // step: the number of the last one that pushed; 0: none has
-        std::array<Vector3, 4> pushed{}; // impulses on of.b in that step (at `newest`) and the three before,
-                                         // in turn
+        // Impulses on of.b in that step (at `newest`) and the three before, in turn: four numbers of each axis
+        std::array<float, 4> x{}, y{}, z{};
         Place place{};
         bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its
                                 // load
+        Vector3 push(unsigned turn) const noexcept { return {x[turn], y[turn], z[turn]}; }
+        void setPush(unsigned turn, Vector3 of) noexcept { x[turn] = of.x, y[turn] = of.y, z[turn] = of.z; }
     };
-    static const Vector3& loadOf(const Contact& contact) noexcept;
     [[gnu::noinline]] Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
     /// What it has been pushed by in this step. At the first push what it had becomes history.
     [[gnu::always_inline]] Vector3 open(Contact& contact) noexcept {
-        if (contact.step == step_) return contact.pushed[contact.newest];
+        if (contact.step == step_) return contact.push(contact.newest);
         if (contact.step != 0) {
-            if (contact.isUnknown) contact.pushed.fill(contact.pushed[contact.newest]);
+            if (contact.isUnknown)
+                for (unsigned i = 0; i < 4; ++i) contact.setPush(i, contact.push(contact.newest));
             contact.isUnknown = false;
             contact.newest = (contact.newest + 1) % 4;
         }
         contact.step = step_;
         return {};
     }
-    void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size, std::size_t contact);
+    [[gnu::always_inline]] void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size,
+                                     std::size_t contact);
     void drop(std::size_t index) noexcept;
 
     const FixtureTable& table_;
