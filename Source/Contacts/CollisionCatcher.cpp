@@ -27,13 +27,17 @@ void CollisionCatcher::settle() {
 }
 
 void CollisionCatcher::endStep() {
-    for (const Aftermath& last : last_) pairs_[last.pair].last = TouchingPairs::none;
+    for (const Aftermath& last : last_) {
+        pairs_[last.pair].last = TouchingPairs::none;
+        loads_.noteLast(last.pair);
+    }
     last_.clear();
     for (const std::uint64_t fixture : struck_) struckNames_.remove(fixture);
     struck_.clear();
     for (const Collision& collision : collisions_) {
         pairs_[collision.pair].collision = TouchingPairs::none;
         pairs_[collision.pair].last = static_cast<std::int32_t>(last_.size());
+        loads_.noteLast(collision.pair);
         last_.push_back({collision.pair, {}});
         for (const std::int32_t slot : {collision.a, collision.b}) {
             struck_.push_back(table_[slot].fixture);
@@ -156,6 +160,22 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
     ended_.reserve(expectedContacts);
 }
 
+ChainLoads::Place& ChainLoads::add(const TouchingPairs::Name& pair, std::int32_t load,
+                                   Vector3 newtonSeconds) {
+    Contact& contact =
+        load != TouchingPairs::none ? contacts_[static_cast<std::size_t>(load)] : meet(pair, true);
+    if (contact.isUnknown && contact.step != 0 && contact.step != step_) {
+        contact.isUnknown = false;
+        noteUsual(contact);
+    }
+    Place& place = push(contact, contact.of.b == pair.b ? newtonSeconds : -newtonSeconds);
+    if (!contact.isUnknown) return place;
+    contact.x.fill(contact.x[contact.newest]);
+    contact.y.fill(contact.y[contact.newest]);
+    contact.z.fill(contact.z[contact.newest]);
+    return place;
+}
+
 void ChainLoads::settle() {
     passed_.resize(std::max(passed_.size(), static_cast<std::size_t>(table_.size())));
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -210,7 +230,9 @@ void ChainLoads::forget(std::int32_t slot) noexcept {
 
 ChainLoads::Contact& ChainLoads::meet(const TouchingPairs::Name& pair, bool isUnknown) {
     pairs_[pair.number].load = static_cast<std::int32_t>(contacts_.size());
-    return contacts_.emplace_back(Contact{.of = pair, .isUnknown = isUnknown});
+    Contact& made = contacts_.emplace_back(Contact{.of = pair, .isUnknown = isUnknown});
+    noteUsual(made);
+    return made;
 }
 
 void ChainLoads::drop(std::size_t index) noexcept {

@@ -107,7 +107,7 @@ private:
     };
     void strike(const StepSpan& span, std::vector<Impact>& impacts);
     void complete(const StepSpan& span, std::vector<Impact>& impacts);
-    void completeLate(StepSpan span, std::vector<Impact>& impacts);
+    void completeLate(const StepSpan& span, std::vector<Impact>& impacts);
     template <class Later>
     void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span,
                   std::vector<Impact>& impacts) const;

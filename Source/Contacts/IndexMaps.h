@@ -29,9 +29,9 @@ public:
     explicit IntegerMap(std::size_t capacity = 32) { allocate(std::bit_ceil(2 * capacity + 2)); }
 
     /// The value of `key` (not 0), or `none`.
-    std::int32_t find(std::uint64_t key) const noexcept {
-        const Entry& entry = entries_[locate(key)];
-        return isTaken(entry) ? entry.value : none;
+    [[gnu::always_inline]] std::int32_t find(std::uint64_t key) const noexcept {
+        const Entry& usual = entries_[home(key)];
+        return usual.key == key && isTaken(usual) ? usual.value : search(key);
     }
 
     /// Sets the value of `key` (not 0).
@@ -84,6 +84,10 @@ private:
         std::size_t place = home(key);
         while (isTaken(entries_[place]) && entries_[place].key != key) place = after(place);
         return place;
+    }
+    [[gnu::noinline]] std::int32_t search(std::uint64_t key) const noexcept {
+        const Entry& entry = entries_[locate(key)];
+        return isTaken(entry) ? entry.value : none;
     }
     void allocate(std::size_t places) {
         entries_.assign(places, {});

@@ -65,7 +65,7 @@ void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) 
 }
 
 // Haptic sources that transmitted impulses of the last step's collisions reach only in this step.
-void OnsetImpacts::completeLate(StepSpan span, std::vector<Impact>& impacts) {
+void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impacts) {
     for (const std::int32_t camera : catcher_.loads().receivers()) {
         if (isUsed_.find(camera) != SlotMap::none) continue;
         const StrikeCauses::Found found = before_.find(camera, graph_);

@@ -52,18 +52,9 @@ std::int32_t CollisionFinder::find(const b2Fixture& fixture) {
 }
 
 CollisionFinder::Known* CollisionFinder::search(const b2Contact& contact) {
-    Known* found = nullptr;
-    if (const std::int32_t at = knownAt_.find(idOf(contact)); at != IntegerMap::none)
-        if (Known& known = known_[static_cast<std::size_t>(at)]; known.isOf(contact)) found = &known;
-    if (found == nullptr) {
-        const std::int32_t a = find(*contact.GetFixtureA()), b = find(*contact.GetFixtureB());
-        if (a == FixtureTable::none || b == FixtureTable::none) return nullptr;
-        found = &remember(contact, {.a = a, .b = b});
-    }
-    const auto place = static_cast<std::size_t>(found - known_.data());
-    known_[last_].next = place;
-    last_ = place;
-    return found;
+    const std::int32_t a = find(*contact.GetFixtureA()), b = find(*contact.GetFixtureB());
+    if (a == FixtureTable::none || b == FixtureTable::none) return nullptr;
+    return &remember(contact, {.a = a, .b = b});
 }
 
 CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair pair) {
@@ -74,9 +65,7 @@ CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair
         knownAt_.set(idOf(contact), at);
     }
     Known& known = known_[static_cast<std::size_t>(at)];
-    known = {&contact, contact.GetFixtureA(),   contact.GetFixtureB(),
-             pair,     pairKey(pair.a, pair.b), partOf(contact),
-             0};
+    known = {&contact, contact.GetFixtureA(), contact.GetFixtureB(), pair, TouchingPairs::none, pairKey(pair.a, pair.b), partOf(contact)};
     return known;
 }
 
@@ -273,14 +262,12 @@ SurfacePath around(const b2Fixture& disc, b2Vec2 direction, float radiansPerSeco
 } // namespace
 
 // Impulses at new points belong to the collision, if there is one; all others are load.
-// `known`: of the contact, or null.
-void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known* known) {
+void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known& known) {
     CollisionCatcher& catcher = events_.catcher();
     const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
-    if (known == nullptr) known = find(contact);
-    if (known == nullptr) return;
-    const Pair& pair = pairOf(*known);
+    const Pair& pair = pairOf(known);
     const TouchingPairs::Pair& stored = catcher[pair];
+    known.load = stored.load;
     const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
     const bool isOfSource = (traits & FixtureTable::source) != 0;
     const bool isRelevant = isOfSource || stored.last != TouchingPairs::none;
@@ -303,7 +290,7 @@ void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& im
                 solved.note(0, place->setFace());
         }
     if (LastingContacts::isRelevant(traits)) // only pairs whose load matters
-        tell(contact, impulse, collisions, *known);
+        tell(contact, impulse, collisions, known);
 }
 
 // The usual contact, without a call: its points are old, one of its fixtures is a source, a face touches.
@@ -315,16 +302,16 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
         return;
     }
     if (!isNew && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
-    Known* const known = guess(contact);
-    if (isNew || known == nullptr || !catcher.isKnown(known->pair)) return solve(contact, impulse, known);
-    const TouchingPairs::Pair& stored = catcher[known->pair];
+    Known* const known = find(contact);
+    if (known == nullptr) [[unlikely]]
+        return static_cast<void>(fresh_.solved(contact));
+    ChainLoads::Contact* const usual = catcher.loads().usual(known->pair, known->load);
     const unsigned traits =
         events_.fixtures().traits(known->pair.a) | events_.fixtures().traits(known->pair.b);
     const SolvedContact solved{contact};
-    if (stored.load == TouchingPairs::none || stored.last != TouchingPairs::none || solved.isDiscs() ||
-        (traits & FixtureTable::source) == 0)
-        return solve(contact, impulse, known);
-    FaceTouch& touch = catcher.push(known->pair, stored, true, solved.push(impulse, 0U))->setFace();
+    if (isNew || usual == nullptr || solved.isDiscs() || (traits & FixtureTable::source) == 0)
+        return solve(contact, impulse, *known);
+    FaceTouch& touch = catcher.push(*usual, solved.push(impulse, 0U)).setFace();
     solved.note(0, touch);
     if (LastingContacts::isRelevant(traits)) tellFace(contact, impulse, *known, touch);
 }
