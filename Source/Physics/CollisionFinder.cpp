@@ -366,8 +366,8 @@ inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactI
     told.otherRadiansPerSecond = other.GetAngularVelocity();
     told.normalNewtonSeconds = impulse.normalImpulses[i];
     told.isTurned = isTurned;
-    told.isDiscRough = solved.second().GetType() == b2Shape::e_circle &&
-                       events_.fixtures().isRough(isTurned ? known.pair.a : known.pair.b);
+    told.isDiscRough = events_.fixtures().isRough(isTurned ? known.pair.a : known.pair.b) &&
+                       solved.second().GetType() == b2Shape::e_circle;
     told.a = known.pair.a;
     told.b = known.pair.b;
     told.pairsKey = known.key;
