@@ -237,8 +237,8 @@ public:
     Vector2 push(const b2ContactImpulse& impulse, unsigned without) const noexcept {
         const b2Vec2 out = normal(), tangent = b2Cross(out, 1.0F);
         b2Vec2 onB{0.0F, 0.0F};
-        for (int i = 0; i < impulse.count; ++i)
-            if (!isIn(without, i))
+        for (int i = 0; i < b2_maxManifoldPoints; ++i) // unrolled
+            if (i < impulse.count && !isIn(without, i))
                 onB += impulse.normalImpulses[i] * out + impulse.tangentImpulses[i] * tangent;
         return toVector(onB);
     }
@@ -303,14 +303,17 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
     }
     if (!isNew && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
     Known* const known = find(contact);
-    if (known == nullptr) [[unlikely]]
-        return static_cast<void>(fresh_.solved(contact));
+    if (known == nullptr) [[unlikely]] {
+        fresh_.solved(contact);
+        return;
+    }
     ChainLoads::Contact* const usual = catcher.loads().usual(known->pair, known->load);
     const unsigned traits =
         events_.fixtures().traits(known->pair.a) | events_.fixtures().traits(known->pair.b);
-    const SolvedContact solved{contact};
-    if (isNew || usual == nullptr || solved.isDiscs() || (traits & FixtureTable::source) == 0)
+    if (isNew || usual == nullptr || contact.GetManifold()->type == b2Manifold::e_circles ||
+        (traits & FixtureTable::source) == 0)
         return solve(contact, impulse, *known);
+    const SolvedContact solved{contact};
     FaceTouch& touch = catcher.push(*usual, solved.push(impulse, 0U)).setFace();
     solved.note(0, touch);
     if (LastingContacts::isRelevant(traits)) tellFace(contact, impulse, *known, touch);
