@@ -138,7 +138,8 @@ public:
     struct Contact {
         TouchingPairs::Name of;
         std::uint32_t step = 0, newest = 0; // step: the number of the last one that pushed; 0: none has
-        // Impulses on of.b in that step (at `newest`) and the three before, in turn: four numbers of each axis
+        // Impulses on of.b in that step (at `newest`) and the three before, in turn: four numbers of each
+        // axis
         std::array<float, 4> x{}, y{}, z{};
         Place place{};
         bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its
@@ -160,15 +161,16 @@ public:
             contact.newest = (contact.newest + 1) % 4;
         contact.step = step_;
         sum += newtonSeconds;
-        contact.x[contact.newest] = sum.x, contact.y[contact.newest] = sum.y, contact.z[contact.newest] = sum.z;
+        contact.x[contact.newest] = sum.x, contact.y[contact.newest] = sum.y,
+        contact.z[contact.newest] = sum.z;
         return contact.place;
     }
     /// The contact with that load, if it did not collide in the last step, and is not the first seen; else
     /// null, also where it is another's.
-    Contact* usual(const TouchingPairs::Name& pair, std::int32_t load) noexcept {
-        if (static_cast<std::size_t>(load) >= contacts_.size()) return nullptr;
-        Contact& contact = contacts_[static_cast<std::size_t>(load)];
-        return contact.of.a == pair.a && contact.of.b == pair.b && contact.isUsual ? &contact : nullptr;
+    Contact* usual(const TouchingPairs::Name& pair, std::size_t load) noexcept {
+        Contact* const contact = contacts_.data() + load;
+        if (contact >= contacts_.data() + contacts_.size()) return nullptr;
+        return contact->of.a == pair.a && contact->of.b == pair.b && contact->isUsual ? contact : nullptr;
     }
     /// Call when the pair has collided in the last step, or no longer.
     void noteLast(std::int32_t pair) noexcept {

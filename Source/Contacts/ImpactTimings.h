@@ -60,7 +60,7 @@ private:
     bool isReached(const HardCollision& strike) const noexcept;
 
     std::vector<HardCollision> strikes_; // sorted by strength once located
-    std::vector<Found> sums_; // by component
+    std::vector<Found> sums_;            // by component
     bool isLocated_ = false;
     SlotMap sumOf_;                     // their places
     SlotMap struck_;                    // the strongest of a slot's own collisions

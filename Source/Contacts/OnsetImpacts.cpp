@@ -80,7 +80,7 @@ void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impac
 // `later` returns the causes' impulse in their second step; called only where that could matter: seldom.
 template <class Later>
 inline void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later,
-                            const StepSpan& span, std::vector<Impact>& impacts) const {
+                                   const StepSpan& span, std::vector<Impact>& impacts) const {
     if (!table_.isCamera(handedOn.camera)) return;
     const bool isLate = now.strongest > handedOn.passed.strongest;
     const ChainLoads::Passed& main = isLate ? now : handedOn.passed;

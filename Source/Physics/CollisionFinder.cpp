@@ -65,7 +65,8 @@ CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair
         knownAt_.set(idOf(contact), at);
     }
     Known& known = known_[static_cast<std::size_t>(at)];
-    known = {&contact, contact.GetFixtureA(), contact.GetFixtureB(), pair, TouchingPairs::none, pairKey(pair.a, pair.b), partOf(contact)};
+    known = {&contact, contact.GetFixtureA(),   contact.GetFixtureB(), pair,
+             0,        pairKey(pair.a, pair.b), partOf(contact)};
     return known;
 }
 
@@ -267,7 +268,7 @@ void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& im
     const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
     const Pair& pair = pairOf(known);
     const TouchingPairs::Pair& stored = catcher[pair];
-    known.load = stored.load;
+    known.load = static_cast<std::size_t>(std::max(stored.load, 0));
     const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
     const bool isOfSource = (traits & FixtureTable::source) != 0;
     const bool isRelevant = isOfSource || stored.last != TouchingPairs::none;
@@ -293,6 +294,28 @@ void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& im
         tell(contact, impulse, collisions, known);
 }
 
+/// One point on a face, which touches there.
+inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i,
+                                      const Known& known, const FaceTouch& touch) {
+    FacePoint& told = events_.lasting().touchFace();
+    const SolvedContact solved{contact};
+    const bool isTurned = solved.isTurned();
+    const b2Body &face = *solved.first().GetBody(), &other = *solved.second().GetBody();
+    told.touch = touch;
+    told.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
+    told.other = {toVector(other.GetLinearVelocity()), toVector(other.GetWorldCenter())};
+    told.faceRadiansPerSecond = face.GetAngularVelocity();
+    told.otherRadiansPerSecond = other.GetAngularVelocity();
+    told.normalNewtonSeconds = impulse.normalImpulses[i];
+    told.isTurned = isTurned;
+    told.isDiscRough = events_.fixtures().isRough(isTurned ? known.pair.a : known.pair.b) &&
+                       solved.second().GetType() == b2Shape::e_circle;
+    told.a = known.pair.a;
+    told.b = known.pair.b;
+    told.pairsKey = known.key;
+    told.feature = known.part ^ contact.GetManifold()->points[i].id.key;
+}
+
 // The usual contact, without a call: its points are old, one of its fixtures is a source, a face touches.
 void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
     CollisionCatcher& catcher = events_.catcher();
@@ -316,7 +339,10 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
     const SolvedContact solved{contact};
     FaceTouch& touch = catcher.push(*usual, solved.push(impulse, 0U)).setFace();
     solved.note(0, touch);
-    if (LastingContacts::isRelevant(traits)) tellFace(contact, impulse, *known, touch);
+    if (!LastingContacts::isRelevant(traits)) return;
+    tellFace(contact, impulse, 0, *known, touch);
+    if (impulse.count > 1) [[unlikely]]
+        tell(contact, impulse, 1U, *known);
 }
 
 /// Reports the points to LastingContacts, except those in `collisions` (a bit each), which belong to a
@@ -353,38 +379,6 @@ void CollisionFinder::tellDiscs(const b2Contact& contact, const b2ContactImpulse
                    lasting.isRough(known.pair.a) ? around(discA, normal, turn) : SurfacePath{},
                    lasting.isRough(known.pair.b) ? around(discB, -normal, turn) : SurfacePath{}},
                   known.key);
-}
-
-/// One point on a face, which touches there.
-inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i,
-                                      const Known& known, const FaceTouch& touch) {
-    FacePoint& told = events_.lasting().touchFace();
-    const SolvedContact solved{contact};
-    const bool isTurned = solved.isTurned();
-    const b2Body &face = *solved.first().GetBody(), &other = *solved.second().GetBody();
-    told.touch = touch;
-    told.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
-    told.other = {toVector(other.GetLinearVelocity()), toVector(other.GetWorldCenter())};
-    told.faceRadiansPerSecond = face.GetAngularVelocity();
-    told.otherRadiansPerSecond = other.GetAngularVelocity();
-    told.normalNewtonSeconds = impulse.normalImpulses[i];
-    told.isTurned = isTurned;
-    told.isDiscRough = events_.fixtures().isRough(isTurned ? known.pair.a : known.pair.b) &&
-                       solved.second().GetType() == b2Shape::e_circle;
-    told.a = known.pair.a;
-    told.b = known.pair.b;
-    told.pairsKey = known.key;
-    told.feature = known.part ^ contact.GetManifold()->points[i].id.key;
-}
-
-/// All points of a face, of which `touch` is the first.
-void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known,
-                               const FaceTouch& touch) {
-    tellFace(contact, impulse, 0, known, touch);
-    if (impulse.count < 2) return;
-    FaceTouch second = touch;
-    second.corner = toVector(contact.GetManifold()->points[1].localPoint);
-    tellFace(contact, impulse, 1, known, second);
 }
 
 } // namespace physvib
