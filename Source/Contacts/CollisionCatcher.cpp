@@ -164,15 +164,11 @@ ChainLoads::Place& ChainLoads::add(const TouchingPairs::Name& pair, std::int32_t
                                    Vector3 newtonSeconds) {
     Contact& contact =
         load != TouchingPairs::none ? contacts_[static_cast<std::size_t>(load)] : meet(pair, true);
-    if (contact.isUnknown && contact.step != 0 && contact.step != step_) {
-        contact.isUnknown = false;
-        noteUsual(contact);
-    }
+    contact.isUnknown = contact.isUnknown && (contact.step == 0 || contact.step == step_);
+    noteUsual(contact);
     Place& place = push(contact, contact.of.b == pair.b ? newtonSeconds : -newtonSeconds);
-    if (!contact.isUnknown) return place;
-    contact.x.fill(contact.x[contact.newest]);
-    contact.y.fill(contact.y[contact.newest]);
-    contact.z.fill(contact.z[contact.newest]);
+    for (auto* const axis : {&contact.x, &contact.y, &contact.z})
+        if (contact.isUnknown) axis->fill((*axis)[contact.newest]);
     return place;
 }
 

@@ -138,14 +138,14 @@ public:
     struct Contact {
         TouchingPairs::Name of;
         std::uint32_t step = 0, newest = 0; // step: the number of the last one that pushed; 0: none has
-        // Impulses on of.b in that step (at `newest`) and the three before, in turn: four numbers of each
-        // axis
+        // Impulses on of.b in that step (at `newest`) and the three before, in turn, by axes
         std::array<float, 4> x{}, y{}, z{};
         Place place{};
         bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its
                                 // load
         bool isUsual = false;   // see usual()
         Vector3 push(unsigned turn) const noexcept { return {x[turn], y[turn], z[turn]}; }
+        void set(Vector3 push) noexcept { x[newest] = push.x, y[newest] = push.y, z[newest] = push.z; }
     };
 
     /// Within a step: an existing contact of (a, b) has pushed b by `newtonSeconds` (world), and a by the
@@ -160,13 +160,11 @@ public:
         else // what it had becomes history
             contact.newest = (contact.newest + 1) % 4;
         contact.step = step_;
-        sum += newtonSeconds;
-        contact.x[contact.newest] = sum.x, contact.y[contact.newest] = sum.y,
-        contact.z[contact.newest] = sum.z;
+        contact.set(sum + newtonSeconds);
         return contact.place;
     }
-    /// The contact with that load, if it did not collide in the last step, and is not the first seen; else
-    /// null, also where it is another's.
+    /// The contact at that place; null: it is another's, did collide in the last step, or was just seen
+    /// first.
     Contact* usual(const TouchingPairs::Name& pair, std::size_t load) noexcept {
         Contact* const contact = contacts_.data() + load;
         if (contact >= contacts_.data() + contacts_.size()) return nullptr;

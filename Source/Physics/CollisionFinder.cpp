@@ -263,12 +263,14 @@ SurfacePath around(const b2Fixture& disc, b2Vec2 direction, float radiansPerSeco
 } // namespace
 
 // Impulses at new points belong to the collision, if there is one; all others are load.
-void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known& known) {
+// `known`: of the contact, or null.
+void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known* known) {
     CollisionCatcher& catcher = events_.catcher();
     const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
-    const Pair& pair = pairOf(known);
+    if (known == nullptr) return;
+    const Pair& pair = pairOf(*known);
     const TouchingPairs::Pair& stored = catcher[pair];
-    known.load = static_cast<std::size_t>(std::max(stored.load, 0));
+    known->load = static_cast<std::size_t>(std::max(stored.load, 0));
     const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
     const bool isOfSource = (traits & FixtureTable::source) != 0;
     const bool isRelevant = isOfSource || stored.last != TouchingPairs::none;
@@ -291,7 +293,7 @@ void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& im
                 solved.note(0, place->setFace());
         }
     if (LastingContacts::isRelevant(traits)) // only pairs whose load matters
-        tell(contact, impulse, collisions, known);
+        tell(contact, impulse, collisions, *known);
 }
 
 /// One point on a face, which touches there.
@@ -326,16 +328,13 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
     }
     if (!isNew && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
     Known* const known = find(contact);
-    if (known == nullptr) [[unlikely]] {
-        fresh_.solved(contact);
-        return;
-    }
+    if (isNew || known == nullptr) return solve(contact, impulse, known);
     ChainLoads::Contact* const usual = catcher.loads().usual(known->pair, known->load);
     const unsigned traits =
         events_.fixtures().traits(known->pair.a) | events_.fixtures().traits(known->pair.b);
-    if (isNew || usual == nullptr || contact.GetManifold()->type == b2Manifold::e_circles ||
+    if (usual == nullptr || contact.GetManifold()->type == b2Manifold::e_circles ||
         (traits & FixtureTable::source) == 0)
-        return solve(contact, impulse, *known);
+        return solve(contact, impulse, known);
     const SolvedContact solved{contact};
     FaceTouch& touch = catcher.push(*usual, solved.push(impulse, 0U)).setFace();
     solved.note(0, touch);

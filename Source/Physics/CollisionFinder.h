@@ -198,7 +198,7 @@ private:
     void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
                   Collision& collision) const;
-    [[gnu::noinline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known& known);
+    [[gnu::noinline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known* known);
     [[gnu::noinline]] void tell(const b2Contact& contact, const b2ContactImpulse& impulse,
                                 unsigned collisions, const Known& known);
     void tellDiscs(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known);
