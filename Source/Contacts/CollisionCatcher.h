@@ -183,10 +183,9 @@ public:
     const std::vector<std::int32_t>& receivers() const noexcept { return receivers_; }
 
     /// The impulse that a haptic source received through existing contacts in this step. After settle().
-    const Passed& passed(std::int32_t slot) const noexcept {
-        static constexpr Passed nothing{};
+    Passed passed(std::int32_t slot) const noexcept {
         const auto index = static_cast<std::size_t>(slot);
-        return index < passed_.size() ? passed_[index] : nothing;
+        return index < passed_.size() ? passed_[index] : Passed{};
     }
     /// Where most of it was transmitted, in the same step; 0 if nothing was.
     Vector3 pointOf(const Passed& passed) const noexcept {

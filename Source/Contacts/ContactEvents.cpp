@@ -131,7 +131,6 @@ void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity, double larges
     span_.endNs = std::max(span_.startNs, endNs);
     span_.leastMetresPerSecond = settings_.thresholdMetresPerSecond;
     span_.gravityMetresPerSecond2 = gravity;
-    span_.pullMetresPerSecond2 = static_cast<double>(gravity.length());
     model_ = {settings_.normalisation.value_or(defaultNormalisation(settings_.fieldWidthMetres)),
               settings_.handMassKg.value_or(std::max(largestMassKg, table_.largestStaticMassKg(bodies_))),
               settings_.driveGain,
@@ -215,7 +214,7 @@ ContactCounts ContactEvents::recent() const noexcept {
     counts.hasSources = table_.hasCameras();
     for (std::int32_t slot = 0; slot < table_.size() && counts.hasSources && !counts.mayBePushed; ++slot)
         counts.mayBePushed = table_.isCamera(slot) && table_[slot].isDynamic();
-    counts.gravityMetresPerSecond2 = span_.pullMetresPerSecond2;
+    counts.gravityMetresPerSecond2 = static_cast<double>(span_.gravityMetresPerSecond2.length());
     counts.wantedThreshold = settings_.thresholdMetresPerSecond;
     counts.fieldWidthMetres = settings_.fieldWidthMetres;
     counts.isMuted = settings_.isMuted;

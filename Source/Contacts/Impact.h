@@ -49,7 +49,6 @@ struct StepSpan {
     std::int64_t endNs = 0;
     double leastMetresPerSecond = 0.0; ///< ImpactSettings::thresholdMetresPerSecond
     Vector2 gravityMetresPerSecond2;
-    double pullMetresPerSecond2 = 0.0; ///< its magnitude
 
     /// Rounds to nearest, halves away from zero, like std::llround; inline, because it runs for each grain.
     static std::int64_t roundedNs(double ns) noexcept {
@@ -76,7 +75,8 @@ struct StepSpan {
     /// dt in every step, and a jittering contact more.
     double thresholdMetresPerSecond(float gravityScale) const noexcept {
         constexpr double restingSteps = 1.5;
-        const double g = pullMetresPerSecond2 * std::abs(static_cast<double>(gravityScale));
+        const double g = static_cast<double>(gravityMetresPerSecond2.length()) *
+                         std::abs(static_cast<double>(gravityScale));
         return std::max(leastMetresPerSecond, restingSteps * g * seconds());
     }
     /// Approach speed from which surfaces collide: two thirds of the threshold. With a restitution of 0.5

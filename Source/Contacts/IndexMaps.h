@@ -31,7 +31,10 @@ public:
     /// The value of `key` (not 0), or `none`.
     [[gnu::always_inline]] std::int32_t find(std::uint64_t key) const noexcept {
         const Entry& usual = entries_[home(key)];
-        return usual.key == key && isTaken(usual) ? usual.value : search(key);
+        if (usual.key == key && isTaken(usual)) [[likely]]
+            return usual.value;
+        const Entry& entry = entries_[locate(key)];
+        return isTaken(entry) ? entry.value : none;
     }
 
     /// Sets the value of `key` (not 0).
@@ -80,14 +83,10 @@ private:
         return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_); // Fibonacci hashing,
                                                                                 // Knuth 6.4
     }
-    std::size_t locate(std::uint64_t key) const noexcept {
+    [[gnu::noinline]] std::size_t locate(std::uint64_t key) const noexcept {
         std::size_t place = home(key);
         while (isTaken(entries_[place]) && entries_[place].key != key) place = after(place);
         return place;
-    }
-    [[gnu::noinline]] std::int32_t search(std::uint64_t key) const noexcept {
-        const Entry& entry = entries_[locate(key)];
-        return isTaken(entry) ? entry.value : none;
     }
     void allocate(std::size_t places) {
         entries_.assign(places, {});
