@@ -27,13 +27,17 @@ void CollisionCatcher::settle() {
 }
 
 void CollisionCatcher::endStep() {
-    for (const Aftermath& last : last_) pairs_[last.pair].last = TouchingPairs::none;
+    for (const Aftermath& last : last_) {
+        pairs_[last.pair].last = TouchingPairs::none;
+        loads_.noteLast(last.pair);
+    }
     last_.clear();
     for (const std::uint64_t fixture : struck_) struckNames_.remove(fixture);
     struck_.clear();
     for (const Collision& collision : collisions_) {
         pairs_[collision.pair].collision = TouchingPairs::none;
         pairs_[collision.pair].last = static_cast<std::int32_t>(last_.size());
+        loads_.noteLast(collision.pair);
         last_.push_back({collision.pair, {}});
         for (const std::int32_t slot : {collision.a, collision.b}) {
             struck_.push_back(table_[slot].fixture);
@@ -156,34 +160,41 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
     ended_.reserve(expectedContacts);
 }
 
-// The smallest of the three before the newest; without branches, which could not be predicted here.
-inline const Vector3& ChainLoads::loadOf(const Contact& contact) noexcept {
-    const auto before = [&contact](unsigned steps) { return &contact.pushed[(contact.newest - steps) % 4]; };
-    const Vector3 *const one = before(1), *const two = before(2), *const three = before(3);
-    const float ofOne = one->lengthSquared(), ofTwo = two->lengthSquared();
-    const Vector3* const newer = ofTwo < ofOne ? two : one;
-    return *(three->lengthSquared() < std::min(ofOne, ofTwo) ? three : newer);
+ChainLoads::Place& ChainLoads::add(const TouchingPairs::Name& pair, std::int32_t load,
+                                   Vector3 newtonSeconds) {
+    Contact& contact =
+        load != TouchingPairs::none ? contacts_[static_cast<std::size_t>(load)] : meet(pair, true);
+    contact.isUnknown = contact.isUnknown && (contact.step == 0 || contact.step == step_);
+    noteUsual(contact);
+    Place& place = push(contact, contact.of.b == pair.b ? newtonSeconds : -newtonSeconds);
+    for (auto* const axis : {&contact.x, &contact.y, &contact.z})
+        if (contact.isUnknown) axis->fill((*axis)[contact.newest]);
+    return place;
 }
 
 void ChainLoads::settle() {
+    passed_.resize(std::max(passed_.size(), static_cast<std::size_t>(table_.size())));
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const Contact& contact = contacts_[i];
         if (contact.step != step_ || contact.isUnknown) continue;
-        const Vector3 &now = contact.pushed[contact.newest], &load = loadOf(contact);
-        if (now.lengthSquared() <= load.lengthSquared()) continue;
-        const Vector3 beyond = now - load;
+        std::array<float, 4> squares;
+        for (unsigned k = 0; k < 4; ++k) squares[k] = contact.push(k).lengthSquared();
+        // the load is the smallest of the three before the newest
+        const unsigned one = (contact.newest - 1) % 4, two = (contact.newest - 2) % 4,
+                       three = (contact.newest - 3) % 4, newer = squares[two] < squares[one] ? two : one,
+                       load = squares[three] < squares[newer] ? three : newer;
+        if (squares[contact.newest] <= squares[load]) continue;
+        const Vector3 beyond = contact.push(contact.newest) - contact.push(load);
         const float size = beyond.length();
         pass(contact.of.a, contact.of.b, -beyond, size, i);
         pass(contact.of.b, contact.of.a, beyond, size, i);
     }
 }
 
-void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size,
-                      std::size_t contact) {
+inline void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size,
+                             std::size_t contact) {
     if (!table_.isCamera(slot)) return;
-    const auto index = static_cast<std::size_t>(slot);
-    if (passed_.size() <= index) passed_.resize(index + 1);
-    Passed& passed = passed_[index];
+    Passed& passed = passed_[static_cast<std::size_t>(slot)];
     if (passed.other == FixtureTable::none) receivers_.push_back(slot);
     passed.newtonSeconds += newtonSeconds;
     if (size <= passed.strongest) return;
@@ -215,7 +226,9 @@ void ChainLoads::forget(std::int32_t slot) noexcept {
 
 ChainLoads::Contact& ChainLoads::meet(const TouchingPairs::Name& pair, bool isUnknown) {
     pairs_[pair.number].load = static_cast<std::int32_t>(contacts_.size());
-    return contacts_.emplace_back(Contact{.of = pair, .isUnknown = isUnknown});
+    Contact& made = contacts_.emplace_back(Contact{.of = pair, .isUnknown = isUnknown});
+    noteUsual(made);
+    return made;
 }
 
 void ChainLoads::drop(std::size_t index) noexcept {

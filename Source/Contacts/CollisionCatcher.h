@@ -135,16 +135,45 @@ public:
 
     ChainLoads(const FixtureTable& table, TouchingPairs& pairs);
 
+    struct Contact {
+        TouchingPairs::Name of;
+        std::uint32_t step = 0, newest = 0; // step: the number of the last one that pushed; 0: none has
+        // Impulses on of.b in that step (at `newest`) and the three before, in turn, by axes
+        std::array<float, 4> x{}, y{}, z{};
+        Place place{};
+        bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its
+                                // load
+        bool isUsual = false;   // see usual()
+        Vector3 push(unsigned turn) const noexcept { return {x[turn], y[turn], z[turn]}; }
+        void set(Vector3 push) noexcept { x[newest] = push.x, y[newest] = push.y, z[newest] = push.z; }
+    };
+
     /// Within a step: an existing contact of (a, b) has pushed b by `newtonSeconds` (world), and a by the
     /// opposite.
-    [[gnu::always_inline]] Place& add(const TouchingPairs::Name& pair, std::int32_t load,
-                                      Vector3 newtonSeconds) {
-        Contact& contact =
-            load != TouchingPairs::none ? contacts_[static_cast<std::size_t>(load)] : meet(pair, true);
-        if (contact.of.b != pair.b) newtonSeconds = -newtonSeconds;
+    Place& add(const TouchingPairs::Name& pair, std::int32_t load, Vector3 newtonSeconds);
+    /// The same of what usual() has returned.
+    [[gnu::always_inline]] Place& push(Contact& contact, Vector3 newtonSeconds) noexcept {
         // Summed over the step's points and solver passes, and over the segments of a chain.
-        contact.pushed[contact.newest] = open(contact) + newtonSeconds;
+        Vector3 sum;
+        if (contact.step == step_)
+            sum = contact.push(contact.newest);
+        else // what it had becomes history
+            contact.newest = (contact.newest + 1) % 4;
+        contact.step = step_;
+        contact.set(sum + newtonSeconds);
         return contact.place;
+    }
+    /// The contact at that place; null: it is another's, did collide in the last step, or was just seen
+    /// first.
+    Contact* usual(const TouchingPairs::Name& pair, std::size_t load) noexcept {
+        Contact* const contact = contacts_.data() + load;
+        if (contact >= contacts_.data() + contacts_.size()) return nullptr;
+        return contact->of.a == pair.a && contact->of.b == pair.b && contact->isUsual ? contact : nullptr;
+    }
+    /// Call when the pair has collided in the last step, or no longer.
+    void noteLast(std::int32_t pair) noexcept {
+        if (const std::int32_t load = pairs_[pair].load; load != TouchingPairs::none)
+            noteUsual(contacts_[static_cast<std::size_t>(load)]);
     }
 
     /// After a step: sums up the transmitted impulses.
@@ -175,29 +204,12 @@ public:
     void forget(std::int32_t slot) noexcept;
 
 private:
-    struct Contact {
-        TouchingPairs::Name of;
-        std::uint32_t step = 0, newest = 0; // step: the number of the last one that pushed; 0: none has
-        std::array<Vector3, 4> pushed{}; // impulses on of.b in that step (at `newest`) and the three before,
-                                         // in turn
-        Place place{};
-        bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its
-                                // load
-    };
-    static const Vector3& loadOf(const Contact& contact) noexcept;
-    [[gnu::noinline]] Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
-    /// What it has been pushed by in this step. At the first push what it had becomes history.
-    [[gnu::always_inline]] Vector3 open(Contact& contact) noexcept {
-        if (contact.step == step_) return contact.pushed[contact.newest];
-        if (contact.step != 0) {
-            if (contact.isUnknown) contact.pushed.fill(contact.pushed[contact.newest]);
-            contact.isUnknown = false;
-            contact.newest = (contact.newest + 1) % 4;
-        }
-        contact.step = step_;
-        return {};
+    Contact& meet(const TouchingPairs::Name& pair, bool isUnknown);
+    void noteUsual(Contact& contact) const noexcept {
+        contact.isUsual = !contact.isUnknown && pairs_[contact.of.number].last == TouchingPairs::none;
     }
-    void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size, std::size_t contact);
+    [[gnu::always_inline]] void pass(std::int32_t slot, std::int32_t other, Vector3 newtonSeconds, float size,
+                                     std::size_t contact);
     void drop(std::size_t index) noexcept;
 
     const FixtureTable& table_;
@@ -317,13 +329,17 @@ public:
     }
     /// The same where what is stored of the pair, and whether it touches a source, are known. Returns what is
     /// to be set to the place; nullptr: nothing.
-    [[gnu::always_inline]] ChainLoads::Place* push(const TouchingPairs::Name& pair,
-                                                   const TouchingPairs::Pair& stored, bool isOfSource,
-                                                   Vector3 newtonSeconds) {
+    ChainLoads::Place* push(const TouchingPairs::Name& pair, const TouchingPairs::Pair& stored,
+                            bool isOfSource, Vector3 newtonSeconds) {
         hasHeard_ = true;
         if (stored.last != TouchingPairs::none) [[unlikely]]
             last_[static_cast<std::size_t>(stored.last)].newtonSeconds += newtonSeconds;
         return isOfSource ? &loads_.add(pair, stored.load, newtonSeconds) : nullptr;
+    }
+    /// The same of a source's contact that ChainLoads::usual() has returned.
+    [[gnu::always_inline]] ChainLoads::Place& push(ChainLoads::Contact& usual, Vector3 newtonSeconds) {
+        hasHeard_ = true;
+        return loads_.push(usual, newtonSeconds);
     }
 
     const std::vector<Collision>& collisions() const noexcept { return collisions_; }
@@ -335,6 +351,7 @@ public:
     /// True if the fixture collided in the last step.
     bool wasStruck(std::int32_t slot) const noexcept;
     const ChainLoads& loads() const noexcept { return loads_; }
+    ChainLoads& loads() noexcept { return loads_; }
 
     /// Collisions dropped so far because the arrays were full.
     std::uint64_t drops() const noexcept { return drops_; }

@@ -41,24 +41,28 @@ public:
         const HardCollision* strongest = nullptr;    // nullptr: none
         double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
     };
-    Found find(std::int32_t camera, ContactGraph& graph);
+    Found find(std::int32_t camera, ContactGraph& graph) {
+        if (strikes_.empty()) return {};
+        if (!isLocated_) locate(graph);
+        if (!graph.isPassing(camera) || struck_.find(camera) != SlotMap::none)
+            return findAround(camera, graph);
+        const std::int32_t at = sumOf_.find(graph.component(camera)); // the usual case
+        return at == SlotMap::none ? Found{} : sums_[static_cast<std::size_t>(at)];
+    }
 
     /// The slot is freed or reassigned: drops its collisions.
     void forget(std::int32_t slot) noexcept;
 
 private:
-    struct Sum {
-        std::size_t strongest;
-        double newtonSeconds, aftermath;
-    };
     void locate(ContactGraph& graph);
+    [[gnu::noinline]] Found findAround(std::int32_t camera, ContactGraph& graph);
     void sum(std::int32_t component, std::size_t strike);
     bool isReached(const HardCollision& strike) const noexcept;
 
     std::vector<HardCollision> strikes_; // sorted by strength once located
-    std::vector<Sum> sums_;
+    std::vector<Found> sums_;            // by component
     bool isLocated_ = false;
-    SlotMap sumOf_;                     // by component
+    SlotMap sumOf_;                     // their places
     SlotMap struck_;                    // the strongest of a slot's own collisions
     std::vector<std::int32_t> reached_; // components at the current source
 };

@@ -29,7 +29,10 @@ public:
     explicit IntegerMap(std::size_t capacity = 32) { allocate(std::bit_ceil(2 * capacity + 2)); }
 
     /// The value of `key` (not 0), or `none`.
-    std::int32_t find(std::uint64_t key) const noexcept {
+    [[gnu::always_inline]] std::int32_t find(std::uint64_t key) const noexcept {
+        const Entry& usual = entries_[home(key)];
+        if (usual.key == key && isTaken(usual)) [[likely]]
+            return usual.value;
         const Entry& entry = entries_[locate(key)];
         return isTaken(entry) ? entry.value : none;
     }
@@ -80,7 +83,7 @@ private:
         return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_); // Fibonacci hashing,
                                                                                 // Knuth 6.4
     }
-    std::size_t locate(std::uint64_t key) const noexcept {
+    [[gnu::noinline]] std::size_t locate(std::uint64_t key) const noexcept {
         std::size_t place = home(key);
         while (isTaken(entries_[place]) && entries_[place].key != key) place = after(place);
         return place;

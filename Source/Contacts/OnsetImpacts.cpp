@@ -79,8 +79,8 @@ void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impac
 
 // `later` returns the causes' impulse in their second step; called only where that could matter: seldom.
 template <class Later>
-void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later,
-                            const StepSpan& span, std::vector<Impact>& impacts) const {
+inline void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later,
+                                   const StepSpan& span, std::vector<Impact>& impacts) const {
     if (!table_.isCamera(handedOn.camera)) return;
     const bool isLate = now.strongest > handedOn.passed.strongest;
     const ChainLoads::Passed& main = isLate ? now : handedOn.passed;
@@ -147,7 +147,7 @@ void StrikeCauses::follow(const CollisionCatcher& catcher) {
 }
 
 void StrikeCauses::locate(ContactGraph& graph) {
-    if (std::exchange(isLocated_, true)) return;
+    isLocated_ = true;
     std::sort(strikes_.begin(), strikes_.end(), [](const HardCollision& one, const HardCollision& two) {
         return one.newtonSeconds != two.newtonSeconds ? one.newtonSeconds > two.newtonSeconds
                                                       : one.timeNs < two.timeNs;
@@ -177,29 +177,22 @@ void StrikeCauses::sum(std::int32_t component, std::size_t strike) {
     if (at == SlotMap::none) {
         at = static_cast<std::int32_t>(sums_.size());
         sumOf_.set(component, at);
-        sums_.push_back({strike, 0.0, 0.0});
+        sums_.push_back({&strikes_[strike], 0.0, 0.0});
     }
     sums_[static_cast<std::size_t>(at)].newtonSeconds += strikes_[strike].newtonSeconds;
     sums_[static_cast<std::size_t>(at)].aftermath += strikes_[strike].aftermath;
 }
 
-StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph) {
-    if (strikes_.empty()) return {};
-    locate(graph);
-    if (graph.isPassing(camera) && struck_.find(camera) == SlotMap::none) { // the usual case
-        const std::int32_t at = sumOf_.find(graph.component(camera));
-        if (at == SlotMap::none) return {};
-        const Sum& sum = sums_[static_cast<std::size_t>(at)];
-        return {&strikes_[sum.strongest], sum.newtonSeconds, sum.aftermath};
-    }
+// Without its own, and, where it cannot move, of all that touches it.
+StrikeCauses::Found StrikeCauses::findAround(std::int32_t camera, ContactGraph& graph) {
     Found found;
     graph.reach(camera, reached_);
     std::size_t strongest = strikes_.size();
     for (const std::int32_t component : reached_) {
         const std::int32_t at = sumOf_.find(component);
         if (at == SlotMap::none) continue;
-        const Sum& sum = sums_[static_cast<std::size_t>(at)];
-        strongest = std::min(strongest, sum.strongest);
+        const Found& sum = sums_[static_cast<std::size_t>(at)];
+        strongest = std::min(strongest, static_cast<std::size_t>(sum.strongest - strikes_.data()));
         found.newtonSeconds += sum.newtonSeconds;
         found.aftermath += sum.aftermath;
     }

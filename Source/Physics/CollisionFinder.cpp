@@ -52,18 +52,9 @@ std::int32_t CollisionFinder::find(const b2Fixture& fixture) {
 }
 
 CollisionFinder::Known* CollisionFinder::search(const b2Contact& contact) {
-    Known* found = nullptr;
-    if (const std::int32_t at = knownAt_.find(idOf(contact)); at != IntegerMap::none)
-        if (Known& known = known_[static_cast<std::size_t>(at)]; known.isOf(contact)) found = &known;
-    if (found == nullptr) {
-        const std::int32_t a = find(*contact.GetFixtureA()), b = find(*contact.GetFixtureB());
-        if (a == FixtureTable::none || b == FixtureTable::none) return nullptr;
-        found = &remember(contact, {.a = a, .b = b});
-    }
-    const auto place = static_cast<std::size_t>(found - known_.data());
-    known_[last_].next = place;
-    last_ = place;
-    return found;
+    const std::int32_t a = find(*contact.GetFixtureA()), b = find(*contact.GetFixtureB());
+    if (a == FixtureTable::none || b == FixtureTable::none) return nullptr;
+    return &remember(contact, {.a = a, .b = b});
 }
 
 CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair pair) {
@@ -74,9 +65,8 @@ CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair
         knownAt_.set(idOf(contact), at);
     }
     Known& known = known_[static_cast<std::size_t>(at)];
-    known = {&contact, contact.GetFixtureA(),   contact.GetFixtureB(),
-             pair,     pairKey(pair.a, pair.b), partOf(contact),
-             0};
+    known = {&contact, contact.GetFixtureA(),   contact.GetFixtureB(), pair,
+             0,        pairKey(pair.a, pair.b), partOf(contact)};
     return known;
 }
 
@@ -248,8 +238,8 @@ public:
     Vector2 push(const b2ContactImpulse& impulse, unsigned without) const noexcept {
         const b2Vec2 out = normal(), tangent = b2Cross(out, 1.0F);
         b2Vec2 onB{0.0F, 0.0F};
-        for (int i = 0; i < impulse.count; ++i)
-            if (!isIn(without, i))
+        for (int i = 0; i < b2_maxManifoldPoints; ++i) // unrolled
+            if (i < impulse.count && !isIn(without, i))
                 onB += impulse.normalImpulses[i] * out + impulse.tangentImpulses[i] * tangent;
         return toVector(onB);
     }
@@ -277,10 +267,10 @@ SurfacePath around(const b2Fixture& disc, b2Vec2 direction, float radiansPerSeco
 void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known* known) {
     CollisionCatcher& catcher = events_.catcher();
     const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
-    if (known == nullptr) known = find(contact);
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
     const TouchingPairs::Pair& stored = catcher[pair];
+    known->load = static_cast<std::size_t>(std::max(stored.load, 0));
     const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
     const bool isOfSource = (traits & FixtureTable::source) != 0;
     const bool isRelevant = isOfSource || stored.last != TouchingPairs::none;
@@ -306,6 +296,28 @@ void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& im
         tell(contact, impulse, collisions, *known);
 }
 
+/// One point on a face, which touches there.
+inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i,
+                                      const Known& known, const FaceTouch& touch) {
+    FacePoint& told = events_.lasting().touchFace();
+    const SolvedContact solved{contact};
+    const bool isTurned = solved.isTurned();
+    const b2Body &face = *solved.first().GetBody(), &other = *solved.second().GetBody();
+    told.touch = touch;
+    told.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
+    told.other = {toVector(other.GetLinearVelocity()), toVector(other.GetWorldCenter())};
+    told.faceRadiansPerSecond = face.GetAngularVelocity();
+    told.otherRadiansPerSecond = other.GetAngularVelocity();
+    told.normalNewtonSeconds = impulse.normalImpulses[i];
+    told.isTurned = isTurned;
+    told.isDiscRough = events_.fixtures().isRough(isTurned ? known.pair.a : known.pair.b) &&
+                       solved.second().GetType() == b2Shape::e_circle;
+    told.a = known.pair.a;
+    told.b = known.pair.b;
+    told.pairsKey = known.key;
+    told.feature = known.part ^ contact.GetManifold()->points[i].id.key;
+}
+
 // The usual contact, without a call: its points are old, one of its fixtures is a source, a face touches.
 void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
     CollisionCatcher& catcher = events_.catcher();
@@ -315,18 +327,21 @@ void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpul
         return;
     }
     if (!isNew && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
-    Known* const known = guess(contact);
-    if (isNew || known == nullptr || !catcher.isKnown(known->pair)) return solve(contact, impulse, known);
-    const TouchingPairs::Pair& stored = catcher[known->pair];
+    Known* const known = find(contact);
+    if (isNew || known == nullptr) return solve(contact, impulse, known);
+    ChainLoads::Contact* const usual = catcher.loads().usual(known->pair, known->load);
     const unsigned traits =
         events_.fixtures().traits(known->pair.a) | events_.fixtures().traits(known->pair.b);
-    const SolvedContact solved{contact};
-    if (stored.load == TouchingPairs::none || stored.last != TouchingPairs::none || solved.isDiscs() ||
+    if (usual == nullptr || contact.GetManifold()->type == b2Manifold::e_circles ||
         (traits & FixtureTable::source) == 0)
         return solve(contact, impulse, known);
-    FaceTouch& touch = catcher.push(known->pair, stored, true, solved.push(impulse, 0U))->setFace();
+    const SolvedContact solved{contact};
+    FaceTouch& touch = catcher.push(*usual, solved.push(impulse, 0U)).setFace();
     solved.note(0, touch);
-    if (LastingContacts::isRelevant(traits)) tellFace(contact, impulse, *known, touch);
+    if (!LastingContacts::isRelevant(traits)) return;
+    tellFace(contact, impulse, 0, *known, touch);
+    if (impulse.count > 1) [[unlikely]]
+        tell(contact, impulse, 1U, *known);
 }
 
 /// Reports the points to LastingContacts, except those in `collisions` (a bit each), which belong to a
@@ -363,38 +378,6 @@ void CollisionFinder::tellDiscs(const b2Contact& contact, const b2ContactImpulse
                    lasting.isRough(known.pair.a) ? around(discA, normal, turn) : SurfacePath{},
                    lasting.isRough(known.pair.b) ? around(discB, -normal, turn) : SurfacePath{}},
                   known.key);
-}
-
-/// One point on a face, which touches there.
-inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i,
-                                      const Known& known, const FaceTouch& touch) {
-    FacePoint& told = events_.lasting().touchFace();
-    const SolvedContact solved{contact};
-    const bool isTurned = solved.isTurned();
-    const b2Body &face = *solved.first().GetBody(), &other = *solved.second().GetBody();
-    told.touch = touch;
-    told.face = {toVector(face.GetLinearVelocity()), toVector(face.GetWorldCenter())};
-    told.other = {toVector(other.GetLinearVelocity()), toVector(other.GetWorldCenter())};
-    told.faceRadiansPerSecond = face.GetAngularVelocity();
-    told.otherRadiansPerSecond = other.GetAngularVelocity();
-    told.normalNewtonSeconds = impulse.normalImpulses[i];
-    told.isTurned = isTurned;
-    told.isDiscRough = solved.second().GetType() == b2Shape::e_circle &&
-                       events_.fixtures().isRough(isTurned ? known.pair.a : known.pair.b);
-    told.a = known.pair.a;
-    told.b = known.pair.b;
-    told.pairsKey = known.key;
-    told.feature = known.part ^ contact.GetManifold()->points[i].id.key;
-}
-
-/// All points of a face, of which `touch` is the first.
-void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known,
-                               const FaceTouch& touch) {
-    tellFace(contact, impulse, 0, known, touch);
-    if (impulse.count < 2) return;
-    FaceTouch second = touch;
-    second.corner = toVector(contact.GetManifold()->points[1].localPoint);
-    tellFace(contact, impulse, 1, known, second);
 }
 
 } // namespace physvib

@@ -169,24 +169,18 @@ private:
         const b2Contact* contact = nullptr; // null: of none
         const b2Fixture *fixtureA = nullptr, *fixtureB = nullptr;
         Pair pair{};            // its number: none until it is needed
+        std::size_t load = 0;   // of the pair, where it last was
         std::uint64_t key = 0;  // of the pair
         std::uint64_t part = 0; // hash of which parts of the two surfaces (segments of a chain) touch
-        std::size_t next = 0;   // the place of the one that was looked for after it: usually the next one
-                                // again
         bool isOf(const b2Contact& of) const noexcept {
-            return contact == &of && fixtureA == of.GetFixtureA() && fixtureB == of.GetFixtureB();
+            return fixtureA == of.GetFixtureA() && fixtureB == of.GetFixtureB();
         }
     };
-    Known* guess(const b2Contact& contact) noexcept { // nullptr: it has to be searched for
-        const std::size_t next = known_[last_].next;
-        if (!known_[next].isOf(contact)) [[unlikely]]
-            return nullptr;
-        last_ = next;
-        return &known_[next];
-    }
     Known* find(const b2Contact& contact) { // nullptr: one of the fixtures is not registered
-        Known* const known = guess(contact);
-        return known != nullptr ? known : search(contact);
+        const std::int32_t at = knownAt_.find(idOf(contact));
+        if (at == IntegerMap::none || !known_[static_cast<std::size_t>(at)].isOf(contact)) [[unlikely]]
+            return search(contact);
+        return &known_[static_cast<std::size_t>(at)];
     }
     [[gnu::noinline]] void meet(const b2Contact& contact, unsigned fresh);
     [[gnu::noinline]] Known* search(const b2Contact& contact);
@@ -210,8 +204,6 @@ private:
     void tellDiscs(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known);
     void tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i, const Known& known,
                   const FaceTouch& touch);
-    [[gnu::noinline]] void tellFace(const b2Contact& contact, const b2ContactImpulse& impulse,
-                                    const Known& known, const FaceTouch& touch);
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 
@@ -221,7 +213,6 @@ private:
     std::vector<Known> known_; // contacts that touch, then room for more
     std::size_t knownCount_ = 0;
     IntegerMap knownAt_{expectedContacts}; // by contact
-    std::size_t last_ = 0;                 // the place of the one that was found last
 };
 
 } // namespace physvib

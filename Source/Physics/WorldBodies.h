@@ -96,7 +96,9 @@ public:
             const b2BodyType type = body->GetType();
             if (type == b2_staticBody) continue;
             isKnown &= next->body == body;
-            *next++ = {body, body->GetWorldCenter(), motionOf(*body)};
+            next->body = body;
+            next->centre = body->GetWorldCenter();
+            next++->start = motionOf(*body);
             if (type == b2_dynamicBody && body->IsEnabled()) largestKg = std::max(largestKg, body->GetMass());
         }
         largestMassKg_ = static_cast<double>(largestKg);
