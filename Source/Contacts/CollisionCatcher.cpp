@@ -162,8 +162,7 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
 
 ChainLoads::Place& ChainLoads::add(const TouchingPairs::Name& pair, std::int32_t load,
                                    Vector3 newtonSeconds) {
-    Contact& contact =
-        load != TouchingPairs::none ? contacts_[static_cast<std::size_t>(load)] : meet(pair, true);
+    Contact& contact = load != TouchingPairs::none ? contacts_.data()[load] : meet(pair, true);
     contact.isUnknown = contact.isUnknown && (contact.step == 0 || contact.step == step_);
     noteUsual(contact);
     Place& place = push(contact, contact.of.b == pair.b ? newtonSeconds : -newtonSeconds);
@@ -173,15 +172,15 @@ ChainLoads::Place& ChainLoads::add(const TouchingPairs::Name& pair, std::int32_t
 }
 
 void ChainLoads::settle() {
-    passed_.resize(std::max(passed_.size(), static_cast<std::size_t>(table_.size())));
+    passed_.resize(static_cast<std::size_t>(table_.size()));
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const Contact& contact = contacts_[i];
         if (contact.step != step_ || contact.isUnknown) continue;
         std::array<float, 4> squares;
         for (unsigned k = 0; k < 4; ++k) squares[k] = contact.push(k).lengthSquared();
-        // the load is the smallest of the three before the newest
-        const unsigned one = (contact.newest - 1) % 4, two = (contact.newest - 2) % 4,
-                       three = (contact.newest - 3) % 4, newer = squares[two] < squares[one] ? two : one,
+        const auto before = [&](unsigned steps) { return (contact.newest - steps) % 4; };
+        const unsigned one = before(1), two = before(2), three = before(3),
+                       newer = squares[two] < squares[one] ? two : one,
                        load = squares[three] < squares[newer] ? three : newer;
         if (squares[contact.newest] <= squares[load]) continue;
         const Vector3 beyond = contact.push(contact.newest) - contact.push(load);
@@ -226,9 +225,8 @@ void ChainLoads::forget(std::int32_t slot) noexcept {
 
 ChainLoads::Contact& ChainLoads::meet(const TouchingPairs::Name& pair, bool isUnknown) {
     pairs_[pair.number].load = static_cast<std::int32_t>(contacts_.size());
-    Contact& made = contacts_.emplace_back(Contact{.of = pair, .isUnknown = isUnknown});
-    noteUsual(made);
-    return made;
+    noteUsual(contacts_.emplace_back(Contact{.of = pair, .isUnknown = isUnknown}));
+    return contacts_.back();
 }
 
 void ChainLoads::drop(std::size_t index) noexcept {

@@ -141,9 +141,8 @@ public:
         // Impulses on of.b in that step (at `newest`) and the three before, in turn, by axes
         std::array<float, 4> x{}, y{}, z{};
         Place place{};
-        bool isUnknown = false; // first seen in mid-contact: the impulse of the first step is taken as its
-                                // load
-        bool isUsual = false;   // see usual()
+        bool isUnknown = false; // first seen in mid-contact: its load is its first impulse
+        bool isUsual = false;
         Vector3 push(unsigned turn) const noexcept { return {x[turn], y[turn], z[turn]}; }
         void set(Vector3 push) noexcept { x[newest] = push.x, y[newest] = push.y, z[newest] = push.z; }
     };
@@ -151,29 +150,27 @@ public:
     /// Within a step: an existing contact of (a, b) has pushed b by `newtonSeconds` (world), and a by the
     /// opposite.
     Place& add(const TouchingPairs::Name& pair, std::int32_t load, Vector3 newtonSeconds);
-    /// The same of what usual() has returned.
+    /// The same of a usual contact.
     [[gnu::always_inline]] Place& push(Contact& contact, Vector3 newtonSeconds) noexcept {
         // Summed over the step's points and solver passes, and over the segments of a chain.
         Vector3 sum;
         if (contact.step == step_)
             sum = contact.push(contact.newest);
-        else // what it had becomes history
+        else
             contact.newest = (contact.newest + 1) % 4;
         contact.step = step_;
         contact.set(sum + newtonSeconds);
         return contact.place;
     }
-    /// The contact at that place; null: it is another's, did collide in the last step, or was just seen
-    /// first.
-    Contact* usual(const TouchingPairs::Name& pair, std::size_t load) noexcept {
+    /// The contact at that place; null: another's, or it collided in the last step, or is new.
+    Contact* usual(const TouchingPairs::Name& pair, std::int32_t load) noexcept {
         Contact* const contact = contacts_.data() + load;
         if (contact >= contacts_.data() + contacts_.size()) return nullptr;
         return contact->of.a == pair.a && contact->of.b == pair.b && contact->isUsual ? contact : nullptr;
     }
-    /// Call when the pair has collided in the last step, or no longer.
+    /// Call when the pair's `last` has changed.
     void noteLast(std::int32_t pair) noexcept {
-        if (const std::int32_t load = pairs_[pair].load; load != TouchingPairs::none)
-            noteUsual(contacts_[static_cast<std::size_t>(load)]);
+        if (pairs_[pair].load != TouchingPairs::none) noteUsual(contacts_.data()[pairs_[pair].load]);
     }
 
     /// After a step: sums up the transmitted impulses.
@@ -327,8 +324,8 @@ public:
         if (ChainLoads::Place* const place = push(pair, pairs_[pair.number], isOfSource, newtonSeconds))
             place->set(point);
     }
-    /// The same where what is stored of the pair, and whether it touches a source, are known. Returns what is
-    /// to be set to the place; nullptr: nothing.
+    /// The same where what is stored of the pair, and whether it touches a source, are known. Returns the
+    /// place, to be set, or null.
     ChainLoads::Place* push(const TouchingPairs::Name& pair, const TouchingPairs::Pair& stored,
                             bool isOfSource, Vector3 newtonSeconds) {
         hasHeard_ = true;
@@ -336,8 +333,8 @@ public:
             last_[static_cast<std::size_t>(stored.last)].newtonSeconds += newtonSeconds;
         return isOfSource ? &loads_.add(pair, stored.load, newtonSeconds) : nullptr;
     }
-    /// The same of a source's contact that ChainLoads::usual() has returned.
-    [[gnu::always_inline]] ChainLoads::Place& push(ChainLoads::Contact& usual, Vector3 newtonSeconds) {
+    /// The same of a usual contact.
+    ChainLoads::Place& push(ChainLoads::Contact& usual, Vector3 newtonSeconds) {
         hasHeard_ = true;
         return loads_.push(usual, newtonSeconds);
     }

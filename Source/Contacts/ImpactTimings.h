@@ -55,14 +55,14 @@ public:
 
 private:
     void locate(ContactGraph& graph);
-    [[gnu::noinline]] Found findAround(std::int32_t camera, ContactGraph& graph);
+    Found findAround(std::int32_t camera, ContactGraph& graph);
     void sum(std::int32_t component, std::size_t strike);
     bool isReached(const HardCollision& strike) const noexcept;
 
     std::vector<HardCollision> strikes_; // sorted by strength once located
-    std::vector<Found> sums_;            // by component
+    std::vector<Found> sums_;
     bool isLocated_ = false;
-    SlotMap sumOf_;                     // their places
+    SlotMap sumOf_;                     // by component
     SlotMap struck_;                    // the strongest of a slot's own collisions
     std::vector<std::int32_t> reached_; // components at the current source
 };

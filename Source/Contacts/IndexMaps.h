@@ -29,10 +29,7 @@ public:
     explicit IntegerMap(std::size_t capacity = 32) { allocate(std::bit_ceil(2 * capacity + 2)); }
 
     /// The value of `key` (not 0), or `none`.
-    [[gnu::always_inline]] std::int32_t find(std::uint64_t key) const noexcept {
-        const Entry& usual = entries_[home(key)];
-        if (usual.key == key && isTaken(usual)) [[likely]]
-            return usual.value;
+    std::int32_t find(std::uint64_t key) const noexcept {
         const Entry& entry = entries_[locate(key)];
         return isTaken(entry) ? entry.value : none;
     }
@@ -83,7 +80,7 @@ private:
         return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_); // Fibonacci hashing,
                                                                                 // Knuth 6.4
     }
-    [[gnu::noinline]] std::size_t locate(std::uint64_t key) const noexcept {
+    std::size_t locate(std::uint64_t key) const noexcept {
         std::size_t place = home(key);
         while (isTaken(entries_[place]) && entries_[place].key != key) place = after(place);
         return place;

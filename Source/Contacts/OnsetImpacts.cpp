@@ -183,7 +183,6 @@ void StrikeCauses::sum(std::int32_t component, std::size_t strike) {
     sums_[static_cast<std::size_t>(at)].aftermath += strikes_[strike].aftermath;
 }
 
-// Without its own, and, where it cannot move, of all that touches it.
 StrikeCauses::Found StrikeCauses::findAround(std::int32_t camera, ContactGraph& graph) {
     Found found;
     graph.reach(camera, reached_);

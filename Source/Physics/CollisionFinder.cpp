@@ -238,7 +238,7 @@ public:
     Vector2 push(const b2ContactImpulse& impulse, unsigned without) const noexcept {
         const b2Vec2 out = normal(), tangent = b2Cross(out, 1.0F);
         b2Vec2 onB{0.0F, 0.0F};
-        for (int i = 0; i < b2_maxManifoldPoints; ++i) // unrolled
+        for (int i = 0; i < b2_maxManifoldPoints; ++i)
             if (i < impulse.count && !isIn(without, i))
                 onB += impulse.normalImpulses[i] * out + impulse.tangentImpulses[i] * tangent;
         return toVector(onB);
@@ -270,7 +270,7 @@ void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& im
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
     const TouchingPairs::Pair& stored = catcher[pair];
-    known->load = static_cast<std::size_t>(std::max(stored.load, 0));
+    known->load = std::max(stored.load, 0);
     const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
     const bool isOfSource = (traits & FixtureTable::source) != 0;
     const bool isRelevant = isOfSource || stored.last != TouchingPairs::none;

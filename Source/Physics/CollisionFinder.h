@@ -169,7 +169,7 @@ private:
         const b2Contact* contact = nullptr; // null: of none
         const b2Fixture *fixtureA = nullptr, *fixtureB = nullptr;
         Pair pair{};            // its number: none until it is needed
-        std::size_t load = 0;   // of the pair, where it last was
+        std::int32_t load = 0;  // of the pair, where it last was
         std::uint64_t key = 0;  // of the pair
         std::uint64_t part = 0; // hash of which parts of the two surfaces (segments of a chain) touch
         bool isOf(const b2Contact& of) const noexcept {
