@@ -123,6 +123,8 @@ public:
         FieldShare at;
     };
     Target targetAt(juce::Point<float> place) const;
+    /// Of the actuators of the layout that is shown, which lags behind the session's by up to a refresh.
+    const std::vector<juce::Rectangle<float>>& badges() const;
     juce::Rectangle<float> badgeAt(int enchanter) const {
         return badges()[static_cast<std::size_t>(enchanter)];
     }
@@ -184,7 +186,6 @@ private:
     int enchanterAt(juce::Point<float> p) const;
     juce::String labelOf(int enchanter) const;
     juce::Font badgeFont() const;
-    const std::vector<juce::Rectangle<float>>& badges() const;
     void drawGround(juce::Graphics& g, const Map& at);
     void drawBodies(juce::Graphics& g, const Map& at);
     bool drawSmall(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour, double angle,
