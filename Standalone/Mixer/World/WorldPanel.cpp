@@ -157,8 +157,7 @@ void WorldPanel::placeInspector(bool isEdited) {
                           .withTrimmedBottom(48)
                           .reduced(8, 0);
     std::vector<juce::Rectangle<int>> inTheWay{pane_.chosenArea().toNearestInt() + pane_.getPosition()};
-    for (const auto& badge : view_.badges())
-        inTheWay.push_back(badge.toNearestInt() + view_.getPosition());
+    for (const auto& badge : view_.badges()) inTheWay.push_back(badge.toNearestInt() + view_.getPosition());
     const auto covered = [&](const juce::Rectangle<int>& place) {
         int pixels = 0;
         for (const auto& other : inTheWay) {
