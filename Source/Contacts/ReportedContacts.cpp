@@ -128,7 +128,8 @@ bool ReportedContacts::isKick(Pair& pair, const FedContact& contact, bool isNew)
     const double speed = speedOf(contact), seconds = events_.stepSeconds();
     if (!(speed > 0.0) || (!isNew && contact.gapMetres > speed * seconds)) return false;
     constexpr double clearly = 2.5; // no elevator that starts, no rest of an impact before
-    const double beyond = speed - gravity_ * seconds * std::abs(gravityScaleOf(pair.a, pair.b));
+    const double beyond =
+        speed - gravity_ * seconds * static_cast<double>(std::abs(gravityScaleOf(pair.a, pair.b)));
     if (!isImpact(pair.a, pair.b, beyond / clearly)) return false;
     pair.approach = std::max(pair.approach, speed);
     return !isNew && speed > 2.0 * pair.lastApproach && !isHeldUp(contact.a, contact.b) &&
@@ -189,13 +190,12 @@ double ReportedContacts::supported(double bySpeed, Push push, double gainedMetre
     return bySpeed > clearly * push.second ? push.second : bySpeed;
 }
 
-double ReportedContacts::gravityScaleOf(std::int32_t a, std::int32_t b) const {
-    return static_cast<double>(
-        std::max(events_.fixtures()[a].gravityScale(), events_.fixtures()[b].gravityScale()));
+float ReportedContacts::gravityScaleOf(std::int32_t a, std::int32_t b) const {
+    return std::max(events_.fixtures()[a].gravityScale(), events_.fixtures()[b].gravityScale());
 }
 
 bool ReportedContacts::isImpact(std::int32_t a, std::int32_t b, double metresPerSecond) {
-    return events_.catcher().isCollision(static_cast<float>(gravityScaleOf(a, b)), metresPerSecond);
+    return events_.catcher().isCollision(gravityScaleOf(a, b), metresPerSecond);
 }
 
 double ReportedContacts::speedOf(const FedContact& contact) const {

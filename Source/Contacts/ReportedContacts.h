@@ -324,7 +324,7 @@ private:
     void settle(Pair& pair);
     void settleTogether();
     double speedOf(const FedContact& contact) const;
-    double gravityScaleOf(std::int32_t a, std::int32_t b) const; // of these slots, as the next
+    float gravityScaleOf(std::int32_t a, std::int32_t b) const; // of these slots, as the next
     bool isImpact(std::int32_t a, std::int32_t b, double metresPerSecond);
     std::int32_t slotOf(std::int32_t id) const noexcept {
         return events_.fixtures().find(ReportedBodies::idOf(id));

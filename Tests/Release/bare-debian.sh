@@ -82,7 +82,11 @@ there 'man physvib-render | grep -q -- --law && man physvib-mixer | grep -q -- -
     fish -n /usr/share/fish/vendor_completions.d/physvib.fish
     fish -c "complete -C \"physvib render --lim\"" | grep -q "^--limiter"
     desktop-file-validate /usr/share/applications/org.physvib.mixer.desktop
-    appstreamcli validate --no-net --pedantic /usr/share/metainfo/org.physvib.mixer.metainfo.xml | grep "^[EW]:" | grep -v url-homepage-missing && exit 1 # a packager has that
+    if ! appstreamcli validate --no-net --pedantic /usr/share/metainfo/org.physvib.mixer.metainfo.xml >appstream.log; then
+        cat appstream.log
+        grep -q "^W:.*url-homepage-missing" appstream.log # a packager has that
+        [ "$(grep -c "^[EW]:" appstream.log)" -eq 1 ]
+    fi
     printf "{ \"physvib_session\": 2 }" >a.json && printf "{}" >b.json
     gio info -a standard::content-type a.json b.json box.csv' >"$machine.log" 2>&1 || { cat "$machine.log" && exit 1; }
 [ "$(sed -n 's/.*content-type: //p' "$machine.log" | xargs)" = "application/vnd.physvib.session+json application/json text/vnd.physvib.events" ]

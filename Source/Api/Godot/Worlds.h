@@ -93,7 +93,7 @@ private:
     static bool isOtherThere(const Watched& watched, int contact);
     void touch(const Watched& watched, int contact);
     Surface surfaceOf(const Watched& watched, int contact) const;
-    Surface overSeams(const Watched& each, const Watched& met, int contact,
+    Surface overSeams(const Watched& watched, const Watched& met, int contact,
                       std::optional<double>& doubt) const;
     double pushOf(const Watched& watched, const Vector& normal) const;
     void strikeDoubtful(const Watched& watched, const Watched& met, physvib_contact contact,
