@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -59,10 +61,6 @@ double wantedOf(const MeetingPoint& point) noexcept {
     return point.isNew && point.approach > 0.0 ? (1.0 + point.restitution) * point.approach : point.approach;
 }
 
-} // namespace
-
-namespace {
-
 // False: it does not settle, or neither body is movable.
 bool settle(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points,
             bool isDragged) {
@@ -115,6 +113,7 @@ void MomentumImpulses::clear() {
     bodies_.clear();
     bodyOf_.clear();
     points_.clear();
+    rows_.clear();
     isInPlane_ = true;
 }
 
@@ -122,20 +121,27 @@ std::int32_t MomentumImpulses::know(const ReportedBodies& bodies, std::int32_t i
     const FedBody& told = bodies.told(id);
     if (!(told.massKg > 0.0)) return none;
     if (const std::int32_t known = bodyOf_.find(ReportedBodies::idOf(id)); known != none) return known;
-    bodies_.push_back({1.0 / told.massKg, bodies.inverseInertia(id)});
+    bodies_.push_back({.perKg = 1.0 / told.massKg, .turning = bodies.inverseInertia(id)});
     bodyOf_.set(ReportedBodies::idOf(id), static_cast<std::int32_t>(bodies_.size()) - 1);
     return static_cast<std::int32_t>(bodies_.size()) - 1;
 }
 
-MomentumImpulses::Row MomentumImpulses::rowOf(const ReportedBodies& bodies, const Point& of,
+MomentumImpulses::Row MomentumImpulses::rowOf(const ReportedBodies& bodies, std::size_t point,
                                               Vector3 way) const {
-    Row made{way, bodies.lever(of.idA, of.place, way), bodies.lever(of.idB, of.place, way), 0.0, 0.0, 0.0};
+    const Point& of = points_[point];
+    const auto find = [&](std::int32_t id) { return bodyOf_.find(ReportedBodies::idOf(id)); };
+    Row made{.a = find(of.idA),
+             .b = find(of.idB),
+             .way = way,
+             .leverA = bodies.lever(of.idA, of.place, way),
+             .leverB = bodies.lever(of.idB, of.place, way)};
     const auto ease = [&](std::int32_t body, Vector3 lever) {
         if (body == none) return 0.0;
         const Body& its = bodies_[static_cast<std::size_t>(body)];
         return its.perKg + its.turning.between(lever, lever);
     };
-    made.perNewtonSecond = ease(of.a, made.leverA) + ease(of.b, made.leverB);
+    const double perKg = ease(made.a, made.leverA) + ease(made.b, made.leverB);
+    made.effectiveKg = perKg > 0.0 ? 1.0 / perKg : 0.0;
     made.change =
         bodies.approach(of.idA, of.idB, of.place, way) - bodies.approach(of.idA, of.idB, of.place, way, true);
     return made;
@@ -143,24 +149,24 @@ MomentumImpulses::Row MomentumImpulses::rowOf(const ReportedBodies& bodies, cons
 
 std::size_t MomentumImpulses::add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
                                   Vector3 normal) {
-    Point made{a, b, know(bodies, a), know(bodies, b), point};
-    made.normal = rowOf(bodies, made, normal);
-    isInPlane_ = isInPlane_ && isInPlane(made);
-    points_.push_back(made);
+    know(bodies, a);
+    know(bodies, b);
+    points_.push_back({a, b, point});
+    rows_.push_back(rowOf(bodies, points_.size() - 1, normal));
+    isInPlane_ = isInPlane_ && isInPlane(rows_.back());
     return points_.size() - 1;
 }
 
-bool MomentumImpulses::isInPlane(const Point& point) const {
+bool MomentumImpulses::isInPlane(const Row& row) const {
     const auto turnsInPlane = [&](std::int32_t body, Vector3 lever) {
         if (body == none) return true;
         const InverseInertia& turning = bodies_[static_cast<std::size_t>(body)].turning;
         return lever.x == 0.0F && lever.y == 0.0F && turning.xz == 0.0 && turning.yz == 0.0;
     };
-    const Row& row = point.normal;
-    return row.way.z == 0.0F && turnsInPlane(point.a, row.leverA) && turnsInPlane(point.b, row.leverB);
+    return row.way.z == 0.0F && turnsInPlane(row.a, row.leverA) && turnsInPlane(row.b, row.leverB);
 }
 
-double MomentumImpulses::found(const Point& point, const Row& row) const {
+[[gnu::always_inline]] inline double MomentumImpulses::found(const Row& row) const {
     const auto of = [&](std::int32_t which, Vector3 lever) {
         if (which == none) return 0.0;
         const Body& body = bodies_[static_cast<std::size_t>(which)];
@@ -171,10 +177,10 @@ double MomentumImpulses::found(const Point& point, const Row& row) const {
         return inPlane + v[2] * static_cast<double>(row.way.z) +
                (w[0] * static_cast<double>(lever.x) + w[1] * static_cast<double>(lever.y) + turned);
     };
-    return of(point.b, row.leverB) - of(point.a, row.leverA);
+    return of(row.b, row.leverB) - of(row.a, row.leverA);
 }
 
-void MomentumImpulses::push(const Point& point, const Row& row, double newtonSeconds) {
+[[gnu::always_inline]] inline void MomentumImpulses::push(const Row& row, double newtonSeconds) {
     const auto on = [&](std::int32_t which, double impulse, Vector3 lever) {
         if (which == none) return;
         Body& body = bodies_[static_cast<std::size_t>(which)];
@@ -188,69 +194,88 @@ void MomentumImpulses::push(const Point& point, const Row& row, double newtonSec
         const std::array<double, 3> spin = body.turning.spin(impulse, lever);
         for (std::size_t axis = 0; axis < 3; ++axis) body.spin[axis] += spin[axis];
     };
-    on(point.a, -newtonSeconds, row.leverA);
-    on(point.b, newtonSeconds, row.leverB);
+    on(row.a, -newtonSeconds, row.leverA);
+    on(row.b, newtonSeconds, row.leverB);
+}
+
+void MomentumImpulses::solve() {
+    swept_.resize(rows_.size());
+    std::iota(swept_.begin(), swept_.end(), std::size_t{0});
+    sweep();
 }
 
 void MomentumImpulses::strike(std::size_t point) {
-    for (const std::int32_t body : {points_[point].a, points_[point].b})
+    points_[point].isStruck = true;
+    for (const std::int32_t body : {rows_[point].a, rows_[point].b})
         if (body != none) bodies_[static_cast<std::size_t>(body)].from = 1;
 }
 
-// Where bodies are that something strikes, what they stand on, and what that stands on. The bounds stay, or
-// the sweeps would not settle: friction and the impulse that bounds it would drive each other.
+// Where bodies are that something strikes, what they stand on, and what that stands on. First where it
+// strikes: without friction, the floor has pushed a ball that a wall lifts.
 void MomentumImpulses::solveFriction(const ReportedBodies& bodies) {
     const auto from = [&](std::int32_t body) {
         return body == none ? 0 : bodies_[static_cast<std::size_t>(body)].from;
     };
+    const std::span<const Row> normals{rows_.data(), points_.size()};
     for (int hop = 1; hop < 3; ++hop)
-        for (const Point& point : points_)
-            for (const auto& [one, other] : {std::pair{point.a, point.b}, std::pair{point.b, point.a}})
+        for (const Row& row : normals)
+            for (const auto& [one, other] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}})
                 if (from(one) == hop && other != none && from(other) == 0)
                     bodies_[static_cast<std::size_t>(other)].from = hop + 1;
-    const auto leftOf = [&](const Point& of, Vector3 way) {
-        const Row row = rowOf(bodies, of, way);
-        return static_cast<float>(row.change - found(of, row));
+    for (std::size_t i = 0; i < points_.size(); ++i)
+        if (from(rows_[i].a) + from(rows_[i].b) > 0) addFriction(bodies, i);
+    swept_.clear();
+    for (const bool isStruck : {true, false})
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const std::size_t across = points_[i].across;
+            if (across == 0 || points_[i].isStruck != isStruck) continue;
+            swept_.insert(swept_.end(), {i, across, across + 1});
+        }
+    sweep();
+}
+
+// The bounds stay, or the sweeps would not settle: friction and the impulse that bounds it would drive each
+// other.
+void MomentumImpulses::addFriction(const ReportedBodies& bodies, std::size_t point) {
+    const auto leftOf = [&](Vector3 way) {
+        const Row row = rowOf(bodies, point, way);
+        return static_cast<float>(row.change - found(row));
     };
-    for (Point& point : points_) {
-        if (from(point.a) + from(point.b) == 0) continue;
-        const Vector3 normal = point.normal.way;
-        const Vector3 left{leftOf(point, {1.0F, 0.0F, 0.0F}), leftOf(point, {0.0F, 1.0F, 0.0F}),
-                           leftOf(point, {0.0F, 0.0F, 1.0F})};
-        const Vector3 slide = left - static_cast<float>(dot(left, normal)) * normal;
-        point.isRough = true;
-        point.mostAcross = roughest * point.normal.newtonSeconds;
-        if (!(slide.length() > 0.0F)) continue;
-        const Vector3 along = 1.0F / slide.length() * slide;
-        point.across = {rowOf(bodies, point, along), rowOf(bodies, point, cross(normal, along))};
+    const Vector3 normal = rows_[point].way;
+    const Vector3 left{leftOf({1.0F, 0.0F, 0.0F}), leftOf({0.0F, 1.0F, 0.0F}), leftOf({0.0F, 0.0F, 1.0F})};
+    const Vector3 slide = left - static_cast<float>(dot(left, normal)) * normal;
+    const float length = slide.length();
+    const Vector3 along = length > 0.0F ? 1.0F / length * slide : Vector3{};
+    points_[point].across = rows_.size();
+    for (const Vector3 way : {along, cross(normal, along)}) {
+        rows_.push_back(rowOf(bodies, point, way));
+        rows_.back().most = roughest * rows_[point].newtonSeconds;
+        rows_.back().least = -rows_.back().most;
     }
-    sweep(true);
 }
 
 Vector3 MomentumImpulses::friction(std::size_t point) const {
     Vector3 sum;
-    for (const Row& row : points_[point].across) sum += static_cast<float>(row.newtonSeconds) * row.way;
+    if (const std::size_t across = points_[point].across; across > 0)
+        for (const Row& row : std::span{rows_}.subspan(across, 2))
+            sum += static_cast<float>(row.newtonSeconds) * row.way;
     return sum;
 }
 
-double MomentumImpulses::relax(const Point& point, Row& row, double least, double most) {
-    if (!(row.perNewtonSecond > 0.0)) return 0.0;
+[[gnu::always_inline]] inline double MomentumImpulses::relax(Row& row) {
+    if (!(row.effectiveKg > 0.0)) return 0.0;
     const double before = row.newtonSeconds;
-    row.newtonSeconds =
-        std::clamp(before + (row.change - found(point, row)) / row.perNewtonSecond, least, most);
-    push(point, row, row.newtonSeconds - before);
+    row.newtonSeconds = std::clamp(before + (row.change - found(row)) * row.effectiveKg, row.least, row.most);
+    push(row, row.newtonSeconds - before);
     return std::abs(row.newtonSeconds - before);
 }
 
-void MomentumImpulses::sweep(bool isRough) {
+void MomentumImpulses::sweep() {
     for (int sweep = 0; sweep < mostMomentumSweeps; ++sweep) {
         double change = 0.0, strongest = 0.0;
-        for (Point& point : points_) {
-            if (isRough && !point.isRough) continue;
-            change = std::max(change, relax(point, point.normal, 0.0, HUGE_VAL));
-            strongest = std::max(strongest, point.normal.newtonSeconds);
-            for (std::size_t i = 0; isRough && i < 2; ++i)
-                change = std::max(change, relax(point, point.across[i], -point.mostAcross, point.mostAcross));
+        for (const std::size_t row : swept_) {
+            change = std::max(change, relax(rows_[row]));
+            strongest = std::max(strongest, std::abs(rows_[row].newtonSeconds));
         }
         if (change <= enough * strongest) return;
     }

@@ -184,49 +184,51 @@ public:
     /// from 0 on.
     std::size_t add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
                     Vector3 normal);
-    void solve() { sweep(false); }
+    void solve();
     void strike(std::size_t point); ///< Something new happens to its bodies.
     /// After solve() and strike(): at most 1.5 times what each impulse along a normal is then, whatever the
     /// surfaces are.
     void solveFriction(const ReportedBodies& bodies);
-    double newtonSeconds(std::size_t point) const { return points_[point].normal.newtonSeconds; }
+    double newtonSeconds(std::size_t point) const { return rows_[point].newtonSeconds; }
     Vector3 friction(std::size_t point) const; ///< N s on B
 
 private:
     static constexpr std::int32_t none = IntegerMap::none;
     struct Body {
         double perKg;
-        InverseInertia turning;
         // changes by the impulses found so far, m/s and rad/s
         std::array<double, 3> velocity{}, spin{};
+        InverseInertia turning;
         int from = 0; // 1: struck; 2 and 3: its neighbours, and theirs
     };
-    struct Row {
+    struct Row {                     // an impulse in one direction
+        std::int32_t a, b;           // bodies, or none: immovable
         Vector3 way, leverA, leverB; // on B; m
-        double change; // m/s by which the contact has changed the speed of A along it, seen from B
-        double perNewtonSecond, newtonSeconds;
+        double change = 0.0; // m/s by which the contact has changed the speed of A along it, seen from B
+        double effectiveKg = 0.0, newtonSeconds = 0.0, least = 0.0, most = HUGE_VAL;
     };
     struct Point {
-        std::int32_t idA, idB, a, b; // bodies, or none: immovable
+        std::int32_t idA, idB;
         Vector3 place;
-        Row normal{};
-        std::array<Row, 2> across{};
-        double mostAcross = 0.0; // N s
-        bool isRough = false;
+        std::size_t across = 0; // the first of its two rows of friction; 0: it has none
+        bool isStruck = false;
     };
     std::int32_t know(const ReportedBodies& bodies, std::int32_t id);
-    Row rowOf(const ReportedBodies& bodies, const Point& point, Vector3 way) const;
-    bool isInPlane(const Point& point) const;
-    double found(const Point& point, const Row& row) const; // of its change
-    void push(const Point& point, const Row& row, double newtonSeconds);
-    double relax(const Point& point, Row& row, double least, double most);
-    void sweep(bool isRough);
+    Row rowOf(const ReportedBodies& bodies, std::size_t point, Vector3 way) const;
+    void addFriction(const ReportedBodies& bodies, std::size_t point);
+    bool isInPlane(const Row& row) const;
+    double found(const Row& row) const; // of its change
+    void push(const Row& row, double newtonSeconds);
+    double relax(Row& row);
+    void sweep();
 
     bool isInPlane_ = true; // all points: normals along x and y, spin about z alone; what is 0 there is left
                             // out
     std::vector<Body> bodies_;
     IntegerMap bodyOf_; // by ReportedBodies::idOf()
     std::vector<Point> points_;
+    std::vector<Row> rows_;          // along the points' normals, then across
+    std::vector<std::size_t> swept_; // rows, in the order of a sweep
 };
 
 // Converts the lasting contacts (rolling, sliding) that an engine reports per step to tracked points.

@@ -219,6 +219,26 @@ TEST_F(ContactFeedTest, FrictionAtAnEdgeCountsAsTheEngineShowsIt) {
     }
 }
 
+// It rolls there at 2 m/s, and friction of half of the push lifts it off the floor, which gives it nothing.
+TEST_F(ContactFeedTest, AWallThatLiftsABallIsNotTheFloor) {
+    constexpr std::int32_t wall = 2;
+    ASSERT_EQ(feed.set(ball, {.massKg = 2.0, .inertiaKgSquareMetres = 0.02}, camera()), "");
+    ASSERT_EQ(feed.set(wall, {}, {}), "");
+    const BodyMotion rolls{{2.0F, 0.0F}, -20.0F}, lifted{{0.0F, 1.0F}, -10.0F};
+    for (int k = 0; k < 3; ++k) {
+        beginStep(0.01);
+        EXPECT_EQ(feed.move(ball, {0.0F, 0.1F}, rolls), "");
+        EXPECT_EQ(feed.moved(ball, k < 2 ? rolls : lifted), "");
+        EXPECT_EQ(feed.touch({.a = ground, .b = ball, .isSoft = true}), "");
+        const FedContact stops{
+            .a = wall, .b = ball, .point = {0.1F, 0.1F}, .normal = {-1.0F, 0.0F}, .isSoft = true};
+        if (k == 2) EXPECT_EQ(feed.touch(stops), "");
+        endStep();
+    }
+    step();
+    EXPECT_NEAR(events().at(0).source.impulseNewtonSeconds, 4.0, 0.01);
+}
+
 // Of an engine that sees the surface coming: two of three metres per second are taken in this step, by twice
 // the impulse that two free bodies would need, as the lower one stands on the ground.
 TEST_F(ContactFeedTest, AStopOverTwoStepsIsWholeOnWhatStands) {
