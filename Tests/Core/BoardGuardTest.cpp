@@ -3,7 +3,6 @@
 // 250 ms and no rms below 5 Hz of more than a twentieth of full scale, whatever it is asked to play.
 #include "Support/BoardHazards.h"
 #include <gtest/gtest.h>
-#include <memory>
 
 namespace physvib {
 namespace {
@@ -16,15 +15,9 @@ void expectWithin(const std::vector<test::BoardFrame>& codes, const std::string&
     EXPECT_LE(worst.rms, most) << name;
 }
 
-std::unique_ptr<BoardRenderer> prepared() {
-    auto renderer = std::make_unique<BoardRenderer>();
-    renderer->prepare();
-    return renderer;
-}
-
 TEST(BoardGuard, KeepsWhatIsSlowWithinItsShare) {
     for (const auto& hazard : test::boardHazards(0, 10)) {
-        const auto renderer = prepared();
+        const auto renderer = test::preparedBoard();
         const auto codes = test::renderBoardEvents(*renderer, hazard.events, 12 * 8000, 64, hazard.segments);
         EXPECT_EQ(renderer->status().dropped, 0u) << hazard.name;
         EXPECT_GT(renderer->guard().episodes(), 0u) << hazard.name;
@@ -42,7 +35,7 @@ TEST(BoardGuard, KeepsWhatIsSlowWithinItsShare) {
 // Gains that turn with the tone make one side of both; stops and hellos must not make it forget.
 TEST(BoardGuard, NeitherGainsNorStopsAreAWayAround) {
     for (const bool stops : {false, true}) {
-        const auto renderer = prepared();
+        const auto renderer = test::preparedBoard();
         std::vector<test::BoardFrame> codes;
         BoardRenderer::Codes block;
         for (int n = 0; n < 10 * 8000; n += BoardRenderer::blockFrames) {
@@ -67,7 +60,7 @@ TEST(BoardGuard, RandomListsDoNotPassIt) {
     test::SlowFigures worst;
     for (std::uint32_t seed = 1; seed <= 30; ++seed) {
         const auto list = test::slowBoardList(seed, 6);
-        const auto renderer = prepared();
+        const auto renderer = test::preparedBoard();
         worst.join(test::worstSlowFigures(
             test::renderBoardEvents(*renderer, list.events, 8 * 8000, 64, list.segments)));
     }
@@ -84,7 +77,7 @@ TEST(BoardGuard, WhatIsFeltStaysAsItIs) {
         for (std::uint32_t i = 1; i < 12 && hz > 32; ++i) // 32 Hz alone is as slow as full scale may be
             events.push_back(
                 {i * 2003, static_cast<std::uint16_t>(16 * 3 * hz), 16 * 12, 0, {900, 400, -300, 0}});
-        const auto renderer = prepared();
+        const auto renderer = test::preparedBoard();
         const auto codes = test::renderBoardEvents(*renderer, events, 4 * 8000);
         EXPECT_EQ(renderer->guard().episodes(), 0u) << hz;
         test::ReferenceGuard none{false};
@@ -93,7 +86,7 @@ TEST(BoardGuard, WhatIsFeltStaysAsItIs) {
 }
 
 TEST(BoardGuard, OpensAgain) {
-    const auto renderer = prepared();
+    const auto renderer = test::preparedBoard();
     test::renderBoardEvents(*renderer, {{0, 16, 1, 2000, {4096, 4096, 4096, 4096}}}, 3 * 8000);
     EXPECT_EQ(renderer->guard().episodes(), 1u);
     const auto first = renderer->frame() + 2 * 8000;
@@ -105,7 +98,7 @@ TEST(BoardGuard, OpensAgain) {
     shifted.frame = 0;
     renderer->schedule(tone);
     EXPECT_EQ(test::renderBoardEvents(*renderer, {}, 8000),
-              test::renderBoardEvents(*prepared(), {shifted}, 8000));
+              test::renderBoardEvents(*test::preparedBoard(), {shifted}, 8000));
 }
 
 } // namespace

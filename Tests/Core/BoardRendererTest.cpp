@@ -4,7 +4,6 @@
 #include "Support/BoardReference.h"
 #include <cmath>
 #include <gtest/gtest.h>
-#include <memory>
 #include <numbers>
 
 namespace physvib {
@@ -12,12 +11,6 @@ namespace {
 
 using test::BoardFrame;
 constexpr BoardFrame silence{128, 128, 128, 128};
-
-std::unique_ptr<BoardRenderer> prepared() {
-    auto renderer = std::make_unique<BoardRenderer>();
-    renderer->prepare();
-    return renderer;
-}
 
 BoardEvent hit(std::uint32_t frame, double f, double tau, std::array<std::int16_t, 4> amplitudes,
                int durationMs = 0) {
@@ -33,7 +26,7 @@ TEST(BoardRenderer, IsWithinOneStepOfTheClosedFormForRandomLists) {
         list.loudest = seed % 3 == 0 ? 0.6 : 0.1; // 0.6: the linked gain works
         list.spanFrames = 24000;
         const auto events = test::randomBoardEvents(list, seed);
-        const auto renderer = prepared();
+        const auto renderer = test::preparedBoard();
         const auto played = test::renderBoardEvents(*renderer, events, 32000);
         EXPECT_LE(test::worstDifference(played, test::boardClosedForm(events, 32000)), 1) << "seed " << seed;
         EXPECT_EQ(renderer->status().played, events.size());
@@ -46,7 +39,7 @@ TEST(BoardRenderer, CutsWhatHasADuration) {
     list.gatedShare = 1.0;
     list.events = 300;
     const auto events = test::randomBoardEvents(list, 3);
-    const auto renderer = prepared();
+    const auto renderer = test::preparedBoard();
     const auto played = test::renderBoardEvents(*renderer, events, 20000);
     EXPECT_LE(test::worstDifference(played, test::boardClosedForm(events, 20000)), 1);
     EXPECT_EQ(played.back(), silence);
@@ -56,14 +49,14 @@ TEST(BoardRenderer, CutsWhatHasADuration) {
 TEST(BoardRenderer, HoldsALowSlowNoteForSeconds) {
     const std::vector<BoardEvent> events{hit(5, 20, 0.0625, {4096, 2048, -4096, 1000}),
                                          hit(9, 399.5, 0.0625, {0, 1000, 0, 0})};
-    const auto renderer = prepared();
+    const auto renderer = test::preparedBoard();
     EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, events, 80000),
                                     test::boardClosedForm(events, 80000)),
               1);
 }
 
 TEST(BoardRenderer, StrikesOfOneMaterialCostOneModeAndEndTogether) {
-    const auto renderer = prepared();
+    const auto renderer = test::preparedBoard();
     std::vector<BoardEvent> events;
     for (std::uint32_t i = 0; i < 1500; ++i)
         events.push_back(hit(8 + 9 * i, 205, 12, {static_cast<std::int16_t>(i % 90), 20, -30, 0}));
@@ -76,7 +69,7 @@ TEST(BoardRenderer, StrikesOfOneMaterialCostOneModeAndEndTogether) {
 }
 
 TEST(BoardRenderer, OneGainTakesWhatIsTooLoudFromAllChannels) {
-    const auto renderer = prepared();
+    const auto renderer = test::preparedBoard();
     const auto played = test::renderBoardEvents(*renderer, {hit(0, 250, 2, {16384, 8192, 0, -16384})}, 2000);
     const double ratio = (played[8][1] - 128.0) / (played[8][0] - 128.0); // a quarter of 250 Hz: the crest
     EXPECT_EQ(played[8][0], 255);
@@ -85,7 +78,7 @@ TEST(BoardRenderer, OneGainTakesWhatIsTooLoudFromAllChannels) {
 }
 
 TEST(BoardRenderer, AStolenModeLeavesNoStep) {
-    const auto renderer = prepared();
+    const auto renderer = test::preparedBoard();
     std::vector<BoardEvent> events;
     for (int i = 0; i < 128; ++i)
         events.push_back(hit(4, 50 + i, 1, {static_cast<std::int16_t>(i == 77 ? 1500 : 2000), 0, 0, 0}));
@@ -93,7 +86,7 @@ TEST(BoardRenderer, AStolenModeLeavesNoStep) {
     EXPECT_EQ(renderer->status().pending, 64) << "more than may wait";
     EXPECT_EQ(renderer->status().dropped, 64u);
 
-    auto full = prepared();
+    auto full = test::preparedBoard();
     BoardRenderer::Codes block;
     for (int i = 0; i < 128; ++i) {
         auto e = hit(full->frame() + 1, 50 + i, 1, {static_cast<std::int16_t>(i == 77 ? 20 : 40), 0, 0, 0});
@@ -114,12 +107,12 @@ TEST(BoardRenderer, AStolenModeLeavesNoStep) {
 }
 
 TEST(BoardRenderer, ALateEventIsPlayedAtOnceAndCounted) {
-    const auto renderer = prepared();
+    const auto renderer = test::preparedBoard();
     BoardRenderer::Codes block;
     for (int k = 0; k < 10; ++k) renderer->render(block);
     renderer->schedule(hit(3, 250, 10, {4096, 0, 0, 0}));
     const auto late = test::renderBoardEvents(*renderer, {}, 100);
-    const auto fresh = prepared();
+    const auto fresh = test::preparedBoard();
     EXPECT_EQ(
         test::worstDifference(late, test::renderBoardEvents(*fresh, {hit(0, 250, 10, {4096, 0, 0, 0})}, 100)),
         0);
@@ -127,7 +120,7 @@ TEST(BoardRenderer, ALateEventIsPlayedAtOnceAndCounted) {
 }
 
 TEST(BoardRenderer, GainsTurnPolarityAndStopAllIsSilence) {
-    const auto renderer = prepared(), turned = prepared();
+    const auto renderer = test::preparedBoard(), turned = test::preparedBoard();
     turned->setGains({-1.0f, 0.0f, 1.0f, 1.0f});
     const std::vector<BoardEvent> events{hit(400, 200, 5, {2000, 2000, 2000, 2000}),
                                          hit(900, 150, 5, {500, 0, 0, 0})};
@@ -175,7 +168,7 @@ std::vector<BoardFrame> segmentsInDouble(const std::vector<BoardSegment>& segmen
 
 TEST(BoardRenderer, SegmentsAreWithinOneStepOfTheClosedForm) {
     for (const int most : {4, 40, 320, 4000}) {
-        const auto renderer = prepared();
+        const auto renderer = test::preparedBoard();
         const auto segments = test::randomBoardSegments(4, 100, 16'000, most, 5);
         EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, {}, 20'000, 4, segments),
                                         segmentsInDouble(segments, 20'000)),
@@ -188,8 +181,8 @@ TEST(BoardRenderer, SegmentsAreWithinOneStepOfTheClosedForm) {
 
 TEST(BoardRenderer, OfALateSegmentTheRestIsPlayedAndOneThatIsOverIsNot) {
     const BoardSegment segment = segmentOf(2, 300, 205.0, {4000, 0, -2000, 1000}, {0, 4000, 2000, 1000});
-    const auto whole = test::renderBoardEvents(*prepared(), {}, 400, 64, {segment});
-    const auto renderer = prepared();
+    const auto whole = test::renderBoardEvents(*test::preparedBoard(), {}, 400, 64, {segment});
+    const auto renderer = test::preparedBoard();
     auto late = test::renderBoardEvents(*renderer, {}, 40);
     EXPECT_TRUE(renderer->schedule(segment));
     const auto rest = test::renderBoardEvents(*renderer, {}, 360);
@@ -200,7 +193,7 @@ TEST(BoardRenderer, OfALateSegmentTheRestIsPlayedAndOneThatIsOverIsNot) {
 }
 
 TEST(BoardRenderer, MoreSegmentsThanItHoldsAreDroppedAndStopAllForgetsThem) {
-    const auto renderer = prepared();
+    const auto renderer = test::preparedBoard();
     for (int i = 0; i < limits::board::maxSegments; ++i)
         EXPECT_TRUE(renderer->schedule(segmentOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
     EXPECT_FALSE(renderer->schedule(segmentOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
@@ -214,7 +207,7 @@ TEST(BoardRenderer, MoreSegmentsThanItHoldsAreDroppedAndStopAllForgetsThem) {
 }
 
 TEST(BoardRenderer, RefusesWhatItCannotPlay) {
-    const auto renderer = prepared();
+    const auto renderer = test::preparedBoard();
     EXPECT_FALSE(renderer->schedule(hit(0, 4000, 10, {1, 0, 0, 0})));
     EXPECT_FALSE(renderer->schedule(hit(0, 200, 0, {1, 0, 0, 0}))) << "would never end";
     EXPECT_FALSE(renderer->schedule(hit(0, 0, 10, {1, 0, 0, 0})));

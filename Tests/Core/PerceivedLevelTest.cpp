@@ -59,30 +59,22 @@ TEST(PerceivedLevel, RaisesNothingAboveFullScaleAndKeepsTheOrderOfHits) {
     EXPECT_EQ(level(1.5, 10.0), 0.75);
 }
 
+const CollisionEvent e{.timeNs = 7,
+                       .frequencyHz = 430,
+                       .decayPerSecond = 50,
+                       .amplitude = 0.3,
+                       .x = 1,
+                       .y = 2,
+                       .source = {1, 2, 3, 4}};
+
 TEST(PerceivedLevel, OffChangesNoBit) {
     for (const double amplitude :
          {0.0, 1e-300, 0.1, 0.3, -0.7, 1.7, std::numeric_limits<double>::denorm_min()})
         EXPECT_EQ(PerceivedLevel{}(amplitude, 430.0), amplitude);
-    const CollisionEvent e{.timeNs = 7,
-                           .frequencyHz = 430,
-                           .decayPerSecond = 50,
-                           .amplitude = 0.3,
-                           .x = 1,
-                           .y = 2,
-                           .durationNs = 0,
-                           .source = {1, 2, 3, 4}};
     EXPECT_EQ(EventShaping{}(e), e);
 }
 
 TEST(PerceivedLevel, WeighsTheFrequencyThatIsPlayedAfterTheGainAndNothingElse) {
-    const CollisionEvent e{.timeNs = 7,
-                           .frequencyHz = 430,
-                           .decayPerSecond = 50,
-                           .amplitude = 0.3,
-                           .x = 1,
-                           .y = 2,
-                           .durationNs = 0,
-                           .source = {1, 2, 3, 4}};
     EventShaping shaping{.perceived = {true}};
     CollisionEvent felt = shaping(e);
     EXPECT_EQ(felt.amplitude, 0.3 * (430.0 / 250.0));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -144,6 +145,12 @@ inline std::vector<BoardSegment> randomBoardSegments(int tones, std::uint32_t fi
     std::stable_sort(segments.begin(), segments.end(),
                      [](const BoardSegment& a, const BoardSegment& b) { return a.frame < b.frame; });
     return segments;
+}
+
+inline std::unique_ptr<BoardRenderer> preparedBoard() {
+    auto renderer = std::make_unique<BoardRenderer>();
+    renderer->prepare();
+    return renderer;
 }
 
 /// The board's renderer on this computer: each event is scheduled `lead` frames ahead.

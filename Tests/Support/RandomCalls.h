@@ -14,8 +14,33 @@
 
 namespace physvib::test {
 
+/// Values of the bytes from at_ to end_, then of zeros.
+class BytesAsValues {
+protected:
+    std::uint8_t byte() { return at_ < end_ ? *at_++ : std::uint8_t{0}; }
+    int small() { return static_cast<int>(byte() % 8) - 1; }
+    bool isRare() { return byte() % 32 == 0; }
+
+    /// Now and then none, one of another version, or one whose numbers are anything.
+    template <class Struct>
+    Struct* of(Struct& values, int (*init)(Struct*, std::size_t)) {
+        init(&values, isRare() ? byte() : sizeof values);
+        if (isRare()) return nullptr;
+        if (isRare()) values.size = byte();
+        if (isRare()) { // past the size; all members are numbers, for which every pattern is a value
+            auto* bytes = reinterpret_cast<unsigned char*>(&values);
+            for (std::size_t i = 0; i < 8; ++i)
+                bytes[sizeof values.size + byte() * std::size_t{8} % (sizeof values - sizeof values.size)] =
+                    byte();
+        }
+        return &values;
+    }
+
+    const std::uint8_t *at_ = nullptr, *end_ = nullptr;
+};
+
 /// Handles stay from one call to the next, also those that have been freed; at most two of a kind are alive.
-class RandomCalls {
+class RandomCalls : BytesAsValues {
 public:
     ~RandomCalls() {
         for (const auto renderer : renderers_) physvib_renderer_free(renderer);
@@ -42,14 +67,11 @@ private:
         std::abort();
     }
 
-    std::uint8_t byte() { return at_ < end_ ? *at_++ : std::uint8_t{0}; }
-    int small() { return static_cast<int>(byte() % 8) - 1; }
     physvib_int64 ns() {
         return byte() % 16 == 0 ? std::numeric_limits<physvib_int64>::min() + byte() : 1000000LL * byte();
     }
     /// Of an event, rarely another one than ours.
     std::size_t size() { return isRare() ? byte() : std::size_t{0}; }
-    bool isRare() { return byte() % 32 == 0; }
     double number() {
         constexpr double inf = std::numeric_limits<double>::infinity();
         static constexpr double odd[] = {0.0,      -1.0,
@@ -91,21 +113,6 @@ private:
         kept = nullptr;
         return physvib_pads_create(small(), number(), number(), isRare() ? name() : nullptr,
                                    isRare() ? nullptr : &kept);
-    }
-
-    /// Now and then none, one of another version, or one whose numbers are anything.
-    template <class Struct>
-    Struct* of(Struct& values, int (*init)(Struct*, std::size_t)) {
-        init(&values, isRare() ? byte() : sizeof values);
-        if (isRare()) return nullptr;
-        if (isRare()) values.size = byte();
-        if (isRare()) { // past the size; all members are numbers, for which every pattern is a value
-            auto* bytes = reinterpret_cast<unsigned char*>(&values);
-            for (std::size_t i = 0; i < 8; ++i)
-                bytes[sizeof values.size + byte() * std::size_t{8} % (sizeof values - sizeof values.size)] =
-                    byte();
-        }
-        return &values;
     }
 
     physvib_contact* contact() {
@@ -241,7 +248,6 @@ private:
         return physvib_renderer_pull(renderer(), channels.data(), isRare() ? small() : 4, 1 + byte());
     }
 
-    const std::uint8_t *at_ = nullptr, *end_ = nullptr;
     std::array<physvib_renderer, 4> renderers_{}; // two of ours, null, and one that has gone
     std::array<physvib_world, 4> worlds_{};
     std::array<physvib_pads, 4> pads_{};

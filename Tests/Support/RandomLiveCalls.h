@@ -2,6 +2,7 @@
 // Bytes as calls of the library with devices and sessions: any call, in any order, with any handle, number or
 // pointer; on no device.
 #pragma once
+#include "Support/RandomCalls.h"
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,7 +16,7 @@
 namespace physvib::test {
 
 /// Handles stay from one call to the next, also those that have been closed or freed.
-class RandomLiveCalls {
+class RandomLiveCalls : BytesAsValues {
 public:
     RandomLiveCalls() { physvib_world_create(nullptr, &world_); }
     ~RandomLiveCalls() {
@@ -41,10 +42,7 @@ private:
         std::abort();
     }
 
-    std::uint8_t byte() { return at_ < end_ ? *at_++ : std::uint8_t{0}; }
-    bool isRare() { return byte() % 32 == 0; }
     bool isVeryRare() { return isRare() && byte() % 64 == 0; }
-    int small() { return static_cast<int>(byte() % 8) - 1; }
     physvib_int64 impossible() {
         static constexpr physvib_int64 odd[] = {std::numeric_limits<physvib_int64>::min(),
                                                 std::numeric_limits<physvib_int64>::max(), -1};
@@ -71,20 +69,6 @@ private:
     }
     physvib_world world() { return isRare() ? reinterpret_cast<physvib_world>(lives_[0]) : world_; }
 
-    /// Now and then none, one of another version, or one whose numbers are anything.
-    template <class Struct>
-    Struct* of(Struct& values, int (*init)(Struct*, std::size_t)) {
-        init(&values, isRare() ? byte() : sizeof values);
-        if (isRare()) return nullptr;
-        if (isRare()) values.size = byte();
-        if (isRare()) {
-            auto* bytes = reinterpret_cast<unsigned char*>(&values);
-            for (std::size_t i = 0; i < 8; ++i)
-                bytes[sizeof values.size + byte() * std::size_t{8} % (sizeof values - sizeof values.size)] =
-                    byte();
-        }
-        return &values;
-    }
     const physvib_event* events() {
         const std::size_t size = isRare() ? byte() : sizeof(physvib_event);
         for (physvib_event& event : events_) {
@@ -181,7 +165,6 @@ private:
                                       isRare() ? nullptr : &kept);
     }
 
-    const std::uint8_t *at_ = nullptr, *end_ = nullptr;
     std::array<physvib_live, 2> lives_{};       // the one that is open, and one that has gone
     std::array<physvib_session, 4> sessions_{}; // two of ours, null, and one that has gone
     physvib_world world_ = nullptr;

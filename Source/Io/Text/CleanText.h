@@ -58,4 +58,10 @@ inline std::string cleanLine(std::string_view text) {
     return out;
 }
 
+/// A to Z as a to z. Any thread.
+inline std::string lowerCase(std::string text) {
+    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
+    return text;
+}
+
 } // namespace physvib

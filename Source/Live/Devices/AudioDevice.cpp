@@ -73,12 +73,9 @@ std::string picoLayout(const AudioDrivers& drivers, const std::string& name) {
 namespace {
 
 bool says(const AudioDeviceName& device, std::initializer_list<const char*> words) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; };
-    const auto isSame = [lower](char a, char b) { return lower(a) == lower(b); };
-    return std::ranges::any_of(words, [&](std::string_view word) {
-        return std::search(device.name.begin(), device.name.end(), word.begin(), word.end(), isSame) !=
-               device.name.end();
-    });
+    const std::string name = lowerCase(device.name);
+    return std::ranges::any_of(
+        words, [&](const char* word) { return name.find(lowerCase(word)) != std::string::npos; });
 }
 
 int likelihood(const AudioDeviceName& device) {

@@ -2,9 +2,8 @@
 // Switches the coils of a DualSense controller from emulated motors to channels 3 and 4 of its audio device.
 // Tested on a model of the device, not on hardware (Docs/pads.md).
 #pragma once
-#include <algorithm>
+#include "Io/Text/CleanText.h"
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -26,10 +25,7 @@ constexpr int outputs = 4, leftCoil = 2, rightCoil = 3; ///< outputs of its audi
 /// Whether an audio device with that name is a DualSense. Over USB the name is "DualSense Wireless
 /// Controller" or "DualSense Edge ...".
 inline bool isDevice(std::string_view name) {
-    std::string lower{name};
-    std::ranges::transform(lower, lower.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return lower.find("dualsense") != lower.npos;
+    return lowerCase(std::string{name}).find("dualsense") != std::string::npos;
 }
 
 } // namespace physvib::dualsense

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Game controllers through SDL's joystick API, because controllers without a mapping have motors too.
 #include "Live/Pads/GamePads.h"
+#include "Io/Text/CleanText.h"
 #include "Live/Pads/SharedLibrary.h"
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <mutex>
@@ -31,12 +31,6 @@ public:
 private:
     const SdlLibrary& sdl_;
 };
-
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 // The first two bytes of a GUID are the bus number, as on Linux.
 PadBus busOf(const SDL_JoystickGUID& guid) {
@@ -120,7 +114,7 @@ private:
 };
 
 bool isWanted(const GamePadInfo& info, const std::string& name) {
-    return name == anyPad || lower(info.name).find(lower(name)) != std::string::npos;
+    return name == anyPad || lowerCase(info.name).find(lowerCase(name)) != std::string::npos;
 }
 
 bool take(std::int64_t id) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Reads the list of raw devices, and writes reports without a buffer, so that one call is one report.
 #include "Live/Pads/HidDevice.h"
+#include "Io/Text/CleanText.h"
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
@@ -15,12 +15,6 @@ namespace {
 
 std::mutex openedMutex;
 std::set<std::filesystem::path> opened; // nodes opened by this process; guarded by openedMutex
-
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 /// "HID_ID=0005:0000054C:00000CE6": bus, vendor, product.
 bool isOneOf(std::span<const HidModel> models, const std::string& id, PadBus& bus) {
@@ -67,7 +61,7 @@ Result<std::unique_ptr<HidDevice>> HidDevice::open(std::span<const HidModel> mod
     const std::lock_guard lock{openedMutex};
     for (HidPlace& place : list(models, folders)) {
         const std::string node = place.node.string();
-        if (where != anyPad && lower(place.name + " " + node).find(lower(where)) == std::string::npos)
+        if (where != anyPad && lowerCase(place.name + " " + node).find(lowerCase(where)) == std::string::npos)
             continue;
         if (opened.contains(place.node)) continue;
         if (std::FILE* const file = std::fopen(node.c_str(), "r+b")) {

@@ -7,6 +7,7 @@
 #include "Core/Samples.h"
 #include "Core/Units.h"
 #include "Host/Osc/OscPort.h"
+#include "Io/Text/CleanText.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
@@ -18,7 +19,6 @@
 #include "System/Process.h"
 #include "System/StandardStreams.h"
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -302,8 +302,7 @@ bool hasOneEach(const LoadedClip& sound) { return sound.channels.size() > 1 && s
 } // namespace
 
 bool namesSound(std::string_view file) {
-    std::string small{file};
-    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string small = lowerCase(std::string{file});
     const auto ends = [&](std::string_view ending) { return small.ends_with(ending); };
     return clipFormatOf(file) || std::ranges::any_of(soundEndings, ends);
 }
