@@ -136,15 +136,17 @@ TEST(Drawing, AJointInTheAirSaysHowUntilOneHolds) {
     EXPECT_NE(board.model.messages().shown().act.name, "Pause");
 }
 
-TEST(Drawing, ARainOfAClickIsWithinTheField) {
-    for (const double y : {0.02, 0.98}) {
+TEST(Drawing, ARainOfAClickOrAFlatDragIsWithinTheFieldAndOfASize) {
+    for (const auto& [from, y] : {std::pair{0.98, 0.02}, {0.98, 0.98}, {0.2, 0.02}, {0.2, 0.98}}) {
         Board board;
         board.pane.setRainCount(50);
         board.key('n');
-        board.drag(board.share(0.98, y), board.share(0.98, y));
+        board.drag(board.share(from, y), board.share(0.98, y));
         const auto& scene = board.drawn();
         const auto isInside = [&](const BodyDescription& b) {
-            return b.positionMetres.x > 0.0 && b.positionMetres.x < scene.fieldWidthMetres &&
+            return std::get<CircleShape>(b.fixtures[0].shape).radiusMetres >
+                       0.012 * scene.fieldHeightMetres &&
+                   b.positionMetres.x > 0.0 && b.positionMetres.x < scene.fieldWidthMetres &&
                    b.positionMetres.y > 0.0 && b.positionMetres.y < scene.fieldHeightMetres;
         };
         EXPECT_EQ(std::ranges::count_if(

@@ -12,7 +12,9 @@ if [ "${DISPLAY_OF_ITS_OWN:-}" != yes ]; then
 fi
 display=$DISPLAY
 . "$here/../Live/jack.sh"
-export DISPLAY="$display" ASAN_OPTIONS="detect_leaks=0:abort_on_error=1:log_path=$folder/address" UBSAN_OPTIONS="halt_on_error=1"
+# JUCE 7.0.5 copies one number too many beside itself where it clips an odd shape (juce_EdgeTable.cpp, memcpy (temp, src1, ...)): the last, which is never read.
+echo "interceptor_via_fun:juce::EdgeTable::intersectWithEdgeTableLine" >"$folder/not-ours"
+export DISPLAY="$display" ASAN_OPTIONS="detect_leaks=0:abort_on_error=1:suppressions=$folder/not-ours:log_path=$folder/address" UBSAN_OPTIONS="halt_on_error=1"
 
 monkey() { # SEED FIRST COUNT: these actions of a seed, as words of xdotool
     python3 - "$1" "$2" "$3" <<'END'
@@ -82,6 +84,7 @@ while [ "$seed" -lt $((first + seeds)) ]; do
     case $status in 0 | 143) ;; *) fail "it ended with $status when it began again" ;; esac # 143: where it has been busy for 0.8 s
     ! ls "$folder"/address* >/dev/null 2>&1 || fail "an error of memory"
     echo "seed $seed: $actions actions, $quits times quit by them, after Esc ${ports:-no device} carries at most $loud, $kept copies kept and rendered"
+    awk "BEGIN { exit !($loud == 0) }" || fail "it sounds after Esc"
     pkill -f "$folder/home-$seed" 2>/dev/null || : # what a page was opened in
     seed=$((seed + 1))
 done

@@ -67,7 +67,7 @@ void LanesTab::Rows::paint(juce::Graphics& g) {
         const auto words =
             utf8(isStrip ? mix.layout.enchanters[i].label : mix.groups[i - mix.strips.size()].name);
         g.drawFittedText(words, lanes[i]->getBounds().withX(0).withWidth(labelWidth - 8),
-                         juce::Justification::centredLeft, 1, 0.8f);
+                         juce::Justification::centredLeft, 1, 1.0f);
     }
 }
 

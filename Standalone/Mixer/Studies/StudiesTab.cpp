@@ -23,9 +23,8 @@ std::filesystem::path pathOf(const juce::String& words) {
 
 juce::String exposureWords(const std::vector<TrialRecord>& records) {
     if (records.empty() || !records.back().answer.exposure) return {};
-    return ". Exposure of that day: A(8) " + number(*records.back().answer.exposure, 2) +
-           " m/s^2 (action value " + number(exposureActionValue, 1) + ", limit " +
-           number(exposureLimitValue, 0) + ")";
+    return ". A(8) of that day: " + number(*records.back().answer.exposure, 2) + " of " +
+           number(exposureActionValue, 1) + utf8(" m/s\u00b2");
 }
 
 juce::String aboutText(const Protocol& protocol) {
@@ -284,7 +283,7 @@ void StudiesTab::look() {
             say(utf8(path.filename().string()) + " has all its trials: expected another code", Shade::muted);
     else if (log)
         say(utf8(path.filename().string()) + " has " + utf8(counted(log.value.records.size(), "trial")) +
-                ": it goes on behind them" + exposureWords(log.value.records),
+                exposureWords(log.value.records),
             Shade::text);
     else
         say(utf8(log.error), Shade::limit);
@@ -486,22 +485,28 @@ juce::StringArray StudiesTab::advice() const {
 
 void StudiesTab::paint(juce::Graphics& g) {
     g.setFont(text::font(text::medium));
-    g.setColour(shade(*this, Shade::muted));
     const int line = juce::roundToInt(std::ceil(g.getCurrentFont().getHeight()));
-    {
-        const juce::Graphics::ScopedSaveState whole{g};
-        g.reduceClipRegion(aboutArea_.withHeight(aboutArea_.getHeight() / line * line)); // whole lines only
-        g.drawFittedText(about_, aboutArea_, juce::Justification::topLeft, 6, 1.0f);
-    }
-    g.setColour(shade(*this, Shade::now));
-    auto room = levelArea_;
-    for (const juce::String& words : advice())
-        if (const int lines = text::pixels(g.getCurrentFont(), words) > room.getWidth() ? 2 : 1;
-            room.getHeight() >= lines * line)
-            g.drawFittedText(words, room.removeFromTop(lines * line), juce::Justification::centredLeft, lines,
-                             1.0f);
-    g.setColour(shade(*this, wordsShade_));
-    g.drawFittedText(words_, wordsArea_, juce::Justification::centredLeft, 3, 1.0f);
+    const auto write = [&](const juce::String& words, Shade colour, juce::Rectangle<int> area) {
+        g.setColour(shade(*this, colour));
+        if (const int lines = area.getHeight() / line; lines > 0) // whole ones, none smaller
+            g.drawFittedText(words, area, juce::Justification::centredLeft, lines, 1.0f);
+    };
+    const auto add = [&](juce::Rectangle<int>& room, const juce::String& words, Shade colour) {
+        const float rows = static_cast<float>(text::pixels(g.getCurrentFont(), words)) /
+                           static_cast<float>(std::max(1, room.getWidth()));
+        const int wanted = line * (rows <= 1.0f ? 1 : static_cast<int>(std::ceil(1.1f * rows))),
+                  high = std::min(wanted, room.getHeight());
+        const bool fits = high == wanted || colour == Shade::limit; // what is wrong is never left out
+        if (fits) write(words, colour, room.removeFromTop(high));
+        return fits;
+    };
+    auto about = aboutArea_, room = levelArea_;
+    for (const juce::String& words : juce::StringArray::fromLines(about_))
+        if (!add(about, words, Shade::muted)) break;
+    const bool isRefusal = wordsShade_ == Shade::limit; // has the width of all, and comes first
+    if (isRefusal) add(room, words_, wordsShade_);
+    for (const juce::String& words : advice()) add(room, words, Shade::now);
+    if (!isRefusal) write(words_, wordsShade_, wordsArea_);
 }
 
 void StudiesTab::resized() {

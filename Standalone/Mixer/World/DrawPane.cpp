@@ -215,26 +215,20 @@ Result<BodyDescription> DrawPane::drawnNow() const {
     }
 }
 
-// A click gives a rain of the usual size, all of it within the field.
+// A click gives a rain of the usual size, all of it within the field; of a drag no side is shorter than half
+// of that, or the balls of a flat one would be dust.
 Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
     const auto& scene = model_.world().scene();
     const Vector from = stroke_.empty() ? to_ : stroke_[0];
     const bool isClick = between(from, to_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
-    const double x = 0.15 * scene.fieldWidthMetres, y = 0.15 * scene.fieldHeightMetres;
-    if (!isClick) { // of a flat drag, which has no room, a taller place
-        Vector low{std::min(from.x, to_.x), std::min(from.y, to_.y)},
-            high{std::max(from.x, to_.x), std::max(from.y, to_.y)};
-        auto rain = drawnRain(low, high, rainCount_);
-        for (double more = 0.01; !rain && more < 0.5; more *= 2.0) {
-            const Vector by{high.x - low.x < 2.0 * x ? more * scene.fieldWidthMetres : 0.0,
-                            high.y - low.y < 2.0 * y ? more * scene.fieldHeightMetres : 0.0};
-            rain = drawnRain({low.x - by.x, low.y - by.y}, {high.x + by.x, high.y + by.y}, rainCount_);
-        }
-        return rain;
-    }
-    const Vector at{std::clamp(from.x, x, scene.fieldWidthMetres - x),
-                    std::clamp(from.y, y, scene.fieldHeightMetres - y)};
-    return drawnRain({at.x - x, at.y - y}, {at.x + x, at.y + y}, rainCount_);
+    const auto side = [isClick](double a, double b, double field) { // its middle, and half of it
+        const double half = 0.5 * std::abs(b - a), least = (isClick ? 0.15 : 0.075) * field;
+        return half < least ? std::pair{std::clamp(0.5 * (a + b), least, field - least), least}
+                            : std::pair{0.5 * (a + b), half};
+    };
+    const auto [x, wide] = side(from.x, to_.x, scene.fieldWidthMetres);
+    const auto [y, high] = side(from.y, to_.y, scene.fieldHeightMetres);
+    return drawnRain({x - wide, y - high}, {x + wide, y + high}, rainCount_);
 }
 
 // Rollers of a conveyor, from the start of the drag to its end; a click gives some of them to the right.
