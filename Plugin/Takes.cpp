@@ -11,18 +11,8 @@
 namespace physvib {
 namespace {
 
-/// One look at the scene; one by one, each of a body's actions would look through all bodies.
-bool isValidAtOnce(Scene scene, const std::vector<Action>& group) {
-    const double now = scene.inputs.empty() ? 0.0 : scene.inputs.back().timeSeconds;
-    for (const Action& action : group) scene.inputs.push_back({now, action});
-    return validate(scene).empty();
-}
-
 void checkGroup(const Scene& scene, const std::vector<Action>& group) {
-    if (isValidAtOnce(scene, group)) return;
-    InputCheck check{scene};
-    for (const Action& action : group)
-        if (std::string fault = check.take(action); !fault.empty()) throw std::invalid_argument(fault);
+    if (std::string fault = InputCheck{scene}.take(group); !fault.empty()) throw std::invalid_argument(fault);
 }
 
 // As many groups as a scene may have inputs at one look, since each look goes through all bodies: there may
@@ -32,7 +22,7 @@ void checkGroups(const SessionSetup& setup) {
     std::vector<Action> together;
     std::size_t first = 0;
     const auto check = [&](std::size_t end) {
-        if (!isValidAtOnce(setup.scene, together))
+        if (!InputCheck{setup.scene}.take(together).empty())
             for (std::size_t i = first; i < end; ++i) checkGroup(setup.scene, setup.groups[i]);
         together.clear();
         first = end;

@@ -12,11 +12,12 @@ BodyDescription stone(const std::string& name) {
     return {name, BodyType::dynamicBody, {{CircleShape{0.1}, {}, 0.0, 1, true}}, {1.0, 1.0}};
 }
 
-/// Takes them one after the other; the first error.
+/// Takes them one after the other, until an error, which is that of all at once.
 std::string takeAll(InputCheck& check, const std::vector<Action>& actions) {
-    for (const Action& action : actions)
-        if (std::string error = check.take(action); !error.empty()) return error;
-    return {};
+    std::string error, atOnce = InputCheck{check}.take(actions);
+    for (std::size_t i = 0; i < actions.size() && error.empty(); ++i) error = check.take(actions[i]);
+    EXPECT_EQ(error, atOnce);
+    return error;
 }
 
 TEST(InputCheck, InputsOfTheSceneCountTowardsTheLimit) {
@@ -30,6 +31,8 @@ TEST(InputCheck, InputsOfTheSceneCountTowardsTheLimit) {
 TEST(InputCheck, RefusedInputsDoNotCount) {
     InputCheck check(dropScene(1.0), 2);
     for (int i = 0; i < 5; ++i) EXPECT_NE(check.take(RemoveAction{"nobody"}), "");
+    const std::vector<Action> goodAndBad{TiltAction{0.1}, RemoveAction{"nobody"}};
+    EXPECT_NE(check.take(goodAndBad), "") << "none of them is taken";
     EXPECT_EQ(takeAll(check, {TiltAction{0.1}, TiltAction{0.2}}), "");
     EXPECT_EQ(check.take(TiltAction{0.3}), "expected at most 2 inputs");
 }

@@ -46,7 +46,9 @@ struct Drawn {
         return fault;
     }
     std::string run(SceneEdit& edit, bool isForth) {
-        return edit.run(isForth, drawing, now, [this](const Action& action) { return act(action); });
+        std::string fault;
+        edit.run(isForth, drawing, now, [&](const Action& action) { fault += act(action); });
+        return fault;
     }
     std::string edit(std::vector<Action> actions) {
         if (auto fault = drawing.check(actions); !fault.empty()) return fault;

@@ -60,7 +60,7 @@ Result<std::int64_t> Scheduler::submit(Input input) {
     return std::visit([&](auto& what) { return submit(what, input.timeNs); }, input.what);
 }
 
-Result<std::int64_t> Scheduler::submit(Action& action, std::int64_t) {
+Result<std::int64_t> Scheduler::submit(std::span<const Action> actions, std::int64_t) {
     for (;;) { // repeated if a new scene run began since the check
         std::size_t number = 0;
         const auto scene = world_.scene(number);
@@ -68,8 +68,8 @@ Result<std::int64_t> Scheduler::submit(Action& action, std::int64_t) {
             check_.emplace(*scene,
                            setup_.log == LogUse::document ? sceneLimits::maxLiveInputs : InputCheck::endless);
         checkedTake_ = number;
-        if (std::string fault = check_->take(action); !fault.empty()) return Failure{std::move(fault)};
-        if (world_.addInput(number, action)) return time_.nowNs();
+        if (std::string fault = check_->take(actions); !fault.empty()) return Failure{std::move(fault)};
+        if (world_.addInputs(number, actions)) return time_.nowNs();
     }
 }
 

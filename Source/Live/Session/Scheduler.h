@@ -48,7 +48,10 @@ private:
     // The mutex must be held.
     void prepare();
     RecordedContacts contactsAt(int sampleRateHz) { return recordings_.at(sampleRateHz, played_); }
-    Result<std::int64_t> submit(Action& action, std::int64_t timeNs);
+    Result<std::int64_t> submit(const Action& action, std::int64_t timeNs) {
+        return submit(std::span{&action, 1}, timeNs);
+    }
+    Result<std::int64_t> submit(std::span<const Action> actions, std::int64_t timeNs);
     Result<std::int64_t> submit(RenderControl& control, std::int64_t timeNs);
     Result<std::int64_t> submit(PlayedRecordings& recordings, std::int64_t timeNs);
     Result<std::int64_t> submit(const Strikes& strikes, std::int64_t timeNs);

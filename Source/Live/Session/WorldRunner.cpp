@@ -206,10 +206,10 @@ std::shared_ptr<const Scene> WorldRunner::scene(std::size_t& take) {
     return world_.take().scene;
 }
 
-bool WorldRunner::addInput(std::size_t take, Action& action) {
+bool WorldRunner::addInputs(std::size_t take, std::span<const Action> actions) {
     const std::lock_guard lock{mutex_};
     if (take != world_.takeCount()) return false;
-    world_.addInput(time_.nowNs(), std::move(action));
+    for (const Action& action : actions) world_.addInput(time_.nowNs(), action);
     return true;
 }
 

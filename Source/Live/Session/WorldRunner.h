@@ -138,7 +138,7 @@ private:
 
     // For Scheduler, with the input mutex held:
     std::shared_ptr<const Scene> scene(std::size_t& take); // the current scene run's, with its number
-    bool addInput(std::size_t take, Action& action);       // false: another run is current
+    bool addInputs(std::size_t take, std::span<const Action> actions); // false: another run is current
     void strike(std::span<const CollisionEvent> events);
     bool schedule(std::span<const CollisionEvent> events); // false: too many
     void forgetScheduled(std::int64_t fromNs, std::int64_t nowNs);

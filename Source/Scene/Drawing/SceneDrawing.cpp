@@ -33,10 +33,7 @@ SceneDrawing::SceneDrawing(Scene scene)
     , cast_{drawn_} {}
 
 std::string SceneDrawing::check(const std::vector<Action>& actions) const {
-    InputCheck check{cast_};
-    for (const Action& action : actions)
-        if (std::string fault = check.take(action); !fault.empty()) return fault;
-    return {};
+    return InputCheck{cast_}.take(actions);
 }
 
 bool SceneDrawing::take(const Action& action) {
@@ -116,20 +113,18 @@ std::vector<Action> SceneDrawing::undoOf(const Action& action, const PoseNow& no
     return {};
 }
 
-std::string SceneEdit::run(bool isForth, const SceneDrawing& drawing, const PoseNow& now,
-                           const std::function<std::string(const Action&)>& act) {
+void SceneEdit::run(bool isForth, const SceneDrawing& drawing, const PoseNow& now,
+                    const std::function<void(const Action&)>& act) {
     const auto& actions = isForth ? forth_ : back_;
     std::vector<Action> opposite;
-    std::string fault;
     const bool isErased = std::ranges::none_of( // a joint that is changed stays where it was drawn
         actions, [](const Action& action) { return std::holds_alternative<JoinAction>(action); });
     for (const Action& action : actions) {
         const auto back = drawing.undoOf(action, isErased ? now : PoseNow{});
-        if (fault = act(action); !fault.empty()) break;
+        act(action);
         opposite.insert(opposite.begin(), back.begin(), back.end());
     }
     (isForth ? back_ : forth_) = std::move(opposite);
-    return fault;
 }
 
 SceneEdit SceneEdit::followedBy(const SceneEdit& next) const {

@@ -51,10 +51,9 @@ public:
     explicit SceneEdit(std::vector<Action> actions)
         : forth_{std::move(actions)} {}
 
-    /// Calls `act` with each action, after recording its inverse. Empty, or the error of the first refused
-    /// action; those before it are undone by the next run in the other direction.
-    std::string run(bool isForth, const SceneDrawing& drawing, const PoseNow& now,
-                    const std::function<std::string(const Action&)>& act);
+    /// Calls `act` with each action, after recording its inverse.
+    void run(bool isForth, const SceneDrawing& drawing, const PoseNow& now,
+             const std::function<void(const Action&)>& act);
 
     const std::vector<Action>& forth() const noexcept { return forth_; }
     /// Merges `next` into this edit: undo reverses both.

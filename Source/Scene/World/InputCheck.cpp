@@ -113,19 +113,22 @@ void InputCheck::forgetOldest() {
     }
 }
 
-std::string InputCheck::take(const Action& action) {
-    if (taken_ >= most_) return "expected at most " + std::to_string(most_) + " inputs";
-    const double now = scene_.inputs.empty() ? 0.0 : scene_.inputs.back().timeSeconds;
-    scene_.inputs.push_back({now, action});
-    if (std::string fault = validate(scene_); !fault.empty()) {
-        scene_.inputs.pop_back();
-        const std::string place = detail::itemPath("inputs", scene_.inputs.size()) + ".";
-        return fault.starts_with(place) ? fault.substr(place.size()) : fault;
-    }
-    ++taken_;
-    LiveInput taken = std::move(scene_.inputs.back());
-    scene_.inputs.pop_back();
-    keep(std::move(taken));
+std::string InputCheck::take(std::span<const Action> actions) {
+    if (actions.size() > most_ - taken_) return "expected at most " + std::to_string(most_) + " inputs";
+    auto& inputs = scene_.inputs;
+    const double now = inputs.empty() ? 0.0 : inputs.back().timeSeconds;
+    const std::size_t known = inputs.size();
+    for (const Action& action : actions) inputs.push_back({now, action});
+    const std::string fault = validate(scene_);
+    const auto first = inputs.begin() + static_cast<std::ptrdiff_t>(known);
+    std::vector<LiveInput> taken{std::move_iterator{first}, std::move_iterator{inputs.end()}};
+    inputs.erase(first, inputs.end());
+    for (std::size_t i = known; !fault.empty() && i < known + actions.size(); ++i)
+        if (const auto place = detail::itemPath("inputs", i) + "."; fault.starts_with(place))
+            return fault.substr(place.size());
+    if (!fault.empty()) return fault;
+    taken_ += actions.size();
+    for (LiveInput& input : taken) keep(std::move(input));
     return {};
 }
 

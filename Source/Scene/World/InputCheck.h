@@ -5,6 +5,7 @@
 #include "Scene/SceneLimits.h"
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <string>
 
 namespace physvib {
@@ -21,7 +22,9 @@ public:
     /// Empty, and the input is taken into account for later ones; or the error, as of validate(). Costs as
     /// much as validate() of the scene with its spawned bodies. A removed body may still be named, without
     /// effect; with endless inputs only the newest `remembered` ones.
-    std::string take(const Action& action);
+    std::string take(const Action& action) { return take(std::span{&action, 1}); }
+    /// The same of several, in order: all of them or none.
+    std::string take(std::span<const Action> actions);
 
     static constexpr std::size_t remembered = 64; ///< an installation may spawn and remove for months
 

@@ -5,6 +5,7 @@
 #include "Live/Documents/Mix.h"
 #include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerModel.h"
+#include "Scene/SceneEdits.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/SceneCast.h"
 #include <cmath>
@@ -18,10 +19,9 @@ public:
     Edit(MixerWorld& world, SceneEdit edit)
         : world_{world}
         , edit_{std::move(edit)} {}
-    // refused in the middle: what was done of it is taken back, and JUCE keeps no step
+    // refused: JUCE keeps no step
     bool perform() override {
         const bool isDone = run(true);
-        if (!isDone && !isRepeated_) run(false);
         return std::exchange(isRepeated_, true) || isDone;
     }
     bool undo() override { return run(false); }
@@ -44,13 +44,22 @@ private:
         const auto *before = std::get_if<Turned>(&here.front()), *after = std::get_if<Turned>(&there.front());
         return before != nullptr && after != nullptr && before->material == after->material;
     }
+    // To the world at once: in one that is slow each would wait for a step, and Esc for all of them.
     bool run(bool isForth) {
-        const auto now = [this](const std::string& body) { return world_.poseNow(body); };
-        auto fault = edit_.run(isForth, world_.drawing_, now,
-                               [this](const Action& action) { return world_.act(action); });
-        const bool isDone = fault.empty();
-        if (!isDone) world_.refused_ = std::move(fault);
-        return isDone;
+        SceneDrawing drawing = world_.drawing_;
+        SceneEdit edit = edit_;
+        std::vector<Action> actions;
+        edit.run(isForth, drawing, world_.posesNow(), [&](const Action& action) {
+            drawing.take(action);
+            actions.push_back(action);
+        });
+        if (std::string fault = world_.session_.submit({std::span<const Action>{actions}}).error;
+            !fault.empty())
+            return world_.refused_ = std::move(fault), false;
+        edit_ = std::move(edit);
+        world_.drawing_ = std::move(drawing);
+        for (const Action& action : actions) world_.acted(isLasting(action));
+        return true;
     }
     MixerWorld& world_;
     SceneEdit edit_;
@@ -68,22 +77,13 @@ MixerWorld::MixerWorld(Session& session, const Mix& mix, juce::UndoManager& undo
 std::string MixerWorld::act(const Action& action) {
     auto fault = session_.submit({action}).error;
     if (!fault.empty()) return fault;
-    const bool isShown = drawing_.take(action);
-    if (isShown) ++edits_;
-    onInput_(isShown);
+    acted(drawing_.take(action));
     return fault;
 }
 
-std::optional<BodyPose> MixerWorld::poseNow(const std::string& body) const {
-    const auto cast = sceneCast(scene());
-    std::vector<BodyPose> poses;
-    session_.world().readPoses(poses);
-    std::size_t last = cast.size(); // last body of that name
-    while (last-- > 0 && cast[last].name != body) {
-    }
-    // not present, or it is created at the next step, at its drawn place
-    if (last >= poses.size() || !poses[last].isPresent) return std::nullopt;
-    return poses[last];
+void MixerWorld::acted(bool isShown) {
+    if (isShown) ++edits_;
+    onInput_(isShown);
 }
 
 PoseNow MixerWorld::posesNow() const {

@@ -67,10 +67,7 @@ public:
     }
     std::string edit(const juce::String& name, std::vector<Action> actions, bool continuesEdit = false);
 
-    /// Pose of a body at the last simulated step; nullopt if it is not present.
-    std::optional<BodyPose> poseNow(const std::string& body) const;
-
-    /// Poses of all bodies at one moment.
+    /// Poses of all bodies at the last simulated step; nullopt of one that is not present.
     PoseNow posesNow() const;
 
     /// A warning, once each time the world becomes too slow for real time; else empty. `poses` are the last
@@ -83,6 +80,7 @@ public:
 
 private:
     class Edit;
+    void acted(bool isShown);
 
     Session& session_;
     const Mix& mix_;
