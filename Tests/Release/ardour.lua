@@ -9,6 +9,8 @@ local shared, no_group = pcall(ARDOUR.RouteGroup) -- from Ardour 9 on, which rea
 local track = session:new_midi_track(midi, audio, false, ARDOUR.PluginInfo(), nil, shared and no_group or nil, 1, "PhysVib",
     ARDOUR.PresentationInfo.max_order, ARDOUR.TrackMode.Normal, false, false):front()
 assert(track:add_processor_by_index(plugin, 0, nil, true) == 0)
-print("Ardour: " .. plugin:to_insert():plugin(0):name() .. " on a track")
+local name = plugin:to_insert():plugin(0):name()
 session:save_state("")
 close_session()
+print("Ardour: " .. name .. " on a track")
+io.stdout:flush() -- Ardour 9 cancels its threads as it quits, and then an empty session, too, may end by abort
