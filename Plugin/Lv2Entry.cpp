@@ -310,7 +310,7 @@ Lv2Parts lv2PartsOf(void* instance) noexcept {
 
 } // namespace physvib
 
-extern "C" LV2_SYMBOL_EXPORT const LV2_Descriptor* lv2_descriptor(uint32_t index) {
+LV2_SYMBOL_EXPORT const LV2_Descriptor* lv2_descriptor(uint32_t index) {
     static const LV2_Descriptor ours = physvib::completed(*juceLv2Descriptor(0));
     return index == 0 ? &ours : nullptr;
 }

@@ -92,7 +92,7 @@ LV2UI_Descriptor followed(LV2UI_Descriptor juces) {
 
 } // namespace physvib
 
-extern "C" LV2_SYMBOL_EXPORT const LV2UI_Descriptor* lv2ui_descriptor(uint32_t index) {
+LV2_SYMBOL_EXPORT const LV2UI_Descriptor* lv2ui_descriptor(uint32_t index) {
     static const LV2UI_Descriptor ours = physvib::followed(*juceLv2UiDescriptor(0));
     return index == 0 ? &ours : nullptr;
 }
