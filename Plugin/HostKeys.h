@@ -2,6 +2,7 @@
 // Hands keys that the plug-in's window does not use to the host's window around it (save, undo, play). Under
 // X11 the window that was clicked gets the keys, and nobody passes them on; other systems do.
 #pragma once
+#include <memory>
 
 namespace physvib {
 
@@ -20,11 +21,22 @@ constexpr unsigned long keySymbolOf(int juceKeyCode) noexcept {
     return static_cast<unsigned long>(juceKeyCode);
 }
 
-/// `nativeWindow`: JUCE's, within that of the host. False: it has none around it, or there is no X11. Thread
-/// of the windows.
-bool sendToHost(void* nativeWindow, const HostKey& key) noexcept;
+/// For the thread of the windows, under X11; elsewhere it does nothing.
+class HostKeys {
+public:
+    HostKeys() noexcept;
+    ~HostKeys();
+    /// `nativeWindow`: JUCE's, within that of the host, or null.
+    void watch(void* nativeWindow);
+    /// To the host, if the key was typed into that window since the last call. What a host has handed on it
+    /// has seen: it would come back for ever. False: not sent.
+    bool send(const HostKey&) noexcept;
+    /// Gives the keyboard to that window.
+    void take() noexcept;
 
-/// Gives the keyboard to that window of JUCE's, under X11. Thread of the windows.
-void takeKeys(void* nativeWindow) noexcept;
+private:
+    struct Connection;
+    std::unique_ptr<Connection> connection_;
+};
 
 } // namespace physvib

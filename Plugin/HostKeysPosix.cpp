@@ -13,7 +13,7 @@ namespace physvib {
 #ifdef __linux__
 namespace {
 
-/// The functions of X11 that are needed, and a connection of its own while one key is sent.
+/// The functions of X11 that are needed, and a connection of its own.
 class X11 {
     struct Found {
         void* at;
@@ -31,10 +31,12 @@ class X11 {
     bool isThere_ = library_ != nullptr;
     decltype(&XOpenDisplay) open_ = find("XOpenDisplay");
     decltype(&XCloseDisplay) close_ = find("XCloseDisplay");
-    decltype(&XSetErrorHandler) onError_ = find("XSetErrorHandler");
-    XErrorHandler before_ = nullptr;
 
 public:
+    decltype(&XSetErrorHandler) onError = find("XSetErrorHandler");
+    decltype(&XSync) sync = find("XSync");
+    decltype(&XSelectInput) select = find("XSelectInput");
+    decltype(&XCheckTypedEvent) next = find("XCheckTypedEvent");
     decltype(&XQueryTree) tree = find("XQueryTree");
     decltype(&XFree) free = find("XFree");
     decltype(&XInternAtom) atom = find("XInternAtom");
@@ -44,16 +46,26 @@ public:
     decltype(&XSetInputFocus) focus = find("XSetInputFocus");
     Display* const display = isThere_ ? open_(nullptr) : nullptr;
 
-    X11() noexcept {
-        if (display)
-            before_ = onError_([](Display*, XErrorEvent*) { return 0; }); // a window may just be gone
-    }
+    X11() = default;
     ~X11() {
         if (display) close_(display);
-        if (display) onError_(before_);
         if (library_ != nullptr) dlclose(library_);
     }
     X11(const X11&) = delete;
+};
+
+/// While it lives a window may be gone; the host's handler has its place again afterwards.
+struct Unheard {
+    explicit Unheard(const X11& of) noexcept
+        : x{of}
+        , before{x.onError([](Display*, XErrorEvent*) { return 0; })} {}
+    ~Unheard() {
+        x.sync(x.display, False);
+        x.onError(before);
+    }
+    Unheard(const Unheard&) = delete;
+    const X11& x;
+    const XErrorHandler before;
 };
 
 bool isManaged(const X11& x, Window window) noexcept {
@@ -83,14 +95,32 @@ Window topLevelAbove(const X11& x, Window inner, Window& root) noexcept {
 
 } // namespace
 
-bool sendToHost(void* nativeWindow, const HostKey& key) noexcept {
-    const X11 x;
-    if (!x.display || key.symbol == 0) return false;
-    Window root = None;
+struct HostKeys::Connection {
+    X11 x;
+    Window own = None;
+};
+
+void HostKeys::watch(void* nativeWindow) {
     const auto own = reinterpret_cast<Window>(nativeWindow);
-    const Window host = isManaged(x, own) ? None : topLevelAbove(x, own, root); // else that is a frame
+    if (connection_ == nullptr && own != None) connection_ = std::make_unique<Connection>();
+    if (connection_ == nullptr || connection_->own == own || !connection_->x.display) return;
+    const Unheard guard{connection_->x};
+    connection_->own = own;
+    connection_->x.select(connection_->x.display, own, KeyPressMask);
+}
+
+bool HostKeys::send(const HostKey& key) noexcept {
+    if (connection_ == nullptr || !connection_->x.display || key.symbol == 0) return false;
+    const auto& [x, own] = *connection_;
+    const Unheard guard{x};
     const KeyCode code = x.code(x.display, key.symbol);
-    if (host == None || code == 0) return false;
+    bool isTyped = false;
+    x.sync(x.display, False);
+    for (XEvent event; x.next(x.display, KeyPress, &event);)
+        isTyped |= event.xkey.keycode == code && event.xkey.window == own && !event.xkey.send_event;
+    Window root = None;
+    const Window host = isManaged(x, own) ? None : topLevelAbove(x, own, root); // else that is a frame
+    if (!isTyped || host == None || code == 0) return false;
     XEvent event{};
     event.xkey.display = x.display;
     event.xkey.window = host;
@@ -108,13 +138,19 @@ bool sendToHost(void* nativeWindow, const HostKey& key) noexcept {
 }
 
 // JUCE asks by the time of its last event; the server ignores what is older than another's.
-void takeKeys(void* nativeWindow) noexcept {
-    if (const X11 x; x.display)
-        x.focus(x.display, reinterpret_cast<Window>(nativeWindow), RevertToParent, CurrentTime);
+void HostKeys::take() noexcept {
+    if (connection_ == nullptr || !connection_->x.display) return;
+    const Unheard guard{connection_->x};
+    connection_->x.focus(connection_->x.display, connection_->own, RevertToParent, CurrentTime);
 }
 #else
-void takeKeys(void*) noexcept {}
-bool sendToHost(void*, const HostKey&) noexcept { return false; }
+struct HostKeys::Connection {};
+void HostKeys::watch(void*) {}
+void HostKeys::take() noexcept {}
+bool HostKeys::send(const HostKey&) noexcept { return false; }
 #endif
+
+HostKeys::HostKeys() noexcept = default;
+HostKeys::~HostKeys() = default;
 
 } // namespace physvib

@@ -2,7 +2,6 @@
 // Layout of the plug-in's window, and its update from the processor 25 times a second.
 #include "PluginEditor.h"
 #include "EditorParts.h"
-#include "HostKeys.h"
 #include "PluginFiles.h"
 #include "PluginSettings.h"
 
@@ -142,6 +141,7 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
 
 PluginEditor::~PluginEditor() {
     stopTimer();
+    if (around_ != nullptr) around_->removeKeyListener(this);
     setLookAndFeel(nullptr);
 }
 
@@ -253,16 +253,24 @@ juce::TextEditor* PluginEditor::openBox() const {
     return isParentOf(value) ? value->getCurrentTextEditor() : nullptr;
 }
 
+// Keys without a focus, such as those after a value was typed, come to what the wrapper has around this.
+void PluginEditor::listenAround() {
+    host_.watch(getPeer() != nullptr ? getPeer()->getNativeHandle() : nullptr);
+    auto* const around = getTopLevelComponent();
+    if (around == this || around == around_) return;
+    around->addKeyListener(this);
+    around_ = around;
+}
+
 // A value's box gets the keys also before it has the keyboard (refresh). While anything is open, none is the
 // host's.
 bool PluginEditor::keyPressed(const juce::KeyPress& key) {
     if (auto* const box = openBox()) return box->keyPressed(key);
     if (juce::Component::getCurrentlyModalComponent() != nullptr) return false;
-    const auto* const peer = getPeer();
     const auto mods = key.getModifiers();
-    return peer != nullptr && !key.isKeyCode(juce::KeyPress::escapeKey) &&
-           sendToHost(peer->getNativeHandle(), {keySymbolOf(key.getKeyCode()), mods.isShiftDown(),
-                                                mods.isCtrlDown(), mods.isAltDown()});
+    return !key.isKeyCode(juce::KeyPress::escapeKey) &&
+           host_.send(
+               {keySymbolOf(key.getKeyCode()), mods.isShiftDown(), mods.isCtrlDown(), mods.isAltDown()});
 }
 
 MixHands PluginEditor::hands(bool areChecked) {
@@ -355,8 +363,9 @@ void PluginEditor::refresh() {
     if (plugin_.stateCount() != shown_) stateChanged();
     if (plugin_.noteKnobs() != knobs_) readKnobs();
     followLearning();
+    listenAround();
     if (auto* const box = openBox(); box && !box->hasKeyboardFocus(false)) {
-        takeKeys(getPeer()->getNativeHandle());
+        host_.take();
         box->grabKeyboardFocus();
     }
     const auto hits = plugin_.drainEvents();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys in the plug-in's window, in the window of a host without a window manager: those that no control uses
-// reach the host, Esc silences and stays here.
+// reach the host once, Esc silences and stays here. As with the formats, JUCE's window is a component's
+// around ours.
 #include "HostKeys.h"
 #include "../PluginTesting.h"
 #include "PluginEditor.h"
@@ -10,6 +11,7 @@ using Key = juce::KeyPress; // which is a macro of X11
 // X11's macros come last
 #include "Plugin/Formats/DisplayNames.h"
 #include <X11/keysym.h>
+#include <dlfcn.h>
 
 namespace physvib {
 namespace {
@@ -38,25 +40,53 @@ struct HostWindow {
 
 /// The plug-in's window within a host's.
 struct Embedded {
+    using FakeKey = int (*)(Display*, unsigned int, Bool, unsigned long);
+    const FakeKey fakeKey =
+        reinterpret_cast<FakeKey>(dlsym(dlopen("libXtst.so.6", RTLD_LAZY), "XTestFakeKeyEvent"));
     Embedded() {
-        editor->addToDesktop(0, reinterpret_cast<void*>(around.window));
-        editor->setVisible(true);
+        wrapper.addAndMakeVisible(*editor);
+        wrapper.setSize(editor->getWidth(), editor->getHeight());
+        wrapper.addToDesktop(0, reinterpret_cast<void*>(around.window));
+        wrapper.setVisible(true);
         runFor(0.3);
+        XSetInputFocus(around.display, own(), RevertToParent, CurrentTime);
     }
+    Window own() const { return reinterpret_cast<Window>(wrapper.getWindowHandle()); }
+    /// As from a keyboard.
     void press(const Key& key) const {
-        editor->getPeer()->handleKeyPress(key);
+        const auto type = [this](KeySym symbol, Bool isDown) {
+            fakeKey(around.display, XKeysymToKeycode(around.display, symbol), isDown, CurrentTime);
+        };
+        const auto mods = key.getModifiers();
+        const KeySym held = mods.isCtrlDown() ? XK_Control_L : mods.isShiftDown() ? XK_Shift_L : 0;
+        if (held) type(held, True);
+        for (const Bool isDown : {True, False}) type(keySymbolOf(key.getKeyCode()), isDown);
+        if (held) type(held, False);
+        XSync(around.display, False);
+        runFor(0.1);
+    }
+    /// As a host does with what it does not use: the key goes back to the program of the window alone.
+    void handBack(KeySym symbol) const {
+        XEvent event{};
+        event.xkey.type = KeyPress;
+        event.xkey.display = around.display;
+        event.xkey.window = own();
+        event.xkey.keycode = XKeysymToKeycode(around.display, symbol);
+        XSendEvent(around.display, own(), False, NoEventMask, &event);
+        XSync(around.display, False);
         runFor(0.1);
     }
     HostWindow around;
     TestHost host;
+    juce::Component wrapper;
     const std::unique_ptr<PluginEditor> editor{
         dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
 };
 
 TEST(HostKeys, WhatNoControlUsesReachesTheHostAndEscStays) {
     Embedded embedded;
-    auto& [around, host, editor] = embedded;
-    ASSERT_NE(editor->getPeer(), nullptr);
+    auto& [fakeKey, around, host, wrapper, editor] = embedded;
+    if (fakeKey == nullptr) GTEST_SKIP() << "libxtst6 is not installed";
     embedded.press(Key{'S', juce::ModifierKeys::ctrlModifier, 0});
     embedded.press(Key{Key::spaceKey});
     embedded.press(Key{Key::F5Key, juce::ModifierKeys::shiftModifier, 0});
@@ -65,6 +95,8 @@ TEST(HostKeys, WhatNoControlUsesReachesTheHostAndEscStays) {
     const std::vector<std::pair<KeySym, unsigned int>> expected{
         {XK_s, ControlMask}, {XK_space, 0}, {XK_F5, ShiftMask}, {XK_Return, 0}};
     EXPECT_EQ(came, expected);
+    embedded.handBack(XK_F5);
+    EXPECT_TRUE(around.keys().empty()) << "the host gave it, and would for ever";
     embedded.press(Key{Key::escapeKey});
     EXPECT_TRUE(around.keys().empty());
     EXPECT_TRUE(host.plugin->isStopped()) << "Esc silences";
@@ -84,7 +116,8 @@ juce::Label* valueIn(juce::Component& in) {
 // Under some window managers the box has no keyboard after a list was open: keys come to the window then.
 TEST(HostKeys, AValueThatIsTypedIsTheValuesAndEscClosesItFirst) {
     Embedded embedded;
-    auto& [around, host, editor] = embedded;
+    auto& [fakeKey, around, host, wrapper, editor] = embedded;
+    if (fakeKey == nullptr) GTEST_SKIP() << "libxtst6 is not installed";
     auto* const value = valueIn(*editor);
     ASSERT_NE(value, nullptr);
     const auto before = value->getText();
@@ -98,6 +131,9 @@ TEST(HostKeys, AValueThatIsTypedIsTheValuesAndEscClosesItFirst) {
     runFor(0.1);
     EXPECT_EQ(value->getCurrentTextEditor(), nullptr);
     EXPECT_NE(value->getText(), before);
+    EXPECT_TRUE(around.keys().empty());
+    embedded.press(Key{Key::spaceKey});
+    EXPECT_EQ(around.keys().size(), 1u) << "after a value the host plays by Space";
     value->showEditor();
     embedded.press(Key{Key::escapeKey});
     EXPECT_EQ(value->getCurrentTextEditor(), nullptr);
@@ -114,7 +150,9 @@ TEST(HostKeys, AWindowOfItsOwnHasNoHost) {
     editor->addToDesktop(0);
     editor->setVisible(true);
     runFor(0.2);
-    EXPECT_FALSE(sendToHost(editor->getPeer()->getNativeHandle(), {XK_s, false, true, false}));
+    HostKeys keys;
+    keys.watch(editor->getPeer()->getNativeHandle());
+    EXPECT_FALSE(keys.send({XK_s, false, true, false}));
 }
 
 } // namespace
