@@ -381,7 +381,7 @@ void PluginEditor::refresh() {
                    meters.peaks});
     mix_.update(meters);
     const int outputs = plugin_.outputs();
-    fold_.setVisible(outputs > 0 && meters.connected < enchantersOf(state_));
+    fold_.setVisible(outputs > 0 && meters.enchanters > 0 && meters.connected < enchantersOf(state_));
     fold_.setButtonText("Use " + juce::String{outputs});
     const bool isSilent = plugin_.isStopped() || plugin_.parameter(Parameter::bypass).value() > 0.5;
     silence_.setToggleState(isSilent, juce::dontSendNotification);
@@ -437,7 +437,7 @@ juce::String PluginEditor::latencyText() const {
 
 juce::String PluginEditor::outputText(const ChannelMeters& meters) const {
     const int actuators = enchantersOf(state_);
-    if (meters.connected >= actuators) return {};
+    if (meters.enchanters == 0 || meters.connected >= actuators) return {}; // 0: it waits for the transport
     juce::StringArray lost;
     for (int j = 0; j < actuators; ++j)
         if (const auto one = static_cast<std::size_t>(j); !meters.isConnected[one])
