@@ -87,7 +87,6 @@ private:
     void timerCallback() override { refresh(); }
     void stateChanged();
     void readKnobs();
-    juce::String steppingText(const TakesStatus& status) const;
     juce::String latencyText() const;
     juce::String outputText(const ChannelMeters& meters) const;
     void fillGroups();

@@ -20,7 +20,7 @@ run() { # HOST: $host, $top (its window with the plug-in) and $plugin (JUCE's in
         jalv) jalv.gtk3 urn:physvib:plugin >>"$folder/log" 2>&1 & host=$! top='^PhysVib$' ;;
         ardour)
             rm -rf "$folder/session" && touch "$folder/.config/ardour7/.a7"
-            echo '<Ardour><Config><Option name="try-autostart-engine" value="1"/></Config><Extra><AudioMIDISetup><EngineStates><State backend="JACK" driver="" device="" input-device="" output-device="" sample-rate="48000" buffer-size="1024" n-periods="2" input-latency="0" output-latency="0" lm-input="" lm-output="" active="1" use-buffered-io="0" midi-option="" lru="1"/></EngineStates></AudioMIDISetup></Extra></Ardour>' >"$folder/.config/ardour7/config"
+            echo '<Ardour><Config><Option name="try-autostart-engine" value="1"/><Option name="hide-dummy-backend" value="0"/></Config><Extra><AudioMIDISetup><EngineStates><State backend="None (Dummy)" driver="Normal Speed" device="Silence" input-device="" output-device="" sample-rate="48000" buffer-size="1024" n-periods="0" input-latency="0" output-latency="0" lm-input="" lm-output="" active="1" use-buffered-io="0" midi-option="" lru="1"/></EngineStates></AudioMIDISetup></Extra></Ardour>' >"$folder/.config/ardour7/config"
             ardour7-lua "$here/../ardour.lua" make "$folder/session" lv2 urn:physvib:plugin >>"$folder/log" 2>&1
             echo '<instant><Main x="0" y="0" w="1380" h="841" current-tab="mixer"/></instant>' >"$folder/session/instant.xml"
             ardour "$folder/session/session.ardour" >>"$folder/log" 2>&1 & host=$! top='^PhysVib: PhysVib'
