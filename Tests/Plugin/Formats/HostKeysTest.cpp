@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys in the plug-in's window, in the window of a host without a window manager: those that no control uses
-// reach the host once, Esc silences and stays here. As with the formats, JUCE's window is a component's
-// around ours.
-#include "HostKeys.h"
+// reach the host once, Esc silences and stays here. As in the formats, a component is around the editor.
 #include "../PluginTesting.h"
 #include "PluginEditor.h"
 namespace physvib {
@@ -41,11 +39,8 @@ struct HostWindow {
 using FakeKey = int (*)(Display*, unsigned int, Bool, unsigned long);
 const auto fakeKey = reinterpret_cast<FakeKey>(dlsym(dlopen("libXtst.so.6", RTLD_LAZY), "XTestFakeKeyEvent"));
 
-/// As from a keyboard.
-void type(Display* display, const Key& key) {
-    const auto mods = key.getModifiers();
-    std::vector<KeySym> keys{keySymbolOf(key.getKeyCode())};
-    if (mods.isAnyModifierKeyDown()) keys.insert(keys.begin(), mods.isCtrlDown() ? XK_Control_L : XK_Shift_L);
+/// As from a keyboard, all held at once.
+void type(Display* display, std::vector<KeySym> keys) {
     for (const Bool isDown : {True, False}) {
         for (const KeySym one : keys) fakeKey(display, XKeysymToKeycode(display, one), isDown, CurrentTime);
         std::ranges::reverse(keys);
@@ -65,7 +60,7 @@ struct Embedded {
         XSetInputFocus(around.display, own(), RevertToParent, CurrentTime);
     }
     Window own() const { return reinterpret_cast<Window>(wrapper.getWindowHandle()); }
-    void press(const Key& key) const { type(around.display, key); }
+    void press(const std::vector<KeySym>& keys) const { type(around.display, keys); }
     /// As a host does with what it does not use: the key goes back to the program of the window alone.
     void handBack(KeySym symbol) const {
         XEvent event{};
@@ -85,30 +80,19 @@ TEST(HostKeys, WhatNoControlUsesReachesTheHostAndEscStays) {
     Embedded embedded;
     auto& [around, host, wrapper, editor] = embedded;
     if (fakeKey == nullptr) GTEST_SKIP() << "libxtst6 is not installed";
-    embedded.press(Key{'S', juce::ModifierKeys::ctrlModifier, 0});
-    embedded.press(Key{Key::spaceKey});
-    embedded.press(Key{Key::F5Key, juce::ModifierKeys::shiftModifier, 0});
-    embedded.press(Key{Key::returnKey});
-    const auto came = around.keys();
+    embedded.press({XK_Control_L, XK_s});
+    embedded.press({XK_space});
+    embedded.press({XK_Shift_L, XK_F5});
+    embedded.press({XK_Return});
     const std::vector<std::pair<KeySym, unsigned int>> expected{
         {XK_s, ControlMask}, {XK_space, 0}, {XK_F5, ShiftMask}, {XK_Return, 0}};
-    EXPECT_EQ(came, expected);
+    EXPECT_EQ(around.keys(), expected);
     embedded.handBack(XK_F5);
     EXPECT_TRUE(around.keys().empty()) << "the host gave it, and would for ever";
-    embedded.press(Key{Key::escapeKey});
+    embedded.press({XK_Escape});
     EXPECT_TRUE(around.keys().empty());
     EXPECT_TRUE(host.plugin->isStopped()) << "Esc silences";
     EXPECT_EQ(host.plugin->parameter(Parameter::bypass).getValue(), 0.0f) << "and no session keeps it";
-}
-
-juce::Label* valueIn(juce::Component& in) {
-    for (auto* child : in.getChildren()) {
-        if (auto* const value = dynamic_cast<juce::Label*>(child);
-            value && value->isShowing() && dynamic_cast<juce::Slider*>(&in) != nullptr)
-            return value;
-        if (auto* const found = valueIn(*child)) return found;
-    }
-    return nullptr;
 }
 
 // Under some window managers the box has no keyboard after a list was open: keys come to the window then.
@@ -116,7 +100,9 @@ TEST(HostKeys, AValueThatIsTypedIsTheValuesAndEscClosesItFirst) {
     Embedded embedded;
     auto& [around, host, wrapper, editor] = embedded;
     if (fakeKey == nullptr) GTEST_SKIP() << "libxtst6 is not installed";
-    auto* const value = valueIn(*editor);
+    auto* const value = below<juce::Label>(*editor, [](const juce::Label& label) {
+        return label.isShowing() && dynamic_cast<juce::Slider*>(label.getParentComponent()) != nullptr;
+    });
     ASSERT_NE(value, nullptr);
     const auto before = value->getText();
     value->showEditor();
@@ -129,14 +115,13 @@ TEST(HostKeys, AValueThatIsTypedIsTheValuesAndEscClosesItFirst) {
     runFor(0.1);
     EXPECT_EQ(value->getCurrentTextEditor(), nullptr);
     EXPECT_NE(value->getText(), before);
-    EXPECT_TRUE(around.keys().empty());
-    embedded.press(Key{Key::spaceKey});
-    EXPECT_EQ(around.keys().size(), 1u) << "after a value the host plays by Space";
+    embedded.press({XK_space});
+    EXPECT_EQ(around.keys().size(), 1u) << "what was typed is not the host's, Space is";
     value->showEditor();
-    embedded.press(Key{Key::escapeKey});
+    embedded.press({XK_Escape});
     EXPECT_EQ(value->getCurrentTextEditor(), nullptr);
     EXPECT_FALSE(host.plugin->isStopped()) << "it closed what was open";
-    embedded.press(Key{Key::escapeKey});
+    embedded.press({XK_Escape});
     EXPECT_TRUE(host.plugin->isStopped());
     EXPECT_TRUE(around.keys().empty()) << "nothing of it was the host's";
 }
@@ -151,10 +136,10 @@ TEST(HostKeys, AWindowOfItsOwnHasNoHost) {
     if (fakeKey == nullptr) GTEST_SKIP() << "libxtst6 is not installed";
     const HostWindow other;
     HostKeys keys;
-    const auto own = editor->getPeer()->getNativeHandle();
-    keys.watch(own);
-    XSetInputFocus(other.display, reinterpret_cast<Window>(own), RevertToParent, CurrentTime);
-    type(other.display, Key{'S'});
+    keys.watch(editor->getWindowHandle());
+    XSetInputFocus(other.display, reinterpret_cast<Window>(editor->getWindowHandle()), RevertToParent,
+                   CurrentTime);
+    type(other.display, {XK_s});
     EXPECT_FALSE(keys.send(XK_s));
 }
 

@@ -30,7 +30,7 @@ run() { # HOST: $host, $top (its window with the plug-in) and $plugin (JUCE's in
             gcc -shared -fPIC -o "$folder/alsa-sequencer.so" "$here/alsa-sequencer.c"
             /usr/bin/python3 "$here/daws.py" session qtractor "$folder/keys.qtr" urn:physvib:plugin PhysVib 4
             LD_PRELOAD="$folder/alsa-sequencer.so" qtractor "$folder/keys.qtr" >>"$folder/log" 2>&1 & host=$! top='^PhysVib - '
-            main=$(window 'keys.qtr') && sleep 4 && open_with_pointer "$main" 179 199
+            main=$(window 'keys.qtr') && sleep 4 && open_with_pointer "$main" 179 182
             ;;
     esac
     top=$(window "$top")
