@@ -11,10 +11,8 @@
 namespace physvib {
 
 #ifdef __linux__
-namespace {
-
-/// The functions of X11 that are needed, and a connection of its own while one key is sent.
-class X11 {
+/// Functions of X11, on a connection of its own.
+class HostConnection {
     struct Found {
         void* at;
         template <class Function>
@@ -22,99 +20,106 @@ class X11 {
             return reinterpret_cast<Function>(at);
         }
     };
-    Found find(const char* name) noexcept {
-        void* const at = isThere_ ? dlsym(library_, name) : nullptr;
-        isThere_ = at != nullptr;
-        return {at};
-    }
+    Found find(const char* name) const noexcept { return {library_ ? dlsym(library_, name) : nullptr}; }
     void* const library_ = dlopen("libX11.so.6", RTLD_LAZY);
-    bool isThere_ = library_ != nullptr;
     decltype(&XOpenDisplay) open_ = find("XOpenDisplay");
     decltype(&XCloseDisplay) close_ = find("XCloseDisplay");
     decltype(&XSetErrorHandler) onError_ = find("XSetErrorHandler");
-    XErrorHandler before_ = nullptr;
+    decltype(&XQueryTree) tree_ = find("XQueryTree");
+    decltype(&XFree) free_ = find("XFree");
+    decltype(&XInternAtom) atom_ = find("XInternAtom");
+    decltype(&XGetWindowProperty) property_ = find("XGetWindowProperty");
 
 public:
-    decltype(&XQueryTree) tree = find("XQueryTree");
-    decltype(&XFree) free = find("XFree");
-    decltype(&XInternAtom) atom = find("XInternAtom");
-    decltype(&XGetWindowProperty) property = find("XGetWindowProperty");
+    decltype(&XSync) sync = find("XSync");
+    decltype(&XSelectInput) select = find("XSelectInput");
+    decltype(&XCheckTypedEvent) next = find("XCheckTypedEvent");
     decltype(&XKeysymToKeycode) code = find("XKeysymToKeycode");
     decltype(&XSendEvent) send = find("XSendEvent");
     decltype(&XSetInputFocus) focus = find("XSetInputFocus");
-    Display* const display = isThere_ ? open_(nullptr) : nullptr;
+    Display* const display = library_ ? open_(nullptr) : nullptr;
+    Window own = None;
 
-    X11() noexcept {
-        if (display)
-            before_ = onError_([](Display*, XErrorEvent*) { return 0; }); // a window may just be gone
-    }
-    ~X11() {
+    HostConnection() = default;
+    ~HostConnection() {
         if (display) close_(display);
-        if (display) onError_(before_);
         if (library_ != nullptr) dlclose(library_);
     }
-    X11(const X11&) = delete;
+    HostConnection(const HostConnection&) = delete;
+
+    /// `call`, while no window has to be there any more.
+    template <class Call>
+    void quietly(const Call& call) const noexcept {
+        const auto before = onError_([](Display*, XErrorEvent*) { return 0; });
+        call();
+        sync(display, False);
+        onError_(before);
+    }
+    bool isManaged(Window window) const noexcept {
+        const Atom state = atom_(display, "WM_STATE", True);
+        Atom type = None;
+        int format = 0;
+        unsigned long count = 0, rest = 0;
+        unsigned char* data = nullptr;
+        if (state != None)
+            property_(display, window, state, 0, 0, False, AnyPropertyType, &type, &format, &count, &rest,
+                      &data);
+        if (data) free_(data);
+        return type != None;
+    }
+    /// The window that a window manager holds, above `own`; without one the last below the root.
+    Window host() const noexcept {
+        for (Window at = own; !isManaged(own);) { // else that is a frame
+            Window root = None, parent = None, *children = nullptr;
+            unsigned int count = 0;
+            if (!tree_(display, at, &root, &parent, &children, &count)) break;
+            if (children) free_(children);
+            if (parent == root || parent == None) return at == own ? None : at;
+            if (isManaged(parent)) return parent;
+            at = parent;
+        }
+        return None;
+    }
 };
 
-bool isManaged(const X11& x, Window window) noexcept {
-    const Atom state = x.atom(x.display, "WM_STATE", True);
-    if (state == None) return false;
-    Atom type = None;
-    int format = 0;
-    unsigned long count = 0, rest = 0;
-    unsigned char* data = nullptr;
-    x.property(x.display, window, state, 0, 0, False, AnyPropertyType, &type, &format, &count, &rest, &data);
-    if (data) x.free(data);
-    return type != None;
-}
-
-/// The window that a window manager holds, above `inner`; without one the last below the root.
-Window topLevelAbove(const X11& x, Window inner, Window& root) noexcept {
-    for (Window at = inner;;) {
-        Window parent = None, *children = nullptr;
-        unsigned int count = 0;
-        if (!x.tree(x.display, at, &root, &parent, &children, &count)) return None;
-        if (children) x.free(children);
-        if (parent == root || parent == None) return at == inner ? None : at;
-        if (isManaged(x, parent)) return parent;
-        at = parent;
-    }
-}
-
-} // namespace
-
-bool sendToHost(void* nativeWindow, const HostKey& key) noexcept {
-    const X11 x;
-    if (!x.display || key.symbol == 0) return false;
-    Window root = None;
+void HostKeys::watch(void* nativeWindow) {
     const auto own = reinterpret_cast<Window>(nativeWindow);
-    const Window host = isManaged(x, own) ? None : topLevelAbove(x, own, root); // else that is a frame
-    const KeyCode code = x.code(x.display, key.symbol);
-    if (host == None || code == 0) return false;
-    XEvent event{};
-    event.xkey.display = x.display;
-    event.xkey.window = host;
-    event.xkey.root = root;
-    event.xkey.time = CurrentTime;
-    event.xkey.same_screen = True;
-    event.xkey.keycode = code;
-    event.xkey.state =
-        (key.shift ? ShiftMask : 0u) | (key.control ? ControlMask : 0u) | (key.alt ? Mod1Mask : 0u);
-    for (int kind = KeyPress; kind <= KeyRelease; ++kind) {
-        event.type = kind;
-        x.send(x.display, host, True, kind == KeyPress ? KeyPressMask : KeyReleaseMask, &event);
-    }
-    return true;
+    if (connection_ == nullptr) connection_ = std::make_shared<HostConnection>();
+    auto& x = *connection_;
+    if (x.own == own || !x.display) return;
+    x.own = own;
+    x.quietly([&] { x.select(x.display, own, KeyPressMask); });
+}
+
+bool HostKeys::send(unsigned long symbol) noexcept {
+    if (connection_ == nullptr || connection_->own == None) return false;
+    const auto& x = *connection_;
+    XEvent typed{};
+    x.quietly([&] {
+        const KeyCode code = x.code(x.display, symbol);
+        x.sync(x.display, False);
+        for (XEvent event; x.next(x.display, KeyPress, &event);)
+            if (event.xkey.keycode == code && event.xkey.window == x.own && !event.xkey.send_event)
+                typed = event;
+        typed.xkey.window = typed.type == KeyPress ? x.host() : None;
+        if (typed.xkey.window == None) return;
+        x.send(x.display, typed.xkey.window, True, KeyPressMask, &typed);
+        typed.type = KeyRelease;
+        x.send(x.display, typed.xkey.window, True, KeyReleaseMask, &typed);
+    });
+    return typed.type == KeyRelease;
 }
 
 // JUCE asks by the time of its last event; the server ignores what is older than another's.
-void takeKeys(void* nativeWindow) noexcept {
-    if (const X11 x; x.display)
-        x.focus(x.display, reinterpret_cast<Window>(nativeWindow), RevertToParent, CurrentTime);
+void HostKeys::take() noexcept {
+    if (connection_ == nullptr || connection_->own == None) return;
+    const auto& x = *connection_;
+    x.quietly([&] { x.focus(x.display, x.own, RevertToParent, CurrentTime); });
 }
 #else
-void takeKeys(void*) noexcept {}
-bool sendToHost(void*, const HostKey&) noexcept { return false; }
+void HostKeys::watch(void*) {}
+void HostKeys::take() noexcept {}
+bool HostKeys::send(unsigned long) noexcept { return false; }
 #endif
 
 } // namespace physvib

@@ -2,7 +2,6 @@
 // Layout of the plug-in's window, and its update from the processor 25 times a second.
 #include "PluginEditor.h"
 #include "EditorParts.h"
-#include "HostKeys.h"
 #include "PluginFiles.h"
 #include "PluginSettings.h"
 
@@ -142,6 +141,7 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
 
 PluginEditor::~PluginEditor() {
     stopTimer();
+    if (around_ != nullptr) around_->removeKeyListener(this);
     setLookAndFeel(nullptr);
 }
 
@@ -253,16 +253,19 @@ juce::TextEditor* PluginEditor::openBox() const {
     return isParentOf(value) ? value->getCurrentTextEditor() : nullptr;
 }
 
+// Keys without a focus, such as those after a value was typed, come to what the wrapper has around this.
+void PluginEditor::listenAround() {
+    if (auto* const peer = getPeer()) host_.watch(peer->getNativeHandle());
+    if (auto* const around = getTopLevelComponent(); around != this && around_ == nullptr)
+        (around_ = around)->addKeyListener(this);
+}
+
 // A value's box gets the keys also before it has the keyboard (refresh). While anything is open, none is the
 // host's.
 bool PluginEditor::keyPressed(const juce::KeyPress& key) {
     if (auto* const box = openBox()) return box->keyPressed(key);
-    if (juce::Component::getCurrentlyModalComponent() != nullptr) return false;
-    const auto* const peer = getPeer();
-    const auto mods = key.getModifiers();
-    return peer != nullptr && !key.isKeyCode(juce::KeyPress::escapeKey) &&
-           sendToHost(peer->getNativeHandle(), {keySymbolOf(key.getKeyCode()), mods.isShiftDown(),
-                                                mods.isCtrlDown(), mods.isAltDown()});
+    return juce::Component::getCurrentlyModalComponent() == nullptr &&
+           !key.isKeyCode(juce::KeyPress::escapeKey) && host_.send(keySymbolOf(key.getKeyCode()));
 }
 
 MixHands PluginEditor::hands(bool areChecked) {
@@ -355,8 +358,9 @@ void PluginEditor::refresh() {
     if (plugin_.stateCount() != shown_) stateChanged();
     if (plugin_.noteKnobs() != knobs_) readKnobs();
     followLearning();
+    listenAround();
     if (auto* const box = openBox(); box && !box->hasKeyboardFocus(false)) {
-        takeKeys(getPeer()->getNativeHandle());
+        host_.take();
         box->grabKeyboardFocus();
     }
     const auto hits = plugin_.drainEvents();
@@ -372,7 +376,7 @@ void PluginEditor::refresh() {
                    meters.peaks});
     mix_.update(meters);
     const int outputs = plugin_.outputs();
-    fold_.setVisible(outputs > 0 && meters.connected < enchantersOf(state_));
+    fold_.setVisible(outputs > 0 && outputText(meters).isNotEmpty());
     fold_.setButtonText("Use " + juce::String{outputs});
     const bool isSilent = plugin_.isStopped() || plugin_.parameter(Parameter::bypass).value() > 0.5;
     silence_.setToggleState(isSilent, juce::dontSendNotification);
@@ -428,7 +432,7 @@ juce::String PluginEditor::latencyText() const {
 
 juce::String PluginEditor::outputText(const ChannelMeters& meters) const {
     const int actuators = enchantersOf(state_);
-    if (meters.connected >= actuators) return {};
+    if (meters.enchanters == 0 || meters.connected >= actuators) return {}; // 0: no take yet
     juce::StringArray lost;
     for (int j = 0; j < actuators; ++j)
         if (const auto one = static_cast<std::size_t>(j); !meters.isConnected[one])
@@ -437,18 +441,13 @@ juce::String PluginEditor::outputText(const ChannelMeters& meters) const {
            " actuators: not felt " + lost.joinIntoString(", ");
 }
 
-// A host that goes ahead of time, or a world that takes longer than that.
-juce::String PluginEditor::steppingText(const TakesStatus& status) const {
-    if (status.aheadBlocks <= aheadBefore_) return {};
-    return "   |   the host waits for the world (ahead of time, or the world is too heavy)";
-}
-
 juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMeters& meters) const {
     if (plugin_.preparedRateHz() == 0 || plugin_.takes().outputLatencyFrames() == 0)
         return "The host has not started the plug-in yet.";
     const auto& r = status.session.render;
     juce::String line = latencyText() + outputText(meters);
-    line << steppingText(status);
+    if (status.aheadBlocks > aheadBefore_)
+        line << "   |   the host waits for the world (ahead of time, or the world is too heavy)";
     if (const auto* music = plugin_.getBus(true, 0);
         music && !music->isEnabled() &&
         (plugin_.parameter(Parameter::beats).value() > 0.0 ||

@@ -3,6 +3,7 @@
 #pragma once
 #include "Host/Views/EmergencyStop.h"
 #include "Host/Views/WorldView.h"
+#include "HostKeys.h"
 #include "MidiPanels.h"
 #include "MixPanel.h"
 #include "PluginProcessor.h"
@@ -37,6 +38,7 @@ private:
 
 class PluginEditor final : public juce::AudioProcessorEditor,
                            public juce::FileDragAndDropTarget,
+                           private juce::KeyListener,
                            private juce::Timer {
 public:
     explicit PluginEditor(PluginProcessor& plugin);
@@ -57,6 +59,7 @@ public:
     void paint(juce::Graphics& g) override;
     void resized() override;
     bool keyPressed(const juce::KeyPress& key) override; ///< that no control has used
+    bool keyPressed(const juce::KeyPress& key, juce::Component*) override { return keyPressed(key); }
     bool isInterestedInFileDrag(const juce::StringArray& files) override {
         return files.size() == 1 && files[0].endsWithIgnoreCase(".json");
     }
@@ -84,7 +87,6 @@ private:
     void timerCallback() override { refresh(); }
     void stateChanged();
     void readKnobs();
-    juce::String steppingText(const TakesStatus& status) const;
     juce::String latencyText() const;
     juce::String outputText(const ChannelMeters& meters) const;
     void fillGroups();
@@ -100,6 +102,7 @@ private:
     void followLearning();
     void silence();
     bool closesFirst();
+    void listenAround();
     juce::TextEditor* openBox() const; // in which a value is typed; null: none
     void fillPresets();
     void edit(const std::function<void(PluginState&)>& change);
@@ -117,6 +120,8 @@ private:
         direct_{"Direct"}, tempo_{"Tempo"}, fold_;
     juce::ButtonParameterAttachment silenceAttachment_;
     WorldView world_;
+    HostKeys host_;
+    juce::Component::SafePointer<juce::Component> around_;
     MidiPanel midiPanel_;
     MixPanel mix_;
     KeyboardPanel keys_;

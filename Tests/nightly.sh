@@ -40,7 +40,7 @@ step() {
         jalv) ensure_packages jalv && Tests/Plugin/Formats/jalv.sh "$PWD/build/release" 5 ;;
         ardour) ensure_packages $physvib_host_packages && for format in lv2 vst3; do Tests/Plugin/Formats/ardour-song.sh build/release $format || return 1; done ;;
         daws) Tests/Plugin/Formats/Daws/daws.sh build/release build/nightly/daws ;;
-        keys) ensure_packages jalv openbox xdotool imagemagick xvfb jackd2 && Tests/Plugin/Formats/Daws/keys.sh build/release build/nightly/keys ;;
+        keys) ensure_packages jalv ardour qtractor openbox xdotool imagemagick x11-utils xvfb jackd2 && Tests/Plugin/Formats/Daws/keys.sh build/release build/nightly/keys ;;
         hosts) Tests/Plugin/hosts.sh build/release ;;
         apply) ensure_packages $physvib_apply_packages && Tests/Plugin/Formats/apply.sh "$PWD/build/release" ;;
         live) Tests/Live/soak.sh ;;

@@ -181,15 +181,14 @@ TEST(Knobs, ATailIsAsLongAsTheyMakeIt) {
     EXPECT_GT(tailSeconds(state, longer), 3.0);
 }
 
-bool isKnobShown(const juce::Component& in, const juce::String& title) {
-    return std::ranges::any_of(in.getChildren(), [&](const juce::Component* child) {
-        return child->isVisible() && (child->getTitle() == title || isKnobShown(*child, title));
-    });
-}
-
 TEST(Knobs, TheWindowShowsThoseThatThePresetUses) {
     TestHost host;
-    const auto shows = [&](PluginEditor& editor, const char* name) { return isKnobShown(editor, name); };
+    const auto shows = [&](PluginEditor& editor, const char* name) {
+        const auto* knob =
+            below<juce::Component>(editor, [&](const auto& c) { return c.getTitle() == name; });
+        for (; knob != nullptr && knob != &editor && knob->isVisible();) knob = knob->getParentComponent();
+        return knob == &editor;
+    };
     const auto choose = [&](const char* name) {
         host.plugin->choose(static_cast<int>(std::ranges::find(presetNames(), name) - presetNames().begin()));
     };

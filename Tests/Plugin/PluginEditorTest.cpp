@@ -43,15 +43,6 @@ TEST(PluginEditor, OpensFiftyTimesWhileItPlays) {
     }
 }
 
-juce::Label* labelWith(juce::Component& in, const juce::String& text) {
-    for (auto* child : in.getChildren()) {
-        if (auto* label = dynamic_cast<juce::Label*>(child); label && label->getText().contains(text))
-            return label;
-        if (auto* found = labelWith(*child, text)) return found;
-    }
-    return nullptr;
-}
-
 TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
     TestHost host;
     host.plugin->setCurrentProgram(static_cast<int>(builtInScenes().size()));
@@ -59,7 +50,8 @@ TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
     auto editor = openEditor(*host.plugin);
     host.block(512);
     editor->refresh();
-    auto* const words = labelWith(*editor, "Press a key below");
+    auto* const words = below<juce::Label>(
+        *editor, [](const auto& label) { return label.getText().contains("Press a key below"); });
     ASSERT_NE(words, nullptr);
     EXPECT_TRUE(words->isVisible());
     juce::MidiBuffer midi;
@@ -116,15 +108,6 @@ TEST(PluginEditor, ShowsTheWorldMoving) {
     }
 }
 
-juce::Button* buttonOf(juce::Component& in, const juce::String& words) {
-    for (auto* child : in.getChildren()) {
-        if (auto* button = dynamic_cast<juce::Button*>(child); button && button->getButtonText() == words)
-            return button;
-        if (auto* found = buttonOf(*child, words)) return found;
-    }
-    return nullptr;
-}
-
 TEST(PluginEditor, ItsLowerEdgeHelpsWithWhatIsUnderTheMouse) {
     TestHost host;
     auto editor = openEditor(*host.plugin);
@@ -165,10 +148,8 @@ TEST(PluginEditor, ComesBackInTheSizeItWasLeftInAlsoFromAChunk) {
     EXPECT_EQ(openEditor(*other.plugin)->getHeight(), 600);
 }
 
-bool hasControl(const juce::Component& in, const juce::String& title) {
-    return in.getTitle() == title || std::ranges::any_of(in.getChildren(), [&](const auto* child) {
-               return hasControl(*child, title);
-           });
+bool hasControl(juce::Component& in, const juce::String& title) {
+    return below<juce::Component>(in, [&](const auto& c) { return c.getTitle() == title; }) != nullptr;
 }
 
 TEST(PluginEditor, HasBeatsWhereThereIsASideChainAndSaysWhereThatIsOff) {

@@ -124,4 +124,18 @@ inline float peakOf(const Samples& signal) {
     return peak;
 }
 
+/// The first component below `in` that is a Kind and `is`; null if there is none.
+template <class Kind, class Is>
+Kind* below(juce::Component& in, const Is& is) {
+    for (auto* child : in.getChildren()) {
+        if (auto* const one = dynamic_cast<Kind*>(child); one && is(*one)) return one;
+        if (auto* const found = below<Kind>(*child, is)) return found;
+    }
+    return nullptr;
+}
+
+inline juce::Button* buttonOf(juce::Component& in, const juce::String& words) {
+    return below<juce::Button>(in, [&](const auto& button) { return button.getButtonText() == words; });
+}
+
 } // namespace physvib::test

@@ -156,12 +156,9 @@ TEST(Width, TheWindowNamesTheActuatorsThatAreLostAndFoldsThem) {
     editor->refresh();
     EXPECT_TRUE(editor->statusText().contains("2 outputs for 4 actuators: not felt C, D"))
         << editor->statusText();
-    for (auto* const child : editor->getChildren())
-        if (auto* const button = dynamic_cast<juce::TextButton*>(child);
-            button && button->getButtonText() == "Use 2") {
-            EXPECT_TRUE(button->isVisible());
-            button->onClick();
-        }
+    auto* const fold = buttonOf(*editor, "Use 2");
+    ASSERT_TRUE(fold != nullptr && fold->isVisible());
+    fold->onClick();
     EXPECT_EQ(host.plugin.state().layout.name, "phone2");
     EXPECT_EQ(host.plugin.state().scene.name, "Keys");
 }

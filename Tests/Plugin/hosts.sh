@@ -26,8 +26,8 @@ logged() { # STEP PATTERN: of its log, each line once
 # of lines with sizes: the least and the most
 span() { awk '{ for (i = 1; i < NF; ++i) if ($(i + 1) == "bytes,") { n = $i; least = !c || n < least ? n : least; most = n > most ? n : most; ++c } } END { printf "%d to %d bytes, %d presets\n", least, most, c }'; }
 
-logged keys 'values typed' | row F1 'typed values went to the host after a list or a click: 5 of 7 ways' 'Formats/Daws/keys.sh (jalv)'
-logged keys 'values typed' | sed 's/.*typed, //; s/;.*//' | sort | uniq -c | sed 's/^ *\([0-9]*\)/\1 window managers:/' |
+logged keys 'values typed' | row F1 'typed values went to the host after a list or a click: 5 of 7 ways' 'Formats/Daws/keys.sh'
+logged keys 'values typed' | sed 's/.*typed, //; s/;.*//' | sort | uniq -c | sed 's/^ *\([0-9]*\)/\1 hosts under window managers:/' |
     row F2 'Esc that closes a list silenced, 6 of 6, and a session kept it' 'Formats/Daws/keys.sh; kept: HostKeys.WhatNoControlUses...'
 logged ardour '^stem' | sed 's/recording: //' | row F3 "Ardour's stem export: one MIDI file, no sound" 'Formats/ardour-song.sh, LV2 and VST3'
 tested plugin 'PluginChunk.APresetIsTheSame*' | row F4 'a preset was another after other presets: 6 of 6 ways to a world' 'PluginChunk.APresetIsTheSameWhateverWasChosenBefore'

@@ -2,6 +2,7 @@
 // SILENCE clicked in the window that a module opens in its host: it stays pressed, and nothing moves any
 // more. Needs a display.
 #include "Plugin/Formats/Player.h"
+#include "Plugin/PluginTesting.h"
 #include "PluginEditor.h"
 #include <cstdlib>
 // X11's macros come last
@@ -12,21 +13,12 @@ namespace {
 
 using namespace test;
 
-juce::Button* silenceIn(juce::Component& in) {
-    for (auto* child : in.getChildren()) {
-        if (auto* button = dynamic_cast<juce::Button*>(child); button && button->getButtonText() == "SILENCE")
-            return button;
-        if (auto* found = silenceIn(*child)) return found;
-    }
-    return nullptr;
-}
-
 /// Where the button is in a window of that size; the module's own cannot be looked into.
 juce::Point<int> placeOfSilence(int width, int height) {
     PluginProcessor plugin{"PhysVib", BusPlan{}};
     const std::unique_ptr<juce::AudioProcessorEditor> editor{plugin.createEditorIfNeeded()};
     editor->setSize(width, height);
-    auto* const button = silenceIn(*editor);
+    auto* const button = buttonOf(*editor, "SILENCE");
     return button ? editor->getLocalPoint(button, button->getLocalBounds().getCentre()) : juce::Point<int>{};
 }
 
