@@ -11,19 +11,18 @@
 namespace physvib {
 namespace {
 
-void checkGroup(const Scene& scene, const std::vector<Action>& group) {
-    if (std::string fault = InputCheck{scene}.take(group); !fault.empty()) throw std::invalid_argument(fault);
-}
-
 // As many groups as a scene may have inputs at one look, since each look goes through all bodies: there may
 // be a hundred. Those that are wrong, or too much together, are looked at one by one.
 void checkGroups(const SessionSetup& setup) {
-    if (std::string fault = validate(setup.scene); !fault.empty()) throw std::invalid_argument(fault);
+    const auto require = [](const std::string& fault) {
+        if (!fault.empty()) throw std::invalid_argument(fault);
+    };
+    require(validate(setup.scene));
     std::vector<Action> together;
     std::size_t first = 0;
     const auto check = [&](std::size_t end) {
         if (!InputCheck{setup.scene}.take(together).empty())
-            for (std::size_t i = first; i < end; ++i) checkGroup(setup.scene, setup.groups[i]);
+            for (std::size_t i = first; i < end; ++i) require(InputCheck{setup.scene}.take(setup.groups[i]));
         together.clear();
         first = end;
     };

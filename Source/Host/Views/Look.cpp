@@ -4,6 +4,7 @@
 #include "Core/Limits.h"
 #include <array>
 #include <cmath>
+#include <initializer_list>
 
 namespace physvib {
 
@@ -129,38 +130,26 @@ void Look::setTheme(Theme theme) {
     for (std::size_t i = 0; i < all.size(); ++i) setColour(firstShadeId + static_cast<int>(i), all[i]);
     setColourScheme(
         {s.ground, s.well, s.panel, s.line, s.text, s.accent.withAlpha(0.35f), s.text, s.raised, s.text});
+    const auto give = [this](Colour colour, std::initializer_list<int> ids) {
+        for (const int id : ids) setColour(id, colour);
+    };
     setColour(ResizableWindow::backgroundColourId, s.ground);
-    setColour(ComboBox::backgroundColourId, s.raised);
-    setColour(ComboBox::outlineColourId, Colours::transparentBlack);
-    setColour(PopupMenu::backgroundColourId, s.panel);
+    give(s.raised, {ComboBox::backgroundColourId, TextButton::buttonColourId, Slider::backgroundColourId,
+                    Slider::rotarySliderOutlineColourId});
+    give(Colours::transparentBlack, {ComboBox::outlineColourId, Slider::textBoxOutlineColourId});
+    give(s.panel, {PopupMenu::backgroundColourId, TooltipWindow::backgroundColourId});
     setColour(PopupMenu::highlightedBackgroundColourId, s.accent.withAlpha(0.22f));
-    setColour(PopupMenu::highlightedTextColourId, s.text);
-    setColour(PopupMenu::headerTextColourId, s.muted);
-    setColour(TextEditor::backgroundColourId, s.well);
-    setColour(TextEditor::outlineColourId, s.line);
-    setColour(TextEditor::focusedOutlineColourId, s.accent);
-    setColour(TextButton::buttonColourId, s.raised);
+    give(s.text, {PopupMenu::highlightedTextColourId, TextButton::textColourOffId, TextButton::textColourOnId,
+                  ToggleButton::textColourId, Label::textColourId, Slider::thumbColourId,
+                  Slider::textBoxTextColourId, TooltipWindow::textColourId});
+    give(s.muted, {PopupMenu::headerTextColourId, ToggleButton::tickDisabledColourId});
+    give(s.well,
+         {TextEditor::backgroundColourId, ListBox::backgroundColourId, ProgressBar::backgroundColourId});
+    give(s.line, {TextEditor::outlineColourId, TooltipWindow::outlineColourId});
+    give(s.accent, {TextEditor::focusedOutlineColourId, ToggleButton::tickColourId, Slider::trackColourId,
+                    Slider::rotarySliderFillColourId, ProgressBar::foregroundColourId});
     setColour(TextButton::buttonOnColourId, s.accent.withAlpha(0.35f));
-    setColour(TextButton::textColourOffId, s.text);
-    setColour(TextButton::textColourOnId, s.text);
-    setColour(ToggleButton::textColourId, s.text);
-    setColour(ToggleButton::tickColourId, s.accent);
-    setColour(ToggleButton::tickDisabledColourId, s.muted);
-    setColour(Label::textColourId, s.text);
-    setColour(Slider::backgroundColourId, s.raised);
-    setColour(Slider::trackColourId, s.accent);
-    setColour(Slider::rotarySliderFillColourId, s.accent);
-    setColour(Slider::rotarySliderOutlineColourId, s.raised);
-    setColour(Slider::thumbColourId, s.text);
-    setColour(Slider::textBoxTextColourId, s.text);
-    setColour(Slider::textBoxOutlineColourId, Colours::transparentBlack);
     setColour(ScrollBar::thumbColourId, s.muted.withAlpha(0.75f));
-    setColour(TooltipWindow::backgroundColourId, s.panel);
-    setColour(TooltipWindow::textColourId, s.text);
-    setColour(TooltipWindow::outlineColourId, s.line);
-    setColour(ListBox::backgroundColourId, s.well);
-    setColour(ProgressBar::backgroundColourId, s.well);
-    setColour(ProgressBar::foregroundColourId, s.accent);
 }
 
 juce::Font Look::getTextButtonFont(juce::TextButton& button, int) {

@@ -256,10 +256,6 @@ double countOf(const CallSet& set) noexcept {
     return count;
 }
 
-} // namespace
-
-namespace {
-
 /// That every stimulus of a session with a levels file has a level there, of one of its alternatives.
 std::string levelsFault(const Protocol& p, const SessionPlan& s) {
     for (const ConditionPlan& c : p.conditions)

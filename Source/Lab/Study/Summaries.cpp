@@ -151,10 +151,6 @@ RatingSummary summarise(const std::string& condition, const Chosen& trials) {
     return summary;
 }
 
-} // namespace
-
-namespace {
-
 template <class Trial>
 using Groups = std::map<std::string, std::vector<const Trial*>>;
 

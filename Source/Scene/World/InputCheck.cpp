@@ -120,7 +120,7 @@ std::string InputCheck::take(std::span<const Action> actions) {
     const std::size_t known = inputs.size();
     for (const Action& action : actions) inputs.push_back({now, action});
     const std::string fault = validate(scene_);
-    const auto first = inputs.begin() + static_cast<std::ptrdiff_t>(known);
+    const auto first = inputs.end() - std::ssize(actions);
     std::vector<LiveInput> taken{std::move_iterator{first}, std::move_iterator{inputs.end()}};
     inputs.erase(first, inputs.end());
     for (std::size_t i = known; !fault.empty() && i < known + actions.size(); ++i)

@@ -303,8 +303,8 @@ bool hasOneEach(const LoadedClip& sound) { return sound.channels.size() > 1 && s
 
 bool namesSound(std::string_view file) {
     const std::string small = lowerCase(std::string{file});
-    const auto ends = [&](std::string_view ending) { return small.ends_with(ending); };
-    return clipFormatOf(file) || std::ranges::any_of(soundEndings, ends);
+    return clipFormatOf(file) ||
+           std::ranges::any_of(soundEndings, [&](auto ending) { return small.ends_with(ending); });
 }
 
 Result<LoadedClip> takeSound(RenderJob& options, std::string_view device, LoadedRender& job) {
