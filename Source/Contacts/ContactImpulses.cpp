@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace physvib {
@@ -126,12 +125,10 @@ std::int32_t MomentumImpulses::know(const ReportedBodies& bodies, std::int32_t i
     return static_cast<std::int32_t>(bodies_.size()) - 1;
 }
 
-MomentumImpulses::Row MomentumImpulses::rowOf(const ReportedBodies& bodies, std::size_t point,
+MomentumImpulses::Row MomentumImpulses::rowOf(const ReportedBodies& bodies, const Point& of,
                                               Vector3 way) const {
-    const Point& of = points_[point];
-    const auto find = [&](std::int32_t id) { return bodyOf_.find(ReportedBodies::idOf(id)); };
-    Row made{.a = find(of.idA),
-             .b = find(of.idB),
+    Row made{.a = of.a,
+             .b = of.b,
              .way = way,
              .leverA = bodies.lever(of.idA, of.place, way),
              .leverB = bodies.lever(of.idB, of.place, way)};
@@ -147,13 +144,16 @@ MomentumImpulses::Row MomentumImpulses::rowOf(const ReportedBodies& bodies, std:
     return made;
 }
 
+MomentumImpulses::Row& MomentumImpulses::addRow(const ReportedBodies& bodies, const Point& of, Vector3 way) {
+    rows_.push_back(rowOf(bodies, of, way));
+    return rows_.back();
+}
+
 std::size_t MomentumImpulses::add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
                                   Vector3 normal) {
-    know(bodies, a);
-    know(bodies, b);
-    points_.push_back({a, b, point});
-    rows_.push_back(rowOf(bodies, points_.size() - 1, normal));
-    isInPlane_ = isInPlane_ && isInPlane(rows_.back());
+    points_.push_back({a, b, know(bodies, a), know(bodies, b), point});
+    const Row& row = addRow(bodies, points_.back(), normal);
+    isInPlane_ = isInPlane_ && isInPlane(row);
     return points_.size() - 1;
 }
 
@@ -199,8 +199,8 @@ bool MomentumImpulses::isInPlane(const Row& row) const {
 }
 
 void MomentumImpulses::solve() {
-    swept_.resize(rows_.size());
-    std::iota(swept_.begin(), swept_.end(), std::size_t{0});
+    swept_.clear();
+    for (std::size_t i = 0; i < rows_.size(); ++i) swept_.push_back(static_cast<std::int32_t>(i));
     sweep();
 }
 
@@ -229,28 +229,28 @@ void MomentumImpulses::solveFriction(const ReportedBodies& bodies) {
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const std::size_t across = points_[i].across;
             if (across == 0 || points_[i].isStruck != isStruck) continue;
-            swept_.insert(swept_.end(), {i, across, across + 1});
+            for (const std::size_t row : {i, across, across + 1})
+                swept_.push_back(static_cast<std::int32_t>(row));
         }
     sweep();
 }
 
-// The bounds stay, or the sweeps would not settle: friction and the impulse that bounds it would drive each
-// other.
+// The bounds stay: friction and the impulse that bounds it would drive each other for ever.
 void MomentumImpulses::addFriction(const ReportedBodies& bodies, std::size_t point) {
-    const auto leftOf = [&](Vector3 way) {
-        const Row row = rowOf(bodies, point, way);
-        return static_cast<float>(row.change - found(row));
-    };
+    Vector3 left;
+    for (const Vector3 axis : {Vector3{1.0F}, Vector3{0.0F, 1.0F}, Vector3{0.0F, 0.0F, 1.0F}}) {
+        const Row row = rowOf(bodies, points_[point], axis);
+        left += static_cast<float>(row.change - found(row)) * axis;
+    }
     const Vector3 normal = rows_[point].way;
-    const Vector3 left{leftOf({1.0F, 0.0F, 0.0F}), leftOf({0.0F, 1.0F, 0.0F}), leftOf({0.0F, 0.0F, 1.0F})};
     const Vector3 slide = left - static_cast<float>(dot(left, normal)) * normal;
     const float length = slide.length();
     const Vector3 along = length > 0.0F ? 1.0F / length * slide : Vector3{};
     points_[point].across = rows_.size();
     for (const Vector3 way : {along, cross(normal, along)}) {
-        rows_.push_back(rowOf(bodies, point, way));
-        rows_.back().most = roughest * rows_[point].newtonSeconds;
-        rows_.back().least = -rows_.back().most;
+        Row& row = addRow(bodies, points_[point], way);
+        row.most = roughest * rows_[point].newtonSeconds;
+        row.least = -row.most;
     }
 }
 
@@ -273,9 +273,10 @@ Vector3 MomentumImpulses::friction(std::size_t point) const {
 void MomentumImpulses::sweep() {
     for (int sweep = 0; sweep < mostMomentumSweeps; ++sweep) {
         double change = 0.0, strongest = 0.0;
-        for (const std::size_t row : swept_) {
-            change = std::max(change, relax(rows_[row]));
-            strongest = std::max(strongest, std::abs(rows_[row].newtonSeconds));
+        for (const std::int32_t at : swept_) {
+            Row& row = rows_[static_cast<std::size_t>(at)];
+            change = std::max(change, relax(row));
+            strongest = std::max(strongest, std::abs(row.newtonSeconds));
         }
         if (change <= enough * strongest) return;
     }

@@ -186,8 +186,7 @@ public:
                     Vector3 normal);
     void solve();
     void strike(std::size_t point); ///< Something new happens to its bodies.
-    /// After solve() and strike(): at most 1.5 times what each impulse along a normal is then, whatever the
-    /// surfaces are.
+    /// After solve() and strike(): at most 1.5 times what each impulse along a normal is then.
     void solveFriction(const ReportedBodies& bodies);
     double newtonSeconds(std::size_t point) const { return rows_[point].newtonSeconds; }
     Vector3 friction(std::size_t point) const; ///< N s on B
@@ -201,20 +200,21 @@ private:
         InverseInertia turning;
         int from = 0; // 1: struck; 2 and 3: its neighbours, and theirs
     };
-    struct Row {                     // an impulse in one direction
+    struct Row {                     // an impulse one way
         std::int32_t a, b;           // bodies, or none: immovable
         Vector3 way, leverA, leverB; // on B; m
         double change = 0.0; // m/s by which the contact has changed the speed of A along it, seen from B
         double effectiveKg = 0.0, newtonSeconds = 0.0, least = 0.0, most = HUGE_VAL;
     };
     struct Point {
-        std::int32_t idA, idB;
+        std::int32_t idA, idB, a, b; // as of a row
         Vector3 place;
-        std::size_t across = 0; // the first of its two rows of friction; 0: it has none
+        std::size_t across = 0; // the first of two rows of friction; 0: none
         bool isStruck = false;
     };
     std::int32_t know(const ReportedBodies& bodies, std::int32_t id);
-    Row rowOf(const ReportedBodies& bodies, std::size_t point, Vector3 way) const;
+    Row rowOf(const ReportedBodies& bodies, const Point& of, Vector3 way) const;
+    Row& addRow(const ReportedBodies& bodies, const Point& of, Vector3 way);
     void addFriction(const ReportedBodies& bodies, std::size_t point);
     bool isInPlane(const Row& row) const;
     double found(const Row& row) const; // of its change
@@ -227,8 +227,8 @@ private:
     std::vector<Body> bodies_;
     IntegerMap bodyOf_; // by ReportedBodies::idOf()
     std::vector<Point> points_;
-    std::vector<Row> rows_;          // along the points' normals, then across
-    std::vector<std::size_t> swept_; // rows, in the order of a sweep
+    std::vector<Row> rows_; // along the points' normals, then across
+    std::vector<std::int32_t> swept_;
 };
 
 // Converts the lasting contacts (rolling, sliding) that an engine reports per step to tracked points.

@@ -46,18 +46,16 @@ private:
     }
     // To the world at once: in one that is slow each would wait for a step, and Esc for all of them.
     bool run(bool isForth) {
-        SceneDrawing drawing = world_.drawing_;
-        SceneEdit edit = edit_;
+        const SceneDrawing before = world_.drawing_;
         std::vector<Action> actions;
-        edit.run(isForth, drawing, world_.posesNow(), [&](const Action& action) {
-            drawing.take(action);
+        edit_.run(isForth, world_.drawing_, world_.posesNow(), [&](const Action& action) {
+            world_.drawing_.take(action);
             actions.push_back(action);
         });
-        if (std::string fault = world_.session_.submit({std::span<const Action>{actions}}).error;
-            !fault.empty())
+        if (auto fault = world_.session_.submit({std::span<const Action>{actions}}).error; !fault.empty()) {
+            world_.drawing_ = before;
             return world_.refused_ = std::move(fault), false;
-        edit_ = std::move(edit);
-        world_.drawing_ = std::move(drawing);
+        }
         for (const Action& action : actions) world_.acted(isLasting(action));
         return true;
     }
