@@ -253,7 +253,7 @@ juce::TextEditor* PluginEditor::openBox() const {
     return isParentOf(value) ? value->getCurrentTextEditor() : nullptr;
 }
 
-// Keys without a focus, such as those after a value was typed, come to what the wrapper has around this.
+// Keys without a focus, as after a value was typed, come to what the wrapper has around this.
 void PluginEditor::listenAround() {
     if (auto* const peer = getPeer()) host_.watch(peer->getNativeHandle());
     if (auto* const around = getTopLevelComponent(); around != this && around_ == nullptr)

@@ -49,7 +49,7 @@ struct Input {
     static constexpr std::int64_t now = std::numeric_limits<std::int64_t>::min();
 
     /// An Action acts in the world; a RenderControl changes how later events are rendered. Of several
-    /// actions, which the caller keeps alive during the call, all act or none.
+    /// edits, which the caller keeps alive during the call, all act or none.
     std::variant<Action, std::span<const Action>, RenderControl, PlayedRecordings, Strikes, Stop, Lanes> what;
     /// Session time at which it acts. Strikes and Stop may be in the future; if that time is past they are
     /// late. All other inputs act now.
