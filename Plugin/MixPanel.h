@@ -16,7 +16,7 @@ struct MixHands {
 };
 
 /// M only.
-class MixStrip final : public juce::Component {
+class MixStrip final : public ChannelStrip {
 public:
     static constexpr int width = 80;
 
@@ -28,7 +28,6 @@ public:
 
 private:
     void change(const std::function<void(Strip&)>& how);
-    void askDelay();
     void askActuator();
     void chooseActuator(const std::string& nameOrPath);
     void equalise(bool on);
@@ -36,17 +35,11 @@ private:
     const MixHands& hands_;
     const std::size_t index_;
     const juce::String label_;
-    Strip strip_;
     EnchanterDescription enchanter_;
     bool isSilent_ = false, isEqualised_ = false, isConnected_ = true;
     float hold_ = 0.0f;
     double holdUntilMs_ = 0.0;
-    PeakMeter meter_;
-    Fader fader_;
-    CeilingHandle ceiling_;
-    juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"},
-        actuator_;
-    juce::Label level_, most_;
+    juce::TextButton actuator_;
     std::unique_ptr<juce::FileChooser> chooser_;
 };
 
@@ -68,9 +61,8 @@ private:
     Fader level_;
     juce::SliderParameterAttachment levelAttachment_;
     juce::TextButton limiter_{"Limiter"};
-    float limiterGain_ = 1.0f; // or the guard's
-    bool isGuard_ = false;
-    juce::Rectangle<int> levelName_, levelValue_, limiterBar_, limiterValue_;
+    LimiterBar limiterBar_;
+    juce::Rectangle<int> levelName_, levelValue_, limiterValue_;
 };
 
 } // namespace physvib

@@ -112,7 +112,7 @@ private:
 
     PluginProcessor& plugin_;
     Look look_;
-    juce::TooltipWindow tooltips_{this};
+    Tips tooltips_{*this};
     juce::Label title_, status_, seedName_, stepsName_, firstSteps_;
     juce::ComboBox scene_, layout_, steps_;
     juce::TextEditor seed_;

@@ -75,6 +75,17 @@ bool isPlayedOtherwise(const SavedSession& session) {
            session.run.location != ImpactLocation::contact;
 }
 
+std::string lowerStrips(const DeskLimits& limits, PluginState& state, double& levelDb) {
+    Mix mix;
+    mix.layout = state.layout;
+    mix.strips = state.strips;
+    mix.levelDb = levelDb;
+    auto lowered = lowerByChannel(limits, mix);
+    state.strips = std::move(mix.strips);
+    levelDb = mix.levelDb;
+    return lowered;
+}
+
 /// A preset sounds as it is meant, up to the level, the strips and the limiter of this instance; strikes and
 /// music up to what they are here or what is usual.
 Result<OpenedFile> openPreset(const std::filesystem::path& path, const PluginState& now) {
@@ -84,16 +95,12 @@ Result<OpenedFile> openPreset(const std::filesystem::path& path, const PluginSta
     if (const auto fault = faultOfParameters(state); !fault.empty())
         return Failure{path.string() + ": " + fault};
     fitToLayout(state);
-    Mix mix;
-    mix.layout = state.layout;
-    mix.strips = state.strips;
-    mix.levelDb = valueIn(state, Parameter::level);
-    std::string lowered = lowerByChannel(limitsOf(now), mix);
+    double levelDb = valueIn(state, Parameter::level);
+    std::string lowered = lowerStrips(limitsOf(now), state, levelDb);
     const auto also = [&lowered](const char* what) {
         lowered += (lowered.empty() ? "" : "; ") + std::string{what};
     };
-    state.strips = std::move(mix.strips);
-    setParameter(state, Parameter::level, mix.levelDb);
+    setParameter(state, Parameter::level, levelDb);
     for (const auto& [which, usual] :
          {std::pair{Parameter::strikeLevel, usualStrikeDb(state)}, {Parameter::music, 0.0}}) {
         const double most = std::max(valueIn(now, which), usual);
@@ -125,15 +132,10 @@ Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state
     case FileKind::layout: {
         auto layout = loadLayout(path);
         if (!layout) return Failure{layout.error};
-        const DeskLimits limits = limitsOf(state);
+        DeskLimits limits = limitsOf(state);
         state.layout = std::move(layout.value);
         fitToLayout(state);
-        Mix mix;
-        mix.layout = state.layout;
-        mix.strips = state.strips;
-        mix.levelDb = limits.levelDb;
-        const std::string lowered = lowerByChannel(limits, mix);
-        state.strips = std::move(mix.strips);
+        const std::string lowered = lowerStrips(limits, state, limits.levelDb);
         return OpenedFile{std::move(state), noteOf(path, lowered)};
     }
     case FileKind::session: {

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <regex>
+#include <set>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,6 +25,15 @@ struct Outcome {
 /// Where a help text lists subcommands, if it does; CLI11 2.6 has capitals.
 inline std::size_t subcommandsIn(const std::string& help) {
     return std::min(help.find("\nSubcommands:\n"), help.find("\nSUBCOMMANDS:\n"));
+}
+
+/// What the first group of the pattern matched, each once.
+inline std::set<std::string> wordsIn(const std::string& text, const char* pattern) {
+    const std::regex wanted{pattern};
+    std::set<std::string> words;
+    for (auto at = std::sregex_iterator{text.begin(), text.end(), wanted}; at != std::sregex_iterator{}; ++at)
+        words.insert(at->str(1));
+    return words;
 }
 
 /// A fresh folder per test; paths in calls are relative to it.

@@ -3,8 +3,6 @@
 #include "CommandLine/Calls.h"
 #include <algorithm>
 #include <iterator>
-#include <regex>
-#include <set>
 #include <sstream>
 
 namespace physvib::test {
@@ -18,19 +16,11 @@ protected:
         zsh_ = read("told/zsh/_physvib");
         fish_ = read("told/fish/physvib.fish");
     }
-    std::set<std::string> found(const std::string& text, const char* pattern) const {
-        const std::regex wanted{pattern};
-        std::set<std::string> words;
-        for (auto at = std::sregex_iterator{text.begin(), text.end(), wanted}; at != std::sregex_iterator{};
-             ++at)
-            words.insert(at->str(1));
-        return words;
-    }
     /// What --help lists as subcommands.
     std::set<std::string> commandsOf(const std::string& help) const {
         const auto begin = subcommandsIn(help);
         return begin == std::string::npos ? std::set<std::string>{}
-                                          : found(help.substr(begin), "\n  ([a-z-]+)");
+                                          : wordsIn(help.substr(begin), "\n  ([a-z-]+)");
     }
     /// Lines of a page as a reader sees them, near enough.
     std::string page(const std::string& name) const {
@@ -48,7 +38,7 @@ protected:
     }
     void holdsAllOf(const std::string& command, const std::string& pageName) const {
         const std::string help = call(command + " --help").out, manual = page(pageName);
-        const auto options = found(help, "\n +(?:-[a-z], *)?(--[a-z][a-z-]*)");
+        const auto options = wordsIn(help, "\n +(?:-[a-z], *)?(--[a-z][a-z-]*)");
         EXPECT_TRUE(options.contains("--help")) << command;
         for (const std::string& option : options) {
             EXPECT_NE(manual.find(option), std::string::npos) << command << ' ' << option;

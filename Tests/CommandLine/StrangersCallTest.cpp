@@ -3,8 +3,6 @@
 // and no link leads them out of their folder.
 #include "CommandLine/Calls.h"
 #include <algorithm>
-#include <regex>
-#include <set>
 
 namespace physvib {
 namespace {
@@ -28,14 +26,6 @@ protected:
                 R"("conditions": [{"name": "c", "stimuli": "calls", "factors": [{"name": "a", "values": [)" +
                 a + R"(]}, {"name": "b", "values": [)" + b + R"(]}], "call": ")" + words +
                 R"("}], "sessions": [{"name": "s"}]})");
-    }
-    std::set<std::string> wordsIn(const std::string& text, const char* pattern) const {
-        const std::regex wanted{pattern};
-        std::set<std::string> words;
-        for (auto at = std::sregex_iterator{text.begin(), text.end(), wanted}; at != std::sregex_iterator{};
-             ++at)
-            words.insert(at->str(1));
-        return words;
     }
     /// The long options of a command, and of those within it.
     std::set<std::string> optionsOf(const std::string& command) const {

@@ -205,6 +205,19 @@ TEST(Drawing, ARefusedEditLeavesNoStepAndNoHalf) {
     EXPECT_EQ(board.model.undoManager().getUndoDescriptions().size(), steps);
 }
 
+TEST(Drawing, WhatDoesNotVibrateIsNoHapticSourceAndIsToldInWords) {
+    Board board;
+    const auto& materials = board.drawn().materials;
+    board.pane.setMaterial(
+        static_cast<int>(std::ranges::find(materials, 0.0, &Material::frequencyHz) - materials.begin()));
+    board.key('b');
+    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
+    auto& source = dynamic_cast<juce::Button&>(*find(board.view, "Haptic source"));
+    source.setToggleState(true, juce::sendNotificationSync);
+    EXPECT_TRUE(board.model.trouble().contains("vibrates")) << board.model.trouble();
+    EXPECT_FALSE(source.getToggleState());
+}
+
 TEST(Drawing, ASeesawIsPinnedToTheFieldAndStartsAnewAsItWasDrawn) {
     Board board;
     board.key('x');

@@ -57,15 +57,21 @@ TEST(TakesTab, ListsNamesAndLengthsAndWhatIsRecordedLater) {
     EXPECT_EQ(taken.list().getModel()->getNameForRow(0), "another, 1:15") << "the newest first";
 }
 
-TEST(TakesTab, ATakeIsPlayedEachChannelOnItsActuator) {
+TEST(TakesTab, ATakeIsPlayedEachChannelOnItsActuatorUntilItIsStopped) {
     Taken taken;
+    taken.folder("hands-take.wav").deleteFile();
+    writeTake(taken.folder("hands-take.wav"), 60.0);
+    taken.takes->look();
     taken.takes->choose(0);
-    taken.button("Play the take on the device").onClick();
-    EXPECT_TRUE(runUntil([&] {
-        taken.view.refresh();
-        return taken.view.latest().meters.peaks[2] > 0.01f;
-    })) << taken.model.trouble();
+    auto& play = taken.button("Play the take on the device");
+    const auto isFelt = [&] { return taken.view.refresh(), taken.view.latest().meters.peaks[2] > 0.01f; };
+    play.onClick();
+    EXPECT_TRUE(runUntil(isFelt)) << taken.model.trouble();
     EXPECT_EQ(taken.view.latest().meters.peaks[0], 0.0f);
+    EXPECT_EQ(play.getButtonText(), "Stop");
+    play.onClick();
+    EXPECT_TRUE(runUntil([&] { return !isFelt(); })) << "long before its end";
+    EXPECT_EQ(play.getButtonText(), "Play");
 }
 
 TEST(TakesTab, ATakeIsCopiedAndDeletedWithItsEvents) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Worlds as a newcomer makes them, with the automatic full-scale impulse: none clips and none whispers.
-#include "Core/HapticRenderer.h"
 #include "Physics/Attachment.h"
+#include "Support/Rendering.h"
 #include <cmath>
 #include <gtest/gtest.h>
-#include <memory>
 #include <vector>
 
 namespace physvib {
@@ -14,33 +13,16 @@ constexpr HapticFixture felt{.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCa
 
 /// The peak of the samples, without a limiter, of 4 actuators at the corners of the field.
 double peakOf(const std::vector<CollisionEvent>& events, double width, double height, double seconds) {
-    struct List {
-        const std::vector<CollisionEvent>& events;
-        std::size_t next = 0;
-        bool pop(CollisionEvent& event) noexcept {
-            if (next == events.size()) return false;
-            event = events[next++];
-            return true;
-        }
-    };
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
     RendererSettings settings;
     settings.limiterEnabled = false;
+    settings.channels = 4;
     settings.panner = {layout, PanningLaw::linear, 1.0, width, height};
-    const auto renderer = std::make_unique<HapticRenderer>();
-    EXPECT_TRUE(renderer->prepare(settings));
-    std::vector<float> memory(4 * 256);
-    std::array<float*, 4> out{};
-    for (std::size_t j = 0; j < 4; ++j) out[j] = memory.data() + 256 * j;
-    List list{events};
     float peak = 0.0F;
-    renderFromStart(*renderer, list, out.data(), 4, std::llround(seconds * settings.sampleRateHz), 256,
-                    [&](const float* const* block, int n) {
-                        for (int j = 0; j < 4; ++j)
-                            for (int i = 0; i < n; ++i) peak = std::max(peak, std::abs(block[j][i]));
-                        return true;
-                    });
+    const auto frames = static_cast<int>(std::lround(seconds * settings.sampleRateHz));
+    for (const auto& channel : test::renderEvents(events, settings, frames).channels)
+        for (const float sample : channel) peak = std::max(peak, std::abs(sample));
     return static_cast<double>(peak);
 }
 

@@ -296,6 +296,17 @@ void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int heig
     g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(tip));
 }
 
+// Within JUCE's bounds, which are those of bold text.
+void Look::drawTooltip(juce::Graphics& g, const juce::String& tip, int width, int height) {
+    const juce::Rectangle<int> area{width, height};
+    g.fillAll(findColour(juce::TooltipWindow::backgroundColourId));
+    g.setColour(findColour(juce::TooltipWindow::outlineColourId));
+    g.drawRect(area);
+    g.setColour(findColour(juce::TooltipWindow::textColourId));
+    g.setFont(text::font(text::small));
+    g.drawFittedText(tip, area.reduced(5, 2), juce::Justification::centredLeft, 9, 1.0f);
+}
+
 std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::Component&) {
     struct Ring final : juce::FocusOutline::OutlineWindowProperties {
         juce::Rectangle<int> getOutlineBounds(juce::Component& c) override {

@@ -92,6 +92,26 @@ inline const juce::Identifier titleProperty{"physvib-title"};
 inline const juce::Identifier tintProperty{"physvib-tint"};
 /// Sliders drawn as mixer faders.
 inline const juce::Identifier faderProperty{"physvib-fader"};
+/// Icons whose tooltip is their name, and is there as soon as the pointer rests.
+inline const juce::Identifier iconProperty{"physvib-icon"};
+
+/// What is read, not used, to a screen reader too. M.
+class ReadOut : public juce::Component {
+    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override {
+        return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
+    }
+};
+
+/// M.
+class Tips final : public juce::TooltipWindow {
+public:
+    explicit Tips(juce::Component& parent)
+        : TooltipWindow{&parent} {}
+    juce::String getTipFor(juce::Component& c) override {
+        setMillisecondsBeforeTipAppears(c.getProperties().contains(iconProperty) ? 100 : 700);
+        return TooltipWindow::getTipFor(c);
+    }
+};
 
 class Look final : public juce::LookAndFeel_V4 {
 public:
@@ -126,6 +146,7 @@ public:
     void drawRotarySlider(juce::Graphics& g, int x, int y, int width, int height, float place, float start,
                           float end, juce::Slider& slider) override;
     int getSliderThumbRadius(juce::Slider&) override { return 9; }
+    void drawTooltip(juce::Graphics& g, const juce::String& tip, int width, int height) override;
     std::unique_ptr<juce::FocusOutline> createFocusOutlineForComponent(juce::Component&) override;
 
 private:

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drawing of meters, faders and ceiling handles, on a common dB scale.
+// Drawing of meters, faders and ceiling handles, on a common dB scale, and the strips made of them.
 #include "Host/Views/StripParts.h"
 #include "Live/Documents/Mix.h"
 #include <cmath>
+#include <utility>
 
 namespace physvib {
 
@@ -22,19 +23,12 @@ void Fader::setUp(double least, double most, const juce::String& title, double b
     setWantsKeyboardFocus(true);
 }
 
-void Fader::lieDown() {
-    setSliderStyle(LinearHorizontal);
-    getProperties().remove(faderProperty);
-}
-
 void Fader::resized() {
     juce::Slider::resized();
     const int margins = 2 * getLookAndFeel().getSliderThumbRadius(*this), // that JUCE keeps at the ends
         length = isHorizontal() ? getWidth() : getHeight();
     setMouseDragSensitivity(std::max(1, length - margins)); // the handle follows the pointer
 }
-
-PeakMeter::PeakMeter(const juce::String& title) { setTitle(title); }
 
 void PeakMeter::set(float peak, float hold) {
     const float height = meterHeight(peak), held = meterHeight(hold);
@@ -63,6 +57,26 @@ void PeakMeter::paint(juce::Graphics& g) {
     if (hold_ <= 0.0f) return;
     g.setColour(shade(*this, Shade::text));
     g.fillRect(bar.getX() - 1.0f, bar.getY() + bar.getHeight() * (1.0f - hold_), bar.getWidth() + 2.0f, 2.0f);
+}
+
+bool LimiterBar::set(float limiterGain, float guardGain) {
+    const bool isGuard = guardGain < limiterGain;
+    const float db = juce::Decibels::gainToDecibels(std::min(guardGain, limiterGain), -60.0f);
+    if (std::abs(db - db_) < 0.05f && isGuard == isGuard_) return false;
+    isGuard_ = isGuard;
+    db_ = db;
+    repaint();
+    return true;
+}
+
+void LimiterBar::paint(juce::Graphics& g) {
+    const auto bar = getLocalBounds().toFloat();
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(bar, 3.0f);
+    if (!isHolding()) return;
+    g.setColour(shade(*this, Shade::limit));
+    g.fillRoundedRectangle(bar.withHeight(std::max(3.0f, std::min(1.0f, db_ / -20.0f) * bar.getHeight())),
+                           3.0f);
 }
 
 static_assert(leastCeilingDb == meterFloorDb, "the handle moves along the whole meter");
@@ -94,6 +108,92 @@ void CeilingHandle::paint(juce::Graphics& g) {
     g.fillPath(mark);
     g.fillRect(static_cast<float>(room) - 1.0f, y - 0.75f, static_cast<float>(getWidth() - room) + 1.0f,
                1.5f);
+}
+
+ChannelStrip::ChannelStrip(const juce::String& label, std::function<void(const juce::String&, Change)> edit)
+    : meter_{"Level of " + label}
+    , ceiling_{label}
+    , edit_{std::move(edit)} {
+    setTitle("Strip " + label);
+    fader_.setUp(leastStripDb, mostStripDb, "Gain of " + label);
+    const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint,
+                            bool Strip::*what) {
+        button.setTitle(name + " " + label);
+        button.setTooltip(name);
+        button.getProperties().set(tintProperty, static_cast<juce::int64>(tint.getARGB()));
+        button.onClick = [this, what, name] { edit_(name, [what](Strip& s) { s.*what = !(s.*what); }); };
+    };
+    toggle(mute_, "Mute", palette::limit, &Strip::isMuted);
+    toggle(solo_, "Solo", palette::now, &Strip::isSolo);
+    toggle(polarity_, "Polarity", palette::enchanter(4), &Strip::isInverted);
+    delay_.setTitle("Delay of " + label);
+    delay_.onClick = [this] { askDelay(); };
+    level_.setFont(text::font(text::small, juce::Font::bold));
+    level_.setJustificationType(juce::Justification::centredRight);
+    level_.setTitle("Level of " + label + " in g");
+    level_.setBorderSize({0, 0, 0, 0});
+    most_.setFont(text::font(text::small));
+    most_.setTitle("Ceiling of " + label + " in g");
+    most_.setBorderSize({0, 4, 0, 0});
+    for (juce::Component* c : std::initializer_list<juce::Component*>{
+             &meter_, &fader_, &ceiling_, &mute_, &solo_, &polarity_, &delay_, &level_, &most_})
+        addAndMakeVisible(c);
+}
+
+void ChannelStrip::show(const Strip& s, double mostG) {
+    if (!fader_.isMouseButtonDown()) fader_.setValue(s.gainDb, juce::dontSendNotification);
+    if (!ceiling_.isMouseButtonDown()) ceiling_.setValue(s.ceilingDb, juce::dontSendNotification);
+    mute_.setToggleState(s.isMuted, juce::dontSendNotification);
+    solo_.setToggleState(s.isSolo, juce::dontSendNotification);
+    polarity_.setToggleState(s.isInverted, juce::dontSendNotification);
+    delayMs_ = s.delayMs;
+    delay_.setButtonText(s.delayMs > 0.0 ? readable::words(s.delayMs, s.delayMs < 1.0 ? 1 : 0)
+                                         : juce::String{"ms"});
+    delay_.setToggleState(s.delayMs > 0.0, juce::dontSendNotification);
+    delay_.setTooltip("Delay: " + readable::words(s.delayMs, 1) + " ms");
+    most_.setText("/ " + inG(mostG) + " g", juce::dontSendNotification);
+    most_.setTooltip("Ceiling: " + readable::words(s.ceilingDb, 1) + " dB of full scale");
+    most_.setColour(juce::Label::textColourId, shade(*this, s.ceilingDb < 0.0 ? Shade::text : Shade::muted));
+    repaint();
+}
+
+void ChannelStrip::askDelay() {
+    juce::PopupMenu menu;
+    menu.addSectionHeader("Delay");
+    for (const double ms : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
+        menu.addItem(readable::words(ms, ms < 1.0 && ms > 0.0 ? 1 : 0) + " ms", true, delayMs_ == ms,
+                     [this, ms] { edit_("Delay", [ms](Strip& s) { s.delayMs = ms; }); });
+    menu.setLookAndFeel(&getLookAndFeel());
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_).withDeletionCheck(*this));
+}
+
+void ChannelStrip::paintFrame(juce::Graphics& g, int strip, bool isQuiet) const {
+    g.setColour(enchanterColour(*this, strip).withMultipliedAlpha(isQuiet ? 0.35f : 1.0f));
+    g.fillRoundedRectangle(getLocalBounds().removeFromTop(4).toFloat(), 2.0f);
+    g.setColour(shade(*this, Shade::muted));
+    g.setFont(text::font(11.0f));
+    for (const int db : {0, -20, -40, -60}) { // scale of the meter, right of the fader
+        const auto y = static_cast<float>(meter_.getY()) +
+                       static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
+        g.drawText(
+            readable::words(db, 0),
+            juce::Rectangle<float>{static_cast<float>(fader_.getRight()) - 3.0f, y - 7.0f, 24.0f, 14.0f},
+            juce::Justification::centredRight, false);
+    }
+}
+
+void ChannelStrip::place(juce::Rectangle<int> area, int left) {
+    auto row = area.removeFromBottom(22);
+    level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
+    most_.setBounds(row);
+    row = area.removeFromBottom(24);
+    const int each = row.getWidth() / 4;
+    for (auto* button : {&mute_, &solo_, &polarity_, &delay_})
+        button->setBounds(row.removeFromLeft(each).reduced(1, 0));
+    area.removeFromBottom(8);
+    meter_.setBounds(area.withWidth(12).withX(left + 10));
+    ceiling_.placeOver(meter_.getBounds());
+    fader_.setBounds(area.withX(left + 24).withWidth(32).expanded(0, 8));
 }
 
 } // namespace physvib

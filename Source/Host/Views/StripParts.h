@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts of channel strips in mixer and plug-in: meter, fader, and a ceiling handle that is dragged along the
-// meter.
+// Channel strips of mixer and plug-in, and their parts: meter, fader, and a ceiling handle that is dragged
+// along the meter.
 #pragma once
 #include "Host/Views/Look.h"
+#include "Live/Documents/Strip.h"
+#include <functional>
 #include <juce_audio_basics/juce_audio_basics.h>
 
 namespace physvib {
@@ -15,17 +17,28 @@ inline float meterHeight(float peak) {
 }
 
 /// A bar from -60 dB to full scale, with a peak-hold mark.
-class PeakMeter final : public juce::Component {
+class PeakMeter final : public ReadOut {
 public:
-    explicit PeakMeter(const juce::String& title);
+    explicit PeakMeter(const juce::String& title) { setTitle(title); }
     void set(float peak, float hold);
     void paint(juce::Graphics& g) override;
-    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override {
-        return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
-    }
 
 private:
     float peak_ = 0.0f, hold_ = 0.0f; // as heights of the meter
+};
+
+/// How much the limiter holds back, or the guard, if that is more: a bar that grows downwards to 20 dB. M.
+class LimiterBar final : public juce::Component {
+public:
+    bool set(float limiterGain, float guardGain); ///< whether it is other than before
+    bool isHolding() const noexcept { return db_ < -0.05f; }
+    bool isGuard() const noexcept { return isGuard_; }
+    juce::String decibels() const { return readable::words(isHolding() ? db_ : 0.0, 1); }
+    void paint(juce::Graphics& g) override;
+
+private:
+    float db_ = 0.0f;
+    bool isGuard_ = false;
 };
 
 /// A fader in dB; its lowest position is silence. It goes where it is dragged, not where it is clicked, since
@@ -34,7 +47,8 @@ class Fader final : public juce::Slider {
 public:
     /// M.
     void setUp(double leastDb, double mostDb, const juce::String& title, double defaultDb = 0.0);
-    void lieDown(); ///< from left to right, as a plain slider. M.
+    /// From left to right, as a plain slider. M.
+    void lieDown() { setSliderStyle(LinearHorizontal), getProperties().remove(faderProperty); }
     void resized() override;
 };
 
@@ -50,6 +64,34 @@ public:
 
 private:
     static constexpr int room = 10; // space left of the meter, for the mark
+};
+
+/// A level as strips show it, without its unit.
+inline juce::String inG(double g) { return readable::words(g, g < 9.995 ? 2 : 1); }
+
+/// What the strips of mixer and plug-in have in common: meter with held peak and ceiling, fader, mute, solo,
+/// polarity, delay, level and ceiling in g. M.
+class ChannelStrip : public juce::Component {
+protected:
+    using Change = std::function<void(Strip&)>;
+    /// `edit` applies a change of that name to the strip.
+    ChannelStrip(const juce::String& label, std::function<void(const juce::String& name, Change)> edit);
+    void show(const Strip& strip, double mostG);
+    /// Colour of the actuator and scale of the meter.
+    void paintFrame(juce::Graphics& g, int strip, bool isQuiet) const;
+    /// The controls from the bottom of `area` up to the meter, which is `left` from the strip's edge.
+    void place(juce::Rectangle<int> area, int left);
+
+    PeakMeter meter_;
+    Fader fader_;
+    CeilingHandle ceiling_;
+    juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"};
+    juce::Label level_, most_;
+
+private:
+    void askDelay();
+    const std::function<void(const juce::String& name, Change)> edit_;
+    double delayMs_ = 0.0;
 };
 
 } // namespace physvib

@@ -81,10 +81,12 @@ TakesTab::Take* TakesTab::take() {
 
 // A recording may have ended, or another program changed the folder.
 void TakesTab::refresh(const MixerMoment&) {
-    if (const double now = nowMs(); now - lookedAtMs_ < takeLookMs)
-        return;
-    else
-        lookedAtMs_ = now;
+    const double now = nowMs();
+    const bool plays = take() && playing_ == std::pair{take()->file, take()->part} && now < endsAtMs_;
+    play_->setButtonText(plays ? "Stop" : "Play");
+    trimmer_.showPlayed(plays ? take()->part.getEnd() - 1e-3 * (endsAtMs_ - now) : -1.0);
+    if (now - lookedAtMs_ < takeLookMs) return;
+    lookedAtMs_ = now;
     if (folder_->place().getLastModificationTime() != seenAt_) look();
 }
 
@@ -135,17 +137,25 @@ void TakesTab::trim() {
 // A session that plays a part keeps the part's file, so it stays; in a folder beside the takes.
 void TakesTab::play() {
     if (!take()) return;
-    if (!take()->isTrimmed()) return model_.strikes().playTake(take()->file);
+    const double now = nowMs();
     const auto part = take()->part;
-    const auto file = partsFolder(take()->file)
-                          .getChildFile(take()->file.getFileNameWithoutExtension() + " " +
-                                        millisecondsText(part.getStart()) + " to " +
-                                        millisecondsText(part.getEnd()) + " ms.wav");
-    if (!file.existsAsFile() || file.getLastModificationTime() < take()->at) {
-        file.getParentDirectory().createDirectory();
-        if (model_.reportFault(writeTakePart(take()->file, part, file))) return;
+    auto file = take()->file;
+    const bool plays = now < endsAtMs_, isSame = playing_ == std::pair{file, part};
+    if (plays) (void)model_.session().submit({Stop{}});
+    endsAtMs_ = 0.0;
+    if (plays && isSame) return;
+    playing_ = {file, part};
+    if (take()->isTrimmed()) {
+        file = partsFolder(file).getChildFile(file.getFileNameWithoutExtension() + " " +
+                                              millisecondsText(part.getStart()) + " to " +
+                                              millisecondsText(part.getEnd()) + " ms.wav");
+        if (!file.existsAsFile() || file.getLastModificationTime() < take()->at) {
+            file.getParentDirectory().createDirectory();
+            if (model_.reportFault(writeTakePart(take()->file, part, file))) return;
+        }
     }
     model_.strikes().playTake(file);
+    endsAtMs_ = now + 1e3 * part.getLength();
 }
 
 void TakesTab::askExport() {
@@ -353,6 +363,8 @@ void TakeTrim::paint(juce::Graphics& g) {
     for (const float x : {from, to})
         g.fillRect(juce::jlimit(0.0f, static_cast<float>(getWidth()) - 3.0f, x - 1.5f), 0.0f, 3.0f,
                    2.0f * middle);
+    g.setColour(shade(*this, Shade::text));
+    if (played_ >= 0.0) g.fillRect(pixelOf(played_), 0.0f, 1.0f, 2.0f * middle);
 }
 
 // Streams recordings, so that a long one takes no more memory than a short one.

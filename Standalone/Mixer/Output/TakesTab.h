@@ -8,6 +8,7 @@
 #include <juce_core/juce_core.h>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace physvib {
@@ -26,6 +27,10 @@ public:
     /// Cuts the silence at both ends, as soon as the levels are there.
     void trimSilence();
     void showAll() { changeAtOnce({0.0, seconds_}); }
+    /// How far it has been played, s; below 0: it does not play.
+    void showPlayed(double seconds) {
+        if (std::exchange(played_, seconds) != seconds) repaint();
+    }
     std::function<void(juce::Range<double> part)> onChange;
     std::function<void()> onEnd; ///< after one or more changes: no more come
 
@@ -45,7 +50,7 @@ private:
     void handleAsyncUpdate() override;
 
     juce::File take_;
-    double seconds_ = 0.0;
+    double seconds_ = 0.0, played_ = -1.0;
     juce::Range<double> part_;
     bool movesEnd_ = false, isWaiting_ = false; // for levels, to cut the silence
     std::vector<float> levels_;                 // empty: not read yet
@@ -67,7 +72,8 @@ public:
     void look(); ///< reads the folder again
     int chosen() const { return list_.getSelectedRow(); }
     void choose(int row) { list_.selectRow(row); }
-    /// On the device, each channel on the actuator of its number, as a clip of the session.
+    /// On the device, each channel on the actuator of its number, as a clip of the session; one that plays
+    /// stops, by the same call for good.
     void play();
     /// With the events beside it, of a trimmed take that part. What replaces a recording replaces its events;
     /// a list alone is left, and told.
@@ -100,9 +106,10 @@ private:
 
     MixerModel& model_;
     juce::SharedResourcePointer<UserFolder> folder_;
-    std::vector<Take> takes_; // the newest first
-    juce::Time seenAt_;       // last change of the folder that is listed
-    double lookedAtMs_ = 0.0;
+    std::vector<Take> takes_;                            // the newest first
+    juce::Time seenAt_;                                  // last change of the folder that is listed
+    std::pair<juce::File, juce::Range<double>> playing_; // of the last call
+    double endsAtMs_ = 0.0, lookedAtMs_ = 0.0;
     juce::ListBox list_{"Takes", this};
     Caption none_{"No recordings yet: Record, or Ctrl+R, makes one", Shade::text};
     TakeTrim trimmer_;

@@ -15,7 +15,7 @@ struct Fact {
     bool operator==(const Fact&) const = default;
 };
 
-class FactList final : public juce::Component {
+class FactList final : public ReadOut {
 public:
     FactList(const juce::String& title, int maxColumns);
 
@@ -23,9 +23,6 @@ public:
     const std::vector<Fact>& facts() const noexcept { return facts_; }
     int heightFor(int width) const; ///< at which all of it is seen
     void paint(juce::Graphics& g) override;
-    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override {
-        return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
-    }
 
 private:
     struct Places {

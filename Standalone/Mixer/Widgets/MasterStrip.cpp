@@ -3,7 +3,6 @@
 #include "Mixer/Widgets/MasterStrip.h"
 #include "Mixer/Widgets/Parts.h"
 #include <algorithm>
-#include <cmath>
 
 namespace physvib {
 
@@ -13,7 +12,6 @@ double gOf(const MixerModel& model, std::size_t strip, float peak) {
 double maxG(const MixerModel& model, std::size_t strip) {
     return gOf(model, strip, ceilingOf(model.mix().strips[strip]));
 }
-juce::String inG(double g) { return number(g, g < 9.995 ? 2 : 1); }
 
 MasterStrip::MasterStrip(MixerModel& model, bool isFlat)
     : model_{model}
@@ -25,7 +23,7 @@ MasterStrip::MasterStrip(MixerModel& model, bool isFlat)
         model_.change(
             "Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, continuesEdit);
     });
-    if (!isFlat) addAndMakeVisible(meter_);
+    if (!isFlat) addAll(*this, {&meter_, &limiter_});
     addAndMakeVisible(fader_);
     mixChanged();
 }
@@ -37,17 +35,11 @@ void MasterStrip::mixChanged() {
 
 void MasterStrip::refresh(const MixerMoment& moment) {
     meter_.set(moment.masterPeak, moment.masterPeak);
-    const auto& meters = moment.meters;
-    const bool isGuard = meters.guardGain < meters.limiterGain;
-    const float db = juce::Decibels::gainToDecibels(std::min(meters.guardGain, meters.limiterGain), -60.0f);
-    if (std::abs(db - limiterDb_) < 0.05f && isGuard == isGuard_) return;
-    isGuard_ = isGuard;
-    limiterDb_ = db;
-    repaint();
+    if (limiter_.set(moment.meters.limiterGain, moment.meters.guardGain)) repaint();
 }
 
 juce::String MasterStrip::limiterWords() const {
-    return (isGuard_ ? "guard " : "limiter ") + number(limiterDb_ < -0.05f ? limiterDb_ : 0.0, 1);
+    return (limiter_.isGuard() ? "guard " : "limiter ") + limiter_.decibels();
 }
 
 double MasterStrip::mostG() const {
@@ -59,7 +51,7 @@ double MasterStrip::mostG() const {
 
 // While something is held back, that stands in place of the most that can come.
 void MasterStrip::paintFlat(juce::Graphics& g) const {
-    const bool isHeld = limiterDb_ < -0.05f;
+    const bool isHeld = limiter_.isHolding();
     auto words = getLocalBounds().withRight(fader_.getX());
     g.setColour(shade(*this, Shade::text));
     g.setFont(text::font(text::small, juce::Font::bold));
@@ -81,15 +73,7 @@ void MasterStrip::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::muted));
     g.drawText(number(model_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(28).removeFromTop(18),
                juce::Justification::centred, false);
-    g.setColour(shade(*this, Shade::well));
-    g.fillRoundedRectangle(limiterBar_.toFloat(), 3.0f);
-    const float reduction = juce::jlimit(0.0f, 1.0f, -limiterDb_ / 20.0f);
-    g.setColour(shade(*this, Shade::limit));
-    if (reduction > 0.004f)
-        g.fillRoundedRectangle(limiterBar_.toFloat().withHeight(
-                                   std::max(3.0f, reduction * static_cast<float>(limiterBar_.getHeight()))),
-                               3.0f);
-    g.setColour(shade(*this, limiterDb_ < -0.05f ? Shade::limit : Shade::muted));
+    g.setColour(shade(*this, limiter_.isHolding() ? Shade::limit : Shade::muted));
     g.drawText(limiterWords(), limiterText_, juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::muted));
     g.drawText("at most", ceilingName_, juce::Justification::centred, false);
@@ -107,7 +91,7 @@ void MasterStrip::resized() {
     limiterText_ = area.removeFromBottom(22);
     area.removeFromBottom(32);
     meter_.setBounds(area.withX(10).withWidth(14));
-    limiterBar_ = area.withX(31).withWidth(8);
+    limiter_.setBounds(area.withX(31).withWidth(8));
     fader_.setBounds(area.withX(46).withWidth(40).expanded(0, 8));
 }
 

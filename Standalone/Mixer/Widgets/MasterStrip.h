@@ -10,8 +10,6 @@ namespace physvib {
 double gOf(const MixerModel& model, std::size_t strip, float peak);
 /// The most that can be felt of a strip, by its ceiling, in g. M.
 double maxG(const MixerModel& model, std::size_t strip);
-/// A level in g with the digits that it is worth.
-juce::String inG(double g);
 
 /// Strip of the total output: level, limiter, ceiling.
 class MasterStrip final : public juce::Component {
@@ -34,10 +32,9 @@ private:
     MixerModel& model_;
     const bool isFlat_;
     PeakMeter meter_{"Master level"};
+    LimiterBar limiter_;
     Fader fader_;
-    float limiterDb_ = 0.0f; // or of the guard
-    bool isGuard_ = false;
-    juce::Rectangle<int> limiterBar_, limiterText_, ceilingName_, ceiling_;
+    juce::Rectangle<int> limiterText_, ceilingName_, ceiling_;
 };
 
 } // namespace physvib

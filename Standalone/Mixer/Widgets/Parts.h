@@ -26,14 +26,11 @@ private:
 };
 
 /// A line of text with a less prominent one below.
-class TwoLines final : public juce::Component, public juce::SettableTooltipClient {
+class TwoLines final : public ReadOut, public juce::SettableTooltipClient {
 public:
     explicit TwoLines(const juce::String& title) { setTitle(title); }
     void set(const juce::String& first, const juce::String& second, Shade firstShade = Shade::text);
     void paint(juce::Graphics& g) override;
-    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override {
-        return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
-    }
 
 private:
     juce::String first_, second_;

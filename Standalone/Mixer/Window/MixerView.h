@@ -166,7 +166,7 @@ private:
     int restedLooks_ = 0, looks_ = 0;
     double newsAtMs_ = 0.0;
     std::array<float, limits::maxEnchanters> peaks_{}; // since the strips were updated
-    juce::TooltipWindow tooltips_{this, 600};
+    Tips tooltips_{*this};
     EmergencyStop stop_{*this, [this] { model_.setSilent(true); }};
 };
 

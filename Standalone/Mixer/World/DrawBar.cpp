@@ -18,6 +18,7 @@ public:
         : juce::Button{words.name}
         , tool{words.tool} {
         setTitle(words.name);
+        getProperties().set(iconProperty, true);
         setTooltip(juce::String{words.name} + ": " + words.does + " (" +
                    juce::String::charToString(static_cast<juce::juce_wchar>(words.key)).toUpperCase() + ")");
     }
@@ -92,8 +93,15 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
     , pane_{pane} {
     setTitle("Chosen bodies");
     const auto change = [this](const juce::String& name, auto what, bool continuesEdit = false) {
-        pane_.changeChosen(
-            name, [what](const Scene& scene, BodyDescription& body) { what(scene, body); }, continuesEdit);
+        pane_.changeChosen(name, what, continuesEdit);
+        show(); // a refused change leaves no mark
+    };
+    const auto slides = [change](juce::Slider& slider, const char* name, auto set) {
+        onSlide(slider, [change, name, set, &slider](bool continuesEdit) {
+            change(
+                name, [set, value = slider.getValue()](const Scene&, BodyDescription& b) { set(b, value); },
+                continuesEdit);
+        });
     };
     name_.setFont(text::font(text::small, juce::Font::bold));
     describe(moves_, "Moves", "Moving, or static");
@@ -103,8 +111,14 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
     };
     describe(source_, "Haptic source", "Its collisions are felt");
     source_.onClick = [this, change] {
-        change("Haptic source",
-               [is = source_.getToggleState()](const Scene& s, BodyDescription& b) { setSource(s, b, is); });
+        bool canBe = !source_.getToggleState();
+        change("Haptic source", [&canBe, is = !canBe](const Scene& s, BodyDescription& b) {
+            if (is && s.materials[static_cast<std::size_t>(b.fixtures[0].material)].frequencyHz <= 0.0)
+                return;
+            setSource(s, b, is);
+            canBe = true;
+        });
+        if (!canBe) model_.report("Nothing chosen has a material that vibrates: choose another one below");
     };
     for (auto* slider : {&density_, &bounce_, &speed_, &torque_, &spring_}) {
         // read when the text box is created
@@ -123,20 +137,11 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
         return words.retainCharacters("0123456789.").getDoubleValue();
     };
     density_.setSkewFactorFromMidPoint(800.0);
-    onSlide(density_, [this, change](bool continuesEdit) {
-        change(
-            "Density", [kg = density_.getValue()](const Scene&, BodyDescription& b) { setDensity(b, kg); },
-            continuesEdit);
-    });
+    slides(density_, "Density", setDensity);
     describe(bounce_, "Bounce", "Coefficient of restitution of this body alone");
     bounce_.setRange(0.0, 1.0, 0.01);
-    onSlide(bounce_, [this, change](bool continuesEdit) {
-        change(
-            "Bounce",
-            [bounce = bounce_.getValue()](const Scene&, BodyDescription& b) {
-                for (auto& fixture : b.fixtures) fixture.restitution = bounce;
-            },
-            continuesEdit);
+    slides(bounce_, "Bounce", [](BodyDescription& b, double bounce) {
+        for (auto& fixture : b.fixtures) fixture.restitution = bounce;
     });
     constexpr double fastest = 20.0; // rad/s, about three turns a second
     describe(speed_, "Motor speed",
@@ -147,26 +152,25 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
     torque_.setRange(0.0, 1e6, 1.0);
     torque_.setSkewFactorFromMidPoint(1e3);
     for (auto* slider : {&speed_, &torque_})
-        onSlide(*slider, [this](bool continuesEdit) { drive(continuesEdit); });
+        onSlide(*slider, [this](bool continuesEdit) {
+            edit("Motor",
+                 driven(model_.world().drawing(), drivenJoint_, {speed_.getValue(), torque_.getValue()},
+                        model_.world().posesNow()),
+                 continuesEdit);
+        });
     describe(spring_, "Stiffness of the spring",
              "How fast the spring lets its bodies swing, in Hz; they return to their start");
     spring_.setRange(0.1, 20.0, 0.1);
     spring_.setSkewFactorFromMidPoint(2.0);
-    onSlide(spring_, [this](bool continuesEdit) { stiffen(continuesEdit); });
+    onSlide(spring_, [this](bool continuesEdit) {
+        edit("Spring", sprung(model_.world().drawing(), springJoint_, spring_.getValue()), continuesEdit);
+    });
     addAll(*this, {&name_, &moves_, &source_, &densityName_, &density_, &bounceName_, &bounce_, &speedName_,
                    &speed_, &torqueName_, &torque_, &springName_, &spring_});
 }
 
-void BodyPanel::drive(bool continuesEdit) {
-    const auto actions = driven(model_.world().drawing(), drivenJoint_,
-                                {speed_.getValue(), torque_.getValue()}, model_.world().posesNow());
-    const auto error = actions ? model_.world().edit("Motor", actions.value, continuesEdit) : actions.error;
-    if (!error.empty()) model_.report(utf8(error));
-}
-
-void BodyPanel::stiffen(bool continuesEdit) {
-    const auto actions = sprung(model_.world().drawing(), springJoint_, spring_.getValue());
-    const auto error = actions ? model_.world().edit("Spring", actions.value, continuesEdit) : actions.error;
+void BodyPanel::edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit) {
+    const auto error = actions ? model_.world().edit(name, actions.value, continuesEdit) : actions.error;
     if (!error.empty()) model_.report(utf8(error));
 }
 

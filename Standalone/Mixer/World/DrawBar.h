@@ -66,8 +66,7 @@ public:
 
 private:
     static constexpr int high = 122, rowHigh = 28;
-    void drive(bool continuesEdit);
-    void stiffen(bool continuesEdit);
+    void edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit);
 
     MixerModel& model_;
     DrawPane& pane_;
