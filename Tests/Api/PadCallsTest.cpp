@@ -118,19 +118,7 @@ TEST(PadCalls, EachPadFeelsItsOwnEventsAndTheirSide) {
 }
 
 TEST(PadCalls, AWorldsEventsAreMovedByTheDelay) {
-    physvib_world world = nullptr;
-    ASSERT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
-    physvib_body body;
-    physvib_body_init(&body, sizeof body);
-    ASSERT_EQ(physvib_world_set_body(world, 0, &body), PHYSVIB_OK);
-    body.mass_kg = 1.0, body.is_camera = 1, body.frequency_hz = 200.0, body.decay_per_s = 30.0;
-    ASSERT_EQ(physvib_world_set_body(world, 1, &body), PHYSVIB_OK);
-    physvib_contact contact;
-    physvib_contact_init(&contact, sizeof contact);
-    contact.a = 0, contact.b = 1, contact.impulse_n_s = 1.0;
-    ASSERT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
-    ASSERT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK);
-    ASSERT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    const physvib_world world = test::worldWithEvents(1);
     const PadHandle pads;
     EXPECT_EQ(physvib_pads_send(pads.name, 0, world, secondNs, 1), 1);
     EXPECT_EQ(pads.pull(secondNs - 40'000'000).high, 0.0);

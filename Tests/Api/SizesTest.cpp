@@ -65,26 +65,6 @@ std::vector<float> rendered(const physvib_event* list, physvib_int64 count) {
     return samples;
 }
 
-physvib_world worldWithEvents(int steps) {
-    physvib_world world = nullptr;
-    EXPECT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
-    physvib_body body;
-    physvib_body_init(&body, sizeof body);
-    EXPECT_EQ(physvib_world_set_body(world, 0, &body), PHYSVIB_OK);
-    body.mass_kg = 2.0, body.is_camera = 1, body.frequency_hz = 200.0, body.decay_per_s = 30.0;
-    EXPECT_EQ(physvib_world_set_body(world, 1, &body), PHYSVIB_OK);
-    physvib_contact contact;
-    physvib_contact_init(&contact, sizeof contact);
-    contact.a = 0, contact.b = 1;
-    for (int step = 0; step < 2 * steps; ++step) {
-        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
-        contact.impulse_n_s = 1.0 + step;
-        if (step % 2 == 0) EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
-        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
-    }
-    return world;
-}
-
 TEST(Sizes, ListsAreReadByTheirStep) {
     const auto list = events();
     const std::vector<float> whole = rendered(list.data(), 3);
@@ -123,7 +103,7 @@ TEST(Sizes, ListsComeBackFromFilesAndTexts) {
 
 TEST(Sizes, AWorldsEventsAreWrittenByTheirStep) {
     for (const std::size_t size : eventSizes) {
-        const physvib_world world = worldWithEvents(3);
+        const physvib_world world = test::worldWithEvents(3);
         SizedEvents taken{size, 2};
         ASSERT_EQ(physvib_world_take(world, taken.data(), 2, 1), 2) << physvib_error();
         EXPECT_EQ(taken[0].impulse_n_s, 1.0);
@@ -191,7 +171,7 @@ TEST(Sizes, AnEventOfAnUnknownSizeIsRefusedAndNothingHappens) {
         expectRefused(physvib_event_of(nullptr, 0.0, 0.0, 0.5, room.data()));
         expectRefused(physvib_events_parse(
             "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,200,30,0.5,0,0\n", room.data(), 3));
-        const physvib_world world = worldWithEvents(2);
+        const physvib_world world = test::worldWithEvents(2);
         expectRefused(physvib_world_take(world, room.data(), 3, 1));
         EXPECT_TRUE(room.isKeptBehind(0));
         std::array<physvib_event, 3> ours{};

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <gtest/gtest.h>
 #include <physvib/physvib.h>
 #include <span>
 #include <vector>
@@ -17,6 +18,27 @@ Struct sized() {
     Struct empty{};
     empty.size = sizeof empty;
     return empty;
+}
+
+/// A world that has made an event in every other one of twice `steps` steps, of a ball on a floor.
+inline physvib_world worldWithEvents(int steps) {
+    physvib_world world = nullptr;
+    EXPECT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
+    physvib_body body;
+    physvib_body_init(&body, sizeof body);
+    EXPECT_EQ(physvib_world_set_body(world, 0, &body), PHYSVIB_OK);
+    body.mass_kg = 2.0, body.is_camera = 1, body.frequency_hz = 200.0, body.decay_per_s = 30.0;
+    EXPECT_EQ(physvib_world_set_body(world, 1, &body), PHYSVIB_OK);
+    physvib_contact contact;
+    physvib_contact_init(&contact, sizeof contact);
+    contact.a = 0, contact.b = 1;
+    for (int step = 0; step < 2 * steps; ++step) {
+        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
+        contact.impulse_n_s = 1.0 + step;
+        if (step % 2 == 0) EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
+        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    }
+    return world;
 }
 
 /// What a program may say: without z_m and what follows, without part, all of it.

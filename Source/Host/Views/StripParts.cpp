@@ -63,10 +63,8 @@ bool LimiterBar::set(float limiterGain, float guardGain) {
     const bool isGuard = guardGain < limiterGain;
     const float db = juce::Decibels::gainToDecibels(std::min(guardGain, limiterGain), -60.0f);
     if (std::abs(db - db_) < 0.05f && isGuard == isGuard_) return false;
-    isGuard_ = isGuard;
-    db_ = db;
-    repaint();
-    return true;
+    isGuard_ = isGuard, db_ = db;
+    return repaint(), true;
 }
 
 void LimiterBar::paint(juce::Graphics& g) {

@@ -14,6 +14,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <regex>
 
 namespace physvib {
 namespace {
@@ -170,9 +171,10 @@ int runThesis(const ThesisOptions& o) {
                   << " files\n";
         return exitDone;
     }
-    std::string text;
+    std::string text; // of 5.3 also 5.3.1, of Fig. 5.1 not Fig. 5.10
+    const std::regex at{", " + std::regex_replace(o.place, std::regex{"\\W"}, "\\$&") + "(?![0-9])"};
     for (const ThesisRow& row : thesisRows())
-        if ((", " + row.at).find(", " + o.place) != std::string::npos) text += textOf(row);
+        if (std::regex_search(", " + row.at, at)) text += textOf(row);
     if (text.empty())
         return leave(exitUsage, "thesis: expected a place such as 5.3, 'Fig. 4.9' or 'Table 5.1', found " +
                                     inQuotes(o.place));

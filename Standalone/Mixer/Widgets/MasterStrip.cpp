@@ -38,10 +38,6 @@ void MasterStrip::refresh(const MixerMoment& moment) {
     if (limiter_.set(moment.meters.limiterGain, moment.meters.guardGain)) repaint();
 }
 
-juce::String MasterStrip::limiterWords() const {
-    return (limiter_.isGuard() ? "guard " : "limiter ") + limiter_.decibels();
-}
-
 double MasterStrip::mostG() const {
     double most = 0.0;
     for (std::size_t j = 0; j < static_cast<std::size_t>(model_.mix().count()); ++j)

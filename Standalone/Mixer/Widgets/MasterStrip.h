@@ -26,7 +26,9 @@ public:
 
 private:
     void paintFlat(juce::Graphics& g) const;
-    juce::String limiterWords() const;
+    juce::String limiterWords() const {
+        return (limiter_.isGuard() ? "guard " : "limiter ") + limiter_.decibels();
+    }
     double mostG() const;
 
     MixerModel& model_;
