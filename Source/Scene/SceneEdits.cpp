@@ -4,7 +4,10 @@
 #include "Scene/SceneValidation.h"
 #include "Scene/World/ScenePlayer.h"
 #include <algorithm>
+#include <set>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -51,6 +54,23 @@ void describeEdit(Scene& scene, const Action& action) {
         scene.materials[static_cast<std::size_t>(texture->material)].setTexture(texture->texture());
 }
 
+namespace {
+
+void edit(Scene& scene, const Action& action) {
+    describeEdit(scene, action);
+    if (const auto* removal = std::get_if<RemoveAction>(&action))
+        std::erase_if(scene.bodies, [removal](const BodyDescription& b) { return b.name == removal->body; });
+    if (const auto* join = std::get_if<JoinAction>(&action)) scene.joints.push_back(join->joint);
+    if (const auto* unjoin = std::get_if<UnjoinAction>(&action))
+        std::erase_if(scene.joints, [unjoin](const JointDescription& j) { return j.name == unjoin->joint; });
+    const BodyDescription* put = bodyPutBy(action);
+    if (put != nullptr &&
+        std::ranges::find(scene.bodies, put->name, &BodyDescription::name) == scene.bodies.end())
+        scene.bodies.push_back(*put);
+}
+
+} // namespace
+
 bool isLasting(const Action& action) {
     return std::visit(
         []<class One>(const One&) {
@@ -59,27 +79,37 @@ bool isLasting(const Action& action) {
         action);
 }
 
-bool editScene(Scene& scene, const Action& action) {
-    if (!isLasting(action)) return false;
-    Scene next = scene;
-    describeEdit(next, action);
-    if (const auto* removal = std::get_if<RemoveAction>(&action))
-        std::erase_if(next.bodies, [removal](const BodyDescription& b) { return b.name == removal->body; });
-    if (const auto* join = std::get_if<JoinAction>(&action)) next.joints.push_back(join->joint);
-    if (const auto* unjoin = std::get_if<UnjoinAction>(&action))
-        std::erase_if(next.joints, [unjoin](const JointDescription& j) { return j.name == unjoin->joint; });
-    const BodyDescription* put = bodyPutBy(action);
-    if (put != nullptr &&
-        std::ranges::find(next.bodies, put->name, &BodyDescription::name) == next.bodies.end())
-        next.bodies.push_back(*put);
-    if (next == scene || !validate(next).empty()) return false;
-    scene = std::move(next);
-    return true;
+std::size_t takenTogether(std::span<const Action> actions) {
+    std::set<std::string_view> names;
+    for (const Action& action : actions) {
+        const auto* removal = std::get_if<RemoveAction>(&action);
+        const auto* put = bodyPutBy(action);
+        if (action.index() != actions.front().index() || (removal == nullptr && put == nullptr) ||
+            !names.insert(put ? put->name : removal->body).second)
+            break;
+    }
+    return std::max<std::size_t>(1, names.size());
+}
+
+void editScene(Scene& scene, std::span<const Action> actions) {
+    while (!actions.empty()) {
+        const auto run = actions.first(takenTogether(actions));
+        actions = actions.subspan(run.size());
+        if (!isLasting(run.front())) continue;
+        Scene next = scene;
+        for (const Action& action : run) edit(next, action);
+        if (validate(next).empty())
+            scene = std::move(next);
+        else if (run.size() > 1)
+            for (const Action& action : run) editScene(scene, {&action, 1});
+    }
 }
 
 Scene sceneAsLeft(const SceneRun& take) {
     Scene scene = *take.scene;
-    for (const LiveInput& input : take.inputs) editScene(scene, input.action);
+    std::vector<Action> actions;
+    for (const LiveInput& input : take.inputs) actions.push_back(input.action);
+    editScene(scene, actions);
     return scene;
 }
 

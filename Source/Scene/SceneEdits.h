@@ -3,6 +3,8 @@
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/SceneRun.h"
+#include <cstddef>
+#include <span>
 
 namespace physvib {
 
@@ -14,9 +16,13 @@ void describeEdit(Scene& scene, const Action& action);
 /// True if an action changes the scene permanently and not only its motion. Any thread.
 bool isLasting(const Action& action);
 
-/// The same, with bodies and joints; false, and nothing is changed, if there is no change or the scene would
-/// be invalid. Any thread.
-bool editScene(Scene& scene, const Action& action);
+/// How many of them, from the first, can be judged by what they leave: those that put bodies, change some or
+/// remove some, each another one, as what one of these spoils the others do not mend. Any thread.
+std::size_t takenTogether(std::span<const Action> actions);
+
+/// The same as describeEdit, of one action after the other, with bodies and joints; those that would make the
+/// scene invalid change nothing. Any thread.
+void editScene(Scene& scene, std::span<const Action> actions);
 
 /// The scene of a scene run as its inputs left it, without inputs: added bodies start where they were put,
 /// removed ones are absent (unless a joint holds them or the script needs them). Any thread.

@@ -47,7 +47,9 @@ struct Drawn {
     }
     std::string run(SceneEdit& edit, bool isForth) {
         std::string fault;
-        edit.run(isForth, drawing, now, [&](const Action& action) { fault += act(action); });
+        edit.run(isForth, drawing, now, [&](std::span<const Action> some) {
+            for (const Action& action : some) fault += act(action);
+        });
         return fault;
     }
     std::string edit(std::vector<Action> actions) {

@@ -36,14 +36,13 @@ std::string SceneDrawing::check(const std::vector<Action>& actions) const {
     return InputCheck{cast_}.take(actions);
 }
 
-bool SceneDrawing::take(const Action& action) {
-    if (!isLasting(action)) return false;
-    editScene(drawn_, action);
-    if (isStructural(action))
-        cast_.inputs.push_back({0.0, action});
-    else
-        describeEdit(cast_, action);
-    return true;
+void SceneDrawing::take(std::span<const Action> actions) {
+    editScene(drawn_, actions);
+    for (const Action& action : actions)
+        if (isStructural(action))
+            cast_.inputs.push_back({0.0, action});
+        else if (isLasting(action))
+            describeEdit(cast_, action);
 }
 
 const BodyDescription* SceneDrawing::find(std::string_view body) const noexcept {
@@ -114,17 +113,21 @@ std::vector<Action> SceneDrawing::undoOf(const Action& action, const PoseNow& no
 }
 
 void SceneEdit::run(bool isForth, const SceneDrawing& drawing, const PoseNow& now,
-                    const std::function<void(const Action&)>& act) {
+                    const std::function<void(std::span<const Action>)>& act) {
     const auto& actions = isForth ? forth_ : back_;
-    std::vector<Action> opposite;
+    std::vector<Action> opposite;               // from the end
     const bool isErased = std::ranges::none_of( // a joint that is changed stays where it was drawn
         actions, [](const Action& action) { return std::holds_alternative<JoinAction>(action); });
-    for (const Action& action : actions) {
-        const auto back = drawing.undoOf(action, isErased ? now : PoseNow{});
-        act(action);
-        opposite.insert(opposite.begin(), back.begin(), back.end());
+    for (std::span<const Action> left{actions}; !left.empty();) {
+        const auto run = left.first(takenTogether(left));
+        left = left.subspan(run.size());
+        for (const Action& action : run) {
+            const auto back = drawing.undoOf(action, isErased ? now : PoseNow{});
+            opposite.insert(opposite.end(), back.rbegin(), back.rend());
+        }
+        act(run);
     }
-    (isForth ? back_ : forth_) = std::move(opposite);
+    (isForth ? back_ : forth_).assign(opposite.rbegin(), opposite.rend());
 }
 
 SceneEdit SceneEdit::followedBy(const SceneEdit& next) const {

@@ -5,6 +5,7 @@
 #include "Scene/World/SceneWorld.h"
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,8 +30,9 @@ public:
     /// The error of these consecutive actions; empty: a session would accept them.
     std::string check(const std::vector<Action>& actions) const;
 
-    /// Applies an action that a session has accepted. False if it does not change the drawing.
-    bool take(const Action& action);
+    /// Applies consecutive actions that a session has accepted.
+    void take(std::span<const Action> actions);
+    void take(const Action& action) { take({&action, 1}); }
 
     /// The actions that would undo it. A removed body returns to its present place.
     std::vector<Action> undoOf(const Action& action, const PoseNow& now) const;
@@ -51,9 +53,9 @@ public:
     explicit SceneEdit(std::vector<Action> actions)
         : forth_{std::move(actions)} {}
 
-    /// Calls `act` with each action, after recording its inverse.
+    /// Calls `act` with all actions, some at a time, after recording their inverses.
     void run(bool isForth, const SceneDrawing& drawing, const PoseNow& now,
-             const std::function<void(const Action&)>& act);
+             const std::function<void(std::span<const Action>)>& act);
 
     const std::vector<Action>& forth() const noexcept { return forth_; }
     /// Merges `next` into this edit: undo reverses both.

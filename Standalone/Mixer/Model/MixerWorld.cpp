@@ -48,9 +48,9 @@ private:
     bool run(bool isForth) {
         const SceneDrawing before = world_.drawing_;
         std::vector<Action> actions;
-        edit_.run(isForth, world_.drawing_, world_.posesNow(), [&](const Action& action) {
-            world_.drawing_.take(action);
-            actions.push_back(action);
+        edit_.run(isForth, world_.drawing_, world_.posesNow(), [&](std::span<const Action> some) {
+            world_.drawing_.take(some);
+            actions.insert(actions.end(), some.begin(), some.end());
         });
         if (auto fault = world_.session_.submit({std::span<const Action>{actions}}).error; !fault.empty()) {
             world_.drawing_ = before;
@@ -75,7 +75,8 @@ MixerWorld::MixerWorld(Session& session, const Mix& mix, juce::UndoManager& undo
 std::string MixerWorld::act(const Action& action) {
     auto fault = session_.submit({action}).error;
     if (!fault.empty()) return fault;
-    acted(drawing_.take(action));
+    drawing_.take(action);
+    acted(isLasting(action));
     return fault;
 }
 
