@@ -195,6 +195,8 @@ public:
     /// block, LV2 hosts tell a change of tempo within one. Where every block jumps, a hand is on the
     /// transport: that is one start, and another when it has let go.
     Change follow(std::optional<bool> isPlaying, std::optional<std::int64_t> frame, int frames) noexcept {
+        constexpr std::int64_t far = std::int64_t{1} << 61; // sums fit
+        if (frame) frame = std::clamp(*frame, -far, far);
         const bool plays = isPlaying.value_or(!isThere_ || wasPlaying_);
         // what was assumed counts until the host tells
         const bool wasPlaying = wasPlaying_ && (isThere_ || !isPlaying);
@@ -227,8 +229,8 @@ private:
 
 /// The host's quarter notes, and where a script that follows them is: it begins with the first one of its
 /// take, and has two of them a second where the scene's own time is the host's. What a host does not tell in
-/// a block goes on as it was, a place that jumps within a take moves the script by half a note at most, and
-/// without any tempo there is nothing to follow. R only.
+/// a block goes on as it was, a place that jumps within a take moves the script by half a note at most. R
+/// only.
 class HostBeats {
 public:
     struct Script {
@@ -275,12 +277,11 @@ private:
 };
 
 /// Limits one kind of control change, so that automation cannot fill the session's control queue: at most one
-/// in so many frames of session time; of what comes faster the value then present goes. The same whatever the
+/// in so many frames of session time, the value then present. The same whatever the
 /// block and L are. R only.
 class ControlPace {
 public:
-    static constexpr int perSecond = 1500; // every 32 frames at 48 kHz: gains move in ramps of 10 ms, worlds
-                                           // in steps of 1 ms at least
+    static constexpr int perSecond = 1500; // every 32 frames at 48 kHz: gains move in ramps of 10 ms
 
     /// The frames between two. Any thread.
     static constexpr int framesAt(int sampleRateHz) noexcept { return std::max(1, sampleRateHz / perSecond); }

@@ -45,8 +45,9 @@ double ParameterPoints::take(std::size_t parameter) noexcept {
 
 ParameterPoint ParameterPoints::read(std::size_t parameter) noexcept {
     ParameterPoint point;
-    if (!source_->next(parameter, point)) return {none, 0.0};
-    return {std::clamp(point.frame, 0, frames_), point.normal};
+    while (source_->next(parameter, point))
+        if (std::isfinite(point.normal)) return {std::clamp(point.frame, 0, frames_), point.normal};
+    return {none, 0.0};
 }
 
 // The next multiple of the longest step behind `after`, if the line needs it.

@@ -110,7 +110,7 @@ protected:
 class ParameterPoints {
 public:
     static constexpr int none = std::numeric_limits<int>::max();
-    static constexpr int longestStep = 64; ///< frames; level and law move in ramps of 10 ms anyway
+    static constexpr int longestStep = 64; ///< frames; level and law move in ramps of 10 ms
 
     void reset() noexcept { *this = {}; }
 

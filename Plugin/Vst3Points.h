@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every point that a VST3 host sends of a parameter, and its notes with their ids, tuning and expression:
 // JUCE's wrapper reads the last point of a block alone, and of notes what MIDI has. Included by the header of
-// that wrapper which vst3-header.cmake writes, where the host's block is made into ours; VST3's own headers
-// come before it.
+// that wrapper which vst3-header.cmake writes, where the host's block is made into ours.
 #pragma once
 #undef Complex // X11's: as of JUCE 9 its headers come before this one
 #include "PluginProcessor.h"
