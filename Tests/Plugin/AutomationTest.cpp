@@ -50,7 +50,7 @@ struct TimedNote {
 /// Blocks of these sizes, in turn, for so long.
 Samples playedTo(TestHost& host, PointSong song, const std::vector<TimedNote>& notes,
                  const std::vector<int>& blocks, std::int64_t frames) {
-    Samples signal(static_cast<std::size_t>(host.buffer.getNumChannels()));
+    Samples signal;
     std::size_t note = 0;
     for (std::int64_t at = 0, b = 0; at < frames; ++b) {
         const int size = blocks[static_cast<std::size_t>(b) % blocks.size()];
@@ -60,10 +60,7 @@ Samples playedTo(TestHost& host, PointSong song, const std::vector<TimedNote>& n
         for (; note < notes.size() && notes[note].frame < at + size; ++note)
             midi.addEvent(juce::MidiMessage::noteOn(1, notes[note].number, juce::uint8{100}),
                           static_cast<int>(notes[note].frame - at));
-        const auto& out = host.block(size, midi);
-        for (int c = 0; c < out.getNumChannels(); ++c)
-            signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(),
-                                                       out.getReadPointer(c), out.getReadPointer(c) + size);
+        append(signal, host.block(size, midi));
         at += size;
     }
     return later(signal, host.plugin->getLatencySamples());
@@ -98,8 +95,7 @@ Automated takeOf(std::int64_t frames, std::uint32_t seed, int every) {
 
 Samples bounceOf(const Automated& take, const PluginState& state, const std::vector<int>& blocks,
                  std::int64_t frames) {
-    TestHost host;
-    EXPECT_TRUE(host.plugin->apply(state));
+    TestHost host{state};
     host.prepare(48000, *std::ranges::max_element(blocks));
     return playedTo(host, take.song, take.notes, blocks, frames + host.plugin->getLatencySamples());
 }
@@ -167,8 +163,7 @@ TEST(Automation, ANoteHasTheLevelOfItsFrame) {
 }
 
 TEST(Automation, SilenceClosesAtItsFrame) {
-    TestHost host;
-    ASSERT_TRUE(host.plugin->apply(shakenBox()));
+    TestHost host{shakenBox()};
     host.prepare(48000, 4096);
     const auto open = playedTo(host, {}, {}, {4096}, 48000);
     PointSong song;
@@ -189,8 +184,7 @@ Samples drawn(int block, std::int64_t frames) {
     auto state = strikeAt(0, 1);
     state.scene.materials[3].decayPerSecond = 0.05; // a held tone
     state.limiterEnabled = false;
-    TestHost host;
-    EXPECT_TRUE(host.plugin->apply(state));
+    TestHost host{state};
     host.prepare(48000, block);
     PointSong song;
     const auto levelAt = [](std::int64_t at) {
@@ -250,17 +244,13 @@ Samples risingAndFalling(int block, std::int64_t frames) {
     auto state = strikeAt(0, 1);
     state.scene.materials[3].decayPerSecond = 0.05; // a held tone
     state.limiterEnabled = false;
-    TestHost host;
-    EXPECT_TRUE(host.plugin->apply(state));
+    TestHost host{state};
     host.prepare(48000, 4096); // one latency for all
     Samples signal(1);
     for (std::int64_t at = 0; at < frames; at += block) {
         RisingAndFalling line{at, block};
         host.plugin->expectPoints(line);
-        juce::MidiBuffer midi;
-        if (at == 0) midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 0);
-        const auto& out = host.block(block, midi);
-        signal[0].insert(signal[0].end(), out.getReadPointer(0), out.getReadPointer(0) + block);
+        append(signal, host.block(block, at == 0 ? oneNote(60, 100) : juce::MidiBuffer{}));
     }
     return signal;
 }
@@ -280,12 +270,9 @@ TEST(Automation, AMessageBehindTheBlocksEndIsPlayedAtItsLastFrameAndCounted) {
         ASSERT_TRUE(h->plugin->apply(strikeAt(0, 1)));
         h->prepare(48000, 256);
     }
-    juce::MidiBuffer beyond, last;
-    beyond.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 256);
-    last.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 255);
     Samples a, b;
-    host.block(256, beyond);
-    other.block(256, last);
+    host.block(256, oneNote(60, 100, 256));
+    other.block(256, oneNote(60, 100, 255));
     host.play(9600, a);
     other.play(9600, b);
     EXPECT_TRUE(a == b);

@@ -49,9 +49,7 @@ std::vector<int> channelsOfEnchanters(TestHost& host, int enchanters) {
     for (int j = 0; j < enchanters; ++j) {
         EXPECT_TRUE(host.plugin->apply(strikeAt(j, enchanters)));
         host.prepare(48000, 512);
-        juce::MidiBuffer midi;
-        midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
-        host.block(512, midi);
+        host.block(512, oneNote(60));
         int loudest = -1;
         float peak = 0.35f; // a strike is 0.5 where it is
         for (int done = 0; done < 24000; done += 512) {

@@ -27,11 +27,7 @@ struct AutomatedHost : TestHost {
             block(frames);
         }
     }
-    void strike() {
-        juce::MidiBuffer midi;
-        midi.addEvent(Message::noteOn(1, 60, juce::uint8{127}), 0);
-        block(frames, midi);
-    }
+    void strike() { block(frames, oneNote(60)); }
     /// The loudest sample of the next `count` frames.
     float peakOfNext(std::int64_t count) {
         float peak = 0.0f;

@@ -30,10 +30,7 @@ Samples played(bool isHeld, Parameter moved, float position) {
         if (block == 9) midi.addEvent(Message::noteOn(1, 64, juce::uint8{70}), 0);
         if (block == 30)
             for (const int note : {60, 43, 64}) midi.addEvent(Message::noteOff(1, note), 0);
-        const auto& out = host.block(480, midi);
-        for (int c = 0; c < 4; ++c)
-            signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(),
-                                                       out.getReadPointer(c), out.getReadPointer(c) + 480);
+        append(signal, host.block(480, midi));
     }
     return signal;
 }

@@ -11,16 +11,14 @@ using namespace test;
 using Message = juce::MidiMessage;
 
 PluginState knobPreset(std::string_view name) {
-    PluginState state;
-    const auto& names = presetNames();
-    useBuiltIn(state, static_cast<int>(std::ranges::find(names, name) - names.begin()), 4);
+    PluginState state = presetNamed(name);
     state.limiterEnabled = false;
     return state;
 }
 
 struct KnobHost : TestHost {
-    explicit KnobHost(const PluginState& state) {
-        EXPECT_TRUE(plugin->apply(state)) << plugin->trouble();
+    explicit KnobHost(const PluginState& state)
+        : TestHost{state} {
         prepare(48000, 480);
     }
     void turn(Parameter which, std::string_view to) {
@@ -108,7 +106,7 @@ TEST(Knobs, AControllerMovesThemFromItsFrameOn) {
 Samples knobChord(const std::string& text) {
     TestHost host;
     for (const auto which : parameterTable::instrumentGroup) host.plugin->parameter(which).setValue(0.9f);
-    host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
+    restore(*host.plugin, text);
     EXPECT_EQ(host.plugin->trouble(), "");
     host.prepare(48000, 480);
     juce::MidiBuffer midi;
@@ -160,9 +158,7 @@ TEST(Knobs, AreKeptInAStateAndSetBackByAPreset) {
     KnobHost host{knobPreset("Keys")}, other{knobPreset("Bass")};
     host.turn(Parameter::decay, "4");
     host.turn(Parameter::placement, "actuators");
-    juce::MemoryBlock chunk;
-    host.plugin->getStateInformation(chunk);
-    other.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    restore(*other.plugin, chunkOf(*host.plugin));
     EXPECT_EQ(other.plugin->noteKnobs(), host.plugin->noteKnobs());
     EXPECT_NE(other.plugin->noteKnobs(), NoteKnobs{});
     other.plugin->setCurrentProgram(static_cast<int>(builtInScenes().size()) + 2);

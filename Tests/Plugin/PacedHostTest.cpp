@@ -15,8 +15,8 @@ using namespace test;
 /// for.
 class PacedHost : public TestHost {
 public:
-    explicit PacedHost(const PluginState& state = shakenBox()) {
-        EXPECT_TRUE(plugin->apply(state));
+    explicit PacedHost(const PluginState& state)
+        : TestHost{state} {
         plugin->takes().driveByHand();
     }
 
@@ -29,16 +29,9 @@ public:
     }
     void waitFrames(std::int64_t frames) { wait(frames * 1'000'000'000 / 48000); }
 
-    /// Real time as a host does it that wants `blocks(i)` blocks at its i-th waking.
-    Samples playBursts(std::int64_t frames, int block, const std::function<int(int)>& blocks) {
-        Samples signal;
-        for (std::int64_t done = 0, i = 0; done < frames; ++i) {
-            const int burst = blocks(static_cast<int>(i)) * block;
-            play(burst, signal);
-            done += burst;
-            waitFrames(burst);
-        }
-        return signal;
+    /// A second in real time, appended to `signal`.
+    void playInTime(Samples& signal) {
+        for (int done = 0; done < 48000; done += largest) play(largest, signal), waitFrames(largest);
     }
 
     TakesStatus status() { return plugin->takes().status(); }
@@ -69,13 +62,6 @@ PluginState playedWorld() {
     push.object = state.scene.bodies.back().name;
     push.atFullVelocity = {0.2, 0.1};
     state.notes = {spawn, push};
-    return state;
-}
-
-PluginState presetNamed(std::string_view name) {
-    PluginState state;
-    const auto& names = presetNames();
-    useBuiltIn(state, static_cast<int>(std::ranges::find(names, name) - names.begin()), 4);
     return state;
 }
 
@@ -140,10 +126,7 @@ Samples feltOf(Host& host, const Lie& lie, bool isTight) {
     for (std::int64_t done = 0, i = 0; done < length + latency; ++i) {
         const int block = static_cast<int>(i), frames = lie.frames(block);
         host.plugin->setNonRealtime(lie.saysOffline(block));
-        const auto& out = host.block(frames, song(done, frames));
-        for (std::size_t c = 0; c < 4; ++c)
-            signal[c].insert(signal[c].end(), out.getReadPointer(static_cast<int>(c)),
-                             out.getReadPointer(static_cast<int>(c)) + frames);
+        append(signal, host.block(frames, song(done, frames)));
         done += frames;
         if constexpr (std::is_same_v<Host, PacedHost>) {
             host.waitFrames(std::llround(lie.seconds(block) * frames));
@@ -162,8 +145,7 @@ Samples feltOf(Host& host, const Lie& lie, bool isTight) {
 void expectTheBounce(PluginState state, const char* what) {
     state.controllers = {{20, "strike_x"}};
     for (const bool isTight : {false, true}) {
-        TestHost bounces;
-        ASSERT_TRUE(bounces.plugin->apply(state));
+        TestHost bounces{state};
         const auto bounce =
             feltOf(bounces, {"", [](int) { return true; }, [](int) { return 512; }, {}}, isTight);
         EXPECT_GT(peakOf(bounce), 0.01f) << what;
@@ -182,8 +164,7 @@ TEST(LyingHost, NotesAreTheBounce) {
 TEST(LyingHost, DirectNotesBesideAWorldAreTheBounce) {
     auto state = playedWorld();
     state.isDirect = true;
-    TestHost bounces;
-    ASSERT_TRUE(bounces.plugin->apply(state));
+    TestHost bounces{state};
     const Lie bounce{"", [](int) { return true; }, [](int) { return 512; }, {}};
     const auto expected = feltOf(bounces, bounce, false);
     PacedHost host{state};
@@ -209,13 +190,12 @@ TEST(PacedHost, TheEditorSaysWhatIsFeltWhen) {
 TEST(PacedHost, AThreadThatDoesNotComeIsReplacedByTheCall) {
     PacedHost host{busy()};
     host.prepare(48000, 512, false);
-    Samples signal;
-    host.play(48000, signal);
+    Samples signal = host.played(48000);
     EXPECT_EQ(host.status().slippedNs, 0);
     EXPECT_GT(host.status().aheadBlocks, 20u);
     PacedHost paced{busy()};
     paced.prepare(48000, 512, false);
-    paced.playBursts(48000, 512, [](int) { return 1; });
+    paced.playInTime(signal);
     EXPECT_EQ(paced.status().aheadBlocks, 0u) << "where the thread is in time";
 }
 
@@ -224,7 +204,8 @@ TEST(PacedHost, AThreadThatIsLateForLongChangesNoSampleAndIsBackAtOnce) {
     PacedHost host{busy()};
     host.prepare(48000, 512, false);
     const int latency = host.plugin->getLatencySamples();
-    Samples signal = host.playBursts(48000, 512, [](int) { return 1; });
+    Samples signal;
+    host.playInTime(signal);
     EXPECT_EQ(host.status().aheadBlocks, 0u);
     for (int b = 0; b < 500; ++b) {
         host.play(512, signal);
@@ -233,35 +214,20 @@ TEST(PacedHost, AThreadThatIsLateForLongChangesNoSampleAndIsBackAtOnce) {
     const auto stepped = host.status().aheadBlocks;
     EXPECT_GT(stepped, 100u) << "one block in four needs a step";
     host.waitFrames(512);
-    const auto rest = host.playBursts(48000, 512, [](int) { return 1; });
-    for (std::size_t c = 0; c < signal.size(); ++c)
-        signal[c].insert(signal[c].end(), rest[c].begin(), rest[c].end());
+    host.playInTime(signal);
     EXPECT_EQ(host.status().aheadBlocks, stepped) << "the thread does it again";
     EXPECT_EQ(host.status().slippedNs, 0);
-    TestHost offline;
-    ASSERT_TRUE(offline.plugin->apply(busy()));
+    TestHost offline{busy()};
     offline.prepare(48000, 512);
-    Samples bounce;
-    offline.play(static_cast<std::int64_t>(signal[0].size()), bounce);
+    Samples bounce = offline.played(static_cast<std::int64_t>(signal[0].size()));
     EXPECT_EQ(host.plugin->takes().latencyFrames(), latency);
     EXPECT_TRUE(later(signal, latency) == later(bounce, latency));
 }
 
-/// Discs in one place, each touching each: a step takes many times longer than real time.
+/// A step takes many times longer than real time.
 PluginState absurdlyHeavy() {
-    auto state = busy();
-    state.scene.joints.clear();
-    state.scene.script.clear();
-    state.scene.bodies.clear();
-    for (int i = 0; i < 200; ++i) {
-        BodyDescription& body = state.scene.bodies.emplace_back();
-        body.name = "disc " + std::to_string(i);
-        body.positionMetres = {state.scene.fieldWidthMetres / 2, state.scene.fieldHeightMetres / 2};
-        FixtureDescription& fixture = body.fixtures.emplace_back();
-        fixture.material = 3;
-        fixture.isCamera = true;
-        fixture.shape = CircleShape{0.2};
-    }
+    auto state = heap(200);
+    state.limiterEnabled = false;
     return state;
 }
 
@@ -301,64 +267,12 @@ TEST(PacedHost, NoCallStepsMoreThanItsOwnFramesAndTheLatencyOfAWorldThatIsFarToo
             EXPECT_TRUE(editor->statusText().contains("the host waits for the world"))
                 << editor->statusText();
         }
-        TestHost offline;
-        ASSERT_TRUE(offline.plugin->apply(absurdlyHeavy()));
+        TestHost offline{absurdlyHeavy()};
         offline.plugin->parameter(Parameter::timing).setValue(isTight ? 1.0f : 0.0f);
         offline.prepare(48000, 2048);
         offline.play(length, bounce);
         EXPECT_TRUE(signal == bounce);
     }
-}
-
-// As LV2 hosts do that announce what an export may need.
-TEST(PacedHost, LIsThatOfTheUsualBlockHoweverLargeOneComes) {
-    PacedHost host{busy()};
-    host.plugin->expectBlocksOf(512);
-    host.prepare(48000, 8192, false);
-    const int usual = host.plugin->getLatencySamples();
-    EXPECT_EQ(usual, 512 + 480 + 960 + 47);
-    Samples signal;
-    for (const int frames : {512, 2048, 8192}) {
-        host.largest = frames;
-        for (int b = 0; b < 20; ++b) {
-            host.play(frames, signal);
-            host.waitFrames(frames);
-        }
-        EXPECT_EQ(host.plugin->takes().outputLatencyFrames(), usual) << frames;
-        EXPECT_EQ(host.status().slippedNs, 0) << frames;
-    }
-}
-
-TEST(PacedHost, RestartsInBurstsAreTheBounceToo) {
-    auto state = busy();
-    state.transport = TransportMode::restartOnPlay;
-    PacedHost host{state};
-    host.prepare(48000, 512, false);
-    host.playHead.isThere = host.playHead.isPlaying = true;
-    Samples signal;
-    const int loop = 200; // blocks
-    for (int take = 0; take < 4; ++take) {
-        host.playHead.frame = 0;
-        for (int b = 0; b < loop; b += 20) {
-            host.play(20 * 512, signal);
-            host.waitFrames(20 * 512);
-        }
-    }
-    EXPECT_EQ(host.status().take, 4);
-    EXPECT_EQ(host.status().delayedBlocks, 0u);
-    EXPECT_EQ(host.status().slippedNs, 0);
-    const auto latency = host.plugin->takes().outputLatencyFrames();
-    TestHost offline;
-    ASSERT_TRUE(offline.plugin->apply(busy()));
-    offline.prepare(48000, 512);
-    Samples bounce;
-    offline.play(loop * 512 + latency, bounce);
-    bounce = later(bounce, latency);
-    for (int take = 1; take < 3; ++take)
-        for (std::size_t c = 0; c < 4; ++c) { // the one before fades in the first 10 ms
-            const auto from = signal[c].begin() + latency + take * loop * 512;
-            EXPECT_TRUE(std::equal(from + 480, from + loop * 512, bounce[c].begin() + 480)) << take;
-        }
 }
 
 } // namespace

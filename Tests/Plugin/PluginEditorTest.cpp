@@ -54,9 +54,7 @@ TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
         *editor, [](const auto& label) { return label.getText().contains("Press a key below"); });
     ASSERT_NE(words, nullptr);
     EXPECT_TRUE(words->isVisible());
-    juce::MidiBuffer midi;
-    midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 0);
-    host.block(512, midi);
+    host.block(512, oneNote(60));
     for (int b = 0; b < 20; ++b) host.block(512);
     editor->refresh();
     EXPECT_FALSE(words->isVisible());
@@ -142,9 +140,7 @@ TEST(PluginEditor, ComesBackInTheSizeItWasLeftInAlsoFromAChunk) {
     openEditor(*host.plugin)->setSize(1000, 600);
     EXPECT_EQ(openEditor(*host.plugin)->getWidth(), 1000);
     EXPECT_EQ(host.plugin->stateCount(), count) << "no edit";
-    juce::MemoryBlock chunk;
-    host.plugin->getStateInformation(chunk);
-    other.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    restore(*other.plugin, chunkOf(*host.plugin));
     EXPECT_EQ(openEditor(*other.plugin)->getHeight(), 600);
 }
 

@@ -12,12 +12,6 @@ namespace {
 
 using namespace test;
 
-juce::MemoryBlock chunkOf(PluginProcessor& plugin) {
-    juce::MemoryBlock chunk;
-    plugin.getStateInformation(chunk);
-    return chunk;
-}
-
 TEST(PluginChunk, RoundTripsToTheByteAndToTheSample) {
     TestHost first, second;
     Random random{3};
@@ -31,15 +25,13 @@ TEST(PluginChunk, RoundTripsToTheByteAndToTheSample) {
         ASSERT_TRUE(first.plugin->apply(state));
         for (auto* p : first.plugin->getParameters()) p->setValue(static_cast<float>(random.uniform(0, 1)));
         const auto chunk = chunkOf(*first.plugin);
-        second.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+        restore(*second.plugin, chunk);
         ASSERT_EQ(second.plugin->trouble(), "");
         EXPECT_TRUE(chunkOf(*second.plugin) == chunk);
         if (i % 5 > 0) continue;
         first.prepare(48000, 512);
         second.prepare(48000, 512);
-        Samples a, b;
-        first.play(24000, a);
-        second.play(24000, b);
+        Samples a = first.played(24000), b = second.played(24000);
         EXPECT_TRUE(a == b);
     }
 }
@@ -58,16 +50,16 @@ TEST(PluginChunk, ABrokenChunkLeavesTheLastGoodStateAndSaysSo) {
             broken.resize(at);
         else
             broken[at] = static_cast<char>(random.below(256));
-        host.plugin->setStateInformation(broken.data(), static_cast<int>(broken.size()));
+        restore(*host.plugin, broken);
         if (host.plugin->trouble().isNotEmpty())
             EXPECT_EQ(pluginStateJson(host.plugin->state()), text) << host.plugin->trouble();
-        host.plugin->setStateInformation(good.getData(), static_cast<int>(good.getSize()));
+        restore(*host.plugin, good);
         ASSERT_EQ(host.plugin->trouble(), "");
     }
     for (const std::string bytes :
          {"{ \"\xff\": 1 }", "\xf0\x9f", "{ \"physvib_plugin_state\": \"\xe2\x82"}) { // no UTF-8, which
                                                                                       // messages quote
-        host.plugin->setStateInformation(bytes.data(), static_cast<int>(bytes.size()));
+        restore(*host.plugin, bytes);
         EXPECT_TRUE(host.plugin->trouble().startsWith("state: "));
         EXPECT_TRUE(juce::CharPointer_UTF8::isValidString(
             host.plugin->trouble().toRawUTF8(),
@@ -89,9 +81,7 @@ TEST(PluginChunk, ARefusedChunkIsWhatTheNextSaveGivesBackUntilAHandEdits) {
     const auto own = chunkOf(*host.plugin);
     const std::string newer = "{ " + newerThan(own.toString().toStdString());
     auto& level = host.plugin->parameter(Parameter::level);
-    const auto refuse = [&] {
-        host.plugin->setStateInformation(newer.data(), static_cast<int>(newer.size()));
-    };
+    const auto refuse = [&] { restore(*host.plugin, newer); };
     const auto saved = [&] { return chunkOf(*host.plugin).toString().toStdString(); };
     const auto gesture = [&](Parameter which) {
         host.plugin->parameter(which).beginChangeGesture();
@@ -113,7 +103,7 @@ TEST(PluginChunk, ARefusedChunkIsWhatTheNextSaveGivesBackUntilAHandEdits) {
     host.plugin->setCurrentProgram(1);
     EXPECT_NE(saved(), newer) << "another program";
     refuse();
-    host.plugin->setStateInformation(own.getData(), static_cast<int>(own.getSize()));
+    restore(*host.plugin, own);
     EXPECT_TRUE(chunkOf(*host.plugin) == own) << "a chunk that can be read";
 }
 
@@ -122,7 +112,7 @@ TEST(PluginChunk, ParametersOfAnotherPhysVibAreRefused) {
     auto state = host.plugin->state();
     state.parameters.emplace_back("wobble", 1.0);
     const auto text = pluginStateJson(state);
-    host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
+    restore(*host.plugin, text);
     EXPECT_EQ(host.plugin->trouble(), "state: no parameter \"wobble\"");
 }
 
@@ -134,7 +124,7 @@ TEST(PluginChunk, AChoiceIsKeptByItsWord) {
     EXPECT_TRUE(chunk.contains("\"law\": \"log-outer\""));
     const auto give = [&](const juce::String& value) {
         const auto text = chunk.replace("\"law\": \"log-outer\"", "\"law\": " + value).toStdString();
-        host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
+        restore(*host.plugin, text);
     };
     give("3");
     EXPECT_EQ(law.value(), 3.0) << "as version 1 wrote it";
@@ -146,32 +136,8 @@ TEST(PluginChunk, AChoiceIsKeptByItsWord) {
     auto state = host.plugin->state();
     state.parameters = {{"level", "loud"}};
     const auto text = pluginStateJson(state);
-    host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
+    restore(*host.plugin, text);
     EXPECT_EQ(host.plugin->trouble(), "state: parameters.level: expected a number, found \"loud\"");
-}
-
-TEST(PluginChunk, ComesAndGoesOnAnyThreadWhileItPlays) {
-    TestHost host;
-    host.prepare(48000, 256, false);
-    std::vector<juce::MemoryBlock> chunks;
-    for (int program = 0; program < 5; ++program) {
-        host.plugin->setCurrentProgram(program);
-        chunks.push_back(chunkOf(*host.plugin));
-    }
-    std::atomic<bool> stop{false};
-    std::thread other{[&] {
-        for (std::size_t i = 0; !stop; ++i) {
-            host.plugin->setStateInformation(chunks[i % 5].getData(),
-                                             static_cast<int>(chunks[i % 5].getSize()));
-            EXPECT_GT(chunkOf(*host.plugin).getSize(), 1000u);
-        }
-    }};
-    float peak = 0;
-    for (int b = 0; b < 2000; ++b) peak = std::max(peak, host.block(256).getMagnitude(0, 256));
-    stop = true;
-    other.join();
-    EXPECT_LE(peak, 1.0f);
-    EXPECT_EQ(host.plugin->trouble(), "");
 }
 
 TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenesAndBehindThemInstruments) {
@@ -250,14 +216,12 @@ TEST(PluginChunk, APresetIsTheSameWhateverWasChosenBefore) {
 }
 
 TEST(PluginChunk, AStopIsSilentAndNoPartOfIt) {
-    TestHost host;
-    ASSERT_TRUE(host.plugin->apply(shakenBox()));
+    TestHost host{shakenBox()};
     host.prepare(48000, 512);
     const auto before = chunkOf(*host.plugin);
     for (const bool isStopped : {false, true, false}) {
         host.plugin->stop(isStopped);
-        Samples signal;
-        host.play(24000, signal);
+        Samples signal = host.played(24000);
         signal.clear();
         host.play(96000, signal);
         EXPECT_EQ(peakOf(signal) > 0.0f, !isStopped);
@@ -271,11 +235,11 @@ TEST(PluginChunk, AStateThatIsTakenIsNoEdit) {
     const auto chunk = chunkOf(*host.plugin);
     Listener listener;
     host.plugin->addListener(&listener);
-    host.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    restore(*host.plugin, chunk);
     runFor(0.1);
     EXPECT_EQ(listener.parameters, 0) << "what the host knows";
     host.plugin->parameter(Parameter::tilt).setValue(0.75f);
-    host.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    restore(*host.plugin, chunk);
     EXPECT_EQ(listener.parameters, 1) << "the one that it does not";
     EXPECT_EQ(listener.edits, 0);
     EXPECT_EQ(listener.latencies, 0);
@@ -325,7 +289,7 @@ TEST(PluginChunk, NoLockIsHeldWhileTheHostIsTold) {
     host.plugin->edit(state); // a latency, an edit
     host.plugin->parameter(Parameter::tilt).setValue(0.75f);
     // a latency, a parameter
-    host.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    restore(*host.plugin, chunk);
     host.plugin->parameter(Parameter::level).setByController(0.5f);
     for (int i = 0; i < 100 && curious.looks < 5; ++i) runFor(0.05); // the timer tells of the controller
     EXPECT_EQ(curious.looks, 5);

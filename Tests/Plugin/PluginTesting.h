@@ -34,7 +34,42 @@ struct TestPlayHead final : juce::AudioPlayHead {
     double perMinute = 0.0, quarter = 0.0; // 0: no tempo is told
 };
 
+/// What automation moves together: ten, each continuous.
+constexpr std::array automatedTogether{Parameter::level,        Parameter::exponent,    Parameter::gravity,
+                                       Parameter::tilt,         Parameter::strikeLevel, Parameter::strikeX,
+                                       Parameter::strikeY,      Parameter::decay,       Parameter::release,
+                                       Parameter::velocityCurve};
+
 using Samples = std::vector<std::vector<float>>; // [channel][frame]
+
+/// Behind it, what was played now; of as many channels, if it has any.
+inline void append(Samples& signal, const juce::AudioBuffer<float>& played) {
+    if (signal.empty()) signal.resize(static_cast<std::size_t>(played.getNumChannels()));
+    for (std::size_t c = 0; c < signal.size(); ++c) {
+        const float* const from = played.getReadPointer(static_cast<int>(c));
+        signal[c].insert(signal[c].end(), from, from + played.getNumSamples());
+    }
+}
+
+inline juce::MidiBuffer oneNote(int note, int velocity = 127, int frame = 0) {
+    juce::MidiBuffer midi;
+    midi.addEvent(juce::MidiMessage::noteOn(1, note, static_cast<juce::uint8>(velocity)), frame);
+    return midi;
+}
+
+/// What a host saves, and what it gives back.
+inline juce::MemoryBlock chunkOf(juce::AudioProcessor& plugin) {
+    juce::MemoryBlock chunk;
+    plugin.getStateInformation(chunk);
+    return chunk;
+}
+template <class Bytes>
+void restore(juce::AudioProcessor& plugin, const Bytes& chunk) {
+    plugin.setStateInformation(std::data(chunk), static_cast<int>(std::size(chunk)));
+}
+inline void restore(juce::AudioProcessor& plugin, const juce::MemoryBlock& chunk) {
+    plugin.setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+}
 
 /// As instances began before notes had a voice: "shake the box" on four enchanters, running free.
 inline PluginState shakenBox() {
@@ -54,6 +89,10 @@ public:
             plugin->parameter(row.parameter).setValue(static_cast<float>(normalised(row, row.initial)));
         plugin->parameter(Parameter::level).setValue(1.0f);                // 0 dB, to compare with renders
         plugin->parameter(Parameter::strikeLevel).setValue(54.0f / 72.0f); // -6 dB
+    }
+    explicit TestHost(const PluginState& state)
+        : TestHost{} {
+        EXPECT_TRUE(plugin->apply(state)) << plugin->trouble();
     }
     ~TestHost() { plugin->setPlayHead(nullptr); }
 
@@ -76,14 +115,14 @@ public:
 
     /// `frames` frames in blocks of the prepared size, appended to `signal`.
     void play(std::int64_t frames, Samples& signal) {
-        signal.resize(static_cast<std::size_t>(buffer.getNumChannels()));
-        for (std::int64_t done = 0; done < frames; done += largest) {
-            const auto& out = block(static_cast<int>(std::min<std::int64_t>(largest, frames - done)));
-            for (int c = 0; c < out.getNumChannels(); ++c)
-                signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(),
-                                                           out.getReadPointer(c),
-                                                           out.getReadPointer(c) + out.getNumSamples());
-        }
+        for (std::int64_t done = 0; done < frames; done += largest)
+            append(signal, block(static_cast<int>(std::min<std::int64_t>(largest, frames - done))));
+    }
+
+    Samples played(std::int64_t frames) {
+        Samples signal;
+        play(frames, signal);
+        return signal;
     }
 
     TestPlayHead playHead; // outlives the plug-in
@@ -91,6 +130,32 @@ public:
     juce::AudioBuffer<float> buffer;
     int largest = 0;
 };
+
+/// Without a limiter, which would hide that one is louder.
+inline PluginState presetNamed(std::string_view name) {
+    PluginState state;
+    useBuiltIn(state, static_cast<int>(std::ranges::find(presetNames(), name) - presetNames().begin()), 4);
+    return state;
+}
+
+/// Many discs in one place, each touching each: steps that take long.
+inline PluginState heap(int discs) {
+    PluginState state = shakenBox();
+    Scene& scene = state.scene;
+    scene.joints.clear();
+    scene.script.clear();
+    scene.bodies.clear();
+    for (int i = 0; i < discs; ++i) {
+        BodyDescription& body = scene.bodies.emplace_back();
+        body.name = "disc " + std::to_string(i);
+        body.positionMetres = {scene.fieldWidthMetres / 2, scene.fieldHeightMetres / 2};
+        FixtureDescription& fixture = body.fixtures.emplace_back();
+        fixture.material = 3;
+        fixture.isCamera = true;
+        fixture.shape = CircleShape{0.2};
+    }
+    return state;
+}
 
 /// Nothing but n enchanters in a line; note 60 strikes at enchanter j.
 inline PluginState strikeAt(int j, int n) {

@@ -141,7 +141,7 @@ TEST(SideChain, AStateWithoutItsParameterLeavesItAtRest) {
         std::string text = pluginStateJson(old);
         const std::string now = "\"physvib_plugin_state\": ";
         text.replace(text.find(now), now.size() + 1, now + std::to_string(version));
-        host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
+        restore(*host.plugin, text);
         EXPECT_EQ(host.plugin->trouble(), "");
         EXPECT_EQ(host.plugin->parameter(Parameter::beats).value(), 0.0);
     }

@@ -45,9 +45,7 @@ public:
             buffer.copyFrom(c, 0, (c == 1 && right ? right->samples : song.samples).data() + at, frames);
         auto midi = notes(at, frames);
         plugin->processBlock(buffer, midi);
-        for (std::size_t c = 0; c < 4; ++c)
-            signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)),
-                             buffer.getReadPointer(static_cast<int>(c)) + frames);
+        append(signal, buffer);
     }
 
     /// What is played of all of it.

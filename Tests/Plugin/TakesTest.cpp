@@ -26,20 +26,14 @@ PluginState onPlay() {
 TEST(Takes, WhatIsOwedIsPlayedHoweverManyJumpsFollow) {
     constexpr int block = 64, before = 300 * block;
     for (const int apart : {2, 3, 10}) { // blocks between jumps; L is 24
-        TestHost host;
-        ASSERT_TRUE(host.plugin->apply(onPlay()));
+        TestHost host{onPlay()};
         host.prepare(48000, block);
         const int latency = host.plugin->getLatencySamples();
         Samples straight, jumping;
         host.playHead.isThere = host.playHead.isPlaying = true;
         const auto playStruck = [&](Samples& signal) { // shortly before the first jump
             host.play(before - 5 * block, signal);
-            juce::MidiBuffer midi;
-            midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
-            host.block(block, midi);
-            for (std::size_t c = 0; c < signal.size(); ++c)
-                signal[c].insert(signal[c].end(), host.buffer.getReadPointer(static_cast<int>(c)),
-                                 host.buffer.getReadPointer(static_cast<int>(c)) + block);
+            append(signal, host.block(block, oneNote(60)));
             host.play(4 * block, signal);
         };
         playStruck(straight);
@@ -72,21 +66,13 @@ TEST(Takes, WhatFollowsQuicklyDoesNotAddUpToDirectCurrent) {
     auto& slow = state.scene.materials[static_cast<std::size_t>(state.notes[0].material)];
     slow.frequencyHz = slow.decayPerSecond = 1.0;
     for (const int block : {480, 96}) {
-        TestHost host;
-        ASSERT_TRUE(host.plugin->apply(state));
+        TestHost host{state};
         host.plugin->parameter(Parameter::strikeLevel).setValue(1.0f);
         host.prepare(48000, block);
         host.playHead.isThere = host.playHead.isPlaying = true;
         Samples left;
         for (int jump = 1; jump <= 40; ++jump) {
-            juce::MidiBuffer midi;
-            midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
-            host.block(block, midi);
-            left.resize(static_cast<std::size_t>(host.buffer.getNumChannels()));
-            for (std::size_t c = 0; c < left.size(); ++c) {
-                const float* const at = host.buffer.getReadPointer(static_cast<int>(c));
-                left[c].insert(left[c].end(), at, at + block);
-            }
+            append(left, host.block(block, oneNote(60)));
             host.play(4800 - block, left);
             host.playHead.frame = 1'000'000 * jump;
         }
@@ -106,16 +92,14 @@ TEST(Takes, PreparingAnewIsNoWayAroundTheGuard) {
     auto& slow = state.scene.materials[static_cast<std::size_t>(state.notes[0].material)];
     slow.frequencyHz = slow.decayPerSecond = 1.0;
     for (const bool isReleased : {false, true}) {
-        TestHost host;
-        ASSERT_TRUE(host.plugin->apply(state));
+        TestHost host{state};
         host.plugin->parameter(Parameter::strikeLevel).setValue(1.0f);
         std::vector<std::vector<float>> left(4); // at 8 kHz: means
         for (int k = 0; k < 40; ++k) {
             const int rate = k % 2 == 0 ? 48000 : 96000, block = k % 3 == 0 ? 96 : 480;
             if (isReleased) host.plugin->releaseResources();
             host.prepare(rate, block, false);
-            juce::MidiBuffer midi;
-            midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
+            auto midi = oneNote(60);
             for (int done = 0; done < rate / 10; done += block, midi.clear()) {
                 const auto& out = host.block(block, midi);
                 for (int c = 0; c < std::min(out.getNumChannels(), 4); ++c)
@@ -134,9 +118,7 @@ TEST(Takes, PreparingAnewIsNoWayAroundTheGuard) {
         Samples once, again; // an export begins at rest
         for (Samples* export_ : {&once, &again}) {
             host.prepare(48000, 480);
-            juce::MidiBuffer midi;
-            midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
-            host.block(480, midi);
+            host.block(480, oneNote(60));
             host.play(48000, *export_);
         }
         EXPECT_EQ(once, again);
@@ -150,8 +132,7 @@ TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
         return s.scene.materials[static_cast<std::size_t>(s.notes[0].material)].frequencyHz;
     };
     ASSERT_NE(frequencyOf(two), frequencyOf(four));
-    TestHost host;
-    ASSERT_TRUE(host.plugin->apply(two));
+    TestHost host{two};
     host.prepare(48000, 64);
     std::atomic<bool> isDone{false};
     std::atomic<std::size_t> seen{0};
@@ -161,9 +142,7 @@ TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
     }};
     std::vector<int> channels{0}; // of each take
     while (!isDone) {
-        juce::MidiBuffer midi;
-        midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
-        host.block(64, midi);
+        host.block(64, oneNote(60));
         if (host.plugin->takes().status().take == static_cast<int>(channels.size()))
             channels.push_back(host.plugin->takes().session()->channels());
         seen = channels.size();
@@ -178,21 +157,24 @@ TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
     EXPECT_EQ(others, 0) << "struck by another take's notes";
 }
 
-TEST(Takes, ALoopUsesThoseThatHaveEnded) {
-    TestHost host;
-    ASSERT_TRUE(host.plugin->apply(onPlay()));
+TEST(Takes, ALoopUsesThoseThatHaveEndedAndIsTheSameEachTime) {
+    TestHost host{onPlay()};
+    Samples signal;
     host.plugin->takes().driveByHand();
     host.prepare(48000, 480, false);
     host.playHead.isThere = host.playHead.isPlaying = true;
     for (int b = 0; b < 600; ++b) {
         if (b % 30 == 0) host.playHead.frame = 0;
-        host.block(480);
+        append(signal, host.block(480));
         for (int t = 0; t < 2; ++t) host.plugin->takes().tick();
     }
     EXPECT_EQ(host.plugin->takes().status().take, 20);
     EXPECT_EQ(host.plugin->takes().status().delayedBlocks, 0u);
     EXPECT_EQ(host.plugin->takes().status().slippedNs, 0);
     EXPECT_EQ(host.plugin->takes().made(), 2u) << "one to be next, one to be spare";
+    for (const auto& c : signal)
+        EXPECT_TRUE(std::equal(c.begin() + 3 * 14400, c.end() - 14400, c.begin() + 4 * 14400));
+    EXPECT_GT(peakOf(signal), 0.01f);
 }
 
 // The next one is made as long as this lasts: until the test lets it, or two seconds have passed.
@@ -202,8 +184,7 @@ constexpr std::size_t largeBytes = 100'000; // less than a renderer takes at onc
 
 TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
     if (!ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
-    TestHost host;
-    ASSERT_TRUE(host.plugin->apply(onPlay()));
+    TestHost host{onPlay()};
     host.prepare(48000, 480, false);
     host.playHead.isThere = host.playHead.isPlaying = true;
     std::promise<void> let;
@@ -232,30 +213,10 @@ TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
     EXPECT_FALSE(hasWaitedInVain) << "the world stood still for as long as the other was made";
 }
 
-/// Many discs in one place: steps that take long.
-PluginState heap(int discs) {
-    PluginState state = shakenBox();
-    Scene& scene = state.scene;
-    scene.joints.clear();
-    scene.script.clear();
-    scene.bodies.clear();
-    for (int i = 0; i < discs; ++i) {
-        BodyDescription& body = scene.bodies.emplace_back();
-        body.name = "disc " + std::to_string(i);
-        body.positionMetres = {scene.fieldWidthMetres / 2, scene.fieldHeightMetres / 2};
-        FixtureDescription& fixture = body.fixtures.emplace_back();
-        fixture.material = 3;
-        fixture.isCamera = true;
-        fixture.shape = CircleShape{0.2};
-    }
-    return state;
-}
-
 /// The processor time of a tick that owes half a second of the heap's world, and is released after so much of
 /// it.
 double tickMicroseconds(double releasedAfter = HUGE_VAL) {
-    TestHost host;
-    EXPECT_TRUE(host.plugin->apply(heap(200)));
+    TestHost host{heap(200)};
     host.plugin->takes().driveByHand();
     host.prepare(48000, 480, false);
     for (int b = 0; b < 50; ++b) host.block(480);
@@ -303,8 +264,7 @@ TEST(Takes, AStateOfManyBodiesIsTakenInATimeThatGrowsAsTheyDo) {
 
 TEST(Takes, WithoutMemoryForAnotherTheHostPlaysOnAndItIsSaid) {
     if (!ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
-    TestHost host;
-    ASSERT_TRUE(host.plugin->apply(onPlay()));
+    TestHost host{onPlay()};
     beforeMemory = nullptr;
     host.prepare(48000, 480, false);
     beforeMemory = [](std::size_t bytes) { return bytes <= largeBytes; };

@@ -15,11 +15,10 @@ struct TimedMessage {
 };
 
 /// What is felt of that in blocks of one size, L taken out.
-Samples playedBy(const PluginState& state, const std::vector<TimedMessage>& messages, std::int64_t frames,
-                 int block = 512, float level = 1.0f) {
-    TestHost host;
-    EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
-    host.plugin->parameter(Parameter::level).setValue(level);
+Samples playedBy(const PluginState& state, const std::vector<TimedMessage>& messages, std::int64_t frames) {
+    constexpr int block = 512;
+    TestHost host{state};
+    host.plugin->parameter(Parameter::level).setValue(1.0f);
     host.plugin->parameter(Parameter::strikeLevel).setValue(60.0f / 72.0f); // 0 dB
     host.prepare(48000, block);
     Samples signal(4);
@@ -29,10 +28,7 @@ Samples playedBy(const PluginState& state, const std::vector<TimedMessage>& mess
         juce::MidiBuffer midi;
         for (; next < messages.size() && messages[next].frame < at + block; ++next)
             midi.addEvent(messages[next].message, static_cast<int>(messages[next].frame - at));
-        const auto& out = host.block(block, midi);
-        for (int c = 0; c < std::min(4, out.getNumChannels()); ++c)
-            signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(),
-                                                       out.getReadPointer(c), out.getReadPointer(c) + block);
+        append(signal, host.block(block, midi));
     }
     signal = later(signal, host.plugin->getLatencySamples());
     for (auto& c : signal) c.resize(static_cast<std::size_t>(frames));
@@ -216,29 +212,6 @@ TEST(Voice, AMasterBendsByTwoSemitonesAndControllersAreSetBackAtOnce) {
     std::printf("pitch of a note: bent up %.1f Hz, after CC 121 %.1f Hz\n", bent, back);
     EXPECT_NEAR(bent, 220.0, 3.0);
     EXPECT_NEAR(back, 110.0, 1.5);
-}
-
-TEST(Voice, HeldNotesAreTheSameSamplesInBlocksOfAnySizeAndDirectToo) {
-    auto state = voiced(true, NotePlaces::octave);
-    state.voice.bendSemitones = 2.0;
-    std::vector<TimedMessage> messages;
-    Random random{4};
-    for (std::int64_t at = 0; at < 40000; at += 1 + random.below(700)) {
-        const int note = 40 + random.below(12);
-        const int kind = random.below(5);
-        messages.push_back({at, kind < 2    ? on(note, 1 + random.below(127))
-                                : kind == 2 ? off(note)
-                                : kind == 3 ? Message::pitchWheel(1, random.below(16384))
-                                            : Message::channelPressureChange(1, random.below(128))});
-    }
-    for (const bool isDirect : {false, true}) {
-        state.isDirect = isDirect;
-        const auto expected = playedBy(state, messages, 48000);
-        EXPECT_GT(peakOf(expected), 0.5f);
-        for (const int block : {32, 100, 1000, 4096})
-            EXPECT_TRUE(playedBy(state, messages, 48000, block) == expected)
-                << block << (isDirect ? ", direct" : "");
-    }
 }
 
 TEST(Voice, MoreNotesThanRoomReplaceTheOldest) {

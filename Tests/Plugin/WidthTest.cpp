@@ -26,8 +26,7 @@ struct WidthHost {
     std::vector<float> peaks(double seconds, int note = -1) {
         std::vector<float> all(static_cast<std::size_t>(plugin.getTotalNumOutputChannels()));
         for (int b = 0; b * 512 < seconds * 48000; ++b) {
-            juce::MidiBuffer midi;
-            if (b == 0 && note >= 0) midi.addEvent(juce::MidiMessage::noteOn(1, note, juce::uint8{127}), 0);
+            auto midi = b == 0 && note >= 0 ? oneNote(note) : juce::MidiBuffer{};
             plugin.processBlock(buffer, midi);
             for (std::size_t c = 0; c < all.size(); ++c)
                 all[c] = std::max(all[c], buffer.getMagnitude(static_cast<int>(c), 0, 512));
@@ -126,10 +125,8 @@ TEST(Width, APresetThatWasChosenFollowsATrackThatIsMadeWiderToo) {
         host.prepare();
         EXPECT_EQ(enchantersOf(host.plugin.state()), 8) << name;
         EXPECT_EQ(host.plugin.state().strips[1].gainDb, -3.0) << name;
-        juce::MemoryBlock chunk;
-        host.plugin.getStateInformation(chunk);
         WidthHost loaded{4};
-        loaded.plugin.setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+        restore(loaded.plugin, chunkOf(host.plugin));
         loaded.prepare();
         EXPECT_EQ(enchantersOf(loaded.plugin.state()), 8) << "what was saved is somebody's wiring";
     }
@@ -137,9 +134,7 @@ TEST(Width, APresetThatWasChosenFollowsATrackThatIsMadeWiderToo) {
 
 TEST(Width, ALoadedStateKeepsItsLayout) {
     WidthHost four{4}, two{2};
-    juce::MemoryBlock chunk;
-    four.plugin.getStateInformation(chunk);
-    two.plugin.setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    restore(two.plugin, chunkOf(four.plugin));
     two.prepare();
     EXPECT_EQ(two.plugin.state().layout.name, "phone4");
 }

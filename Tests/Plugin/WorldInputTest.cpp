@@ -29,8 +29,7 @@ std::vector<CollisionEvent> after(Change change, int block = 480, const PluginSt
     TestHost host;
     EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
     host.prepare(48000, block);
-    Samples signal;
-    host.play(48000, signal);
+    Samples signal = host.played(48000);
     change(host);
     host.play(96000 + host.plugin->getLatencySamples(), signal);
     host.plugin->releaseResources();
@@ -44,11 +43,7 @@ auto set(Parameter which, float normal) {
     return [=](TestHost& host) { host.plugin->parameter(which).setValue(normal); };
 }
 auto play(int note, int velocity = 127) {
-    return [=](TestHost& host) {
-        juce::MidiBuffer midi;
-        midi.addEvent(juce::MidiMessage::noteOn(1, note, static_cast<juce::uint8>(velocity)), 0);
-        host.block(host.largest, midi);
-    };
+    return [=](TestHost& host) { host.block(host.largest, oneNote(note, velocity)); };
 }
 
 TEST(WorldInput, GravityTiltAndMaterialAreFeltAndRepeat) {

@@ -198,7 +198,7 @@ TEST(Clap, NotesAndPointsAreTheProcessorsSamplesToTheBit) {
     EXPECT_EQ(host.get<clap_plugin_latency_t>(CLAP_EXT_LATENCY)->get(host.plugin), 1999u)
         << "as in other formats";
     PluginProcessor own{"PhysVib", {}};
-    own.setStateInformation(text.data(), static_cast<int>(text.size()));
+    restore(own, text);
     own.setNonRealtime(true);
     own.setRateAndBufferSizeDetails(48000, block);
     own.prepareToPlay(48000, block);
@@ -208,16 +208,12 @@ TEST(Clap, NotesAndPointsAreTheProcessorsSamplesToTheBit) {
     Samples expected(4);
     juce::AudioBuffer<float> buffer{4, block};
     for (int part = 0; part < 120; ++part) { // the same level from the second half of the first block on
-        juce::MidiBuffer midi;
-        if (part == 0) midi.addEvent(juce::MidiMessage::noteOn(1, 48, juce::uint8{127}), 100);
+        auto midi = part == 0 ? oneNote(48, 127, 100) : juce::MidiBuffer{};
         if (part == 1)
             own.parameter(Parameter::level).setValue(own.parameter(Parameter::level).convertTo0to1(-6.0f));
         buffer.setSize(4, block / 2, false, false, true);
         own.processBlock(buffer, midi);
-        for (int c = 0; c < 4; ++c)
-            expected[static_cast<std::size_t>(c)].insert(expected[static_cast<std::size_t>(c)].end(),
-                                                         buffer.getReadPointer(c),
-                                                         buffer.getReadPointer(c) + block / 2);
+        append(expected, buffer);
     }
     EXPECT_TRUE(signal == expected);
     EXPECT_GT(peakOf(signal), 0.01f);

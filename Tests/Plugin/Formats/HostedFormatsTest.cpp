@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // VST3 and LV2 in JUCE's host: what leaves them is what the processor renders, sample by sample.
-#include "Plugin/Formats/Hosting.h"
+#include "Plugin/Formats/Player.h"
 #include <functional>
 
 namespace physvib {
@@ -18,15 +18,10 @@ Samples blocksOf(juce::AudioProcessor& plugin, int frames, bool withNotes,
     Samples signal(static_cast<std::size_t>(plugin.getTotalNumOutputChannels()));
     juce::AudioBuffer<float> buffer(static_cast<int>(signal.size()), 512);
     for (int done = 0; done < frames; done += 512) {
-        juce::MidiBuffer midi;
-        if (withNotes)
-            midi.addEvent(juce::MidiMessage::noteOn(1, 36 + done / 512 % 60, juce::uint8{100}),
-                          done / 512 % 512);
+        auto midi = withNotes ? oneNote(36 + done / 512 % 60, 100, done / 512 % 512) : juce::MidiBuffer{};
         buffer.clear();
         plugin.processBlock(buffer, midi);
-        for (std::size_t c = 0; c < signal.size(); ++c)
-            signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)),
-                             buffer.getReadPointer(static_cast<int>(c)) + 512);
+        append(signal, buffer);
     }
     runFor(0.05); // this host hears of latencies by a message
     EXPECT_EQ(plugin.getLatencySamples(), withNotes ? 47 : 1999) << "of the limiter; with a world, of L";
@@ -88,13 +83,33 @@ TEST(HostedFormats, StateGoesThroughTheFormats) {
         // Hosts hand parameters over with a block; JUCE's makes an LV2 anew when it prepares, by what it
         // handed over.
         blocksOf(*first, 512, false, [&first] { named(*first, "Level")->setValue(1.0f); });
-        juce::MemoryBlock chunk;
-        first->getStateInformation(chunk);
-        second->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+        restore(*second, chunkOf(*first));
         const auto a = blocksOf(*first, 48'128, false), b = blocksOf(*second, 48'128, false);
         EXPECT_TRUE(a == b) << identifier;
         EXPECT_GT(peakOf(a), 0.001f);
         EXPECT_NEAR(named(*second, "Level")->getValue(), 1.0f, 1e-6f) << identifier;
+    }
+}
+
+TEST(HostedFormats, TheHostIsToldOfTheTimingHoweverOftenItIsSwitchedWhileItPlays) {
+    for (const auto kind : {Kind::vst3, Kind::lv2}) {
+        Player player{kind};
+        player.load(playing());
+        player.prepare(true);
+        auto* const timing = named(dynamic_cast<juce::AudioPluginInstance&>(player.plugin()), "Timing");
+        ASSERT_NE(timing, nullptr);
+        const auto toldSoon = [&](int latency) {
+            for (int i = 0; i < 250 && player.plugin().getLatencySamples() != latency; ++i)
+                player.peakOf(1), runFor(0.02);
+            return player.plugin().getLatencySamples();
+        };
+        EXPECT_EQ(toldSoon(1999), 1999);
+        for (int i = 0; i < 40; ++i) {
+            timing->setValue(i % 2 == 0 ? 1.0f : 0.0f);
+            EXPECT_LE(player.peakOf(8), 1.0f);
+        }
+        timing->setValue(1.0f);
+        EXPECT_EQ(toldSoon(1007), 1007);
     }
 }
 

@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <cstring>
 #include <dlfcn.h>
-#include <lv2/atom/atom.h>
+#include <functional>
+#include <lv2/atom/forge.h>
 #include <lv2/buf-size/buf-size.h>
 #include <lv2/core/lv2.h>
 #include <lv2/options/options.h>
@@ -15,6 +16,7 @@
 #include <lv2/state/state.h>
 #include <lv2/urid/urid.h>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,30 +53,38 @@ public:
         const LV2_Feature* const features[]{&features_[0], &features_[1], &features_[2], nullptr};
         handle_ = descriptor_->instantiate(descriptor_, rate, bundle.c_str(), features);
         if (!handle_) return;
-        const std::uint32_t inputs = hasMusic ? 2 : 0;
-        for (std::uint32_t c = 0; c < inputs; ++c) {
+        inputs_ = hasMusic ? 2 : 0;
+        for (std::uint32_t c = 0; c < inputs_; ++c) {
             music[c].assign(static_cast<std::size_t>(largestBlock), 0.0f);
             descriptor_->connect_port(handle_, c, music[c].data());
         }
-        for (std::uint32_t c = 0; c < channels; ++c) {
-            out[c].assign(static_cast<std::size_t>(largestBlock), 0.0f);
-            descriptor_->connect_port(handle_, inputs + c, out[c].data());
-        }
-        descriptor_->connect_port(handle_, inputs + input, in_.data());
-        descriptor_->connect_port(handle_, inputs + output, told_.data());
-        descriptor_->connect_port(handle_, inputs + latencyOut, &latency);
-        descriptor_->connect_port(handle_, inputs + freeWheeling, &offline);
-        descriptor_->connect_port(handle_, inputs + isEnabled, &enabled);
-        for (std::size_t p = 0; p < parameterCount; ++p) {
+        connect(output, told_.data());
+        connect(latencyOut, &latency);
+        connect(freeWheeling, &offline);
+        connect(isEnabled, &enabled);
+        for (std::size_t p = 0; p < parameterCount; ++p)
             controls[p] = static_cast<float>(allParameters()[p].initial);
-            const auto port = inputs + firstControl + static_cast<std::uint32_t>(p);
-            descriptor_->connect_port(handle_, port, &controls[p]);
-        }
+        move(largestBlock, controls.data());
         choose(0);
     }
     ~RawLv2() {
         if (handle_) descriptor_->cleanup(handle_);
         if (module_) dlclose(module_);
+    }
+    /// The ports of audio, events and parameters lie elsewhere from now on, with room for so many frames;
+    /// parameters as they are now, or there.
+    void move(int frames, float* parameters = nullptr) {
+        for (std::uint32_t c = 0; c < channels; ++c) {
+            out[c] = std::vector<float>(static_cast<std::size_t>(frames)); // made before the other is freed
+            connect(c, out[c].data());
+        }
+        in_ = std::vector<std::uint64_t>(in_.size());
+        connect(input, in_.data());
+        if (!parameters) {
+            moved_ = std::make_unique<std::array<float, parameterCount>>(controls);
+            parameters = moved_->data();
+        }
+        for (std::uint32_t p = 0; p < parameterCount; ++p) connect(firstControl + p, parameters + p);
     }
     /// The preset of that number; the first is a world that moves by itself.
     void choose(std::int32_t program) {
@@ -127,6 +137,12 @@ public:
     bool isLoaded() const { return handle_ != nullptr; }
     /// For a window of it.
     LV2_Handle handle() const { return handle_; }
+    LV2_URID idOf(const std::string& uri) {
+        for (std::size_t i = 0; i < uris_.size(); ++i)
+            if (uris_[i] == uri) return static_cast<LV2_URID>(i + 1);
+        uris_.push_back(uri);
+        return static_cast<LV2_URID>(uris_.size());
+    }
     LV2_URID_Map& map() { return map_; }
     void* symbol(const char* name) const { return dlsym(module_, name); }
     void activate() { descriptor_->activate(handle_); }
@@ -134,11 +150,25 @@ public:
 
     /// A block; how many bytes of events the plug-in sent with it.
     std::size_t run(int frames) {
-        auto* const in = reinterpret_cast<LV2_Atom_Sequence*>(in_.data());
-        auto* const sent = reinterpret_cast<LV2_Atom_Sequence*>(told_.data());
-        *in = {{sizeof(LV2_Atom_Sequence_Body), idOf(LV2_ATOM__Sequence)}, {0, 0}};
-        for (const auto& [frame, parameter, value] : points) append(*in, frame, parameter, value);
+        LV2_Atom_Forge forge;
+        LV2_Atom_Forge_Frame events, set;
+        lv2_atom_forge_init(&forge, &map_);
+        lv2_atom_forge_set_buffer(&forge, reinterpret_cast<std::uint8_t*>(in_.data()),
+                                  in_.size() * sizeof in_[0]);
+        lv2_atom_forge_sequence_head(&forge, &events, 0);
+        for (const auto& [frame, parameter, value] : points) {
+            lv2_atom_forge_frame_time(&forge, frame);
+            lv2_atom_forge_object(&forge, &set, 0, idOf(LV2_PATCH__Set));
+            lv2_atom_forge_key(&forge, idOf(LV2_PATCH__property));
+            lv2_atom_forge_urid(&forge, idOf(uri_ + ":" + parameter));
+            lv2_atom_forge_key(&forge, idOf(LV2_PATCH__value));
+            lv2_atom_forge_float(&forge, value);
+            lv2_atom_forge_pop(&forge, &set);
+        }
         points.clear();
+        if (say) std::exchange(say, {})(forge);
+        lv2_atom_forge_pop(&forge, &events);
+        auto* const sent = reinterpret_cast<LV2_Atom_Sequence*>(told_.data());
         sent->atom = {static_cast<std::uint32_t>(sizeof told_ - sizeof(LV2_Atom)), idOf(LV2_ATOM__Chunk)};
         call(*descriptor_, handle_, static_cast<std::uint32_t>(frames));
         return sent->atom.size - sizeof(LV2_Atom_Sequence_Body);
@@ -159,8 +189,9 @@ public:
         std::string parameter; // id
         float value;           // in its unit
     };
-    std::vector<Point> points;               ///< of the next block, in frame order
-    std::array<std::vector<float>, 2> music; ///< of the next block, where there are ports for it
+    std::vector<Point> points;                ///< of the next block, in frame order
+    std::function<void(LV2_Atom_Forge&)> say; ///< what else it has
+    std::array<std::vector<float>, 2> music;  ///< of the next block, where there are ports for it
     std::array<std::vector<float>, channels> out;
     std::array<float, parameterCount> controls{}; ///< the parameters' ports, each in its unit
     float latency = 0.0f, offline = 1.0f, enabled = 1.0f;
@@ -169,35 +200,9 @@ public:
         [](const LV2_Descriptor& to, LV2_Handle handle, std::uint32_t frames) { to.run(handle, frames); };
 
 private:
-    struct PatchSet { // as a forge would write it
-        LV2_Atom_Event event;
-        LV2_Atom_Object_Body object;
-        LV2_Atom_Property_Body property;
-        LV2_URID propertyId, pad;
-        LV2_Atom_Property_Body value;
-        float number;
-        std::uint32_t padToo;
-    };
-    void append(LV2_Atom_Sequence& to, int frame, const std::string& parameter, float value) {
-        PatchSet set{};
-        set.event.time.frames = frame;
-        set.event.body = {static_cast<std::uint32_t>(sizeof set - sizeof set.event), idOf(LV2_ATOM__Object)};
-        set.object = {0, idOf(LV2_PATCH__Set)};
-        set.property = {idOf(LV2_PATCH__property), 0, {sizeof(LV2_URID), idOf(LV2_ATOM__URID)}};
-        set.propertyId = idOf(uri_ + ":" + parameter);
-        set.value = {idOf(LV2_PATCH__value), 0, {sizeof(float), idOf(LV2_ATOM__Float)}};
-        set.number = value;
-        std::memcpy(reinterpret_cast<std::byte*>(&to) + sizeof(LV2_Atom) + to.atom.size, &set, sizeof set);
-        to.atom.size += static_cast<std::uint32_t>(sizeof set);
-    }
+    void connect(std::uint32_t port, void* data) { descriptor_->connect_port(handle_, inputs_ + port, data); }
     const LV2_State_Interface& stateInterface() const {
         return *static_cast<const LV2_State_Interface*>(descriptor_->extension_data(LV2_STATE__interface));
-    }
-    LV2_URID idOf(const std::string& uri) {
-        for (std::size_t i = 0; i < uris_.size(); ++i)
-            if (uris_[i] == uri) return static_cast<LV2_URID>(i + 1);
-        uris_.push_back(uri);
-        return static_cast<LV2_URID>(uris_.size());
     }
     std::string uri_ = "urn:physvib:plugin";
     std::vector<std::string> uris_;
@@ -207,7 +212,10 @@ private:
     std::array<LV2_Options_Option, 3> options_{};
     std::array<LV2_Feature, 3> features_{};
     std::int32_t largest_ = 0, nominal_ = 0, program_ = 0;
-    alignas(8) std::array<std::byte, 65536> in_{}, told_{};
+    std::uint32_t inputs_ = 0;
+    std::vector<std::uint64_t> in_ = std::vector<std::uint64_t>(1 << 17);
+    alignas(8) std::array<std::byte, 65536> told_{};
+    std::unique_ptr<std::array<float, parameterCount>> moved_;
     void* module_ = nullptr;
     const LV2_Descriptor* descriptor_ = nullptr;
     LV2_Handle handle_ = nullptr;

@@ -3,13 +3,17 @@
 #include "Plugin/Formats/RawLv2.h"
 #include "Plugin/PluginTesting.h"
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <limits>
+#include <lv2/midi/midi.h>
+#include <lv2/time/time.h>
 #include <regex>
 #include <string>
+#include <thread>
 #include <tuple>
 
 namespace physvib {
@@ -31,20 +35,6 @@ TEST(RawLv2, TheLatencyIsThatOfTheUsualBlockNotOfTheLargest) {
         EXPECT_EQ(host.latency, latency) << largest << ' ' << nominal;
         host.deactivate();
     }
-}
-
-TEST(RawLv2, ActivatedAgainTheSceneStartsAtItsSeed) {
-    RawLv2 host{block, block};
-    ASSERT_TRUE(host.isLoaded());
-    host.activate();
-    const auto first = host.play(200, block);
-    EXPECT_GT(*std::ranges::max_element(first), 0.001f);
-    for (int i = 0; i < 3; ++i) {
-        host.deactivate();
-        host.activate();
-        EXPECT_TRUE(host.play(200, block) == first) << i;
-    }
-    host.deactivate();
 }
 
 TEST(RawLv2, NothingIsToldFromTheRenderCallWhenTheHostBypasses) {
@@ -73,31 +63,141 @@ TEST(RawLv2, TheHostsSwitchSilencesWithinABlockAndItsRamp) {
     host.deactivate();
 }
 
-/// Level and tilt every 64 frames; what is played L later, by all channels together.
-std::vector<float> automated(int frames, std::int64_t length) {
-    RawLv2 host{4096, frames};
-    host.activate();
+/// What all enchanters together play in blocks of `size(i)` frames, of which each has what `say(at, frames)`
+/// adds.
+template <class Size, class Say>
+std::vector<float> together(RawLv2& host, std::int64_t length, Size size, Say say) {
     std::vector<float> signal;
-    const auto angle = [](std::int64_t frame) { return std::sin(1e-4f * static_cast<float>(frame)); };
-    for (std::int64_t at = 0; at < length + 4096 + latencyOf512; at += frames) {
-        for (std::int64_t f = (at + 63) / 64 * 64; f < at + frames; f += 64) {
-            host.points.push_back({static_cast<int>(f - at), "level", -12.0f + 10.0f * angle(f)});
-            host.points.push_back({static_cast<int>(f - at), "tilt", 90.0f * angle(3 * f)});
-        }
+    host.activate();
+    for (std::int64_t at = 0, i = 0; at < length; ++i) {
+        const int frames = size(static_cast<int>(i));
+        say(at, frames);
         host.run(frames);
         for (std::size_t n = 0; n < static_cast<std::size_t>(frames); ++n)
             signal.push_back(host.out[0][n] + host.out[1][n] + host.out[2][n] + host.out[3][n]);
+        at += frames;
     }
-    const auto latency = static_cast<std::ptrdiff_t>(host.latency);
     host.deactivate();
+    signal.resize(static_cast<std::size_t>(length));
+    return signal;
+}
+constexpr auto usual = [](int) { return block; };
+constexpr auto nothing = [](std::int64_t, int) {};
+
+/// Ten parameters every 8 frames, 10,240 in a block of 8,192; what is played L later.
+std::vector<float> automated(int frames, std::int64_t length) {
+    RawLv2 host{8192, frames};
+    const auto signal = together(
+        host, length + 8192 + latencyOf512, [=](int) { return frames; },
+        [&](std::int64_t at, int) {
+            for (std::int64_t f = (at + 7) / 8 * 8; f < at + frames; f += 8)
+                for (const auto which : automatedTogether) {
+                    const auto& row = rowOf(which);
+                    const auto p = static_cast<float>(which);
+                    const float normal = 0.6f + 0.3f * std::sin(1e-4f * static_cast<float>(f) * (p + 1.0f));
+                    host.points.push_back({static_cast<int>(f - at), std::string{row.id},
+                                           static_cast<float>(denormalised(row, normal))});
+                }
+        });
+    const auto latency = static_cast<std::ptrdiff_t>(host.latency);
     return {signal.begin() + latency, signal.begin() + latency + length};
 }
 
 TEST(RawLv2, WhatSetsAParameterActsAtItsFrameInBlocksOfAnySize) {
-    const auto expected = automated(512, 96000);
+    const auto expected = automated(512, 48000);
     EXPECT_GT(*std::ranges::max_element(expected), 0.02f);
-    for (const int frames : {64, 100, 1000, 4096})
-        EXPECT_TRUE(automated(frames, 96000) == expected) << frames;
+    for (const int frames : {64, 100, 1000, 8192})
+        EXPECT_TRUE(automated(frames, 48000) == expected) << frames;
+}
+
+TEST(RawLv2, BlocksFarLargerThanAnnouncedAndPortsThatMoveChangeNoSampleNorDoesActivatingAgain) {
+    RawLv2 host{block, block};
+    const auto expected = together(host, 300'000, usual, nothing);
+    EXPECT_GT(*std::ranges::max_element(expected), 0.02f);
+    for (const float offline : {1.0f, 0.0f}) {
+        host.offline = offline;
+        EXPECT_TRUE(together(
+                        host, 300'000, [](int i) { return i % 6 == 1 ? 100'000 : i * 7919 % 4099; },
+                        [&](std::int64_t, int frames) { host.move(frames); }) == expected);
+        EXPECT_EQ(host.latency, latencyOf512);
+    }
+}
+
+TEST(RawLv2, MalformedEventsMoveNothing) {
+    RawLv2 host{block, block}, other{block, block};
+    const auto expected = together(host, 48000, usual, nothing);
+    const auto id = [&](const char* uri) { return other.idOf(uri); };
+    const std::vector<std::uint8_t> sysex(70'000, 0xf0);
+    const auto signal = together(other, 48000, usual, [&](std::int64_t, int) {
+        other.say = [&](LV2_Atom_Forge& forge) {
+            for (const char* const key : {LV2_TIME__frame, LV2_TIME__bar, LV2_TIME__beat, LV2_TIME__beatUnit,
+                                          LV2_TIME__beatsPerBar, LV2_TIME__beatsPerMinute, LV2_TIME__speed})
+                for (int kind = 0; kind < 7; ++kind) {
+                    LV2_Atom_Forge_Frame position;
+                    lv2_atom_forge_frame_time(&forge, kind);
+                    lv2_atom_forge_object(&forge, &position, 0, id(LV2_TIME__Position));
+                    lv2_atom_forge_key(&forge, id(LV2_TIME__speed)); // of two the first counts
+                    lv2_atom_forge_float(&forge, 1.0f);
+                    if (kind < 6) lv2_atom_forge_key(&forge, id(key));
+                    if (kind == 0) lv2_atom_forge_long(&forge, std::numeric_limits<std::int64_t>::min());
+                    if (kind == 1) lv2_atom_forge_long(&forge, std::numeric_limits<std::int64_t>::max());
+                    if (kind == 2) lv2_atom_forge_double(&forge, std::numeric_limits<double>::quiet_NaN());
+                    if (kind == 3) lv2_atom_forge_float(&forge, std::numeric_limits<float>::infinity());
+                    if (kind == 4) lv2_atom_forge_string(&forge, "x", 1);
+                    if (kind == 5) lv2_atom_forge_bool(&forge, false);
+                    lv2_atom_forge_pop(&forge, &position);
+                }
+            for (const char* const type :
+                 {LV2_MIDI__MidiEvent, LV2_ATOM__Object, LV2_ATOM__Chunk, "urn:unknown"})
+                for (const std::uint32_t size : {0u, 1u, 70'000u}) {
+                    if (size < 16 && id(type) == id(LV2_ATOM__Object)) continue;
+                    lv2_atom_forge_frame_time(&forge, 7);
+                    lv2_atom_forge_atom(&forge, size, id(type));
+                    lv2_atom_forge_write(&forge, sysex.data(), size);
+                }
+        };
+    });
+    EXPECT_TRUE(signal == expected);
+}
+
+TEST(RawLv2, AVelocityBeyondMidisIsNoLouder) {
+    const auto peakOf = [](std::uint8_t velocity) {
+        RawLv2 host{block, block};
+        host.choose(static_cast<std::int32_t>(builtInScenes().size()));
+        return std::ranges::max(together(host, 9600, usual, [&](std::int64_t at, int) {
+            if (at > 0) return;
+            host.say = [&host, velocity](LV2_Atom_Forge& forge) {
+                const std::uint8_t note[]{0x90, 60, velocity};
+                lv2_atom_forge_frame_time(&forge, 0);
+                lv2_atom_forge_atom(&forge, sizeof note, host.idOf(LV2_MIDI__MidiEvent));
+                lv2_atom_forge_write(&forge, note, sizeof note);
+            };
+        }));
+    };
+    EXPECT_GT(peakOf(127), 0.02f);
+    EXPECT_LE(peakOf(255), peakOf(127));
+}
+
+TEST(RawLv2, StatesAreSavedAndRestoredOnAnotherThreadWhileItPlays) {
+    RawLv2 host{block, block};
+    host.offline = 0.0f;
+    host.activate();
+    host.run(block);
+    const auto state = host.save();
+    std::atomic<bool> isOver{false};
+    std::thread other{[&] {
+        for (int i = 0; i < 800; ++i) host.restore(i % 2 == 0 ? state : host.save());
+        isOver = true;
+    }};
+    for (int b = 0; !isOver || b < 200; ++b) {
+        host.run(block);
+        for (const auto& channel : host.out)
+            ASSERT_TRUE(std::ranges::all_of(channel, [](float x) { return std::abs(x) <= 1.0f; })) << b;
+    }
+    other.join();
+    EXPECT_EQ(host.save().at("urn:physvib:plugin:StateString").bytes,
+              state.at("urn:physvib:plugin:StateString").bytes);
+    host.deactivate();
 }
 
 float loudestOf(const std::vector<float>& signal) {
@@ -205,12 +305,18 @@ TEST(RawLv2, APresetThatLeavesThePortsAloneIsNotUndoneByThem) {
     EXPECT_NEAR(valueOf(second, "level"), -5.5, 1e-5);
 }
 
-TEST(RawLv2, APortThatHoldsNoNumberIsNone) {
+TEST(RawLv2, APortThatHoldsNoNumberIsNoneAndAnAbsurdOneIsTheNearest) {
     RawLv2 host{block, block};
     ASSERT_TRUE(host.isLoaded());
     host.activate();
-    for (float& value : host.controls) value = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_GT(loudestOf(host.play(300, block)), 0.001f);
+    constexpr float beyond = std::numeric_limits<float>::infinity();
+    for (const float absurd : {std::numeric_limits<float>::quiet_NaN(), beyond, -beyond, 1e30f, -1e30f}) {
+        host.controls.fill(absurd);
+        host.points.push_back({7, "tilt", absurd});
+        const float loudest = loudestOf(host.play(300, block));
+        EXPECT_TRUE(std::isnan(absurd) ? loudest > 0.001f : loudest <= 1.0f) << absurd;
+        EXPECT_LE(std::abs(valueOf(host, "tilt")), 180.0) << absurd;
+    }
     host.deactivate();
 }
 

@@ -183,7 +183,8 @@ public:
     /// Buffers for every bus, active or not, as the standard wants.
     void start(int block, bool activateBuses = true, double rate = 48000.0) {
         block_ = block;
-        rate_ = rate;
+        context.sampleRate = rate;
+        context.state = vst::ProcessContext::kPlaying;
         if (activateBuses)
             for (int b = 0; b < buses(); ++b) component->activateBus(vst::kAudio, vst::kOutput, b, true);
         if (!music.empty()) component->activateBus(vst::kAudio, vst::kInput, 0, true);
@@ -211,8 +212,15 @@ public:
         event.noteOn.noteId = -1;
         notes_.events.push_back(event);
     }
+    /// Makes it that key's end.
+    void letGo(int channel = 0) {
+        const auto pitch = event().noteOn.pitch;
+        event().type = vst::Event::kNoteOffEvent;
+        event().noteOff = {static_cast<Steinberg::int16>(channel), pitch, 0.0f, -1, 0.0f};
+    }
     vst::Event& event() { return notes_.events.back(); } ///< what note() made, to become another
-    bool process() {
+    bool process() { return process(block_); }
+    bool process(int frames) {
         std::vector<std::vector<float*>> pointers;
         std::vector<vst::AudioBusBuffers> outputs(channels.size());
         for (auto& bus : channels) {
@@ -228,19 +236,16 @@ public:
         vst::AudioBusBuffers input;
         input.numChannels = static_cast<Steinberg::int32>(heard.size());
         input.channelBuffers32 = heard.data();
-        vst::ProcessContext context{};
-        context.sampleRate = rate_;
-        context.state = vst::ProcessContext::kPlaying;
         vst::ProcessData data;
         data.processMode = mode;
-        data.numSamples = block_;
+        data.numSamples = frames;
         data.numInputs = heard.empty() ? 0 : 1;
         data.inputs = &input;
         data.numOutputs = static_cast<Steinberg::int32>(outputs.size());
         data.outputs = outputs.data();
         data.inputEvents = &notes_;
         data.inputParameterChanges = &changes;
-        data.processContext = &context;
+        data.processContext = hasContext ? &context : nullptr;
         const bool done = call(*processor, data) == kResultOk;
         notes_.events.clear();
         changes.queues.clear();
@@ -257,7 +262,9 @@ public:
         queue->addPoint(frame, value, index);
     }
 
-    Changes changes;                                    ///< of the next block
+    Changes changes;               ///< of the next block
+    vst::ProcessContext context{}; ///< of all that follow
+    bool hasContext = true;
     std::vector<std::u16string> names, shortNames;      ///< of the parameters
     std::array<std::vector<vst::ParamID>, 16> standIns; ///< [MIDI channel][controller], bends and pressure as
                                                         ///< VST3 numbers them; 0: none that is listed
@@ -320,7 +327,6 @@ private:
     Steinberg::IPluginFactory* factory_ = nullptr;
     Notes notes_;
     int block_ = 0;
-    double rate_ = 48000.0;
 };
 
 } // namespace physvib::test

@@ -4,6 +4,8 @@
 #include "RawVst3.h"
 #include "Plugin/PluginTesting.h"
 #include "Support/BeatSong.h"
+#include "Support/HeapBytes.h"
+#include <atomic>
 #include <cmath>
 #include <set>
 
@@ -17,6 +19,21 @@ namespace arr = Steinberg::Vst::SpeakerArr;
 const std::string folder =
     std::getenv("PHYSVIB_PLUGINS_FOLDER") ? std::getenv("PHYSVIB_PLUGINS_FOLDER") : PHYSVIB_PLUGINS;
 const std::string oneBus = folder + "/PhysVib.vst3", pairs = folder + "/PhysVib-Pairs.vst3";
+
+struct ModuleWith : RawVst3 {
+    explicit ModuleWith(const PluginState& state)
+        : RawVst3{oneBus, "PhysVib"} {
+        take(state);
+    }
+    void take(const PluginState& state) { EXPECT_TRUE(setState(pluginStateJson(state))); }
+};
+
+/// Which no number that is none is.
+bool isWithinFullScale(const Samples& signal) {
+    return std::ranges::all_of(signal, [](const auto& channel) {
+        return std::ranges::all_of(channel, [](float x) { return std::abs(x) <= 1.0f; });
+    });
+}
 
 /// The channel, counted over all buses, that carries a strike at enchanter j of n; -1: none.
 int channelOf(RawVst3& host, int j, int n) {
@@ -62,6 +79,10 @@ TEST(RawVst3, TheFirstNSpeakers) {
         ASSERT_EQ(host.channelsOf(0), n);
         expectChannelJIsEnchanterJ(host, n);
     }
+    RawVst3 host{oneBus, "PhysVib"};
+    for (int n = 1; n <= 16; ++n) EXPECT_TRUE(host.arrange({(vst::SpeakerArrangement{1} << n) - 1})) << n;
+    for (const auto more : {(vst::SpeakerArrangement{1} << 17) - 1, arr::k71_4})
+        EXPECT_FALSE(host.arrange({more}));
 }
 
 TEST(RawVst3, SurroundArrangementsKeepTheirOrderOrAreRefused) {
@@ -138,8 +159,7 @@ TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAndIsFeltAsInTheProcessor) {
                         {"music", -6.0},
                         {"music_sides", "left and right"}};
     for (const std::size_t channels : {1u, 2u}) {
-        RawVst3 host{oneBus, "PhysVib"};
-        ASSERT_TRUE(host.setState(pluginStateJson(state)));
+        ModuleWith host{state};
         ASSERT_TRUE(host.hear(channels, 512));
         TestHost processor;
         auto layout = processor.plugin->getBusesLayout();
@@ -177,36 +197,57 @@ TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAndIsFeltAsInTheProcessor) {
     }
 }
 
-/// Level, tilt and strike level every 32 frames, and a note now and then, in blocks of that size; what is
-/// played L later.
-std::vector<std::vector<float>> automated(int block, std::int64_t frames) {
-    RawVst3 host{oneBus, "PhysVib"};
-    EXPECT_TRUE(host.setState(pluginStateJson(shakenBox())));
-    host.start(block);
-    std::vector<std::vector<float>> signal(4);
-    const auto latency = static_cast<std::int64_t>(host.processor->getLatencySamples());
-    for (std::int64_t at = 0; at < frames + latency; at += block) {
-        for (std::int64_t f = (at + 31) / 32 * 32; f < at + block; f += 32)
-            for (const std::size_t parameter : {std::size_t(Parameter::level), std::size_t(Parameter::tilt),
-                                                std::size_t(Parameter::strikeLevel)})
-                host.point(
-                    parameter, static_cast<int>(f - at),
-                    0.6 + 0.3 * std::sin(1e-4 * static_cast<double>(f) * static_cast<double>(parameter + 1)));
-        for (std::int64_t f = (at + 4999) / 5000 * 5000; f < at + block; f += 5000)
-            host.note(60, static_cast<int>(f - at));
-        EXPECT_TRUE(host.process());
-        for (std::size_t c = 0; c < 4; ++c)
-            signal[c].insert(signal[c].end(), host.channels[0][c].begin(), host.channels[0][c].end());
+/// What is felt in so many frames of a host that goes by blocks of `size(i)` frames, and calls `say(at,
+/// frames)` before each; L is taken out.
+template <class Size, class Say>
+Samples felt(RawVst3& host, std::int64_t length, Size size, Say say) {
+    const std::int64_t latency = host.processor->getLatencySamples();
+    Samples signal(host.channels[0].size());
+    for (std::int64_t at = 0, i = 0; at < length + latency; ++i) {
+        const int frames = size(static_cast<int>(i));
+        say(at, frames);
+        EXPECT_TRUE(host.process(frames));
+        for (std::size_t c = 0; c < signal.size(); ++c)
+            signal[c].insert(signal[c].end(), host.channels[0][c].begin(),
+                             host.channels[0][c].begin() + frames);
+        at += frames;
     }
     host.stop();
-    for (auto& c : signal) c = {c.begin() + latency, c.begin() + latency + frames};
+    signal = later(signal, latency);
+    for (auto& c : signal) c.resize(static_cast<std::size_t>(length));
     return signal;
+}
+
+constexpr auto blocksOf = [](int frames) { return [frames](int) { return frames; }; };
+
+/// Another key every 5,000 frames, held for 3,000.
+void playKeys(RawVst3& host, std::int64_t at, int frames) {
+    for (auto n = at; n < at + frames; ++n) {
+        if (n % 5000 != 7 && n % 5000 != 3007) continue;
+        host.note(48 + static_cast<int>(n / 5000 % 24), static_cast<int>(n - at));
+        if (n % 5000 == 3007) host.letGo();
+    }
+}
+
+/// Ten parameters every 8 frames, and keys: 10,240 points in a block of 8,192.
+Samples automated(int block, std::int64_t frames) {
+    ModuleWith host{shakenBox()};
+    host.start(block);
+    return felt(host, frames, blocksOf(block), [&](std::int64_t at, int) {
+        for (std::int64_t f = (at + 7) / 8 * 8; f < at + block; f += 8)
+            for (const auto which : automatedTogether)
+                host.point(static_cast<std::size_t>(which), static_cast<int>(f - at),
+                           0.6 +
+                               0.3 * std::sin(1e-4 * static_cast<double>(f * (1 + static_cast<int>(which)))));
+        playKeys(host, at, block);
+    });
 }
 
 TEST(RawVst3, PointsOfParametersActAtTheirFramesInBlocksOfAnySize) {
     const auto expected = automated(512, 48000);
-    EXPECT_GT(*std::max_element(expected[0].begin(), expected[0].end()), 0.02f);
-    for (const int block : {32, 64, 1000, 4096}) EXPECT_TRUE(automated(block, 48000) == expected) << block;
+    EXPECT_GT(peakOf(expected), 0.02f);
+    for (const int block : {1, 32, 500, 1000, 8192})
+        EXPECT_TRUE(automated(block, 48000) == expected) << block;
 }
 
 TEST(RawVst3, StandInsOfControllersAreFewAndEachControllerOfEachChannelHasOne) {
@@ -232,17 +273,182 @@ TEST(RawVst3, ShortTitlesDiffer) {
         EXPECT_TRUE(titles.insert(host.shortNames[p]).second) << p;
 }
 
-TEST(RawVst3, TwentyInstances) {
-    std::vector<std::unique_ptr<RawVst3>> hosts;
-    for (int i = 0; i < 20; ++i) hosts.push_back(std::make_unique<RawVst3>(oneBus, "PhysVib"));
-    for (auto& host : hosts) {
-        EXPECT_TRUE(host->setState(pluginStateJson(shakenBox())));
-        host->start(512);
+// The last two are worlds with a mix, of which "live" is live.
+TEST(RawVst3, AnyPresetIsTheSameInAnyBlocksHoweverAHostCallsAndWhateverItSaysOfThat) {
+    const auto any = [](int i) { return i % 5 < 2 ? i % 5 : i % 8 == 2 ? 8192 : 1 + i * 7919 % 4096; };
+    constexpr Steinberg::int32 live = vst::kRealtime, ahead = vst::kPrefetch, bounce = vst::kOffline;
+    std::vector<PluginState> states;
+    for (const auto& name : presetNames()) states.push_back(presetNamed(name));
+    for (const bool isDirect : {false, true}) {
+        auto& state = states.emplace_back(shakenBox());
+        state.isDirect = isDirect;
+        state.strips.resize(4);
+        state.strips[1].gainDb = 6.0, state.strips[2].delayMs = 2.5, state.strips[3].ceilingDb = -30.0;
+        state.equalised[2] = EqualisedActuator{{100.0, 8.0}, {50.0, 300.0}};
     }
-    for (int b = 0; b < 200; ++b)
-        for (auto& host : hosts) host->process();
-    for (auto& host : hosts) EXPECT_TRUE(host->channels == hosts[0]->channels);
-    for (auto& host : hosts) host->stop();
+    for (const auto& state : states) {
+        ModuleWith host{state};
+        Samples expected;
+        for (const auto& [setUp, even, odd] : {std::tuple{bounce, bounce, bounce},
+                                               {live, live, live},
+                                               {live, bounce, live},
+                                               {bounce, ahead, live}})
+            for (const bool isAny : {false, !state.isDirect}) {
+                host.mode = setUp;
+                host.start(isAny ? 8192 : 512);
+                const auto signal = felt(
+                    host, 30000, [&](int i) { return isAny ? any(i) : 512; },
+                    [&, block = 0](std::int64_t at, int frames) mutable {
+                        host.mode = block++ % 2 == 0 ? even : odd;
+                        playKeys(host, at, frames);
+                        if (&state >= &states[presetNames().size()] && even == live)
+                            std::this_thread::sleep_for(std::chrono::microseconds{frames * 21});
+                    });
+                if (expected.empty()) expected = signal;
+                EXPECT_TRUE(signal == expected) << state.scene.name << ' ' << setUp << even << odd << isAny;
+            }
+        EXPECT_GT(peakOf(expected), 0.1f) << state.scene.name;
+        EXPECT_TRUE(isWithinFullScale(expected)) << state.scene.name;
+    }
+}
+
+TEST(RawVst3, WhereASongStandsMovesNothingThatRunsFreeAndIsNeverTooMuch) {
+    constexpr auto least = std::numeric_limits<std::int64_t>::min(), most = -1 - least;
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    RawVst3 host{oneBus, "PhysVib"};
+    for (const auto transport : {TransportMode::free, TransportMode::restartOnPlay, TransportMode::inTempo}) {
+        auto state = shakenBox();
+        state.transport = transport;
+        ASSERT_TRUE(host.setState(pluginStateJson(state)));
+        Samples expected;
+        for (const double tempo : {120.0, 0.0, none, 1e300})
+            for (const std::int64_t from : {std::int64_t{0}, std::int64_t{-9000}, least, most})
+                for (const std::int64_t speed : {1, 0, -1, 7919}) {
+                    host.hasContext = speed != 0 || from != most; // or none is told
+                    host.start(512);
+                    const auto signal = felt(host, 12000, blocksOf(512), [&](std::int64_t at, int frames) {
+                        auto& context = host.context;
+                        context.state |=
+                            vst::ProcessContext::kTempoValid | vst::ProcessContext::kProjectTimeMusicValid;
+                        context.tempo = tempo;
+                        context.projectTimeMusic = tempo * static_cast<double>(at * speed);
+                        context.projectTimeSamples = static_cast<std::int64_t>(
+                            static_cast<std::uint64_t>(from) + static_cast<std::uint64_t>(at * speed));
+                        playKeys(host, at, frames);
+                    });
+                    if (expected.empty()) expected = signal;
+                    if (transport == TransportMode::free)
+                        EXPECT_TRUE(signal == expected) << tempo << ' ' << from << ' ' << speed;
+                    EXPECT_TRUE(isWithinFullScale(signal)) << tempo << ' ' << from << ' ' << speed;
+                }
+        EXPECT_GT(peakOf(expected), 0.02f);
+    }
+}
+
+TEST(RawVst3, AShortLoopWithRestartOnPlayIsTheSameEachTimeInBlocksOfAnySize) {
+    auto state = shakenBox();
+    state.transport = TransportMode::restartOnPlay;
+    ModuleWith host{state};
+    for (const int loop : {4800, 480}) {
+        Samples expected;
+        for (const int block : {96, 32, 240}) {
+            host.start(block);
+            const auto signal = felt(host, 30 * loop, blocksOf(block), [&](std::int64_t at, int) {
+                host.context.projectTimeSamples = at % loop;
+                if (at % loop == 0) host.note(60);
+            });
+            if (expected.empty()) expected = signal;
+            EXPECT_TRUE(signal == expected) << loop << ' ' << block;
+            for (const auto& c : signal)
+                EXPECT_TRUE(std::equal(c.begin() + 20 * loop, c.end() - loop, c.begin() + 21 * loop))
+                    << loop << ' ' << block;
+        }
+        EXPECT_GT(peakOf(expected), 0.02f) << loop;
+    }
+}
+
+TEST(RawVst3, SixtyFourInstancesOnTwelveThreadsInBlocksOfTheirOwnAreOne) {
+    std::vector<std::unique_ptr<RawVst3>> hosts;
+    std::vector<Samples> signals(64);
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        hosts.push_back(std::make_unique<RawVst3>(oneBus, "PhysVib"));
+        EXPECT_TRUE(hosts[i]->setState(pluginStateJson(shakenBox())));
+        hosts[i]->mode = i % 2 == 0 ? vst::kRealtime : vst::kOffline;
+        hosts[i]->start(64 << i % 6);
+    }
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < 12; ++t)
+        threads.emplace_back([&, t] {
+            for (std::size_t i = t; i < signals.size(); i += 12)
+                signals[i] = felt(*hosts[i], 24000, blocksOf(64 << i % 6),
+                                  [&](std::int64_t at, int frames) { playKeys(*hosts[i], at, frames); });
+        });
+    for (auto& thread : threads) thread.join();
+    EXPECT_GT(peakOf(signals[0]), 0.02f);
+    for (const auto& signal : signals) EXPECT_TRUE(signal == signals[0]) << &signal - signals.data();
+}
+
+TEST(RawVst3, AStateSavedAmongNotesDisturbsNoneAndIsWholeElsewhere) {
+    for (const char* const name : {"Strings", "shake-the-box"}) {
+        std::string saved;
+        const auto played = [&](const std::string& state, bool isSaved) {
+            RawVst3 host{oneBus, "PhysVib"};
+            host.setState(state);
+            host.start(512);
+            return felt(host, 48000, blocksOf(512), [&](std::int64_t at, int frames) {
+                playKeys(host, at, frames);
+                if (isSaved) saved = host.state();
+            });
+        };
+        const auto state = pluginStateJson(presetNamed(name));
+        const auto expected = played(state, false);
+        EXPECT_TRUE(played(state, true) == expected) << name;
+        EXPECT_TRUE(played(saved, false) == expected) << name;
+    }
+}
+
+TEST(RawVst3, StatesComeAndGoOnAnotherThreadWhileItPlays) {
+    RawVst3 host{oneBus, "PhysVib"};
+    std::vector<std::string> states;
+    for (const auto& name : presetNames()) states.push_back(pluginStateJson(presetNamed(name)));
+    host.mode = vst::kRealtime;
+    host.start(256);
+    std::atomic<bool> isOver{false};
+    std::thread other{[&] {
+        for (std::size_t i = 0; !isOver || i < 40; ++i) {
+            EXPECT_TRUE(host.setState(states[i % states.size()]));
+            EXPECT_GT(host.state().size(), 1000u);
+        }
+    }};
+    for (int b = 0; b < 1500; ++b) {
+        playKeys(host, b * 256, 256);
+        ASSERT_TRUE(host.process());
+        ASSERT_TRUE(isWithinFullScale(host.channels[0])) << b;
+    }
+    isOver = true;
+    other.join();
+    host.stop();
+}
+
+TEST(RawVst3, ANoteIsFeltAtItsFrameInSixHundredActivationsWhichLeaveNothingBehind) {
+    for (const bool hasWorld : {false, true}) {
+        ModuleWith host{hasWorld ? shakenBox() : strikeAt(0, 4)};
+        std::size_t before = 0;
+        for (int i = 0; i < 600; ++i) {
+            if (i == 100) before = heapBytes();
+            host.start(512);
+            EXPECT_EQ(host.processor->getLatencySamples(), hasWorld ? 1999u : 47u);
+            host.note(60, i % 512);
+            const auto signal = felt(host, 1024, blocksOf(512), [](std::int64_t, int) {});
+            const auto first = std::ranges::find_if(signal[0], [](float x) { return x != 0.0f; });
+            const auto late = first - signal[0].begin() - i % 512;
+            if (!hasWorld) EXPECT_TRUE(late == 0 || late == 1) << late << ", frame " << i % 512;
+        }
+        const auto grown = static_cast<double>(heapBytes()) - static_cast<double>(before);
+        std::printf("VST3, %s: %.0f bytes more after 500 activations\n", hasWorld ? "a world" : "notes",
+                    grown);
+        EXPECT_LT(grown, 4.0e5) << "more than the log of what was felt";
+    }
 }
 
 /// The loudest of each channel, of blocks of which the first has what `say` adds.
@@ -256,6 +462,52 @@ std::vector<float> peaksAfter(RawVst3& host, Say say) {
             for (const float x : host.channels.front()[c]) peaks[c] = std::max(peaks[c], std::abs(x));
     }
     return peaks;
+}
+
+TEST(RawVst3, FloodsAndNonsenseAreFiniteHangNowhereAndTheNextNoteIsRight) {
+    const std::vector<Steinberg::uint8> sysex(70'000, 1);
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    for (const auto& [name, isStill] :
+         {std::pair{"Keys", true}, {"Strings", true}, {"shake-the-box", false}}) {
+        ModuleWith host{presetNamed(name)};
+        const auto play = [&host](int blocks) {
+            float peak = 0.0f;
+            for (int b = 0; b < blocks; ++b) {
+                EXPECT_TRUE(host.process());
+                EXPECT_TRUE(isWithinFullScale(host.channels[0]));
+                peak = std::max(peak, peakOf(host.channels[0]));
+            }
+            return peak;
+        };
+        const auto next = [&] { // when all keys have been let go
+            for (int n = 0; n < 2048; ++n) host.note(n % 128), host.letGo(n / 128);
+            play(1000);
+            if (isStill) EXPECT_LT(play(10), 1e-4f) << name;
+            host.note(60);
+            return play(20);
+        };
+        host.start(512);
+        const float expected = next();
+        for (const auto& [count, keys, frames] :
+             {std::tuple{16'000, 128, 8}, {2'000, 128, 512}, {20'000, 5, 512}}) {
+            for (int n = 0; n < count; ++n) host.note((60 + n % keys) % 128, n % frames);
+            play(2);
+        }
+        for (const int type : {0, 1, 2, 3, 4, 5, 6, 99, 65535})
+            for (const int channel : {-1, 3, 255})
+                for (const int pitch : {-1, 60, 128, 32767})
+                    for (const float velocity : {none, -1.0f, 1e30f}) {
+                        host.note(pitch, 100 * pitch);
+                        auto& event = host.event();
+                        event.noteOn.channel = static_cast<Steinberg::int16>(channel);
+                        event.noteOn.velocity = event.noteOn.tuning = velocity;
+                        event.type = static_cast<Steinberg::uint16>(type);
+                        if (type == vst::Event::kDataEvent) event.data = {70'000, 0, sysex.data()};
+                    }
+        play(2);
+        if (const float now = next(); isStill) EXPECT_NEAR(now, expected, 1e-3f) << name;
+        host.stop();
+    }
 }
 
 TEST(RawVst3, ExpressionOfANoteIsHeardAndUnsortedEventsAreSorted) {

@@ -5,6 +5,7 @@
 #include "Plugin/PluginTesting.h"
 #include "PluginEditor.h"
 #include <cstdlib>
+#include <filesystem>
 // X11's macros come last
 #include "Plugin/Formats/DisplayNames.h"
 
@@ -81,6 +82,36 @@ TEST(SilenceButton, InEveryFormatsWindow) {
     for (const auto kind : {Kind::processor, Kind::vst3, Kind::lv2}) {
         SCOPED_TRACE(static_cast<int>(kind));
         expectTheButtonSilences(kind, display);
+    }
+    XCloseDisplay(display);
+}
+
+TEST(SilenceButton, WindowsThatAreOpenedAgainAndAgainKeepNoThreadAndNoDescriptor) {
+    if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "there is no display";
+    Display* const display = openDisplayWithNames();
+    const auto held = [](const char* folder) {
+        return std::distance(std::filesystem::directory_iterator{folder}, {});
+    };
+    for (const auto kind : {Kind::processor, Kind::vst3, Kind::lv2}) {
+        Player player{kind};
+        player.load(playing());
+        player.prepare(true);
+        std::pair<std::ptrdiff_t, std::ptrdiff_t> before, now;
+        for (int opening = 0; opening < 25; ++opening) {
+            {
+                const std::unique_ptr<juce::AudioProcessorEditor> editor{
+                    player.plugin().createEditorIfNeeded()};
+                editor->addToDesktop(0);
+                editor->setVisible(true);
+                EXPECT_LE(player.peakOf(2), 1.0f);
+                runFor(0.04);
+                EXPECT_TRUE(editor->isShowing());
+            }
+            runFor(0.02);
+            now = {held("/proc/self/task"), held("/proc/self/fd")};
+            if (opening == 5) before = now;
+        }
+        EXPECT_EQ(now, before) << static_cast<int>(kind);
     }
     XCloseDisplay(display);
 }
