@@ -63,6 +63,12 @@ TEST(RawLv2, TheHostsSwitchSilencesWithinABlockAndItsRamp) {
     host.deactivate();
 }
 
+float loudestOf(const std::vector<float>& signal) {
+    float most = 0.0f;
+    for (const float x : signal) most = std::max(most, std::abs(x));
+    return most;
+}
+
 /// What all enchanters together play in blocks of `size(i)` frames, of which each has what `say(at, frames)`
 /// adds.
 template <class Size, class Say>
@@ -182,28 +188,24 @@ TEST(RawLv2, StatesAreSavedAndRestoredOnAnotherThreadWhileItPlays) {
     RawLv2 host{block, block};
     host.offline = 0.0f;
     host.activate();
-    host.run(block);
-    const auto state = host.save();
+    std::vector<RawLv2::State> states;
+    for (const std::int32_t program : {9, 0}) {
+        host.choose(program);
+        host.run(block);
+        states.push_back(host.save());
+    }
     std::atomic<bool> isOver{false};
     std::thread other{[&] {
-        for (int i = 0; i < 800; ++i) host.restore(i % 2 == 0 ? state : host.save());
+        const std::string key = "urn:physvib:plugin:StateString";
+        for (std::size_t i = 0; i < 800; ++i) {
+            host.restore(states[i % 2]);
+            EXPECT_EQ(host.save().at(key).bytes, states[i % 2].at(key).bytes) << i;
+        }
         isOver = true;
     }};
-    for (int b = 0; !isOver || b < 200; ++b) {
-        host.run(block);
-        for (const auto& channel : host.out)
-            ASSERT_TRUE(std::ranges::all_of(channel, [](float x) { return std::abs(x) <= 1.0f; })) << b;
-    }
+    for (int b = 0; !isOver || b < 200; ++b) EXPECT_LE(loudestOf(host.play(1, block)), 1.0f);
     other.join();
-    EXPECT_EQ(host.save().at("urn:physvib:plugin:StateString").bytes,
-              state.at("urn:physvib:plugin:StateString").bytes);
     host.deactivate();
-}
-
-float loudestOf(const std::vector<float>& signal) {
-    float most = 0.0f;
-    for (const float x : signal) most = std::max(most, std::abs(x));
-    return most;
 }
 
 constexpr std::size_t control(Parameter which) { return static_cast<std::size_t>(which); }
