@@ -49,9 +49,9 @@ tested plugin 'PluginProcessor.HostsShow*' | row F10 'units twice, "-0.0 dB"' 'P
 # PROGRAM (or ctest: a test of that name), FILTER, WHAT of these checks
 while IFS='|' read -r program filter what; do
     case $program in
-        ctest) ctest --test-dir "$build" -R "^$filter\$" --no-tests=error >"$work/out" 2>&1 && ended=passed || ended=FAILED
+        ctest) ctest --test-dir "$build" -R "^$filter\$" --no-tests=error </dev/null >"$work/out" 2>&1 && ended=passed || ended=FAILED
             ! grep -q 'Skipped' "$work/out" || ended='not run' ;;
-        *) "$build/bin/physvib-$program-tests" --gtest_filter="$filter" >"$work/out" 2>&1 && grep -q '^\[  PASSED  \] [1-9]' "$work/out" && ended=passed || ended=FAILED ;;
+        *) "$build/bin/physvib-$program-tests" --gtest_filter="$filter" </dev/null >"$work/out" 2>&1 && grep -q '^\[  PASSED  \] [1-9]' "$work/out" && ended=passed || ended=FAILED ;;
     esac
     [ "$ended" != FAILED ] || : >"$work/failed"
     printf '%-7s %s\n        by %s\n' "$ended" "$what" "$filter"
