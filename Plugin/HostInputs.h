@@ -195,7 +195,7 @@ public:
     /// block, LV2 hosts tell a change of tempo within one. Where every block jumps, a hand is on the
     /// transport: that is one start, and another when it has let go.
     Change follow(std::optional<bool> isPlaying, std::optional<std::int64_t> frame, int frames) noexcept {
-        constexpr std::int64_t far = std::int64_t{1} << 61; // sums fit
+        constexpr std::int64_t far = std::int64_t{1} << 61; // so that sums fit
         if (frame) frame = std::clamp(*frame, -far, far);
         const bool plays = isPlaying.value_or(!isThere_ || wasPlaying_);
         // what was assumed counts until the host tells
@@ -277,8 +277,7 @@ private:
 };
 
 /// Limits one kind of control change, so that automation cannot fill the session's control queue: at most one
-/// in so many frames of session time, the value then present. The same whatever the
-/// block and L are. R only.
+/// in so many frames of session time, the value then present. The same whatever block and L are. R only.
 class ControlPace {
 public:
     static constexpr int perSecond = 1500; // every 32 frames at 48 kHz: gains move in ramps of 10 ms

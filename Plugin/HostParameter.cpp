@@ -44,8 +44,7 @@ double ParameterPoints::take(std::size_t parameter) noexcept {
 }
 
 ParameterPoint ParameterPoints::read(std::size_t parameter) noexcept {
-    ParameterPoint point;
-    while (source_->next(parameter, point))
+    for (ParameterPoint point; source_->next(parameter, point);)
         if (std::isfinite(point.normal)) return {std::clamp(point.frame, 0, frames_), point.normal};
     return {none, 0.0};
 }
