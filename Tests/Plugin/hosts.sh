@@ -71,7 +71,7 @@ format|RawVst3.ANoteIsFeltAtItsFrame*|VST3: 600 activations leave no memory behi
 format|RawVst3.StatesComeAndGo*|VST3: states and presets set on another thread beside the render
 format|RawVst3.TheFirstNSpeakers|VST3: 1 to 16 channels taken, 17 and 7.1.4 refused
 format|RawVst3.Surround*:RawVst3.Pairs:RawVst3.MonoBuses:RawVst3.WithoutAny*|VST3: each enchanter on its channel in every arrangement, on pairs, on mono buses, in none
-format|RawVst3.StateComesBack*|VST3: a state comes back, also a foreign one; suspended and resumed, the take is the same
+format|RawVst3.StateComesBack*|VST3: a state comes back, also one that cannot be read; suspended and resumed, the take is the same
 format|RawVst3.TheSideChain*:RawVst3.WhatComesIn*|VST3: the side chain is off, and felt as in the processor
 format|RawVst3.Expression*:RawVst3.StandIns*:RawVst3.ShortTitles*|VST3: expression of single notes, controllers, titles
 format|HostedFormats.Vst3:HostedFormats.Lv2OfEveryWidth|VST3, LV2 of every width: the processor's samples
