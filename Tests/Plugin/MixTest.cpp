@@ -67,13 +67,10 @@ TEST(PluginMix, ABounceIsTheRenderedMixInEveryTake) {
     host.prepare(48000, 512);
     host.playHead.isThere = true;
     for (int take = 0; take < 4; ++take) { // the third is the first one's session again
-        Samples signal, rest;
         host.playHead.isPlaying = true;
-        const int latency = host.plugin->getLatencySamples();
-        host.play(48000 + latency, signal);
-        EXPECT_TRUE(later(signal, latency) == expected) << take;
+        EXPECT_TRUE(host.felt(48000) == expected) << take;
         host.playHead.isPlaying = false;
-        host.play(24000, rest);
+        host.played(24000);
     }
     EXPECT_EQ(loudest(expected[0]), 0.0f) << "muted";
     EXPECT_LE(loudest(expected[3]), std::pow(10.0f, -30.0f / 20.0f) * 1.0001f) << "its ceiling";
@@ -115,22 +112,17 @@ TEST(PluginMix, ASoloSilencesTheOthersAlsoInTheTakesThatFollow) {
 }
 
 TEST(PluginMix, TheLevelStandsOnTopOfTheTrims) {
-    TestHost host;
     auto state = mixedState();
     state.limiterEnabled = false;
-    ASSERT_TRUE(host.plugin->apply(state));
-    host.prepare(48000, 512);
-    const int latency = host.plugin->getLatencySamples();
+    TestHost host{state};
     // the least is silence
     for (const auto& [level, shift] : {std::pair{1.0f, 0.0}, {0.9f, -6.0}, {0.0f, 2.0 * leastStripDb}}) {
         auto& parameter = host.plugin->parameter(Parameter::level);
         parameter.setValue(level);
         EXPECT_NEAR(std::max(parameter.value(), leastStripDb), std::max(shift, leastStripDb), 0.01);
         host.prepare(48000, 512);
-        Samples signal = host.played(48000 + latency);
-        auto expected = renderedMix(state, 48000);
+        const auto played = host.felt(48000), expected = renderedMix(state, 48000);
         const double gain = gainOfLevel(parameter.value());
-        const auto played = later(signal, latency);
         for (std::size_t j = 0; j < expected.size(); ++j)
             for (std::size_t n = 0; n < expected[j].size(); ++n)
                 ASSERT_NEAR(played[j][n], gain * expected[j][n], 1e-6) << j << ' ' << n;
@@ -164,12 +156,10 @@ TEST(PluginMix, ANewInstanceAndAChunkOfVersion1SoundAsWithoutAMix) {
     for (auto& state : {old, fresh}) {
         ASSERT_TRUE(host.plugin->apply(state));
         host.prepare(48000, 512);
-        const int latency = host.plugin->getLatencySamples();
-        Samples signal = host.played(96000 + latency);
         auto plain = state;
         plain.strips.clear();
         plain.equalised = {};
-        auto played = later(signal, latency);
+        auto played = host.felt(96000);
         played.resize(static_cast<std::size_t>(enchantersOf(state)));
         EXPECT_TRUE(played == renderedMix(plain, 96000)) << state.scene.name;
         EXPECT_GT(peakOf(played), 0.01f);

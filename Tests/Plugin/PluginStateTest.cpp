@@ -31,8 +31,7 @@ TEST(PluginChunk, RoundTripsToTheByteAndToTheSample) {
         if (i % 5 > 0) continue;
         first.prepare(48000, 512);
         second.prepare(48000, 512);
-        Samples a = first.played(24000), b = second.played(24000);
-        EXPECT_TRUE(a == b);
+        EXPECT_TRUE(first.played(24000) == second.played(24000));
     }
 }
 
@@ -138,6 +137,33 @@ TEST(PluginChunk, AChoiceIsKeptByItsWord) {
     const auto text = pluginStateJson(state);
     restore(*host.plugin, text);
     EXPECT_EQ(host.plugin->trouble(), "state: parameters.level: expected a number, found \"loud\"");
+}
+
+// In the processor too, since sanitizers see no module.
+TEST(PluginChunk, ComesAndGoesOnAnyThreadWhileItAndOthersPlay) {
+    std::vector<juce::MemoryBlock> chunks;
+    for (int program = 0; program < 5; ++program) {
+        TestHost host;
+        host.plugin->setCurrentProgram(program);
+        chunks.push_back(chunkOf(*host.plugin));
+    }
+    std::vector<std::unique_ptr<TestHost>> hosts;
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < 8; ++i) {
+        auto& host = *hosts.emplace_back(std::make_unique<TestHost>());
+        host.prepare(48000, 256, false);
+        threads.emplace_back([&host] {
+            for (int b = 0; b < 500; ++b) EXPECT_LE(host.block(256).getMagnitude(0, 256), 1.0f);
+        });
+        threads.emplace_back([&host, &chunks, i] {
+            for (std::size_t n = i; n < i + 40; ++n) {
+                restore(*host.plugin, chunks[n % 5]);
+                EXPECT_TRUE(chunkOf(*host.plugin) == chunks[n % 5]);
+            }
+        });
+    }
+    for (auto& thread : threads) thread.join();
+    for (const auto& host : hosts) EXPECT_EQ(host->plugin->trouble(), "");
 }
 
 TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenesAndBehindThemInstruments) {

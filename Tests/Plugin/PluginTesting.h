@@ -51,6 +51,13 @@ inline void append(Samples& signal, const juce::AudioBuffer<float>& played) {
     }
 }
 
+/// `signal` without its first `frames` frames.
+inline Samples later(const Samples& signal, std::int64_t frames) {
+    Samples rest;
+    for (const auto& channel : signal) rest.emplace_back(channel.begin() + frames, channel.end());
+    return rest;
+}
+
 inline juce::MidiBuffer oneNote(int note, int velocity = 127, int frame = 0) {
     juce::MidiBuffer midi;
     midi.addEvent(juce::MidiMessage::noteOn(1, note, static_cast<juce::uint8>(velocity)), frame);
@@ -125,6 +132,12 @@ public:
         return signal;
     }
 
+    /// The same with the latency taken out.
+    Samples felt(std::int64_t frames) {
+        const int latency = plugin->getLatencySamples();
+        return later(played(frames + latency), latency);
+    }
+
     TestPlayHead playHead; // outlives the plug-in
     std::unique_ptr<PluginProcessor> plugin;
     juce::AudioBuffer<float> buffer;
@@ -173,13 +186,6 @@ inline PluginState strikeAt(int j, int n) {
     strike.y = 0.0;
     s.notes = {strike};
     return s;
-}
-
-/// `signal` without its first `frames` frames.
-inline Samples later(const Samples& signal, std::int64_t frames) {
-    Samples rest;
-    for (const auto& channel : signal) rest.emplace_back(channel.begin() + frames, channel.end());
-    return rest;
 }
 
 inline float peakOf(const Samples& signal) {

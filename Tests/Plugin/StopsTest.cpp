@@ -35,8 +35,7 @@ struct Stopped {
     }
     void send(const juce::MidiBuffer& midi) { host.block(block, midi); }
     float peakFor(double seconds) {
-        Samples signal = host.played(static_cast<std::int64_t>(seconds * rate) / block * block);
-        return peakOf(signal);
+        return peakOf(host.played(static_cast<std::int64_t>(seconds * rate) / block * block));
     }
     double latency() const { return host.plugin->getLatencySamples() / static_cast<double>(rate) + 0.01; }
     TestHost host;

@@ -42,10 +42,7 @@ Samples expectedAt(double rate, int frames) {
     host.plugin->parameter(Parameter::level)
         .setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
     host.prepare(rate, 480);
-    Samples signal;
-    const int latency = host.plugin->getLatencySamples();
-    host.play(latency + frames, signal);
-    return felt(signal, latency, frames);
+    return host.felt(frames);
 }
 
 /// Both in turn, block by block.

@@ -23,6 +23,15 @@ using namespace test;
 
 constexpr int block = 512, latencyOf512 = 1999; // a block, 10 ms of gap, two steps, the limiter
 
+struct PlayingLv2 : RawLv2 {
+    PlayingLv2()
+        : RawLv2{block, block} {
+        EXPECT_TRUE(isLoaded());
+        activate();
+    }
+    ~PlayingLv2() { deactivate(); }
+};
+
 TEST(RawLv2, TheLatencyIsThatOfTheUsualBlockNotOfTheLargest) {
     for (const auto& [largest, nominal, latency] : {std::tuple{8192, block, latencyOf512},
                                                     {block, 0, latencyOf512},
@@ -38,29 +47,22 @@ TEST(RawLv2, TheLatencyIsThatOfTheUsualBlockNotOfTheLargest) {
 }
 
 TEST(RawLv2, NothingIsToldFromTheRenderCallWhenTheHostBypasses) {
-    RawLv2 host{block, block};
-    ASSERT_TRUE(host.isLoaded());
-    host.activate();
+    PlayingLv2 host;
     host.run(block);
     for (int b = 0; b < 20; ++b) {
         host.enabled = b % 2 == 0 ? 0.0f : 1.0f;
         EXPECT_EQ(host.run(block), 0u) << b;
     }
-    host.deactivate();
 }
 
 TEST(RawLv2, TheHostsSwitchSilencesWithinABlockAndItsRamp) {
-    RawLv2 host{block, block};
-    ASSERT_TRUE(host.isLoaded());
-    host.activate();
+    PlayingLv2 host;
     host.play(100, block);
     host.enabled = 0.0f;
     const auto shut = host.play(100, block);
     EXPECT_TRUE(std::all_of(shut.begin() + 4 * block, shut.end(), [](float x) { return x == 0.0f; }));
     host.enabled = 1.0f;
-    const auto open = host.play(300, block);
-    EXPECT_GT(*std::ranges::max_element(open), 0.001f);
-    host.deactivate();
+    EXPECT_GT(std::ranges::max(host.play(300, block)), 0.001f);
 }
 
 float loudestOf(const std::vector<float>& signal) {
@@ -185,9 +187,8 @@ TEST(RawLv2, AVelocityBeyondMidisIsNoLouder) {
 }
 
 TEST(RawLv2, StatesAreSavedAndRestoredOnAnotherThreadWhileItPlays) {
-    RawLv2 host{block, block};
+    PlayingLv2 host;
     host.offline = 0.0f;
-    host.activate();
     std::vector<RawLv2::State> states;
     for (const std::int32_t program : {9, 0}) {
         host.choose(program);
@@ -205,7 +206,6 @@ TEST(RawLv2, StatesAreSavedAndRestoredOnAnotherThreadWhileItPlays) {
     }};
     for (int b = 0; !isOver || b < 200; ++b) EXPECT_LE(loudestOf(host.play(1, block)), 1.0f);
     other.join();
-    host.deactivate();
 }
 
 constexpr std::size_t control(Parameter which) { return static_cast<std::size_t>(which); }
@@ -222,9 +222,7 @@ double valueOf(RawLv2& host, std::string_view id) {
 }
 
 TEST(RawLv2, AControlPortMovesItsParameterAtTheNextBlock) {
-    RawLv2 host{block, block};
-    ASSERT_TRUE(host.isLoaded());
-    host.activate();
+    PlayingLv2 host;
     EXPECT_GT(loudestOf(host.play(300, block)), 0.001f);
     host.controls[control(Parameter::level)] = -60.0f; // silence
     host.play(20, block);
@@ -238,7 +236,6 @@ TEST(RawLv2, AControlPortMovesItsParameterAtTheNextBlock) {
     host.controls[control(Parameter::bypass)] = 0.0f;
     host.play(2, block);
     EXPECT_GT(loudestOf(host.play(300, block)), 0.001f);
-    host.deactivate();
 }
 
 /// A host's session: the state, and the ports beside it, by text of six digits.
@@ -257,14 +254,12 @@ TEST(RawLv2, WhatWasSetLastByThePortOrBesideItStaysAfterSavingAndLoading) {
         for (const bool arePortsKept : {true, false})
             for (const bool isRestoredFirst : {true, false}) {
                 SCOPED_TRACE(testing::Message{} << byPort << arePortsKept << isRestoredFirst);
-                RawLv2 first{block, block}, second{block, block};
-                first.activate();
+                PlayingLv2 first, second;
                 first.controls[control(Parameter::level)] = -7.3333333f;
                 first.run(block);
                 if (!byPort) first.points.push_back({0, "level", -3.0f});
                 first.run(block);
                 const SavedSession session{first};
-                second.activate();
                 const auto expected = byPort ? -7.3333333 : -3.0;
                 if (!isRestoredFirst && arePortsKept) second.controls = session.controls;
                 second.restore(session.state);
@@ -278,12 +273,10 @@ TEST(RawLv2, WhatWasSetLastByThePortOrBesideItStaysAfterSavingAndLoading) {
 }
 
 TEST(RawLv2, APortThatIsOtherThanWhenTheStateWasSavedCounts) {
-    RawLv2 first{block, block}, second{block, block};
-    first.activate();
+    PlayingLv2 first, second;
     first.controls[control(Parameter::level)] = -30.0f;
     first.run(block);
     const SavedSession session{first};
-    second.activate();
     second.restore(session.state);
     second.controls[control(Parameter::level)] = -40.0f; // the host has kept a newer one
     second.run(block);
@@ -291,12 +284,10 @@ TEST(RawLv2, APortThatIsOtherThanWhenTheStateWasSavedCounts) {
 }
 
 TEST(RawLv2, APresetThatLeavesThePortsAloneIsNotUndoneByThem) {
-    RawLv2 first{block, block}, second{block, block};
-    first.activate();
+    PlayingLv2 first, second;
     first.points.push_back({0, "level", -24.0f});
     first.run(block);
     const auto preset = first.save();
-    second.activate();
     second.controls[control(Parameter::level)] = -5.0f;
     second.run(block);
     second.restore(preset);
@@ -308,9 +299,7 @@ TEST(RawLv2, APresetThatLeavesThePortsAloneIsNotUndoneByThem) {
 }
 
 TEST(RawLv2, APortThatHoldsNoNumberIsNoneAndAnAbsurdOneIsTheNearest) {
-    RawLv2 host{block, block};
-    ASSERT_TRUE(host.isLoaded());
-    host.activate();
+    PlayingLv2 host;
     constexpr float beyond = std::numeric_limits<float>::infinity();
     for (const float absurd : {std::numeric_limits<float>::quiet_NaN(), beyond, -beyond, 1e30f, -1e30f}) {
         host.controls.fill(absurd);
@@ -319,7 +308,6 @@ TEST(RawLv2, APortThatHoldsNoNumberIsNoneAndAnAbsurdOneIsTheNearest) {
         EXPECT_TRUE(std::isnan(absurd) ? loudest > 0.001f : loudest <= 1.0f) << absurd;
         EXPECT_LE(std::abs(valueOf(host, "tilt")), 180.0) << absurd;
     }
-    host.deactivate();
 }
 
 TEST(RawLv2, DescriptionsHaveAPortForEachParameterBehindJucesOwnAndNoProperty) {
