@@ -149,14 +149,14 @@ TEST(PluginChunk, ComesAndGoesOnAnyThreadWhileItAndOthersPlay) {
     }
     std::vector<std::unique_ptr<TestHost>> hosts;
     std::vector<std::thread> threads;
-    for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
         auto& host = *hosts.emplace_back(std::make_unique<TestHost>());
         host.prepare(48000, 256, false);
         threads.emplace_back([&host] {
-            for (int b = 0; b < 500; ++b) EXPECT_LE(host.block(256).getMagnitude(0, 256), 1.0f);
+            for (int b = 0; b < 250; ++b) EXPECT_LE(host.block(256).getMagnitude(0, 256), 1.0f);
         });
         threads.emplace_back([&host, &chunks, i] {
-            for (std::size_t n = i; n < i + 40; ++n) {
+            for (std::size_t n = i; n < i + 20; ++n) {
                 restore(*host.plugin, chunks[n % 5]);
                 EXPECT_TRUE(chunkOf(*host.plugin) == chunks[n % 5]);
             }
