@@ -195,7 +195,7 @@ public:
     /// block, LV2 hosts tell a change of tempo within one. Where every block jumps, a hand is on the
     /// transport: that is one start, and another when it has let go.
     Change follow(std::optional<bool> isPlaying, std::optional<std::int64_t> frame, int frames) noexcept {
-        constexpr std::int64_t far = std::int64_t{1} << 61; // so that sums fit
+        constexpr std::int64_t far = std::int64_t{1} << 61; // sums fit
         if (frame) frame = std::clamp(*frame, -far, far);
         const bool plays = isPlaying.value_or(!isThere_ || wasPlaying_);
         // what was assumed counts until the host tells

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LV2's entry: JUCE's (which CMake compiles as juceLv2Descriptor; the Projucer does without this file), and
-// the four things that it leaves out. It prepares for the largest block, not for the usual one, takes no
+// the four things that it leaves out. It prepares for the largest block, not the usual one, takes no
 // notice of deactivate and activate, of what sets a parameter within a block it knows no frame, has no
 // control ports.
 #ifdef PHYSVIB_LV2_ENTRY
