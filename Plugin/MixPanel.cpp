@@ -14,52 +14,26 @@ constexpr double holdMs = 1500.0;
 
 juce::String inG(double g) { return number(g, g < 9.995 ? 2 : 1); }
 
-void tinted(juce::TextButton& button, juce::Colour tint) {
-    button.getProperties().set(tintProperty, static_cast<juce::int64>(tint.getARGB()));
-}
-
 } // namespace
 
 MixStrip::MixStrip(const MixHands& hands, int strip, const juce::String& label)
-    : hands_{hands}
+    : StripParts{label}
+    , hands_{hands}
     , index_{static_cast<std::size_t>(strip)}
-    , label_{label}
-    , meter_{"Level of " + label}
-    , ceiling_{label} {
-    setTitle("Strip " + label);
-    fader_.setUp(leastStripDb, mostStripDb, "Gain of " + label);
-    fader_.onValueChange = [this] { change([this](Strip& s) { s.gainDb = fader_.getValue(); }); };
+    , label_{label} {
+    fader_.onValueChange = [this] { change({}, [this](Strip& s) { s.gainDb = fader_.getValue(); }); };
     ceiling_.textFromValueFunction = [this](double db) {
         return "ceiling " + number(db, 1) + " dB, " + inG(fromDecibels(db) * enchanter_.fullScaleG) + " g";
     };
-    ceiling_.onValueChange = [this] { change([this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }); };
-    const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint,
-                            bool Strip::*what) {
-        button.setTitle(name + " " + label);
-        button.setTooltip(name);
-        tinted(button, tint);
-        button.onClick = [this, what] { change([what](Strip& s) { s.*what = !(s.*what); }); };
-    };
-    toggle(mute_, "Mute", palette::limit, &Strip::isMuted);
-    toggle(solo_, "Solo", palette::now, &Strip::isSolo);
-    toggle(polarity_, "Polarity", palette::enchanter(4), &Strip::isInverted);
-    delay_.setTitle("Delay of " + label);
-    delay_.onClick = [this] { askDelay(); };
+    ceiling_.onValueChange = [this] { change({}, [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }); };
     actuator_.setTitle("Actuator of " + label);
     actuator_.setTooltip("This actuator's profile, and whether it is equalised");
     actuator_.getProperties().set(quietProperty, true);
     actuator_.onClick = [this] { askActuator(); };
-    level_.setFont(text::font(text::small, juce::Font::bold));
-    level_.setJustificationType(juce::Justification::centredRight);
-    level_.setBorderSize({0, 0, 0, 0});
-    most_.setFont(text::font(text::small));
-    most_.setBorderSize({0, 4, 0, 0});
-    for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &meter_, &fader_, &ceiling_, &mute_, &solo_, &polarity_, &delay_, &actuator_, &level_, &most_})
-        addAndMakeVisible(c);
+    addAndMakeVisible(actuator_);
 }
 
-void MixStrip::change(const std::function<void(Strip&)>& how) {
+void MixStrip::change(const juce::String&, const std::function<void(Strip&)>& how) {
     hands_.edit([this, &how](PluginState& state) {
         if (index_ < state.strips.size()) how(state.strips[index_]);
     });
@@ -70,22 +44,10 @@ void MixStrip::take(const PluginState& state) {
     enchanter_ = state.layout.enchanters[index_];
     isSilent_ = isSilent(state.strips, index_);
     isEqualised_ = state.equalised[index_].isKnown();
-    if (!fader_.isMouseButtonDown()) fader_.setValue(strip_.gainDb, juce::dontSendNotification);
-    if (!ceiling_.isMouseButtonDown()) ceiling_.setValue(strip_.ceilingDb, juce::dontSendNotification);
-    mute_.setToggleState(strip_.isMuted, juce::dontSendNotification);
-    solo_.setToggleState(strip_.isSolo, juce::dontSendNotification);
-    polarity_.setToggleState(strip_.isInverted, juce::dontSendNotification);
-    delay_.setButtonText(strip_.delayMs > 0.0 ? number(strip_.delayMs, strip_.delayMs < 1.0 ? 1 : 0)
-                                              : juce::String{"ms"});
-    delay_.setToggleState(strip_.delayMs > 0.0, juce::dontSendNotification);
-    delay_.setTooltip("Delay: " + number(strip_.delayMs, 1) + " ms");
+    show(strip_, inG(ceilingOf(strip_) * enchanter_.fullScaleG));
     actuator_.setButtonText(
         (enchanter_.actuator == "none" ? juce::String{"no profile"} : words(enchanter_.actuator)) +
         (isEqualised_ ? " EQ" : ""));
-    most_.setText("/ " + inG(ceilingOf(strip_) * enchanter_.fullScaleG) + " g", juce::dontSendNotification);
-    most_.setColour(juce::Label::textColourId,
-                    shade(*this, strip_.ceilingDb < 0.0 ? Shade::text : Shade::muted));
-    repaint();
 }
 
 void MixStrip::update(float peak, bool isConnected) {
@@ -99,16 +61,6 @@ void MixStrip::update(float peak, bool isConnected) {
     isConnected_ = isConnected;
     level_.setTooltip(isConnected ? juce::String{} : "The track has no channel for this actuator");
     repaint();
-}
-
-void MixStrip::askDelay() {
-    juce::PopupMenu menu;
-    menu.addSectionHeader("Delay");
-    for (const double ms : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
-        menu.addItem(number(ms, ms < 1.0 && ms > 0.0 ? 1 : 0) + " ms", true, strip_.delayMs == ms,
-                     [this, ms] { change([ms](Strip& s) { s.delayMs = ms; }); });
-    menu.setLookAndFeel(&getLookAndFeel());
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_).withDeletionCheck(*this));
 }
 
 void MixStrip::askActuator() {
@@ -162,39 +114,14 @@ void MixStrip::equalise(bool on) {
 }
 
 void MixStrip::paint(juce::Graphics& g) {
-    auto area = getLocalBounds();
-    const bool isQuiet = isSilent_ || !isConnected_;
-    g.setColour(enchanterColour(*this, static_cast<int>(index_)).withMultipliedAlpha(isQuiet ? 0.35f : 1.0f));
-    g.fillRoundedRectangle(area.removeFromTop(4).toFloat(), 2.0f);
-    g.setColour(shade(*this, isQuiet ? Shade::muted : Shade::text));
-    g.setFont(text::font(text::medium, juce::Font::bold));
-    g.drawText(label_, area.withTrimmedTop(4).removeFromTop(20), juce::Justification::centred, true);
-    g.setColour(shade(*this, Shade::muted));
-    g.setFont(text::font(text::small));
-    for (const int db : {0, -20, -40, -60}) { // the meter's scale, right of the fader
-        const auto y = static_cast<float>(meter_.getY()) +
-                       static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
-        g.drawText(number(db, 0),
-                   juce::Rectangle<float>{static_cast<float>(getWidth()) - 27.0f, y - 7.0f, 26.0f, 14.0f},
-                   juce::Justification::centredRight, false);
-    }
+    StripParts::paint(g, static_cast<int>(index_), label_, isSilent_ || !isConnected_);
 }
 
 void MixStrip::resized() {
     auto area = getLocalBounds().withTrimmedTop(28);
     actuator_.setBounds(area.removeFromTop(20));
     area.removeFromTop(10);
-    auto row = area.removeFromBottom(22);
-    level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
-    most_.setBounds(row);
-    row = area.removeFromBottom(24);
-    const int each = row.getWidth() / 4;
-    for (auto* button : {&mute_, &solo_, &polarity_, &delay_})
-        button->setBounds(row.removeFromLeft(each).reduced(1, 0));
-    area.removeFromBottom(10);
-    meter_.setBounds(area.withWidth(12).withX(10));
-    ceiling_.placeOver(meter_.getBounds());
-    fader_.setBounds(area.withX(24).withWidth(32).expanded(0, 8));
+    place(area, 0);
 }
 
 MixPanel::MixPanel(PluginProcessor& plugin, MixHands hands)
@@ -203,6 +130,8 @@ MixPanel::MixPanel(PluginProcessor& plugin, MixHands hands)
                        level_} {
     setTitle("Mix");
     level_.setDoubleClickReturnValue(true, rowOf(Parameter::level).initial);
+    level_.setTooltip(words(rowOf(Parameter::level).help));
+    level_.addMouseListener(this, false);
     viewport_.setViewedComponent(&row_, false);
     viewport_.setScrollBarsShown(false, true);
     viewport_.setScrollBarThickness(8);
@@ -253,6 +182,8 @@ void MixPanel::paint(juce::Graphics& g) {
     g.drawText(level_.getTextFromValue(level_.getValue()), levelValue_, juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::well));
     g.fillRoundedRectangle(limiterBar_.toFloat(), 3.0f);
+    g.setColour(shade(*this, Shade::line));
+    g.drawRoundedRectangle(limiterBar_.toFloat().reduced(0.5f), 3.0f, 1.0f);
     const float db = juce::Decibels::gainToDecibels(limiterGain_),
                 reduction = juce::jlimit(0.0f, 1.0f, -db / 20.0f);
     const bool isLimiting = db < -0.05f;
@@ -272,7 +203,8 @@ void MixPanel::resized() {
     area.removeFromRight(stripGap);
     viewport_.setBounds(area);
     const int needed = static_cast<int>(strips_.size()) * (MixStrip::width + stripGap);
-    row_.setSize(std::max(needed, area.getWidth()), area.getHeight() - (needed > area.getWidth() ? 10 : 0));
+    if (needed > area.getWidth()) area.removeFromBottom(10), master.removeFromBottom(10); // scroll bar's
+    row_.setSize(std::max(needed, area.getWidth()), area.getHeight());
     auto places = row_.getLocalBounds();
     for (auto& strip : strips_)
         strip->setBounds(places.removeFromLeft(MixStrip::width)), places.removeFromLeft(stripGap);
@@ -281,7 +213,7 @@ void MixPanel::resized() {
     master.removeFromTop(58);
     limiterValue_ = master.removeFromBottom(22);
     limiter_.setBounds(master.removeFromBottom(24).reduced(4, 0));
-    master.removeFromBottom(10);
+    master.removeFromBottom(8);
     limiterBar_ = master.withX(master.getX() + 14).withWidth(8);
     level_.setBounds(master.withX(master.getX() + 34).withWidth(40).expanded(0, 8));
 }

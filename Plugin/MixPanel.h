@@ -16,7 +16,7 @@ struct MixHands {
 };
 
 /// M only.
-class MixStrip final : public juce::Component {
+class MixStrip final : public StripParts {
 public:
     static constexpr int width = 80;
 
@@ -27,8 +27,7 @@ public:
     void resized() override;
 
 private:
-    void change(const std::function<void(Strip&)>& how);
-    void askDelay();
+    void change(const juce::String&, const std::function<void(Strip&)>& how) override;
     void askActuator();
     void chooseActuator(const std::string& nameOrPath);
     void equalise(bool on);
@@ -41,12 +40,7 @@ private:
     bool isSilent_ = false, isEqualised_ = false, isConnected_ = true;
     float hold_ = 0.0f;
     double holdUntilMs_ = 0.0;
-    PeakMeter meter_;
-    Fader fader_;
-    CeilingHandle ceiling_;
-    juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"},
-        actuator_;
-    juce::Label level_, most_;
+    juce::TextButton actuator_;
     std::unique_ptr<juce::FileChooser> chooser_;
 };
 
@@ -55,7 +49,11 @@ public:
     MixPanel(PluginProcessor& plugin, MixHands hands);
     void take(const PluginState& state);
     void update(const ChannelMeters& meters);
-    int wishedWidth() const; ///< that shows all strips
+    int wishedWidth() const;      ///< that shows all strips
+    std::function<void()> onMenu; ///< a right click on the level
+    void mouseDown(const juce::MouseEvent& e) override {
+        if (e.eventComponent == &level_ && e.mods.isPopupMenu()) onMenu();
+    }
     void paint(juce::Graphics& g) override;
     void resized() override;
 

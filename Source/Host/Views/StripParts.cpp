@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing of meters, faders and ceiling handles, on a common dB scale.
 #include "Host/Views/StripParts.h"
-#include "Live/Documents/Mix.h"
 #include <cmath>
 
 namespace physvib {
@@ -50,6 +49,8 @@ void PeakMeter::paint(juce::Graphics& g) {
     const auto bar = getLocalBounds().toFloat();
     g.setColour(shade(*this, Shade::well));
     g.fillRoundedRectangle(bar, 3.0f);
+    g.setColour(shade(*this, Shade::line));
+    g.drawRoundedRectangle(bar.reduced(0.5f), 3.0f, 1.0f);
     const auto green = palette::enchanter(3);
     const auto lit = bar.withTrimmedTop(bar.getHeight() * (1.0f - peak_));
     if (lit.getHeight() > 0.5f) {
@@ -94,6 +95,106 @@ void CeilingHandle::paint(juce::Graphics& g) {
     g.fillPath(mark);
     g.fillRect(static_cast<float>(room) - 1.0f, y - 0.75f, static_cast<float>(getWidth() - room) + 1.0f,
                1.5f);
+}
+
+StripParts::StripParts(const juce::String& label)
+    : meter_{"Level of " + label}
+    , ceiling_{label} {
+    setTitle("Strip " + label);
+    fader_.setUp(leastStripDb, mostStripDb, "Gain of " + label);
+    const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint,
+                            bool Strip::*what) {
+        button.setTitle(name + " " + label);
+        button.setTooltip(name);
+        button.getProperties().set(tintProperty, static_cast<juce::int64>(tint.getARGB()));
+        button.onClick = [this, what, name] { change(name, [what](Strip& s) { s.*what = !(s.*what); }); };
+    };
+    toggle(mute_, "Mute", palette::limit, &Strip::isMuted);
+    toggle(solo_, "Solo", palette::now, &Strip::isSolo);
+    toggle(polarity_, "Polarity", palette::enchanter(4), &Strip::isInverted);
+    delay_.setTitle("Delay of " + label);
+    delay_.onClick = [this] { askDelay(); };
+    level_.setTitle("Level of " + label + " in g");
+    level_.setFont(text::font(text::small, juce::Font::bold));
+    level_.setJustificationType(juce::Justification::centredRight);
+    level_.setBorderSize({0, 0, 0, 0});
+    most_.setTitle("Ceiling of " + label + " in g");
+    most_.setFont(text::font(text::small));
+    most_.setBorderSize({0, 4, 0, 0});
+    for (juce::Component* c : std::initializer_list<juce::Component*>{
+             &mute_, &solo_, &polarity_, &meter_, &fader_, &ceiling_, &delay_, &level_, &most_})
+        addAndMakeVisible(c);
+}
+
+void StripParts::show(const Strip& strip, const juce::String& most) {
+    constexpr auto quietly = juce::dontSendNotification;
+    if (!fader_.isMouseButtonDown()) fader_.setValue(strip.gainDb, quietly);
+    if (!ceiling_.isMouseButtonDown()) ceiling_.setValue(strip.ceilingDb, quietly);
+    mute_.setToggleState(strip.isMuted, quietly);
+    solo_.setToggleState(strip.isSolo, quietly);
+    polarity_.setToggleState(strip.isInverted, quietly);
+    delayMs_ = strip.delayMs;
+    delay_.setButtonText(delayMs_ > 0.0 ? readable::words(delayMs_, delayMs_ < 1.0 ? 1 : 0)
+                                        : juce::String{"ms"});
+    delay_.setToggleState(delayMs_ > 0.0, quietly);
+    delay_.setTooltip("Delay: " + readable::words(delayMs_, 1) + " ms");
+    most_.setText("/ " + most + " g", quietly);
+    most_.setTooltip("Ceiling: " + readable::words(strip.ceilingDb, 1) + " dB of full scale");
+    most_.setColour(juce::Label::textColourId,
+                    shade(*this, strip.ceilingDb < 0.0 ? Shade::text : Shade::muted));
+    repaint();
+}
+
+void StripParts::askDelay() {
+    juce::PopupMenu menu;
+    menu.addSectionHeader("Delay");
+    for (const double ms : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
+        menu.addItem(readable::words(ms, ms == 0.5 ? 1 : 0) + " ms", true, delayMs_ == ms,
+                     [this, ms] { change("Delay", [ms](Strip& s) { s.delayMs = ms; }); });
+    menu.setLookAndFeel(&getLookAndFeel());
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_).withDeletionCheck(*this));
+}
+
+void StripParts::place(juce::Rectangle<int> area, int left) {
+    auto row = area.removeFromBottom(22);
+    level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
+    most_.setBounds(row);
+    row = area.removeFromBottom(24);
+    const int each = row.getWidth() / 4;
+    for (auto* button : {&mute_, &solo_, &polarity_, &delay_})
+        button->setBounds(row.removeFromLeft(each).reduced(1, 0));
+    area.removeFromBottom(8);
+    meter_.setBounds(area.withWidth(12).withX(left + 10));
+    ceiling_.placeOver(meter_.getBounds());
+    fader_.setBounds(area.withX(left + 47).withWidth(32).expanded(0, 8));
+}
+
+void StripParts::paint(juce::Graphics& g, int enchanter, const juce::String& name, bool isQuiet) {
+    auto row = getLocalBounds();
+    g.setColour(enchanterColour(*this, enchanter).withMultipliedAlpha(isQuiet ? 0.35f : 1.0f));
+    g.fillRoundedRectangle(row.removeFromTop(4).toFloat(), 2.0f);
+    row = row.withTrimmedTop(4).removeFromTop(20);
+    g.setColour(shade(*this, Shade::muted));
+    g.setFont(text::font(11.0f));
+    const auto bar = meter_.getBounds().toFloat();
+    for (const int db : {0, -20, -40, -60}) {
+        const float y = bar.getY() + bar.getHeight() * static_cast<float>(db) / meterFloorDb;
+        g.drawText(readable::words(db, 0), juce::Rectangle{bar.getRight() + 4.0f, y - 7.0f, 24.0f, 14.0f},
+                   juce::Justification::centredLeft, false);
+    }
+    const auto bold = text::font(text::medium, juce::Font::bold), plain = text::font(text::small);
+    const double db = fader_.getValue();
+    const auto gain = db == 0.0 ? juce::String{} : fader_.textFromValueFunction(db);
+    constexpr int between = 5;
+    const int gainWidth = text::pixels(plain, gain) + between, nameWidth = text::pixels(bold, name);
+    if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {
+        row = row.withSizeKeepingCentre(nameWidth + gainWidth, row.getHeight());
+        g.setFont(plain);
+        g.drawText(gain, row.removeFromRight(gainWidth), juce::Justification::centredRight, false);
+    }
+    g.setColour(shade(*this, isQuiet ? Shade::muted : Shade::text));
+    g.setFont(bold);
+    g.drawText(name, row, juce::Justification::centred, true);
 }
 
 } // namespace physvib

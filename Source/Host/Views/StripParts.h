@@ -3,6 +3,8 @@
 // meter.
 #pragma once
 #include "Host/Views/Look.h"
+#include "Live/Documents/Strip.h"
+#include <functional>
 #include <juce_audio_basics/juce_audio_basics.h>
 
 namespace physvib {
@@ -50,6 +52,29 @@ public:
 
 private:
     static constexpr int room = 10; // space left of the meter, for the mark
+};
+
+/// What strips of the mixer and of the plug-in have in common. M only.
+class StripParts : public juce::Component {
+protected:
+    explicit StripParts(const juce::String& label);
+    virtual void change(const juce::String& name, const std::function<void(Strip&)>& how) = 0;
+    void show(const Strip& strip, const juce::String& most);
+    /// Buttons, figures and, above them, meter and fader, from `left` on.
+    void place(juce::Rectangle<int> area, int left);
+    /// The fader's gain stands beside the name, unless it is 0 dB or the name needs the room; the meter's
+    /// scale is between meter and fader.
+    void paint(juce::Graphics& g, int enchanter, const juce::String& name, bool isQuiet);
+
+    PeakMeter meter_;
+    Fader fader_;
+    CeilingHandle ceiling_;
+    juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"};
+    juce::Label level_, most_; // in g
+
+private:
+    void askDelay();
+    double delayMs_ = 0.0;
 };
 
 } // namespace physvib

@@ -8,14 +8,11 @@
 namespace physvib {
 
 StripView::StripView(MixerModel& model, int strip)
-    : model_{model}
+    : StripParts{utf8(model.mix().layout.enchanters[static_cast<std::size_t>(strip)].label)}
+    , model_{model}
     , index_{static_cast<std::size_t>(strip)}
-    , meter_{"Level of " + utf8(model.mix().layout.enchanters[index_].label)}
-    , ceiling_{utf8(model.mix().layout.enchanters[index_].label)}
     , sweep_{Sign::sweep, "Sweep on " + utf8(model.mix().layout.enchanters[index_].label)} {
     const auto label = utf8(model.mix().layout.enchanters[index_].label);
-    setTitle("Strip " + label);
-    fader_.setUp(leastStripDb, mostStripDb, "Gain of " + label);
     onSlide(fader_, [this](bool continuesEdit) {
         change(
             "Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, continuesEdit);
@@ -28,26 +25,6 @@ StripView::StripView(MixerModel& model, int strip)
         change(
             "Ceiling", [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }, continuesEdit);
     });
-    const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint,
-                            bool Strip::*what) {
-        button.setTitle(name + " " + label);
-        button.setTooltip(name);
-        button.getProperties().set(tintProperty, static_cast<juce::int64>(tint.getARGB()));
-        button.onClick = [this, what, name] { change(name, [what](Strip& s) { s.*what = !(s.*what); }); };
-        addAndMakeVisible(button);
-    };
-    toggle(mute_, "Mute", palette::limit, &Strip::isMuted);
-    toggle(solo_, "Solo", palette::now, &Strip::isSolo);
-    toggle(polarity_, "Polarity", palette::enchanter(4), &Strip::isInverted);
-    delay_.setTitle("Delay of " + label);
-    delay_.onClick = [this] { askDelay(); };
-    level_.setFont(text::font(text::small, juce::Font::bold));
-    level_.setJustificationType(juce::Justification::centredRight);
-    level_.setTitle("Level of " + label + " in g");
-    most_.setFont(text::font(text::small));
-    most_.setTitle("Ceiling of " + label + " in g");
-    level_.setBorderSize({0, 0, 0, 0});
-    most_.setBorderSize({0, 4, 0, 0});
     output_.setTitle("Output of " + label);
     output_.setJustificationType(juce::Justification::centred);
     output_.onChange = [this] {
@@ -62,17 +39,15 @@ StripView::StripView(MixerModel& model, int strip)
     sweep_.getProperties().set(quietProperty, true);
     sweep_.setTooltip("A sweep from 40 to 400 Hz (Shift+T)");
     sweep_.onClick = [this] { model_.strikes().testSweep(static_cast<int>(index_)); };
-    addAll(*this, {&meter_, &fader_, &ceiling_, &delay_, &level_, &most_, &output_, group_.get(), test_.get(),
-                   &sweep_});
+    addAll(*this, {&output_, group_.get(), test_.get(), &sweep_});
     mixChanged();
 }
 
-template <class Change>
-void StripView::change(const juce::String& name, Change change, bool continuesEdit) {
+void StripView::change(const juce::String& name, const std::function<void(Strip&)>& how, bool continuesEdit) {
     if (!isThere()) return; // a press that came before the views followed
     const auto label = utf8(model_.mix().layout.enchanters[index_].label);
     model_.change(
-        name + " of " + label, [&](Mix& mix) { change(mix.strips[index_]); }, continuesEdit);
+        name + " of " + label, [&](Mix& mix) { how(mix.strips[index_]); }, continuesEdit);
 }
 
 void StripView::fillOutputs() {
@@ -102,33 +77,13 @@ void StripView::fillOutputs() {
 
 void StripView::mixChanged() {
     const Strip& s = strip();
-    if (!fader_.isMouseButtonDown()) fader_.setValue(s.gainDb, juce::dontSendNotification);
-    mute_.setToggleState(s.isMuted, juce::dontSendNotification);
-    solo_.setToggleState(s.isSolo, juce::dontSendNotification);
-    polarity_.setToggleState(s.isInverted, juce::dontSendNotification);
-    if (!ceiling_.isMouseButtonDown()) ceiling_.setValue(s.ceilingDb, juce::dontSendNotification);
-    most_.setText("/ " + inG(maxG(model_, index_)) + " g", juce::dontSendNotification);
-    most_.setTooltip("Ceiling: " + number(s.ceilingDb, 1) + " dB of full scale");
-    most_.setColour(juce::Label::textColourId, shade(*this, s.ceilingDb < 0.0 ? Shade::text : Shade::muted));
-    delay_.setButtonText(s.delayMs > 0.0 ? number(s.delayMs, s.delayMs < 1.0 ? 1 : 0) : juce::String{"ms"});
-    delay_.setToggleState(s.delayMs > 0.0, juce::dontSendNotification);
-    delay_.setTooltip("Delay: " + number(s.delayMs, 1) + " ms");
+    show(s, inG(maxG(model_, index_)));
     const auto& profile = model_.mix().layout.enchanters[index_].actuator;
     group_->setButtonText(s.group < 0 ? juce::String{"group"}
                                       : utf8(model_.mix().groups[static_cast<std::size_t>(s.group)].name));
     group_->setTooltip("Strips of a group share a fader and a mute (G). Actuator: " +
                        (profile == "none" ? juce::String{"no profile"} : utf8(profile)));
     fillOutputs();
-    repaint();
-}
-
-void StripView::askDelay() {
-    juce::PopupMenu menu;
-    menu.addSectionHeader("Delay");
-    for (const double ms : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
-        menu.addItem(number(ms, ms < 1.0 && ms > 0.0 ? 1 : 0) + " ms", true, strip().delayMs == ms,
-                     [this, ms] { change("Delay", [ms](Strip& s) { s.delayMs = ms; }); });
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_));
 }
 
 void StripView::refresh(const MixerMoment& moment) {
@@ -154,42 +109,8 @@ void StripView::mouseDown(const juce::MouseEvent& e) {
 
 void StripView::paint(juce::Graphics& g) {
     if (!isThere()) return;
-    auto area = getLocalBounds();
-    const bool isSilent = model_.mix().isSilent(static_cast<int>(index_));
-    g.setColour(
-        enchanterColour(*this, static_cast<int>(index_)).withMultipliedAlpha(isSilent ? 0.35f : 1.0f));
-    g.fillRoundedRectangle(area.removeFromTop(4).toFloat(), 2.0f);
-    area.removeFromTop(4);
-    drawName(g, area.removeFromTop(20), isSilent ? Shade::muted : Shade::text);
-    g.setColour(shade(*this, Shade::muted));
-    g.setFont(text::font(11.0f));
-    for (const int db : {0, -20, -40, -60}) { // scale of the meter, right of the fader
-        const auto y = static_cast<float>(meter_.getY()) +
-                       static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
-        g.drawText(
-            number(db, 0),
-            juce::Rectangle<float>{static_cast<float>(fader_.getRight()) - 3.0f, y - 7.0f, 24.0f, 14.0f},
-            juce::Justification::centredRight, false);
-    }
-}
-
-// With the fader's gain, unless that is 0 dB or the name needs the room.
-void StripView::drawName(juce::Graphics& g, juce::Rectangle<int> row, Shade which) const {
-    const auto name = utf8(model_.mix().layout.enchanters[index_].label);
-    const auto bold = text::font(text::medium, juce::Font::bold), plain = text::font(text::small);
-    const double db = strip().gainDb;
-    const auto gain = db == 0.0 ? juce::String{} : fader_.textFromValueFunction(db);
-    constexpr int between = 5;
-    const int gainWidth = text::pixels(plain, gain) + between, nameWidth = text::pixels(bold, name);
-    if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {
-        row = row.withSizeKeepingCentre(nameWidth + gainWidth, row.getHeight());
-        g.setColour(shade(*this, Shade::muted));
-        g.setFont(plain);
-        g.drawText(gain, row.removeFromRight(gainWidth), juce::Justification::centredRight, false);
-    }
-    g.setColour(shade(*this, which));
-    g.setFont(bold);
-    g.drawText(name, row, juce::Justification::centred, true);
+    StripParts::paint(g, static_cast<int>(index_), utf8(model_.mix().layout.enchanters[index_].label),
+                      model_.mix().isSilent(static_cast<int>(index_)));
 }
 
 void StripView::setDropping(bool isDropping) {
@@ -218,18 +139,7 @@ void StripView::resized() {
     test_->setBounds(row.removeFromLeft(row.getWidth() * 6 / 10));
     sweep_.setBounds(row);
     output_.setBounds(area.removeFromBottom(26).reduced(2, 1));
-    row = area.removeFromBottom(22);
-    level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
-    most_.setBounds(row);
-    row = area.removeFromBottom(24);
-    const int each = row.getWidth() / 4;
-    for (auto* button : {&mute_, &solo_, &polarity_, &delay_})
-        button->setBounds(row.removeFromLeft(each).reduced(1, 0));
-    area.removeFromBottom(8);
-    const int left = (getWidth() - width) / 2;
-    meter_.setBounds(area.withWidth(12).withX(left + 10));
-    ceiling_.placeOver(meter_.getBounds());
-    fader_.setBounds(area.withX(left + 24).withWidth(32).expanded(0, 8));
+    place(area, (getWidth() - width) / 2);
 }
 
 } // namespace physvib

@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-class StripView final : public juce::Component, public juce::FileDragAndDropTarget {
+class StripView final : public StripParts, public juce::FileDragAndDropTarget {
 public:
     static constexpr int width = 78, mostWidth = 132; ///< they share the panel
 
@@ -29,21 +29,16 @@ public:
 
 private:
     void setDropping(bool isDropping);
-    void drawName(juce::Graphics& g, juce::Rectangle<int> row, Shade which) const;
     bool isThere() const { return index_ < model_.mix().strips.size(); } // false: its strip was removed
     const Strip& strip() const { return model_.mix().strips[index_]; }
-    template <class Change>
-    void change(const juce::String& name, Change change, bool continuesEdit = false);
+    void change(const juce::String& name, const std::function<void(Strip&)>& how) override {
+        change(name, how, false);
+    }
+    void change(const juce::String& name, const std::function<void(Strip&)>& how, bool continuesEdit);
     void fillOutputs();
-    void askDelay();
 
     MixerModel& model_;
     const std::size_t index_;
-    PeakMeter meter_;
-    Fader fader_;
-    CeilingHandle ceiling_;
-    juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"};
-    juce::Label level_, most_;
     juce::ComboBox output_;
     std::unique_ptr<juce::TextButton> group_, test_;
     SignButton sweep_;
