@@ -26,9 +26,9 @@ const Shades& shadesOf(Theme theme) {
                              palette::muted,  palette::now,         palette::limit,
                              palette::camera, palette::enchanter(0)};
     static const Shades light{
-        juce::Colour{Argb{0xffe4e7ee}}, juce::Colour{Argb{0xfff6f7fa}}, juce::Colour{Argb{0xffd0d6e2}},
+        juce::Colour{Argb{0xffe4e7ee}}, juce::Colour{Argb{0xfff6f7fa}}, juce::Colour{Argb{0xffd3d9e4}},
         juce::Colour{Argb{0xffffffff}}, juce::Colour{Argb{0xffc3c9d6}}, juce::Colour{Argb{0xff1b1e27}},
-        juce::Colour{Argb{0xff545c6e}}, juce::Colour{Argb{0xff8a5a00}}, juce::Colour{Argb{0xffb62222}},
+        juce::Colour{Argb{0xff545c6e}}, juce::Colour{Argb{0xff7f5300}}, juce::Colour{Argb{0xffb62222}},
         juce::Colour{Argb{0xff8d7a45}}, juce::Colour{Argb{0xff09665d}}};
     return theme == Theme::dark ? dark : light;
 }

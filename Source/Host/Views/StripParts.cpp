@@ -174,6 +174,20 @@ void StripParts::paint(juce::Graphics& g, int enchanter, const juce::String& nam
     g.setColour(enchanterColour(*this, enchanter).withMultipliedAlpha(isQuiet ? 0.35f : 1.0f));
     g.fillRoundedRectangle(row.removeFromTop(4).toFloat(), 2.0f);
     row = row.withTrimmedTop(4).removeFromTop(20);
+    const auto bold = text::font(text::medium, juce::Font::bold), plain = text::font(text::small);
+    const double gainDb = fader_.getValue();
+    const auto gain = gainDb == 0.0 ? juce::String{} : fader_.textFromValueFunction(gainDb);
+    constexpr int between = 5;
+    const int gainWidth = text::pixels(plain, gain) + between, nameWidth = text::pixels(bold, name);
+    if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {
+        row = row.withSizeKeepingCentre(nameWidth + gainWidth, row.getHeight());
+        g.setColour(shade(*this, Shade::muted));
+        g.setFont(plain);
+        g.drawText(gain, row.removeFromRight(gainWidth), juce::Justification::centredRight, false);
+    }
+    g.setColour(shade(*this, isQuiet ? Shade::muted : Shade::text));
+    g.setFont(bold);
+    g.drawText(name, row, juce::Justification::centred, true);
     g.setColour(shade(*this, Shade::muted));
     g.setFont(text::font(11.0f));
     const auto bar = meter_.getBounds().toFloat();
@@ -182,19 +196,6 @@ void StripParts::paint(juce::Graphics& g, int enchanter, const juce::String& nam
         g.drawText(readable::words(db, 0), juce::Rectangle{bar.getRight() + 4.0f, y - 7.0f, 24.0f, 14.0f},
                    juce::Justification::centredLeft, false);
     }
-    const auto bold = text::font(text::medium, juce::Font::bold), plain = text::font(text::small);
-    const double db = fader_.getValue();
-    const auto gain = db == 0.0 ? juce::String{} : fader_.textFromValueFunction(db);
-    constexpr int between = 5;
-    const int gainWidth = text::pixels(plain, gain) + between, nameWidth = text::pixels(bold, name);
-    if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {
-        row = row.withSizeKeepingCentre(nameWidth + gainWidth, row.getHeight());
-        g.setFont(plain);
-        g.drawText(gain, row.removeFromRight(gainWidth), juce::Justification::centredRight, false);
-    }
-    g.setColour(shade(*this, isQuiet ? Shade::muted : Shade::text));
-    g.setFont(bold);
-    g.drawText(name, row, juce::Justification::centred, true);
 }
 
 } // namespace physvib
