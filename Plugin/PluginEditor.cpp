@@ -408,14 +408,15 @@ void PluginEditor::refresh() {
     firstSteps_.setColour(juce::Label::backgroundColourId,
                           shade(*this, Shade::panel).withAlpha(state_.scene.bodies.empty() ? 0.0f : 0.9f));
     const bool waits = state_.transport != TransportMode::free && meters.enchanters == 0;
-    showHint(isSilent ? "SILENT. Press SILENCE again to feel what is played."
-             : waits  ? "Waits for play: start the host's transport (Restart on play is on)."
-                      : "Press a key below, or play a note: you feel it at its place.\n"
-                        "The list at the upper left has other instruments, and worlds.\n"
-                        "Press SILENCE to stop everything at once.");
     firstSteps_.setVisible(
         world_.isVisible() &&
         (isSilent || waits || (state_.scene.bodies.empty() && status.session.render.played == 0)));
+    if (firstSteps_.isVisible())
+        showHint(isSilent ? "SILENT. Press SILENCE again to feel what is played."
+                 : waits  ? "Waits for play: start the host's transport (Restart on play is on)."
+                          : "Press a key below, or play a note: you feel it at its place.\n"
+                            "The list at the upper left has other instruments, and worlds.\n"
+                            "Press SILENCE to stop everything at once.");
     auto trouble = plugin_.trouble();
     if (plugin_.keepsRefused()) trouble << " - the host's session keeps it until something is edited here";
     if (trouble.isEmpty()) trouble = news_;
@@ -430,20 +431,21 @@ void PluginEditor::refresh() {
 
 // Near the middle, where no actuator is; its first line where there is no room for all.
 void PluginEditor::showHint(const juce::String& text) {
-    const auto place = [this](const juce::String& shown, int y) {
-        firstSteps_.setText(shown, juce::dontSendNotification);
+    const auto isPlaced = [this](const juce::String& shown, int y, bool anywhere = false) {
         const int lines = juce::StringArray::fromLines(shown).size();
         const auto at = world_.getLocalBounds().withSizeKeepingCentre(420, 6 + 15 * lines).translated(0, y);
+        const auto around = at.toFloat().expanded(4.0f);
+        const auto covers = [&](const auto& badge) { return badge.intersects(around); };
+        if (!anywhere && std::ranges::any_of(world_.badges(), covers)) return false;
+        firstSteps_.setText(shown, juce::dontSendNotification);
         firstSteps_.setBounds(at + world_.getPosition());
-        return std::ranges::none_of(world_.badges(), [at = at.toFloat().expanded(4.0f)](const auto& badge) {
-            return badge.intersects(at);
-        });
+        return true;
     };
     const auto first = text.upToFirstOccurrenceOf("\n", false, false);
     for (const auto& shown : {text, first})
         for (int y = 0; y < world_.getHeight() / 2 - 30; y += 4)
-            if (place(shown, -y) || place(shown, y)) return;
-    place(first, 0);
+            if (isPlaced(shown, -y) || isPlaced(shown, y)) return;
+    isPlaced(first, 0, true);
 }
 
 juce::String PluginEditor::helpOf(juce::Component* underMouse) const {
@@ -537,8 +539,8 @@ void PluginEditor::resized() {
     };
     silence_.setBounds(bar.removeFromRight(92));
     bar.removeFromRight(panelGap);
-    left(title_, 78);
-    left(scene_, std::min(170, bar.getWidth() - 610)); // the others take as much
+    left(title_, 88);
+    left(scene_, std::min(170, bar.getWidth() - 612)); // the others take as much
     left(layout_, 84);
     left(files_, 44);
     left(midi_, 44);
