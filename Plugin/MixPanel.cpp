@@ -15,15 +15,15 @@ constexpr double holdMs = 1500.0;
 } // namespace
 
 MixStrip::MixStrip(const MixHands& hands, int strip, const juce::String& label)
-    : ChannelStrip{label, [this](const juce::String&, const Change& how) { change(how); }}
+    : StripParts{label}
     , hands_{hands}
     , index_{static_cast<std::size_t>(strip)}
     , label_{label} {
-    fader_.onValueChange = [this] { change([this](Strip& s) { s.gainDb = fader_.getValue(); }); };
+    fader_.onValueChange = [this] { change({}, [this](Strip& s) { s.gainDb = fader_.getValue(); }); };
     ceiling_.textFromValueFunction = [this](double db) {
         return "ceiling " + number(db, 1) + " dB, " + inG(fromDecibels(db) * enchanter_.fullScaleG) + " g";
     };
-    ceiling_.onValueChange = [this] { change([this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }); };
+    ceiling_.onValueChange = [this] { change({}, [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }); };
     actuator_.setTitle("Actuator of " + label);
     actuator_.setTooltip("This actuator's profile, and whether it is equalised");
     actuator_.getProperties().set(quietProperty, true);
@@ -31,7 +31,7 @@ MixStrip::MixStrip(const MixHands& hands, int strip, const juce::String& label)
     addAndMakeVisible(actuator_);
 }
 
-void MixStrip::change(const std::function<void(Strip&)>& how) {
+void MixStrip::change(const juce::String&, const std::function<void(Strip&)>& how) {
     hands_.edit([this, &how](PluginState& state) {
         if (index_ < state.strips.size()) how(state.strips[index_]);
     });
@@ -42,10 +42,10 @@ void MixStrip::take(const PluginState& state) {
     enchanter_ = state.layout.enchanters[index_];
     isSilent_ = isSilent(state.strips, index_);
     isEqualised_ = state.equalised[index_].isKnown();
+    show(strip, ceilingOf(strip) * enchanter_.fullScaleG);
     actuator_.setButtonText(
         (enchanter_.actuator == "none" ? juce::String{"no profile"} : words(enchanter_.actuator)) +
         (isEqualised_ ? " EQ" : ""));
-    show(strip, ceilingOf(strip) * enchanter_.fullScaleG);
 }
 
 void MixStrip::update(float peak, bool isConnected) {
@@ -112,18 +112,14 @@ void MixStrip::equalise(bool on) {
 }
 
 void MixStrip::paint(juce::Graphics& g) {
-    const bool isQuiet = isSilent_ || !isConnected_;
-    paintFrame(g, static_cast<int>(index_), isQuiet);
-    g.setColour(shade(*this, isQuiet ? Shade::muted : Shade::text));
-    g.setFont(text::font(text::medium, juce::Font::bold));
-    g.drawText(label_, getLocalBounds().withTrimmedTop(8).removeFromTop(20), juce::Justification::centred,
-               true);
+    StripParts::paint(g, static_cast<int>(index_), label_, isSilent_ || !isConnected_);
 }
 
 void MixStrip::resized() {
     auto area = getLocalBounds().withTrimmedTop(28);
     actuator_.setBounds(area.removeFromTop(20));
-    place(area.withTrimmedTop(10), 0);
+    area.removeFromTop(10);
+    place(area, 0);
 }
 
 MixPanel::MixPanel(PluginProcessor& plugin, MixHands hands)
@@ -132,6 +128,8 @@ MixPanel::MixPanel(PluginProcessor& plugin, MixHands hands)
                        level_} {
     setTitle("Mix");
     level_.setDoubleClickReturnValue(true, rowOf(Parameter::level).initial);
+    level_.setTooltip(words(rowOf(Parameter::level).help));
+    level_.addMouseListener(this, false);
     viewport_.setViewedComponent(&row_, false);
     viewport_.setScrollBarsShown(false, true);
     viewport_.setScrollBarThickness(8);
@@ -191,7 +189,8 @@ void MixPanel::resized() {
     area.removeFromRight(stripGap);
     viewport_.setBounds(area);
     const int needed = static_cast<int>(strips_.size()) * (MixStrip::width + stripGap);
-    row_.setSize(std::max(needed, area.getWidth()), area.getHeight() - (needed > area.getWidth() ? 10 : 0));
+    if (needed > area.getWidth()) area.removeFromBottom(10), master.removeFromBottom(10); // scroll bar's
+    row_.setSize(std::max(needed, area.getWidth()), area.getHeight());
     auto places = row_.getLocalBounds();
     for (auto& strip : strips_)
         strip->setBounds(places.removeFromLeft(MixStrip::width)), places.removeFromLeft(stripGap);
@@ -200,7 +199,7 @@ void MixPanel::resized() {
     master.removeFromTop(58);
     limiterValue_ = master.removeFromBottom(22);
     limiter_.setBounds(master.removeFromBottom(24).reduced(4, 0));
-    master.removeFromBottom(10);
+    master.removeFromBottom(8);
     limiterBar_.setBounds(master.withX(master.getX() + 14).withWidth(8));
     level_.setBounds(master.withX(master.getX() + 34).withWidth(40).expanded(0, 8));
 }

@@ -16,7 +16,7 @@ struct MixHands {
 };
 
 /// M only.
-class MixStrip final : public ChannelStrip {
+class MixStrip final : public StripParts {
 public:
     static constexpr int width = 80;
 
@@ -27,7 +27,7 @@ public:
     void resized() override;
 
 private:
-    void change(const std::function<void(Strip&)>& how);
+    void change(const juce::String&, const std::function<void(Strip&)>& how) override;
     void askActuator();
     void chooseActuator(const std::string& nameOrPath);
     void equalise(bool on);
@@ -48,7 +48,11 @@ public:
     MixPanel(PluginProcessor& plugin, MixHands hands);
     void take(const PluginState& state);
     void update(const ChannelMeters& meters);
-    int wishedWidth() const; ///< that shows all strips
+    int wishedWidth() const;      ///< that shows all strips
+    std::function<void()> onMenu; ///< a right click on the level
+    void mouseDown(const juce::MouseEvent& e) override {
+        if (e.eventComponent == &level_ && e.mods.isPopupMenu()) onMenu();
+    }
     void paint(juce::Graphics& g) override;
     void resized() override;
 

@@ -27,12 +27,10 @@ std::string_view panelName(const ParameterRow& row) {
     switch (row.parameter) {
     case Parameter::law: return "Law";
     case Parameter::exponent: return "Exponent";
-    case Parameter::strikeLevel: return "Level";
     case Parameter::strikeX: return "Shift x";
     case Parameter::strikeY: return "Shift y";
     case Parameter::musicSides: return "Channels";
     case Parameter::velocityCurve: return "Velocity";
-    case Parameter::noteMaterial: return "Material";
     default: return row.name;
     }
 }
@@ -42,7 +40,8 @@ std::string_view panelWord(std::string_view choice) {
     if (choice == "as the preset") return "preset";
     if (choice == "as the scene") return "scene";
     if (choice == "moves the place") return "place";
-    return choice;
+    if (choice == "left and right") return "L and R";
+    return choice.substr(0, choice.find("tone")); // "12 semi"
 }
 
 } // namespace
@@ -53,15 +52,30 @@ ParameterControl::ParameterControl(HostParameter& parameter)
         c->addMouseListener(this, true);
     const auto& row = parameter.row();
     caption(name_, words(panelName(row)));
-    name_.setMinimumHorizontalScale(0.8f);
+    name_.setMinimumHorizontalScale(0.75f);
     name_.setJustificationType(juce::Justification::centred);
     addAndMakeVisible(name_);
     if (!row.choices.empty()) {
-        for (int id = 1; const auto choice : row.choices) list_.addItem(words(panelWord(choice)), id++);
+        // its places, without those that repeat the one before
+        const auto all = row.choices;
+        const auto idOf = [all](std::string_view choice) {
+            return 1 + static_cast<int>(std::ranges::find(all, choice) - all.begin());
+        };
+        for (int id = 1; const auto choice : all)
+            if (id++ == idOf(choice)) list_.addItem(words(panelWord(choice)), idOf(choice));
         list_.setTitle(words(row.name));
         list_.setTooltip(words(row.help));
         addAndMakeVisible(list_);
-        listAttachment_ = std::make_unique<juce::ComboBoxParameterAttachment>(parameter, list_);
+        const auto last = static_cast<float>(all.size() - 1);
+        listAttachment_ = std::make_unique<juce::ParameterAttachment>(parameter, [=, this](float place) {
+            const auto& choice = all[static_cast<std::size_t>(juce::roundToInt(place * last))];
+            list_.setSelectedId(idOf(choice), juce::dontSendNotification);
+        });
+        listAttachment_->sendInitialUpdate();
+        list_.onChange = [this, last] {
+            if (const int id = list_.getSelectedId(); id > 0)
+                listAttachment_->setValueAsCompleteGesture(static_cast<float>(id - 1) / last);
+        };
         return;
     }
     knob_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
@@ -90,12 +104,16 @@ void ParameterControl::rename(int choice, const juce::String& text) {
 }
 
 void ParameterControl::resized() {
-    auto area = getLocalBounds().reduced(2, 0);
+    auto area = getLocalBounds();
     name_.setBounds(area.removeFromTop(18));
+    area.reduce(2, 0);
     knob_.setBounds(area);
     for (auto* const part : knob_.getChildren()) // its value needs all of a narrow knob's width
-        if (auto* const value = dynamic_cast<juce::Label*>(part)) value->setBorderSize({0, 0, 0, 0});
-    list_.setBounds(area.withSizeKeepingCentre(area.getWidth() - 2, 28));
+        if (auto* const value = dynamic_cast<juce::Label*>(part)) {
+            value->setBorderSize({0, 0, 0, 0});
+            value->setFont(text::font(getWidth() < 67 ? text::small : text::medium));
+        }
+    list_.setBounds(area.removeFromTop(28));
 }
 
 void ParameterControl::lookAndFeelChanged() { mute(name_); }
@@ -124,6 +142,7 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
              &steps_, &restart_,    &midi_,      &silence_, &direct_,   &tempo_, &fold_,
              &world_, &firstSteps_, &midiPanel_, &mix_,     &keys_,     &status_})
         addAndMakeVisible(c);
+    mix_.onMenu = [this] { showMenu(plugin_.parameter(Parameter::level)); };
     fillGroups();
     fillChoices();
     showMidi(false);
@@ -159,7 +178,10 @@ void PluginEditor::fillGroups() {
                                  .controls;
             controls.push_back(std::make_unique<ParameterControl>(plugin_.parameter(which)));
             addAndMakeVisible(*controls.back());
-            controls.back()->onMenu = [this](ParameterControl& control) { showMenu(control); };
+            controls.back()->onMenu = [this](ParameterControl& control) {
+                if (control.isList()) return showMenu(control.parameter());
+                showMenu(control.parameter(), [&control] { control.type(); });
+            };
             if (which == Parameter::material || which == Parameter::noteMaterial)
                 materials_.push_back(controls.back().get());
         }
@@ -316,7 +338,10 @@ void PluginEditor::nameMaterials() {
 void PluginEditor::readKnobs() {
     knobs_ = plugin_.noteKnobs();
     for (auto& group : groups_)
-        for (auto& control : group.controls) control->setVisible(uses(state_, knobs_, control->which()));
+        for (auto& control : group.controls) {
+            control->setVisible(uses(state_, knobs_, control->which()));
+            control->resized(); // a look makes its value anew
+        }
     keys_.take(state_, knobs_);
     auto voiced = state_;
     voiced.voice = voiceBy(state_.voice, knobs_);
@@ -380,13 +405,18 @@ void PluginEditor::refresh() {
     fold_.setButtonText("Use " + juce::String{outputs});
     const bool isSilent = plugin_.isStopped() || plugin_.parameter(Parameter::bypass).value() > 0.5;
     silence_.setToggleState(isSilent, juce::dontSendNotification);
-    firstSteps_.setText(isSilent ? "SILENT. Press SILENCE again to feel what is played."
-                                 : "Press a key below, or play a note: you feel it at its place.\n"
-                                   "The list at the upper left has other instruments, and worlds.\n"
-                                   "Press SILENCE to stop everything at once.",
-                        juce::dontSendNotification);
-    firstSteps_.setVisible(world_.isVisible() &&
-                           (isSilent || (state_.scene.bodies.empty() && status.session.render.played == 0)));
+    firstSteps_.setColour(juce::Label::backgroundColourId,
+                          shade(*this, Shade::panel).withAlpha(state_.scene.bodies.empty() ? 0.0f : 0.9f));
+    const bool waits = state_.transport != TransportMode::free && meters.enchanters == 0;
+    firstSteps_.setVisible(
+        world_.isVisible() &&
+        (isSilent || waits || (state_.scene.bodies.empty() && status.session.render.played == 0)));
+    if (firstSteps_.isVisible())
+        showHint(isSilent ? "SILENT. Press SILENCE again to feel what is played."
+                 : waits  ? "Waits for play: start the host's transport (Restart on play is on)."
+                          : "Press a key below, or play a note: you feel it at its place.\n"
+                            "The list at the upper left has other instruments, and worlds.\n"
+                            "Press SILENCE to stop everything at once.");
     auto trouble = plugin_.trouble();
     if (plugin_.keepsRefused()) trouble << " - the host's session keeps it until something is edited here";
     if (trouble.isEmpty()) trouble = news_;
@@ -397,6 +427,25 @@ void PluginEditor::refresh() {
         if (trouble.isEmpty()) trouble = statusLine(status, meters);
     }
     status_.setText(trouble, juce::dontSendNotification);
+}
+
+// Near the middle, where no actuator is; its first line where there is no room for all.
+void PluginEditor::showHint(const juce::String& text) {
+    const auto isPlaced = [this](const juce::String& shown, int y, bool anywhere = false) {
+        const int lines = juce::StringArray::fromLines(shown).size();
+        const auto at = world_.getLocalBounds().withSizeKeepingCentre(420, 6 + 15 * lines).translated(0, y);
+        const auto around = at.toFloat().expanded(4.0f);
+        const auto covers = [&](const auto& badge) { return badge.intersects(around); };
+        if (!anywhere && std::ranges::any_of(world_.badges(), covers)) return false;
+        firstSteps_.setText(shown, juce::dontSendNotification);
+        firstSteps_.setBounds(at + world_.getPosition());
+        return true;
+    };
+    const auto first = text.upToFirstOccurrenceOf("\n", false, false);
+    for (const auto& shown : {text, first})
+        for (int y = 0; y < world_.getHeight() / 2 - 30; y += 4)
+            if (isPlaced(shown, -y) || isPlaced(shown, y)) return;
+    isPlaced(first, 0, true);
 }
 
 juce::String PluginEditor::helpOf(juce::Component* underMouse) const {
@@ -453,16 +502,14 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMe
         (plugin_.parameter(Parameter::beats).value() > 0.0 ||
          gainOfLevel(plugin_.parameter(Parameter::music).value()) > 0.0))
         line << "   |   no beats and no music: the side chain is off";
-    line << "   |   run " << status.take << "   |   " << juce::String{static_cast<juce::int64>(r.played)}
-         << " rendered, " << juce::String{static_cast<juce::int64>(status.late)} << " late, "
-         << juce::String{static_cast<juce::int64>(r.rejected + status.session.refused)} << " refused";
-    if (const auto displaced = plugin_.displacedMessages(); displaced > 0)
-        line << ", " << juce::String{static_cast<juce::int64>(displaced)} << " behind their block";
-    if (status.slippedNs > 0)
-        line << ", " << juce::String{static_cast<double>(status.slippedNs) * 1e-6, 1} << " ms of stalls";
-    if (status.delayedBlocks > 0)
-        line << ", " << juce::String{static_cast<juce::int64>(status.delayedBlocks)}
-             << " blocks of delayed starts";
+    const auto count = [&line](std::uint64_t n, const char* what) {
+        if (n > 0) line << "   |   " << juce::String{static_cast<juce::int64>(n)} << what;
+    };
+    count(status.late, " impacts felt late");
+    count(r.rejected + status.session.refused, " impacts left out");
+    count(plugin_.displacedMessages(), " notes came late from the host");
+    count(static_cast<std::uint64_t>(status.slippedNs) / 1'000'000, " ms the world stood still");
+    count(status.delayedBlocks, " blocks until it could start");
     return line;
 }
 
@@ -492,18 +539,18 @@ void PluginEditor::resized() {
     };
     silence_.setBounds(bar.removeFromRight(92));
     bar.removeFromRight(panelGap);
-    left(title_, 78);
-    left(scene_, std::min(170, bar.getWidth() - 676)); // the others take as much
-    left(layout_, 86);
-    left(files_, 60);
-    left(midi_, 50);
+    left(title_, 88);
+    left(scene_, std::min(170, bar.getWidth() - 612)); // the others take as much
+    left(layout_, 84);
+    left(files_, 44);
+    left(midi_, 44);
     left(seedName_, 30, 4);
-    left(seed_, 52);
+    left(seed_, 48);
     left(stepsName_, 34, 4);
-    left(steps_, 78);
-    left(restart_, 108, 4);
-    left(tempo_, 56, 4);
-    left(direct_, 58, 0);
+    left(steps_, 68);
+    left(restart_, 94, 4);
+    left(tempo_, 52, 4);
+    left(direct_, 50, 0);
     keys_.setBounds(area.removeFromBottom(KeyboardPanel::height));
     area.removeFromBottom(panelGap);
     auto controls = area.removeFromBottom(groupsHeight);
@@ -512,15 +559,6 @@ void PluginEditor::resized() {
     mix_.setBounds(area.removeFromRight(std::min(mix_.wishedWidth(), area.getWidth() / 2)));
     area.removeFromRight(panelGap);
     world_.setBounds(area);
-    // beside a row of actuators, not over it
-    const auto& places = state_.layout.geometry;
-    const bool isRow =
-        places.count > 2 &&
-        std::ranges::all_of(
-            std::span{places.places}.first(static_cast<std::size_t>(places.count)),
-            [&](const auto& at) { return std::abs(at.yMetres / places.extentHeightMetres - 0.5) < 0.1; });
-    firstSteps_.setBounds(
-        (isRow ? area.removeFromTop(area.getHeight() / 2) : area).withSizeKeepingCentre(area.getWidth(), 90));
     midiPanel_.setBounds(world_.getBounds());
 }
 

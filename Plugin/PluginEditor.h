@@ -33,7 +33,7 @@ private:
     juce::Slider knob_;
     juce::ComboBox list_;
     std::unique_ptr<juce::SliderParameterAttachment> knobAttachment_;
-    std::unique_ptr<juce::ComboBoxParameterAttachment> listAttachment_;
+    std::unique_ptr<juce::ParameterAttachment> listAttachment_;
 };
 
 class PluginEditor final : public juce::AudioProcessorEditor,
@@ -91,13 +91,14 @@ private:
     juce::String outputText(const ChannelMeters& meters) const;
     void fillGroups();
     void placeGroups(juce::Rectangle<int> controls);
+    void showHint(const juce::String& text);
     void fillChoices();
     void nameMaterials();
     void askFile();
     void askSave(const juce::String& title, const juce::File& initial, const juce::String& endings,
                  void (PluginEditor::*save)(const juce::File&));
     void showFiles();
-    void showMenu(ParameterControl& control);
+    void showMenu(HostParameter& parameter, const std::function<void()>& type = {});
     void forgetController(const std::string& parameter);
     void followLearning();
     void silence();

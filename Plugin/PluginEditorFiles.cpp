@@ -103,8 +103,7 @@ void PluginEditor::exportFeltAs(const juce::File& file) {
 }
 
 // What the host has for this parameter, and below it what is ours.
-void PluginEditor::showMenu(ParameterControl& control) {
-    HostParameter& parameter = control.parameter();
+void PluginEditor::showMenu(HostParameter& parameter, const std::function<void()>& type) {
     juce::PopupMenu menu;
     std::unique_ptr<juce::HostProvidedContextMenu> hosts;
     if (auto* const context = getHostContext()) hosts = context->getContextMenuForParameter(&parameter);
@@ -116,7 +115,7 @@ void PluginEditor::showMenu(ParameterControl& control) {
         parameter.setValueNotifyingHost(parameter.getDefaultValue());
         parameter.endChangeGesture();
     });
-    if (!control.isList()) menu.addItem("Type a value", [&control] { control.type(); });
+    if (type) menu.addItem("Type a value", type);
     menu.addItem("Learn a controller: move it now", true, learning_ == static_cast<int>(which),
                  [this, which] { learn(which); });
     const std::string id{parameter.row().id};

@@ -66,7 +66,7 @@ TEST(EditHistory, WhatAutomationMovedStaysWhereItIs) {
 }
 
 TEST(EditHistory, AProgramIsOneStepWithItsParametersWhoeverChoosesIt) {
-    const int bass = static_cast<int>(std::ranges::find(presetNames(), "Bass") - presetNames().begin());
+    const int bass = presetPlace("Bass");
     for (const bool byHost : {true, false}) {
         TestHost host;
         auto& plugin = *host.plugin;

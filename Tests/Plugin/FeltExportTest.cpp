@@ -17,11 +17,7 @@ using namespace test;
 class PlayedInstrument : public TestHost {
 public:
     explicit PlayedInstrument(const std::string& name) {
-        auto state = plugin->state();
-        const auto found = std::ranges::find(presetNames(), name);
-        EXPECT_NE(found, presetNames().end());
-        useBuiltIn(state, static_cast<int>(found - presetNames().begin()));
-        plugin->open(state);
+        plugin->open(presetNamed(name, 0));
         prepare(48000, 480);
         block(480);
     }
@@ -201,8 +197,7 @@ TEST(Keyboard, AKeyOfTheWindowIsANote) {
 TEST(Learning, TheNextControllerMovesTheParameterAndNoOther) {
     PlayedInstrument host{"Keys"};
     host.send(juce::MidiMessage::controllerEvent(1, 7, 10), 2); // before: means nothing
-    const std::unique_ptr<PluginEditor> editor{
-        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    const auto editor = openEditor<PluginEditor>(*host.plugin);
     editor->learn(Parameter::tilt);
     editor->refresh();
     EXPECT_TRUE(host.plugin->state().controllers.empty());

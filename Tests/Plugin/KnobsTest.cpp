@@ -11,7 +11,7 @@ using namespace test;
 using Message = juce::MidiMessage;
 
 PluginState knobPreset(std::string_view name) {
-    PluginState state = presetNamed(name);
+    auto state = presetNamed(name);
     state.limiterEnabled = false;
     return state;
 }
@@ -185,12 +185,9 @@ TEST(Knobs, TheWindowShowsThoseThatThePresetUses) {
         for (; knob != nullptr && knob != &editor && knob->isVisible();) knob = knob->getParentComponent();
         return knob == &editor;
     };
-    const auto choose = [&](const char* name) {
-        host.plugin->choose(static_cast<int>(std::ranges::find(presetNames(), name) - presetNames().begin()));
-    };
+    const auto choose = [&](const char* name) { host.plugin->choose(presetPlace(name)); };
     choose("Keys");
-    const std::unique_ptr<PluginEditor> editor{
-        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    const auto editor = openEditor<PluginEditor>(*host.plugin);
     for (const char* const name :
          {"Decay", "Velocity curve", "Hold", "Placement", "Bend range", "Note material"})
         EXPECT_TRUE(shows(*editor, name)) << name;

@@ -174,8 +174,7 @@ TEST(LyingHost, DirectNotesBesideAWorldAreTheBounce) {
 TEST(PacedHost, TheEditorSaysWhatIsFeltWhen) {
     PacedHost host{busy()};
     host.prepare(48000, 512, false);
-    const std::unique_ptr<PluginEditor> editor{
-        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    const auto editor = openEditor<PluginEditor>(*host.plugin);
     editor->refresh();
     EXPECT_TRUE(editor->statusText().startsWith(
         "felt 41.6 ms after the contact: 20.7 ms block and thread + 20.0 ms two steps + 1.0 ms limiter"))
@@ -240,8 +239,7 @@ TEST(PacedHost, NoCallStepsMoreThanItsOwnFramesAndTheLatencyOfAWorldThatIsFarToo
         PacedHost host{absurdlyHeavy()};
         host.plugin->parameter(Parameter::timing).setValue(isTight ? 1.0f : 0.0f);
         host.prepare(48000, 2048, false);
-        const std::unique_ptr<PluginEditor> editor{
-            dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+        const auto editor = openEditor<PluginEditor>(*host.plugin);
         editor->refresh();
         const std::int64_t latency = host.plugin->takes().outputLatencyFrames(),
                            stepNs = 1'000'000'000 / host.plugin->state().stepsPerSecond;

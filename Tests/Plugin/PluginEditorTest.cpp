@@ -11,10 +11,6 @@ namespace {
 
 using namespace test;
 
-std::unique_ptr<PluginEditor> openEditor(PluginProcessor& plugin) {
-    return std::unique_ptr<PluginEditor>{dynamic_cast<PluginEditor*>(plugin.createEditorIfNeeded())};
-}
-
 juce::Image pictureOf(PluginEditor& editor) {
     return editor.createComponentSnapshot(editor.getLocalBounds());
 }
@@ -33,7 +29,7 @@ TEST(PluginEditor, OpensFiftyTimesWhileItPlays) {
     TestHost host;
     host.prepare(48000, 512);
     for (int i = 0; i < 50; ++i) {
-        auto editor = openEditor(*host.plugin);
+        auto editor = openEditor<PluginEditor>(*host.plugin);
         ASSERT_NE(editor, nullptr);
         for (int b = 0; b < 5; ++b) host.block(512);
         editor->refresh();
@@ -47,7 +43,7 @@ TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
     TestHost host;
     host.plugin->setCurrentProgram(static_cast<int>(builtInScenes().size()));
     host.prepare(48000, 512);
-    auto editor = openEditor(*host.plugin);
+    auto editor = openEditor<PluginEditor>(*host.plugin);
     host.block(512);
     editor->refresh();
     auto* const words = below<juce::Label>(
@@ -58,6 +54,13 @@ TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
     for (int b = 0; b < 20; ++b) host.block(512);
     editor->refresh();
     EXPECT_FALSE(words->isVisible());
+    auto state = host.plugin->state();
+    state.transport = TransportMode::restartOnPlay;
+    host.plugin->edit(state);
+    host.playHead.isThere = true;
+    for (int b = 0; b < 20; ++b) host.block(512);
+    editor->refresh();
+    EXPECT_TRUE(words->isVisible() && words->getText().startsWith("Waits for play")) << words->getText();
 }
 
 TEST(PluginEditor, ShowsTheWorldMoving) {
@@ -82,7 +85,7 @@ TEST(PluginEditor, ShowsTheWorldMoving) {
     host.plugin->edit(state);
     host.plugin->parameter(Parameter::level)
         .setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
-    auto editor = openEditor(*host.plugin);
+    auto editor = openEditor<PluginEditor>(*host.plugin);
     std::vector<juce::Image> pictures;
     for (int second = 0; second < 3; ++second) {
         for (int b = 0; b < 100; ++b) host.block(480);
@@ -108,7 +111,7 @@ TEST(PluginEditor, ShowsTheWorldMoving) {
 
 TEST(PluginEditor, ItsLowerEdgeHelpsWithWhatIsUnderTheMouse) {
     TestHost host;
-    auto editor = openEditor(*host.plugin);
+    auto editor = openEditor<PluginEditor>(*host.plugin);
     EXPECT_EQ(editor->helpOf(nullptr), "");
     EXPECT_EQ(editor->helpOf(editor.get()), "");
     auto* const silence = buttonOf(*editor, "SILENCE");
@@ -119,7 +122,7 @@ TEST(PluginEditor, ItsLowerEdgeHelpsWithWhatIsUnderTheMouse) {
 
 TEST(PluginEditor, SilenceIsFilledOnlyWhileItIsOn) {
     TestHost host;
-    auto editor = openEditor(*host.plugin);
+    auto editor = openEditor<PluginEditor>(*host.plugin);
     auto* const silence = buttonOf(*editor, "SILENCE");
     ASSERT_NE(silence, nullptr);
     const auto ground = [&] {
@@ -137,11 +140,11 @@ TEST(PluginEditor, SilenceIsFilledOnlyWhileItIsOn) {
 TEST(PluginEditor, ComesBackInTheSizeItWasLeftInAlsoFromAChunk) {
     TestHost host, other;
     const auto count = host.plugin->stateCount();
-    openEditor(*host.plugin)->setSize(1000, 600);
-    EXPECT_EQ(openEditor(*host.plugin)->getWidth(), 1000);
+    openEditor<PluginEditor>(*host.plugin)->setSize(1000, 600);
+    EXPECT_EQ(openEditor<PluginEditor>(*host.plugin)->getWidth(), 1000);
     EXPECT_EQ(host.plugin->stateCount(), count) << "no edit";
     restore(*other.plugin, chunkOf(*host.plugin));
-    EXPECT_EQ(openEditor(*other.plugin)->getHeight(), 600);
+    EXPECT_EQ(openEditor<PluginEditor>(*other.plugin)->getHeight(), 600);
 }
 
 bool hasControl(juce::Component& in, const juce::String& title) {
@@ -151,7 +154,7 @@ bool hasControl(juce::Component& in, const juce::String& title) {
 TEST(PluginEditor, HasBeatsWhereThereIsASideChainAndSaysWhereThatIsOff) {
     TestHost host;
     host.prepare(48000, 512);
-    auto editor = openEditor(*host.plugin);
+    auto editor = openEditor<PluginEditor>(*host.plugin);
     EXPECT_TRUE(hasControl(*editor, "Beats"));
     editor->refresh();
     EXPECT_FALSE(editor->statusText().contains("side chain")) << "nobody wants any";
@@ -167,13 +170,26 @@ TEST(PluginEditor, HasBeatsWhereThereIsASideChainAndSaysWhereThatIsOff) {
     const auto before = std::exchange(format, juce::AudioProcessor::wrapperType_LV2);
     TestHost lv2;
     format = before;
-    EXPECT_FALSE(hasControl(*openEditor(*lv2.plugin), "Beats"));
-    EXPECT_TRUE(hasControl(*openEditor(*lv2.plugin), "Tilt"));
+    EXPECT_FALSE(hasControl(*openEditor<PluginEditor>(*lv2.plugin), "Beats"));
+    EXPECT_TRUE(hasControl(*openEditor<PluginEditor>(*lv2.plugin), "Tilt"));
+}
+
+// Some places of a choice repeat the one before (decision 34).
+TEST(PluginEditor, AListHasEachChoiceOnceAndChoosesIt) {
+    TestHost host;
+    auto editor = openEditor<PluginEditor>(*host.plugin);
+    auto& law = *below<juce::ComboBox>(*editor, [](auto& one) { return one.getTitle() == "Panning law"; });
+    ASSERT_EQ(law.getNumItems(), static_cast<int>(panningLawNames.size()));
+    for (int i = 0; i < law.getNumItems(); ++i) {
+        law.setSelectedItemIndex(i, juce::sendNotificationSync);
+        EXPECT_EQ(valueText(rowOf(Parameter::law), host.plugin->parameter(Parameter::law).value()),
+                  law.getText().toStdString());
+    }
 }
 
 TEST(PluginEditor, OpensFilesAndSaysWhatIsWrong) {
     TestHost host;
-    auto editor = openEditor(*host.plugin);
+    auto editor = openEditor<PluginEditor>(*host.plugin);
     const auto file = juce::File::createTempFile(".json");
     file.replaceWithText(layoutJson(presetLayout("ring3")));
     EXPECT_TRUE(editor->isInterestedInFileDrag(juce::StringArray{file.getFullPathName()}));
@@ -196,7 +212,7 @@ TEST(PluginEditor, EditsReachTheProcessorAndItsHost) {
         int edits = 0;
     } listener;
     host.plugin->addListener(&listener);
-    auto editor = openEditor(*host.plugin);
+    auto editor = openEditor<PluginEditor>(*host.plugin);
     EXPECT_EQ(listener.edits, 0) << "to open it is no edit";
     auto state = host.plugin->state();
     state.seed = 99;

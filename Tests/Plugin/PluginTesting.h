@@ -13,6 +13,22 @@
 
 namespace physvib::test {
 
+/// Of the built-in preset with that name.
+inline int presetPlace(std::string_view name) {
+    return static_cast<int>(std::ranges::find(presetNames(), name) - presetNames().begin());
+}
+inline PluginState presetNamed(std::string_view name, int outputs = 4) {
+    PluginState state;
+    useBuiltIn(state, presetPlace(name), outputs);
+    return state;
+}
+
+/// `Editor`: PluginEditor, where that is included.
+template <class Editor>
+std::unique_ptr<Editor> openEditor(PluginProcessor& plugin) {
+    return std::unique_ptr<Editor>{dynamic_cast<Editor*>(plugin.createEditorIfNeeded())};
+}
+
 struct TestPlayHead final : juce::AudioPlayHead {
     juce::Optional<PositionInfo> getPosition() const override {
         if (!isThere) return {};

@@ -255,9 +255,7 @@ TEST(Voice, AVoiceIsReadBackAndABadOneIsRefusedInALine) {
 }
 
 TEST(Voice, TheBeltOfEightPlaysANoteOnOneActuatorAndAPlaceBetweenTwoOnThese) {
-    PluginState state;
-    const auto& names = presetNames();
-    useBuiltIn(state, static_cast<int>(std::ranges::find(names, "Belt of eight") - names.begin()));
+    const auto state = presetNamed("Belt of eight", 0);
     const EnchanterLayout& belt = state.layout.geometry;
     ASSERT_EQ(belt.count, 8);
     const PhantomPanner panner = pannerOf(state, PanningLaw::linear, 1.0);

@@ -22,6 +22,12 @@ struct WidthHost {
         plugin.prepareToPlay(48000, 512);
         buffer.setSize(std::max(plugin.getTotalNumInputChannels(), plugin.getTotalNumOutputChannels()), 512);
     }
+    void prepare(int outputs) {
+        auto layout = plugin.getBusesLayout();
+        layout.outputBuses.getReference(0) = channelsInOrder(outputs, juce::AudioProcessor::wrapperType_VST3);
+        EXPECT_TRUE(plugin.setBusesLayout(layout));
+        prepare();
+    }
     /// The peak of each output in that time, of a note if it has a number.
     std::vector<float> peaks(double seconds, int note = -1) {
         std::vector<float> all(static_cast<std::size_t>(plugin.getTotalNumOutputChannels()));
@@ -92,14 +98,9 @@ TEST(Width, NoSoundOfAPresetIsLostOnAnyNumberOfOutputs) {
 
 TEST(Width, ANewInstanceHasAsManyActuatorsAsTheTrackHasChannels) {
     WidthHost host{4};
-    auto layout = host.plugin.getBusesLayout();
-    layout.outputBuses.getReference(0) = juce::AudioChannelSet::stereo();
-    ASSERT_TRUE(host.plugin.setBusesLayout(layout));
-    host.prepare();
+    host.prepare(2);
     EXPECT_EQ(host.plugin.state().layout.name, "phone2");
-    layout.outputBuses.getReference(0) = channelsInOrder(8, juce::AudioProcessor::wrapperType_VST3);
-    ASSERT_TRUE(host.plugin.setBusesLayout(layout));
-    host.prepare();
+    host.prepare(8);
     EXPECT_EQ(enchantersOf(host.plugin.state()), 8) << "until somebody chooses";
     auto chosen = host.plugin.state();
     chosen.layout = presetLayout("ring3");
@@ -111,18 +112,13 @@ TEST(Width, ANewInstanceHasAsManyActuatorsAsTheTrackHasChannels) {
 TEST(Width, APresetThatWasChosenFollowsATrackThatIsMadeWiderToo) {
     for (const char* const name : {"Drum kit", "marbles"}) {
         WidthHost host{8};
-        auto layout = host.plugin.getBusesLayout();
-        layout.outputBuses.getReference(0) = juce::AudioChannelSet::stereo();
-        ASSERT_TRUE(host.plugin.setBusesLayout(layout));
-        host.prepare();
-        host.plugin.choose(static_cast<int>(std::ranges::find(presetNames(), name) - presetNames().begin()));
+        host.prepare(2);
+        host.plugin.choose(presetPlace(name));
         EXPECT_EQ(enchantersOf(host.plugin.state()), 2) << name;
         auto mixed = host.plugin.state();
         mixed.strips[1].gainDb = -3.0;
         ASSERT_TRUE(host.plugin.edit(mixed)) << "an edit of the mix is none of the layout";
-        layout.outputBuses.getReference(0) = channelsInOrder(8, juce::AudioProcessor::wrapperType_VST3);
-        ASSERT_TRUE(host.plugin.setBusesLayout(layout));
-        host.prepare();
+        host.prepare(8);
         EXPECT_EQ(enchantersOf(host.plugin.state()), 8) << name;
         EXPECT_EQ(host.plugin.state().strips[1].gainDb, -3.0) << name;
         WidthHost loaded{4};
@@ -146,8 +142,7 @@ TEST(Width, TheWindowNamesTheActuatorsThatAreLostAndFoldsThem) {
     ASSERT_TRUE(host.plugin.edit(state));
     host.prepare();
     host.peaks(0.1, 60);
-    const std::unique_ptr<PluginEditor> editor{
-        dynamic_cast<PluginEditor*>(host.plugin.createEditorIfNeeded())};
+    const auto editor = openEditor<PluginEditor>(host.plugin);
     editor->refresh();
     EXPECT_TRUE(editor->statusText().contains("2 outputs for 4 actuators: not felt C, D"))
         << editor->statusText();

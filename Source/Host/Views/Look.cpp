@@ -26,9 +26,9 @@ const Shades& shadesOf(Theme theme) {
                              palette::muted,  palette::now,         palette::limit,
                              palette::camera, palette::enchanter(0)};
     static const Shades light{
-        juce::Colour{Argb{0xffe4e7ee}}, juce::Colour{Argb{0xfff6f7fa}}, juce::Colour{Argb{0xffdfe3eb}},
+        juce::Colour{Argb{0xffe4e7ee}}, juce::Colour{Argb{0xfff6f7fa}}, juce::Colour{Argb{0xffd3d9e4}},
         juce::Colour{Argb{0xffffffff}}, juce::Colour{Argb{0xffc3c9d6}}, juce::Colour{Argb{0xff1b1e27}},
-        juce::Colour{Argb{0xff545c6e}}, juce::Colour{Argb{0xff8a5a00}}, juce::Colour{Argb{0xffb62222}},
+        juce::Colour{Argb{0xff545c6e}}, juce::Colour{Argb{0xff7f5300}}, juce::Colour{Argb{0xffb62222}},
         juce::Colour{Argb{0xff8d7a45}}, juce::Colour{Argb{0xff09665d}}};
     return theme == Theme::dark ? dark : light;
 }
@@ -226,7 +226,7 @@ void Look::drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area
 }
 
 /// In a window as small as it goes: a whole word in small letters.
-static bool isNarrow(const juce::ComboBox& box) { return box.getWidth() < 84; }
+static bool isNarrow(const juce::ComboBox& box) { return box.getWidth() < 100; }
 
 void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int,
                         juce::ComboBox& box) {

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drawing of meters, faders and ceiling handles, on a common dB scale, and the strips made of them.
+// Drawing of meters, faders and ceiling handles, on a common dB scale.
 #include "Host/Views/StripParts.h"
-#include "Live/Documents/Mix.h"
 #include <cmath>
-#include <utility>
 
 namespace physvib {
+
+namespace {
+void fillMeter(juce::Graphics& g, const juce::Component& meter) {
+    const auto bar = meter.getLocalBounds().toFloat();
+    g.setColour(shade(meter, Shade::well));
+    g.fillRoundedRectangle(bar, 3.0f);
+    g.setColour(shade(meter, Shade::line));
+    g.drawRoundedRectangle(bar.reduced(0.5f), 3.0f, 1.0f);
+}
+} // namespace
 
 void Fader::setUp(double least, double most, const juce::String& title, double byDefault) {
     setSliderStyle(LinearVertical);
@@ -42,8 +50,7 @@ void PeakMeter::set(float peak, float hold) {
 
 void PeakMeter::paint(juce::Graphics& g) {
     const auto bar = getLocalBounds().toFloat();
-    g.setColour(shade(*this, Shade::well));
-    g.fillRoundedRectangle(bar, 3.0f);
+    fillMeter(g, *this);
     const auto green = palette::enchanter(3);
     const auto lit = bar.withTrimmedTop(bar.getHeight() * (1.0f - peak_));
     if (lit.getHeight() > 0.5f) {
@@ -69,8 +76,7 @@ bool LimiterBar::set(float limiterGain, float guardGain) {
 
 void LimiterBar::paint(juce::Graphics& g) {
     const auto bar = getLocalBounds().toFloat();
-    g.setColour(shade(*this, Shade::well));
-    g.fillRoundedRectangle(bar, 3.0f);
+    fillMeter(g, *this);
     if (!isHolding()) return;
     g.setColour(shade(*this, Shade::limit));
     g.fillRoundedRectangle(bar.withHeight(std::max(3.0f, std::min(1.0f, db_ / -20.0f) * bar.getHeight())),
@@ -108,10 +114,9 @@ void CeilingHandle::paint(juce::Graphics& g) {
                1.5f);
 }
 
-ChannelStrip::ChannelStrip(const juce::String& label, std::function<void(const juce::String&, Change)> edit)
+StripParts::StripParts(const juce::String& label)
     : meter_{"Level of " + label}
-    , ceiling_{label}
-    , edit_{std::move(edit)} {
+    , ceiling_{label} {
     setTitle("Strip " + label);
     fader_.setUp(leastStripDb, mostStripDb, "Gain of " + label);
     const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint,
@@ -119,68 +124,55 @@ ChannelStrip::ChannelStrip(const juce::String& label, std::function<void(const j
         button.setTitle(name + " " + label);
         button.setTooltip(name);
         button.getProperties().set(tintProperty, static_cast<juce::int64>(tint.getARGB()));
-        button.onClick = [this, what, name] { edit_(name, [what](Strip& s) { s.*what = !(s.*what); }); };
+        button.onClick = [this, what, name] { change(name, [what](Strip& s) { s.*what = !(s.*what); }); };
     };
     toggle(mute_, "Mute", palette::limit, &Strip::isMuted);
     toggle(solo_, "Solo", palette::now, &Strip::isSolo);
     toggle(polarity_, "Polarity", palette::enchanter(4), &Strip::isInverted);
     delay_.setTitle("Delay of " + label);
     delay_.onClick = [this] { askDelay(); };
+    level_.setTitle("Level of " + label + " in g");
     level_.setFont(text::font(text::small, juce::Font::bold));
     level_.setJustificationType(juce::Justification::centredRight);
-    level_.setTitle("Level of " + label + " in g");
     level_.setBorderSize({0, 0, 0, 0});
-    most_.setFont(text::font(text::small));
     most_.setTitle("Ceiling of " + label + " in g");
+    most_.setFont(text::font(text::small));
     most_.setBorderSize({0, 4, 0, 0});
     for (juce::Component* c : std::initializer_list<juce::Component*>{
-             &meter_, &fader_, &ceiling_, &mute_, &solo_, &polarity_, &delay_, &level_, &most_})
+             &mute_, &solo_, &polarity_, &meter_, &fader_, &ceiling_, &delay_, &level_, &most_})
         addAndMakeVisible(c);
 }
 
-void ChannelStrip::show(const Strip& s, double mostG) {
-    if (!fader_.isMouseButtonDown()) fader_.setValue(s.gainDb, juce::dontSendNotification);
-    if (!ceiling_.isMouseButtonDown()) ceiling_.setValue(s.ceilingDb, juce::dontSendNotification);
-    mute_.setToggleState(s.isMuted, juce::dontSendNotification);
-    solo_.setToggleState(s.isSolo, juce::dontSendNotification);
-    polarity_.setToggleState(s.isInverted, juce::dontSendNotification);
-    delayMs_ = s.delayMs;
-    delay_.setButtonText(s.delayMs > 0.0 ? readable::words(s.delayMs, s.delayMs < 1.0 ? 1 : 0)
-                                         : juce::String{"ms"});
-    delay_.setToggleState(s.delayMs > 0.0, juce::dontSendNotification);
-    delay_.setTooltip("Delay: " + readable::words(s.delayMs, 1) + " ms");
-    most_.setText("/ " + inG(mostG) + " g", juce::dontSendNotification);
-    most_.setTooltip("Ceiling: " + readable::words(s.ceilingDb, 1) + " dB of full scale");
-    most_.setColour(juce::Label::textColourId, shade(*this, s.ceilingDb < 0.0 ? Shade::text : Shade::muted));
+void StripParts::show(const Strip& strip, double mostG) {
+    constexpr auto quietly = juce::dontSendNotification;
+    if (!fader_.isMouseButtonDown()) fader_.setValue(strip.gainDb, quietly);
+    if (!ceiling_.isMouseButtonDown()) ceiling_.setValue(strip.ceilingDb, quietly);
+    mute_.setToggleState(strip.isMuted, quietly);
+    solo_.setToggleState(strip.isSolo, quietly);
+    polarity_.setToggleState(strip.isInverted, quietly);
+    delayMs_ = strip.delayMs;
+    delay_.setButtonText(delayMs_ > 0.0 ? readable::words(delayMs_, delayMs_ < 1.0 ? 1 : 0)
+                                        : juce::String{"ms"});
+    delay_.setToggleState(delayMs_ > 0.0, quietly);
+    delay_.setTooltip("Delay: " + readable::words(delayMs_, 1) + " ms");
+    most_.setText("/ " + inG(mostG) + " g", quietly);
+    most_.setTooltip("Ceiling: " + readable::words(strip.ceilingDb, 1) + " dB of full scale");
+    most_.setColour(juce::Label::textColourId,
+                    shade(*this, strip.ceilingDb < 0.0 ? Shade::text : Shade::muted));
     repaint();
 }
 
-void ChannelStrip::askDelay() {
+void StripParts::askDelay() {
     juce::PopupMenu menu;
     menu.addSectionHeader("Delay");
     for (const double ms : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
-        menu.addItem(readable::words(ms, ms < 1.0 && ms > 0.0 ? 1 : 0) + " ms", true, delayMs_ == ms,
-                     [this, ms] { edit_("Delay", [ms](Strip& s) { s.delayMs = ms; }); });
+        menu.addItem(readable::words(ms, ms == 0.5 ? 1 : 0) + " ms", true, delayMs_ == ms,
+                     [this, ms] { change("Delay", [ms](Strip& s) { s.delayMs = ms; }); });
     menu.setLookAndFeel(&getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_).withDeletionCheck(*this));
 }
 
-void ChannelStrip::paintFrame(juce::Graphics& g, int strip, bool isQuiet) const {
-    g.setColour(enchanterColour(*this, strip).withMultipliedAlpha(isQuiet ? 0.35f : 1.0f));
-    g.fillRoundedRectangle(getLocalBounds().removeFromTop(4).toFloat(), 2.0f);
-    g.setColour(shade(*this, Shade::muted));
-    g.setFont(text::font(11.0f));
-    for (const int db : {0, -20, -40, -60}) { // scale of the meter, right of the fader
-        const auto y = static_cast<float>(meter_.getY()) +
-                       static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
-        g.drawText(
-            readable::words(db, 0),
-            juce::Rectangle<float>{static_cast<float>(fader_.getRight()) - 3.0f, y - 7.0f, 24.0f, 14.0f},
-            juce::Justification::centredRight, false);
-    }
-}
-
-void ChannelStrip::place(juce::Rectangle<int> area, int left) {
+void StripParts::place(juce::Rectangle<int> area, int left) {
     auto row = area.removeFromBottom(22);
     level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
     most_.setBounds(row);
@@ -191,7 +183,36 @@ void ChannelStrip::place(juce::Rectangle<int> area, int left) {
     area.removeFromBottom(8);
     meter_.setBounds(area.withWidth(12).withX(left + 10));
     ceiling_.placeOver(meter_.getBounds());
-    fader_.setBounds(area.withX(left + 24).withWidth(32).expanded(0, 8));
+    fader_.setBounds(area.withX(left + 47).withWidth(32).expanded(0, 8));
+}
+
+void StripParts::paint(juce::Graphics& g, int enchanter, const juce::String& name, bool isQuiet) {
+    auto row = getLocalBounds();
+    g.setColour(enchanterColour(*this, enchanter).withMultipliedAlpha(isQuiet ? 0.35f : 1.0f));
+    g.fillRoundedRectangle(row.removeFromTop(4).toFloat(), 2.0f);
+    row = row.withTrimmedTop(4).removeFromTop(20);
+    const auto bold = text::font(text::medium, juce::Font::bold), plain = text::font(text::small);
+    const double gainDb = fader_.getValue();
+    const auto gain = gainDb == 0.0 ? juce::String{} : fader_.textFromValueFunction(gainDb);
+    constexpr int between = 5;
+    const int gainWidth = text::pixels(plain, gain) + between, nameWidth = text::pixels(bold, name);
+    if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {
+        row = row.withSizeKeepingCentre(nameWidth + gainWidth, row.getHeight());
+        g.setColour(shade(*this, Shade::muted));
+        g.setFont(plain);
+        g.drawText(gain, row.removeFromRight(gainWidth), juce::Justification::centredRight, false);
+    }
+    g.setColour(shade(*this, isQuiet ? Shade::muted : Shade::text));
+    g.setFont(bold);
+    g.drawText(name, row, juce::Justification::centred, true);
+    g.setColour(shade(*this, Shade::muted));
+    g.setFont(text::font(11.0f));
+    const auto bar = meter_.getBounds().toFloat();
+    for (const int db : {0, -20, -40, -60}) {
+        const float y = bar.getY() + bar.getHeight() * static_cast<float>(db) / meterFloorDb;
+        g.drawText(readable::words(db, 0), juce::Rectangle{bar.getRight() + 4.0f, y - 7.0f, 24.0f, 14.0f},
+                   juce::Justification::centredLeft, false);
+    }
 }
 
 } // namespace physvib

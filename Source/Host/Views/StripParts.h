@@ -69,28 +69,26 @@ private:
 /// A level as strips show it, without its unit.
 inline juce::String inG(double g) { return readable::words(g, g < 9.995 ? 2 : 1); }
 
-/// What the strips of mixer and plug-in have in common: meter with held peak and ceiling, fader, mute, solo,
-/// polarity, delay, level and ceiling in g. M.
-class ChannelStrip : public juce::Component {
+/// What strips of the mixer and of the plug-in have in common. M only.
+class StripParts : public juce::Component {
 protected:
-    using Change = std::function<void(Strip&)>;
-    /// `edit` applies a change of that name to the strip.
-    ChannelStrip(const juce::String& label, std::function<void(const juce::String& name, Change)> edit);
+    explicit StripParts(const juce::String& label);
+    virtual void change(const juce::String& name, const std::function<void(Strip&)>& how) = 0;
     void show(const Strip& strip, double mostG);
-    /// Colour of the actuator and scale of the meter.
-    void paintFrame(juce::Graphics& g, int strip, bool isQuiet) const;
-    /// The controls from the bottom of `area` up to the meter, which is `left` from the strip's edge.
+    /// Buttons, figures and, above them, meter and fader, from `left` on.
     void place(juce::Rectangle<int> area, int left);
+    /// The fader's gain stands beside the name, unless it is 0 dB or the name needs the room; the meter's
+    /// scale is between meter and fader.
+    void paint(juce::Graphics& g, int enchanter, const juce::String& name, bool isQuiet);
 
     PeakMeter meter_;
     Fader fader_;
     CeilingHandle ceiling_;
     juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"};
-    juce::Label level_, most_;
+    juce::Label level_, most_; // in g
 
 private:
     void askDelay();
-    const std::function<void(const juce::String& name, Change)> edit_;
     double delayMs_ = 0.0;
 };
 

@@ -8,8 +8,7 @@
 namespace physvib {
 
 StripView::StripView(MixerModel& model, int strip)
-    : ChannelStrip{utf8(model.mix().layout.enchanters[static_cast<std::size_t>(strip)].label),
-                   [this](const juce::String& name, const Change& how) { change(name, how); }}
+    : StripParts{utf8(model.mix().layout.enchanters[static_cast<std::size_t>(strip)].label)}
     , model_{model}
     , index_{static_cast<std::size_t>(strip)}
     , sweep_{Sign::sweep, "Sweep on " + utf8(model.mix().layout.enchanters[index_].label)} {
@@ -44,11 +43,11 @@ StripView::StripView(MixerModel& model, int strip)
     mixChanged();
 }
 
-void StripView::change(const juce::String& name, const Change& change, bool continuesEdit) {
+void StripView::change(const juce::String& name, const std::function<void(Strip&)>& how, bool continuesEdit) {
     if (!isThere()) return; // a press that came before the views followed
     const auto label = utf8(model_.mix().layout.enchanters[index_].label);
     model_.change(
-        name + " of " + label, [&](Mix& mix) { change(mix.strips[index_]); }, continuesEdit);
+        name + " of " + label, [&](Mix& mix) { how(mix.strips[index_]); }, continuesEdit);
 }
 
 void StripView::fillOutputs() {
@@ -110,28 +109,8 @@ void StripView::mouseDown(const juce::MouseEvent& e) {
 
 void StripView::paint(juce::Graphics& g) {
     if (!isThere()) return;
-    const bool isSilent = model_.mix().isSilent(static_cast<int>(index_));
-    drawName(g, getLocalBounds().withTrimmedTop(8).removeFromTop(20), isSilent ? Shade::muted : Shade::text);
-    paintFrame(g, static_cast<int>(index_), isSilent);
-}
-
-// With the fader's gain, unless that is 0 dB or the name needs the room.
-void StripView::drawName(juce::Graphics& g, juce::Rectangle<int> row, Shade which) const {
-    const auto name = utf8(model_.mix().layout.enchanters[index_].label);
-    const auto bold = text::font(text::medium, juce::Font::bold), plain = text::font(text::small);
-    const double db = strip().gainDb;
-    const auto gain = db == 0.0 ? juce::String{} : fader_.textFromValueFunction(db);
-    constexpr int between = 5;
-    const int gainWidth = text::pixels(plain, gain) + between, nameWidth = text::pixels(bold, name);
-    if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {
-        row = row.withSizeKeepingCentre(nameWidth + gainWidth, row.getHeight());
-        g.setColour(shade(*this, Shade::muted));
-        g.setFont(plain);
-        g.drawText(gain, row.removeFromRight(gainWidth), juce::Justification::centredRight, false);
-    }
-    g.setColour(shade(*this, which));
-    g.setFont(bold);
-    g.drawText(name, row, juce::Justification::centred, true);
+    StripParts::paint(g, static_cast<int>(index_), utf8(model_.mix().layout.enchanters[index_].label),
+                      model_.mix().isSilent(static_cast<int>(index_)));
 }
 
 void StripView::setDropping(bool isDropping) {

@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-class StripView final : public ChannelStrip, public juce::FileDragAndDropTarget {
+class StripView final : public StripParts, public juce::FileDragAndDropTarget {
 public:
     static constexpr int width = 78, mostWidth = 132; ///< they share the panel
 
@@ -29,10 +29,12 @@ public:
 
 private:
     void setDropping(bool isDropping);
-    void drawName(juce::Graphics& g, juce::Rectangle<int> row, Shade which) const;
     bool isThere() const { return index_ < model_.mix().strips.size(); } // false: its strip was removed
     const Strip& strip() const { return model_.mix().strips[index_]; }
-    void change(const juce::String& name, const Change& change, bool continuesEdit = false);
+    void change(const juce::String& name, const std::function<void(Strip&)>& how) override {
+        change(name, how, false);
+    }
+    void change(const juce::String& name, const std::function<void(Strip&)>& how, bool continuesEdit);
     void fillOutputs();
 
     MixerModel& model_;

@@ -72,8 +72,7 @@ struct Embedded {
     HostWindow around;
     TestHost host;
     juce::Component wrapper;
-    const std::unique_ptr<PluginEditor> editor{
-        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    const std::unique_ptr<PluginEditor> editor = openEditor<PluginEditor>(*host.plugin);
 };
 
 TEST(HostKeys, WhatNoControlUsesReachesTheHostAndEscStays) {
@@ -128,8 +127,7 @@ TEST(HostKeys, AValueThatIsTypedIsTheValuesAndEscClosesItFirst) {
 
 TEST(HostKeys, AWindowOfItsOwnHasNoHost) {
     TestHost host;
-    const std::unique_ptr<PluginEditor> editor{
-        dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    const auto editor = openEditor<PluginEditor>(*host.plugin);
     editor->addToDesktop(0);
     editor->setVisible(true);
     runFor(0.2);
