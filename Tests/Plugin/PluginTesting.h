@@ -160,13 +160,6 @@ public:
     int largest = 0;
 };
 
-/// Without a limiter, which would hide that one is louder.
-inline PluginState presetNamed(std::string_view name) {
-    PluginState state;
-    useBuiltIn(state, static_cast<int>(std::ranges::find(presetNames(), name) - presetNames().begin()), 4);
-    return state;
-}
-
 /// Many discs in one place, each touching each: steps that take long.
 inline PluginState heap(int discs) {
     PluginState state = shakenBox();
