@@ -218,6 +218,20 @@ TEST(Drawing, WhatDoesNotVibrateIsNoHapticSourceAndIsToldInWords) {
     EXPECT_FALSE(source.getToggleState());
 }
 
+TEST(Drawing, TheWorldSaysWhyNothingIsFelt) {
+    Board board;
+    const auto says = [&](const char* why) {
+        board.view.refresh();
+        return dynamic_cast<juce::Label&>(*find(board.view, "Strongest hit")).getText().endsWith(why);
+    };
+    board.model.setSlowness(0);
+    EXPECT_TRUE(says("paused"));
+    board.model.setSlowness(1);
+    EXPECT_TRUE(says("draw a ball: B"));
+    board.model.setSilent(true);
+    EXPECT_TRUE(says("silent"));
+}
+
 TEST(Drawing, ASeesawIsPinnedToTheFieldAndStartsAnewAsItWasDrawn) {
     Board board;
     board.key('x');

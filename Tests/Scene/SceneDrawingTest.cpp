@@ -3,6 +3,7 @@
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneFile.h"
+#include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/SceneCast.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -199,6 +201,14 @@ void drawAtRandom(std::uint32_t seed) {
     EXPECT_EQ(validate(drawn.drawing.drawn()), "");
     while (!drawn.done.empty()) drawn.undo();
     EXPECT_EQ(sceneJson(sorted(drawn.drawing.drawn())), sceneJson(model.front()));
+}
+
+TEST(SceneDrawing, WhoHasTurnedForLongComesBackAndWhoFellFarIsAsDrawn) {
+    const auto pose = drawable({1.0, 2.0, 2202.77});
+    EXPECT_NEAR(std::remainder(pose->angleRadians - 2202.77, 2.0 * std::numbers::pi), 0.0, 1e-9);
+    EXPECT_LE(std::abs(pose->angleRadians), sceneLimits::maxAngleRadians);
+    EXPECT_EQ(drawable({1.0, 2.0, -999.0})->angleRadians, -999.0) << "a joint may count its turns";
+    EXPECT_FALSE(drawable({0.0, -1000.1, 0.0}));
 }
 
 TEST(SceneDrawing, TwoHundredEditsAreUndoneDoneAgainAndFeltAgain) {

@@ -3,9 +3,12 @@
 #include "Scene/Drawing/SceneDrawing.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneEdits.h"
+#include "Scene/SceneLimits.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -27,6 +30,14 @@ std::vector<Action> ofFixtures(const BodyDescription* body, Make make) {
 }
 
 } // namespace
+
+std::optional<BodyPose> drawable(BodyPose pose) {
+    if (std::abs(pose.angleRadians) > sceneLimits::maxAngleRadians)
+        pose.angleRadians = std::remainder(pose.angleRadians, 2.0 * std::numbers::pi);
+    const bool isNear =
+        std::max(std::abs(pose.xMetres), std::abs(pose.yMetres)) <= sceneLimits::maxPositionMetres;
+    return isNear ? std::optional{pose} : std::nullopt;
+}
 
 SceneDrawing::SceneDrawing(Scene scene)
     : drawn_{std::move(scene)}

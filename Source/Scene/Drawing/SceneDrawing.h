@@ -15,6 +15,9 @@ namespace physvib {
 /// A body's present pose; nullopt: as drawn.
 using PoseNow = std::function<std::optional<BodyPose>(const std::string& body)>;
 
+/// A pose as a scene can hold it, whole turns less if there are too many; nullopt: it is too far away.
+std::optional<BodyPose> drawable(BodyPose pose);
+
 /// One thread at a time.
 class SceneDrawing {
 public:

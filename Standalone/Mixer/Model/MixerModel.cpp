@@ -143,7 +143,8 @@ MixerModel::MixerModel(AudioDrivers drivers, const DeviceChoice& device, Mix mix
     , device_{rig_, std::move(drivers), mix_, [this] { sendChangeMessage(); }}
     , recording_{session(), output(), mix_, [this] { sendChangeMessage(); }}
     , undo_{1000, 30}
-    , world_{session(), mix_, undo_, [this](bool isShown) { edited(isShown); }}
+    , world_{session(), mix_, undo_, [this](bool isShown) { edited(isShown); },
+             [this](const std::string& fault) { report(utf8(fault)); }}
     , lastSent_{std::make_unique<SentMix>(mix_.panner())}
     , strikes_{session(),
                output(),

@@ -24,7 +24,10 @@ public:
         const bool isDone = run(true);
         return std::exchange(isRepeated_, true) || isDone;
     }
-    bool undo() override { return run(false); }
+    bool undo() override { // of one that fails JUCE would forget all of them
+        if (!run(false)) world_.onFault_("Undo: " + std::exchange(world_.refused_, {}));
+        return true;
+    }
     int getSizeInUnits() override { return 1; }
     // merges successive changes of a sound or texture by one control
     juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
@@ -65,11 +68,13 @@ private:
 };
 
 MixerWorld::MixerWorld(Session& session, const Mix& mix, juce::UndoManager& undo,
-                       std::function<void(bool isShown)> onInput)
+                       std::function<void(bool isShown)> onInput,
+                       std::function<void(const std::string&)> onFault)
     : session_{session}
     , mix_{mix}
     , undo_{undo}
     , onInput_{std::move(onInput)}
+    , onFault_{std::move(onFault)}
     , drawing_{*mix.scene} {}
 
 std::string MixerWorld::act(const Action& action) {
@@ -90,7 +95,7 @@ PoseNow MixerWorld::posesNow() const {
     session_.world().readPoses(poses);
     std::map<std::string, std::optional<BodyPose>> last; // last body of each name
     for (std::size_t i = 0; const BodyDescription& body : sceneCast(scene())) {
-        last[body.name] = i < poses.size() && poses[i].isPresent ? std::optional{poses[i]} : std::nullopt;
+        last[body.name] = i < poses.size() && poses[i].isPresent ? drawable(poses[i]) : std::nullopt;
         ++i;
     }
     return [last = std::move(last)](const std::string& body) {

@@ -52,7 +52,7 @@ public:
     /// All references outlive it. `onInput` is called after each input to the world, with whether it changes
     /// the display.
     MixerWorld(Session& session, const Mix& mix, juce::UndoManager& undo,
-               std::function<void(bool isShown)> onInput);
+               std::function<void(bool isShown)> onInput, std::function<void(const std::string&)> onFault);
 
     /// The scene with the bodies spawned since its start, indexed as in events.
     const Scene& scene() const noexcept { return drawing_.cast(); }
@@ -86,6 +86,7 @@ private:
     const Mix& mix_;
     juce::UndoManager& undo_;
     std::function<void(bool isShown)> onInput_;
+    std::function<void(const std::string&)> onFault_;
     SceneDrawing drawing_;
     std::string refused_; // why the last edit was refused
     std::uint64_t edits_ = 0;

@@ -314,7 +314,7 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
     , answers_{std::move(answers)} {
     say(title, words);
     std::vector<juce::TextButton*> shown;
-    answers_.front().key = juce::KeyPress{juce::KeyPress::returnKey};
+    if (!answers_.front().key.isValid()) answers_.front().key = juce::KeyPress{juce::KeyPress::returnKey};
     for (std::size_t k = 0; k < answers_.size(); ++k) {
         const Answer& answer = answers_[k];
         auto& button = *buttons_.emplace_back(std::make_unique<juce::TextButton>(answer.words));

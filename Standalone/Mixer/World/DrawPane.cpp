@@ -121,7 +121,8 @@ double DrawPane::grid() const {
 Vector DrawPane::at(const juce::MouseEvent& e) const { return snapped(view_.metresAt(e.position), grid()); }
 
 std::optional<BodyPlace> DrawPane::placeNow(const std::string& name) const {
-    const auto pose = view_.poseOfBody(name);
+    const auto seen = view_.poseOfBody(name);
+    const auto pose = seen ? drawable(*seen) : std::nullopt;
     return pose ? std::optional{BodyPlace{{pose->xMetres, pose->yMetres}, pose->angleRadians}} : std::nullopt;
 }
 

@@ -340,14 +340,29 @@ juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     return lines.size() <= 2 ? lines.joinIntoString("\n") : juce::String{};
 }
 
+/// Why nothing is felt; empty: something is, or may be at once.
+juce::String WorldPanel::whyNothing(double nowMs) const {
+    constexpr double quietMs = 4000.0;
+    if (model_.isSilent()) return "silent";
+    if (whySilent(model_.mix()).isNotEmpty()) return "levels down";
+    if (model_.session().world().slowness() == 0) return "paused";
+    const auto isFixed = [](const BodyDescription& body) { return body.type == BodyType::staticBody; };
+    if (std::ranges::all_of(model_.world().drawing().drawn().bodies, isFixed)) return "draw a ball: B";
+    return nowMs - hitAtMs_ > quietMs ? "no hits" : "";
+}
+
 void WorldPanel::refresh(const MixerMoment& moment) {
     const double now = juce::Time::getMillisecondCounterHiRes();
+    if (std::exchange(hitScene_, model_.mix().scene) != model_.mix().scene) shownHit_ = {}, hitAtMs_ = now;
+    bool isOther = false;
     for (const auto& hit : moment.hits)
-        if (now - hitAtMs_ > shownMs || std::abs(hit.amplitude) > std::abs(shownHit_.amplitude)) {
-            shownHit_ = hit;
-            hitAtMs_ = now;
-            sentence_.setText(sentenceOn(hit), juce::dontSendNotification);
-        }
+        if (now - hitAtMs_ > shownMs || std::abs(hit.amplitude) > std::abs(shownHit_.amplitude))
+            shownHit_ = hit, hitAtMs_ = now, isOther = true;
+    if (const auto why = whyNothing(now); why != std::exchange(why_, why) || isOther)
+        sentence_.setText(why.isNotEmpty()             ? inLines({"Nothing felt", why})
+                          : shownHit_.amplitude == 0.0 ? juce::String{}
+                                                       : sentenceOn(shownHit_),
+                          juce::dontSendNotification);
     if (hasMaster_) master_.refresh(moment);
     lookAfterPlayer();
     moveHand();
@@ -386,7 +401,7 @@ void WorldPanel::resized() {
     tiltName_.setBounds(row.removeFromRight(58));
     tilt_.setBounds(row.removeFromRight(38));
     sentence_.setBounds(row);
-    if (hitAtMs_ > 0.0) sentence_.setText(sentenceOn(shownHit_), juce::dontSendNotification);
+    why_ = "other"; // it is broken anew
     auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(48);
     const int tools = isShow_ ? 0 : DrawBar::widthFor(top.getHeight());
     bar_.setBounds(top.removeFromLeft(tools));

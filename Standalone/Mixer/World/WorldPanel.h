@@ -93,6 +93,7 @@ private:
     std::optional<double> playersPlace();
     juce::String sentenceOn(const CollisionEvent& hit) const;
     juce::String inLines(const juce::StringArray& parts) const;
+    juce::String whyNothing(double nowMs) const;
 
     MixerModel& model_;
     WorldView view_;
@@ -116,7 +117,9 @@ private:
     bool isMoving_ = false; // a badge is being moved since the mouse was pressed
     bool isShow_ = false, isPlay_ = false, hasMaster_ = false;
     double hitAtMs_ = 0.0;
-    CollisionEvent shownHit_;
+    CollisionEvent shownHit_;               // of amplitude 0: none yet
+    std::shared_ptr<const Scene> hitScene_; // in which it was
+    juce::String why_;                      // nothing is felt, as shown
     std::shared_ptr<const Scene> shown_;
     std::uint64_t shownEdits_ = 0;
 };
