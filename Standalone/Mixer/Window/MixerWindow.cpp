@@ -937,8 +937,9 @@ void MixerWindow::share() {
             (served_.isNotEmpty()
                  ? juce::String{"The page is here while the mixer runs; a browser warns once of its "
                                 "certificate."}
-                 : "127.0.0.1 is this computer alone; for a phone, and a code that it reads, put an "
-                   "address that it can reach" +
+                 : juce::String{PageServer::isThere() ? "127.0.0.1 is this computer alone; for"
+                                                      : "The page is not built here (Docs/web.md). For"} +
+                       " a phone, and a code that it reads, put an address that it can reach" +
                        (here.empty() ? juce::String{"."} : ": this computer is " + utf8(here.front()) + ".")),
         std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
     show(*view_->question(), page);
