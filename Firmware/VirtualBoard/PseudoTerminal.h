@@ -2,7 +2,6 @@
 // Pseudo-terminal that other programs open as a serial port.
 #pragma once
 #include <cstdint>
-#include <cstdlib>
 #include <fcntl.h>
 #include <span>
 #include <stdexcept>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // All limits of the renderer, each with the reason for its value.
 #pragma once
-#include <cstddef>
 #include <cstdint>
 
 namespace physvib {

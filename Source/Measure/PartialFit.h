@@ -2,7 +2,6 @@
 // Least-squares fit of a sum of decaying sinusoids (partials) to samples.
 #pragma once
 #include "Core/Trigonometry.h"
-#include "Measure/HitExcerpt.h"
 #include "Measure/LeastSquares.h"
 #include <cmath>
 #include <span>

@@ -11,7 +11,6 @@
 #include "Core/Limits.h"
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 namespace physvib {

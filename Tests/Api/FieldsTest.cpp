@@ -11,7 +11,6 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <iterator>
-#include <numbers>
 #include <physvib/physvib.h>
 #include <regex>
 #include <set>

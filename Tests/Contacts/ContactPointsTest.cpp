@@ -2,7 +2,6 @@
 // Points of pairs: what is new while its pair touches is a collision, and what is told at several points is
 // solved together.
 #include "Contacts/ContactFeed.h"
-#include <cmath>
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -9,8 +9,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <memory>
-#include <string>
-#include <tuple>
 
 namespace physvib {
 namespace {

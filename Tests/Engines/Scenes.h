@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <string_view>
-#include <vector>
 
 namespace scenes {
 

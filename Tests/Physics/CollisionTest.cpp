@@ -3,7 +3,6 @@
 #include "AttachedWorld.h"
 #include "Contacts/ImpactTimings.h"
 #include <algorithm>
-#include <numeric>
 
 namespace physvib {
 namespace {

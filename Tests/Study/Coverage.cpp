@@ -7,7 +7,6 @@
 #include "Lab/Study/Psychometric.h"
 #include "Lab/Study/Summaries.h"
 #include "Stimuli/SeededRandom.h"
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -6,7 +6,6 @@
 #include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Report/ReportTrials.h"
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>

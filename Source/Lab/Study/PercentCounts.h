@@ -5,7 +5,6 @@
 #include "Lab/Study/Identification.h"
 #include "Stimuli/Stimulus.h"
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 

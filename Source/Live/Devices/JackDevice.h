@@ -7,7 +7,6 @@
 #include <atomic>
 #include <jack/jack.h>
 #include <memory>
-#include <mutex>
 #include <shared_mutex>
 #include <string>
 #include <vector>

@@ -12,7 +12,6 @@
 #include "Live/Documents/SessionFile.h"
 #include "Scene/LayoutJson.h"
 #include <array>
-#include <cmath>
 #include <string_view>
 
 namespace physvib {
