@@ -20,8 +20,7 @@ public:
         if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0)
             throw std::runtime_error("no pseudo-terminal");
         path_ = ptsname(master_);
-        slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY); // kept open, so that programs may open and close the
-                                                         // port
+        slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY); // kept open: programs open and close the port
         termios raw{};
         tcgetattr(slave_, &raw);
         cfmakeraw(&raw);
