@@ -16,8 +16,7 @@ namespace physvib::board {
 // MHz is 13.9 ns. The latches are transparent while the write line is low: a select line that changes then
 // would write the code to the wrong channel.
 
-/// Wiring, port C: PC0-PC7 data, PC8 latch (0: A, 1: B), PC9 /WR, PC10 /CS of converter 1, PC11 /CS of
-/// converter 2.
+/// Wiring, port C: PC0-PC7 data, PC8 latch (0: A, 1: B), PC9 /WR, PC10 and PC11 /CS of converters 1 and 2.
 class DacBus {
 public:
     using Frame = std::array<std::uint8_t, 4>; ///< channels 1 A, 1 B, 2 A, 2 B

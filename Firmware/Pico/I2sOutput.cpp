@@ -120,8 +120,7 @@ void startOutput(Player<boardChannels>& player) noexcept {
         first |= 1u << dmaChannels[0][line];
     }
     irq_set_exclusive_handler(DMA_IRQ_0, sentTile);
-    irq_set_priority(DMA_IRQ_0, PICO_HIGHEST_IRQ_PRIORITY); // before USB: a late tile is felt, a late packet
-                                                            // is not
+    irq_set_priority(DMA_IRQ_0, PICO_HIGHEST_IRQ_PRIORITY); // USB after it: late packets are not felt
     irq_set_enabled(DMA_IRQ_0, true);
     dma_start_channel_mask(first);
     // A line that starts without data would wait a step, and stay behind the clocks for good.

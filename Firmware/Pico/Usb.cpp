@@ -94,8 +94,7 @@ void answerConsole() noexcept {
                                    worstTileCycles()};
         const auto answer = console.answer(facts);
         keep();
-        tud_cdc_write(answer.data(), static_cast<std::uint32_t>(answer.size())); // what does not fit is
-                                                                                 // dropped
+        tud_cdc_write(answer.data(), static_cast<std::uint32_t>(answer.size())); // the rest is dropped
         tud_cdc_write_flush();
     }
 }

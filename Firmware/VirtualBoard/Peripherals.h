@@ -14,8 +14,7 @@ namespace physvib::virtualboard {
 // Model of the two TLC7528 converters on port C, wired as in Docs/board.md: latches codes and checks the
 // timing of their lines.
 
-/// Required times in ns, assumed for a 5 V supply; Docs/board.md says which of them were verified with TI
-/// SLAS062B.
+/// Required times in ns, assumed for a 5 V supply; Docs/board.md says which were verified with TI SLAS062B.
 struct ConverterTimes {
     double selectSetUp = 50, dataSetUp = 25, writePulse = 50, hold = 10;
 };

@@ -2,7 +2,6 @@
 // Pseudo-terminal that other programs open as a serial port.
 #pragma once
 #include <cstdint>
-#include <cstdlib>
 #include <fcntl.h>
 #include <span>
 #include <stdexcept>
@@ -21,8 +20,7 @@ public:
         if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0)
             throw std::runtime_error("no pseudo-terminal");
         path_ = ptsname(master_);
-        slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY); // kept open, so that programs may open and close the
-                                                         // port
+        slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY); // kept open: programs open and close the port
         termios raw{};
         tcgetattr(slave_, &raw);
         cfmakeraw(&raw);

@@ -49,11 +49,9 @@ private:
     CostModel model_;
     csh disassembler_ = 0;
 };
-} // namespace physvib::virtualboard
 
 // The firmware's ELF file: segments with their flash addresses, and symbols.
 
-namespace physvib::virtualboard {
 struct ElfImage {
     struct Segment {
         std::uint32_t address = 0; ///< load address (flash)

@@ -67,12 +67,10 @@ private:
     std::string link_;
     std::optional<PseudoTerminal> line_;
 };
-} // namespace physvib::virtualboard
 
 // Logs when the converters leave and reach silence, in time of the steady clock. All programs of a machine
 // share that clock, so the log can be compared with devices that play beside the board.
 
-namespace physvib::virtualboard {
 /// A CSV file of `steady_ns,what`, written line by line; `what`: sound, silence (from 20 ms), a note.
 class SoundLog {
 public:
@@ -116,11 +114,9 @@ private:
     std::chrono::steady_clock::time_point began_;
     std::size_t seen_ = 0, silent_ = pause;
 };
-} // namespace physvib::virtualboard
 
 // Writes the converter codes as a WAV file: 8 bit, four channels, one sample per frame.
 
-namespace physvib::virtualboard {
 /// False if the file cannot be written. `rate`: frames per second.
 inline bool writeWav(const std::string& path, const std::vector<Converters::Frame>& frames,
                      std::uint32_t rate) {

@@ -129,8 +129,7 @@ public:
 
     TriangleCells() = default;
 
-    /// Triangles of a valid layout. Needs time that grows with the cube of the number of actuators, but no
-    /// heap. Any thread.
+    /// Triangles of a valid layout. The time grows with the cube of their number; no heap. Any thread.
     explicit TriangleCells(const Layout& layout) noexcept;
 
     /// False if the layout is flat, open, or has an actuator right behind another. Any thread.
@@ -154,8 +153,7 @@ private:
     std::size_t firstCorner(std::size_t face) const noexcept { return face == 0 ? 0 : ends_[face - 1]; }
 
     Place centre_;  // the mean of the actuators' places
-    int faces_ = 0; // faces have three corners, or more in one plane; face f has corners ends_[f - 1] to
-                    // ends_[f]
+    int faces_ = 0; // of three corners, or more in one plane; face f has corners ends_[f - 1] to ends_[f]
     std::array<std::uint16_t, maxFaces> ends_{};
     std::array<std::uint8_t, maxCorners> corners_{}; // of each face in order around it
 };

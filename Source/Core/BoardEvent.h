@@ -14,15 +14,13 @@ namespace limits::board {
 constexpr int maxSegments = 8; // 40 bytes each: of four moving tones, the sounding segment and the next
 }
 
-/// x_j(n) = a_j sin(2 pi f k / rate) exp(-tau k / rate), k = n - frame, from k = 0 on (Eq. 5.1 on the board's
-/// grid).
+/// x_j(n) = a_j sin(2 pi f k / rate) exp(-tau k / rate), k = n - frame, k >= 0 (Eq. 5.1 on the board's grid).
 struct BoardEvent {
     std::uint32_t frame = 0;       ///< onset, in frames of the board's clock; wraps after six days
     std::uint16_t frequency16 = 0; ///< f in 1/16 Hz, below half the sample rate
     std::uint16_t decay16 = 0;     ///< tau in 1/16 per second
     std::uint16_t durationMs = 0;  ///< 0: until it has decayed; else it is cut after this time
-    std::array<std::int16_t, limits::board::channels> amplitudes{}; ///< a_j in 1/4096 of full scale, per
-                                                                    ///< channel
+    std::array<std::int16_t, limits::board::channels> amplitudes{}; ///< a_j in 1/4096 of full scale
     bool operator==(const BoardEvent&) const = default;
 };
 
@@ -38,8 +36,7 @@ constexpr bool isPlayable(const BoardEvent& e) noexcept {
 /// because that one may be lost on the link.
 struct BoardSegment {
     std::uint32_t frame = 0; ///< first frame, in frames of the board's clock; wraps
-    std::uint32_t turn = 0;  ///< phase advance per frame, in turns / 2^32: consecutive segments join in phase
-                             ///< at any frequency
+    std::uint32_t turn = 0;  ///< phase advance per frame, in turns / 2^32: segments join in phase
     std::uint16_t frames = 0;
     std::uint16_t phase16 = 0; ///< at the first frame, in turns / 2^16
     std::uint16_t decay16 = 0; ///< tau in 1/16 per second

@@ -90,8 +90,7 @@ public:
     /// segment is played from where it would be by then. `segment` is playable.
     bool add(const BoardSegment& segment, std::uint32_t now) noexcept;
 
-    /// Adds all segments to the block that begins at `frame`; blocks are consecutive. Segments that have
-    /// ended are removed.
+    /// Adds all segments to the block that begins at `frame`; blocks are consecutive. Ended ones are removed.
     void render(std::uint32_t frame, PhasorBank::Block& io) noexcept;
 
 private:
@@ -136,8 +135,7 @@ public:
     bool schedule(const BoardEvent& event) noexcept;
     bool schedule(const BoardSegment& segment) noexcept;
 
-    /// Gains per channel, reached within limits::channelRampSeconds. Negative gains invert the polarity, 0
-    /// mutes.
+    /// Gains per channel, reached within limits::channelRampSeconds. Negative ones invert, 0 mutes.
     void setGains(const Gains& gains) noexcept;
     /// The same at once, while nothing is heard; what they were to be.
     Gains exchangeGains(const Gains& gains) noexcept;
@@ -171,8 +169,7 @@ private:
     BoardGuard guard_;
     std::int64_t frame_ = 0; // does not wrap, so that pending events keep their order
     static constexpr auto never = std::numeric_limits<std::int64_t>::max();
-    std::int64_t nextDue_ = never; // due time of the first pending event; kept here because every block
-                                   // compares it
+    std::int64_t nextDue_ = never; // when the first pending event is due: every block compares it
     std::uint32_t played_ = 0, late_ = 0, dropped_ = 0;
 };
 

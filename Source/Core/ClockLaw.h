@@ -9,8 +9,7 @@ namespace physvib {
 
 // Converts session time in nanoseconds to sample frames, exactly: integers only, at any sample rate.
 
-/// An onset on the frame grid. `frame` is the first frame not earlier than the onset, which lies `leadFrames`
-/// before it.
+/// An onset on the frame grid. `frame` is the first one not before the onset, which is `leadFrames` earlier.
 struct FramePosition {
     std::int64_t frame = 0;  ///< counted from 0
     double leadFrames = 0.0; ///< [0, 1)
@@ -51,8 +50,7 @@ struct ClockLaw {
     double longestGapSeconds = 0.0; ///< longest time between two calls of the driver, which steps the world,
                                     ///< without an event being late
     int limiterFrames = 0;          ///< the renderer's own latency, part of L
-    double sinkSeconds = 0.0; ///< the longest time by which a sink beside the renderer needs an event before
-                              ///< it is played
+    double sinkSeconds = 0.0;       ///< the longest time before it is played at which a sink needs an event
 
     /// L in frames: one block (which is rendered at its beginning) + the longest gap + two steps (one that
     /// may not have begun, one in which events wait to be sorted) + the latency of the limiter or of the

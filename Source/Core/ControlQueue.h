@@ -30,8 +30,7 @@ public:
         return true;
     }
 
-    /// A copy that stays until it is handed back; null: all places that were made are in use. The sender's,
-    /// wait-free.
+    /// A copy that stays until it is handed back; null: all places are in use. The sender's, wait-free.
     const PhantomPanner* put(const PhantomPanner& panner) noexcept {
         Place* const place = free();
         if (place == nullptr) return nullptr;

@@ -66,8 +66,7 @@ struct BodyLayout {
     std::span<const ActuatorPlace> places; ///< from the extent's centre
 };
 
-/// Tips of a right hand's spread, slightly bent fingers. The hand is seen from its back, so the palm has the
-/// smaller z.
+/// Tips of a right hand's spread, slightly bent fingers. Seen from its back, so the palm has the smaller z.
 inline constexpr std::array<ActuatorPlace, 5> gloveTips{{{0.0, 0.0, -0.035, partNamed("thumb")},
                                                          {0.06, 0.085, -0.01, partNamed("index")},
                                                          {0.085, 0.095, -0.005, partNamed("middle")},
@@ -86,8 +85,7 @@ inline constexpr auto sleevePlaces = [] {
     return places;
 }();
 
-/// Two columns of four on the chest, then two on the back, each row from the wearer's left to the right, from
-/// above.
+/// Two columns of four on the chest, then two on the back, rows from the wearer's left to right, from above.
 inline constexpr auto vestPlaces = [] {
     std::array<ActuatorPlace, 16> places{};
     for (std::size_t j = 0; j < places.size(); ++j) {

@@ -155,8 +155,7 @@ private:
     std::size_t used_ = 0, chunks_ = 2;
 };
 
-// Wait-free triple buffer that hands the newest value from one thread to another without tearing, for
-// telemetry.
+// Wait-free triple buffer that hands the newest value from one thread to another untorn, for telemetry.
 
 /// One writer, one reader. The reader gets the newest value; values in between may be skipped. Do not use it
 /// for anything audible: that needs a time and travels as an event.

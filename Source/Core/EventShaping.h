@@ -25,8 +25,7 @@ namespace physvib {
 /// dB per octave, is flat from 40 to 250 Hz, and rises again. Half of it, in dB, is compensated, at most by a
 /// factor of 2. Any thread.
 struct PerceivedLevel {
-    static constexpr double flatLowHz = 40.0, flatHighHz = 250.0; ///< constant threshold acceleration in
-                                                                  ///< between
+    static constexpr double flatLowHz = 40.0, flatHighHz = 250.0; ///< constant threshold in between
     static constexpr double greatestWeight = 2.0;                 ///< from 500 Hz on; its inverse up to 20 Hz
 
     bool isWeighted = false; ///< false: amplitudes stay unchanged
@@ -37,8 +36,7 @@ struct PerceivedLevel {
         return std::clamp(frequencyHz / nearest, 1.0 / greatestWeight, greatestWeight);
     }
 
-    /// The weighted amplitude. Weighting raises no amplitude above full scale, and none that already exceeds
-    /// it.
+    /// The weighted amplitude. It raises none above full scale, and none that is above already.
     double operator()(double amplitude, double frequencyHz) const noexcept {
         if (!isWeighted) return amplitude;
         const double most = std::max(std::abs(amplitude), 1.0);
@@ -62,8 +60,7 @@ constexpr double detectionThresholdG(double frequencyHz) noexcept {
 /// A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency and decay are varied (from physics) or fixed. The call
 /// operator turns a collision into the event that is rendered; AV-FV-DRV changes nothing. Any thread.
 struct RenderingMethod {
-    static constexpr double fixedLevelG = 1.5; ///< acceleration in g; divide by the full scale in g for an
-                                               ///< amplitude
+    static constexpr double fixedLevelG = 1.5; ///< acceleration in g; over the full scale, an amplitude
     static constexpr double fixedFrequencyHz = 250.0;
     static constexpr std::int64_t fixedPulseNs = 20'000'000; ///< rectangular envelope: five periods of 250
                                                              ///< Hz; other frequencies are cut in mid-period
@@ -192,16 +189,14 @@ struct FrequencyRemap {
     bool operator==(const FrequencyRemap&) const = default;
 };
 
-/// Turns a collision into the event that is rendered, listed and reported as played. Clips stay unchanged.
-/// Any thread.
+/// Turns a collision into the event that is rendered, listed and reported. Clips stay unchanged. Any thread.
 struct EventShaping {
     static constexpr double mostTruncation = 0.99;
     RenderingMethod method;
     FrequencyRemap remap;
     double gain = 1.0;          ///< of all events, also those of a fixed level
     PerceivedLevel perceived{}; ///< equal-sensation correction at the played frequency, after the gain
-    double truncation = 0.0; ///< Eq. 5.5: a decay is cut where its envelope falls to this share; 0: it decays
-                             ///< fully
+    double truncation = 0.0;    ///< Eq. 5.5: decays are cut where they fall to this share; 0: not at all
 
     CollisionEvent operator()(const CollisionEvent& collision) const noexcept {
         return shaped(collision, [](CollisionEvent&) {});

@@ -202,8 +202,7 @@ void HapticRenderer::playAll(const Channels& out, int frames, const float* const
     guard(out, frames, limiter_.process(out.data(), frames, isSilent));
 }
 
-// Without the limiter samples are unbounded, so the guard does not act; the guard at the device output still
-// does.
+// Without the limiter samples are unbounded, so the guard does not act; that of the device still does.
 void HapticRenderer::guard(const Channels& out, int frames, bool isSilent) noexcept {
     if (!settings_.limiterEnabled) return;
     guard_.moveTo(position_);

@@ -39,14 +39,12 @@ struct RendererSettings {
     int channels = 0; ///< outputs; 0: as many as the panner has actuators. Outputs without an actuator are
                       ///< silent. At most limits::maxEnchanters
     PhantomPanner panner;       ///< at most `channels` actuators; a control can change it
-    bool limiterEnabled = true; ///< off: samples may exceed 1 and no OutputGuard acts; the latency stays the
-                                ///< same
+    bool limiterEnabled = true; ///< off: samples may exceed 1, no OutputGuard acts; the same latency
     std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
     int modes = 0; ///< modes that sound at once; a further one steals the quietest, which is counted. Memory
                    ///< depends on it. 0, and at most: limits::maxModes
     InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
-    EqualisedActuators equalised{}; ///< equalisation per channel; a channel without measured figures is not
-                                    ///< equalised
+    EqualisedActuators equalised{}; ///< per channel; one without measured figures is not equalised
     DriveMatrices drives{}; ///< matrices against mechanical coupling of the panner's actuators; empty: none.
                             ///< The caller keeps them alive
     bool normalisesBlocks = false; ///< each block of each channel by itself is kept within its ceiling, as
@@ -84,8 +82,6 @@ struct RenderStatus {
     float guardGain = 1.0f;          ///< lowest gain of the OutputGuard over all channels; 1: no reduction
     std::uint64_t guarded = 0;       ///< how often the guard began to reduce
 };
-} // namespace physvib
-namespace physvib {
 
 /// Events that wait to be played: up to a time, and of no world, or of any.
 struct WaitingEvents {
@@ -198,12 +194,8 @@ private:
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0, withoutPart_ = 0;
 };
 
-} // namespace physvib
+// The template members of HapticRenderer, among them the render loop. For callers of HapticRenderer::render.
 
-// The template members of HapticRenderer, among them the render loop. Include it where HapticRenderer::render
-// is called.
-
-namespace physvib {
 template <class Source>
 void HapticRenderer::refill(Source& source) noexcept {
     while (!pending_.full() && source.pop(pending_.blank())) {
@@ -286,11 +278,9 @@ void HapticRenderer::render(Source& source, float* const* out, int frames) noexc
     }
     if (settings_.normalisesBlocks) normalise(out, frames);
 }
-} // namespace physvib
 
 // Offline rendering of all events of a source, from frame 0 on, with the renderer's latency removed.
 
-namespace physvib {
 /// Renders frames 0 to `frames` of a renderer that has just been prepared, in blocks of `blockFrames`. Each
 /// block is written to out[channel] and passed to `consume(channels, n)`, the next n frames in order, until
 /// it returns false. The limiter's look-ahead is rendered first and dropped, so that frame n is time n/rate.

@@ -16,8 +16,7 @@ constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t from = 0xcbf2
     return from;
 }
 
-// Parts of a body (palm, thumb, chest) as numbers: actuators belong to one, and an event may be felt on one
-// alone.
+// Parts of a body (palm, thumb, chest) as numbers: actuators belong to one, events may be felt on one alone.
 
 using PartNumber = std::int32_t; ///< 0: none; above: of a name
 
@@ -34,8 +33,7 @@ constexpr PartNumber partNamed(std::string_view name) noexcept {
 
 using SoundNumber = std::int32_t; ///< 0: none; 1 to mostClips: clips; above: materials
 
-constexpr int mostClips = 32; ///< channels of clips that a session keeps; small, because each strike searches
-                              ///< them linearly
+constexpr int mostClips = 32; ///< channels of clips that a session keeps; few: each strike searches them all
 
 /// The frequency of an event that plays a clip. Samples have none, but an event needs one that can be played.
 constexpr double clipFrequencyHz = limits::slowestToneHz;

@@ -61,8 +61,7 @@ private:
     static void write(Mode mode) noexcept { asm volatile("vmsr fpscr, %0" ::"r"(mode)); }
 #elif defined(__wasm__)
     using Mode = std::uint32_t;
-    static constexpr Mode flushBits = 0; // WebAssembly always keeps denormals; tails end at retireDecibels,
-                                         // far above them
+    static constexpr Mode flushBits = 0; // WebAssembly keeps denormals; tails end at retireDecibels, above
     static Mode read() noexcept { return 0; }
     static void write(Mode) noexcept {}
 #else

@@ -16,8 +16,7 @@ enum class PanningLaw {
     log,        ///< 1 - log2(1 + u): reconstruction of Eq. 4.3, falls faster than linear
     logOuter,   ///< log2(2 - u): the other reconstruction, above linear
     energy,     ///< sqrt(1 - u): squares sum to one wherever linear gains do
-    neighbours, ///< energy, shared by the actuators around the place only: two of a row or belt, four of a
-                ///< grid
+    neighbours, ///< energy, shared by the actuators around the place: two of a row or belt, four of a grid
     automatic,  ///< what one gets without naming a law; PhantomPanner chooses by the layout's shape
     distance,   ///< energy, shared by all actuators of any layout by their distance in space
     triangles ///< energy, shared by the corners of the triangle of a layout in space that the place is in the

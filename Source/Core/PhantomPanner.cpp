@@ -118,8 +118,7 @@ void PhantomPanner::triangleGains(Rule rule, Vector p, Gains& gains) const noexc
     const double area = cross(a, b, c);
     std::array<double, 3> weight{cross(b, c, p) / area, cross(c, a, p) / area, cross(a, b, p) / area};
     if (*std::min_element(weight.begin(), weight.end()) < 0.0) {
-        // Outside the triangle the nearest point lies on an edge: compute it for all three edges and keep the
-        // closest.
+        // Outside the triangle the nearest point lies on an edge: the closest of all three.
         double nearest = -1.0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
@@ -142,8 +141,7 @@ void PhantomPanner::scatteredGains(Rule rule, Vector p, Gains& gains) const noex
     // Shepard's weights 1/d^2. An impact at an actuator's place drives that actuator alone. Loops without
     // branches are vectorised.
     constexpr double least = 1e-18;                   // a nanometre squared: avoids division by zero
-    std::array<double, limits::maxEnchanters> weight; // only `count` entries are used: not worth clearing per
-                                                      // event
+    std::array<double, limits::maxEnchanters> weight; // only `count` are used: not worth clearing
     const auto count = static_cast<std::size_t>(layout_.count);
     const double depth = isFlat_ ? 0.0 : 1.0;
     for (std::size_t j = 0; j < count; ++j) {

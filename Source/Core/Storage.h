@@ -13,8 +13,7 @@ namespace physvib {
 // Array whose size is fixed when a renderer is prepared: on a computer it is allocated on the heap then, on a
 // board it lies inside the object.
 
-/// At most `Most` items. resize: message thread (M), not while rendering; all else: any thread that may use
-/// the items.
+/// At most `Most` items. resize: message thread (M), not while rendering; else: any thread that may use them.
 template <class T, std::size_t Most, bool isOnHeap>
 class Storage {
 public:
@@ -31,8 +30,7 @@ private:
     std::array<T, Most> items_{};
 };
 
-/// Aligned to cache lines. resize writes every item, so that the operating system has mapped all pages before
-/// render.
+/// Aligned to cache lines. resize writes every item, so that the system has mapped all pages before render.
 template <class T, std::size_t Most>
 class Storage<T, Most, true> {
     static_assert(std::is_trivially_destructible_v<T>);
@@ -175,8 +173,7 @@ private:
     static constexpr auto most = static_cast<std::size_t>(Capacity);
     Storage<Node, most, isOnHeap> nodes_;
     Storage<T, most, isOnHeap> items_;
-    using Place = std::conditional_t<(Capacity < 128), std::int8_t, std::int32_t>; // boards have little
-                                                                                   // memory
+    using Place = std::conditional_t<(Capacity < 128), std::int8_t, std::int32_t>; // for boards
     Storage<Place, most, isOnHeap> heap_; // places of items that arrived out of order
     std::uint32_t arrivals_ = 0;
     std::int32_t first_ = none, last_ = none; // of the list

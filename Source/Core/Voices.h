@@ -61,8 +61,7 @@ public:
                    : 1.0f - static_cast<float>(frame - voice.fadeFrame) / static_cast<float>(fadeFrames_);
     }
 
-    /// Removes the voices that have ended by `frame`. The others keep their order, in which their samples are
-    /// added.
+    /// Removes the voices that have ended by `frame`. The others keep the order of their sums.
     void forget(std::int64_t frame) noexcept {
         Voice* kept = begin();
         for (Voice& voice : *this)
@@ -75,8 +74,7 @@ public:
     Voice* end() noexcept { return voices_.data() + count_; }
 
 private:
-    // Counts by time, not by when ended voices were removed, so that the result does not depend on block
-    // sizes.
+    // Counts by time, not by when ended voices were removed, so that block sizes do not matter.
     int soundingAt(std::int64_t frame) const noexcept {
         return static_cast<int>(std::count_if(voices_.data(), voices_.data() + count_,
                                               [=](const Voice& v) { return v.end > frame; }));
@@ -90,8 +88,7 @@ private:
     std::size_t count_ = 0;
 };
 
-// Player of recorded contacts instead of modes (the thesis' SV rendering, 5.2): the event's amplitude scales
-// the recording.
+// Player of recorded contacts instead of modes (the thesis' SV, 5.2): the event's amplitude scales them.
 
 /// Adds recordings to the output of the modes, from their exact frames on. Render thread (R) only; prepare
 /// and setContacts: message thread (M).
@@ -136,8 +133,7 @@ public:
 
     void fadeAll(std::int64_t frame) noexcept { voices_.fadeAll(frame); }
 
-    /// Adds to io[j][0..frames) for absolute frames [first, first + frames). False if there was nothing to
-    /// add.
+    /// Adds to io[j][0..frames) for absolute frames [first, first + frames). False: nothing to add.
     bool render(float* const* io, std::int64_t first, int frames) noexcept {
         bool sounds = false;
         for (const Voice& voice : voices_) {

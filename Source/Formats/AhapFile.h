@@ -17,8 +17,7 @@ namespace physvib {
 /// clamped and missing ones have defaults, as in Apple's definition (Docs/events.md). Any thread.
 Result<Clip> readAhap(std::string_view text, std::string_view name, const FrequencyScale& scale = {});
 
-/// `channel` as such a file. No curve affects a transient (see AhapWriter.cpp) or has more than 16 points.
-/// Any thread.
+/// `channel` as such a file. No curve changes a transient (AhapWriter.cpp) or has over 16 points. Any thread.
 std::string ahapText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale = {});
 
 } // namespace physvib

@@ -275,8 +275,7 @@ private:
     std::size_t points_ = 0;
 };
 
-/// Apple's own samples have commas after the last item of a list: replaces them by spaces. Strings are not
-/// changed.
+/// Apple's own samples have commas after the last item of a list: replaces them by spaces, except in strings.
 std::string withoutLastCommas(std::string_view text) {
     std::string out{text};
     std::size_t comma = std::string::npos;

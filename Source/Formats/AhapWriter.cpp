@@ -116,8 +116,7 @@ private:
     void cutBeside(double start, double transient, double end) {
         EnvelopePoint level = pointAt(envelope_, transient);
         const double changes = changesAt(level, end, 1.0),
-                     held = std::min(end, transient + envelopeRiseSeconds); // an impact's rise may take so
-                                                                            // long
+                     held = std::min(end, transient + envelopeRiseSeconds); // an impact's rise may take it
         const bool isHeld = changes < held;
         double from = isHeld ? held : changes;
         std::vector<EnvelopePoint> points = partOf(envelope_, start, from);
@@ -140,8 +139,7 @@ private:
         }
     }
 
-    /// Time at which the amplitude has risen by that factor, or fallen by mostChange, since `from`; `end` if
-    /// not before.
+    /// When the amplitude has risen by that factor, or fallen by mostChange, since `from`; else `end`.
     double changesAt(const EnvelopePoint& from, double end, double mostRise) const {
         const double low = from.amplitude / mostChange, high = from.amplitude * mostRise * (1.0 + rounding);
         EnvelopePoint last = from;
@@ -162,8 +160,7 @@ private:
     std::vector<AhapPiece> pieces_;
 };
 
-/// In time order; silences are omitted, except where a transient sounds. `channel.transients` must be in time
-/// order.
+/// In time order; silences are omitted, except where a transient sounds. `channel.transients` are, too.
 std::vector<AhapPiece> ahapPieces(const ClipChannel& channel) { return Cutter{channel}.take(); }
 
 constexpr std::size_t mostCurvePoints = 16; // per curve on a phone
@@ -177,8 +174,7 @@ OrderedJson parametersJson(double intensity, double sharpness) {
          {{"ParameterID", "HapticSharpness"}, {"ParameterValue", shortened(sharpness)}}});
 }
 
-/// Intensities in shares of `full`. Points are closer where the amplitude is small, because its root is steep
-/// there.
+/// Intensities in shares of `full`. Points are closer where the amplitude is small: its root is steep.
 std::vector<ClipPoint> intensitiesOf(std::span<const EnvelopePoint> envelope, double full) {
     std::vector<ClipPoint> curve;
     for (std::size_t i = 0; i < envelope.size(); ++i) {

@@ -25,8 +25,7 @@ struct ClipPoint {
     bool operator==(const ClipPoint&) const = default;
 };
 
-/// The curve's value: a line between points, held before the first and after the last; 0 without points. Any
-/// thread.
+/// The curve's value: a line between points, held before and after them; 0 without points. Any thread.
 inline double valueAt(std::span<const ClipPoint> curve, double seconds) noexcept {
     if (curve.empty()) return 0.0;
     const auto next = std::upper_bound(curve.begin(), curve.end(), seconds,

@@ -122,8 +122,7 @@ std::vector<EnvelopePoint> partOf(std::span<const EnvelopePoint> envelope, doubl
 }
 
 std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double tolerance) {
-    constexpr std::size_t longestStretch = 1024; // bounds the cost, which is quadratic in the stretch's
-                                                 // length
+    constexpr std::size_t longestStretch = 1024; // bounds the cost, quadratic in its length
     if (curve.size() < 3) return curve;
     std::vector<bool> isKept(curve.size());
     std::vector<std::pair<std::size_t, std::size_t>> stretches;

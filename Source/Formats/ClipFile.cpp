@@ -8,7 +8,6 @@
 #include "Formats/MetaHapticFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
-#include <cmath>
 #include <set>
 
 namespace physvib {

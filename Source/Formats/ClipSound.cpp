@@ -51,8 +51,7 @@ private:
     double before_ = 0.0;  // integral up to the point before it
 };
 
-constexpr double frameSlack = 1e-6; // tolerance, so that a time that was a whole number of ticks gives that
-                                    // tick again
+constexpr double frameSlack = 1e-6; // a time that was a whole number of ticks gives that tick again
 
 std::size_t frameFrom(double seconds, int rateHz) {
     return static_cast<std::size_t>(std::ceil(std::max(0.0, seconds * rateHz - frameSlack)));

@@ -11,8 +11,7 @@ namespace physvib {
 struct GrainTrain {
     double perSecond = 0.0;
     double strength = 0.0;   ///< mean; 1 = full scale
-    double unevenness = 0.0; ///< standard deviation of the spacings, in spacings: 0 for ridges, 0.37 for
-                             ///< random grains
+    double unevenness = 0.0; ///< standard deviation of the spacings, in spacings: ridges 0, at random 0.37
     double lostShare = 0.0;  ///< estimated share of grains that were missed, too weak for the noise or too
                              ///< close to another. perSecond and strength are corrected for them
     std::size_t counted = 0;

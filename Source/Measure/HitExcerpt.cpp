@@ -55,8 +55,7 @@ std::size_t firstLoud(const std::vector<double>& samples, std::size_t peak, doub
     return first;
 }
 
-/// Where the noise begins, or the next impact: ten times the lowest power so far, and not far below the
-/// highest.
+/// Where the noise begins, or the next impact: ten times the lowest power so far, near the highest.
 std::size_t endOf(const std::vector<double>& samples, std::size_t begin, double noise, double rateHz) {
     const std::size_t frame = samplesIn(frameSeconds, rateHz),
                       most = std::min(samples.size(), begin + samplesIn(longestHitSeconds, rateHz));

@@ -11,8 +11,7 @@
 #include <vector>
 
 namespace physvib {
-constexpr double onsetReachSeconds = 0.02; ///< from an impact's peak back to its onset: a quarter period of
-                                           ///< 12 Hz
+constexpr double onsetReachSeconds = 0.02; ///< from a peak back to its onset: a quarter period of 12 Hz
 
 struct HitExcerpt {
     std::size_t begin = 0, end = 0; ///< samples
@@ -85,13 +84,11 @@ inline std::string recordingFault(const std::vector<float>& x, double rateHz, do
     return bad == x.end() ? "" : notFinite(*bad, static_cast<std::size_t>(bad - x.begin()), rateHz);
 }
 
-// Removes content below limits::slowestToneHz from samples for actuators: it cannot be felt and only warms a
-// coil.
+// Removes what is below limits::slowestToneHz from samples for actuators: unfelt, it only warms a coil.
 
 /// What was removed, in shares of full scale; 0: too little, and the samples are unchanged.
 struct SlowPart {
-    static constexpr double leastSeconds = 0.2; ///< a period of limits::slowestToneHz: shorter samples have
-                                                ///< no slow part
+    static constexpr double leastSeconds = 0.2; ///< a period of limits::slowestToneHz; shorter: no slow part
     static constexpr double leastMean = 0.01, leastRest = 0.1;
 
     double mean = 0.0; ///< maximum over the channels, like `rest`
@@ -108,8 +105,7 @@ struct SlowPart {
 
 /// Subtracts the mean, and then, if it reaches leastRest, what is left below limits::slowestToneHz: a running
 /// mean over leastSeconds with triangular weights (-4.5 dB at 5 Hz, -18 dB at 2 Hz, -30 dB at 1 Hz; within
-/// 0.5 dB from 10 Hz on). `fullScale`: the sample value that is played as full scale. Any thread but the
-/// render thread (R).
+/// 0.5 dB from 10 Hz on). `fullScale`: the sample value that is played as full scale. Any thread but R.
 SlowPart takeSlowPart(std::vector<float>& samples, double sampleRateHz, double fullScale = 1.0);
 
 } // namespace physvib

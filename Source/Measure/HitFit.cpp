@@ -80,8 +80,7 @@ std::vector<PredictedPartial> predictPartials(std::span<const double> samples, d
 constexpr std::size_t mostPartials = 6;
 constexpr double cleanShare = 1e-11; // of the energy: a smaller residual is rounding
 constexpr double shortHit = 8.0;     // omega / tau
-constexpr double penalty = 1.5;      // per parameter, in units of ln N: for the parameter and for its search
-                                     // (Schwarz 1978)
+constexpr double penalty = 1.5;      // per parameter, in units of ln N: for it and its search (Schwarz 1978)
 
 } // namespace
 
@@ -298,8 +297,7 @@ StruckFit::State StruckFit::moved(const State& from, std::span<const double> ste
     return to;
 }
 
-// A partial is at rest where its phase is a multiple of pi: tries, for each partial, such a moment nearest to
-// the guess.
+// A partial is at rest where its phase is a multiple of pi: tries, for each, the one nearest to the guess.
 StruckFit::StruckFit(std::span<const double> samples, double rateHz, std::size_t onset,
                      std::span<const Partial> partials)
     : samples_{samples}

@@ -18,8 +18,7 @@ struct StruckPartial {
 };
 
 /// Samples x[i] at i / rateHz seconds; silence before the onset, which may lie between samples. One parameter
-/// fewer per partial than with free phases, so that overlapping partials can be separated. Message thread (M)
-/// only.
+/// fewer per partial than with free phases, so that overlapping partials can be separated. M only.
 class StruckFit {
 public:
     /// `samples` must outlive the fit. The partials' phases and amplitudes only guide the search for the

@@ -99,8 +99,7 @@ Result<ContactSound> byTwoPeaks(const std::vector<float>& samples, const HitExce
     fit.add({2.0 * std::numbers::pi * sound.frequencyHz, sound.decayPerSecond, 0.0, 0.0});
     fit.solveLinear();
     const auto count = static_cast<double>(x.size());
-    const double energy = energyOf(x) / count * count; // via the mean, so that published figures keep their
-                                                       // last digit
+    const double energy = energyOf(x) / count * count; // via the mean: published figures keep their digits
     sound.residualShare = fit.residualEnergy() / energy;
     sound.ownShare = 1.0 - sound.residualShare;
     sound.beginSeconds = static_cast<double>(hit.begin) / rateHz;

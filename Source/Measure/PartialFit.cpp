@@ -2,6 +2,7 @@
 // Start values from the residual's spectrum and matched filters, then a joint fit of the four parameters of
 // every partial.
 #include "Measure/PartialFit.h"
+#include "Measure/HitExcerpt.h"
 #include "Measure/Spectrum.h"
 #include <algorithm>
 #include <numbers>

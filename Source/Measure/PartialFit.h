@@ -2,7 +2,6 @@
 // Least-squares fit of a sum of decaying sinusoids (partials) to samples.
 #pragma once
 #include "Core/Trigonometry.h"
-#include "Measure/HitExcerpt.h"
 #include "Measure/LeastSquares.h"
 #include <cmath>
 #include <span>
@@ -54,8 +53,7 @@ public:
     double residualEnergy() const { return energyWith(partials_); }
     PartialError errorOf(std::size_t partial) const;
 
-    static double allowedOmega(double omega, double rateHz) noexcept; ///< the value, limited to what a fit
-                                                                      ///< may use
+    static double allowedOmega(double omega, double rateHz) noexcept; ///< limited to what a fit may use
     static double allowedTau(double tau) noexcept;
 
 private:
@@ -72,8 +70,7 @@ private:
 /// thousandth of a bin.
 double highestPeakHz(std::span<const double> samples, double rateHz, double lowHz, double highHz);
 
-// Recursive generator of exp(-tau t) cos(omega t) and exp(-tau t) sin(omega t), without a library call per
-// sample.
+// Recursive exp(-tau t) cos(omega t) and exp(-tau t) sin(omega t), without a library call per sample.
 
 class DecayingPhasor {
 public:

@@ -7,8 +7,7 @@
 #include <vector>
 
 namespace physvib {
-/// sum x[i] exp(-(tau + i omega) i / rateHz): the spectrum at tau = 0, a matched filter otherwise. Any
-/// thread.
+/// sum x[i] exp(-(tau + i omega) i / rateHz): the spectrum at tau = 0, else a matched filter. Any thread.
 Complex<double> pointOfSpectrum(std::span<const double> samples, double rateHz, double omega, double tau);
 
 /// Magnitudes of bins 0 to n/2 of the n points to which the samples are zero-padded (at least twice as many,
@@ -25,8 +24,7 @@ struct Peak {
     double at, height;
 };
 
-/// Vertex of the parabola through x[i - 1], x[i] and x[i + 1], of which the middle one is the highest. Any
-/// thread.
+/// Vertex of the parabola through x[i - 1], x[i] and x[i + 1], the middle one the highest. Any thread.
 inline Peak vertex(std::span<const double> x, std::size_t i) {
     const double bend = x[i - 1] - 2.0 * x[i] + x[i + 1],
                  at = bend < 0.0 ? 0.5 * (x[i - 1] - x[i + 1]) / bend : 0.0;

@@ -65,8 +65,7 @@ double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
     return lag > 4.0 ? rateHz / lag : 0.0;
 }
 
-/// If ridges are passed at a higher rate than the resonance, both are hard to separate: only the repetition
-/// rate is certain.
+/// If ridges pass at more than the resonance, both are hard to separate: only the repetition rate is certain.
 void tellWhatRings(ScrapedTexture& found, const GrainTrain& train) {
     if (found.texture.pattern == GrainPattern::regular && found.grainsPerSecond > train.frequencyHz) return;
     found.frequencyHz = train.frequencyHz;

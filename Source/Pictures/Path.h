@@ -21,8 +21,7 @@ struct Spot {
     float distanceTo(Spot other) const noexcept { return std::hypot(other.x - x, other.y - y); }
 };
 
-/// Its sides are parallel to those of the picture; a width or a height is never below 0. Any thread, all of
-/// it.
+/// Its sides are parallel to those of the picture; width and height are never below 0. Any thread, all of it.
 template <class T>
 struct Rectangle {
     T x{}, y{}, width{}, height{};

@@ -22,8 +22,7 @@ struct LevelAxis {
     Area lane;
     float height(double level) const {
         const double share = (level - floorDecibels) / (ceiling - floorDecibels);
-        return static_cast<float>(std::max(share * (lane.height - headRoom), 2.0)); // the quietest still
-                                                                                    // shows
+        return static_cast<float>(std::max(share * (lane.height - headRoom), 2.0)); // the quietest shows
     }
 };
 

@@ -154,8 +154,7 @@ Image RenderMovie::at(std::int64_t momentNs, const WorldPoses& poses, const Scen
 
 namespace {
 
-constexpr float quality = 78.0f; // of libwebp's 0 to 100: words stay sharp, ten seconds of a scene take about
-                                 // a megabyte
+constexpr float quality = 78.0f; // of libwebp's 0 to 100: words stay sharp, ten seconds take about a megabyte
 constexpr int method = 3;        // of 0 to 6: slower is a few per cent smaller
 
 [[noreturn]] void fail(const std::string& why) { throw std::runtime_error{"no WebP could be made: " + why}; }

@@ -5,7 +5,6 @@
 #include "Pictures/RenderPicture.h"
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 
 namespace physvib {

@@ -47,8 +47,7 @@ struct FrameWindow {
     std::int64_t frameCount = 0;
 };
 
-/// The part of a render that the picture enlarges: 10 ms before to 90 ms after the strongest onset. Any
-/// thread.
+/// What the picture enlarges of a render: 10 ms before to 90 ms after the strongest onset. Any thread.
 FrameWindow zoomWindow(std::span<const CollisionEvent> events, int sampleRateHz) noexcept;
 
 /// The picture, 1600 x 1000 pixels. Without any font the words are missing and the rest is there. Any thread.

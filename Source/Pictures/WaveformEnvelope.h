@@ -20,15 +20,13 @@ public:
     /// `firstFrame` may be negative: what lies before the render is silence.
     WaveformEnvelope(int channels, std::int64_t firstFrame, std::int64_t frameCount);
 
-    /// Takes the next block of the render, from frame 0 on and without gaps; looks only at what is in the
-    /// window.
+    /// Takes the next block of the render, from frame 0 on without gaps; looks at the window only.
     void add(const float* const* block, int frames);
 
     int channels() const noexcept { return static_cast<int>(peaks_.size()); }
     std::int64_t firstFrame() const noexcept { return first_; }
     std::int64_t frameCount() const noexcept { return count_; }
-    /// One column; where the window has fewer frames than columns, the frame before. Silence outside the
-    /// render.
+    /// One column; where the window has fewer frames than columns, the frame before. Outside: silence.
     SampleRange column(int channel, int index) const noexcept;
     /// Largest magnitude of a channel inside the window.
     float peak(int channel) const noexcept { return peaks_[static_cast<std::size_t>(channel)]; }

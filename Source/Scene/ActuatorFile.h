@@ -41,8 +41,7 @@ struct ActuatorProfile {
     FrequencyBand bandOrNone() const noexcept { return band.value_or(FrequencyBand{}); }
 };
 
-/// Why the actuator cannot be equalised: "q is not known (measure it with physvib calibrate)"; empty if it
-/// can. Any thread.
+/// Why it cannot be equalised: "q is not known (measure it with physvib calibrate)"; or empty. Any thread.
 std::string equaliserFault(const ActuatorProfile& profile);
 
 /// The profile in `text`; or, for the first error, one line `name: band_hz[1]: expected a number from ...`.

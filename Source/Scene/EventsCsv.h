@@ -32,8 +32,7 @@ struct EventList {
 Result<EventList> readEventsCsv(std::string_view text, std::string_view name,
                                 std::size_t maxRows = limits::maxEventRows);
 
-/// The same for a file, of at most limits::maxEventsFileBytes and lines of a million bytes. Message thread
-/// (M) only.
+/// The same for a file, of at most limits::maxEventsFileBytes and lines of a million bytes. M only.
 Result<EventList> loadEventsCsv(const std::filesystem::path& path);
 
 /// Columns that only some lists need: a list of impacts alone has no kinds.

@@ -12,8 +12,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::size_t headBytes = 1 << 16; // long sessions have hundreds of megabytes, but the field is at
-                                           // the beginning
+constexpr std::size_t headBytes = 1 << 16; // long sessions have hundreds of megabytes; the field begins them
 
 constexpr std::array<std::pair<std::string_view, FileKind>, 4> fields{
     // a session's desk has a layout, and a plug-in's state a scene

@@ -65,8 +65,7 @@ void readValue(const JsonField& json, std::vector<T>& out, const Bounds& bounds,
     for (std::size_t i = 0; i < size; ++i) readValue(json.item(i), out[i], bounds, materials);
 }
 
-/// Reads the fields of one object. Unknown fields are reported before missing ones, because a typo causes
-/// both.
+/// Reads the fields of one object. Unknown fields come before missing ones: a typo causes both.
 template <class T>
 class FieldReader {
 public:

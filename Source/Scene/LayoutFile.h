@@ -30,8 +30,7 @@ struct LayoutDescription {
 /// default. Any thread.
 LayoutDescription describeLayout(std::string name, const EnchanterLayout& geometry);
 
-/// The preset of that name, which must exist; its actuators keep profile and full scale of `before`. Any
-/// thread.
+/// The preset of that name, which must exist, with profile and full scale of `before`. Any thread.
 LayoutDescription presetLayout(std::string_view name, const std::vector<EnchanterDescription>& before = {});
 
 /// Actuators of `layout` keep profile and full scale of those of the same number. Any thread.
@@ -54,8 +53,7 @@ std::string layoutJson(const LayoutDescription& layout);
 
 // Resolves the value of --layout: presets, special layouts, or a file.
 
-/// Minimum full scale of an actuator for the studies: their fixed level plus 1 dB of headroom below the
-/// limiter.
+/// Minimum full scale of an actuator for the studies: their fixed level plus 1 dB below the limiter.
 constexpr double leastStudyFullScaleG = 1.122018454301963 * RenderingMethod::fixedLevelG;
 
 /// A preset, or the layout file at that path. study1 is phone1 with actuators of 2 g: an assumption, to be

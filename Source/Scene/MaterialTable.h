@@ -40,8 +40,7 @@ const std::vector<MaterialTable>& builtInMaterials();
 /// ranges, and a name of its own for each. Any thread.
 std::string validateMaterials(const std::vector<Material>& materials);
 
-/// The same of the names alone. Events carry the number of a material's name, so two names must not share
-/// one. Any thread.
+/// The same of the names alone. Events carry a name's number, so two must not share one. Any thread.
 std::string checkMaterialNames(const std::vector<Material>& materials);
 
 // Checks that no two items of a list have the same name.

@@ -146,8 +146,7 @@ public:
     }
     bool has(SoundNumber sound) const { return names_.find(sound) != nullptr; }
 
-    /// What a list writes: the material's name or else its number (sound-923368111), clip-1 and so on, or
-    /// nothing for 0.
+    /// What a list writes: the material's name or its number (sound-923368111), clip-1 ..., or nothing for 0.
     std::string of(SoundNumber sound) const {
         if (sound == 0) return {};
         if (const std::string* const known = names_.find(sound)) return *known;

@@ -9,8 +9,7 @@
 namespace physvib {
 
 /// Applies the permanent changes of `action` to the description: materials of fixtures, sounds, haptic
-/// sources; other actions change nothing. Finds bodies of the scene and of its live inputs by name. Any
-/// thread.
+/// sources; other actions change nothing. Finds the scene's and its live inputs' bodies by name. Any thread.
 void describeEdit(Scene& scene, const Action& action);
 
 /// True if an action changes the scene permanently and not only its motion. Any thread.

@@ -34,8 +34,7 @@ std::string sceneJson(const Scene& scene);
 /// Source/Scene/Scenes/*.json, in the order of their listing. Any thread.
 const std::vector<EmbeddedFile>& embeddedScenes();
 
-/// All built-in scenes, with their variables' defaults, in the order of their listing. Built on first use;
-/// any thread.
+/// All built-in scenes, with their variables' defaults, as they are listed. Built on first use; any thread.
 const std::vector<Scene>& builtInScenes();
 
 /// The built-in scene of that name, with its defaults; nullptr if there is none. Any thread.

@@ -21,8 +21,7 @@ constexpr double maxDampingPerSecond = 1000.0;
 constexpr double maxAccelerationMetresPerSecond2 = 1000.0;
 constexpr double maxGravityFactor = 10.0;
 constexpr double maxImpulseNewtonSeconds = 1.0e9;
-constexpr double maxGripMetresPerSecond2 = 100.0; // times the mass: a hand pulls with at most ten times the
-                                                  // weight
+constexpr double maxGripMetresPerSecond2 = 100.0; // times the mass: a hand pulls with at most ten weights
 constexpr double maxTorqueNewtonMetres = 1.0e9;
 constexpr double maxForceNewtons = 1.0e9;
 constexpr double maxSpringHz = 1000.0;
@@ -37,15 +36,13 @@ constexpr double minWarnMetres = 0.1; // Box2D's manual: moving shapes of 0.1 to
 constexpr double maxWarnMetres = 10.0;
 
 constexpr std::size_t maxMaterials = 256;
-constexpr std::size_t maxBodies = 4096; // including those that the script spawns: four times what was
-                                        // measured
+constexpr std::size_t maxBodies = 4096; // with those that the script spawns: four times what was measured
 constexpr std::size_t maxFixturesPerBody = 64;
 constexpr std::size_t maxFixtures = 8192;     // of the whole scene
 constexpr std::size_t maxPolygonVertices = 8; // b2_maxPolygonVertices
 constexpr std::size_t maxChainVertices = 1024;
 constexpr std::size_t maxChainEdges = 16'384; // of the whole scene: each has an entry in Box2D's tree
-constexpr int maxContacts = 50'000; // at once; a heap of the maximum number of bodies has five each, twenty
-                                    // thousand in all
+constexpr int maxContacts = 50'000; // at once; a heap of all bodies has five each, twenty thousand in all
 constexpr std::size_t maxJoints = 4096;
 constexpr std::size_t maxInputs = 4096;
 constexpr std::size_t maxActions = 100'000;    // inputs with their repetitions

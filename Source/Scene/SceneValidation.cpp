@@ -290,8 +290,7 @@ private:
     }
     template <class One>
     std::string checkAction(const One& action, const std::string& path) const {
-        if constexpr (requires { bodies_.find(action.body); }) { // action.body is a name; other actions have
-                                                                 // none
+        if constexpr (requires { bodies_.find(action.body); }) { // a name; other actions have none
             const auto body = bodies_.find(action.body);
             if (body == bodies_.end()) return missing(path + ".body", "body", action.body);
             if constexpr (requires { action.fixture; }) {

@@ -17,8 +17,7 @@ public:
     /// RMS of the samples: the mean of seventeen independent numbers that are uniform from -1 to 1.
     static constexpr double rootMeanSquare = 0.14002800840280097; // 1 / sqrt(3 * 17)
 
-    // RMS levels in dB of full scale, on headphones. At mostDb the largest samples, 17.1 dB above, stay below
-    // full scale.
+    // RMS levels in dB of full scale, on headphones. At mostDb the largest samples, 17.1 dB above, fit.
     static constexpr double leastDb = -90.0, safeDb = -40.0, mostDb = -18.0;
 
     explicit PinkNoise(std::uint32_t seed = 1) noexcept

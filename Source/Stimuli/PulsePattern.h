@@ -43,8 +43,7 @@ inline std::vector<PulsePattern> allPulsePatterns(int enchanterCount) {
     return patterns;
 }
 
-/// "ABA-250": the enchanters' letters in the order of the pulses, then a pulse's milliseconds. Enchanters 0
-/// to 25. M only.
+/// "ABA-250": the enchanters' letters by pulse, then a pulse's milliseconds. Enchanters 0 to 25. M only.
 inline std::string patternLabel(const PulsePattern& p) {
     std::string label;
     for (int k = 0; k < p.count; ++k)

@@ -36,8 +36,7 @@ struct Stimulus {
 Stimulus patternStimulus(const PulsePattern& pattern, int enchanters, const Carrier& carrier,
                          double gapSeconds = pulseGapSeconds);
 
-/// A stationary phantom at `place` of the layout's extent, all actuators in phase (Eq. 4.1 to 4.3). M only
-/// (allocates).
+/// A stationary phantom at `place` of the layout's extent, all actuators in phase (Eq. 4.1 to 4.3). M only.
 Stimulus phantomStimulus(const FieldPlace& place, const EnchanterLayout& layout, PanningLaw law,
                          double exponent, const Carrier& carrier, double seconds = 1.0);
 

@@ -19,11 +19,9 @@
 
 namespace physvib {
 
-// Computes the gains of a moving tone at any time exactly as the computer's renderer does, so that a board
-// can use the same.
+// Computes the gains of a moving tone at any time exactly as the computer's renderer, for a board to use.
 //
-// That renderer evaluates the panning law at the ends of each tile of its frames and interpolates linearly
-// (Core/Voices.h).
+// That renderer evaluates the panning law at the ends of each tile and interpolates linearly (Core/Voices.h).
 
 /// Of one event, in a session rendered at one rate. One thread.
 class PathGains {
@@ -96,8 +94,7 @@ class BoardPath {
 public:
     using Gains = PathGains::Gains;
     static constexpr int mostFrames = 320;    ///< 40 ms: what is missing if a segment is lost
-    static constexpr int hurriedFrames = 160; ///< 20 ms: four tones in such segments use two thirds of the
-                                              ///< line
+    static constexpr int hurriedFrames = 160; ///< 20 ms: four tones in such take two thirds of the line
     static constexpr double tolerance = 0.5 / 127.0; ///< of full scale
     static constexpr double mostSlip = 1.0 / 64; ///< turns that a segment makes up: more would be perceptible
     static constexpr double mostJumpSeconds = 0.02; ///< of the clock: after a larger jump a segment starts at
@@ -167,8 +164,7 @@ public:
         isJoined_ = true;
     }
 
-    /// Skips the time of one segment, which is not played; the next one starts anew, possibly on another
-    /// clock.
+    /// Skips the time of one segment, which is not played; the next starts anew, maybe on another clock.
     void skip() noexcept {
         nextNs_ += mostFrames * (1'000'000'000LL / limits::board::sampleRateHz);
         hasBegun_ = true;
@@ -231,8 +227,7 @@ private:
 /// each begins at phase 0 on the board. Any thread.
 class BoardSteps {
 public:
-    static constexpr int leastMs = 20, mostMs = 60; ///< fewer than 50 per second, of the 720 that the line
-                                                    ///< transmits
+    static constexpr int leastMs = 20, mostMs = 60; ///< fewer than 50 per second, of 720 on the line
 
     explicit BoardSteps(const CollisionEvent& moving) noexcept
         : moving_{moving}

@@ -16,8 +16,7 @@ public:
     constexpr std::span<const std::uint8_t> feed(std::uint8_t byte) noexcept {
         if (byte != 0) {
             if (size_ < frame_.size()) frame_[size_] = byte;
-            size_ = std::min(size_ + 1, frame_.size() + 1); // one beyond the maximum marks a frame that is
-                                                            // too long
+            size_ = std::min(size_ + 1, frame_.size() + 1); // one beyond the maximum: the frame is too long
             return {};
         }
         const std::size_t size = size_;

@@ -48,8 +48,7 @@ constexpr std::size_t cobsEncode(std::span<const std::uint8_t> payload,
     return end;
 }
 
-/// Inverse of cobsEncode. Returns the payload's length, or -1 if the frame is invalid or `out` too small. Any
-/// thread.
+/// Inverse of cobsEncode. Returns the payload's length; -1: invalid, or `out` too small. Any thread.
 constexpr int cobsDecode(std::span<const std::uint8_t> frame, std::span<std::uint8_t> out) noexcept {
     std::size_t in = 0, end = 0;
     while (in < frame.size()) {

@@ -11,7 +11,6 @@
 #include "Core/Limits.h"
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 namespace physvib {
@@ -55,8 +54,7 @@ public:
     /// Relative to the computer's clock: 1e-6 is one ppm.
     double drift() const noexcept { return drift_; }
 
-    /// The longest transmission delay to the board among the stored pings; the output latency has to cover
-    /// it.
+    /// The longest delay to the board among the stored pings; the output latency has to cover it.
     double worstDelaySeconds() const noexcept {
         double worst = 0.0;
         for (int i = 0; i < count_; ++i)

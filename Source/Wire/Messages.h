@@ -17,12 +17,10 @@ namespace physvib::wire {
 
 constexpr std::uint8_t protocolVersion = 2; // 2: segments
 constexpr std::uint8_t segmentsSince = 2;
-constexpr int lineBitsPerSecond = 115200; // 8N1: 11,520 bytes a second, the speed of the thesis' Bluetooth
-                                          // module
+constexpr int lineBitsPerSecond = 115200; // 8N1: 11,520 bytes a second, as the thesis' Bluetooth module
 constexpr std::size_t maxPayload = 64;    // type, fields, CRC; leaves space for more telemetry
 constexpr std::size_t maxFrame = cobsMaxEncoded(maxPayload) + 1;
-constexpr int defaultWatchdogMs = 500;  // five pings missed: the computer is gone. A Hello cannot make it
-                                        // longer
+constexpr int defaultWatchdogMs = 500;  // five pings missed: the computer is gone. A Hello cannot lengthen it
 constexpr int pingsPerSecond = 10;      // also keeps the board's watchdog from muting it
 constexpr int firstPingsPerSecond = 50; // until the clock is known
 
@@ -46,8 +44,7 @@ enum class Type : std::uint8_t {
 struct Hello {
     static constexpr Type type = Type::hello;
     std::uint8_t version = protocolVersion;
-    std::uint16_t watchdogMs = defaultWatchdogMs; ///< without a message for so long the board mutes itself;
-                                                  ///< defaultWatchdogMs at most
+    std::uint16_t watchdogMs = defaultWatchdogMs; ///< so long without a message it mutes itself; at most this
     void visit(auto&& field) { field(version), field(watchdogMs); }
 };
 
@@ -218,8 +215,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Encodes the message for the line, with its final zero; returns the length. `out`: maxFrame bytes. Any
-/// thread.
+/// Encodes the message for the line, with its final zero; returns the length. `out`: of maxFrame. Any thread.
 template <class Message>
 constexpr std::size_t encode(Message message, std::span<std::uint8_t> out) noexcept {
     std::array<std::uint8_t, maxPayload> payload{};

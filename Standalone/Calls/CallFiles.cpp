@@ -22,8 +22,7 @@ void collect(const OptionTable& table, CallFiles& files) {
                 files.outputs.push_back(value);
             else
                 files.inputs.insert(files.inputs.end(),
-                                    {value, value.substr(value.find('=') + 1)}); // the latter for
-                                                                                 // MATERIAL=FILE.wav
+                                    {value, value.substr(value.find('=') + 1)}); // of MATERIAL=FILE
         }
     for (const OptionTable* const command : table.calls) collect(*command, files);
 }

@@ -54,8 +54,7 @@ Result<LayoutDescription> calibratedLayout(const RenderJob& options, LayoutDescr
 /// layout`). Message thread.
 std::vector<std::string> calibrationWarnings(const RenderJob& options, const LayoutDescription& layout);
 
-/// Notes on the cost of equalisation: the maximum level with a flat response in the band, per distinct
-/// actuator.
+/// Notes on the cost of equalisation: the highest level that is flat in the band, per distinct actuator.
 std::vector<std::string> levelNotes(const ActuatorChoice& choice, int sampleRateHz);
 
 /// Warnings on remapping: materials that end up less than one JND apart, and materials that decay faster than
@@ -71,16 +70,14 @@ struct CouplingChoice {
     std::string note;      ///< residual error and cost, in one line
 };
 
-/// Loads the coupling at `path`. One error line if it is not for the number of actuators in `layout`. Message
-/// thread only.
+/// Loads the coupling at `path`. One error line if it is not for the number of actuators in `layout`. M only.
 Result<CouplingChoice> chooseCoupling(const std::string& path, const LayoutDescription& layout);
 
 struct LoadedRender {
     const RenderJob& options;
     std::optional<Scene> scene; ///< none: events come from a list
     LayoutDescription layout;
-    std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first
-                                           ///< take's
+    std::optional<SavedSession> session{}; ///< what is rendered again; `scene` is its first take's
     SceneEvents made;
     FieldSize listField{};                      ///< of the list; not known: it says none, or there is no list
     SoundNames listNames{};                     ///< of the materials in the list
@@ -268,8 +265,7 @@ inline std::string takeRecordings(LoadedRender& job, const std::vector<Collision
     return {};
 }
 
-/// Takes the saved session that the options name into `job`: exitDone, or the code to leave with after a line
-/// on stderr.
+/// Takes the saved session that the options name into `job`: exitDone, or the code after a line on stderr.
 inline int takeSession(LoadedRender& job) {
     for (const char* own : {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--limiter"})
         if (job.options.given.contains(own))

@@ -53,8 +53,7 @@ struct RenderJob {
     InstructionSet instructions = InstructionSet::best;
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
-    double patienceSeconds = Patience::usualSeconds; ///< time limit for a world that is simulated slower than
-                                                     ///< real time
+    double patienceSeconds = Patience::usualSeconds; ///< for a world that is simulated slower than real time
     std::string layout = "phone4";                   ///< preset or path of a layout file
     FieldSize field; ///< unset: the field of the scene or list, or the layout's extent
     PanningLaw law = PanningLaw::automatic;
@@ -67,12 +66,10 @@ struct RenderJob {
     bool playsRecordings = false; ///< SV: play `sounds` instead of the method's modes
     double levelDb = 0.0;         ///< of all impacts
     double gamma = 0.0;           ///< Eq. 5.5: share of the amplitude at which a decay is cut; 0: not cut
-    bool isWeighted = false;      ///< weight levels so that impacts of one amplitude feel more equal across
-                                  ///< frequencies
+    bool isWeighted = false;      ///< so that impacts of one amplitude feel more equal across frequencies
     bool matchesStrength = false; ///< recordings get the mode's root mean square; else its peak
     RecordedSounds sounds;        ///< for SV and the contact sound
-    std::string contactSound; ///< output of the contact sound: a WAV of `render`, outputs of `play`; empty:
-                              ///< none
+    std::string contactSound;     ///< a WAV of `render`, outputs of `play`; empty: none
     double contactSoundDb = usualContactDb; ///< of a full-scale impact
     int contactSoundEars = 1; ///< of `render`; 2: left and right, by the impact's place in the field
     std::string marker;       ///< output of onset markers: a WAV of `render`, outputs of `play`; empty: none

@@ -10,8 +10,7 @@ namespace physvib {
 
 constexpr double longestMovieSeconds = 600.0; ///< limits memory and disk space for pictures
 
-/// The ending of a movie with sound, if this computer can write one, else of one without. Any thread but the
-/// render thread.
+/// The ending of a movie with sound, if this computer can write one, else of one without. Any thread but R.
 inline std::string movieEnding() { return hasProgram("ffmpeg") ? ".mp4" : ".webp"; }
 
 /// Writes a movie of the last `seconds` of the session, with all its scene runs and impacts in order

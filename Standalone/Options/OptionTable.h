@@ -16,8 +16,7 @@
 
 namespace physvib {
 
-/// Converts one argument, or all arguments of an option, to a value. Returns what was expected instead, or an
-/// empty string.
+/// Converts one argument, or all of an option, to a value. Returns what was expected instead, or "".
 using WordReader = std::function<std::string(const std::string&)>;
 using WordsReader = std::function<std::string(const std::vector<std::string>&)>;
 

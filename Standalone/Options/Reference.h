@@ -6,12 +6,10 @@
 #include <string>
 
 namespace physvib {
-/// Option that requests the reference, followed by a folder. It is undocumented, because only the build uses
-/// it.
+/// Option that requests the reference, followed by a folder. Undocumented: only the build uses it.
 inline constexpr const char* referenceWord = "--reference";
 
-/// Writes man1/, md/ (Docs/commands.md), bash/, zsh/ and fish/ into the folder. Empty, or one error line.
-/// Message thread.
+/// Writes man1/, md/ (Docs/commands.md), bash/, zsh/ and fish/ into the folder. Empty, or one error line. M.
 std::string writeReference(const OptionTable& program, const std::filesystem::path& folder);
 
 // Manual pages, generated from the option table.

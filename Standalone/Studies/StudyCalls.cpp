@@ -122,8 +122,7 @@ Result<FeltStimulus> felt(const WrittenCall& call, int sampleRateHz, const std::
     return job ? ofStimulus(job.value, sampleRateHz) : Failure{job.error};
 }
 
-/// The condition's layout is displayed and reported, but the call's layout plays. Empty, or an error if they
-/// differ.
+/// The condition's layout is displayed and reported, the call's layout plays. Empty, or an error if unequal.
 std::string layoutDifference(const ParsedCall& parsed, const ConditionPlan& condition,
                              const std::string& folder) {
     const std::string& felt =

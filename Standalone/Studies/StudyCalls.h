@@ -15,8 +15,7 @@ namespace physvib {
 struct FeltStimulus {
     Stimulus stimulus; ///< times start at 0
     LayoutDescription layout;
-    std::vector<float> gains; ///< per actuator: from the events' unit (g, or shares of full scale) to full
-                              ///< scale
+    std::vector<float> gains; ///< per actuator: from the events' unit (g, or shares) to full scale
     std::vector<ContactRecording> recordings; ///< play instead of modes; empty: modes
 };
 

@@ -9,8 +9,7 @@
 #include <vector>
 
 namespace physvib {
-/// A stimulus of a condition, or one part of it (an alternative or object), at a level that its sessions can
-/// reach.
+/// A stimulus of a condition, or a part of it (an alternative or object), at a level that its sessions reach.
 struct CheckedStimulus {
     std::size_t condition = 0; ///< index in the protocol
     std::string label, part;   ///< part is empty if there are none
@@ -40,8 +39,7 @@ struct StudyCheck {
     std::vector<std::string> deviations; ///< of a built-in protocol from the thesis
 };
 
-/// The check as text: a line per stimulus, then facts, deviations, errors and warnings. Any thread
-/// (allocates).
+/// The check as text: a line per stimulus, then facts, deviations, errors and warnings. Any thread.
 std::string textOf(const StudyCheck& check, const Protocol& protocol);
 
 /// The check as a self-contained HTML page. Any thread (allocates).
@@ -56,8 +54,7 @@ StudyCheck checkStudy(const Protocol& protocol, int participants, const std::fun
 /// phantoms only where their gains exceed the layout. Message thread.
 std::string studyFault(const Protocol& protocol);
 
-// Rules of a study's check: what cannot be told apart, as it renders alike, and what no number of trials
-// reaches.
+// Rules of a study's check: what renders alike, and what no number of trials reaches.
 
 /// Adds to the errors and warnings of a check whose stimuli have their prints. Errors: a level, a factor,
 /// alternatives or objects that change no sample; reversals, steps and times that cannot be reached.

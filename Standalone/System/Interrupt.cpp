@@ -32,8 +32,7 @@ void endWhatHangs() {
 } // namespace
 
 void heedInterrupts() {
-    catchEnding(interrupt, KeepIgnored::hangUp); // background jobs of scripts ignore SIGINT by default, so
-                                                 // handle it nevertheless
+    catchEnding(interrupt, KeepIgnored::hangUp); // scripts' jobs ignore SIGINT by default: handle it still
     ignoreLostReader();
     static std::atomic<bool> isWatched{false};
     if (!isWatched.exchange(true)) std::thread{endWhatHangs}.detach(); // runs until the program ends

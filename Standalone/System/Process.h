@@ -20,8 +20,7 @@ void beginProcess();
 enum class Standard { output, error };
 
 /// Writes some of `bytes` and returns their number; 0 if the stream has no room now; nullopt if writing
-/// failed, with the reason in `errno`. On Windows it may wait for the reader. One thread, not the render
-/// thread.
+/// failed, with the reason in `errno`. On Windows it may wait for the reader. One thread, not R.
 std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept;
 
 /// To be called last: empty if all standard output was written, or one line with the reason. Message thread.
@@ -38,15 +37,13 @@ enum class KeepIgnored {
     all,
     hangUp
 }; ///< which ignored signals stay ignored: all, or only that of a closed terminal, as `nohup` needs
-/// Calls `handler` on signals that ask the program to end (Ctrl-C, `kill`, a closed terminal). Message
-/// thread.
+/// Calls `handler` on signals that ask the program to end (Ctrl-C, `kill`, a closed terminal). M.
 void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept;
 
 /// Keeps the program running when the reader of standard output closes. Message thread.
 void ignoreLostReader() noexcept;
 
-/// True if standard error is a terminal, so that progress text can be overwritten. Any thread but the render
-/// thread.
+/// True if standard error is a terminal, so that progress text can be overwritten. Any thread but R.
 bool isErrorTerminal() noexcept;
 
 /// Reads standard input, waiting up to `milliseconds`: number of bytes, 0 at the end, nullopt if none came.

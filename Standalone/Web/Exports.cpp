@@ -74,8 +74,7 @@ const char* PHYSVIB_PAGE(scene)() {
     return tell(sceneJson(shown));
 }
 
-/// For each variable of the scene: its name, its value and all choices, one per line, followed by an empty
-/// line.
+/// For each variable of the scene: its name, its value and all choices, one per line, then an empty line.
 const char* PHYSVIB_PAGE(variables)() {
     std::string lines;
     for (const SceneVariable& variable : world->scene().variables) {

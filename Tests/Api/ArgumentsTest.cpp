@@ -19,8 +19,7 @@ constexpr physvib_int64 ms = 1'000'000;
 using Channels = std::array<std::vector<float>, channels>;
 
 physvib_renderer_settings plainSettings() {
-    physvib_renderer_settings settings;
-    physvib_renderer_settings_init(&settings, sizeof settings);
+    auto settings = test::begun(physvib_renderer_settings_init);
     settings.rate_hz = rate;
     settings.channels = channels;
     settings.limiter = 0;
@@ -179,12 +178,10 @@ struct Fall {
 
 std::string heardOf(const Fall& fall) {
     physvib_world world = nullptr;
-    physvib_world_settings settings;
-    physvib_world_settings_init(&settings, sizeof settings);
+    auto settings = test::begun(physvib_world_settings_init);
     EXPECT_EQ(physvib_world_create(&settings, &world), PHYSVIB_OK) << physvib_error();
     for (const int i : {0, 1}) {
-        physvib_body body;
-        physvib_body_init(&body, sizeof body);
+        auto body = test::begun(physvib_body_init);
         body.frequency_hz = 100.0 + 50.0 * i;
         body.decay_per_s = 20.0;
         body.is_camera = i;
@@ -223,8 +220,7 @@ std::string heardOf(const Fall& fall) {
                       PHYSVIB_OK);
         }
         if (step > 0) {
-            physvib_contact contact;
-            physvib_contact_init(&contact, sizeof contact);
+            auto contact = test::begun(physvib_contact_init);
             contact.a = 0;
             contact.b = 1;
             contact.x_m = 0.25;
@@ -327,15 +323,13 @@ TEST(Arguments, OnlyWhatFitsIsToldAsSentToAPad) {
     physvib_world world = nullptr;
     ASSERT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
     for (const int i : {0, 1}) {
-        physvib_body body;
-        physvib_body_init(&body, sizeof body);
+        auto body = test::begun(physvib_body_init);
         body.frequency_hz = 150.0, body.decay_per_s = 20.0;
         body.is_camera = i, body.mass_kg = i;
         ASSERT_EQ(physvib_world_set_body(world, i, &body), PHYSVIB_OK);
     }
     const auto hits = [&] {
-        physvib_contact contact;
-        physvib_contact_init(&contact, sizeof contact);
+        auto contact = test::begun(physvib_contact_init);
         contact.a = 0, contact.b = 1, contact.impulse_n_s = 1.0;
         EXPECT_EQ(physvib_world_begin_step(world, 0.01, 0.0), PHYSVIB_OK);
         EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK);

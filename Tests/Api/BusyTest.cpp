@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Two threads that render at once: one of them is told, and the renderer has rendered what the other asked.
+#include "Support/SizedEvents.h"
 #include <atomic>
 #include <chrono>
 #include <gtest/gtest.h>
@@ -11,8 +12,7 @@ namespace physvib {
 namespace {
 
 TEST(Busy, ASecondThreadIsToldAndEachFrameIsRenderedOnce) {
-    physvib_renderer_settings settings;
-    physvib_renderer_settings_init(&settings, sizeof settings);
+    auto settings = test::begun(physvib_renderer_settings_init);
     physvib_renderer renderer = nullptr;
     ASSERT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_OK) << physvib_error();
     constexpr int frames = 4096;
@@ -34,8 +34,7 @@ TEST(Busy, ASecondThreadIsToldAndEachFrameIsRenderedOnce) {
     two.join();
     EXPECT_GT(busy, 0) << "two threads rendered at once " << done << " times";
     EXPECT_EQ(others, 0);
-    physvib_renderer_status status;
-    physvib_renderer_status_init(&status, sizeof status);
+    auto status = test::begun(physvib_renderer_status_init);
     ASSERT_EQ(physvib_renderer_get_status(renderer, &status), PHYSVIB_OK);
     EXPECT_EQ(status.frames, static_cast<physvib_int64>(done) * frames);
     EXPECT_EQ(physvib_renderer_free(renderer), PHYSVIB_OK);

@@ -20,15 +20,10 @@
 namespace physvib {
 namespace {
 
-physvib_renderer_settings settings() {
-    physvib_renderer_settings values;
-    physvib_renderer_settings_init(&values, sizeof values);
-    return values;
-}
+physvib_renderer_settings settings() { return test::begun(physvib_renderer_settings_init); }
 
 physvib_event strikeAt(physvib_int64 timeNs) {
-    physvib_event event;
-    physvib_event_init(&event, sizeof event);
+    auto event = test::begun(physvib_event_init);
     event.time_ns = timeNs;
     event.frequency_hz = 200.0;
     event.decay_per_s = 30.0;
@@ -55,8 +50,7 @@ physvib_renderer renderer() {
 physvib_world worldOfABall() {
     physvib_world world = nullptr;
     EXPECT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK) << physvib_error();
-    physvib_body body;
-    physvib_body_init(&body, sizeof body);
+    auto body = test::begun(physvib_body_init);
     EXPECT_EQ(physvib_world_set_body(world, 0, &body), PHYSVIB_OK);
     body.mass_kg = 2.0;
     body.is_camera = 1;
@@ -68,8 +62,7 @@ physvib_world worldOfABall() {
 
 /// The ball on the floor, and nothing else told yet.
 physvib_contact touching() {
-    physvib_contact contact;
-    physvib_contact_init(&contact, sizeof contact);
+    auto contact = test::begun(physvib_contact_init);
     contact.a = 0;
     contact.b = 1;
     return contact;
@@ -129,8 +122,7 @@ TEST(Calls, WhatIsPulledIsWhatIsRendered) {
             sum += std::abs(static_cast<double>(pulled[at]));
         }
     EXPECT_GT(sum, 1.0);
-    physvib_renderer_status status;
-    physvib_renderer_status_init(&status, sizeof status);
+    auto status = test::begun(physvib_renderer_status_init);
     ASSERT_EQ(physvib_renderer_get_status(one, &status), PHYSVIB_OK);
     EXPECT_EQ(status.played, 2);
     EXPECT_EQ(status.late, 0);
@@ -157,8 +149,7 @@ TEST(Calls, ALandingIsFeltByItsImpulse) {
 
 TEST(Calls, ABodyIsOnTheDeviceThatItWasGivenLast) {
     const physvib_world world = worldOfABall();
-    physvib_body body;
-    physvib_body_init(&body, sizeof body);
+    auto body = test::begun(physvib_body_init);
     for (const int device : {0, 3, 1, 0, 2}) {
         body.device = device;
         EXPECT_EQ(physvib_world_set_body(world, 1, &body), PHYSVIB_OK);
@@ -169,8 +160,7 @@ TEST(Calls, ABodyIsOnTheDeviceThatItWasGivenLast) {
 
 TEST(Calls, WhatRollsOverGrainsIsFelt) {
     const physvib_world world = worldOfABall();
-    physvib_body floor;
-    physvib_body_init(&floor, sizeof floor);
+    auto floor = test::begun(physvib_body_init);
     floor.frequency_hz = 250.0;
     floor.decay_per_s = 20.0;
     floor.grain_m = 0.002;
@@ -271,8 +261,7 @@ TEST(Calls, AnImpactInSpaceFollowsFromTheMotionAndTheInverseInertia) {
 }
 
 physvib_world_counts countsOf(physvib_world world) {
-    physvib_world_counts counts;
-    physvib_world_counts_init(&counts, sizeof counts);
+    auto counts = test::begun(physvib_world_counts_init);
     EXPECT_EQ(physvib_world_get_counts(world, &counts), PHYSVIB_OK) << physvib_error();
     return counts;
 }
@@ -295,8 +284,7 @@ TEST(Calls, EveryReasonWhyNothingIsFeltIsCountedAndSaid) {
     EXPECT_NEAR(countsOf(world).threshold_m_per_s, 0.15, 1e-9);
     EXPECT_NE(explained(world).find("threshold of 0.15 m/s"), std::string::npos);
 
-    physvib_world_settings muted;
-    physvib_world_settings_init(&muted, sizeof muted);
+    auto muted = test::begun(physvib_world_settings_init);
     muted.is_muted = 1;
     ASSERT_EQ(physvib_world_configure(world, &muted), PHYSVIB_OK);
     for (int i = 0; i < 2; ++i) {
@@ -307,8 +295,7 @@ TEST(Calls, EveryReasonWhyNothingIsFeltIsCountedAndSaid) {
     EXPECT_EQ(countsOf(world).muted, 2);
     EXPECT_NE(explained(world).find("muted"), std::string::npos);
 
-    physvib_body silent;
-    physvib_body_init(&silent, sizeof silent);
+    auto silent = test::begun(physvib_body_init);
     silent.mass_kg = 2.0;
     silent.is_camera = 1;
     ASSERT_EQ(physvib_world_set_body(world, 1, &silent), PHYSVIB_OK);
@@ -334,8 +321,7 @@ TEST(Calls, EveryReasonWhyNothingIsFeltIsCountedAndSaid) {
 
 TEST(Calls, ValuesThatCanNeverBeFeltAreRefusedWithTheWordThatIsMissing) {
     const physvib_world world = worldOfABall();
-    physvib_body body;
-    physvib_body_init(&body, sizeof body);
+    auto body = test::begun(physvib_body_init);
     body.is_camera = 1;
     body.mass_kg = 1.0;
     body.frequency_hz = 200.0;
@@ -349,8 +335,7 @@ TEST(Calls, ValuesThatCanNeverBeFeltAreRefusedWithTheWordThatIsMissing) {
     body.frequency_hz = 3.0; // a coil would be held at nearly direct current
     EXPECT_EQ(physvib_world_set_body(world, 3, &body), PHYSVIB_ERROR_ARGUMENT);
     EXPECT_EQ(physvib_world_set_body(world, -2, &body), PHYSVIB_ERROR_ARGUMENT);
-    physvib_world_settings settings;
-    physvib_world_settings_init(&settings, sizeof settings);
+    auto settings = test::begun(physvib_world_settings_init);
     settings.threshold_m_per_s = -1.0;
     EXPECT_EQ(physvib_world_configure(world, &settings), PHYSVIB_ERROR_ARGUMENT);
     EXPECT_STREQ(physvib_error(), "threshold: expected 0 m/s or more");
@@ -548,8 +533,7 @@ TEST(Calls, OneThreadStrikesAnotherPullsAThirdFrees) {
         EXPECT_EQ(physvib_renderer_pull_interleaved(one, samples.data(), 4, 64), PHYSVIB_ERROR_HANDLE);
     });
     while (!isOver) {
-        physvib_renderer_status status;
-        physvib_renderer_status_init(&status, sizeof status);
+        auto status = test::begun(physvib_renderer_status_init);
         physvib_renderer_get_status(one, &status);
         std::this_thread::yield();
     }

@@ -11,7 +11,6 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <iterator>
-#include <numbers>
 #include <physvib/physvib.h>
 #include <regex>
 #include <set>
@@ -349,8 +348,7 @@ void expectEachIsRendered(const std::string& structure, const std::set<std::stri
                           const std::vector<RenderRow>& rows) {
     std::set<std::string> inTable;
     for (const RenderRow& row : rows) {
-        physvib_renderer_settings settings;
-        physvib_renderer_settings_init(&settings, sizeof settings);
+        auto settings = test::begun(physvib_renderer_settings_init);
         settings.layout.part[1] = physvib_part("thumb");
         settings.exponent = 2.0; // with 1, what travels has a law of its own
         settings.law = PHYSVIB_LAW_ENERGY;

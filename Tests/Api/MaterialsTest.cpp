@@ -16,8 +16,7 @@ namespace physvib {
 namespace {
 
 physvib_body body() {
-    physvib_body made;
-    physvib_body_init(&made, sizeof made);
+    auto made = test::begun(physvib_body_init);
     made.mass_kg = 0.25;
     made.is_camera = 1;
     made.overtone_hz[1] = 500.0;
@@ -109,8 +108,7 @@ TEST(Impact, IsAnEventOfThatStrengthAndMaterial) {
 
 TEST(Impact, OfARendererSoundsFromTheNextPullOnAndIsNotLate) {
     for (const int rateHz : {44100, 48000}) { // a frame of the first is no whole number of nanoseconds
-        physvib_renderer_settings settings;
-        physvib_renderer_settings_init(&settings, sizeof settings);
+        auto settings = test::begun(physvib_renderer_settings_init);
         settings.rate_hz = rateHz;
         settings.limiter = 0;
         physvib_layout_preset("phone1", &settings.layout);
@@ -129,8 +127,7 @@ TEST(Impact, OfARendererSoundsFromTheNextPullOnAndIsNotLate) {
             EXPECT_NEAR(block[static_cast<std::size_t>(n)],
                         0.5 * std::sin(2.0 * M_PI * 430.0 * t) * std::exp(-11.97 * t), 1.0e-5);
         }
-        physvib_renderer_status status;
-        physvib_renderer_status_init(&status, sizeof status);
+        auto status = test::begun(physvib_renderer_status_init);
         physvib_renderer_get_status(renderer, &status);
         EXPECT_EQ(status.played, 1);
         EXPECT_EQ(status.late, 0);
@@ -143,8 +140,7 @@ TEST(Impact, OfARendererSoundsFromTheNextPullOnAndIsNotLate) {
 }
 
 TEST(Gain, AWorldOfTheCLibraryLearnsItsLevel) {
-    physvib_world_settings settings;
-    physvib_world_settings_init(&settings, sizeof settings);
+    auto settings = test::begun(physvib_world_settings_init);
     EXPECT_EQ(settings.full_scale_impulse_n_s, 0.0);
     EXPECT_EQ(settings.settling_s, 0.0);
     settings.full_scale_impulse_n_s = PHYSVIB_AUTOMATIC;
@@ -160,8 +156,7 @@ TEST(Gain, AWorldOfTheCLibraryLearnsItsLevel) {
     ball.decay_per_s = 30.0;
     physvib_world_set_body(world, 0, &floor);
     physvib_world_set_body(world, 1, &ball);
-    physvib_contact contact;
-    physvib_contact_init(&contact, sizeof contact);
+    auto contact = test::begun(physvib_contact_init);
     contact.a = 0;
     contact.b = 1;
     contact.impulse_n_s = 40.0;

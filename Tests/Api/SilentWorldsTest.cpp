@@ -342,8 +342,7 @@ TEST(SilentWorlds, AreExplainedByTheFactsOfAnyOutput) {
     const auto why = [](const std::function<void(physvib_output_facts&)>& change) {
         Silent silent;
         silent.hit();
-        physvib_output_facts facts;
-        physvib_output_facts_init(&facts, sizeof facts);
+        auto facts = test::begun(physvib_output_facts_init);
         facts.renderer = &silent.output;
         change(facts);
         std::array<char, 512> text{};

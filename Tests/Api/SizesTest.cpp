@@ -58,8 +58,7 @@ std::string temporary(const char* name) {
 }
 
 std::vector<float> rendered(const physvib_event* list, physvib_int64 count) {
-    physvib_renderer_settings settings;
-    physvib_renderer_settings_init(&settings, sizeof settings);
+    auto settings = test::begun(physvib_renderer_settings_init);
     std::vector<float> samples(4 * 4800);
     EXPECT_EQ(physvib_render(&settings, list, count, 4800, samples.data()), PHYSVIB_OK) << physvib_error();
     return samples;
@@ -127,14 +126,12 @@ TEST(Sizes, OneEventIsAsLongAsItSays) {
         EXPECT_TRUE(made.isKeptBehind(1)) << size;
         SizedEvents given{size, std::span{one}.last(1)};
         physvib_renderer renderer = nullptr;
-        physvib_renderer_settings settings;
-        physvib_renderer_settings_init(&settings, sizeof settings);
+        auto settings = test::begun(physvib_renderer_settings_init);
         ASSERT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_OK);
         EXPECT_EQ(physvib_renderer_strike(renderer, given.data()), PHYSVIB_OK) << physvib_error();
         std::vector<float> samples(4 * 480);
         EXPECT_EQ(physvib_renderer_pull_interleaved(renderer, samples.data(), 4, 480), PHYSVIB_OK);
-        physvib_renderer_status status;
-        physvib_renderer_status_init(&status, sizeof status);
+        auto status = test::begun(physvib_renderer_status_init);
         EXPECT_EQ(physvib_renderer_get_status(renderer, &status), PHYSVIB_OK);
         EXPECT_EQ(status.played, 1);
         EXPECT_EQ(physvib_renderer_free(renderer), PHYSVIB_OK);
@@ -155,8 +152,7 @@ TEST(Sizes, AnEventOfAnUnknownSizeIsRefusedAndNothingHappens) {
          {sizeof(physvib_event) + 8, std::size_t{0}, std::size_t{1}, ~std::size_t{0}}) {
         SizedEvents given{sizeof(physvib_event) + 8, list}, room{sizeof(physvib_event) + 8, 3};
         given.say(said), room.say(said);
-        physvib_renderer_settings settings;
-        physvib_renderer_settings_init(&settings, sizeof settings);
+        auto settings = test::begun(physvib_renderer_settings_init);
         float sample = 0.5F;
         const auto expectRefused = [](physvib_int64 code) {
             EXPECT_EQ(code, PHYSVIB_ERROR_ARGUMENT);
@@ -191,8 +187,7 @@ TEST(Sizes, AnEventOfAnUnknownSizeIsRefusedAndNothingHappens) {
 
 TEST(Sizes, AListIsOfOneSize) {
     auto list = events();
-    physvib_renderer_settings settings;
-    physvib_renderer_settings_init(&settings, sizeof settings);
+    auto settings = test::begun(physvib_renderer_settings_init);
     float sample = 0.0F;
     for (physvib_event& event : list) event.size = sizeof event;
     EXPECT_EQ(physvib_render(&settings, list.data(), 3, 0, &sample), PHYSVIB_OK) << physvib_error();

@@ -16,8 +16,7 @@ namespace physvib {
 namespace {
 
 physvib_event tapAt(double x, double y, double z, const char* part = nullptr) {
-    physvib_event event;
-    physvib_event_init(&event, sizeof event);
+    auto event = test::begun(physvib_event_init);
     event.frequency_hz = 1000.0;
     event.duration_ns = 2'000'000;
     event.amplitude = 0.5;
@@ -28,8 +27,7 @@ physvib_event tapAt(double x, double y, double z, const char* part = nullptr) {
 
 /// The largest sample of each channel over that of a gain of 1.
 std::vector<double> gainsOf(const physvib_layout& layout, const physvib_event& event, int law) {
-    physvib_renderer_settings settings;
-    physvib_renderer_settings_init(&settings, sizeof settings);
+    auto settings = test::begun(physvib_renderer_settings_init);
     settings.layout = layout;
     settings.law = law;
     settings.limiter = 0;
@@ -93,8 +91,7 @@ TEST(SpaceCalls, LayoutsAndListsKeepDepthAndPart) {
 }
 
 TEST(SpaceCalls, WrongDepthsAndPartsAreRefused) {
-    physvib_renderer_settings settings;
-    physvib_renderer_settings_init(&settings, sizeof settings);
+    auto settings = test::begun(physvib_renderer_settings_init);
     std::array<float, 4> sample{};
     auto event = tapAt(0.0, 0.0, std::numeric_limits<double>::infinity());
     EXPECT_EQ(physvib_render(&settings, &event, 1, 1, sample.data()), PHYSVIB_ERROR_ARGUMENT);

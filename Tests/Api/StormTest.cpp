@@ -24,12 +24,10 @@ double millisecondsOf(Work work) {
 /// A floor and 2,000 balls of so many materials above it, which all land in one step, harder and harder.
 struct Storm {
     explicit Storm(int materials, int hitsPerStep = -1) {
-        physvib_world_settings settings;
-        physvib_world_settings_init(&settings, sizeof settings);
+        auto settings = test::begun(physvib_world_settings_init);
         settings.hits_per_step = hitsPerStep;
         EXPECT_EQ(physvib_world_create(&settings, &world), PHYSVIB_OK) << physvib_error();
-        physvib_body body;
-        physvib_body_init(&body, sizeof body);
+        auto body = test::begun(physvib_body_init);
         physvib_world_set_body(world, 0, &body);
         body.is_camera = 1, body.mass_kg = 0.1;
         for (int i = 1; i <= bodies; ++i) {
@@ -45,8 +43,7 @@ struct Storm {
     std::vector<physvib_event> land() {
         physvib_world_begin_step(world, 0.01, 9.81);
         physvib_world_end_step(world);
-        physvib_contact contact;
-        physvib_contact_init(&contact, sizeof contact);
+        auto contact = test::begun(physvib_contact_init);
         contact.b = 0, contact.normal_y = -1.0;
         milliseconds = millisecondsOf([&] {
             physvib_world_begin_step(world, 0.01, 9.81);
@@ -63,8 +60,7 @@ struct Storm {
         return events;
     }
     physvib_world_counts counts() const {
-        physvib_world_counts counts;
-        physvib_world_counts_init(&counts, sizeof counts);
+        auto counts = test::begun(physvib_world_counts_init);
         EXPECT_EQ(physvib_world_get_counts(world, &counts), PHYSVIB_OK);
         return counts;
     }
@@ -81,8 +77,7 @@ TEST(Storm, TheStrongestThousandOfOneStepBecomeEventsAndAllOfThemArePlayed) {
         for (const physvib_event& event : events)
             EXPECT_GT(event.fixture, bodies - static_cast<int>(room))
                 << "harder and harder: the last are the strongest";
-        physvib_renderer_settings output;
-        physvib_renderer_settings_init(&output, sizeof output);
+        auto output = test::begun(physvib_renderer_settings_init);
         output.field_width_m = output.field_height_m = 1.0;
         physvib_renderer renderer = nullptr;
         ASSERT_EQ(physvib_renderer_create(&output, &renderer), PHYSVIB_OK) << physvib_error();

@@ -69,8 +69,7 @@ void silence(benchmark::State& state) {
 BENCHMARK(silence);
 
 /// Argument: strikes a second on 16 materials, 8 channels. By turns with the same chain at 10 strikes a
-/// second, all of whose modes sound as well: the flat part. `flat_%`: it measured in the same way, at 20 a
-/// second.
+/// second, all of whose modes sound as well: the flat part. `flat_%`: it in the same way, at 20 a second.
 void strikes(benchmark::State& state) {
     const int rate = static_cast<int>(state.range(0));
     RainedOn flat{8, 16, 16}, rained{8, rate, 16};

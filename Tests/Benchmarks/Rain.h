@@ -3,7 +3,6 @@
 #pragma once
 #include "Core/HapticRenderer.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <random>

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Another end of a board's line, that says what it is told to.
 #pragma once
-#include "Live/Session/BoardLink.h"
+#include "Host/FakeAudioDevice.h"
+#include "Live/Devices/AudioOutput.h"
+#include "Live/Session/BoardOutput.h"
+#include "Session/WallsScene.h"
+#include "VirtualBoard.h"
 #include "VirtualBoard/PseudoTerminal.h"
 #include "Wire/FrameDecoder.h"
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <gtest/gtest.h>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -138,5 +143,33 @@ inline wire::HelloReply ours() {
     reply.watchdogMs = wire::defaultWatchdogMs;
     return reply;
 }
+
+/// A session on the board, beside a device that keeps time, whatever else runs here.
+struct BesideDevice {
+    explicit BesideDevice(const FakeBoard& board)
+        : onBoard{board.port(), setup.panner, 0.3} { // other programs may hold this one up
+        setup.channels = 4;
+        EXPECT_TRUE(test::comesTrue([&] { return onBoard.state().isReady; }));
+        session.emplace(setup).sinks().attach(onBoard);
+        hands.block = 480;
+        EXPECT_EQ(output.emplace(*session, test::fakeDrivers({&hands})).open({"hands", {}, 0, 0, 0.5f}), "");
+        together.emplace(session->sinks(), *output);
+        due = std::chrono::steady_clock::now();
+        for (int i = 0; i < 10; ++i) goOn();
+    }
+    void goOn() {
+        hands.play(hands.block);
+        session->advance();
+        std::this_thread::sleep_until(due += std::chrono::milliseconds(10));
+    }
+
+    SessionSetup setup = test::setupOfWalls();
+    BoardOutput onBoard;
+    std::optional<Session> session;
+    test::FakeInterface hands;
+    std::optional<AudioOutput> output;
+    std::optional<Following> together;
+    std::chrono::steady_clock::time_point due; // of the next block
+};
 
 } // namespace physvib

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boards that answer as none should, and one whose counter is over: what the link makes of them.
 #include "FakeBoard.h"
-#include "Host/FakeAudioDevice.h"
-#include "Live/Devices/AudioOutput.h"
-#include "Live/Session/BoardOutput.h"
-#include "Session/WallsScene.h"
-#include "VirtualBoard.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -76,24 +71,7 @@ TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {
 
 /// From A to B to D in a second, on a session beside a fake device, until the board has been told to its end.
 BoardLinkStatus playPath(FakeBoard& board) {
-    SessionSetup setup = test::setupOfWalls();
-    setup.channels = 4;
-    BoardOutput onBoard{board.port(), setup.panner, 0.3}; // other programs may hold this one up
-    EXPECT_TRUE(test::comesTrue([&] { return onBoard.state().isReady; }));
-    Session session{setup};
-    session.sinks().attach(onBoard);
-    test::FakeInterface hands;
-    hands.block = 480;
-    AudioOutput output{session, test::fakeDrivers({&hands})};
-    EXPECT_EQ(output.open({"hands", {}, 0, 0, 0.5f}), "");
-    const Following together{session.sinks(), output};
-    auto due = std::chrono::steady_clock::now(); // a device that keeps time, whatever else runs here
-    const auto goOn = [&] {
-        hands.play(hands.block);
-        session.advance();
-        std::this_thread::sleep_until(due += std::chrono::milliseconds(10));
-    };
-    for (int i = 0; i < 10; ++i) goOn();
+    BesideDevice played{board};
     CollisionEvent first;
     first.frequencyHz = 205.0;
     first.amplitude = 0.5;
@@ -106,12 +84,12 @@ BoardLinkStatus playPath(FakeBoard& board) {
     second.durationNs = 600 * ms;
     second.course = {4.0, 0.0, second.durationNs, first.durationNs};
     second.spread = Spread::equal;
-    EXPECT_TRUE(session.submit({Strikes{std::array{first, second}}}));
+    EXPECT_TRUE(played.session->submit({Strikes{std::array{first, second}}}));
     EXPECT_TRUE(test::comesTrue([&] {
-        goOn();
-        return session.timeline().presentNs() > 2'000 * ms;
+        played.goOn();
+        return played.session->timeline().presentNs() > 2'000 * ms;
     }));
-    const auto now = onBoard.status();
+    const auto now = played.onBoard.status();
     EXPECT_EQ(board.segments().size(), now.segments);
     EXPECT_EQ(board.strikes().size(), now.sent);
     return now;

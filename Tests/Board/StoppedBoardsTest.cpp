@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a board is sent after a stop, and what is told of it after a call.
 #include "FakeBoard.h"
-#include "Host/FakeAudioDevice.h"
-#include "Live/Devices/AudioOutput.h"
-#include "Live/Session/BoardOutput.h"
-#include "Session/WallsScene.h"
-#include "VirtualBoard.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -18,24 +13,9 @@ constexpr std::int64_t ms = 1'000'000;
 TEST(StoppedBoards, GetNothingOfWhatWasBefore) {
     for (const int tones : {1, 4, 6}) { // more than four do not move as segments
         FakeBoard board{ours(), 0};
-        SessionSetup setup = test::setupOfWalls();
-        setup.channels = 4;
-        BoardOutput onBoard{board.port(), setup.panner, 0.3};
-        ASSERT_TRUE(test::comesTrue([&] { return onBoard.state().isReady; }));
-        Session session{setup};
-        session.sinks().attach(onBoard);
-        test::FakeInterface hands;
-        hands.block = 480;
-        AudioOutput output{session, test::fakeDrivers({&hands})};
-        ASSERT_EQ(output.open({"hands", {}, 0, 0, 0.5f}), "");
-        const Following together{session.sinks(), output};
-        auto due = std::chrono::steady_clock::now();
-        const auto goOn = [&] {
-            hands.play(hands.block);
-            session.advance();
-            std::this_thread::sleep_until(due += std::chrono::milliseconds(10));
-        };
-        for (int i = 0; i < 10; ++i) goOn();
+        BesideDevice played{board};
+        Session& session = *played.session;
+        const auto goOn = [&] { played.goOn(); };
         std::vector<CollisionEvent> events(static_cast<std::size_t>(tones));
         for (std::size_t i = 0; i < events.size(); ++i) {
             events[i].frequencyHz = 150.0 + 20.0 * static_cast<double>(i);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib analyse` as researchers and scripts hold on to it: lines, warnings, refusals.
 #include "Calls.h"
-#include <algorithm>
 
 namespace physvib {
 namespace {

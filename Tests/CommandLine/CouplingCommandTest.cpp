@@ -3,9 +3,7 @@
 #include "Calls.h"
 #include "TestPlaces.h"
 #include <cmath>
-#include <complex>
 #include <cstring>
-#include <numbers>
 #include <sstream>
 
 namespace physvib {

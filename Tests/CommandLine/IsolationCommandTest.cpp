@@ -3,7 +3,6 @@
 #include "Calls.h"
 #include "Lab/Files/CouplingFile.h"
 #include <cmath>
-#include <complex>
 #include <cstring>
 #include <numbers>
 

@@ -2,7 +2,6 @@
 // Every protocol of Docs/protocol-examples from its check to its report by simulated participants; and a
 // report with the times of a person's study.
 #include "Calls.h"
-#include <algorithm>
 
 namespace physvib {
 namespace {

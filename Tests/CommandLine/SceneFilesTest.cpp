@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib render SCENE.json` and `--set`: anybody's world, and its variables.
 #include "Calls.h"
-#include <algorithm>
 
 namespace physvib {
 namespace {

@@ -2,7 +2,6 @@
 // Protocols that are well written and answer nothing: `physvib study check` names each, `study run` refuses
 // what the check refuses, and the protocols that are shipped have none of it.
 #include "Calls.h"
-#include <algorithm>
 #include <sstream>
 
 namespace physvib {

@@ -3,7 +3,6 @@
 #include "Calls.h"
 #include "Core/Units.h"
 #include "Io/Text/NumberText.h"
-#include <algorithm>
 #include <map>
 #include <sstream>
 

@@ -256,8 +256,7 @@ TEST_F(Study, AFixedLevelPeaksAtOneAndAHalfGInEveryTrialOfEightMethodsAndNoLimit
             EXPECT_EQ(outcome.err.find("limiter"), std::string::npos) << outcome.err;
             ASSERT_EQ(call(render + "off.wav --limiter off").exitCode, 0);
             const std::string on = read("on.wav"), off = read("off.wav");
-            // Rubber's own frequency is so low that hits at a fixed level have a mean of 0.09: the guard
-            // acts.
+            // Rubber's own frequency is so low that fixed-level hits have a mean of 0.09: the guard acts.
             const bool isGuarded = pair == "rubber-concrete" && method.starts_with("AF-FV");
             EXPECT_EQ(on.substr(on.find("data")) != off.substr(off.find("data")), isGuarded)
                 << method << ' ' << pair << ": the limiter or the guard acted";

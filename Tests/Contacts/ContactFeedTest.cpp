@@ -177,8 +177,7 @@ TEST_F(ContactFeedTest, ACollisionOfASoftContactIsItsSpeedsAndNotWhatOneStepPush
     EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 2.0 * 2.0 * 1.5);
 }
 
-// A face ahead leaves the speed that its gap takes, a spring most of it, an edge that is rolled over nearly
-// all.
+// A face ahead leaves the speed that its gap takes, a spring most of it, an edge rolled over nearly all.
 TEST_F(ContactFeedTest, ACollisionIsWhatTheSolverChangedAndLeft) {
     FedContact contact = landing();
     contact.isSoft = true;

@@ -2,7 +2,6 @@
 // Points of pairs: what is new while its pair touches is a collision, and what is told at several points is
 // solved together.
 #include "Contacts/ContactFeed.h"
-#include <cmath>
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -203,8 +202,7 @@ TEST_F(ContactPoints, ARowHandsOnByMomentumAlone) {
             contact.b = id + 1;
             contact.normal = {1.0F, 0.0F};
             contact.isSoft = true;
-            contact.restitution = 0.9; // the collision is told by its speed, and is the most that can be
-                                       // handed on
+            contact.restitution = 0.9;           // told by its speed, and the most that can be
             contact.impulseNewtonSeconds = 77.0; // whatever the engine says
             touch(contact);
         }

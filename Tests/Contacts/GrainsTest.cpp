@@ -74,8 +74,7 @@ TEST(Grains, ThinnedOnesAreSomeOfThem) {
 
 /// Power of half a minute's impulses in third octaves from 63 to 500 Hz, dB.
 std::vector<double> thirdOctaves(const Grains& grains, double metresPerSecond, std::int64_t every) {
-    constexpr double rate = 5000.0, length = 32.0; // four times the thinned grains: their tones fold onto
-                                                   // themselves
+    constexpr double rate = 5000.0, length = 32.0; // four times the thinned grains: their tones fold back
     std::vector<double> impulses(static_cast<std::size_t>(rate * length));
     grains.along({0.0, metresPerSecond, 0.0, length}, every, [&](std::int64_t index, double t) {
         const auto at = std::min(static_cast<std::size_t>(t * rate), impulses.size() - 1);

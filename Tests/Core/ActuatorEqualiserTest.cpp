@@ -9,8 +9,7 @@
 namespace physvib {
 namespace {
 
-/// The actuators of the profiles, whose Q nobody printed, with some that are likely, and bands to ask of
-/// them.
+/// The actuators of the profiles, whose Q nobody printed, with some likely ones, and bands to ask of them.
 using Case = EqualisedActuator;
 constexpr Case cases[] = {{{205, 8}, {180, 230}}, {{205, 20}, {150, 300}}, {{230, 15}, {180, 300}},
                           {{110, 2}, {90, 1000}}, {{110, 3}, {60, 800}},   {{60, 0.3}, {40, 500}}};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // LatestValue: the newest value, whole, never going back.
 #include "Core/EventQueue.h"
-#include <atomic>
 #include <gtest/gtest.h>
 #include <thread>
 

@@ -172,8 +172,7 @@ TEST(PhantomPanner, GrainsAreFeltWhereTheyAre) {
     }
 }
 
-// Every law has a row in Docs/panning.md, in this order, with the gains that its formula has at 1/4, 1/2 and
-// 3/4.
+// Every law has a row in Docs/panning.md, in this order, with its formula's gains at 1/4, 1/2 and 3/4.
 TEST(PhantomPanner, ThePageHasTheTableOfLaws) {
     std::ifstream page{PHYSVIB_SOURCE_DIR "/Docs/panning.md"};
     std::string line;

@@ -7,7 +7,6 @@
 #include "Support/Rendering.h"
 #include <cmath>
 #include <gtest/gtest.h>
-#include <string>
 
 namespace physvib {
 namespace {

@@ -9,8 +9,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <memory>
-#include <string>
-#include <tuple>
 
 namespace physvib {
 namespace {
@@ -74,8 +72,7 @@ TEST(StopsOfMotors, EndWhatRingsWithTheNextCommand) {
 
 /// A store of 64 that do not merge; who is left is heard by how long it goes on.
 TEST(FullMotors, LoseTheWeakestWhicheverThatIs) {
-    for (const double amplitude : {0.1, 0.3, 0.9}) { // of one more: weaker than, and stronger than the
-                                                     // weakest
+    for (const double amplitude : {0.1, 0.3, 0.9}) { // of one more: weaker, stronger than the weakest
         PadMotors motors{PadLaw{}};
         const auto strike = [&](double a, std::int64_t endMs) {
             motors.strike(tone(100 * ms, a, (endMs - 100) * ms, 0.0), grips());

@@ -2,7 +2,6 @@
 // Where a tone is cut.
 #include "Core/Samples.h"
 #include <gtest/gtest.h>
-#include <numbers>
 #include <random>
 
 namespace physvib {

@@ -159,8 +159,7 @@ TEST(PluginState, WhatIsWrongIsNamed) {
     EXPECT_NE(refusal(text, "{", "").find("f: line 2"), std::string::npos);
 }
 
-TEST(PluginState, AStateOfVersionOneStaysReadable) { // the file is never written again: hosts keep such
-                                                     // states for years
+TEST(PluginState, AStateOfVersionOneStaysReadable) { // hosts keep such states for years
     const auto text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Documents/plugin-state-1.json", 1'000'000);
     ASSERT_TRUE(text) << text.error;
     const auto read = readPluginState(text.value, "f");

@@ -4,7 +4,6 @@
 #pragma once
 #include "Engine.h"
 #include "Trace.h"
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>

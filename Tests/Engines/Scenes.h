@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <string_view>
-#include <vector>
 
 namespace scenes {
 
@@ -129,8 +128,7 @@ inline bool pole(const char* name, Engine& engine, int rate) {
     return isFine;
 }
 
-/// A box rests on a plank, which is shot up under it: felt once, as hard as what the box gains, and not
-/// before.
+/// A box rests on a plank, which is shot up under it: felt once, as hard as the box gains, not before.
 inline bool kick(const char* name, Engine& engine, int rate) {
     engine.world = plainWorld();
     engine.begin(1.0 / rate, gravity, 0.0, 0.5);

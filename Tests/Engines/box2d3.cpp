@@ -3,7 +3,6 @@
 // compiles it.
 #include "Falls.h"
 #include "Scenes.h"
-#include <cstdint>
 #include <cstring>
 #include <map>
 #include <physvib/engines/physvib_box2d3.h>

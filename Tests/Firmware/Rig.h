@@ -74,8 +74,7 @@ public:
     std::uint32_t frame() { return static_cast<std::uint32_t>(board.io().frames.size()); }
     std::vector<BoardFrame>& codes() { return board.io().frames; }
 
-    /// Sends the events 60 ms before their onsets, or as soon as the line lets them, and plays on to frame
-    /// `end`.
+    /// Sends the events 60 ms before their onsets, or as the line lets them, and plays to frame `end`.
     void play(const std::vector<BoardEvent>& events, std::uint32_t end, bool compact = false) {
         for (const BoardEvent& event : events) {
             runTo(static_cast<double>(event.frame) - 480.0);

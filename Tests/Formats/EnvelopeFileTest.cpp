@@ -4,7 +4,6 @@
 #include "Formats/EnvelopeFile.h"
 #include "Formats/ClipEnvelope.h"
 #include "Formats/ClipFile.h"
-#include "Formats/ClipLimits.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

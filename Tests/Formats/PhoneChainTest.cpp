@@ -176,7 +176,6 @@ TEST(PhoneChain, CurvesAreNeutralAtATransientAndHaveAtMostSixteenPoints) {
             if (!entry.contains("Event") || entry["Event"]["EventType"] != "HapticTransient") continue;
             const double time = entry["Event"]["Time"];
             for (const double at : {time - 5e-8, time, time + 5e-8}) { // where curves meet, programs differ
-                                                                       // in which counts
                 ASSERT_NEAR(controlAt(pattern, "HapticIntensityControl", std::max(0.0, at), 1.0), 1.0, 0.03)
                     << folder.path(k) << " at " << time;
                 ASSERT_NEAR(controlAt(pattern, "HapticSharpnessControl", std::max(0.0, at), 0.0), 0.0, 0.03)

@@ -191,8 +191,7 @@ TEST(PhoneFiles, ReadApplesDefaultsAndLastCommas) {
     const ClipChannel& channel = clip.value.channels[0];
     EXPECT_EQ(channel.transients, (std::vector<ClipTransient>{{40.0, 0.25, 150.0}}));
     EXPECT_EQ(channel.bands[0].waves[0].amplitude,
-              (std::vector<ClipPoint>{{0.0, 1.0}, {30.0, 1.0}})); // no end of its own: as long as a phone
-                                                                  // plays it
+              (std::vector<ClipPoint>{{0.0, 1.0}, {30.0, 1.0}})); // no end of its own: as a phone does
     EXPECT_EQ(
         readAhap(
             R"({"Version": "a,]", "Pattern": [{"Event": {"EventType": "HapticTransient"}, "a\",}": 1}]})",

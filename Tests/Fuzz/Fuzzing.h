@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -31,13 +32,25 @@ void demandClearRefusal(const Result<T>& read, bool isEmpty) {
         demand(static_cast<unsigned char>(c) >= 0x20, "more than one line", read.error);
 }
 
-/// What was read, written, read and written again is the same bytes.
-template <class Read, class Write>
-void demandRoundTrip(const std::string& written, Read read, Write write) {
-    const auto again = read(written);
+constexpr auto isDefault = []<class Value>(const Value& value) { return value == Value{}; };
+
+/// The value, if the input is read as one; written, read and written again it is the same bytes. What is
+/// refused leaves an empty one.
+template <class Read, class Write, class IsEmpty = decltype(isDefault)>
+auto tried(const std::uint8_t* data, std::size_t size, Read read, Write write, IsEmpty isEmpty = isDefault) {
+    const auto first = read(asText(data, size), "f");
+    auto kept = std::optional{first.value};
+    if (!first) {
+        demandClearRefusal(first, isEmpty(first.value));
+        kept.reset();
+        return kept;
+    }
+    const std::string written = write(first.value);
+    const auto again = read(written, "f");
     demand(static_cast<bool>(again), "cannot read what was written", again.error + "\n" + written);
     const std::string twice = write(again.value);
     demand(twice == written, "written differently", written + "\n" + twice);
+    return kept;
 }
 
 } // namespace physvib::fuzz

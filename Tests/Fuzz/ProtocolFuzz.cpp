@@ -27,13 +27,6 @@ void tryExperiment(const Protocol& protocol) {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const auto read = [](std::string_view text) { return readProtocol(text, "f"); };
-    const auto protocol = read(fuzz::asText(data, size));
-    if (!protocol) {
-        fuzz::demandClearRefusal(protocol, protocol.value == Protocol{});
-        return 0;
-    }
-    fuzz::demandRoundTrip(protocolJson(protocol.value), read, protocolJson);
-    tryExperiment(protocol.value);
+    if (const auto protocol = fuzz::tried(data, size, readProtocol, protocolJson)) tryExperiment(*protocol);
     return 0;
 }

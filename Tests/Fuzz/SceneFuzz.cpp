@@ -20,13 +20,7 @@ void simulate(const physvib::Scene& scene) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;
-    const auto read = [](std::string_view text) { return readScene(text, "f"); };
-    const auto scene = read(fuzz::asText(data, size));
-    if (!scene) {
-        fuzz::demandClearRefusal(scene, scene.value == Scene{});
-        return 0;
-    }
-    fuzz::demandRoundTrip(sceneJson(scene.value), read, sceneJson);
-    simulate(scene.value);
+    const auto read = [](auto text, auto name) { return readScene(text, name); };
+    if (const auto scene = fuzz::tried(data, size, read, sceneJson)) simulate(*scene);
     return 0;
 }

@@ -2,7 +2,7 @@
 // Recordings from files that nobody vouches for: read whole, or refused in one line. Tests/Live/sounds.py has
 // many more.
 #include "Live/Recordings/ReadRecording.h"
-#include "Support/Mutations.h"
+#include "Support/FileTesting.h"
 #include "Support/WavBytes.h"
 #include "Support/WriteSound.h"
 #include <algorithm>
@@ -25,15 +25,8 @@ using test::wavBytes;
 using test::WavHeader;
 using namespace std::string_literals;
 
-class ReadRecording : public ::testing::Test {
+class ReadRecording : public FolderTest {
 protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "physvib-recordings-XXXXXX").string();
-        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-        folder = pattern;
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
     fs::path write(const std::string& name, const std::string& bytes) const {
         std::ofstream{folder / name, std::ios::binary} << bytes;
         return folder / name;
@@ -63,8 +56,6 @@ protected:
         const std::string error = readBytes(bytes).error, name = (folder / "sound").string() + ": ";
         return error.starts_with(name) ? error.substr(name.size()) : error;
     }
-
-    fs::path folder;
 };
 
 TEST_F(ReadRecording, GivesSamplesOfEveryWidthToTheBit) {
@@ -307,8 +298,7 @@ TEST_F(ReadRecording, ReadsWhatOthersWrite) {
         EXPECT_TRUE(fault(written(format, tones(1.0, 1))).starts_with("expected ")) << std::hex << format;
 }
 
-/// With another number of samples in its description: 36 bits, the last five bytes but the upper half of the
-/// first.
+/// With another number of samples in its description: 36 bits, the last five bytes but half of the first.
 std::string flacOfLength(std::string bytes, std::uint64_t samples) {
     bytes[21] = static_cast<char>((bytes[21] & 0xf0) | (samples >> 32 & 15));
     for (std::size_t i = 0; i < 4; ++i) bytes[22 + i] = static_cast<char>(samples >> (24 - 8 * i) & 255);

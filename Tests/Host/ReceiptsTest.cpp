@@ -84,8 +84,7 @@ TEST(Receipts, EqualWhatWasGivenForEverySpan) {
             receipts.take(0, place, rate, outputs.data(), frames);
             place += frames;
         }
-        // an output that comes and goes within a bin counts as none in all of it: only whole bins come and go
-        // here
+        // an output that comes and goes within a bin counts as none in all of it: only whole bins do here
         const auto expectAt = [&](std::int64_t a, std::int64_t b) {
             const Receipt told = receipts.left(nsOf(a), nsOf(b), 1);
             EXPECT_TRUE(told.isOver && told.isKept);

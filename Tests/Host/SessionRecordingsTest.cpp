@@ -7,6 +7,7 @@
 #include "Live/Recordings/Recording.h"
 #include "Live/Session/SessionJournal.h"
 #include "Session/FakeHost.h"
+#include "Support/FileTesting.h"
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -18,14 +19,8 @@ namespace {
 
 using namespace test;
 
-class Recordings : public testing::Test {
+class Recordings : public FolderTest {
 protected:
-    void SetUp() override {
-        std::string pattern = (std::filesystem::temp_directory_path() / "physvib-test-XXXXXX").string();
-        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-        folder = pattern;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
     std::string writeHit(const std::string& name, std::uint32_t seed, float level) const {
         auto samples = std::vector<float>(2400);
         for (const float x : loadContact({300.0, "synthetic-" + std::to_string(seed), 30.0}).value.samples)
@@ -39,7 +34,6 @@ protected:
         EXPECT_EQ(sink.finish(), "");
         return (folder / name).string();
     }
-    std::filesystem::path folder;
 };
 
 double rms(const std::vector<float>& x, double rate) {
@@ -58,8 +52,7 @@ TEST_F(Recordings, AreAsHighAsTheModeOrAsStrong) {
         float peak = 0.0f;
         for (const float x : high.value.samples) peak = std::max(peak, std::abs(x));
         EXPECT_EQ(peak, 1.0f);
-        // of e^(-decay t) sin(2 pi f t): half the envelope's energy, but for the little that the sine's phase
-        // leaves
+        // of e^(-decay t) sin(2 pi f t): half the envelope's energy, but for what the sine's phase leaves
         const double expected =
             std::sqrt((1.0 - std::exp(-2.0 * decay * matchedSeconds)) / (4.0 * decay) / matchedSeconds);
         EXPECT_NEAR(rms(strong.value.samples, 48000) / expected, 1.0, 0.02) << decay;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
-#include <limits>
 
 namespace physvib {
 namespace {

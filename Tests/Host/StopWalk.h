@@ -49,8 +49,7 @@ public:
     explicit StopWalk(Program program)
         : program_{std::move(program)} {}
 
-    /// What is called before silence is asked for in a menu, list or dialog, and without words when it is
-    /// over.
+    /// What is called before silence is asked for in a menu, list or dialog, and without words after it.
     void setMeasure(std::function<void(const juce::String& what)> measure) { measure_ = std::move(measure); }
 
     /// Until nothing is left, or so many steps have been taken: a busy machine takes the same ones, later.

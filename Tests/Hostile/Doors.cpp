@@ -6,7 +6,6 @@
 #include "Osc/DoorTrial.h"
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 
 using namespace physvib;
 

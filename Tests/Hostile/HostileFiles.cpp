@@ -8,7 +8,6 @@
 #include "Support/WriteSound.h"
 #include "TestPlaces.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fcntl.h>

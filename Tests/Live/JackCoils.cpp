@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <jack/jack.h>
-#include <string>
 
 namespace {
 

@@ -3,7 +3,6 @@
 // to sound and when they fell silent: "sound MS" and "silent MS", in ms since 1970. It ends with the server.
 // Usage: physvib-jack-silence CHANNELS
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>

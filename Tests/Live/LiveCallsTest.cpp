@@ -17,8 +17,7 @@ namespace physvib {
 namespace {
 
 int isSilent(physvib_live live) {
-    physvib_live_status status;
-    physvib_live_status_init(&status, sizeof status);
+    auto status = test::begun(physvib_live_status_init);
     EXPECT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
     return status.is_silent;
 }
@@ -89,8 +88,7 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
         ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK);
     physvib_world world = nullptr;
     ASSERT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
-    physvib_body body;
-    physvib_body_init(&body, sizeof body);
+    auto body = test::begun(physvib_body_init);
     physvib_world_set_body(world, 0, &body);
     body.mass_kg = 0.2;
     body.is_camera = 1;
@@ -109,8 +107,7 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
     for (int step = 0; step < 5; ++step) {
         physvib_world_begin_step(world, 0.01, 9.81);
         for (int k = 1; k <= 4 && step == 1; ++k) {
-            physvib_contact contact;
-            physvib_contact_init(&contact, sizeof contact);
+            auto contact = test::begun(physvib_contact_init);
             contact.a = 0;
             contact.b = k;
             contact.approach_m_per_s = 2.0;
@@ -126,8 +123,7 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
     }
     EXPECT_EQ(sent, 4);
     const auto played = [](physvib_live live) {
-        physvib_live_status status;
-        physvib_live_status_init(&status, sizeof status);
+        auto status = test::begun(physvib_live_status_init);
         physvib_live_get_status(live, &status);
         return status.played;
     };
@@ -165,8 +161,7 @@ TEST(LiveCalls, AChildOfForkLetsGoAndItsParentPlaysOn) {
               }),
               3)
         << "nothing is silenced there, and nobody told so";
-    physvib_live_status status;
-    physvib_live_status_init(&status, sizeof status);
+    auto status = test::begun(physvib_live_status_init);
     EXPECT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
     EXPECT_EQ(status.is_running, 1);
     EXPECT_EQ(physvib_live_close(live), PHYSVIB_OK);
@@ -174,15 +169,13 @@ TEST(LiveCalls, AChildOfForkLetsGoAndItsParentPlaysOn) {
 
 TEST(LiveCalls, WhatLeftIsKnownALatencyLater) {
     physvib_live live = nullptr;
-    physvib_live_settings settings;
-    physvib_live_settings_init(&settings, sizeof settings);
+    auto settings = test::begun(physvib_live_settings_init);
     settings.level_db = 0.0;
     ASSERT_EQ(physvib_live_open("None:no device", nullptr, &settings, &live), PHYSVIB_OK)
         << physvib_live_error();
     auto event = test::sized<physvib_event>();
     ASSERT_EQ(physvib_event_of(nullptr, 0.0, 0.0, 0.5, &event), PHYSVIB_OK) << physvib_error();
-    physvib_live_receipt receipt;
-    physvib_live_receipt_init(&receipt, sizeof receipt);
+    auto receipt = test::begun(physvib_live_receipt_init);
     // a busy machine may hold up the device for longer than the event waits: then once more
     for (int tries = 0; tries < 50; ++tries) {
         event.time_ns = physvib_live_now_ns(live) + 100'000'000;
@@ -243,8 +236,7 @@ TEST(LiveCalls, EventsOfAnySizeAreStruckAndRendered) {
         ASSERT_EQ(physvib_live_strike(live, given.data(), 3), PHYSVIB_OK) << physvib_live_error();
         played += 3;
     }
-    physvib_live_status status;
-    physvib_live_status_init(&status, sizeof status);
+    auto status = test::begun(physvib_live_status_init);
     do {
         std::this_thread::sleep_for(std::chrono::milliseconds{10});
         ASSERT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);

@@ -10,8 +10,7 @@ struct PatternNote {
     std::uint8_t note, velocity;
 };
 
-/// Note k of the pattern, in the order of time: ten or so a second, at no regular place of a block, all over
-/// the field.
+/// Note k of the pattern, in the order of time: ten or so a second, anywhere in a block, all over the field.
 constexpr PatternNote patternNote(int k) noexcept {
     return {1000 + 4801LL * k, static_cast<std::uint8_t>(36 + k * 5 % 24),
             static_cast<std::uint8_t>(127 - k * 37 % 100)};

@@ -20,8 +20,7 @@ struct Recording {
 struct Break {
     std::int64_t frame = 0; ///< of the recording: the first block that differs
     int foreign = 0;        ///< blocks from there on that are nowhere near in the render (blank, or torn)
-    int skipped = 0; ///< blocks of the render that are missing; negative: the recording has that many too
-                     ///< many
+    int skipped = 0;        ///< blocks of the render that are missing; negative: too many
 };
 
 struct Comparison {
@@ -33,8 +32,7 @@ struct Comparison {
 
 class RecordingRuns {
 public:
-    /// Blocks of `block` frames, cut as the recorder was given them; the render is silent before its
-    /// beginning.
+    /// Blocks of `block` frames, cut as the recorder was given them; the render is silent before.
     RecordingRuns(const Recording& recording, const Recording& render, int block)
         : recording_{recording}
         , render_{render}
@@ -92,8 +90,7 @@ private:
         }
         return false;
     }
-    // 0: it goes on; how many blocks of the render are missing before it; or `nowhere`. Silence tells
-    // nothing.
+    // 0: it goes on; how many blocks of the render are missing before it; or `nowhere`. Silence: nothing.
     int blocksToSkip(std::int64_t at) const {
         if (isEqual(at, at + shift_)) return 0;
         if (isSilent(at)) return nowhere;

@@ -3,7 +3,6 @@
 // is held, and no clock that goes faster than it may.
 #include "Host/Osc/OscReceiver.h"
 #include "Scene/SceneLimits.h"
-#include "Support/ClosedForm.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>

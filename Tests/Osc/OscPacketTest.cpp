@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Packets: what is written is read, bundles are taken apart, and what is not OSC is nothing at all.
 #include "Host/Osc/OscPacket.h"
-#include "Support/ClosedForm.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -8,7 +8,6 @@
 #include "Live/Pads/ToneFeed.h"
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
 #include <string>
 #include <vector>

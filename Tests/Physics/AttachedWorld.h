@@ -19,6 +19,11 @@ inline ImpactSettings unity() {
     return settings;
 }
 
+inline double massKg(const b2Fixture& fixture) { return static_cast<double>(fixture.GetBody()->GetMass()); }
+inline double momentumOf(const b2Fixture& fixture) {
+    return massKg(fixture) * static_cast<double>(fixture.GetBody()->GetLinearVelocity().Length());
+}
+
 /// No gravity, 100 steps/s.
 class AttachedWorld : public testing::Test {
 protected:
@@ -68,12 +73,18 @@ protected:
         return events;
     }
 
+    /// One event, as strong as the momentum that `struck` has.
+    static void expectOne(const std::vector<CollisionEvent>& events, const b2Fixture& struck,
+                          double share = 0.02) {
+        ASSERT_EQ(events.size(), 1U);
+        const double own = momentumOf(struck);
+        EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, share * own);
+    }
+
     b2World world{{0.0F, 0.0F}};
     Attachment attachment{world, unity()};
 };
 
 inline double seconds(const CollisionEvent& event) { return static_cast<double>(event.timeNs) * 1.0e-9; }
-
-inline double massKg(const b2Fixture& fixture) { return static_cast<double>(fixture.GetBody()->GetMass()); }
 
 } // namespace physvib

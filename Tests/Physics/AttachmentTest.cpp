@@ -322,8 +322,7 @@ TEST(Attachment, StepsOfDifferentLengthsAddUpToTheTime) {
     EXPECT_NEAR(seconds(events[0]), std::sqrt(2.0 * fall / 9.8), 0.006); // Box2D falls half a step ahead
 }
 
-/// Two bodies that move sink into each other in the step before the one that tells of it, which may be a long
-/// one.
+/// Two bodies that move sink into each other in the step before the one that tells of it, maybe a long one.
 TEST_F(AttachedWorld, HitsOfTwoMovingBodiesAreTimedInStepsOfAnyLength) {
     constexpr int count = 40;
     for (int i = 0; i < count; ++i) {

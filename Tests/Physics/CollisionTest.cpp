@@ -3,7 +3,6 @@
 #include "AttachedWorld.h"
 #include "Contacts/ImpactTimings.h"
 #include <algorithm>
-#include <numeric>
 
 namespace physvib {
 namespace {
@@ -51,8 +50,7 @@ TEST_F(Collisions, HeadOfAPoleThatTopplesIsFelt) {
     ASSERT_EQ(events.size(), 1U);
     EXPECT_GT(headSpeed, 5.0);
     EXPECT_NEAR(events[0].x, length, 0.3); // at the head, not at the foot
-    // About the foot: I w = J l, I = m l^2 / 3; gravity adds 3/2 g dt to the head in the step, and half the
-    // weight.
+    // About the foot: I w = J l, I = m l^2 / 3; gravity adds 3/2 g dt to the head, and half the weight.
     const double expected = massKg(pole) * ((headSpeed + 1.5 * 10.0 * 0.01) / 3.0 + 0.5 * 10.0 * 0.01);
     EXPECT_NEAR(events[0].source.impulseNewtonSeconds, expected, 0.05 * expected);
 }

@@ -3,7 +3,6 @@
 // and what is handed on in random clusters is never more than what struck.
 #include "AttachedWorld.h"
 #include <algorithm>
-#include <memory>
 #include <random>
 #include <utility>
 

@@ -49,8 +49,7 @@ double power(std::span<const float> samples) {
     return sum;
 }
 
-/// Where four channels' levels put the phantom: gains of the linear law sum to one, squares of the energy
-/// law's do.
+/// Where four channels' levels put the phantom: linear gains sum to one, squares of the energy law's do.
 b2Vec2 centroid(const test::Channels& channels, PanningLaw law, double from, double to) {
     std::array<double, 4> share{};
     for (std::size_t j = 0; j < 4; ++j) {

@@ -141,10 +141,7 @@ TEST_F(OnsetImpactsWorld, StrikesOfOneStepDoNotMultiplyWhatIsHandedOn) {
     (void)attachment.set(ball(-0.499F, 0.0F, 0.0F, 0.0F, 0.0F), object);
     for (const float y : {0.3F, -0.3F}) // two balls strike the first of the row at the same time
         (void)attachment.set(ball(-1.9F, y, 3.0F, 0.0F, 0.0F), object);
-    const auto events = run(60);
-    ASSERT_EQ(events.size(), 1U);
-    const double own = massKg(last) * static_cast<double>(last.GetBody()->GetLinearVelocity().Length());
-    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.02 * own);
+    expectOne(run(60), last);
 }
 
 TEST_F(OnsetImpactsWorld, StrikesOfSuccessiveStepsShareWhatIsHandedOn) {
@@ -155,7 +152,7 @@ TEST_F(OnsetImpactsWorld, StrikesOfSuccessiveStepsShareWhatIsHandedOn) {
     (void)attachment.set(ball(-1.93F, -0.3F, 3.0F, 0.0F, 0.0F), object); // one step behind
     double sum = 0.0;
     for (const CollisionEvent& event : run(60)) sum += event.source.impulseNewtonSeconds;
-    const double own = massKg(last) * static_cast<double>(last.GetBody()->GetLinearVelocity().Length());
+    const double own = momentumOf(last);
     EXPECT_GT(own, 1.0);
     EXPECT_NEAR(sum, own, 0.05 * own);
 }
@@ -190,10 +187,7 @@ TEST_F(OnsetImpactsWorld, MiddleOfARowFeelsOnlyWhatItKeeps) {
     (void)attachment.set(middle, camera);
     (void)attachment.set(ball(0.998F, 0.0F, 0.0F, 0.0F, 0.0F), object);
     (void)attachment.set(ball(-1.0F, 0.0F, 6.0F, 0.0F, 0.0F), object);
-    const auto events = run(60);
-    ASSERT_EQ(events.size(), 1U);
-    const double own = massKg(middle) * static_cast<double>(middle.GetBody()->GetLinearVelocity().Length());
-    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.02 * own);
+    expectOne(run(60), middle);
 }
 
 TEST_F(OnsetImpactsWorld, ContactOfTheStepBeforeHandsOnInFull) {
@@ -202,10 +196,7 @@ TEST_F(OnsetImpactsWorld, ContactOfTheStepBeforeHandsOnInFull) {
     // touches in the second step, gently
     (void)attachment.set(ball(-0.5005F, 0.0F, 0.1F, 0.0F, 0.0F), object);
     (void)attachment.set(ball(-1.0455F, 0.0F, 3.0F, 0.0F, 0.0F), object); // strikes in the third
-    const auto events = run(20);
-    ASSERT_EQ(events.size(), 1U);
-    const double own = massKg(last) * static_cast<double>(last.GetBody()->GetLinearVelocity().Length());
-    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.08 * own); // 0.05 m/s of it were gentle
+    expectOne(run(20), last, 0.08);                                       // 0.05 m/s of it were gentle
 }
 
 class OnsetImpactsDestroyed : public AttachedWorld, public testing::WithParamInterface<int> {
@@ -269,7 +260,7 @@ TEST_F(OnsetImpactsWorld, BulletsAreHandedOnToo) {
     (void)attachment.set(bullet, object);
     const auto events = run(60);
     ASSERT_EQ(events.size(), 1U);
-    const double own = massKg(last) * static_cast<double>(last.GetBody()->GetLinearVelocity().Length());
+    const double own = momentumOf(last);
     EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.02 * own);
     EXPECT_NEAR(seconds(events[0]), (3.0 - 0.999) / 45.0, 0.01);
 }

@@ -18,8 +18,7 @@ int given = 0;
 
 } // namespace
 
-// These come before those of the shared library, which calls them as everybody does. The list hangs at
-// m_chunks.
+// These come before those of the shared library, which calls them, too. The list hangs at m_chunks.
 b2BlockAllocator::b2BlockAllocator()
     : m_chunks(nullptr)
     , m_chunkCount(0)

@@ -2,7 +2,6 @@
 // What a game may say of its cameras beyond three values: overtones, sounds of pairs, gain, a hand of its
 // own, a budget.
 #include "AttachedWorld.h"
-#include <algorithm>
 #include <stdexcept>
 
 namespace physvib {

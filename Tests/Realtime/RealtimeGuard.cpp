@@ -47,8 +47,7 @@ std::uint64_t RealtimeGuard::total() noexcept {
 using namespace physvib::test;
 using Guard = RealtimeGuard;
 
-// glibc gives its allocator these second names, so that replacing the first needs no lookup (which would
-// allocate).
+// glibc gives its allocator these second names, so that replacing the first needs no lookup (no allocation).
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);

@@ -7,8 +7,7 @@
 
 namespace physvib::test {
 
-/// While one lives, this thread is guarded; offences of all guarded threads are counted by the name of the
-/// function.
+/// While one lives, this thread is guarded; offences of all guarded threads are counted by function.
 class RealtimeGuard {
 public:
     RealtimeGuard() noexcept;

@@ -5,7 +5,6 @@
 #include "Io/Disk/ReadFile.h"
 #include "Support/FileTesting.h"
 #include "TestPlaces.h"
-#include <algorithm>
 
 namespace physvib {
 namespace {

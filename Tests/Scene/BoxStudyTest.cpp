@@ -54,8 +54,7 @@ TEST_P(StudiedBox, IsHitThreeTimesASecondAndNeverSilentForLong) {
 TEST_P(StudiedBox, PeaksWhereOneDriveForAllPairsPutsItAndUsesEveryEnchanter) {
     const auto all = phoneFourPeaks(scene, minute, seconds);
     const double loudest = *std::max_element(all.begin(), all.end());
-    const bool isDefault = GetParam().pair == pairs[0]; // in the others, more objects sometimes pile up on
-                                                        // one wall
+    const bool isDefault = GetParam().pair == pairs[0]; // in the others, more objects sometimes pile up
     EXPECT_NEAR(20 * std::log10(loudest), GetParam().pair == pairs[1] ? -6 : -24.3, isDefault ? 2.5 : 4);
     for (const double peak : all) EXPECT_GE(peak, 0.2 * loudest);
 }
@@ -76,8 +75,7 @@ INSTANTIATE_TEST_SUITE_P(PairsAndSeeds, StudiedBox, testing::ValuesIn(runs(1, 6)
 
 class TenMinutesOfStudy : public testing::TestWithParam<Run> {};
 
-// A small can between two large ones and a wall is pressed into the wall for some steps, as far as its own
-// half width.
+// A small can between two large ones and a wall is pressed into the wall for some steps, by half its width.
 TEST_P(TenMinutesOfStudy, NothingLeavesTheBox) {
     const Scene scene = boxOf(GetParam().pair);
     Simulation simulation(scene, GetParam().seed, 100);

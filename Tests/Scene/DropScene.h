@@ -3,7 +3,6 @@
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/World/Simulation.h"
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>

@@ -14,8 +14,7 @@ namespace physvib {
 namespace {
 
 constexpr double gravity = 9.8, fieldWidth = 8.0, plateTop = 0.3;
-constexpr double driveGain = 4.1; // one for all pairs: that wood is felt more than rubber is the stimulus
-                                  // (Eq. 5.4)
+constexpr double driveGain = 4.1; // of all pairs: that wood is felt more is the stimulus (Eq. 5.4)
 
 struct Pair {
     const char* name;

@@ -6,7 +6,6 @@
 #include "Scene/SceneValidation.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/Simulation.h"
-#include <cmath>
 #include <gtest/gtest.h>
 #include <random>
 

@@ -5,7 +5,6 @@
 #include "Scene/SceneFile.h"
 #include "SceneHits.h"
 #include <algorithm>
-#include <array>
 #include <gtest/gtest.h>
 
 namespace physvib {

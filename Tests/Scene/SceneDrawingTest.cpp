@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is drawn in a world, undone and done again: against snapshots, and against the world that felt it.
 #include "Scene/Drawing/BodyEdits.h"
-#include "Scene/SceneEdits.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"

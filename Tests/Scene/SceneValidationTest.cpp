@@ -42,6 +42,9 @@ T& action(Scene& scene, std::size_t input) {
     return std::get<T>(scene.script[input].action);
 }
 Shape& shape(Scene& scene, std::size_t body) { return scene.bodies[body].fixtures[0].shape; }
+auto shaped(std::size_t body, Shape as) {
+    return [=](Scene& scene) { shape(scene, body) = as; };
+}
 
 TEST(SceneValidation, AcceptsGoodScenes) {
     EXPECT_EQ(validate(dropScene(1.0)), "");
@@ -88,18 +91,9 @@ INSTANTIATE_TEST_SUITE_P(
               "bodies[1].fixtures[0].material: expected one of the 2"},
         Fault{"NegativeIndex", [](Scene& s) { s.bodies[1].fixtures[0].material = -1; },
               "bodies[1].fixtures[0].material: expected"},
-        Fault{"Radius", [](Scene& s) { shape(s, 1) = CircleShape{0.0}; },
-              "bodies[1].fixtures[0].radius_m: expected"},
-        Fault{"Width",
-              [](Scene& s) {
-                  shape(s, 0) = BoxShape{-1.0, 1.0};
-              },
-              "bodies[0].fixtures[0].size_m[0]: expected"},
-        Fault{"Height",
-              [](Scene& s) {
-                  shape(s, 0) = BoxShape{1.0, nan};
-              },
-              "bodies[0].fixtures[0].size_m[1]: expected"},
+        Fault{"Radius", shaped(1, CircleShape{0.0}), "bodies[1].fixtures[0].radius_m: expected"},
+        Fault{"Width", shaped(0, BoxShape{-1.0, 1.0}), "bodies[0].fixtures[0].size_m[0]: expected"},
+        Fault{"Height", shaped(0, BoxShape{1.0, nan}), "bodies[0].fixtures[0].size_m[1]: expected"},
         Fault{"NoFixture", [](Scene& s) { s.bodies[0].fixtures.clear(); },
               "bodies[0].fixtures: expected 1 to 64 items, found 0"},
         Fault{"Position", [](Scene& s) { s.bodies[0].positionMetres.y = 1.0e9; },
@@ -128,65 +122,40 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Outlines, FaultyScene,
-    testing::Values(Fault{"Clockwise",
-                          [](Scene& s) {
-                              shape(s, 3) = PolygonShape{{{0.0, 0.0}, {0.0, 0.5}, {0.5, 0.0}}};
-                          },
-                          "bodies[3].fixtures[0].vertices_m: expected a convex outline"},
-                    Fault{"Dented",
-                          [](Scene& s) {
-                              shape(s, 3) = PolygonShape{{{0.0, 0.0}, {1.0, 0.0}, {0.1, 0.1}, {0.0, 1.0}}};
-                          },
-                          "bodies[3].fixtures[0].vertices_m: expected a convex outline"},
-                    Fault{"TwiceAround",
-                          [](Scene& s) {
-                              shape(s, 3) = PolygonShape{
-                                  {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
-                          },
-                          "bodies[3].fixtures[0].vertices_m: expected a convex outline"},
-                    Fault{"Sliver",
-                          [](Scene& s) {
-                              shape(s, 3) = PolygonShape{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.001}}};
-                          },
-                          "bodies[3].fixtures[0].vertices_m: expected an outline at least"},
-                    Fault{"ShortEdge",
-                          [](Scene& s) {
-                              shape(s, 3) = PolygonShape{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.005}, {0.0, 1.0}}};
-                          },
-                          "bodies[3].fixtures[0].vertices_m: expected edges"},
-                    Fault{"TwoVertices",
-                          [](Scene& s) {
-                              shape(s, 3) = PolygonShape{{{0.0, 0.0}, {1.0, 0.0}}};
-                          },
-                          "bodies[3].fixtures[0].vertices_m: expected 3 to 8 items, found 2"},
-                    Fault{"Vertex",
-                          [](Scene& s) {
-                              shape(s, 3) = PolygonShape{{{0.0, nan}, {1.0, 0.0}, {0.0, 1.0}}};
-                          },
-                          "bodies[3].fixtures[0].vertices_m[0][1]: expected"},
-                    Fault{"ShortChain",
-                          [](Scene& s) {
-                              shape(s, 2) = ChainShape{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}}};
-                          },
-                          "bodies[2].fixtures[0].vertices_m: expected edges"},
-                    Fault{"LoopOfTwo",
-                          [](Scene& s) {
-                              shape(s, 2) = ChainShape{{{0.0, 0.0}, {1.0, 0.0}}, true};
-                          },
-                          "bodies[2].fixtures[0].vertices_m: expected at least 3"},
-                    Fault{
-                        "LoopThatEndsWhereItBegins",
-                        [](Scene& s) {
-                            shape(s, 2) = ChainShape{{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}}, true};
-                        },
-                        "bodies[2].fixtures[0].vertices_m: expected edges"},
-                    Fault{"MovingChain", [](Scene& s) { s.bodies[2].type = BodyType::dynamicBody; },
-                          "bodies[2].fixtures[0].shape: a chain has no mass"},
-                    Fault{"FarOut",
-                          [](Scene& s) {
-                              s.bodies[1].fixtures[0].offsetMetres = {50.0, 0.0};
-                          },
-                          "bodies[1].fixtures: expected a centre of mass nearer"}),
+    testing::
+        Values(
+            Fault{"Clockwise", shaped(3, PolygonShape{{{0.0, 0.0}, {0.0, 0.5}, {0.5, 0.0}}}),
+                  "bodies[3].fixtures[0].vertices_m: expected a convex outline"},
+            Fault{"Dented", shaped(3, PolygonShape{{{0.0, 0.0}, {1.0, 0.0}, {0.1, 0.1}, {0.0, 1.0}}}),
+                  "bodies[3].fixtures[0].vertices_m: expected a convex outline"},
+            Fault{"TwiceAround",
+                  shaped(3,
+                         PolygonShape{
+                             {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}}),
+                  "bodies[3].fixtures[0].vertices_m: expected a convex outline"},
+            Fault{"Sliver", shaped(3, PolygonShape{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.001}}}),
+                  "bodies[3].fixtures[0].vertices_m: expected an outline at least"},
+            Fault{"ShortEdge", shaped(3, PolygonShape{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.005}, {0.0, 1.0}}}),
+                  "bodies[3].fixtures[0].vertices_m: expected edges"},
+            Fault{"TwoVertices", shaped(3, PolygonShape{{{0.0, 0.0}, {1.0, 0.0}}}),
+                  "bodies[3].fixtures[0].vertices_m: expected 3 to 8 items, found 2"},
+            Fault{"Vertex", shaped(3, PolygonShape{{{0.0, nan}, {1.0, 0.0}, {0.0, 1.0}}}),
+                  "bodies[3].fixtures[0].vertices_m[0][1]: expected"},
+            Fault{"ShortChain", shaped(2, ChainShape{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}}}),
+                  "bodies[2].fixtures[0].vertices_m: expected edges"},
+            Fault{"LoopOfTwo", shaped(2, ChainShape{{{0.0, 0.0}, {1.0, 0.0}}, true}),
+                  "bodies[2].fixtures[0].vertices_m: expected at least 3"},
+            Fault{"LoopThatEndsWhereItBegins",
+                  shaped(2, ChainShape{{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}}, true}),
+                  "bodies[2].fixtures[0].vertices_m: expected edges"},
+            Fault{"MovingChain", [](Scene& s) { s.bodies[2].type = BodyType::dynamicBody; },
+                  "bodies[2].fixtures[0].shape: a chain has no mass"},
+            Fault{
+                "FarOut",
+                [](Scene& s) {
+                    s.bodies[1].fixtures[0].offsetMetres = {50.0, 0.0};
+                },
+                "bodies[1].fixtures: expected a centre of mass nearer"}),
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -3,7 +3,6 @@
 // malloc.)
 #include "DropScene.h"
 #include "Physics/Attachment.h"
-#include <algorithm>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <new>

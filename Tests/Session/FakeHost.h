@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A host in virtual time: blocks of random size, and a driver that comes after random gaps.
 #pragma once
+#include "Live/Documents/SessionFile.h"
 #include "Live/Session/Session.h"
 #include "Scene/SceneFile.h"
 #include "Support/ClosedForm.h"
@@ -22,6 +23,11 @@ inline SessionSetup shakeTheBoxSetup(double longestGapSeconds, int stepsPerSecon
     s.panner =
         PhantomPanner{layout, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
     return s;
+}
+
+inline SavedSession saved(const SessionSetup& setup, const SessionLog& log, std::int64_t lengthNs) {
+    return {setup.run(), setup.panner, setup.channels,  setup.limiterEnabled, setup.ceilings, lengthNs,
+            log,         {},           setup.equalised, setup.shaping};
 }
 
 inline void append(Interleaved& to, const float* const* block, int frames) {

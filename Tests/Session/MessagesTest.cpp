@@ -181,8 +181,7 @@ TEST(Messages, APathIsOneToneFromSegmentToSegment) {
     EXPECT_EQ(byTimes[1].course.sinceNs, 250'000'000);
 }
 
-/// The largest step between two samples of a channel, in steps of the tone itself at that frequency and
-/// level.
+/// The largest step between two samples of a channel, in steps of the tone itself at that level.
 double largestStep(const SessionSetup& setup, const std::string& line, double frequencyHz, double seconds);
 
 TEST(Messages, WhatIsCutBeginsAndEndsWithoutAStep) {
@@ -352,19 +351,6 @@ Played play(Session& session, std::multimap<double, std::string> lines, double s
     return played;
 }
 
-SavedSession saved(const SessionSetup& setup, const SessionLog& log, double seconds) {
-    return {setup.run(),
-            setup.panner,
-            setup.channels,
-            setup.limiterEnabled,
-            setup.ceilings,
-            std::llround(seconds * 1e9),
-            log,
-            {},
-            setup.equalised,
-            setup.shaping};
-}
-
 Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames, double seconds) {
     Interleaved signal(static_cast<std::size_t>(delayFrames * hostChannels), 0.0f);
     renderSession(
@@ -412,7 +398,7 @@ TEST(Messages, WhatWasFeltIsRenderedAgainToTheBit) {
     const auto felt = play(session, everything, 3.0);
     EXPECT_EQ(session.status().render.late, 0u);
     EXPECT_GT(felt.log.strikes.size(), 10u);
-    const std::string text = sessionJson(saved(setup, felt.log, 3.0));
+    const std::string text = sessionJson(saved(setup, felt.log, 3'000'000'000));
     const auto read = readSession(text, "session.json");
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(sessionJson(read.value), text);
@@ -579,7 +565,7 @@ TEST(Messages, ASavedClipIsReadAsStrictlyAsTheRest) {
     const auto setup = quietSetup();
     Session session{setup};
     const auto felt = play(session, {{0.1, R"({"message": "clip", "file": "b.4"})"}}, 0.5);
-    const std::string text = sessionJson(saved(setup, felt.log, 0.5));
+    const std::string text = sessionJson(saved(setup, felt.log, 500'000'000));
     const auto read = readSession(text, "s.json");
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(read.value.log.clips, felt.log.clips);
@@ -596,8 +582,8 @@ TEST(Messages, ASavedClipIsReadAsStrictlyAsTheRest) {
     EXPECT_EQ(changed(R"("clips": [)", R"("clips": [1, )").substr(0, 18), "s.json: clips[0]: ");
     for (const char* older : {"4", "5"}) {
         Session without{setup};
-        std::string old =
-            sessionJson(saved(setup, play(without, {{0.1, R"({"message": "phantom"})"}}, 0.5).log, 0.5));
+        std::string old = sessionJson(
+            saved(setup, play(without, {{0.1, R"({"message": "phantom"})"}}, 0.5).log, 500'000'000));
         const std::string version = "\"physvib_session\": ";
         old.replace(old.find(version + std::to_string(sessionFormatVersion)), version.size() + 1,
                     version + older);
@@ -614,7 +600,7 @@ TEST(Messages, AHostThatDoesNotPlayInRealTimeGetsTheSame) {
 TEST(Messages, TheJournalHoldsThem) {
     const auto setup = quietSetup();
     Session session{setup};
-    JournalLines lines{saved(setup, {}, 0.0), {}};
+    JournalLines lines{saved(setup, {}, 0), {}};
     std::string text = lines.head();
     auto felt = play(session, everything, 3.0,
                      [&](SessionLog& log) { text += lines.take(log, session.readLog(log)); });

@@ -29,8 +29,7 @@ std::vector<double> summed(const Interleaved& signal, std::int64_t delayFrames) 
     return sum;
 }
 
-// Least squares: how much later than expected must this event come to explain what the others leave, in
-// frames.
+// Least squares: how many frames later than expected must this event come to explain what the others leave.
 double lateness(const CollisionEvent& e, const std::vector<double>& recorded,
                 const std::vector<double>& expected) {
     const double onset = static_cast<double>(e.timeNs) * 1e-9, frame = 1.0 / hostRate;

@@ -4,6 +4,7 @@
 #include "FakeHost.h"
 #include "Io/Disk/ReadFile.h"
 #include "Live/Documents/SessionFile.h"
+#include "Support/FileTesting.h"
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -16,16 +17,13 @@ namespace {
 
 using namespace test;
 
-class SessionJournals : public testing::Test {
+class SessionJournals : public FolderTest {
 protected:
     void SetUp() override {
-        std::string pattern = (std::filesystem::temp_directory_path() / "physvib-journal-XXXXXX").string();
-        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-        folder = pattern;
+        FolderTest::SetUp();
         setup = shakeTheBoxSetup(0.02);
         setup.log = LogUse::stream;
     }
-    void TearDown() override { std::filesystem::remove_all(folder); }
     std::string text(const char* name) const { return readFile(folder / name, 100'000'000).value; }
 
     /// Plays on with an input per block, and gives what is played to the journal.
@@ -46,7 +44,6 @@ protected:
         return read.value.events.size();
     }
 
-    std::filesystem::path folder;
     SessionSetup setup;
     Block block;
     std::size_t inputs = 0, events = 0;

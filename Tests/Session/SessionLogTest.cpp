@@ -107,19 +107,6 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
     return playEdited(session, setup, frames, [&](SessionLog& log) { session.readLog(log); });
 }
 
-SavedSession saved(const SessionSetup& setup, const SessionLog& log, std::int64_t frames) {
-    return {setup.run(),
-            setup.panner,
-            setup.channels,
-            setup.limiterEnabled,
-            setup.ceilings,
-            frames * 1'000'000'000 / rate,
-            log,
-            {},
-            setup.equalised,
-            setup.shaping};
-}
-
 Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames, std::int64_t frames) {
     auto made = runTakes(session.log.takes, session.run, session.lengthNs);
     std::ranges::transform(made.events, made.events.begin(), session.shaping);
@@ -156,7 +143,7 @@ TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
     for (const auto& take : felt.log.takes) inputs += take.inputs.size();
     ASSERT_GT(inputs, 50u);
 
-    const std::string text = sessionJson(saved(setup, felt.log, frames));
+    const std::string text = sessionJson(saved(setup, felt.log, frames * 1'000'000'000 / rate));
     const auto read = readSession(text, "session.json");
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(sessionJson(read.value), text);
@@ -195,7 +182,7 @@ TEST(SessionLog, AsLinesOfAJournalIsTheSameSession) {
     const auto read = readSession(text, "monday.json");
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(sessionJson(read.value),
-              sessionJson(saved(setup, felt.log, static_cast<std::int64_t>(felt.signal.size()) / channels)));
+              sessionJson(saved(setup, felt.log, std::ssize(felt.signal) / channels * 1'000'000'000 / rate)));
 
     Random random{3};
     for (int i = 0; i < 40; ++i) { // cut off anywhere: all that was told before
@@ -317,7 +304,7 @@ TEST(SessionLog, TakesOfOneSceneAreAlikeAndShareIt) {
     SessionLog log;
     session.readLog(log);
     ASSERT_EQ(log.takes.size(), 5u);
-    const std::string text = sessionJson(saved(setup, log, 15 * rate));
+    const std::string text = sessionJson(saved(setup, log, 15'000'000'000));
     EXPECT_EQ(text.find("\"bodies\""), text.rfind("\"bodies\""));
     std::vector<std::vector<CollisionEvent>> takes(5);
     for (CollisionEvent e : played) {

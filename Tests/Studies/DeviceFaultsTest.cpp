@@ -184,8 +184,7 @@ TEST_P(DeviceFaults, AtAnyMomentRowsSamplesAndReportAgree) {
     press(*p, juce::KeyPress::returnKey, '\r');
     const int trials = 20;
     const char* const only = std::getenv("PHYSVIB_FAULT");
-    const bool isWorld = GetParam() == 3 && only == nullptr; // falls behind a device that is faster than
-                                                             // time: rows alone
+    const bool isWorld = GetParam() == 3 && only == nullptr; // falls behind a device faster than time: rows
     isPaced = GetParam() == 3 && !isWorld;
     const bool isPeriod = only != nullptr && faults[std::atoi(only)] == Fault::period; // all samples leave
     int again = 0, left = 0, parted = 0;

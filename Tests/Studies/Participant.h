@@ -6,7 +6,6 @@
 #include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/MixerView.h"
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>

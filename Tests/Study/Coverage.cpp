@@ -7,7 +7,6 @@
 #include "Lab/Study/Psychometric.h"
 #include "Lab/Study/Summaries.h"
 #include "Stimuli/SeededRandom.h"
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -43,8 +42,7 @@ SessionPlan sessionOf(Method method) {
     return session;
 }
 
-/// True if a study's interval of the mean threshold holds the true one. Adds the mean's error to `off`, in
-/// dB.
+/// True if a study's interval of the mean threshold holds the true one. Adds the mean's error (dB) to `off`.
 bool holds(Method method, int people, SeededRandom& random, double& off) {
     const SessionPlan session = sessionOf(method);
     std::vector<LevelTrial> trials;

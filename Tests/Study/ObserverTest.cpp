@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
-#include <map>
 
 namespace physvib {
 namespace {

@@ -33,8 +33,7 @@ const QuestMethod method{.alternative = "stronger",
 
 Protocol questProtocol(const QuestMethod& quest) { return withSession({.quest = quest}); }
 
-/// An observer whose answers follow a known function of the level, through a whole study: the rows that it
-/// leaves.
+/// An observer whose answers follow a known function of the level, through a whole study: its rows.
 std::vector<TrialRecord> recordsOf(const Protocol& p, const PsychometricFunction& truth, int number) {
     Experiment experiment{p, {"P", number}};
     SeededRandom random{static_cast<std::uint64_t>(number), "answers"};

@@ -156,8 +156,7 @@ protected:
         FolderTest::SetUp();
         path = folder / "t.csv";
     }
-    /// As a study does: what the file has is done again, the rest is answered and kept; `change(answer)`
-    /// before.
+    /// As a study does: what the file has is done again, the rest answered and kept; `change(answer)` before.
     template <class Change>
     void goOn(const Protocol& p, Change change) const {
         TrialLogFile log{path, p, participant, "0"};

@@ -26,8 +26,7 @@ struct ReferenceGuard {
 
 using ReferenceSums = std::vector<std::array<double, 4>>;
 
-/// Limited sums become codes behind the law of the guard, which decides after every four frames from what
-/// has left.
+/// Limited sums become codes behind the law of the guard, which decides every four frames from what has left.
 inline std::vector<BoardFrame> guardedCodes(const ReferenceSums& limited, ReferenceGuard& guard) {
     constexpr std::size_t tile = 4;
     GuardLaw<4> law;

@@ -20,8 +20,7 @@ inline double hoursWanted() {
     return hours != nullptr ? std::atof(hours) : 10.0;
 }
 
-/// What the program has asked for and not given back; what the system holds for it beside that comes and
-/// goes.
+/// What the program has asked for and not given back; what the system holds beside that varies.
 inline double memoryMb() {
     const auto now = mallinfo2();
     return static_cast<double>(now.uordblks + now.hblkhd) / 1e6;

@@ -18,8 +18,7 @@ inline SlowFigures figuresBehind(const GuardPath& path, const GuardAttack& attac
     return slowFigures(path.leaves(attack.samples(path.rate)), path.rate);
 }
 
-/// An OutputGuard whose rate changes (here: to the same) after so many frames, from a list that repeats;
-/// none: never.
+/// An OutputGuard whose rate changes (here: to the same) after so many frames, by turns; none: never.
 inline GuardPath outputGuardPath(const std::string& name, int rate, GuardPlace place,
                                  std::vector<std::size_t> changes = {}) {
     return {name, rate, [=](std::vector<float> samples) {

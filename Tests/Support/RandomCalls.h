@@ -3,7 +3,6 @@
 // pointer.
 #pragma once
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -4,7 +4,6 @@
 #pragma once
 #include "Support/RandomCalls.h"
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

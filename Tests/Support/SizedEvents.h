@@ -20,17 +20,23 @@ Struct sized() {
     return empty;
 }
 
+/// As its init leaves it.
+template <class Struct>
+Struct begun(int (*init)(Struct* place, std::size_t size)) {
+    Struct made;
+    EXPECT_EQ(init(&made, sizeof made), PHYSVIB_OK);
+    return made;
+}
+
 /// A world that has made an event in every other one of twice `steps` steps, of a ball on a floor.
 inline physvib_world worldWithEvents(int steps) {
     physvib_world world = nullptr;
     EXPECT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
-    physvib_body body;
-    physvib_body_init(&body, sizeof body);
+    auto body = begun(physvib_body_init);
     EXPECT_EQ(physvib_world_set_body(world, 0, &body), PHYSVIB_OK);
     body.mass_kg = 2.0, body.is_camera = 1, body.frequency_hz = 200.0, body.decay_per_s = 30.0;
     EXPECT_EQ(physvib_world_set_body(world, 1, &body), PHYSVIB_OK);
-    physvib_contact contact;
-    physvib_contact_init(&contact, sizeof contact);
+    auto contact = begun(physvib_contact_init);
     contact.a = 0, contact.b = 1;
     for (int step = 0; step < 2 * steps; ++step) {
         EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
@@ -74,8 +80,7 @@ public:
 
     /// An event as this header has it; what the program's lacks is as init has it.
     physvib_event operator[](std::size_t i) {
-        physvib_event event;
-        physvib_event_init(&event, sizeof event);
+        auto event = begun(physvib_event_init);
         std::memcpy(&event, at(i), std::min(size_, sizeof event));
         return event;
     }

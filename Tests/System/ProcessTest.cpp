@@ -66,8 +66,7 @@ TEST(Processes, AWatchedProgramsLastWordsAreTheReasonAndItIsEndedWhenNobodyWants
     EXPECT_TRUE(runWatched("physvib-no-such-program", {}, [] {
                     return true;
                 }).error.starts_with("physvib-no-such-program: "));
-    const auto before = std::signal(SIGCHLD, SIG_IGN); // as some that start us leave it: nobody knows how a
-                                                       // child ended
+    const auto before = std::signal(SIGCHLD, SIG_IGN); // as some leave it: nobody knows how a child ended
     EXPECT_EQ(run("exit 0").error, "sh: the system does not tell how it ended");
     std::signal(SIGCHLD, before);
 }

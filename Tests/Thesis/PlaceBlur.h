@@ -61,8 +61,7 @@ inline double transfer(const Shares& axis, int tolerance) {
 
 } // namespace blurring
 
-/// `blur`: standard deviation in x and y, as a share of the field's width and height, > 0. Any thread
-/// (allocates).
+/// `blur`: standard deviation in x and y, as a share of the field's width and height, > 0. Any thread.
 inline BlurredGrid blurredGrid(int lines, double blur) {
     const blurring::Shares axis = blurring::axisShares(lines, blur);
     double same = 0.0, beside = 0.0;

@@ -4,7 +4,6 @@
 #include <array>
 #include <gtest/gtest.h>
 #include <random>
-#include <string_view>
 #include <vector>
 
 namespace physvib {

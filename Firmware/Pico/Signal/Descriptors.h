@@ -154,8 +154,7 @@ constexpr std::uint8_t audioControlInterface = 0, audioStreamInterface = 1, seri
 constexpr std::uint8_t audioEndpoint = 0x01, feedbackEndpoint = 0x81, serialNotifyEndpoint = 0x82,
                        serialOutEndpoint = 0x03, serialInEndpoint = 0x83;
 constexpr std::uint16_t packetBytes(int channels) noexcept {
-    return static_cast<std::uint16_t>((sampleRateHz / 1000 + 1) * 2 * channels); // 49 frames: room for
-                                                                                 // feedback
+    return static_cast<std::uint16_t>((sampleRateHz / 1000 + 1) * 2 * channels); // 49 frames: feedback
 }
 
 /// Bytes that grow. Compile time.
@@ -248,24 +247,11 @@ constexpr std::array<std::uint8_t, 18> deviceDescriptor(int channels, std::strin
         if (c < '0' || c > '9' || part >= parts.size()) break;
         parts[part] = std::min(9, 10 * parts[part] + (c - '0')); // a digit each
     }
-    return {18,
-            1,
-            0x00,
-            0x02,
-            0xef,
-            2,
-            1,
-            64, // USB 2.0, functions by association
-            0xfe,
-            0xca,
-            static_cast<std::uint8_t>(0x50 + channels),
-            0x40,
-            static_cast<std::uint8_t>(16 * parts[1] + parts[2]),
-            static_cast<std::uint8_t>(parts[0]),
-            1,
-            2,
-            3,
-            1};
+    const auto product = static_cast<std::uint8_t>(0x50 + channels),
+               minor = static_cast<std::uint8_t>(16 * parts[1] + parts[2]),
+               major = static_cast<std::uint8_t>(parts[0]);
+    // USB 2.0, functions by association; vendor, product and version; texts
+    return {18, 1, 0x00, 0x02, 0xef, 2, 1, 64, 0xfe, 0xca, product, 0x40, minor, major, 1, 2, 3, 1};
 }
 
 } // namespace physvib::pico

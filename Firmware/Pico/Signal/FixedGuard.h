@@ -4,8 +4,7 @@
 // and its reasons: Core/Actuators/GuardLaw.h; this file is the same rule with the bounds of GuardPlace::last.
 //
 // Units: areas are sums of samples; z, v (state of the low-pass) are multiples of 2^-24 of full scale,
-// resting gains of 2^-30, loads of 2^-28 of its square. Products stay within 32 bits: the chip multiplies no
-// more.
+// resting gains of 2^-30, loads of 2^-28 of its square. Products stay within 32 bits, as the chip's.
 #pragma once
 #include "Core/Actuators/GuardLaw.h"
 #include <algorithm>

@@ -18,8 +18,7 @@ namespace physvib::pico {
 template <int channels>
 class DroppedFrames {
 public:
-    static constexpr std::int32_t fadeFrames = 4 * tileFrames; // 1.3 ms; a power of two, for a chip that
-                                                               // divides slowly
+    static constexpr std::int32_t fadeFrames = 4 * tileFrames; // 1.3 ms; a power of two: cheap to divide by
 
     /// Frames are missing behind the last one that joined.
     void miss() noexcept {

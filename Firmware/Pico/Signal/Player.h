@@ -23,9 +23,8 @@ public:
 
     FrameBuffer<channels> buffer;
 
-    /// Permits playing; false ramps to silence and stays there. A permission lapses if it is not renewed
-    /// within quietTiles, so a hanging main loop ends the vibration as fast as a pulled cable does. Main
-    /// loop.
+    /// Permits playing; false ramps to silence and stays there. It lapses if it is not renewed within
+    /// quietTiles, so a hanging main loop ends the vibration as fast as a pulled cable does. Main loop.
     void allow(bool isAllowed) noexcept {
         allowed_.store(isAllowed, std::memory_order_relaxed);
         bump(renewals_);

@@ -39,8 +39,7 @@ public:
     }
 
     /// The command for the frame that ends at `untilNs`. Of several that became due since the last pull it is
-    /// the strongest, per motor, so that no impact between two frames is lost. If none did, the last one
-    /// holds.
+    /// the strongest, per motor, so that no impact between two frames is lost. If none, the last holds.
     PadCommand pull(std::int64_t untilNs, double level) noexcept {
         pulledNs_ = untilNs;
         for (; lateCount_ > 0; motors_.strike(late_[lateCount_], grips_))
@@ -98,11 +97,9 @@ struct World {
     std::mutex mutex;
     ContactFeed feed;
     std::vector<CollisionEvent> taken; // events not yet handed out
-    // of bodies that are felt elsewhere than on the first device; their last events may come after they are
-    // removed
+    // of bodies that are felt elsewhere than on the first device; their last events may come after they go
     std::unordered_map<int, int> devices;
-    std::uint64_t late = 0, dropped = 0, rejected = 0, withoutPart = 0; // of the output, at the last
-                                                                        // explanation
+    std::uint64_t late = 0, dropped = 0, rejected = 0, withoutPart = 0; // of the output, last explained
 };
 
 /// Controllers of a program that sends the motor commands itself.
@@ -135,14 +132,15 @@ inline auto use(physvib_world world) noexcept {
 }
 inline auto use(physvib_pads pads) noexcept { return allPads().use(reinterpret_cast<std::uintptr_t>(pads)); }
 
-/// Calls `call(World&)` with the world of that handle, under its mutex; returns its code or count.
-template <class Call>
-auto in(physvib_world name, Call call) noexcept -> decltype(call(std::declval<World&>())) {
-    return guarded([&]() -> decltype(call(std::declval<World&>())) {
-        const auto world = use(name);
-        if (!world) return unknownHandle();
-        const std::lock_guard lock{world->mutex};
-        return call(*world);
+/// Calls `call` with the world or the controllers of that handle, under their mutex; returns its code or
+/// count.
+template <class Handle, class Call>
+auto in(Handle name, Call call) noexcept -> decltype(call(*use(name))) {
+    return guarded([&]() -> decltype(call(*use(name))) {
+        const auto object = use(name);
+        if (!object) return unknownHandle();
+        const std::lock_guard lock{object->mutex};
+        return call(*object);
     });
 }
 

@@ -229,17 +229,6 @@ namespace {
 
 constexpr int maxPads = 64;
 
-/// Calls `call(Pads&)` with the controllers of that handle, under their mutex; returns its code or count.
-template <class Call>
-auto withPads(physvib_pads name, Call call) noexcept -> decltype(call(std::declval<Pads&>())) {
-    return guarded([&]() -> decltype(call(std::declval<Pads&>())) {
-        const auto pads = use(name);
-        if (!pads) return unknownHandle();
-        const std::lock_guard lock{pads->mutex};
-        return call(*pads);
-    });
-}
-
 int noSuchPad() noexcept { return nothingThere("pad: expected one of those created, from 0 on"); }
 bool isFieldSize(double metres) noexcept { return metres > 0.0 && metres <= 1.0e9; } // not NaN
 
@@ -269,7 +258,7 @@ int physvib_pads_free(physvib_pads pads) {
 }
 
 int physvib_pads_strike(physvib_pads name, int pad, const physvib_event* event) {
-    return withPads(name, [&](Pads& pads) {
+    return in(name, [&](Pads& pads) {
         if (!pads.has(pad)) return noSuchPad();
         if (event == nullptr) return nothingThere("event: expected one, found NULL");
         CollisionEvent own;
@@ -282,7 +271,7 @@ int physvib_pads_strike(physvib_pads name, int pad, const physvib_event* event) 
 
 physvib_int64 physvib_pads_send(physvib_pads name, int pad, physvib_world world, physvib_int64 laterNs,
                                 int atOnce) {
-    return withPads(name, [&](Pads& pads) -> physvib_int64 {
+    return in(name, [&](Pads& pads) -> physvib_int64 {
         if (!pads.has(pad)) return noSuchPad();
         if (laterNs < -limits::maxTimeNs / 4 || laterNs > limits::maxTimeNs / 4)
             return nothingThere("delay: expected at most 2.5 * 10^16 ns from 0");
@@ -303,7 +292,7 @@ physvib_int64 physvib_pads_send(physvib_pads name, int pad, physvib_world world,
 }
 
 int physvib_pads_pull(physvib_pads name, physvib_int64 untilNs, physvib_motors* motors, int capacity) {
-    return withPads(name, [&](Pads& pads) {
+    return in(name, [&](Pads& pads) {
         const int count = static_cast<int>(pads.pads.size());
         if (motors == nullptr || capacity < count)
             return nothingThere("motors: expected a place for those of each pad");
@@ -320,14 +309,14 @@ int physvib_pads_pull(physvib_pads name, physvib_int64 untilNs, physvib_motors* 
 }
 
 int physvib_pads_stop(physvib_pads name) {
-    return withPads(name, [&](Pads& pads) {
+    return in(name, [&](Pads& pads) {
         for (Pad& pad : pads.pads) pad.reset();
         return PHYSVIB_OK;
     });
 }
 
 int physvib_pads_set_level(physvib_pads name, double gain) {
-    return withPads(name, [&](Pads& pads) {
+    return in(name, [&](Pads& pads) {
         if (!(gain >= 0.0 && gain <= 10000.0)) return nothingThere("gain: expected 0 to 10000");
         pads.level = gain;
         return PHYSVIB_OK;

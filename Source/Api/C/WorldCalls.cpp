@@ -2,7 +2,6 @@
 // C functions of a world: report contacts, take events.
 #include "Api/C/Calls.h"
 #include "Api/C/Objects.h"
-#include <algorithm>
 #include <cmath>
 
 using namespace physvib;

@@ -47,8 +47,7 @@ const float* PHYSVIB_JS(clip_samples)(int channel) {
 }
 int PHYSVIB_JS(clip_frames)() { return static_cast<int>(sound.channels.front().size()); }
 
-/// Place of a channel, x (axis 0) or y (1), in m; not a number if it has none. Axes 2 and 3: width and height
-/// of the extent.
+/// Place of a channel, x (axis 0) or y (1), in m; NaN: none. Axes 2 and 3: width and height of the extent.
 double PHYSVIB_JS(clip_place)(int channel, int axis) {
     if (axis > 1) return axis == 2 ? clip.extentWidthMetres : clip.extentHeightMetres;
     const auto& place = clip.channels[static_cast<std::size_t>(channel)].place;
@@ -56,8 +55,7 @@ double PHYSVIB_JS(clip_place)(int channel, int axis) {
     return axis == 0 ? place->xMetres : place->yMetres;
 }
 
-/// Converts events to a clip with one channel per actuator; returns the number of channels. Errors throw in
-/// JavaScript.
+/// Converts events to a clip with one channel per actuator; returns their number. Errors throw in JavaScript.
 int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_renderer_settings* settings,
                         double error) {
     std::vector<CollisionEvent> own;
@@ -82,8 +80,7 @@ int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_re
     return static_cast<int>(clip.channels.size());
 }
 
-/// Writes the clip in the format of that file name to text(): one channel (-1: all). Returns 0 if the channel
-/// is silent.
+/// Writes the clip in that file name's format to text(): one channel (-1: all). Returns 0 if it is silent.
 int PHYSVIB_JS(clip_write)(const char* name, int channel) {
     const ClipFormat format = formatOf(name);
     const Clip one = channel < 0 ? clip : oneOf(clip, channel);

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
-#include <string>
 #include <system_error>
 
 namespace std { // this library has none

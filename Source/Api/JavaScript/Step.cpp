@@ -5,7 +5,6 @@
 #include "Api/C/Objects.h"
 #include "Api/JavaScript/Exports.h"
 #include <optional>
-#include <string>
 
 namespace physvib::js {
 

@@ -9,11 +9,9 @@ namespace {
 // Q of the three sections of a sixth-order Butterworth filter
 constexpr double butterworthQ[] = {0.51763809020504148, 0.70710678118654752, 1.9318516525781366};
 constexpr double edgeRatio = 0.80; // corner of a slope relative to the band's edge: costs 0.3 dB at the edge
-constexpr double highestShare = 0.45; // of the sample rate: for a higher corner the converter's own filter
-                                      // suffices
+constexpr double highestShare = 0.45; // of the sample rate: above, the converter's own filter suffices
 constexpr RootPair atZero{-2.0, 1.0}; // double zero at 0 Hz
-constexpr RootPair atTop{2.0, 1.0}; // double zero at half the sample rate, where the bilinear transform puts
-                                    // it
+constexpr RootPair atTop{2.0, 1.0};   // double zero at half the rate, where the bilinear transform puts it
 
 } // namespace
 

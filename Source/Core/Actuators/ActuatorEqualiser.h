@@ -31,8 +31,7 @@ struct RootPair {
         return {-2.0 * std::exp(-decay) * cosine, std::exp(-2.0 * decay)};
     }
 
-    /// The same roots under the bilinear transform, exact at `frequencyHz`: for slopes that reach 0 at half
-    /// the rate.
+    /// The same roots under the bilinear transform, exact at `frequencyHz`: for slopes to 0 at half the rate.
     static RootPair bilinear(double frequencyHz, double q, double sampleRateHz) noexcept {
         const double k = std::tan(std::numbers::pi * frequencyHz / sampleRateHz), whole = 1.0 + k / q + k * k;
         return {2.0 * (k * k - 1.0) / whole, (1.0 - k / q + k * k) / whole};
@@ -93,8 +92,7 @@ struct Resonator {
         return -ratio * ratio / q / std::complex<double>(1.0 - ratio * ratio, ratio / q);
     }
 
-    /// After the drive ends the vibration falls by exp(-t ringDownPerSecond): shorter decays are impossible
-    /// without braking.
+    /// After the drive the vibration falls by exp(-t ringDownPerSecond): shorter decays would need braking.
     double ringDownPerSecond() const noexcept { return std::numbers::pi * resonanceHz / q; }
 
     bool operator==(const Resonator&) const = default;

@@ -14,8 +14,7 @@
 
 namespace physvib {
 
-// Delay line of one channel. Its delay can be changed while it plays: it cross-fades between the old and the
-// new read position.
+// Delay line of one channel. Its delay may change in play: it cross-fades from the old to the new place.
 
 /// Render thread (R) only; prepare: message thread (M).
 template <int Capacity>

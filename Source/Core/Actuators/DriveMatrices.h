@@ -20,8 +20,7 @@ struct DriveMatrices {
     bool isOn() const noexcept { return !frequenciesHz.empty(); }
 
     /// The drives in phase with the strike, and those a quarter turn ahead. Linear interpolation between
-    /// frequencies; beyond them the nearest matrix. Each list holds `channels` numbers. Any thread,
-    /// wait-free.
+    /// frequencies; beyond them the nearest matrix. A list holds `channels` numbers. Any thread, wait-free.
     void apply(double frequencyHz, const double* gains, double* inPhase, double* ahead) const noexcept {
         const auto above = static_cast<std::size_t>(std::ranges::lower_bound(frequenciesHz, frequencyHz) -
                                                     frequenciesHz.begin());

@@ -11,8 +11,7 @@
 #include <cmath>
 
 namespace physvib {
-/// W_h as in the standard's annex A: a second-order band-pass, times a transition from acceleration to
-/// velocity.
+/// W_h by the standard's annex A: a second-order band-pass, times a transition from acceleration to velocity.
 namespace handWeighting {
 constexpr double lowHz = 6.310, highHz = 1258.9, bandQ = 0.70710678118654752; // 10^0.8 and 10^3.1 Hz
 constexpr double transitionHz = 15.915, transitionQ = 0.64;                   // 100 rad/s
@@ -33,8 +32,7 @@ inline double squareGSecondsOf(double dailyExposure) noexcept {
     return dailyExposure * dailyExposure / (standardGravity * standardGravity) * exposureReferenceSeconds;
 }
 
-/// W_h as a filter: within 0.1 dB of gain() from 8 to 1000 Hz at every rate that limits:: allows. One thread
-/// at a time.
+/// W_h as a filter: within 0.1 dB of gain() from 8 to 1000 Hz at every rate that limits:: allows. One thread.
 class HandWeighting {
 public:
     HandWeighting() = default;

@@ -27,15 +27,12 @@ constexpr double guardSeconds = 0.25; // a mean over a shorter time is a percept
 constexpr float guardLoad = 0.00125f; // of full scale squared, below slowestToneHz: half of guardShare's
                                       // square, as much again may come within the second in which it is
                                       // forgotten
-constexpr float guardDamping = 1.0f;  // of the low-pass: 1 at direct current and at slowestToneHz, more
-                                      // between
+constexpr float guardDamping = 1.0f;  // of the low-pass: 1 at direct current and slowestToneHz, more between
 constexpr float guardOfSlow = 0.5f / guardDamping + 0.5f * guardDamping, // the energy that is still in it
     guardOfSpeed = 0.5f / guardDamping;
 constexpr float guardPerLoad = 7000.0f;     // the gain closes over the last ninth of the load
-constexpr float guardReleaseSeconds = 1.0f; // from silence to full gain: slower than the signals that it
-                                            // reduces
-constexpr float guardRestSeconds = 0.2f;    // time constant of the resting gain: longer than a burst keeps it
-                                            // shut
+constexpr float guardReleaseSeconds = 1.0f; // from silence to full gain: slower than what it reduces
+constexpr float guardRestSeconds = 0.2f;    // time constant of the resting gain: longer than a burst shuts it
 } // namespace limits
 
 /// Position of a guard in the signal path. `rendered` has lower bounds than `last`, so `last` seldom acts.
@@ -97,8 +94,7 @@ public:
     /// One channel more, at rest. R.
     void widen() noexcept { ++channels_; }
 
-    /// `areas` of the tile that has just been sent, in seconds at full scale. False: the next tile is played
-    /// unchanged.
+    /// `areas` of the tile just sent, in seconds at full scale. False: the next tile is played unchanged.
     bool take(const Row& areas) noexcept {
         std::size_t silent = 0;
         while (silent < channels_ && areas[silent] == 0.0f) ++silent;
@@ -171,8 +167,7 @@ private:
             const float to = greater(0.0f, lesser(room, rest_[j]));
             to_[j] = to;
             least = std::min(least, std::bit_cast<std::int32_t>(to));
-            // Above half of a bound it only falls: a reduced tone gets one constant gain and keeps its
-            // waveform.
+            // Above half of a bound it only falls: a reduced tone gets one gain and keeps its waveform.
             const float up = lesser(1.0f, rest_[j] + rise_), down = rest_[j] - fall_ * (rest_[j] - to_[j]);
             const float half = most < 0.5f * maxArea_ ? up : down;
             rest_[j] = load < 0.5f * maxLoad_ ? half : down;
@@ -202,8 +197,7 @@ private:
           silentSeconds_ = 0.0f, gain_ = 1.0f;
     int partTiles_ = 1, partTile_ = 0;
     std::uint32_t episodes_ = 0;
-    Row sum_{}, high_{}, low_{}, oldHigh_{}, oldLow_{}; // since the part began; extremes within it; extremes
-                                                        // of earlier parts
+    Row sum_{}, high_{}, low_{}, oldHigh_{}, oldLow_{}; // of the part; its extremes; those of earlier ones
     std::array<Row, parts> highs_{}, lows_{};
     Row slow_{}, speed_{}, load_{}, from_{}, to_{}, rest_{};
 };

@@ -173,8 +173,7 @@ void LinkedLimiter::rest(std::size_t frames) noexcept {
     candidateCount_ = 1;
 }
 
-// Rounding may lift the product above the ceiling by one bit, or lower it into the denormals; both are
-// corrected.
+// Rounding may lift the product above the ceiling by one bit, or lower it to a denormal; both are corrected.
 void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains,
                                   float ceiling) const noexcept {
     const float* const delayed = line + front() - latencyFrames();

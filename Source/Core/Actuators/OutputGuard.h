@@ -196,15 +196,13 @@ private:
     }
     const LimiterKernel* kernel_ = nullptr;
     std::array<GainRamp, width> ceilings_{}; // of the input
-    std::array<float, width> bounds_{}; // ceiling of the output, during a ramp the highest; infinite if the
-                                        // limiter is off
+    std::array<float, width> bounds_{};      // ceiling, in a ramp the highest; infinite: the limiter is off
     std::array<std::int32_t, width> mostBits_{}; // magnitudes up to this need no reduction, even at the
                                                  // lowest ceiling of a ramp, and are finite
     std::int64_t settledFrame_ = 0; // from here on no delayed frame is subject to a ramp's ceiling
     int rampFrames_ = 1;
     bool isSettled_ = true;
-    Storage<float, width * floatsPerLine, true> lines_; // per channel the last latencyFrames() inputs, in
-                                                        // order
+    Storage<float, width * floatsPerLine, true> lines_; // per channel the last latencyFrames() inputs
     std::int64_t silentFrames_ = 0;                     // trailing silent inputs
     int position_ = 0;                                  // in the ring of `window_` gains
     std::int64_t frame_ = 0;

@@ -32,8 +32,7 @@ public:
         : rate_{sampleRateHz}
         , threshold_{static_cast<float>(threshold)} {}
 
-    /// One frame of one channel. `change(stepIndex, isOn)` is called for a step that differs from the one
-    /// before.
+    /// One frame of one channel. `change(stepIndex, isOn)` is called for a step unlike the one before.
     template <class Change>
     void take(float sample, Change change) {
         isLoud_ = isLoud_ || std::abs(sample) > threshold_;

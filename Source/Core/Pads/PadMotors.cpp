@@ -76,8 +76,7 @@ std::int64_t PadMotors::dueNs() const noexcept {
     return waits_ > 0 ? std::max(soonest, waiting_.front().startNs) : never;
 }
 
-// Frequency determines the energy's split at the centre; place moves energy to one grip. The sum is
-// preserved.
+// Frequency determines the energy's split at the centre; place moves it to one grip. The sum is kept.
 PadMotors::Energies PadMotors::shared(double energy, double heavyShare, double side) const noexcept {
     const double low = heavyShare * (1.0 - law_.side + 2.0 * law_.side * (1.0 - side)),
                  high = (1.0 - heavyShare) * (1.0 - law_.side + 2.0 * law_.side * side);

@@ -55,8 +55,7 @@ struct PadMotor {
 /// Parameters of the conversion of events to commands for two motors.
 struct PadLaw {
     PadMotor low{}, high{};          ///< the heavy motor, in the left grip; the light one, in the right grip
-    double commandsPerSecond = 30.0; ///< at most; more frequent commands queue up on the link to the
-                                     ///< controller
+    double commandsPerSecond = 30.0; ///< at most; more of them queue up on the link
     double leadSeconds = 0.03; ///< an impact's command is sent this much earlier, because motors are slow
     double splitHz = 100.0;    ///< below it the heavy motor has the larger share
     double side = 0.5;         ///< weight of the impact's place beside its frequency, 0 to 1
@@ -104,8 +103,7 @@ public:
 
 private:
     struct Voice {
-        std::int64_t startNs = 0, endNs = 0; // both earlier than felt, by the law's lead; endNs 0: decays
-                                             // fully
+        std::int64_t startNs = 0, endNs = 0; // both earlier than felt, by the law's lead; endNs 0: it decays
         double decayPerSecond = 0.0;
         double low = 0.0, high = 0.0;          // energy at the start
         double energy = 0.0, heavyShare = 0.0; // of a moving event, whose place is recomputed

@@ -19,8 +19,7 @@ constexpr double minSecondsBetween = 0.05; // per band: at most twenty onsets a 
 constexpr double usualSeconds = 1.0, strongestSeconds = 5.0, maskedSeconds = 0.1;
 constexpr double minRise = 3.0;          // relative to the mean flux
 constexpr double minFlux = 1e-3;         // about that of a starting sine at -60 dB
-constexpr double minShareAtOne = 0.0625; // relative to the strongest onset; raised to the power of the
-                                         // sensitivity
+constexpr double minShareAtOne = 0.0625; // of the strongest onset; to the power of the sensitivity
 
 unsigned windowOf(int rateHz) noexcept {
     return std::max(16u, std::bit_floor(static_cast<unsigned>(longestWindowSeconds * rateHz)));

@@ -27,8 +27,7 @@ inline constexpr std::array<BeatBand, 3> beatBands{
 struct BandOnset {
     std::int64_t frame = 0; ///< of the input, from 0
     int band = 0;           ///< index into beatBands
-    double strength = 0.0;  ///< relative to the strongest onset of that band in the last seconds; above 0, up
-                            ///< to 1
+    double strength = 0.0;  ///< of the strongest onset of that band in the last seconds; above 0, up to 1
     bool operator==(const BandOnset&) const = default;
 };
 
@@ -38,8 +37,7 @@ using EnchanterSet = std::bitset<limits::maxEnchanters>;
 struct BeatVoices {
     static constexpr double usualLevel = 0.5;
 
-    std::array<EnchanterSet, beatBands.size()> enchanters; ///< actuators of each band; none: the band is not
-                                                           ///< felt
+    std::array<EnchanterSet, beatBands.size()> enchanters; ///< of each band; none: the band is not felt
     /// resonance of the thesis' actuator
     std::array<double, beatBands.size()> frequencyHz{205.0, 205.0, 205.0};
     std::array<double, beatBands.size()> decayPerSecond{15.0, 30.0, 60.0}; ///< long, short, tick

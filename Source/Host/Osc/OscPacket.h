@@ -32,8 +32,7 @@ Result<std::vector<OscMessage>> readOscPacket(std::span<const char> bytes);
 constexpr int deepestBundle = 16;
 
 /// Alternating names and values, in the order of `message`; the inverse of plainOf. Numbers are single
-/// precision, the only type that every program reads (Pd reads no other); exact times are tags. Any thread
-/// but R.
+/// precision, the only type that all programs read (Pd no other); exact times are tags. Any thread but R.
 std::vector<char> oscPacket(const std::string& address, const PlainMessage& message);
 /// The same in a bundle.
 std::vector<char> oscBundle(const std::string& address, const PlainMessage& message, OscTag tag);

@@ -8,8 +8,7 @@ namespace {
 
 constexpr int pollMilliseconds = 10;           // polling period of the device's blocks
 constexpr std::size_t mostAtOnce = 1000;       // packets per round; pending late refusals
-constexpr std::int64_t clockSlackNs = 100'000; // tolerance, because two clocks cannot be read at the same
-                                               // moment
+constexpr std::int64_t clockSlackNs = 100'000; // two clocks cannot be read at the same moment
 
 } // namespace
 

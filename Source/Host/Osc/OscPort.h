@@ -115,8 +115,7 @@ struct OscStatus {
     std::uint64_t sent = 0, unsent = 0; ///< packets with hits and status
 };
 
-/// One thread reads packets and silences at once if a packet requests it; a second thread executes the
-/// packets in order.
+/// One thread reads packets and silences at once if one requests it; a second executes them in order.
 class OscPort final : public Sink {
 public:
     static constexpr std::int64_t statusEveryNs = 1'000'000'000;

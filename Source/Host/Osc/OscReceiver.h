@@ -59,8 +59,7 @@ private:
 /// System clock minus steady clock, now. Any thread but R.
 std::int64_t unixAheadNs() noexcept;
 
-/// A message of a phone's sensor program, which becomes gravity in the world (Docs/osc.md): three axes, or
-/// one axis.
+/// A message of a phone's sensor program, the world's gravity (Docs/osc.md): three axes, or one.
 struct SensorFormat {
     enum class Part { pull, gravity, motion, x, y, unused };
     std::string_view address; ///< a leading `*` stands for the phone's name
@@ -88,8 +87,7 @@ const SensorFormat* sensorFormat(std::string_view address) noexcept;
 /// One thread at a time.
 class PhoneSensors {
 public:
-    /// Changes below this are tremor of a resting hand: a reading closer than that to the last one used is
-    /// ignored.
+    /// Changes below this are tremor of a resting hand: a reading that close to the last used is ignored.
     static constexpr double leastChange = 0.05; // m/s^2; 0.3 degrees
 
     /// `turnRadians`: angle at which the phone is held, counter-clockwise from upright.
@@ -124,8 +122,7 @@ struct OscOrigin {
 struct OscHooks {
     /// applies inputs and controls; returns empty, or the reason of a refusal
     std::function<std::string(const LineInput&, const OscOrigin&)> act;
-    std::function<std::string()> closed; ///< returns why only silence is accepted now; empty: all is;
-                                         ///< optional
+    std::function<std::string()> closed; ///< why only silence is accepted; empty: all is; optional
     ClipSource clips{};                  ///< source of clip files; empty: clips are refused
 };
 

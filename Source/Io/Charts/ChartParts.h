@@ -59,14 +59,10 @@ struct ChartAxis {
         return axis;
     }
 };
-} // namespace physvib
 
-// Writer of SVG pictures as text, with equal bytes for equal input: no scripts, no external references, the
-// reader's fonts.
+// Writes SVG pictures, equal bytes for equal input: no scripts, no external references, the reader's fonts.
 
-namespace physvib {
-/// Escapes `text` for HTML and SVG, between tags or in an attribute, and removes control characters. Any
-/// thread.
+/// Escapes `text` for HTML and SVG, also for attributes, and removes control characters. Any thread.
 std::string markup(std::string_view text);
 
 struct ChartPoint {
@@ -89,8 +85,7 @@ struct TextStyle {
     std::string_view colour = "#222";
 };
 
-constexpr std::size_t chartStyles = 8; ///< number of series styles: colour, hatch, marker and dash repeat
-                                       ///< after these
+constexpr std::size_t chartStyles = 8; ///< of series: colour, hatch, marker and dash repeat after these
 
 /// Okabe and Ito's colours (2008), distinguishable for colour-blind readers; hatches, markers and dashes for
 /// black-and-white print.

@@ -195,8 +195,7 @@ struct PlaceDrawing {
     }
     void ellipses() const {
         for (const PlaceEllipse& e : chart.ellipses) {
-            const double wx = area.width(), wy = area.height(); // because the field's shares are not square
-                                                                // in pixels
+            const double wx = area.width(), wy = area.height(); // the field's shares are not square in pixels
             const double a = e.varianceX * wx * wx, b = e.covariance * wx * wy, c = e.varianceY * wy * wy;
             const double middle = 0.5 * (a + c), spread = std::hypot(0.5 * (a - c), b);
             const double degrees = 0.5 * std::atan2(2.0 * b, a - c) * 180.0 / std::numbers::pi;

@@ -8,8 +8,7 @@
 
 namespace physvib {
 
-/// True if `name` is a file path rather than the name of an embedded file: it ends in .json or has a folder.
-/// Any thread.
+/// True if `name` is a path, not the name of an embedded file: it ends in .json or has a folder. Any thread.
 inline bool isJsonPath(std::string_view name) noexcept {
     return name.ends_with(".json") || name.find('/') != std::string_view::npos;
 }

@@ -20,8 +20,7 @@ bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
 inline constexpr const char* leadsElsewhere =
     "expected a file in its own folder or below, found a link that leads elsewhere";
 
-/// True if `path`, after following all links, is in `folder` or below, existing or not. Any thread but the
-/// render thread (R).
+/// True if `path`, after following all links, is in `folder` or below, existing or not. Any thread but R.
 bool isWithin(const std::filesystem::path& folder, const std::filesystem::path& path);
 
 /// Empty, or one line on the first of `outputs` that equals an input or another output. Empty names are

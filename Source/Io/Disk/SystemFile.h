@@ -87,8 +87,7 @@ private:
     int error_ = 0;
 };
 
-/// Removes a file if a signal ends the program (see removeAllOnEnd()) while this object exists. Any thread
-/// but R.
+/// While it exists, removes a file if a signal ends the program (see removeAllOnEnd()). Any thread but R.
 class RemovedOnEnd {
 public:
     RemovedOnEnd() = default;
@@ -121,8 +120,7 @@ private:
     unsigned others_ = 0; // signals that were blocked already
 };
 
-/// For the handler of a signal that ends the program: neither allocates, locks nor waits (on Windows it waits
-/// for HeldSignals).
+/// For the handler of a signal that ends the program: no allocation, lock or wait (Windows: for HeldSignals).
 void removeAllOnEnd() noexcept;
 
 /// The signals that end a program unless it handles them: Ctrl-C, `kill`, a closed terminal, time limits. Any

@@ -263,8 +263,7 @@ void expectFewMarks(std::string_view text) {
 
 Json parseStrictly(std::string_view text) {
     expectFewMarks(text);
-    if (const auto nul = text.find('\0'); nul != std::string_view::npos) // where the parser takes it for the
-                                                                         // end
+    if (const auto nul = text.find('\0'); nul != std::string_view::npos) // for the parser, the end
         throw JsonError({}, "expected text, found a NUL after " + std::to_string(nul) + " bytes");
     StrictBuilder builder{text};
     Json::sax_parse(text, &builder);

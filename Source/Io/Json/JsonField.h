@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-// Strict JSON parsing: no repeated fields, no deep nesting, and errors that name the field. For .cpp files
-// that read JSON.
+// Strict JSON parsing: no repeated fields, no deep nesting, and errors that name the field. For .cpp files.
 
 // Instantiated once, in JsonField.cpp, because it dominates the compile time of every file that uses it.
 extern template class nlohmann::basic_json<>;
@@ -31,9 +30,6 @@ struct JsonError : std::runtime_error {
 /// The parsed value. Throws JsonError.
 Json parseStrictly(std::string_view text);
 
-} // namespace physvib
-
-namespace physvib {
 /// A value and its path. Missing or wrong values are thrown as JsonError.
 class JsonField {
 public:

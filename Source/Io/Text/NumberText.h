@@ -27,8 +27,7 @@ inline std::string numberText(double number) {
     return text;
 }
 
-/// The number that all of `text` represents; nullopt if it is invalid, not finite, or out of range. Any
-/// thread.
+/// The number that all of `text` is; nullopt if it is invalid, not finite, or out of range. Any thread.
 template <class Number>
 requires std::integral<Number> || std::floating_point<Number> std::optional<Number>
 parseNumber(std::string_view text)

@@ -15,8 +15,7 @@ namespace physvib {
 /// comment alone.
 class WavSink {
 public:
-    /// Begins a file that appears at `path` (see AtomicFile). `comment` (who made this, from what) becomes
-    /// its INFO comment.
+    /// Begins a file that appears at `path` (see AtomicFile). `comment` (who made this, from what): its INFO.
     WavSink(const std::filesystem::path& path, int channels, int sampleRateHz,
             const std::string& comment = {});
 

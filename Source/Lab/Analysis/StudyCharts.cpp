@@ -53,8 +53,7 @@ std::string responsesChart(ChartFrame frame, const ConditionResolution& one,
 }
 
 std::string territoryChart(ChartFrame frame, const ConditionResolution& one) {
-    constexpr std::size_t columns = 164, rows = 85; // sufficient resolution for a page; percent counts use
-                                                    // every pixel
+    constexpr std::size_t columns = 164, rows = 85; // enough for a page; percent counts use every pixel
     PlaceChart chart = fieldOf(std::move(frame), one);
     for (const auto owner : likelihoodMap(one.normals, columns, rows)) chart.territory.push_back(owner);
     chart.mapColumns = columns;

@@ -58,8 +58,7 @@ struct FitWords {
     std::string level = "level (dB)", answer = "correct";
 };
 
-/// Labels for another program's table, from its column mapping or the chosen columns (empty: none chosen).
-/// Any thread.
+/// Labels for another program's table, from its column mapping or the chosen columns (or empty). Any thread.
 FitWords fitWords(std::span<const ColumnName> columns, const std::string& level = {},
                   const std::string& measure = {});
 

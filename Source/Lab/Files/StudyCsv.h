@@ -50,8 +50,7 @@ auto bySession(const StudyData<Trial>& data, Summarise summarise) {
 /// Contents and display name of a file.
 struct NamedText {
     std::string_view text, name;
-    std::span<const ColumnName> columns{}; ///< column mapping for another program's table; empty: our column
-                                           ///< names
+    std::span<const ColumnName> columns{}; ///< those of another program's table; empty: our names
 };
 
 // For all readers: other columns are ignored. Training trials and trials of other tasks in files of `study

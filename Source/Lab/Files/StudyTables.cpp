@@ -38,8 +38,7 @@ ColumnName withRange(std::string ours, std::string words) {
     return {std::move(ours), words.substr(0, first), std::pair{*from, *to}};
 }
 
-/// Converts a column to shares of its range. Returns an error for the first cell that is not a number, else
-/// an empty string.
+/// Converts a column to shares of its range. Returns an error for the first cell that is no number, or "".
 std::string scale(CsvTable& table, std::size_t column, const std::pair<double, double>& range) {
     for (CsvRow& row : table.rows) {
         const auto number = parseNumber<double>(row.cells[column]);
@@ -228,8 +227,7 @@ bool saysSimulated(const CsvTable& table) {
 
 namespace {
 
-constexpr std::size_t mostNamed = 6; // limit of the participants, and of the tables of one, that a message
-                                     // lists
+constexpr std::size_t mostNamed = 6; // participants, and tables of one, that a message lists
 
 std::string tablesOf(const std::vector<std::string>& names) {
     std::string words;

@@ -25,8 +25,7 @@ namespace physvib {
 /// A column name used here, and its name in a table.
 struct ColumnName {
     std::string ours, theirs;
-    std::optional<std::pair<double, double>> range{}; ///< table values that map to 0 and 1; none: cells are
-                                                      ///< unchanged
+    std::optional<std::pair<double, double>> range{}; ///< what maps to 0 and 1; none: cells are unchanged
     bool operator==(const ColumnName&) const = default;
 };
 
@@ -208,7 +207,6 @@ private:
 namespace physvib::limits {
 constexpr std::size_t maxProtocolFileBytes = 1'000'000; // a protocol with many conditions has a few kB
 constexpr std::size_t maxCouplingFileBytes = 4'000'000; // four actuators need 1 kB per frequency, 64 need 100
-                                                        // kB
 constexpr std::size_t maxConditions = 4096;             // per analysis; they are searched linearly
 constexpr std::size_t maxLabels = 2048; // stimuli and responses; five actuators have 1240 patterns
 } // namespace physvib::limits

@@ -96,8 +96,7 @@ std::string headerOf(const std::vector<std::string>& names) {
     return line + "\n";
 }
 
-/// Columns of the header `line` (with its line end): all of `names`, or those of older versions; empty for
-/// any other header.
+/// Columns of the header `line` (with its line end): all of `names`, or those of older versions; else empty.
 std::vector<std::string> columnsIn(std::string_view line, std::vector<std::string> names) {
     for (const auto isNewer : {columns::isReceipt, columns::isApparatus, columns::isMeasured}) {
         if (line == headerOf(names)) return names;

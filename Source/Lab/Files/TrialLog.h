@@ -147,11 +147,9 @@ using TrialHead = std::map<std::string, std::string>;
 
 /// Parses the first comment line that names this program; empty if there is none. Any thread.
 TrialHead trialHeadOf(const std::vector<std::string>& comments);
-} // namespace physvib
 
 // Tells which rows of a table are of trials that did not leave as planned, and so are evidence of nothing.
 
-namespace physvib {
 /// By the column `left`. Of rows without it, by a part whose peak is 0 though a device was open and its call
 /// does not ask for silence. Any thread; the table outlives it.
 class LeftRows {

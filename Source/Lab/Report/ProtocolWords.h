@@ -33,8 +33,7 @@ std::vector<std::string> soundLines(const Protocol& protocol);
 // How a figure in g comes about, told wherever one is printed: samples, full scale, actuator.
 
 /// A sentence with the full scale of each layout of the protocol, calibrated or assumed. `samples`: "as
-/// rendered". A full scale counts as calibrated if the layout's actuator profile states the same. Message
-/// thread only.
+/// rendered". A full scale counts as calibrated if its actuator's profile states the same. Message thread.
 std::string levelChain(const Protocol& protocol, std::string_view samples);
 
 } // namespace physvib

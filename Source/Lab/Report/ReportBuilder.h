@@ -96,8 +96,7 @@ private:
 
 // The sections of a report, in order.
 
-void tellParticipants(ReportBuilder& report); ///< participants, numbers of trials, exclusions, ethics and
-                                              ///< consent
+void tellParticipants(ReportBuilder& report); ///< numbers of trials, exclusions, ethics and consent
 void tellProcedure(ReportBuilder& report); ///< protocol in sentences, calls of the stimuli, levels, exposure
 void tellApparatus(ReportBuilder& report); ///< device, levels, noise and limiter as recorded in the rows
 void tellTimes(ReportBuilder& report);  ///< dates, breaks, resumes and outputs, if files of times are there

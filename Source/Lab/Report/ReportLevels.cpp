@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Report section on levels: thresholds with psychometric functions, adjusted levels, and magnitude estimates.
-#include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"

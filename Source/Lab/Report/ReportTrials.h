@@ -63,8 +63,7 @@ struct ReportTrials {
     RowsLeftOut leftOut;                      ///< of other programs' tables
     std::vector<std::string> notes{};         ///< participants in several files, columns not used
     std::vector<ColumnName> columns{};        ///< column mapping for tables of another program
-    double guess = PsychometricModel{}.guess; ///< guess rate of psychometric functions if no protocol
-                                              ///< specifies it
+    double guess = PsychometricModel{}.guess; ///< of psychometric functions, if no protocol says it
     std::optional<Protocol> protocol{};       ///< protocol of the files, if known
     std::string protocolNote{};               ///< why the protocol is unknown
     StudyFacts facts{};                       ///< facts given by the user in addition to the trials
@@ -109,8 +108,7 @@ struct UnfinishedRun {
 };
 
 /// From the columns participant, condition, session and correct, and the protocol; excluded participants are
-/// not among them. Nothing is known without a protocol. Explorations end when participants like. Any thread
-/// (allocates).
+/// not among them. Nothing is known without a protocol. Explorations end when participants like. Any thread.
 std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials);
 
 } // namespace physvib

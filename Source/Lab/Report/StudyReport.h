@@ -6,7 +6,6 @@
 #include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Report/ReportTrials.h"
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,8 +29,7 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script =
 struct ReportJob {
     std::vector<std::string> files;           ///< trial files of one study
     std::vector<ColumnName> columns{};        ///< column mapping for tables of another program
-    double guess = PsychometricModel{}.guess; ///< guess rate of psychometric functions if no protocol
-                                              ///< specifies it
+    double guess = PsychometricModel{}.guess; ///< of psychometric functions, if no protocol says it
     std::string folder;                       ///< output folder
     bool wantsBids = false;                   ///< also export the trials as a BIDS dataset
     bool wantsNotebook = false;               ///< also a notebook of the script's steps

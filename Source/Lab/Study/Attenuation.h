@@ -23,15 +23,13 @@ struct IsolationMeasurement {
 
 struct IsolationResult {
     IsolationCondition condition;
-    std::vector<double> gammas; ///< Eq. 3.2 of each repetition against the mean of the references of its
-                                ///< drive
+    std::vector<double> gammas;         ///< Eq. 3.2 of each repetition against the drive's mean reference
     double mean = 0.0, deviation = 0.0; ///< of `gammas`; sample standard deviation, 0 for one value
 };
 
 struct IsolationStudy {
     std::string fault;                    ///< error in one line; if set, the results are invalid
-    std::vector<IsolationResult> results; ///< sorted by material, softener, thickness, axis, voltage and
-                                          ///< frequency
+    std::vector<IsolationResult> results; ///< sorted: material, softener, thickness, axis, voltage, frequency
 };
 
 /// Any thread (allocates).

@@ -14,8 +14,7 @@ namespace {
 
 using ComplexNumber = std::complex<double>;
 
-constexpr double minLambda = 1e-9, maxLambda = 1e3; // of full scale squared: from no regularisation to
-                                                    // drives near zero
+constexpr double minLambda = 1e-9, maxLambda = 1e3; // of full scale squared: from none to drives near zero
 constexpr double mismatchDb = 2.0, mismatchDegrees = 20.0;
 
 using Entries = Eigen::Matrix<ComplexNumber, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -66,8 +65,7 @@ double strongestDrive(const CouplingMatrix& drives) {
             most = std::max(most, sum);
         }
     }
-    return most / std::cos(std::numbers::pi / directions); // upper bound: the maximum may lie between two
-                                                           // directions
+    return most / std::cos(std::numbers::pi / directions); // upper bound: the maximum may lie in between
 }
 
 double strayShare(const CouplingMatrix& coupling, const CouplingMatrix& drives) {

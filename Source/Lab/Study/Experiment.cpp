@@ -4,7 +4,6 @@
 #include "Core/Units.h"
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 namespace physvib {

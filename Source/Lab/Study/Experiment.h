@@ -32,9 +32,8 @@ struct Trial {
     std::size_t condition = 0, session = 0; ///< indices into the protocol
     int number = 0;                         ///< within its session, from 1
     StudyTask task = StudyTask::identify;
-    std::string stimulus;           ///< label; empty while exploring
-    std::vector<std::string> parts; ///< parts played separately: alternatives in the order of their buttons,
-                                    ///< or objects
+    std::string stimulus;             ///< label; empty while exploring
+    std::vector<std::string> parts;   ///< played separately: alternatives as their buttons, or objects
     std::vector<double> partLevelsDb; ///< levels of the alternatives
     double roveDb = 0.0;              ///< of the variable that roves, if there is one; else 0
     double levelDb = 0.0;             ///< of the alternative that is moved, or was matched before; else 0
@@ -46,8 +45,7 @@ struct Trial {
 struct Apparatus {
     std::string version, device;     ///< program version, and device such as "JACK:system"
     double masterDb = 0.0;           ///< the mixer's level
-    std::optional<double> noiseDb{}; ///< root mean square of pink noise on headphones, dB of full scale;
-                                     ///< none: no noise
+    std::optional<double> noiseDb{}; ///< root mean square of pink noise on headphones, dB of full scale
     std::string outputs{}, noiseOutputs{}, language{}; ///< "1 2 3 4", "5 6", "ko"; not in rows but in the
                                                        ///< file of times, see StudyTimes.h
     bool operator==(const Apparatus&) const = default;
@@ -58,8 +56,7 @@ constexpr std::size_t mostAnswerBytes = 4000;                // of an answer in 
 
 /// A participant's answer. Each task uses some of the fields.
 struct Answer {
-    std::string response; ///< identify: a label; choose: an alternative; explore: the stimulus that was felt;
-                          ///< describe: words
+    std::string response; ///< identify: a label; choose: an alternative; explore: a stimulus; describe: words
     std::optional<FieldPlace> place; ///< locate; explore with free touches
     std::vector<double> scores;      ///< rate: one per scale
     double value = 0.0;              ///< adjust: dB; estimate: leastEstimate to mostEstimate
@@ -72,8 +69,7 @@ struct Answer {
     std::optional<bool> left{}; ///< whether every part left as planned in its last play; none: not known, as
                                 ///< there was no device
     int again = 0;              ///< plays that did not leave as planned, each felt again; not among `plays`
-    std::optional<double> exposure{}; ///< accumulated exposure of the participant, A(8) in m/s^2; none: not
-                                      ///< measured
+    std::optional<double> exposure{};    ///< of the participant so far, A(8) in m/s^2; none: not measured
     std::vector<std::string> sessions{}; ///< interactive worlds: saved sessions of each scene run in order,
                                          ///< beside the trial file
     bool operator==(const Answer&) const = default;

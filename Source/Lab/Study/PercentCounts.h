@@ -5,7 +5,6 @@
 #include "Lab/Study/Identification.h"
 #include "Stimuli/Stimulus.h"
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -37,10 +36,8 @@ struct GridMerge {
 
 /// The largest grids whose cells all reach the threshold.
 struct PerceptualResolution {
-    std::size_t columns = 0, rows = 0; ///< of the first entry of `ties`; both 0 if even the whole field is
-                                       ///< below the threshold
-    std::vector<GridMerge> ties; ///< every merge with that number of cells, wider grids first; the first is
-                                 ///< the result
+    std::size_t columns = 0, rows = 0; ///< of the first of `ties`; both 0: all is below the threshold
+    std::vector<GridMerge> ties; ///< all with that number of cells, wider grids first; first: the result
 };
 
 /// `counts` with 1 to mostGridLines rows and columns, `thresholdPercent` inclusive. Any thread (allocates).

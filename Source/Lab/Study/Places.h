@@ -22,8 +22,7 @@ struct PlaceNormal {
     std::size_t responses = 0;
     double meanX = 0.0, meanY = 0.0;
     double varianceX = 0.0, varianceY = 0.0, covariance = 0.0;
-    bool isBorrowed = false; ///< the pooled covariance is used, because the own one is singular or has fewer
-                             ///< than three responses
+    bool isBorrowed = false; ///< the pooled covariance is used: the own is singular or of fewer than three
 
     double determinant() const noexcept { return varianceX * varianceY - covariance * covariance; }
 };

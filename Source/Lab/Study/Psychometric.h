@@ -30,8 +30,7 @@ struct PsychometricFunction {
 
     /// Any thread.
     double probability(double level) const noexcept;
-    double levelOf(double probability) const; ///< inverse function, for a probability between guess and 1 -
-                                              ///< lapse
+    double levelOf(double probability) const; ///< inverse, for one between guess and 1 - lapse
     /// Just noticeable difference: half the distance from F = 0.25 to F = 0.75.
     double jnd() const noexcept;
 };

@@ -13,10 +13,8 @@
 namespace physvib {
 namespace {
 
-constexpr double mostLevels = 201.0; // with as many thresholds: at most 300,000 functions, a few milliseconds
-                                     // per trial
-constexpr int widths = 7;            // in equal ratios; with fewer, the threshold's posterior is biased to
-                                     // the nearest width
+constexpr double mostLevels = 201.0; // with as many thresholds: 300,000 functions at most, some ms per trial
+constexpr int widths = 7;            // in equal ratios; with fewer, the threshold is biased to the nearest
 
 double levelCount(const QuestMethod& m) { return std::floor((m.mostDb - m.leastDb) / m.stepDb + 1e-6) + 1.0; }
 

@@ -29,8 +29,7 @@ public:
 
     double level() const noexcept { return plan_.levels[next_]; } ///< level of the next trial
     void answer(bool isCorrect) { answerAt(level(), isCorrect); } ///< answer to a trial at `level()`
-    void answerAt(double level, bool isCorrect); ///< answer to a trial at any level; uses the nearest level
-                                                 ///< of the plan
+    void answerAt(double level, bool isCorrect); ///< at any level; counts for the nearest of the plan
     PsychometricFunction estimate() const;       ///< posterior mean
     double thresholdDeviation() const;           ///< posterior standard deviation of the threshold
     int trials() const noexcept { return trials_; }
@@ -67,8 +66,7 @@ PooledThresholds pooledThresholds(const QuestPlan& plan, std::span<const std::ve
 struct QuestMethod {
     std::string alternative;
     PsychometricShape shape = PsychometricShape::weibull;
-    double leastDb = 0.0, mostDb = 20.0, stepDb = 0.5; ///< levels that can be presented; also the prior's
-                                                       ///< thresholds
+    double leastDb = 0.0, mostDb = 20.0, stepDb = 0.5; ///< that can be presented; also the prior's thresholds
     double leastWidthDb = 2.0, mostWidthDb = 20.0;     ///< widths of the psychometric function in the prior
     double lapse = 0.02;
     int trials = 40;

@@ -146,8 +146,7 @@ std::string SimulatedObserver::identified(const ConditionPlan& condition, const 
         return gridLabel(
             grid.nearest(feltPlace(grid.place(*targetOf(condition, trial)), blurOf(condition), random)));
     }
-    const auto items = stimuliOf(condition); // unknown kind of stimulus: confused with a random one at a
-                                             // fixed rate
+    const auto items = stimuliOf(condition); // unknown kind of stimulus: confused at a fixed rate
     return random.chance(settings_.pulsePlaceConfusion) ? items[random.below(items.size())].label
                                                         : trial.stimulus;
 }

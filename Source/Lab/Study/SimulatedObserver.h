@@ -11,14 +11,12 @@ namespace physvib {
 /// Parameters of perception errors and preferences. Probabilities are in 0 to 1.
 struct ObserverSettings {
     std::string name = "simulated";
-    double placeBlur = 0.15;   ///< standard deviation, share of the field's width and height
-    double pullToMiddle = 0.0; ///< compression of places towards the centre, as a share of their distance
-                               ///< from it
+    double placeBlur = 0.15;             ///< standard deviation, share of the field's width and height
+    double pullToMiddle = 0.0;           ///< of places, as a share of their distance from the centre
     double offsetX = 0.0, offsetY = 0.0; ///< constant localisation error, as shares of the field
     double pulsePlaceConfusion = 0.01;   ///< probability that a pulse is felt at another actuator
     double durationConfusion = 0.03;     ///< probability that a pattern's duration is confused with another
-    double numerosityConfusion = 0.02;   ///< probability that one pulse too few is counted
-                                         ///< (underestimation is usual)
+    double numerosityConfusion = 0.02;   ///< that one pulse too few is counted (as is usual)
     double firstAlternativePreference = 0.59;   ///< probability, for alternatives at equal levels
     double levelNoiseDb = 2.0;                  ///< of comparisons and adjustments
     double scoreBase = 38.0, scoreNoise = 14.0; ///< ratings

@@ -59,8 +59,7 @@ struct PhantomJob {
     double exponent = 1.0, seconds = 1.0;
     double decayPerSecond = 0.0; ///< of the amplitude, exp(-decay t); 0: a rectangular burst
     LevelOf levelOf = LevelOf::peak;
-    std::string recording{}; ///< a mono file that replaces the tone, with its own rate and length; empty:
-                             ///< none
+    std::string recording{}; ///< a mono file instead of the tone, of its own rate and length
     bool operator==(const PhantomJob&) const = default;
 
     FieldPlace place() const noexcept;

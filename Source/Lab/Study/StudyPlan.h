@@ -58,8 +58,7 @@ PlannedTime plannedTime(const Protocol& protocol,
 
 /// Balance of the condition orders of participants 1 to `participants`.
 struct OrderBalance {
-    int fewestAtPlace = 0, mostAtPlace = 0;       ///< how often a condition stands at a position: minimum and
-                                                  ///< maximum
+    int fewestAtPlace = 0, mostAtPlace = 0;       ///< how often a condition has a position: least and most
     int successions = 0, possibleSuccessions = 0; ///< ordered pairs of neighbouring conditions: how many
                                                   ///< occur, and how many there are
     bool isBalanced() const noexcept {

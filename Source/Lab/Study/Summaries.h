@@ -139,8 +139,7 @@ struct RatingSummary {
     std::string condition;
     std::size_t trials = 0, participants = 0;
     std::vector<std::size_t> scored, raters; ///< per scale: trials with a score, and people
-    std::vector<double> means, deviations;   ///< per scale: over participants' means; over trials, 0 for one;
-                                             ///< NaN: not asked
+    std::vector<double> means, deviations;   ///< over participants; over trials, 0 for one; NaN: not asked
     std::vector<double> halfIntervals;       ///< 95 %: t interval over participants' means, or over trials if
                                              ///< participants are unknown; 0 for one value
 };
@@ -173,8 +172,7 @@ struct LevelSummary {
                             ///< one participant over trials; 0 for one value
     double halfInterval = 0.0; ///< 95 % half-interval of thresholds and adjustments over participants; for
                                ///< one QUEST+ participant from the posterior; else 0
-    std::vector<std::pair<std::string, double>> thresholds{}; ///< staircase, QUEST+: of each participant, in
-                                                              ///< dB
+    std::vector<std::pair<std::string, double>> thresholds{}; ///< staircase, QUEST+: per participant, in dB
 };
 
 /// Sorted by kind, condition and stimulus. A staircase threshold is the mean level of the later half of the

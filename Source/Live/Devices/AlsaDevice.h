@@ -49,8 +49,7 @@ const AlsaLibrary* alsaLibrary();
 /// What a device offers in one direction; no channels if it cannot be asked.
 struct AlsaRange {
     int minChannels = 0, maxChannels = 0;
-    bool isMissing = false; ///< it cannot be opened, and not because another program has it or because of
-                            ///< rights
+    bool isMissing = false; ///< cannot be opened, and not for want of rights or as another program has it
     int rateHz = 0;         ///< the first usual rate from 44.1 kHz on that it has; 0: none
 };
 

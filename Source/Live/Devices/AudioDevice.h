@@ -41,8 +41,7 @@ public:
     virtual int inputs() = 0;  ///< that it has
     virtual int defaultBlockFrames() = 0;
 
-    /// Opens those of the channels that it has. 0: the device's default. Returns empty, or one line with the
-    /// reason.
+    /// Opens those of the channels that it has. 0: the device's default. Empty, or one line why.
     virtual std::string open(const ChannelSet& inputs, const ChannelSet& outputs, int sampleRateHz,
                              int blockFrames) = 0;
     virtual void close() = 0;
@@ -70,8 +69,7 @@ public:
     virtual std::string name() const = 0; ///< "ALSA", "JACK", "CoreAudio"...
     virtual void scan() = 0;              ///< before the next two, which tell what it found
     virtual std::vector<std::string> deviceNames(bool inputs) = 0;
-    /// The device with that output, and with the inputs of the same name if `withInputs`; null: there is
-    /// none.
+    /// The device with that output, and with the same name's inputs if `withInputs`; null: there is none.
     virtual std::unique_ptr<AudioDevice> create(const std::string& name, bool withInputs) = 0;
 };
 
@@ -150,8 +148,7 @@ int ownOutputs(const AudioDeviceName& device);
 /// displays and "no device" last. Any thread.
 std::vector<AudioDeviceName> byLikelihood(std::vector<AudioDeviceName> devices);
 
-/// The layout preset for that many outputs, at most four; a Pico's own ones for its four or eight. Any
-/// thread.
+/// The layout preset for that many outputs, at most four; a Pico's own for its four or eight. Any thread.
 const char* layoutFor(int outputs, std::string_view device = {});
 
 // The audio drivers of this system.

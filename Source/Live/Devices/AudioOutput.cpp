@@ -185,8 +185,7 @@ bool AudioOutput::hasGone(Clock::time_point now) {
     return watch_.hasGone(now, load_.read().blocks, wasConnected_ && !isConnected);
 }
 
-// A block longer than all before needs a longer output latency; a new sample rate needs the session's time
-// recalculated.
+// A block longer than all before needs a longer output latency; a new sample rate, the session's time anew.
 std::string AudioOutput::follow() {
     const int rate = keeper_.device()->sampleRateHz(), before = sampleRateHz();
     const bool isChanged = rate != before && rate > 0;
@@ -266,8 +265,7 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
     }
     master_.apply(samples, session.channels(), frames);
     if (converter_ != nullptr && !converter_->convert(samples, frames)) converter_ = nullptr;
-    std::array<float*, limits::maxEnchanters> left{}, felt{}; // at each actuator's output; of those with a
-                                                              // coil
+    std::array<float*, limits::maxEnchanters> left{}, felt{}; // at each actuator's output; those with a coil
     for (int j = 0; j < session.channels(); ++j) {
         float* at = samples[j];
         const int k = map_.play(j, at, frames);

@@ -76,8 +76,7 @@ public:
     bool isLent() const noexcept { return played_.isLent(); }
 
     /// What left for an actuator, from 0, from `fromNs` on and before `untilNs` of the session that plays now
-    /// (or of the `session` that was playedSession()): the times that Session::submit() gives to events. Any
-    /// thread, wait-free.
+    /// (or of the `session` that was playedSession()): times as of Session::submit(). Any thread, wait-free.
     Receipt left(std::int64_t fromNs, std::int64_t untilNs, int actuator) const noexcept {
         return left(fromNs, untilNs, actuator, playedSession());
     }

@@ -48,8 +48,7 @@ private:
 
     template <class Words>
     bool call(const Words& words) {
-        ++calls_; // sequentially consistent, as owner_: either this call sees the detachment, or letGo() sees
-                  // this call
+        ++calls_; // sequentially consistent, as owner_: this call sees the detachment, or letGo() this call
         auto* const owner = owner_.load();
         if (owner != nullptr) words(*owner);
         --calls_;

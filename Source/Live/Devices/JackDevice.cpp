@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <initializer_list>
+#include <mutex>
 #include <utility>
 
 namespace physvib {
@@ -86,8 +87,7 @@ bool JackDevice::isOpen() {
 void JackDevice::start(DeviceUser& user) {
     if (!isOpen_ || !isAlive()) return;
     if (const auto held = stream_->client.holdSoon()) {
-        stream_->in.active = connectedPorts(stream_->in); // not read by the render thread before the user is
-                                                          // there
+        stream_->in.active = connectedPorts(stream_->in); // the render thread reads it once the user is there
         stream_->out.active = connectedPorts(stream_->out);
     }
     stream_->slot.begin(*this, user);

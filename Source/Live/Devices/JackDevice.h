@@ -7,7 +7,6 @@
 #include <atomic>
 #include <jack/jack.h>
 #include <memory>
-#include <mutex>
 #include <shared_mutex>
 #include <string>
 #include <vector>
@@ -66,8 +65,7 @@ public:
     /// Of those, the ones of one client.
     std::vector<std::string> portsOf(const std::string& owner, JackPortFlags direction) const;
 
-    /// Keeps what JACK may still call for a client that has lost its server, until JACK has freed that
-    /// client.
+    /// Keeps what JACK may still call for a client without its server, until JACK has freed it.
     static void keepUntilFreed(std::shared_ptr<void> callbacks);
 
 private:

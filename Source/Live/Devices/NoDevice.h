@@ -10,8 +10,7 @@ namespace physvib {
 inline constexpr const char* noDeviceType = "None";
 inline constexpr const char* noDeviceName = "no device";
 
-/// A driver with that one device: 64 outputs, 48 kHz and blocks of 512 frames unless the settings say
-/// otherwise. M.
+/// A driver with that one device: 64 outputs, 48 kHz and blocks of 512 frames unless set otherwise. M.
 std::unique_ptr<AudioDriver> makeNoDeviceDriver();
 
 /// These drivers and the null driver. M.

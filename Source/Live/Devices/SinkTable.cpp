@@ -52,7 +52,23 @@ std::unique_ptr<Sink> coils(const std::string& where, const PhantomPanner& panne
     return std::make_unique<HidOutput>(where, std::make_unique<CoilFeed>(kind, format(), panner));
 }
 
-const std::array allKinds{
+std::unique_ptr<Sink> tones(const std::string& where, const PhantomPanner& panner, bool) {
+    return std::make_unique<HidOutput>(where, std::make_unique<ToneFeed>(nintendo, panner));
+}
+
+std::unique_ptr<Sink> motors(const std::string& where, const PhantomPanner& panner, bool) {
+    return std::make_unique<PadOutput>(where, panner);
+}
+
+/// A controller: of two motors or coils, found by itself.
+constexpr SinkKind pad(std::string_view name, std::string_view title, std::string_view about,
+                       std::string_view setting, decltype(SinkKind::places) places,
+                       decltype(SinkKind::make) make, bool takesReports = true) {
+    constexpr std::string_view anyWords = "the first that is there";
+    return {name, title, about, setting, anyPad, anyWords, {}, 2, {}, false, places, make, takesReports};
+}
+
+constinit const std::array allKinds{
     SinkKind{
         "BOARD", "Four-channel board", "It plays the first four actuators beside the device (Docs/board.md)",
         "board", anyBoard, "the first that answers", "Serial port", limits::board::channels,
@@ -61,61 +77,18 @@ const std::array allKinds{
             return std::make_unique<BoardOutput>(where, panner,
                                                  isAwaited ? 0.0 : BoardOutput::usualLatencySeconds);
         }},
-    SinkKind{"PAD",
-             "Game controller",
-             "Its two motors follow all hits, felt together with the device (Docs/pads.md)",
-             "controller",
-             anyPad,
-             "the first that is there",
-             {},
-             2,
-             {},
-             false,
-             gamePads,
-             [](const std::string& where, const PhantomPanner& panner, bool) -> std::unique_ptr<Sink> {
-                 return std::make_unique<PadOutput>(where, panner);
-             }},
-    SinkKind{"DUALSENSE",
-             "DualSense by Bluetooth",
-             "Its two coils play the session's samples, up to 18 ms after the device (Docs/pads.md)",
-             "dualsense",
-             anyPad,
-             "the first that is there",
-             {},
-             2,
-             {},
-             false,
-             hidPads<dualSense>,
-             coils<dualSense, dualSenseSamples>,
-             true},
-    SinkKind{"STEAM",
-             "Steam Controller (2026)",
-             "Its coils play the session's samples, up to 8 ms after the device (Docs/pads.md)",
-             "steam",
-             anyPad,
-             "the first that is there",
-             {},
-             2,
-             {},
-             false,
-             hidPads<steam>,
-             coils<steam, steamSamples>,
-             true},
-    SinkKind{"SWITCH",
-             "Switch controller",
-             "Two tones on either side follow all hits, felt together with the device (Docs/pads.md)",
-             "switch",
-             anyPad,
-             "the first that is there",
-             {},
-             2,
-             {},
-             false,
-             hidPads<nintendo>,
-             [](const std::string& where, const PhantomPanner& panner, bool) -> std::unique_ptr<Sink> {
-                 return std::make_unique<HidOutput>(where, std::make_unique<ToneFeed>(nintendo, panner));
-             },
-             true},
+    pad("PAD", "Game controller",
+        "Its two motors follow all hits, felt together with the device (Docs/pads.md)", "controller",
+        gamePads, motors, false),
+    pad("DUALSENSE", "DualSense by Bluetooth",
+        "Its two coils play the session's samples, up to 18 ms after the device (Docs/pads.md)", "dualsense",
+        hidPads<dualSense>, coils<dualSense, dualSenseSamples>),
+    pad("STEAM", "Steam Controller (2026)",
+        "Its coils play the session's samples, up to 8 ms after the device (Docs/pads.md)", "steam",
+        hidPads<steam>, coils<steam, steamSamples>),
+    pad("SWITCH", "Switch controller",
+        "Two tones on either side follow all hits, felt together with the device (Docs/pads.md)", "switch",
+        hidPads<nintendo>, tones),
 };
 
 // Position where the last sink of `text` starts; npos: there is none.

@@ -64,8 +64,7 @@ std::string channelFault(const std::vector<SinkName>& sinks, int channels);
 
 using Sinks = std::vector<std::unique_ptr<Sink>>;
 
-/// At the same time. A SinkSet has as many places again for sinks that programs attach themselves (recorder,
-/// meters, OSC).
+/// At the same time. A SinkSet has as many again for sinks that programs attach (recorder, meters, OSC).
 constexpr std::size_t mostNamedSinks = SinkSet::maxSinks / 2;
 
 /// Opens all of them for a session with that panner; or one line. Waits for each to become ready as long as

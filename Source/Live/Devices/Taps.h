@@ -58,8 +58,7 @@ private:
     EventQueue<HeardPiece, 512> pieces_;
 };
 
-// Ring buffer that copies the output signals of a live session from the render thread to meters, scopes and
-// files.
+// Ring buffer that copies the output signals of a live session from R to meters, scopes and files.
 
 class SignalTap final : public Sink {
 public:

@@ -12,7 +12,6 @@
 #include "Live/Documents/SessionFile.h"
 #include "Scene/LayoutJson.h"
 #include <array>
-#include <cmath>
 #include <string_view>
 
 namespace physvib {
@@ -30,8 +29,7 @@ OrderedJson writeKind(const Own<FrequencyBand>& kind, const FrequencyBand& band)
 EqualisedActuators readKind(const JsonField& list, const PerChannel<EqualisedActuators>& kind);
 OrderedJson writeKind(const PerChannel<EqualisedActuators>& kind, const EqualisedActuators& equalised);
 
-// JSON form of render controls and panners, for session files and input lines. Included by .cpp files of
-// documents only.
+// JSON form of render controls and panners, for session files and input lines. For .cpp files of documents.
 
 /// A control as files and lines have it: its name, and the field and range of its value.
 struct ControlDescription {

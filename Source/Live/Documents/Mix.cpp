@@ -18,8 +18,7 @@ double lineAt(const GainPoint& from, const GainPoint& to, double seconds) noexce
     return length > 0.0 ? from.db + (to.db - from.db) * (seconds - from.seconds) / length : to.db;
 }
 
-/// The point farthest from the line between the ends of lane[from..to]; `from` if none is beyond the
-/// tolerance.
+/// The point farthest from the line between the ends of lane[from..to]; `from` if none exceeds it.
 std::size_t farthest(const GainLane& lane, std::size_t from, std::size_t to, double toleranceDb) {
     std::size_t found = from;
     for (std::size_t i = from + 1; i < to; ++i) {

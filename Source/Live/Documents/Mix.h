@@ -106,8 +106,7 @@ bool hasLane(const Mix& mix, std::size_t strip);
 /// The strip's gain at that time of the scene run, in dB: fader, group and both lanes.
 double gainDbAt(const Mix& mix, std::size_t strip, double seconds);
 
-/// Maximum of gainDbAt() over time; and the maximum that group and lanes add to the fader, not limited to a
-/// fader's range.
+/// Maximum of gainDbAt() over time; and of what group and lanes add to the fader, beyond a fader's range.
 double loudestDb(const Mix& mix, std::size_t strip);
 double mostAddedDb(const Mix& mix, std::size_t strip);
 
@@ -118,8 +117,7 @@ std::string freeGroupName(const Mix& mix);
 /// Removes a group without changing the output: its strips absorb its fader, mute and lane.
 void removeGroup(Mix& mix, int group);
 
-// Limits that a mixer state loaded from a file must not exceed: the levels that the user of this computer has
-// set.
+// Limits that a mixer state loaded from a file must not exceed: the levels that this computer's user has set.
 
 /// The limits, taken from the mixer state as the user left it.
 struct DeskLimits {

@@ -24,8 +24,7 @@ constexpr int pluginStateVersion = 5;
 
 enum class TransportMode {
     free,          ///< the scene runs whenever the host renders
-    restartOnPlay, ///< the scene starts from its seed when the transport starts or jumps, and is silent while
-                   ///< it is stopped
+    restartOnPlay, ///< the scene starts from its seed when the transport starts or jumps; stopped: silent
     inTempo ///< the same; its script begins with a beat of the host's and, as its motors, is as fast: by
             ///< the scene at 120 beats a minute
 };
@@ -71,8 +70,7 @@ enum class NotePlaces {
 // indexed by NotePlaces
 inline constexpr std::array<std::string_view, 3> notePlaceNames{"octave", "actuators", "middle"};
 
-/// Sound of the notes: all settings apply to notes without a rule; rules that strike use level and velocity
-/// only.
+/// Sound of the notes: all settings apply to notes without a rule; rules that strike use level and velocity.
 struct NoteVoice {
     NotePitch pitch = NotePitch::material;
     NotePlaces places = NotePlaces::octave;
@@ -131,8 +129,7 @@ struct PluginState {
     EqualisedActuators equalised{}; ///< per actuator
     bool limiterEnabled = true;
     TransportMode transport = TransportMode::free;
-    bool isDirect = false; ///< events by notes have the limiter's latency instead of the output latency of
-                           ///< collisions
+    bool isDirect = false; ///< events by notes are as late as the limiter, not as collisions
     NoteVoice voice;
     std::vector<NoteRule> notes; ///< other notes use `voice`
     std::vector<ControllerRule> controllers;

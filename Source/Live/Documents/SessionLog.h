@@ -26,8 +26,7 @@ struct RecordingFile {
     std::string path{};          ///< a WAV file, or "synthetic-SEED"
     double decayPerSecond = 0.0; ///< of the material; 0: unknown
     bool isMatched = false;      ///< scaled to the energy of the material's mode; otherwise to a peak of 1
-    std::string hash{}; ///< contentHash of the file when it was read; empty: not checked; always empty for
-                        ///< synthetic contacts
+    std::string hash{};     ///< contentHash of the file when read; empty: not checked, or a synthetic contact
     std::string material{}; ///< whose events play it; empty: all events of that frequency
     bool operator==(const RecordingFile&) const = default;
 

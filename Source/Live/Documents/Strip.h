@@ -136,8 +136,7 @@ inline std::vector<std::size_t> settleOutputs(std::span<Strip> strips) {
     return without;
 }
 
-/// A strip for one more actuator: on the lowest free output, with the lowest ceiling of the others. Any
-/// thread.
+/// A strip for one more actuator: on the lowest free output, with the others' lowest ceiling. Any thread.
 inline Strip nextStrip(std::span<const Strip> strips) noexcept {
     Strip next;
     next.output = freeOutput(strips);

@@ -37,8 +37,7 @@ public:
     /// How many were suppressed since the last call.
     std::uint64_t takeLeftOut() noexcept { return std::exchange(leftOut_, 0); }
 
-    /// Hash that is equal for errors that differ only in what was found, in numbers and in quoted words. Any
-    /// thread.
+    /// Equal for errors that differ only in what was found, in numbers and in quoted words. Any thread.
     static constexpr std::uint64_t causeOf(std::string_view reason) noexcept {
         std::uint64_t hash = fnv1a({});
         bool isQuoted = false;

@@ -160,8 +160,7 @@ Route timedRoute(const MessageValues& values) {
     return route;
 }
 
-/// Ends the last segment at a zero crossing of the whole tone. Segments that would begin after that are
-/// removed.
+/// Ends the last segment at a zero crossing of the whole tone. Later segments are removed.
 void endSoftly(std::vector<CollisionEvent>& segments, const EventShaping& shaping) {
     const auto& last = segments.back();
     const std::int64_t end = softEndNs(shaping(last).frequencyHz, last.course.sinceNs + last.durationNs);

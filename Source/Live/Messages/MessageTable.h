@@ -46,8 +46,7 @@ struct MessageDescription {
     struct Stop {};
 
     std::string_view name, meaning;
-    std::span<const MessageArgument> arguments;      ///< without the time arguments, which all messages but
-                                                     ///< queries have
+    std::span<const MessageArgument> arguments;      ///< all but queries have time arguments as well
     std::variant<Strikes*, Answer*, Clip, Stop> act; ///< what the router does for it
 
     constexpr bool isQuery() const noexcept { return std::holds_alternative<Answer*>(act); }

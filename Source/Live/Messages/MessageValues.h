@@ -56,8 +56,7 @@ private:
 
 // Converts a message to the events that it plays.
 
-/// Tactile Brush (Israr and Poupyrev 2011): delay between stroke onsets, as a share of the stroke plus a
-/// constant in s.
+/// Tactile Brush (Israr and Poupyrev 2011): delay of stroke onsets, as a share of the stroke plus seconds.
 constexpr double strokeOnsetShare = 0.32, strokeOnsetSeconds = 0.0473;
 
 /// Onset delay at which strokes of `strokeSeconds` are felt as one motion. Any thread.
@@ -72,8 +71,7 @@ constexpr double strokeSeconds(int strokes, double seconds) noexcept {
 }
 
 /// Events of a `clip`: one per channel, from time 0 on, at its place, without the frequency under which the
-/// session keeps it. `panner` supplies the actuators' places. Throws MessageError. Any thread but the render
-/// thread (R).
+/// session keeps it. `panner` supplies the actuators' places. Throws MessageError. Any thread but R.
 std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const LoadedClip& clip,
                                         const PhantomPanner& panner);
 

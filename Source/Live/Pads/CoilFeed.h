@@ -9,7 +9,6 @@
 #include "Live/Pads/HidFeed.h"
 #include "Live/Pads/RateReducer.h"
 #include <atomic>
-#include <vector>
 
 namespace physvib {
 

@@ -26,8 +26,7 @@ const char* busName(PadBus bus) noexcept;
 /// Maximum rate for that connection; faster commands queue up and are felt late (Docs/pads.md).
 double mostCommandsPerSecond(PadBus bus) noexcept;
 
-/// A command ends after this time and must be repeated before. So motors stop even if the program that sent
-/// it is killed.
+/// A command ends after this time and must be repeated before, so motors stop even if the program is killed.
 constexpr std::chrono::milliseconds padTimeOut{200};
 
 /// An open controller, exclusive within the process. Methods may be called on any thread, one at a time.
@@ -44,8 +43,7 @@ public:
     virtual bool sendEffect(const void* bytes, int size) = 0;
 };
 
-/// Keeps SDL's controller support running while it exists. Motors of opened controllers are stopped when they
-/// are closed.
+/// Keeps SDL's controller support running while it exists. Closing a controller stops its motors.
 class GamePads {
 public:
     /// Driver that handles controllers. SDL's own can send device-specific reports; the system's stops motors

@@ -3,7 +3,6 @@
 #include "Live/Pads/HidDevice.h"
 #include "Io/Text/CleanText.h"
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>

@@ -130,8 +130,7 @@ void PadOutput::takeEvents() {
 
 std::optional<PadCommand> PadOutput::command(std::int64_t sessionNs, std::int64_t nowNs) {
     const double level = static_cast<double>(device_.level());
-    PadCommand newest = level > 0.0 ? sent_ : PadCommand{}; // silence: at once, regardless of the command
-                                                            // rate
+    PadCommand newest = level > 0.0 ? sent_ : PadCommand{}; // silence: at once, at any command rate
     int due = 0;
     for (; motors_.dueNs() <= sessionNs; ++due) newest = motors_.next(level);
     if (due > 1) counts_.late += static_cast<std::uint64_t>(due - 1);

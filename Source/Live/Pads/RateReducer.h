@@ -4,7 +4,6 @@
 // 3 kHz).
 #pragma once
 #include "Live/Pads/PadReports.h"
-#include <cstdint>
 #include <deque>
 #include <vector>
 

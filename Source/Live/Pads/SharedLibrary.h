@@ -4,8 +4,7 @@
 
 namespace physvib {
 
-/// System calls: opens the library of that name, and finds a function in it; null if there is none. Any
-/// thread.
+/// System calls: opens the library of that name, and finds a function in it; or null. Any thread.
 void* openLibrary(const char* name);
 void* functionIn(void* library, const char* name);
 

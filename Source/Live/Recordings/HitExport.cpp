@@ -20,8 +20,7 @@ namespace {
 
 constexpr double maxWavBytes = 500e6; // the file is written while the user waits for a drag to start
 
-/// Replaces each moving event by a series of stationary ones, as the board does, because other formats have
-/// no moving events.
+/// Replaces each moving event by a series of stationary ones, as the board does: other formats have none.
 std::vector<CollisionEvent> stillStrikes(std::span<const CollisionEvent> events) {
     std::vector<CollisionEvent> still;
     for (const CollisionEvent& event : events) {

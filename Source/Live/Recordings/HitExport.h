@@ -22,8 +22,7 @@ struct HitExport {
     std::string actuator{}; ///< of all actuators; empty: each has its own
 };
 
-/// A clip with one channel per actuator, its place and device; `drawn` says how hits become curves. Or one
-/// line. M only.
+/// A clip, a channel per actuator with place and device; `drawn` says how hits become curves. Or one line. M.
 Result<Clip> clipOfHits(const HitExport& hits, const StrikeClipSettings& drawn);
 
 /// One file of an exported clip.

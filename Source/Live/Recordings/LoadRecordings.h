@@ -8,8 +8,7 @@
 #include <vector>
 
 namespace physvib {
-/// Those of `log`; or one line if a file is missing, has changed or has no hit, or if there are too many. M
-/// only.
+/// Those of `log`; or one line if a file is missing, has changed or has no hit, or there are too many. M.
 Result<LoadedRecordings> loadRecordings(const SessionLog& log);
 
 /// Paths of these files. Any thread.

@@ -65,8 +65,7 @@ public:
         outputLatencyFrames_ = outputLatencyFrames;
     }
 
-    /// Writes the last samples and the header. Returns empty, or one line with the reason. M, after R
-    /// stopped.
+    /// Writes the last samples and the header. Returns empty, or one line why. M, after R stopped.
     std::string finish() {
         end();
         write();
@@ -146,8 +145,7 @@ public:
     void take(const PlayedEvent& played) { played_.push_back(played.event); }
 
     /// Completes both files, after R has stopped. `outputLatencyFrames` is the output latency; `field` is the
-    /// field that places refer to; `names` are those of the scene's materials. Returns empty, or one line
-    /// with the reason.
+    /// field that places refer to; `names` are those of the scene's materials. Empty, or one line why.
     std::string finish(std::int64_t outputLatencyFrames, FieldSize field, const Provenance& provenance,
                        const SoundNames& names);
 

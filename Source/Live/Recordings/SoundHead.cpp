@@ -191,8 +191,7 @@ private:
         return {};
     }
 
-    /// One stream of whole pages, to its last one; a decoder would leave out a page that is damaged or
-    /// missing.
+    /// One stream of whole pages, to its last one; a decoder would leave out damaged or missing ones.
     std::string readPages(std::int64_t at) {
         constexpr int begins = 2, ends = 4;
         int streams = 0, flags = 0;

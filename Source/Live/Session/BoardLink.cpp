@@ -16,8 +16,7 @@ constexpr std::int64_t helloEvery = 250 * ms, telemetryEvery = second, gainsEver
 constexpr std::int64_t firstGainsAgain = 8 * ms; // later gains are repeated at doubled intervals: if the line
                                                  // loses a mute, it is delayed by milliseconds, not by a
                                                  // second
-constexpr std::int64_t givenUpAfter = 3 * second / 2; // without any answer for so long, the line is closed
-                                                      // and opened again
+constexpr std::int64_t givenUpAfter = 3 * second / 2; // so long without an answer: the line is opened again
 constexpr std::int64_t tooOld = 50 * ms;              // an event later than this is not sent
 constexpr std::int64_t lineAhead = 4 * ms; // limit for data in the system's buffers: what is not written yet
                                            // can still be thinned
@@ -181,8 +180,7 @@ void BoardLink::meet(const wire::HelloReply& board) {
     if (auto fault = refusal(board); !fault.empty()) return disconnect(now_.port + ": " + fault);
     now_.board = board;
     now_.trouble.clear();
-    nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain; // the board may have been switched off and lost its
-                                                       // gains
+    nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain; // the board may have lost its gains when off
     now_.state = State::synchronising;
     sequence_ = 0xFF;
     segmentEnds_.clear();
@@ -204,8 +202,7 @@ void BoardLink::take(const wire::Pong& pong) {
 void BoardLink::greet() {
     if (nowNs() < nextHelloNs_) return;
     nextHelloNs_ = nowNs() + helloEvery;
-    line_->write(std::array<std::uint8_t, 1>{0}); // ends a frame that an earlier connection may have left
-                                                  // incomplete
+    line_->write(std::array<std::uint8_t, 1>{0}); // ends a frame that an earlier connection left
     send(wire::Hello{});
 }
 

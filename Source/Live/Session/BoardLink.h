@@ -33,8 +33,7 @@ struct BoardLinkStatus {
     wire::HelloReply board;                      ///< its latest reply
     wire::Telemetry telemetry;                   ///< the newest
     std::optional<wire::SelfTestReply> selfTest; ///< after requestSelfTest
-    double outputLatencyMs = 0.0; ///< time by which an event must be known before it is felt; 0: not known
-                                  ///< yet
+    double outputLatencyMs = 0.0; ///< how long before it is felt an event must be known; 0: not known yet
     double driftPpm = 0.0;        ///< the board's clock relative to this computer's
     std::uint64_t sent = 0, thinned = 0, refused = 0; ///< events: sent; dropped for lack of bandwidth;
                                                       ///< refused as unplayable or too old, segments included
@@ -53,8 +52,7 @@ public:
 
 class BoardLink {
 public:
-    static constexpr std::int64_t sendAheadMs = 80; // the board stores 64 events, the line transmits 58 in
-                                                    // this time
+    static constexpr std::int64_t sendAheadMs = 80; // the board stores 64 events, 58 are sent in this
 
     /// `port`: a path, or anyBoard. Message thread (M).
     explicit BoardLink(std::string port);

@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::int64_t secondNs = 1'000'000'000;
 constexpr std::int64_t mostLateNs = 40'000'000; // the length of a segment: one this late has passed entirely
-constexpr std::int64_t spareNs = 2'000'000; // with less margin a longer segment is made, so that the next one
-                                            // is not late
+constexpr std::int64_t spareNs = 2'000'000;     // with less a longer segment is made: the next one is in time
 
 } // namespace
 

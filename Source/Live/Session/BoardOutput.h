@@ -66,8 +66,7 @@ private:
     double latencySeconds_;
     bool isAwaited_ = false; // then latencySeconds_ is what the board needs
     wire::Telemetry before_; // telemetry when it became ready: a board's counters are never reset
-    EventQueue<CollisionEvent, 1024> events_; // in session time, as the renderer gets them; read by the link
-                                              // thread
+    EventQueue<CollisionEvent, 1024> events_; // in session time, as the renderer's; the link thread reads
     ControlQueue<256> controls_;
     OutputClock* device_ = nullptr; // set by M, while the link thread is not in feed()
 
@@ -77,10 +76,8 @@ private:
     PhantomPanner panner_;
     std::vector<PannerChange> layouts_; // pending until their time, as the next
     std::vector<RenderControl> others_;
-    std::vector<BoardPath> paths_;  // moving and long tones, kept until their end is felt: another path may
-                                    // continue there
-    std::vector<BoardSteps> steps_; // such tones as series of events: for further ones, or for a board
-                                    // without segments
+    std::vector<BoardPath> paths_;  // moving and long tones, until their end is felt: another may follow
+    std::vector<BoardSteps> steps_; // such tones as events: further ones, or for boards without segments
     std::array<double, limits::board::channels> gains_{1.0, 1.0, 1.0, 1.0};
     std::optional<std::array<double, limits::board::channels>> sent_; // gains that the link has
     std::array<bool, limits::board::channels> muted_{};

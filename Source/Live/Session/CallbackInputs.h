@@ -18,8 +18,7 @@ namespace physvib {
 class AddedSamples {
 public:
     /// The renderer's frames from `frame` on (session time in frames), at most limits::tileFrames. One
-    /// pointer per channel of the session; null: silence. Valid until the next call. Render thread (R),
-    /// wait-free.
+    /// pointer per channel of the session; null: silence. Valid until the next call. R, wait-free.
     virtual const float* const* at(std::int64_t frame, int frames) noexcept = 0;
 
 protected:
@@ -43,8 +42,7 @@ public:
     /// played. R, wait-free.
     bool silence(int frame) noexcept;
 
-    /// Mixes in these samples from now on; they must outlive the session. Message thread (M), not while
-    /// rendering.
+    /// Mixes in these samples from now on; they must outlive the session. M, not while rendering.
     void add(AddedSamples& samples) noexcept { added_ = &samples; }
 
 private:
@@ -79,14 +77,12 @@ private:
     const bool hasWorld_;
     const EventShaping shaping_;
     const std::vector<std::vector<Action>>& groups_;
-    EventQueue<CollisionEvent, 1024> strikes_; // written and read by R: room for a dense chord in a block of
-                                               // 8192 frames
+    EventQueue<CollisionEvent, 1024> strikes_; // written and read by R: a dense chord in 8192 frames
     ControlQueue<128, 16> controls_;           // senders limit their rate
     EventQueue<RenderInput, 1024> inputs_;     // from R to the thread that steps the world
     AddedSamples* added_ = nullptr;
     std::uint64_t spawns_ = 0;          // this and the next are guarded by the world mutex
-    std::array<std::string, 64> names_; // names of the newest bodies that R spawned; no scene here needs more
-                                        // at once
+    std::array<std::string, 64> names_; // of the newest bodies that R spawned; no scene needs more at once
 };
 
 } // namespace physvib

@@ -17,13 +17,11 @@
 #include <vector>
 
 namespace physvib {
-/// Has its own renderer: panning, actuator settings and mutes do not affect the audio, and its limiter has
-/// the same latency as the actuators'. An impact plays its material's recording if there is one, else its
-/// mode.
+/// Has its own renderer: panning, actuator settings and mutes do not affect the audio, and its limiter is as
+/// late as theirs. An impact plays its material's recording if there is one, else its mode.
 class ContactAudio {
 public:
-    /// With one channel the place does not matter; with two, impacts on the left of `field` are louder on the
-    /// left channel.
+    /// With one channel the place does not matter; with two, impacts on the left of `field` are louder there.
     explicit ContactAudio(std::vector<ContactRecording> recordings, int ears = 1,
                           const PhantomPanner& field = {})
         : recordings_{std::move(recordings)}
@@ -91,8 +89,7 @@ struct ContactAudioRender {
 RenderStatus renderContactAudio(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
                                 const ContactAudioRender& heard, const BlockConsumer& consume);
 
-// The channels that a session renders: those of the actuators, then the audio of contacts, then the trigger
-// output.
+// The channels that a session renders: those of the actuators, the audio of contacts, the trigger output.
 
 /// Part of a session; HapticRenderer renders the actuators' own.
 class RenderedChannels {
@@ -100,8 +97,7 @@ public:
     /// Number of channels with the audio of contacts, in sync with the actuators: 0, 1, or left and right.
     int heard() const noexcept { return contactAudio_ ? contactAudio_->ears() : 0; }
 
-    /// Trigger output on the last channel: a pulse at each onset. Gains, ceilings and delays do not affect
-    /// it. Null: none.
+    /// Trigger output on the last channel: a pulse per onset, without gains, ceilings and delays. Null: none.
     const OnsetMarks* marks() const noexcept { return marks_.get(); }
 
     int count() const noexcept { return actuators_ + heard() + (marks_ ? 1 : 0); }

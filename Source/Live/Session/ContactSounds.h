@@ -84,8 +84,7 @@ private:
 class RecordingSets {
 public:
     /// The list for a renderer at that rate: these recordings and all clips, including those that are added
-    /// later. Valid as long as this object. If there are no recordings, events that are not clips play their
-    /// mode.
+    /// later. Valid as long as this object. Without recordings, all but clips play their mode.
     RecordedContacts at(int sampleRateHz, const std::vector<ContactRecording>& recordings) {
         const auto known = std::ranges::find_if(sets_, [&](const Set& set) {
             return set.sampleRateHz == sampleRateHz && set.recordings == recordings;

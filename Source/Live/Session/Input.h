@@ -25,8 +25,7 @@ namespace physvib {
 /// The caller keeps them alive during the call.
 struct Strikes {
     std::span<const CollisionEvent> events;
-    bool canBeStopped = false; ///< events stay in the session until their time, and a Stop can discard them
-                               ///< until then
+    bool canBeStopped = false; ///< events wait in the session until their time; a Stop can discard them
 };
 
 /// Fades out what sounds, and discards pending events from its time on.

@@ -38,8 +38,7 @@ RenderStatus renderOffline(std::span<const CollisionEvent> events, const Offline
 /// made, not its samples. For the thread that creates it and simulates; must not be moved.
 class Patience {
 public:
-    static constexpr double usualSeconds = 4.0; // the built-in scenes simulate a hundred times faster than
-                                                // real time
+    static constexpr double usualSeconds = 4.0; // built-in scenes take a hundredth of real time
 
     /// Infinity: no limit.
     explicit Patience(double seconds)

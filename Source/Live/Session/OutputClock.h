@@ -21,8 +21,7 @@ namespace physvib {
 
 struct SilenceControl;
 
-/// The inputs that can request silence. machine: the user at this computer, by Esc, a button or the program's
-/// own call.
+/// The inputs that can request silence. machine: the user here, by Esc, a button or the program's own call.
 enum class MuteRequester : std::size_t { machine, standardInput, osc };
 
 /// Counts requests and withdrawals per input, so that a delayed "off" does not withdraw a newer request. Any
@@ -76,15 +75,13 @@ private:
     std::array<Requests, 3> requests_;
 };
 
-/// Executes an input's control. Empty, or one line: withdrawn, but other inputs still request silence. Any
-/// thread.
+/// Executes an input's control. Empty, or one line: withdrawn, but others still ask for silence. Any thread.
 std::string takeSilence(MuteRequests& silence, const SilenceControl& control, MuteRequester holder);
 
 /// What happened at `sessionNs` is felt at `steadyNs` of the steady clock.
 struct OutputMoment {
     std::int64_t sessionNs = 0, steadyNs = 0;
-    std::int64_t behindNs = 0; ///< lag of the felt time behind the present: output latency plus the
-                               ///< device's own
+    std::int64_t behindNs = 0; ///< lag of the felt time: output latency plus the device's own
     int sampleRateHz = 0;      ///< of the block
 };
 
@@ -141,15 +138,13 @@ private:
     const std::atomic<bool>* const isEnded_;
     MuteRequests silence_;
     std::atomic<float> level_{0.0f};
-    // A seqlock for any number of readers: the count is odd during a write, and a reader repeats if it has
-    // changed.
+    // A seqlock for any number of readers: the count is odd during a write; a reader repeats if it changed.
     std::atomic<std::uint64_t> writes_{0};
     std::atomic<std::int64_t> sessionNs_{0}, steadyNs_{0}, behindNs_{0};
     std::atomic<int> sampleRateHz_{0};
 };
 
-// Estimates when a session time is felt, on the computer's steady clock, from the times at which a device
-// requests blocks.
+// Estimates when a session time is felt, on the computer's steady clock, from when a device requests blocks.
 //
 // A driver requests a block when there is room for it: never earlier, often a little later. So the earliest
 // of the recent requests, relative to the time that it requested, represents the device's clock; a mean would

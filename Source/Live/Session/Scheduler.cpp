@@ -84,8 +84,7 @@ Result<std::int64_t> Scheduler::submit(RenderControl& control, std::int64_t) {
 
 // At its own time, but not before that of an earlier control.
 bool Scheduler::post(RenderControl& control) {
-    control.timeNs = std::max(control.timeNs, lastControlNs_); // a stop with a later time may have been
-                                                               // posted before
+    control.timeNs = std::max(control.timeNs, lastControlNs_); // a later stop may have been posted before
     if (!controls_.push(control)) return false;
     lastControlNs_ = control.timeNs;
     sinks_.posted(control);

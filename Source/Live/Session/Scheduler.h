@@ -33,8 +33,7 @@ public:
     /// Sends the lanes' gains at the world's time to the renderer. World driver (D).
     void followLanes();
 
-    /// Sends the stops that are due to the renderer. Any thread but the render thread (R) in a realtime
-    /// block.
+    /// Sends the stops that are due to the renderer. Any thread but R in a realtime block.
     void takeDueStops();
 
     /// The next control for the renderer; false: none. R, wait-free.

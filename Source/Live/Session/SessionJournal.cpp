@@ -9,8 +9,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::chrono::milliseconds period{500}; // at most half of what may be lost when the process is
-                                                 // killed
+constexpr std::chrono::milliseconds period{500}; // at most half of what a killed process may lose
 
 SavedSession headOf(const SessionSetup& setup) {
     return {setup.run(), setup.panner, setup.channels,  setup.limiterEnabled, setup.ceilings, 0,

@@ -35,8 +35,7 @@ public:
     /// Adds whole lines, after the pending ones.
     void append(std::string_view lines);
 
-    /// Flushes to disk; on failure error() has the reason. False if others have removed, replaced or cut the
-    /// file.
+    /// Flushes to disk; error() tells a failure. False if others have removed, replaced or cut the file.
     bool sync();
 
     /// Empty, or one line: why lines are pending, or that maxWaitingBytes were exceeded; after that the file
@@ -71,8 +70,7 @@ public:
     void played(const PlayedEvent& played, int sampleRateHz) override;
     SinkState state() const override { return {.name = "session file", .isReady = true, .trouble = news()}; }
 
-    /// Empty, or one line: why a file cannot grow at present, or has stopped growing. Kept until the next
-    /// message.
+    /// Empty, or one line: why a file cannot grow at present, or has stopped growing. Until the next message.
     std::string news() const;
 
     /// Adds everything up to now, session time `sessionNs`, and stops the journal.
@@ -83,8 +81,7 @@ public:
     /// everything is on disk.
     std::string finish(std::size_t mostBytes = limits::maxSessionFileBytes);
 
-    static constexpr std::size_t quickBytes = 1'000'000; ///< for callers that must not block: a tenth of a
-                                                         ///< second
+    static constexpr std::size_t quickBytes = 1'000'000; ///< for callers that must not block: 0.1 s
 
     const std::filesystem::path& eventsPath() const noexcept { return eventsPath_; }
 
@@ -99,8 +96,7 @@ private:
     Session& session_;
     std::string error_;
     const OptionalColumns columns_;   // of the event list
-    std::optional<AtomicFile> whole_; // the final session file; reserves the name against other writers until
-                                      // then
+    std::optional<AtomicFile> whole_; // the final session file; keeps the name from other writers
 
     // Used by the journal's thread; by M after that has ended.
     JournalLines lines_;

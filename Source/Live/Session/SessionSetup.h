@@ -17,8 +17,7 @@
 
 namespace physvib {
 
-/// An input from the render call to the world: a new orientation of the device, or a prepared group of
-/// actions.
+/// An input from the render call to the world: the device's orientation, or a prepared group of actions.
 struct RenderInput {
     static constexpr int device = -1, script = -2;
     int group = device; ///< index into SessionSetup::groups
@@ -71,8 +70,7 @@ struct SessionSetup {
     std::optional<std::vector<ContactRecording>> contactSound{};
     int ears = 1; ///< channels of the audio of contacts: 1, or 2 for left and right
     Direct direct = Direct::no;
-    std::optional<MarkedOnsets> marks{}; ///< trigger output: pulses at onsets, on the last channel; nullopt:
-                                         ///< none
+    std::optional<MarkedOnsets> marks{}; ///< trigger output: pulses at onsets, on the last channel
     double longestGapSeconds = messageTimerGapSeconds;
     std::vector<std::vector<Action>> groups; ///< actions of notes; valid inputs of the scene
     LogUse log = LogUse::document;

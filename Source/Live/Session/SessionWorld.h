@@ -13,8 +13,7 @@
 
 namespace physvib {
 
-/// Keeps log entries until they are read, and none if it is not logged. One thread at a time: Session guards
-/// it by its mutex.
+/// Keeps log entries until they are read, and none if not logged. One thread at a time, by Session's mutex.
 class SessionWorld {
 public:
     /// `run` sets step rate, timing and location; each scene run has its own seed.
@@ -55,8 +54,7 @@ public:
     void readPoses(std::vector<BodyPose>& poses) const; ///< see WorldRunner
     std::uint64_t drops() const noexcept { return dropsBefore_ + world_->drops(); }
 
-    /// Moves new log entries to `log`, which is empty at the first call. Cost in proportion to the new
-    /// entries.
+    /// Moves new log entries to `log`, which is empty at the first call. Costs as many as are new.
     void moveLog(std::vector<SceneRun>& log);
 
 private:

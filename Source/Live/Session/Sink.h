@@ -69,8 +69,7 @@ public:
 
     /// M.
     virtual SinkState state() const { return {}; }
-    /// Lines on what it has done, after the end of playing. May wait a second for data while `keepGoing`
-    /// returns true. M.
+    /// Lines on what it has done, after playing. May wait a second for data while `keepGoing` is true. M.
     virtual std::string summary(const std::function<bool()>&) const { return {}; }
 };
 

@@ -19,8 +19,7 @@ using StimulusSound = SampledSound;
 RendererSettings rendererFor(const Stimulus& stimulus, int sampleRateHz);
 
 /// The stimulus in units of each actuator's full scale. Without a limiter: a stimulus that would exceed full
-/// scale is refused, so that it is never changed. `layout` has as many actuators as the stimulus. Message
-/// thread (M) only.
+/// scale is refused, so that it is never changed. `layout` has as many actuators as the stimulus. M.
 Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescription& layout,
                                      int sampleRateHz);
 

@@ -144,15 +144,13 @@ private:
         return frames / law_.sampleRateHz * 1'000'000'000 +
                frames % law_.sampleRateHz * 1'000'000'000 / law_.sampleRateHz;
     }
-    /// Lead time, in ns, applied to external inputs in low-latency mode. On a thread that holds one of the
-    /// mutexes.
+    /// Lead time, in ns, applied to external inputs in low-latency mode. With one of the mutexes.
     std::int64_t leadNs() const noexcept {
         return isToldDirect_ ? sessionNs(outputLatencyFrames() - law_.directFrames()) : 0;
     }
     std::int64_t nowNs() const noexcept { return sessionNs(sessionFrames_.load(std::memory_order_acquire)); }
 
-    /// Largest lag of the world behind session time that a driver in time can see, including the latency's
-    /// growth.
+    /// Largest lag of the world behind session time that a driver in time can see, with the latency's growth.
     std::int64_t longestLagNs() const noexcept { return law_.longestLagNs() + sessionNs(framesGrown()); }
 
     mutable std::mutex mutex_; // locked last; guards the law for threads that hold no other mutex

@@ -196,8 +196,7 @@ bool WorldRunner::popOrStep(CollisionEvent& event, std::int64_t endNs) {
     return true;
 }
 
-// Starts a requested scene run that is due, so that the caller's action goes to the new run and is not lost
-// with the old one.
+// Starts a requested scene run that is due, so that the caller's action goes to the new one.
 std::shared_ptr<const Scene> WorldRunner::scene(std::size_t& take) {
     const std::lock_guard lock{mutex_};
     const std::int64_t restart = restartFrame_.load(std::memory_order_acquire);
@@ -257,8 +256,7 @@ void WorldRunner::showPoses() const {
     shownNs_ = world_.timeNs();
 }
 
-// If the world is too slow for a display, the display gets the poses of the last complete step, without
-// blocking.
+// If the world is too slow for a display, the display gets the last complete step's poses, without blocking.
 std::int64_t WorldRunner::readPoses(std::vector<BodyPose>& poses) const {
     std::unique_lock lock{mutex_, std::try_to_lock};
     for (int k = 0; !lock && k < posesTries && !isShown_.load(std::memory_order_relaxed); ++k) {

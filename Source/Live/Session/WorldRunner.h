@@ -56,8 +56,7 @@ public:
     std::size_t size() const noexcept { return waiting_.size(); }
 
 private:
-    std::deque<CollisionEvent> waiting_; // in time order; most are added at the end, all are removed at the
-                                         // front
+    std::deque<CollisionEvent> waiting_; // in time order; most come at the end, all go at the front
 };
 
 /// Part of a session. Its mutex is the world mutex.
@@ -182,8 +181,7 @@ private:
     SessionState state_;
     bool isNew_ = false;
 
-    mutable std::atomic<bool> isShown_{false}; // a reader did not get the world mutex: poses are copied after
-                                               // each step
+    mutable std::atomic<bool> isShown_{false}; // a reader did not get the mutex: each step copies the poses
     mutable std::mutex shownMutex_;            // held while copying; guards the following members
     mutable std::vector<BodyPose> shown_;
     mutable std::int64_t shownNs_ = 0;

@@ -42,8 +42,7 @@ inline bool wait(Handle socket, int milliseconds) noexcept {
     return poll(&in, 1, milliseconds) > 0;
 }
 
-/// Size of the packet, or less than 0; its sender; and the number of packets dropped so far, if the system
-/// reports it.
+/// Size of the packet, or less than 0; its sender; how many were dropped so far, if the system tells it.
 inline std::ptrdiff_t receive(Handle socket, std::span<char> bytes, sockaddr_storage& sender,
                               socklen_t& senderSize, std::uint32_t& lost) noexcept {
     alignas(cmsghdr) char told[64];

@@ -21,8 +21,7 @@ struct Reach {
 };
 Reach reachOf(const BodyDescription& body);
 
-/// Scales along the body's own axes; circles by the larger factor. Sizes are clamped to the scene's limits.
-/// Any thread.
+/// Scales along the body's own axes; circles by the larger factor. Sizes stay in limits. Any thread.
 BodyDescription scaledBody(BodyDescription body, double factorX, double factorY);
 
 /// Mean density of a body, kg/m^2; 0: it has no area. Any thread.

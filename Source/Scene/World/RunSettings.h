@@ -20,16 +20,14 @@ struct RunSettings {
     ImpactLocation location = ImpactLocation::contact;
 };
 
-/// All collisions before `endNs`, in time order, and how many were lost (0 unless thousands begin in one
-/// step).
+/// All collisions before `endNs`, in time order, and how many were lost (if thousands begin in one step).
 struct SceneEvents {
     std::vector<CollisionEvent> events;
     std::uint64_t drops = 0;
     ContactCounts counts{}; ///< of all scene runs
 };
 
-/// Called before the first step of a scene run and after each step, with the session time reached; false
-/// stops.
+/// Called before the first step of a scene run and after each step, with the session time; false stops.
 using StepWatch = std::function<bool(std::int64_t timeNs)>;
 
 /// M only. Throws what Simulation throws.

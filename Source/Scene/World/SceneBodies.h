@@ -39,8 +39,7 @@ inline b2Vec2 box2dVector(const Vector& v) noexcept {
 }
 
 /// Creates a scene's body and appends its fixtures, in their order; outlines exactly as described. Bodies
-/// that cross their own thickness within a step at twice v_max (Eq. 5.7) are bullets. The scene must be
-/// valid. M only.
+/// that cross their own thickness within a step at twice v_max (Eq. 5.7) are bullets. Of a valid scene. M.
 b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& body, const BodyStart& start,
                    double stepSeconds, std::vector<b2Fixture*>& fixtures);
 

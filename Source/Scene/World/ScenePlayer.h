@@ -8,8 +8,7 @@
 
 namespace physvib {
 
-/// A kinematic haptic source is moved sideways; otherwise the wheel motors of a haptic source are driven. One
-/// thread at a time.
+/// A kinematic haptic source is moved sideways; of others the wheel motors are driven. One thread at a time.
 class ScenePlayer {
 public:
     static constexpr double mostMetresPerSecond = 4.0;  ///< of the moved body
@@ -27,8 +26,7 @@ public:
     std::vector<Action> steer(int way);
     /// Moves the body, whose middle is at `fromMetres`, towards that place; call a few times a second.
     std::vector<Action> moveTowards(double toMetres, double fromMetres);
-    /// Device held at that angle (counter-clockwise): the body slides down, at a speed that grows with the
-    /// angle.
+    /// Device held at that angle (counter-clockwise): the body slides down, faster with the angle.
     std::vector<Action> tilt(double angleRadians);
     /// Keeps the body, whose middle is at `fromMetres`, inside the field.
     std::vector<Action> keepInside(double fromMetres);

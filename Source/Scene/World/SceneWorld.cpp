@@ -11,8 +11,7 @@ namespace physvib {
 
 namespace {
 
-// How long a removed body is kept: its impacts are reported up to ReleaseImpacts::latestNs later, which is
-// some steps.
+// How long a removed body is kept: its impacts come up to ReleaseImpacts::latestNs later, some steps.
 constexpr double heldSeconds = 0.5;
 
 Vector turnedBy(const Vector& v, double angleRadians) {

@@ -30,8 +30,7 @@ struct StepClock {
     /// Nanoseconds at which step `step` (>= 0) begins, rounded down. Any thread.
     std::int64_t timeNs(std::int64_t step) const noexcept {
         constexpr std::int64_t nsPerSecond = 1'000'000'000;
-        // Whole seconds separately: step * 10^9 alone would overflow within 107 days at 1,000 steps per
-        // second.
+        // Whole seconds separately: step * 10^9 alone would overflow within 107 days at 1,000 steps/s.
         return step / stepsPerSecond * nsPerSecond + step % stepsPerSecond * nsPerSecond / stepsPerSecond;
     }
 
@@ -42,8 +41,7 @@ struct StepClock {
     }
 };
 
-// A scene's script by step index: the same inputs act in the same steps, whatever the speed of the
-// simulation.
+// A scene's script by step index: the same inputs act in the same steps at any speed.
 
 /// An action that is due; `repetition` counts an input's repetitions from 0.
 struct DueAction {
@@ -106,8 +104,7 @@ struct ScriptPace {
 // Limits the number of simultaneous contacts in a world, to bound time and memory per step.
 
 /// Bodies in one place touch pairwise, and pairs grow with the square of the bodies: two thousand would need
-/// a gigabyte and minutes. Beyond maxContacts, pairs pass through each other and are counted. Message thread
-/// (M) only.
+/// a gigabyte and minutes. Beyond maxContacts, pairs pass through each other and are counted. M only.
 class ContactBound final : public b2ContactFilter {
 public:
     explicit ContactBound(const b2World& world)
@@ -133,8 +130,7 @@ private:
 /// not move in jumps. Release a body before it is disabled or destroyed. Message thread (M) only.
 class SceneGrips {
 public:
-    static constexpr float springHz = 5.0F; ///< Box2D's own value for mouse joints: firm, and stable at 100
-                                            ///< steps a second
+    static constexpr float springHz = 5.0F; ///< Box2D's own for mouse joints: stable at 100 steps a second
     static constexpr float dampingRatio = 0.7F;
 
     /// Both outlive the grips.
@@ -197,8 +193,7 @@ private:
         grip->joint->SetMaxForce(static_cast<float>(sceneLimits::maxGripMetresPerSecond2) * body.GetMass());
         return *grip;
     }
-    // Without fixtures, so it has no contacts. Created by the first grip, so that worlds without grips are
-    // unchanged.
+    // Without fixtures, so it has no contacts. Created by the first grip: worlds without are unchanged.
     b2Body& ground() {
         if (ground_ == nullptr) {
             const b2BodyDef def;
@@ -239,8 +234,7 @@ struct WorldPoses {
 /// All bodies of scriptedCast() exist from the start. Absent ones are disabled, without contacts in Box2D,
 /// because the script may spawn them. Bodies that a live input spawns or changes are created when it acts,
 /// under the following numbers, and destroyed soon after they are removed or replaced. Numbers are never
-/// reused. Seed 0 starts bodies exactly as described, any other with jitter (see jitteredStart). Message
-/// thread (M) only.
+/// reused. Seed 0 starts bodies exactly as described, any other with jitter (see jitteredStart). M only.
 class SceneWorld {
 public:
     /// The scene must be valid. Executes its script's actions of step 0.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib board`: connects to a board and plays events on it.
-#include "CommandLine/Board/BoardCommand.h"
 #include "Calls/RenderOptions.h"
 #include "CommandLine/Command.h"
 #include "Core/Units.h"
+#include "Live/Devices/AudioOutputSettings.h"
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/BoardOutput.h"
 #include "Scene/EventsCsv.h"
+#include "Scene/FieldSize.h"
 #include "Scene/SilentWords.h"
 #include "System/ExitCode.h"
 #include "System/Interrupt.h"
@@ -20,8 +21,16 @@
 #include <thread>
 
 namespace physvib {
+namespace {
 
-// Waits for a board, and prints its status.
+struct BoardOptions {
+    std::string port;                   ///< path, or "auto"
+    std::string action;                 ///< info, play or test
+    std::string eventsPath;             ///< for play
+    std::string layout = "phone4";      ///< at most four actuators, in the order of the board's channels
+    FieldSize field;                    ///< of the list; unset: the list's own, else the layout's extent
+    double levelDb = safeStartDecibels; ///< master level of play
+};
 
 /// Waits for a condition. False on time-out or interruption by the user.
 template <class Condition>
@@ -32,12 +41,9 @@ bool waitFor(Condition isTrue, std::int64_t milliseconds = 1'000'000'000) {
     return true;
 }
 
-/// BoardLink::awaitReady, cancelled by the user's interrupt.
-inline std::string connectBoard(const BoardLink& link) {
-    return link.awaitReady([] { return !interrupted; });
-}
+const auto keepGoing = [] { return !interrupted; };
 
-inline void printBoardInfo(const BoardLinkStatus& s) {
+void printBoardInfo(const BoardLinkStatus& s) {
     const auto& b = s.board;
     const auto& t = s.telemetry;
     std::cout << s.port << ": " << int(b.channels) << " channels at " << b.sampleRateHz << " Hz, "
@@ -55,8 +61,6 @@ inline void printBoardInfo(const BoardLinkStatus& s) {
               << " lost, " << t.overruns << " overruns; " << t.missedFrames << " frames missed; "
               << "guard acted " << t.guarded << " times; " << t.stackFree << " bytes of stack never used\n";
 }
-
-namespace {
 
 constexpr std::int64_t ms = 1'000'000;
 
@@ -115,8 +119,7 @@ private:
 /// Reports events outside the field. Returns false after an error line if nothing can be felt.
 bool tellWhatIsFelt(const BoardOptions& o, const std::vector<CollisionEvent>& events,
                     const PhantomPanner& panner, bool isGuessed) {
-    const double least = 0.5 / 127.0 / fromDecibels(o.levelDb); // smallest level that changes the converter's
-                                                                // code
+    const double least = 0.5 / 127.0 / fromDecibels(o.levelDb); // that changes the converter's code
     const std::string silent = silentWords(events, panner, isGuessed, limits::maxTimeNs + 1, least);
     const std::string outside = outsideWarning(events, fieldOf(panner), isGuessed);
     if (!silent.empty())
@@ -138,7 +141,6 @@ std::int64_t feltNs(const CollisionEvent& e) {
 
 int play(const BoardOptions& o, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
     BoardOutput output{o.port, panner};
-    const auto keepGoing = [] { return !interrupted; };
     if (const auto trouble = output.awaitReady(keepGoing); !trouble.empty())
         return leave(exitFailed, trouble);
     ListClock clock{output.latencySeconds(), o.levelDb};
@@ -156,8 +158,6 @@ int play(const BoardOptions& o, const std::vector<CollisionEvent>& events, const
     return state.isReady ? exitDone
                          : leave(exitFailed, state.trouble.empty() ? "the board is gone" : state.trouble);
 }
-
-} // namespace
 
 void declareBoardOptions(OptionTable& command, BoardOptions& o) {
     command.add("port", o.port, "serial port, or auto: the first on which a board answers").required();
@@ -192,11 +192,13 @@ int runBoard(const BoardOptions& o) {
     sayWithoutWaiting();
     if (o.action == "play") return play(o, events, panner);
     BoardLink link{o.port};
-    if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
+    if (const auto trouble = link.awaitReady(keepGoing); !trouble.empty()) return leave(exitFailed, trouble);
     if (o.action == "info") return printBoardInfo(link.status()), exitDone;
     link.setGains({1.0, 1.0, 1.0, 1.0});
     return test(link);
 }
+
+} // namespace
 
 Command boardCommand() {
     return commandOf("board", "the four-channel board: info, play an event list, test", declareBoardOptions,

@@ -31,8 +31,7 @@ struct CalibrateOptions {
     std::string playedPath, recordedPath; ///< WAV files that replace a device
     std::string sweepPath;                ///< only write the sweep to this file
     std::string profilePath;              ///< output
-    std::string layout, layoutPath; ///< layout to write with the profile and its measured full scale; empty:
-                                    ///< none
+    std::string layout, layoutPath; ///< to write with the profile and its measured full scale; empty: none
     std::string place;              ///< label of the measured actuator in the layout; empty: all are equal
     bool isLoopback = false; ///< measure the latency of a cable instead of an actuator; writes no profile
     std::string name = "calibrated";
@@ -42,8 +41,7 @@ struct CalibrateOptions {
     double driveVolts = 0.0; ///< voltage of a played sample of 1; 0: unknown
 };
 
-constexpr double bandDecibels = 10.0; // default band of a profile; the equaliser reduces the level by this
-                                      // much
+constexpr double bandDecibels = 10.0; // default band of a profile; the equaliser takes this much
 
 SweepSettings sweepSettings(const CalibrateOptions& o) {
     return {.seconds = o.seconds, .level = fromDecibels(o.levelDb)};

@@ -85,8 +85,7 @@ void InputListener::run() {
     }
 }
 
-// Silences the output at the end of input, since the sender may have crashed during a long tone and can no
-// longer stop it.
+// Silences the output at the end of input, since the sender may have crashed during a long tone.
 void InputListener::end() {
     if (keepsPlaying_) return;
     using Clock = std::chrono::steady_clock;

@@ -84,8 +84,7 @@ private:
     const double sensitivity_;
     std::unique_ptr<BeatDetector> detector_;
     int rateHz_ = 0;
-    std::int64_t beginNs_ = 0, heardFrames_ = 0; // session time of the detector's first sample; number of
-                                                 // samples so far
+    std::int64_t beginNs_ = 0, heardFrames_ = 0; // session time of its first sample; samples so far
     std::atomic<std::uint64_t> beats_{0};
     std::atomic<bool> stop_{false};
     std::thread thread_;

@@ -27,8 +27,7 @@ struct LivePlay {
 /// Empty, or one error line. Message thread.
 std::string playLive(LivePlay wanted);
 
-// Plays a sound file on the actuators, as a clip in a session without bodies, with the session's safety
-// limits.
+// Plays a sound file on the actuators, as a clip in a session without bodies, with its safety limits.
 
 /// True if the name has an extension of a recording or a haptic file.
 bool namesSound(std::string_view file);

@@ -37,8 +37,7 @@ struct PlayOptions {
     std::string driver = "thread";                  ///< or "message"
     std::string recordPath;                         ///< WAV of the output; empty: none
     std::string savePath;                           ///< the session as JSON; empty: none
-    bool listens = false, keepsPlaying = false, hasHands = false, isDirect = false; ///< listens: to standard
-                                                                                    ///< input
+    bool listens = false, keepsPlaying = false, hasHands = false, isDirect = false; ///< listens: to stdin
     std::string clips = "."; ///< folder of clips in standard input and OSC messages
     std::string beatInputs;  ///< device inputs whose beats are played, as in map; empty: none
     BeatOptions beats;

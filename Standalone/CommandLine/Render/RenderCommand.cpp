@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The way of a render: inputs are read and checked, outputs opened, events made or taken, samples rendered,
 // and only when everything is written do the files take their places.
-#include "CommandLine/Render/RenderCommand.h"
+#include "Calls/RenderOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/RenderOutputs.h"
@@ -15,7 +15,6 @@
 #include <sstream>
 
 namespace physvib {
-
 namespace {
 
 constexpr std::int64_t maxWavBytes = 4'000'000'000; // a little less than a RIFF header can say
@@ -154,8 +153,7 @@ std::string render(LoadedRender& job) {
     return {};
 }
 
-} // namespace
-
+/// Does what the (checked) options say. All files appear, or none. Returns an exit code.
 int runRender(const RenderJob& options) {
     LoadedRender job{options, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;
@@ -168,6 +166,8 @@ int runRender(const RenderJob& options) {
     const std::string error = render(job);
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
+
+} // namespace
 
 Command renderCommand() {
     return commandOf("render", "render a scene, an event list or a clip to files", declareRenderOptions,

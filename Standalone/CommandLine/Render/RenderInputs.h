@@ -17,12 +17,10 @@ Result<std::vector<std::string>> makeEvents(LoadedRender& job);
 
 // Haptic files of others as inputs: on which enchanters each of their channels is felt.
 
-/// A clip's channels at a rate, and one event for each: the renderer plays them as it plays recorded
-/// contacts.
+/// A clip's channels at a rate, and one event for each: played as recorded contacts are.
 class ClipVoices {
 public:
-    /// `job` has a clip; see RenderInputs.cpp for where its channels are felt. What is taken away of them is
-    /// told on stderr.
+    /// `job` has a clip; see RenderInputs.cpp for where its channels are felt. What they lose goes to stderr.
     explicit ClipVoices(const LoadedRender& job);
 
     const std::vector<CollisionEvent>& events() const { return events_; }

@@ -10,7 +10,6 @@
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"
 #include "Pictures/WaveformEnvelope.h"
-#include "Scene/EventsCsv.h"
 #include "Scene/PadFile.h"
 #include <iosfwd>
 #include <memory>

@@ -46,8 +46,7 @@ inline int writeStudyFiles(const std::vector<StudyFile>& files) {
     return exitDone;
 }
 
-/// Writes all files into a folder, which is made, or none; refuses to write over `inputs`. Returns an exit
-/// code.
+/// Writes all files into a folder, which is made, or none; never over `inputs`. Returns an exit code.
 int writeFolder(const std::filesystem::path& folder, const StudyFiles& files,
                 const std::vector<std::string>& inputs);
 
