@@ -58,7 +58,8 @@ TEST_F(PadsCommand, AWrongPadIsOneLineAndLeavesNothing) {
     refuses("render --from-events hits.csv --pad pad-xbox --events e.csv", 2,
             "--pad: expected --out MOTORS.csv", 1);
     refuses("play shake-the-box --pad nobody-has-this-one", 1,
-            "no game controller with motors is called \"nobody-has-this-one\" (see physvib pads)", 1);
+            "no game controller with motors is called \"nobody-has-this-one\": plug it in, or choose another",
+            1);
     refuses("play shake-the-box --pad auto@pad-atari", 1, "no controller profile \"pad-atari\"", 1);
     refuses("pads calibrate", 2, "pads calibrate: expected --out FILE.json", 1);
     refuses("pads --out a.json", 2, "--out, --name: expected pads calibrate", 1);

@@ -116,7 +116,7 @@ TEST_P(Contrasts, OfCards) {
     expectReadable("hint");
     view.setHint(false);
     view.setFirstStart(std::make_unique<FirstStart>(
-        model, std::vector<FeltChoice>{{"JACK: system, 8 outputs", noDevice, 8},
+        model, std::vector<FeltChoice>{{"JACK:system, 8 outputs", noDevice, 8},
                                        {"No device: seen, not felt", noDevice, 0}}));
     expectReadable("first start");
     view.setFirstStart(nullptr);

@@ -436,7 +436,7 @@ TEST(FirstStart, ADeviceWithoutOutputsIsNoChoiceAndNoDeviceSaysWhatThatMeans) {
         return all.joinIntoString("; ");
     };
     EXPECT_EQ(titles(feltChoices(fakeDrivers({&server, &ears}), {})),
-              "Headphones: Fake:ears; Fake: ears, 2 outputs: two actuators; No device: seen, not felt");
+              "Headphones: Fake:ears; Fake:ears, 2 outputs: two actuators; No device: seen, not felt");
     const auto none = feltChoices(fakeDrivers({&server}), {});
     EXPECT_EQ(titles(none), "No device: seen, not felt");
     MixerModel model{onlyNoDevice(), noDevice};

@@ -19,7 +19,7 @@ TEST(MixerPad, IsChosenInTheOutputTabPlaysAndIsFollowedWhenItGoes) {
     window.view().tabs().choose("Output");
     auto* list = dynamic_cast<juce::ComboBox*>(find(window.view(), "Game controller"));
     ASSERT_NE(list, nullptr);
-    ASSERT_EQ(list->getNumItems(), 3) << "none, the first that is there, and this one";
+    ASSERT_EQ(list->getNumItems(), 3) << "none, the first there, and this one";
     EXPECT_EQ(list->getItemText(2), "mixed");
     list->setSelectedItemIndex(2);
     ASSERT_TRUE(runUntil([&] {

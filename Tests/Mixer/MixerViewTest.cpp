@@ -421,7 +421,7 @@ TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
     silence->onClick();
     model.dispatchPendingMessages();
     EXPECT_TRUE(model.isSilent());
-    EXPECT_EQ(silence->getButtonText(), "SILENT: press");
+    EXPECT_EQ(silence->getButtonText(), "SILENT: press to feel");
 }
 
 TEST(MixerView, NoToolIsChosenWhereNoneIsShown) {

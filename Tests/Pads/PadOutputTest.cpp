@@ -188,9 +188,9 @@ TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
     ASSERT_EQ(second.awaitReady(always), "");
     PadOutput third{anyPad, phone()};
     EXPECT_EQ(third.awaitReady([] { return false; }),
-              "no game controller with motors is there (see physvib pads)");
+              "no game controller with motors is there: plug it in, or switch it on");
     EXPECT_EQ((PadOutput{"three", phone()}.awaitReady([] { return false; })),
-              "no game controller with motors is called \"three\" (see physvib pads)");
+              "no game controller with motors is called \"three\": plug it in, or choose another");
     EXPECT_EQ((PadOutput{"one@pad-atari", phone()}.awaitReady(always))
                   .rfind("no controller profile \"pad-atari\"", 0),
               0u);

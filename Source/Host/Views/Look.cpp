@@ -226,7 +226,7 @@ void Look::drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area
 }
 
 /// In a window as small as it goes: a whole word in small letters.
-static bool isNarrow(const juce::ComboBox& box) { return box.getWidth() < 100; }
+static bool isNarrow(const juce::ComboBox& box) { return box.getWidth() < 120; }
 
 void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int,
                         juce::ComboBox& box) {
@@ -310,7 +310,9 @@ void Look::drawTooltip(juce::Graphics& g, const juce::String& tip, int width, in
 std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::Component&) {
     struct Ring final : juce::FocusOutline::OutlineWindowProperties {
         juce::Rectangle<int> getOutlineBounds(juce::Component& c) override {
-            return c.getScreenBounds().expanded(2);
+            const auto ring = c.getScreenBounds().expanded(2);
+            const auto* parent = c.getParentComponent(); // cuts what is outside it
+            return parent ? ring.getIntersection(parent->getScreenBounds()) : ring;
         }
         void drawOutline(juce::Graphics& g, int width, int height) override {
             g.setColour(colour);

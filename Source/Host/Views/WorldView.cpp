@@ -382,7 +382,7 @@ void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
         juce::Path path;
         path.startNewSubPath(at.at(trace.fromMetres.x, trace.fromMetres.y));
         path.lineTo(at.at(trace.toMetres.x, trace.toMetres.y));
-        const auto amber = trace.colour.interpolatedWith(palette::now, 0.7f);
+        const auto amber = trace.colour.interpolatedWith(shade(*this, Shade::now), 0.7f);
         for (const auto& [colour, pixels, alpha] : {std::tuple{amber, 10.0f + 12.0f * level, 0.22f},
                                                     {amber, 5.0f + 6.0f * level, 0.45f},
                                                     {juce::Colours::white, 1.5f + 1.5f * level, 0.9f}}) {
@@ -394,7 +394,7 @@ void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
 }
 
 void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
-    const auto amber = palette::now;
+    const auto amber = shade(*this, Shade::now);
     for (const auto& hit : hits_) {
         const float age = ageOf(hit.shownAtMs), level = levelOf(hit.event.amplitude),
                     fade = (1.0f - age) * std::sqrt(level);

@@ -64,30 +64,28 @@ std::unique_ptr<Sink> motors(const std::string& where, const PhantomPanner& pann
 constexpr SinkKind pad(std::string_view name, std::string_view title, std::string_view about,
                        std::string_view setting, decltype(SinkKind::places) places,
                        decltype(SinkKind::make) make, bool takesReports = true) {
-    constexpr std::string_view anyWords = "the first that is there";
-    return {name, title, about, setting, anyPad, anyWords, {}, 2, {}, false, places, make, takesReports};
+    return {name, title, about, setting, anyPad, {}, 2, {}, false, places, make, takesReports};
 }
 
 constinit const std::array allKinds{
     SinkKind{
-        "BOARD", "Four-channel board", "It plays the first four actuators beside the device (Docs/board.md)",
-        "board", anyBoard, "the first that answers", "Serial port", limits::board::channels,
-        "board: expected at most four actuators", true, serialPorts,
+        "BOARD", "Four-channel board", "It plays the first four actuators beside the device", "board",
+        anyBoard, "Serial port", limits::board::channels, "board: expected at most four actuators", true,
+        serialPorts,
         [](const std::string& where, const PhantomPanner& panner, bool isAwaited) -> std::unique_ptr<Sink> {
             return std::make_unique<BoardOutput>(where, panner,
                                                  isAwaited ? 0.0 : BoardOutput::usualLatencySeconds);
         }},
-    pad("PAD", "Game controller",
-        "Its two motors follow all hits, felt together with the device (Docs/pads.md)", "controller",
-        gamePads, motors, false),
+    pad("PAD", "Game controller", "Its two motors follow all hits, felt together with the device",
+        "controller", gamePads, motors, false),
     pad("DUALSENSE", "DualSense by Bluetooth",
-        "Its two coils play the session's samples, up to 18 ms after the device (Docs/pads.md)", "dualsense",
+        "Its two coils play the session's samples, up to 18 ms after the device", "dualsense",
         hidPads<dualSense>, coils<dualSense, dualSenseSamples>),
     pad("STEAM", "Steam Controller (2026)",
-        "Its coils play the session's samples, up to 8 ms after the device (Docs/pads.md)", "steam",
-        hidPads<steam>, coils<steam, steamSamples>),
+        "Its coils play the session's samples, up to 8 ms after the device", "steam", hidPads<steam>,
+        coils<steam, steamSamples>),
     pad("SWITCH", "Switch controller",
-        "Two tones on either side follow all hits, felt together with the device (Docs/pads.md)", "switch",
+        "Two tones on either side follow all hits, felt together with the device", "switch",
         hidPads<nintendo>, tones),
 };
 

@@ -20,16 +20,15 @@ struct SinkPlace {
 };
 
 struct SinkKind {
-    std::string_view name;     ///< as in output names: "BOARD"
-    std::string_view title;    ///< for users: "Four-channel board"
-    std::string_view about;    ///< tooltip
-    std::string_view setting;  ///< key under which a program saves the choice
-    std::string_view any;      ///< `where` that means the first unit found
-    std::string_view anyWords; ///< the same, for users
-    std::string_view other;    ///< what may be typed beside the listed units: "Serial port"; empty: nothing
-    int actuators;             ///< number that a unit has
-    std::string_view tooMany;  ///< why more actuators are not supported; empty: any number is panned onto
-                               ///< those of the unit
+    std::string_view name;    ///< as in output names: "BOARD"
+    std::string_view title;   ///< for users: "Four-channel board"
+    std::string_view about;   ///< tooltip
+    std::string_view setting; ///< key under which a program saves the choice
+    std::string_view any;     ///< `where` that means the first unit found
+    std::string_view other;   ///< what may be typed beside the listed units: "Serial port"; empty: nothing
+    int actuators;            ///< number that a unit has
+    std::string_view tooMany; ///< why more actuators are not supported; empty: any number is panned onto
+                              ///< those of the unit
     bool isMeant; ///< a connected unit is meant for this use, so the first-start dialog offers it first
     std::vector<SinkPlace> (*places)(); ///< M; queries the system, which takes a while
     /// `isAwaited`: Sink::awaitReady is called before the session is prepared. Otherwise the sink assumes how

@@ -153,9 +153,9 @@ std::string PadOutput::troubleNow() const {
     if (!fault_.empty()) return fault_;
     if (there_) return {};
     if (!lastName_.empty()) return lastName_ + " is gone; it is looked for";
-    return name_ == anyPad
-               ? "no game controller with motors is there (see physvib pads)"
-               : "no game controller with motors is called " + inQuotes(name_) + " (see physvib pads)";
+    return name_ == anyPad ? "no game controller with motors is there: plug it in, or switch it on"
+                           : "no game controller with motors is called " + inQuotes(name_) +
+                                 ": plug it in, or choose another";
 }
 
 PadCounts PadOutput::counts() const {

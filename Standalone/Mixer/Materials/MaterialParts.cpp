@@ -305,8 +305,9 @@ void TextureRow::show(const std::optional<Texture>& texture) {
 void TextureRow::resized() {
     auto row = getLocalBounds();
     const int between = 6, each = (row.getWidth() - 3 * between) / 4;
-    for (juce::Component* part : std::initializer_list<juce::Component*>{&grain_, &roughness_, &pattern_}) {
-        part->setBounds(row.removeFromLeft(each));
+    for (const auto& [part, width] : std::initializer_list<std::pair<juce::Component*, int>>{
+             {&grain_, each + 12}, {&roughness_, each}, {&pattern_, each - 12}}) {
+        part->setBounds(row.removeFromLeft(width));
         row.removeFromLeft(between);
     }
     rolling_.setBounds(row);

@@ -128,7 +128,7 @@ struct MaterialColumns {
     explicit MaterialColumns(juce::Rectangle<int> row) {
         row.reduce(10, 0);
         dot = row.removeFromLeft(22);
-        sign = row.removeFromRight(34);
+        sign = row.removeFromRight(40);
         const int number = std::min(92, row.getWidth() * 22 / 100);
         length = row.removeFromRight(number);
         decay = row.removeFromRight(number);

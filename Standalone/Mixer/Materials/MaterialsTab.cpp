@@ -386,7 +386,7 @@ void MaterialsTab::paintOverChildren(juce::Graphics& g) {
 void MaterialsTab::resized() {
     auto area = getLocalBounds();
     headArea_ = area.removeFromTop(headPixels);
-    new_->setBounds(headArea_.withLeft(headArea_.getRight() - 48));
+    new_->setBounds(headArea_.withLeft(headArea_.getRight() - 44));
     const bool isTall = area.getHeight() >= tallPixels;
     const int line = isTall ? rowHeight : rowHeight - 4, between = isTall ? 6 : 4;
     const int controls = 3 * line + 4 * between, least = isTall ? 3 * rowPixels : 5 * rowPixels / 2,

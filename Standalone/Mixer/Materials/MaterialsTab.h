@@ -39,7 +39,7 @@ public:
     void paint(juce::Graphics& g) override;
     void paintOverChildren(juce::Graphics& g) override;
     void resized() override;
-    int minHeight(int) const override { return 380; } // with the plots of a recording
+    int minHeight(int) const override { return 260; } // with the plots of a recording
 
 private:
     /// One row per material; materials with a frequency first.

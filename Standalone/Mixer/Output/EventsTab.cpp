@@ -42,13 +42,15 @@ private:
     }
     // Numbers as wide as they are; where names would have no room, decay is left out, then the place.
     void placeNarrow(juce::Rectangle<int> row) {
-        constexpr int number = 50, placeWidth = 92, minName = 96;
+        constexpr int number = 50, mostWidth = 64, placeWidth = 92, minName = 96;
         time = row.removeFromLeft(60);
         dot = row.removeFromLeft(20);
-        const auto hasRoom = [&row](int more) { return row.getWidth() - 3 * number - more >= minName; };
+        const auto hasRoom = [&row](int more) {
+            return row.getWidth() - 2 * number - mostWidth - more >= minName;
+        };
         const bool hasPlace = hasRoom(placeWidth), hasDecay = hasRoom(number + (hasPlace ? placeWidth : 0));
         if (hasPlace) place = row.removeFromRight(placeWidth);
-        enchanter = row.removeFromRight(number + 4);
+        enchanter = row.removeFromRight(mostWidth);
         level = row.removeFromRight(number);
         if (hasDecay) decay = row.removeFromRight(number);
         frequency = row.removeFromRight(number);

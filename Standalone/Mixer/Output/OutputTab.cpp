@@ -105,7 +105,7 @@ void OutputTab::list(SinkChoice& sink) {
     sink.places.clear();
     sink.box.clear(juce::dontSendNotification);
     sink.box.addItem("none", noSinkId);
-    sink.box.addItem(sink.kind.anyWords.data(), anySinkId);
+    sink.box.addItem("the first there", anySinkId);
     const auto add = [&sink](const SinkPlace& place) {
         sink.box.addItem(utf8(place.where) +
                              (place.about.empty() ? juce::String{} : "  " + utf8(place.about)),
@@ -130,11 +130,11 @@ void OutputTab::list(SinkChoice& sink) {
 void OutputTab::choose(SinkChoice& sink) {
     const SinkKind& kind = sink.kind;
     const int id = sink.box.getSelectedId();
-    if (id != otherSinkId)
-        return use(kind, id == anySinkId     ? std::string{kind.any}
-                         : id >= firstSinkId ? sink.places[static_cast<std::size_t>(id - firstSinkId)]
-                                             : std::string{});
-    list(sink); // shows the unchanged choice
+    const auto place = id == anySinkId     ? std::string{kind.any}
+                       : id >= firstSinkId ? sink.places[static_cast<std::size_t>(id - firstSinkId)]
+                                           : std::string{};
+    list(sink); // shows the unchanged choice: the user may yet cancel
+    if (id != otherSinkId) return use(kind, place);
     ask(kind.title.data(), kind.other.data(), utf8(model_.device().choice().placeOf(kind)),
         [this, &kind](const juce::String& where) { use(kind, where.toStdString()); });
 }
@@ -259,7 +259,7 @@ void OutputTab::mixChanged() {
     for (int id = 1; const auto& d : found_) {
         const bool isNone = d.type == noDeviceType;
         device_.addItem(isNone ? juce::String{"No device: seen, not felt"}
-                               : utf8(d.type + ": " + d.name) + " (" + juce::String{d.channels} + " outputs)",
+                               : utf8(d.type + ":" + d.name) + " (" + juce::String{d.channels} + " outputs)",
                         id);
         if (d.type + ":" + d.name == choice.name) chosen = id;
         ++id;
@@ -310,7 +310,8 @@ void OutputTab::refresh(const MixerMoment& moment) {
         {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " +
                      number(100.0 * moment.device.worstLoad, 1) + " % at most"},
         {"Late",
-         juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls",
+         juce::String{static_cast<juce::int64>(r.late)} + (r.late == 1 ? " hit, " : " hits, ") +
+             number(slipped, 0) + " ms of stalls",
          r.late > 0 ? Shade::now : Shade::text},
         {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
                                                 : juce::String{moment.device.deviceXruns}},
@@ -356,7 +357,7 @@ void OutputTab::resized() {
 namespace {
 
 // in the order of OscUse
-constexpr std::array<const char*, 3> oscUses{"nobody", "this computer", "phones, too"};
+constexpr std::array<const char*, 3> oscUses{"nobody", "this computer", "phones too"};
 struct PhoneHold {
     const char* words;
     double turnDegrees;
@@ -378,9 +379,7 @@ juce::String reachedAt(const std::string& address) {
 } // namespace
 
 void OutputTab::prepareOsc() {
-    describe(
-        osc_, "OSC",
-        "Who may strike, tilt and set gains by messages over the network: phones, Pd, Max (Docs/osc.md)");
+    describe(osc_, "OSC", "Who may strike, tilt and set gains by messages over the network: phones, Pd, Max");
     for (int use = 0; use < static_cast<int>(oscUses.size()); ++use)
         osc_.addItem(oscUses[static_cast<std::size_t>(use)], use + 1);
     describe(hits_, "Hits by OSC",

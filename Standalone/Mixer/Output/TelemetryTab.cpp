@@ -13,6 +13,7 @@ constexpr std::size_t maxLoads = 300;   // ten seconds of updates
 constexpr double showFiguresMs = 500.0; // figures that change faster are illegible
 
 juce::String count(std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; }
+juce::String hits(std::uint64_t n) { return count(n) + (n == 1 ? " hit" : " hits"); }
 juce::String percent(float share) { return number(100.0 * static_cast<double>(share), 1) + " %"; }
 Shade noneIsGood(std::uint64_t n) { return n > 0 ? Shade::now : Shade::text; }
 
@@ -57,13 +58,12 @@ std::vector<Fact> telemetryFacts(const MixerModel& model, const MixerMoment& mom
     const auto refused = moment.session.refused + r.rejected;
     const double reduction = toDecibels(std::max(static_cast<double>(r.limiterGain), 1e-6));
     std::vector<Fact> facts{
-        {"Played", count(r.played) + " hits, " + juce::String{r.pending} + " waiting"},
-        {"Late", count(r.late) + " hits", noneIsGood(r.late)},
-        {"Dropped", count(session.world().drops()) + " hits in a step", noneIsGood(session.world().drops())},
+        {"Played", hits(r.played) + ", " + juce::String{r.pending} + " waiting"},
+        {"Late", hits(r.late), noneIsGood(r.late)},
+        {"Dropped", hits(session.world().drops()) + " in a step", noneIsGood(session.world().drops())},
         {"Refused", count(moment.session.refused) + " without room, " + count(r.rejected) + " unplayable",
          noneIsGood(refused)},
-        {"Elsewhere", count(r.withoutPart) + " hits of a part without an actuator",
-         noneIsGood(r.withoutPart)},
+        {"Elsewhere", hits(r.withoutPart) + " of a part without an actuator", noneIsGood(r.withoutPart)},
         marginFact(moment, output.sampleRateHz()),
         {"Stalls", number(1e-6 * static_cast<double>(session.world().slippedNs()), 0) + " ms of the world"},
         {"Modes", juce::String{r.liveModes} + " ringing, " + count(r.stolen) + " ended early",
@@ -79,7 +79,7 @@ std::vector<Fact> telemetryFacts(const MixerModel& model, const MixerMoment& mom
          moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
                                        : juce::String{moment.device.deviceXruns},
          moment.device.deviceXruns > 0 ? Shade::now : Shade::text},
-        {"Not told", count(r.untold) + " hits, " + count(model.signals().framesLost()) + " frames",
+        {"Not told", hits(r.untold) + ", " + count(model.signals().framesLost()) + " frames",
          noneIsGood(r.untold)},
         {"Not finite", count(r.nonFinite) + " samples", noneIsGood(r.nonFinite)}};
     const auto sinks = model.session().sinks().states();

@@ -113,6 +113,8 @@ void StripsPanel::resized() {
     const int strips = std::max(1, static_cast<int>(strips_.size())), rest = area.getWidth() - fixedWidth(),
               width = juce::jlimit(StripView::width, StripView::mostWidth, rest / strips - between),
               needed = strips * (width + between) + fixedWidth();
+    if (needed > area.getWidth()) // whole ones in sight
+        viewport_.setSize(area.getWidth() / (width + between) * (width + between), area.getHeight());
     row_.setSize(std::max(needed, area.getWidth()), area.getHeight() - (needed > area.getWidth() ? 10 : 0));
     auto places = row_.getLocalBounds();
     for (auto& strip : strips_)

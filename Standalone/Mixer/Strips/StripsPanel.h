@@ -11,7 +11,7 @@ namespace physvib {
 /// View of a strip group: name, fader, mute, and members.
 class GroupView final : public juce::Component {
 public:
-    static constexpr int width = 92;
+    static constexpr int width = StripView::width;
 
     GroupView(MixerModel& model, int group);
     void mixChanged();

@@ -67,7 +67,7 @@ public:
     void resized() override;
 
 private:
-    static constexpr int controlsHeight = 276; // with a line of advice
+    static constexpr int controlsHeight = 256; // with a line of advice
     void pickProtocol();
     void browseProtocol();
     void browseFolder();

@@ -29,6 +29,10 @@ private:
 class TwoLines final : public ReadOut, public juce::SettableTooltipClient {
 public:
     explicit TwoLines(const juce::String& title) { setTitle(title); }
+    std::function<void()> onClick;
+    void mouseUp(const juce::MouseEvent&) override {
+        if (onClick) onClick();
+    }
     void set(const juce::String& first, const juce::String& second, Shade firstShade = Shade::text);
     void paint(juce::Graphics& g) override;
 

@@ -75,7 +75,7 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
     for (const auto& device : devices) {
         const int outputs = ownOutputs(device);
         if (device.type == noDeviceType || outputs < 1) continue; // nothing could be felt or heard there
-        FeltChoice choice{utf8(device.type + ": " + device.name) + ", " + outputsText(outputs) +
+        FeltChoice choice{utf8(device.type + ":" + device.name) + ", " + outputsText(outputs) +
                               (outputs == 2 ? ": two actuators" : ""),
                           {device.type + ":" + device.name},
                           outputs};

@@ -117,6 +117,7 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
     view_->topBar().onMenu = [this](juce::Component& from) { showMenu(from); };
     view_->topBar().onRecord = [this] { record(); };
     view_->topBar().onSave = [this] { save(); };
+    view_->topBar().onDevice = [this] { view_->tabs().choose("Output"); };
     model_->device().onSinksWanted = [this](const DeviceChoice& choice) {
         later(*this, [choice](MixerWindow& window) { window.useSinks(choice); }); // the calling tab goes with
                                                                                   // its model
@@ -150,7 +151,7 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
 }
 
 void MixerWindow::useSinks(const DeviceChoice& choice) {
-    askThen([this, choice] {
+    const auto use = [this, choice] {
         device_ = choice;
         for (const SinkKind& kind : sinkKinds())
             files_.settings().setValue(kind.setting.data(), utf8(choice.placeOf(kind)));
@@ -158,7 +159,8 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
         play(Mix{model_->mix()}, document_, model_->session().world().slowness() == 0);
         if (isFirst && !choice.sinks.empty()) return testBeside(kindOf(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // the tab where it was chosen
-    });
+    };
+    askThen(use, "With another output the session begins anew. ");
 }
 
 // ---- the first start, and messages on devices that replace missing ones
@@ -190,7 +192,7 @@ void MixerWindow::reportInstead() {
     if (model_->trouble().isEmpty() || wanted.starts_with(std::string{noDeviceType} + ":")) return;
     for (const auto& there : byLikelihood(listAudioDevices(drivers_)))
         if (there.type != noDeviceType && there.channels > 0 && there.type + ":" + there.name != wanted)
-            return model_->messages().add({"There is " + utf8(there.type + ": " + there.name) + " (" +
+            return model_->messages().add({"There is " + utf8(there.type + ":" + there.name) + " (" +
                                            juce::String{there.channels} + " outputs) instead, under Output"});
 }
 
@@ -572,9 +574,15 @@ juce::File MixerWindow::folderOfDocuments() const {
     return folder ? folder.value : juce::File::getSpecialLocation(juce::File::userHomeDirectory);
 }
 
+/// Short, as a long word is broken.
+static juce::String fromHome(const juce::File& file) {
+    const auto home = juce::File::getSpecialLocation(juce::File::userHomeDirectory);
+    return file.isAChildOf(home) ? "~/" + file.getRelativePathFrom(home) : file.getFullPathName();
+}
+
 void MixerWindow::announceSaved(const juce::String& words, const juce::File& file) {
     MixerMessage message{
-        words + " " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}, "saved"};
+        words + " " + fromHome(file), true, {"Show", [file] { file.revealToUser(); }}, "saved"};
     model_->isNews() ? model_->messages().show(std::move(message))
                      : model_->messages().add(std::move(message));
 }
@@ -606,9 +614,9 @@ void MixerWindow::ask(const juce::String& title, const juce::String& words,
     view_->setQuestion(std::make_unique<QuestionCard>(title, words, std::move(all), fields));
 }
 
-void MixerWindow::askThen(std::function<void()> goOn) {
+void MixerWindow::askThen(std::function<void()> goOn, const juce::String& why) {
     if (!isChanged()) return goOn();
-    ask("Save the session?", "What was changed since it was saved would be lost.",
+    ask("Save the session?", why + "What was changed since it was saved would be lost.",
         {{"Save",
           [this, goOn] {
               view_->setCard(nullptr);
@@ -963,7 +971,7 @@ void MixerWindow::serve() {
 
 namespace {
 
-constexpr std::array<int, 6> zooms{75, 100, 125, 150, 175, 200};
+constexpr std::array<int, 7> zooms{50, 75, 100, 125, 150, 175, 200};
 constexpr const char* zoomSetting = "zoom";
 constexpr juce::Point<int> usualDisplay{1920, 1080}; // at 100 %
 

@@ -47,7 +47,6 @@ TopBar::TopBar(MixerModel& model)
     listScenes();
     scene_.onChange = [this] { chooseScene(); };
     pause_.onClick = [this] { togglePause(); };
-    pause_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::enchanter(0).getARGB()));
     step_.onClick = [this] { model_.session().world().stepOnce(); };
     describe(slow_, "Slow motion", "Slow motion: each press halves the speed of the world");
     slow_.onClick = [this] {
@@ -70,6 +69,10 @@ TopBar::TopBar(MixerModel& model)
     record_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::limit.getARGB()));
     record_.onClick = [this] {
         if (onRecord) onRecord();
+    };
+    device_.setMouseCursor(juce::MouseCursor::PointingHandCursor);
+    device_.onClick = [this] {
+        if (onDevice) onDevice();
     };
     mode_.setTitle("Mode");
     mode_.onClick = [this] {
@@ -130,7 +133,7 @@ void TopBar::mixChanged() {
     slow_.setButtonText(slowness < 2 ? juce::String::fromUTF8("1\xc3\x97") : "1/" + juce::String{slowness});
     slow_.setToggleState(slowness > 1, juce::dontSendNotification);
     silence_.setToggleState(model_.isSilent(), juce::dontSendNotification);
-    silence_.setButtonText(model_.isSilent() ? "SILENT: press" : "SILENCE  Esc");
+    silence_.setButtonText(model_.isSilent() ? "SILENT: press to feel" : "SILENCE  Esc");
     const auto& history = model_.undoManager();
     undo_.setEnabled(history.canUndo());
     redo_.setEnabled(history.canRedo());
@@ -158,6 +161,9 @@ void TopBar::refresh(const MixerMoment& moment) {
     const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
     const auto numbers =
         number(output.sampleRateHz() / 1000.0, output.sampleRateHz() % 1000 == 0 ? 0 : 1) + " kHz";
+    const auto felt = "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) + " ms ",
+               whole = felt + "after the contact";
+    const bool isWhole = text::pixels(text::font(text::small), whole) <= device_.getWidth();
     if (!moment.device.isRunning)
         device_.set("No sound", model_.device().trouble(), Shade::limit);
     else
@@ -166,8 +172,8 @@ void TopBar::refresh(const MixerMoment& moment) {
                                       : dotted({isNone ? juce::String{"No device"} : name, numbers,
                                                 juce::String{output.blockFrames()}}),
                     isPlay_ && isNone ? juce::String{"seen, not felt"}
-                                      : "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) +
-                                            " ms after the contact",
+                    : isWhole         ? whole
+                                      : felt + "later",
                     isNone ? Shade::now : Shade::text);
     device_.setTooltip(name);
     const bool hadLoad = isToldOfLoad_, hadBoard = hasBoard_;
@@ -176,7 +182,7 @@ void TopBar::refresh(const MixerMoment& moment) {
     load_.set("Load " + number(100.0 * moment.device.load, 1) + " %",
               dotted({count(r.late, "late"), count(lost, "dropped")}),
               r.late + lost > 0 ? Shade::now : Shade::text);
-    isToldOfLoad_ = r.late + lost > 0;
+    isToldOfLoad_ = lost > 0 || moment.device.load > 0.5f;
     const auto sinks = model_.session().sinks().states();
     const bool areReady = std::ranges::all_of(sinks, &SinkState::isReady);
     const auto sink = sinks.empty() ? juce::String{"Board"} : titleOf(sinks.front().name);
@@ -227,13 +233,13 @@ void TopBar::resized() {
     auto states = isOneLine ? juce::Rectangle<int>{} : area.removeFromBottom(secondLine);
     area.setHeight(lineHeight - 18);
     constexpr int button = 36, between = 8, tight = 2;
-    silence_.setBounds(area.removeFromRight(140));
+    silence_.setBounds(area.removeFromRight(156));
     area.removeFromRight(between);
     struct Control {
         juce::Component* component;
         int width, after;
     };
-    for (const auto& [component, width, after] : std::initializer_list<Control>{{&menu_, 64, between},
+    for (const auto& [component, width, after] : std::initializer_list<Control>{{&menu_, 60, between},
                                                                                 {&save_, button, tight},
                                                                                 {&undo_, button, tight},
                                                                                 {&redo_, button, between},
@@ -244,8 +250,8 @@ void TopBar::resized() {
                                                                                 {&restart_, button, between},
                                                                                 {&seed_, 66, 0},
                                                                                 {&time_, 82, 0},
-                                                                                {&record_, 96, between},
-                                                                                {&mode_, 72, between}}) {
+                                                                                {&record_, 90, between},
+                                                                                {&mode_, 66, between}}) {
         if (!component->isVisible()) continue;
         component->setBounds(area.removeFromLeft(area.getWidth() < width ? 0 : width)); // whole, or not at
                                                                                         // all

@@ -16,7 +16,7 @@ public:
     void togglePause();
 
     std::function<void(juce::Component& from)> onMenu;
-    std::function<void()> onRecord, onSave, onOpenScene;
+    std::function<void()> onRecord, onSave, onOpenScene, onDevice;
     std::function<void(const juce::File&)> onOwnScene;
     void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below the built-in ones
     void setRecording(bool isRecording);                     ///< counts its seconds

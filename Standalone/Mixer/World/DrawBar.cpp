@@ -78,12 +78,14 @@ int DrawBar::widthFor(int height) {
 
 void DrawBar::resized() {
     const int rows = perColumn(getHeight()), each = highFor(getHeight());
-    const int apart = getHeight() >= buttonCount * (each + between) + 3 * groupGap ? groupGap : 0;
+    const int apart = std::clamp((getHeight() + between - rows * (each + between)) / 3, 0,
+                                 rows < buttonCount ? groupGap / 2 : groupGap);
     for (int k = 0; k <= static_cast<int>(tools_.size()); ++k) {
         auto& button = k < static_cast<int>(tools_.size())
                            ? static_cast<juce::Component&>(*tools_[static_cast<std::size_t>(k)])
                            : snap_;
-        button.setBounds(k / rows * (wide + between), k % rows * (each + between) + groupOf(k) * apart, wide,
+        button.setBounds(k / rows * (wide + between),
+                         k % rows * (each + between) + (groupOf(k) - groupOf(k / rows * rows)) * apart, wide,
                          each);
     }
 }

@@ -90,7 +90,7 @@ void chooseContacts(MixerView& view) {
 void showFirstStart(MixerModel& model, MixerView& view) {
     const DeviceChoice none{std::string{noDeviceType} + ":" + noDeviceName};
     view.setFirstStart(std::make_unique<FirstStart>(
-        model, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8},
+        model, std::vector<FeltChoice>{{"JACK:system, 8 outputs", none, 8},
                                        {"Headphones: ALSA:USB Headset", none, 2, false, true},
                                        {"Game controller: DualSense", none, 2, true},
                                        {"ALSA: USB Headset, 2 outputs: two actuators", none, 2},

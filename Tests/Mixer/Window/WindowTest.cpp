@@ -999,6 +999,12 @@ TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
         window.view().question()->answer("Cancel");
         EXPECT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
         EXPECT_TRUE(window.isChanged());
+        window.view().tabs().choose("Output");
+        auto* pads = dynamic_cast<juce::ComboBox*>(find(window.view(), "Game controller"));
+        pads->setSelectedItemIndex(1);
+        ASSERT_TRUE(runUntil([&] { return window.view().question() != nullptr; }));
+        EXPECT_EQ(pads->getText(), "none") << "until the question is answered";
+        window.view().question()->answer("Cancel");
         window.setShow(true);
         EXPECT_EQ(window.view().world().getBounds(), window.view().getLocalBounds());
         window.setShow(false);
