@@ -64,7 +64,6 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     if (endedBadly) before_ = files_.limits();
     start(file);
     setResizable(true, false);
-    setResizeLimits(MixerView::minWidth, MixerView::minHeight, 7680, 4320);
     applyZoom();
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
         const auto room = usableOf(*display);
@@ -971,7 +970,7 @@ void MixerWindow::serve() {
 
 namespace {
 
-constexpr std::array<int, 7> zooms{50, 75, 100, 125, 150, 175, 200};
+constexpr std::array<int, 7> zooms{60, 75, 100, 125, 150, 175, 200};
 constexpr const char* zoomSetting = "zoom";
 constexpr juce::Point<int> usualDisplay{1920, 1080}; // at 100 %
 
@@ -1029,8 +1028,11 @@ void MixerWindow::applyZoom() {
     auto& desktop = juce::Desktop::getInstance();
     const auto room = displayRoom();
     int percent = zoom() > 0 ? zoom() : automaticZoom(room);
-    while (percent > zooms.front() && !fits(percent, room)) percent -= 25;
+    while (percent > zooms.front() && !fits(percent, room)) percent = std::max(zooms.front(), percent - 25);
     const float before = desktop.getGlobalScaleFactor(), after = 0.01f * static_cast<float>(percent);
+    const float shrunk = std::min(1.0f, after); // JUCE has limits in pixels of the display
+    setResizeLimits(juce::roundToInt(shrunk * MixerView::minWidth),
+                    juce::roundToInt(shrunk * MixerView::minHeight), 7680, 4320);
     if (juce::approximatelyEqual(before, after)) return;
     const auto bounds = (getBounds().toFloat() * (before / after)).toNearestInt();
     desktop.setGlobalScaleFactor(after);

@@ -972,6 +972,8 @@ TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
         window.setZoom(125);
         EXPECT_NEAR(juce::Desktop::getInstance().getGlobalScaleFactor(), 1.25f, 1e-4f);
         EXPECT_GE(window.view().getWidth(), MixerView::minWidth);
+        window.setZoom(60);
+        EXPECT_LE(window.getConstrainer()->getMinimumWidth(), 640) << "for the smallest display";
         window.setZoom(200); // leaves no room on this display
         EXPECT_LT(juce::Desktop::getInstance().getGlobalScaleFactor(), 1.6f);
         window.setZoom(125);
