@@ -154,12 +154,14 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
         device_ = choice;
         for (const SinkKind& kind : sinkKinds())
             files_.settings().setValue(kind.setting.data(), utf8(choice.placeOf(kind)));
-        const bool isFirst = view_->firstStart() != nullptr;
+        const bool isFirst = view_->firstStart() != nullptr, wasChanged = isChanged();
         play(Mix{model_->mix()}, document_, model_->session().world().slowness() == 0);
+        if (wasChanged) savedEdits_ = neverSaved;
         if (isFirst && !choice.sinks.empty()) return testBeside(kindOf(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // the tab where it was chosen
     };
-    askThen(use, "With another output the session begins anew. ");
+    askThen(use,
+            "Another output begins the session anew: the mix stays, its past and its undo steps are lost.");
 }
 
 // ---- the first start, and messages on devices that replace missing ones
@@ -613,9 +615,9 @@ void MixerWindow::ask(const juce::String& title, const juce::String& words,
     view_->setQuestion(std::make_unique<QuestionCard>(title, words, std::move(all), fields));
 }
 
-void MixerWindow::askThen(std::function<void()> goOn, const juce::String& why) {
+void MixerWindow::askThen(std::function<void()> goOn, const juce::String& words) {
     if (!isChanged()) return goOn();
-    ask("Save the session?", why + "What was changed since it was saved would be lost.",
+    ask("Save the session?", words,
         {{"Save",
           [this, goOn] {
               view_->setCard(nullptr);

@@ -86,7 +86,8 @@ private:
     /// The device and how it is worn: levels saved for one are not right for another.
     std::string outputInUse() const { return device_.name + (device_.isHeadphones ? " on the ears" : ""); }
     bool saveTo(const juce::File& file);
-    void askThen(std::function<void()> goOn, const juce::String& why = {});
+    void askThen(std::function<void()> goOn,
+                 const juce::String& words = "What was changed since it was saved would be lost.");
     /// `suggested`: a file name without extension; `in`: a folder instead of the last one.
     void chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
                     std::function<void(const juce::File&)> use, const juce::String& suggested = {},

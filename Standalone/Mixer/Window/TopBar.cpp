@@ -70,6 +70,7 @@ TopBar::TopBar(MixerModel& model)
     record_.onClick = [this] {
         if (onRecord) onRecord();
     };
+    device_.setMouseClickGrabsKeyboardFocus(false);
     device_.setMouseCursor(juce::MouseCursor::PointingHandCursor);
     device_.onClick = [this] {
         if (onDevice) onDevice();

@@ -1006,7 +1006,9 @@ TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
         pads->setSelectedItemIndex(1);
         ASSERT_TRUE(runUntil([&] { return window.view().question() != nullptr; }));
         EXPECT_EQ(pads->getText(), "none") << "until the question is answered";
-        window.view().question()->answer("Cancel");
+        window.view().question()->answer("Do not save");
+        ASSERT_TRUE(runUntil([&] { return !window.model().device().choice().sinks.empty(); }));
+        EXPECT_TRUE(window.isChanged()) << "its mix is in no file";
         window.setShow(true);
         EXPECT_EQ(window.view().world().getBounds(), window.view().getLocalBounds());
         window.setShow(false);
