@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The panels at any size: nothing cut, nothing crushed, and what is dragged stays.
+#include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Output/OutputTab.h"
 #include "Mixer/Strips/ScopeView.h"
+#include "Mixer/Studies/StudiesTab.h"
 #include "MixerTesting.h"
 #include <cmath>
 
@@ -179,6 +181,11 @@ TEST(Arrangement, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
     EXPECT_GE(narrow, StripView::width);
     EXPECT_LT(narrow, StripView::mostWidth);
     EXPECT_TRUE(attach->isVisible());
+    w.view.setSize(1024, 700);
+    w.attach(6);
+    auto* last = find(w.view, "Strip F");
+    const auto* row = last->findParentComponentOfClass<juce::Viewport>();
+    EXPECT_EQ(row->getViewWidth() % (last->getX() / 5), 0) << "whole ones";
     w.attach(64);
     EXPECT_EQ(widthOf("Strip A"), StripView::width) << "64 scroll";
     EXPECT_FALSE(attach->isVisible()) << "there is no 65th";
@@ -246,6 +253,10 @@ TEST(Arrangement, TheToolsKeepTheirSizeInALowWindow) {
             EXPECT_TRUE(tools->getLocalBounds().contains(tool->getBounds()))
                 << tool->getTitle() << " at " << height;
         }
+        const auto below = [tools](int k) {
+            return tools->getChildComponent(k + 1)->getY() - tools->getChildComponent(k)->getBottom();
+        };
+        EXPECT_GT(below(1), below(0)) << "between groups at " << height;
         for (int j = 0; j < 4; ++j) {
             auto& world = w.view.world().view();
             const auto badge = w.view.world().getLocalPoint(&world, world.placeOfEnchanter(j)).toInt();
@@ -300,6 +311,10 @@ TEST(Arrangement, APageWithoutRoomScrolls) {
     ASSERT_NE(viewport, nullptr);
     EXPECT_LT(viewport->getHeight(), page->getHeight());
     EXPECT_TRUE(viewport->isVerticalScrollBarShown());
+    w.view.setSize(1016, 660); // a display of 1024 x 700 without the window's frame
+    for (const juce::Component* other : {static_cast<juce::Component*>(w.view.tabs().find<StudiesTab>()),
+                                         static_cast<juce::Component*>(w.view.tabs().find<MaterialsTab>())})
+        EXPECT_LE(other->getHeight(), other->findParentComponentOfClass<juce::Viewport>()->getHeight());
     w.view.setSize(3840, 2160);
     EXPECT_EQ(viewport->getHeight(), page->getHeight());
 }

@@ -66,6 +66,11 @@ TEST(CutTexts, AreOnNoPageAtAnySize) {
                                                    {1920, 1080, 16},
                                                    {2560, 1440, 4}}) {
         CutTexts texts{width - 240, height, actuators};
+        for (int k = 0; k < std::ssize(texts.model.world().scene().materials); ++k)
+            texts.model.world().edit("Grain", TextureAction{k, 0.006, 1.6, {}, 0.2});
+        dynamic_cast<juce::ComboBox*>(find(texts.view, "Game controller"))
+            ->setText("the first there", juce::dontSendNotification);
+        texts.model.setSilent(true);
         for (auto* panel : {&texts.view.tabs(), &texts.view.scope()})
             for (const auto& name : panel->names()) {
                 panel->choose(name);

@@ -314,12 +314,14 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
     press("Undo");
     EXPECT_EQ(model.mix().count(), 4);
     EXPECT_TRUE(find(view, "Undo")->isEnabled());
-    bool isSaved = false, isOpened = false;
+    bool isSaved = false, isOpened = false, isOutput = false;
+    view.topBar().onDevice = [&] { isOutput = true; };
+    find(view, "Device state")->mouseUp(mouseAt(*find(view, "Device state"), {4.0f, 4.0f}));
     view.topBar().onSave = [&] { isSaved = true; };
     view.topBar().onMenu = [&](juce::Component&) { isOpened = true; };
     press("Save the session (Ctrl+S)");
     press("Menu");
-    EXPECT_TRUE(isSaved && isOpened);
+    EXPECT_TRUE(isSaved && isOpened && isOutput);
 }
 
 TEST(MixerView, WhatIsSilentStandsStill) {
