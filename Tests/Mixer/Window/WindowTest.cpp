@@ -508,7 +508,7 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
         const auto documents = juce::File::getSpecialLocation(juce::File::userDocumentsDirectory);
         EXPECT_EQ(window.lastRecording().getParentDirectory(), documents.getChildFile("PhysVib"));
-        EXPECT_TRUE(window.model().trouble().contains(window.lastRecording().getFullPathName()));
+        EXPECT_TRUE(window.model().trouble().contains(window.lastRecording().getFileName()));
         EXPECT_EQ(window.model().messages().shown().act.name, "Show");
         names.add(window.lastRecording().getFileName());
     }
