@@ -441,6 +441,7 @@ study <- function(study, scales = character(), points = character()) {
   as.published <<- grepl("protocol [^ ]*-thesis", study)
   if (!("participant" %in% names(d))) return(finish(study))
   is.told <- "task" %in% names(d)
+  if (is.told) for (column in setdiff(c("session", "correct", "level_db"), names(d))) d[[column]] <- rep("", nrow(d))
   if (!is.told) points <- union(points, Filter(function(scale) all(d[[scale]] %in% c("", "NA", 1:7)), scales)) # of other programs
   # a trial that ran out of time has no other answer
   for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks", c("group", "condition"))

@@ -280,6 +280,11 @@ d$correct <- as.integer(runif(nrow(d)) < ifelse(d$condition == "c2", 0.9, 0.6));
 ours <- line(whole(d, character()), "condition: c1 - c2")
 same("right answers", ours$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
 if (!identical(ours$size, "d_z")) fault("the effect of pairs is called", ours$size)
+# A task is named, and no session, level or right answer.
+d$task <- "choose"; d$choice <- ifelse(d$correct == 1, "A", "B"); d$correct <- NULL; ours <- whole(d, character()); wide <- tapply(d$choice == "A", list(d$participant, d$condition), mean)
+same("a task without a session", line(ours[grepl("^pairs", ours$test), ], "condition: c1 - c2")$p, exact.p(round(wide[, 1] - wide[, 2], 9)))
+d$task <- "rate"; d$comfort <- 9 * d$trial + runif(nrow(d))
+if (!any(grepl("variance of comfort by", whole(d, "comfort")$test))) fault("a scale without a session is not compared")
 # A questionnaire of another program, in whole numbers from 1 to 7: ranks.
 d <- data.frame(participant = person(21), group = rep(c("g", "h", "k"), 7), comfort = sample(1:5, 21, TRUE), level = round(100 * runif(21)))
 ours <- whole(d, c("comfort", "level"))
