@@ -180,7 +180,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   })
   attempt(test, "residuals normality", {
     left <- as.matrix(lm.fit(x, cells)$residuals)
-    shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n) }
+    shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n, note = if (length(left) > n) paste("of", length(left), "residuals") else "") }
     # of two cells the differences: what is left of both of them is the same with two signs
     shapiro("residuals normality", if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
     if (length(between) > 0 && ncol(cells) > 1) shapiro("participants' means normality", rowMeans(left))

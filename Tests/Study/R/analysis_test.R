@@ -54,6 +54,7 @@ for (n in c(2, 3, 4, 12, 49, 50)) for (levels in list(2, 3, 6, c(2, 3), c(2, 2, 
     same(paste("Mauchly p, n", n), line(ours, "a sphericity")$p, mauchly.test(fit, X = ~ 1)$p.value)
     left <- aov(y ~ a + participant, m)$residuals
     same(paste("normality, n", n), line(ours, "residuals normality")$p, shapiro.test(left)$p.value)
+    if (line(ours, "residuals normality")$note != paste("of", length(left), "residuals")) fault("the number of residuals is not told")
   }
 }
 
