@@ -93,6 +93,9 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
     EXPECT_TRUE(has(page(), "Groups: 2 old, 1 young."));
     EXPECT_TRUE(has(page(), "participant P1: 1 trial without an answer left out")) << page();
     EXPECT_FALSE(has(page(), "Nobody and no main trial is left out before"));
+    write("t.csv", "participant,task,condition,stimulus,value\nA,estimate,x,1,2\nA,estimate,y,1,2\n");
+    ASSERT_EQ(call("report t.csv --out sorted").exitCode, 0);
+    EXPECT_FALSE(has(read("sorted/index.html"), "Orders of the conditions")) << "nothing counts trials";
     write("t.csv", "participant,group,ease,fun\nA,x,4,1\nA,x,4,\nB,x,5,2\nB,x,6,4\nC,y,1,\nD,y,2,3\n");
     ASSERT_EQ(call("report t.csv --out ease").exitCode, 0);
     const std::string ease = read("ease/index.html");
