@@ -508,7 +508,10 @@ study <- function(study, scales = character(), points = character()) {
   if (file.exists("thresholds.csv")) parts.in(table.of("thresholds.csv"), function(own, session) {
     for (m in unique(own$method)) compare(paste0("threshold by ", m, session), own[own$method == m, ], "threshold", columns = c("group", "condition"))
   }) else from("psychometric.csv", c("threshold", "jnd"))
-  from("psychometric-stimuli.csv", c("threshold", "jnd"))
+  if (file.exists(file <- "psychometric-stimuli.csv")) { # of two answers, none of them right, nobody guesses
+    if (all(table.of(file)$guess == "0")) spoken <- c(spoken, threshold = "point of subjective equality")
+    from(file, c("threshold", "jnd"))
+  }
   if (!is.told && !any(file.exists(c("identification.csv", "psychometric.csv")))) each("", "correct", function(own, words) compare("share of right answers", own, "correct"))
   each("adjust", "value", function(own, words) if (is.told) compare(paste0("matched levels", words), own, "value"))
   each("estimate", "value", function(own, words) compare(paste0("magnitudes", words), own, "value", "magnitudes"))
