@@ -508,8 +508,8 @@ study <- function(study, scales = character(), points = character()) {
   if (file.exists("thresholds.csv")) parts.in(table.of("thresholds.csv"), function(own, session) {
     for (m in unique(own$method)) compare(paste0("threshold by ", m, session), own[own$method == m, ], "threshold", columns = c("group", "condition"))
   }) else from("psychometric.csv", c("threshold", "jnd"))
-  if (file.exists(file <- "psychometric-stimuli.csv")) { # of two answers, none of them right, nobody guesses
-    if (all(table.of(file)$guess == "0")) spoken <- c(spoken, threshold = "point of subjective equality")
+  if (file.exists(file <- "psychometric-stimuli.csv")) { # of two answers, none of them right, both ends lapse
+    if (with(table.of(file), all(guess == lapse))) spoken <- c(spoken, threshold = "point of subjective equality")
     from(file, c("threshold", "jnd"))
   }
   if (!is.told && !any(file.exists(c("identification.csv", "psychometric.csv")))) each("", "correct", function(own, words) compare("share of right answers", own, "correct"))

@@ -213,7 +213,7 @@ ours <- whole(d[c("participant", "condition", "group")], NULL)
 same("group of thresholds", line(ours[grepl("^analysis of variance of threshold", ours$test), ], "group")$p,
      anova(lm(y ~ g, data.frame(y = tapply(as.numeric(d$threshold), d$participant, mean), g = rep(c("a", "b"), each = 4))))[["Pr(>F)"]][1])
 if (!any(grepl("Greenhouse and Geisser's p ", capture.output(from <- anova.test("t", "psychometric.csv", "threshold", "condition"))))) fault("the correction is not named")
-d$guess <- 0; rows(d, "psychometric-stimuli.csv"); unlink("psychometric.csv")
+d$guess <- d$lapse <- 0.01; rows(d, "psychometric-stimuli.csv"); unlink("psychometric.csv")
 if (!any(grepl("of point of subjective equality by", whole(d, NULL)$test))) fault("half of two answers is called a threshold")
 unlink("psychometric-stimuli.csv")
 # Sessions of a kind are studies of their own, in tables of the report by the end of their conditions' names.
