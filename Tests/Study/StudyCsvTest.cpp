@@ -63,6 +63,8 @@ TEST(StudyCsv, RatingsAreTheColumnsThatNoTrialFileHas) {
               "f.csv: column age has one value of each participant: no scale");
     EXPECT_EQ(ratings.value.scales, (std::vector<std::string>{"realism", "liking"}));
     EXPECT_EQ(ratings.value.conditions.front().trials.front().scores, (std::vector<double>{70, 80.5}));
+    const auto once = readOne(readRatings, "condition,group,stimulus,load\nbare,a,,3\nglove,b,,4\n");
+    EXPECT_EQ(once.value.conditions.front().trials.front().condition, "condition=bare group=a");
     EXPECT_EQ(readOne(readRatings, "condition,realism\nA,101\n").error,
               "f.csv:2: column realism: expected a number from 0 to 100, found \"101\"");
     EXPECT_EQ(readOne(readRatings, "condition\nA\n").error,

@@ -267,7 +267,9 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
         RatingTrial trial{StudyRows::textIf(row, participant),
                           kindOf(row, stimulus, StudyRows::textIf(row, condition)),
                           {}};
-        if (group) trial.condition.append(stimulus ? " group=" : "group=").append(row.cells[*group]);
+        if (group)
+            trial.condition.append(StudyRows::textIf(row, stimulus).empty() ? "group=" : " group=")
+                .append(row.cells[*group]);
         for (const auto c : scales) // of this session; others lack answers
             trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));
         conditionNamed(rows, ratings, rows.sessionOf(row)).push_back(std::move(trial));
