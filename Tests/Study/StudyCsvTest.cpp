@@ -140,6 +140,7 @@ TEST(StudyCsv, TrainingIsNoThreshold) {
         return readOne(readLevels, head + rows).value.conditions.front().trials;
     };
     EXPECT_EQ(trials("P,c,t,training,choose,s,9,1,\nP,c,m,main,choose,s,1,1,\n").size(), 1u);
+    EXPECT_EQ(trials("P,c,o,main,rate,,,,\nP,c,m,main,estimate,s,,,3\n").size(), 1u) << "of no stimulus";
     EXPECT_EQ(trials("P,c,t,training,adjust,s,,,9\nP,c,m,main,adjust,s,,,1\n").front().value, 1.0);
     EXPECT_EQ(trials("P,c,t,training,adjust,s,,,9\nP,c,m,main,choose,s,1,1,\n").size(), 2u)
         << "matched for it";

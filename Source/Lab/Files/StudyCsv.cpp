@@ -292,15 +292,15 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     const std::optional<AnswerKind> answer = tasks                    ? answerOf(row.cells[*tasks])
                                              : rows.optional("value") ? AnswerKind::number
                                                                       : AnswerKind::choice;
-    LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")),
-                     rows.conditionOf(row), rows.text(row, rows.required("stimulus"))};
-    if (answer == AnswerKind::level)
-        trial.kind = LevelTrial::Kind::adjustment;
-    else if (answer == AnswerKind::number)
-        trial.kind = LevelTrial::Kind::magnitude;
-    else if (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty() ||
-             (tasks && row.cells[rows.required("level_db")].empty()))
+    if (answer != AnswerKind::level && answer != AnswerKind::number &&
+        (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty() ||
+         (tasks && row.cells[rows.required("level_db")].empty())))
         return std::nullopt;
+    LevelTrial trial{answer == AnswerKind::level    ? LevelTrial::Kind::adjustment
+                     : answer == AnswerKind::number ? LevelTrial::Kind::magnitude
+                                                    : LevelTrial::Kind::staircase,
+                     StudyRows::textIf(row, rows.optional("participant")), rows.conditionOf(row),
+                     rows.text(row, rows.required("stimulus"))};
     if (trial.kind == LevelTrial::Kind::staircase) {
         trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
         trial.session = StudyRows::textIf(row, rows.optional("session"));
