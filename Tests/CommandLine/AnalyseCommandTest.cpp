@@ -138,13 +138,14 @@ TEST_F(Analyse, ToleranceCountsNeighboursAsTheStimulus) {
 }
 
 TEST_F(Analyse, ParticipantsTransferForThemselves) {
-    write(
-        "c.csv",
-        "participant,condition,stimulus,response\nP1,PHONE,a,a\nP1,PHONE,b,b\nP2,PHONE,a,a\nP2,PHONE,b,a\n");
+    write("c.csv",
+          "participant,condition,stimulus,response\nP1,PHONE,a,a\nP1,PHONE,b,b\nP2,PHONE,a,a\nP2,PHONE,b,a\n"
+          "P3,PHONE,a,a\n");
     const auto outcome = call("analyse confusion c.csv --export m.csv --participants each.csv");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(
-        outcome.out.find("\n  IT of participants: mean 0.50 bit, standard error 0.50 bit, 2 participants\n"),
+        outcome.out.find("\n  IT of participants: mean 0.50 bit, standard error 0.50 bit, 2 participants; "
+                         "without P3, for lack of a stimulus\n"),
         std::string::npos)
         << outcome.out;
     EXPECT_NE(read("m.csv").find("\nPHONE,P2,b,a,1\n"), std::string::npos);

@@ -28,6 +28,13 @@ TEST_F(AnalyseFits, FunctionsAreFittedToEachParticipant) {
             "\ncondition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood\nring,P0,120,"),
         std::string::npos)
         << read("f.csv");
+    for (const auto& [from, to] :
+         {std::pair{"correct\n", "choice\n"}, {",0\n", ",left\n"}, {",1\n", ",right\n"}})
+        for (std::size_t at = 0; (at = choices.find(from, at)) != std::string::npos;)
+            choices.replace(at, std::string_view{from}.size(), to);
+    write("m.csv", choices);
+    const auto left = call("analyse psychometric m.csv --measure choice=right --guess 0");
+    EXPECT_EQ(left.out.rfind("ring: point of subjective equality ", 0), 0u) << left.out << left.err;
     write("m.csv", magnitudes);
     EXPECT_EQ(call("analyse power-law m.csv --level level_g").out, "exponent 2.000, 1 participant\n");
     refuses("analyse power-law c.csv", 1, "c.csv: expected a column value, found none", 3);

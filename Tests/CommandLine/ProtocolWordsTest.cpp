@@ -197,7 +197,7 @@ std::vector<PlantedField> plantedFields() {
          "own: {participant}/a.png."},
         {"session.name", session([](SessionPlan& s) { s.name = "afterwards"; }), "afterwards: task"},
         {"session.training", session([](SessionPlan& s) { s.isTraining = true; }),
-         "(training, left out of analyses)"},
+         "(training, left out of analyses)", session([](SessionPlan& s) { s.task = StudyTask::estimate; })},
         {"session.task", session([](SessionPlan& s) { s.task = StudyTask::estimate; }), "task estimate"},
         {"session.question", session([](SessionPlan& s) { s.question = "How much?"; }),
          "\u201cHow much?\u201d"},

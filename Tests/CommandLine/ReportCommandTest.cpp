@@ -93,6 +93,9 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
     EXPECT_TRUE(has(page(), "Groups: 2 old, 1 young."));
     EXPECT_TRUE(has(page(), "participant P1: 1 trial without an answer left out")) << page();
     EXPECT_FALSE(has(page(), "Nobody and no main trial is left out before"));
+    write("t.csv", "participant,task,condition,stimulus,value\nA,estimate,x,1,2\nA,estimate,y,1,2\n");
+    ASSERT_EQ(call("report t.csv --out sorted").exitCode, 0);
+    EXPECT_FALSE(has(read("sorted/index.html"), "Orders of the conditions")) << "nothing counts trials";
     write("t.csv", "participant,group,ease,fun\nA,x,4,1\nA,x,4,\nB,x,5,2\nB,x,6,4\nC,y,1,\nD,y,2,3\n");
     ASSERT_EQ(call("report t.csv --out ease").exitCode, 0);
     const std::string ease = read("ease/index.html");
@@ -254,7 +257,9 @@ TEST_F(Report, WhoStoppedBeforeTheEndIsNamed) {
         EXPECT_TRUE(has(html, "participant P02 did not finish ")) << name;
         EXPECT_FALSE(has(html, "Nobody and no main trial is left out before")) << name;
         EXPECT_EQ(has(html, "this threshold is left out of means and tests"), name != "magnitudes") << name;
-        EXPECT_EQ(has(html, ", which means and tests count like the whole"), name == "magnitudes") << name;
+        EXPECT_EQ(has(html, ", which means count like the whole, and tests where no level is lacking"),
+                  name == "magnitudes")
+            << name;
     }
 }
 

@@ -179,6 +179,8 @@ TEST_F(ReportFields, NoSentenceOfTheMethodsStandsThereWithoutAField) {
                                     "report grids-P01.csv --out out" + facts}) {
         const auto sentences = sentencesOf(page(call), "<h2>Participants", "<h2>Identification");
         EXPECT_GE(sentences.size(), own.size() + 6u) << call;
+        if (call.find("--people") != std::string::npos)
+            EXPECT_TRUE(has(read("out/index.html"), ">11 participants without a file of times"));
         for (const std::string& sentence : sentences) {
             const bool isRows = std::ranges::any_of(rowSentences, [&](const char* words) {
                 return std::regex_match(sentence, std::regex{words});

@@ -155,7 +155,7 @@ std::vector<Sentence> sentences() {
          of(numbers, 3)},
         {"Circles: all participants' trials, larger where there were more.", of(constant, 3, alike, true),
          of(constant, 3, rising, true)},
-        {"thin lines: the function of each participant who has one; thick: the mean of the thresholds and",
+        {"thin lines: the function of each participant who has one; thick: that of the mean threshold and",
          of(constant, 3, rising, true), of(constant, 3, alike, true)},
         {"nobody can be fitted", of(constant, 3, alike, true), of(constant, 3, rising, true)},
         {"a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be the smallest",

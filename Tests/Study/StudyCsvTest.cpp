@@ -63,6 +63,8 @@ TEST(StudyCsv, RatingsAreTheColumnsThatNoTrialFileHas) {
               "f.csv: column age has one value of each participant: no scale");
     EXPECT_EQ(ratings.value.scales, (std::vector<std::string>{"realism", "liking"}));
     EXPECT_EQ(ratings.value.conditions.front().trials.front().scores, (std::vector<double>{70, 80.5}));
+    const auto once = readOne(readRatings, "condition,group,stimulus,load\nbare,a,,3\nglove,b,,4\n");
+    EXPECT_EQ(once.value.conditions.front().trials.front().condition, "condition=bare group=a");
     EXPECT_EQ(readOne(readRatings, "condition,realism\nA,101\n").error,
               "f.csv:2: column realism: expected a number from 0 to 100, found \"101\"");
     EXPECT_EQ(readOne(readRatings, "condition\nA\n").error,
@@ -138,6 +140,7 @@ TEST(StudyCsv, TrainingIsNoThreshold) {
         return readOne(readLevels, head + rows).value.conditions.front().trials;
     };
     EXPECT_EQ(trials("P,c,t,training,choose,s,9,1,\nP,c,m,main,choose,s,1,1,\n").size(), 1u);
+    EXPECT_EQ(trials("P,c,o,main,rate,,,,\nP,c,m,main,estimate,s,,,3\n").size(), 1u) << "of no stimulus";
     EXPECT_EQ(trials("P,c,t,training,adjust,s,,,9\nP,c,m,main,adjust,s,,,1\n").front().value, 1.0);
     EXPECT_EQ(trials("P,c,t,training,adjust,s,,,9\nP,c,m,main,choose,s,1,1,\n").size(), 2u)
         << "matched for it";

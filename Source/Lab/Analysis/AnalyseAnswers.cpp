@@ -224,6 +224,7 @@ Result<LevelAnswers> readMagnitudes(const AnalysisJob& o) {
 void analysePsychometric(const LevelAnswers& data, const Findings& to) {
     auto& [o, report, out, table] = to;
     bool isFitted = false;
+    const FitWords words = fitWords(o.columns, o.level, o.measure);
     for (const auto& condition : data.conditions) {
         std::vector<double> thresholds, jnds;
         for (const LevelCount& at :
@@ -257,7 +258,7 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
         if (thresholds.empty()) continue;
         isFitted = true;
         const int decimals = decimalsOf(Moments(jnds.empty() ? thresholds : jnds).mean);
-        out << prefixOf(condition.name) << meanWords("threshold", thresholds, decimals) << ", "
+        out << prefixOf(condition.name) << meanWords(words.half(o.model), thresholds, decimals) << ", "
             << (jnds.empty() ? "no JND (a step fits as well)" : meanWords("JND", jnds, decimals))
             << (!jnds.empty() && jnds.size() < thresholds.size()
                     ? " (n = " + std::to_string(jnds.size()) + ")"
@@ -266,8 +267,7 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
     }
     if (!isFitted) return tellNobodyFitted(to);
     const auto& first = data.conditions.front();
-    report.picture = [first, model = o.model, words = fitWords(o.columns, o.level, o.measure),
-                      frame = frameOf(o, first.name, report.isSimulated)] {
+    report.picture = [first, model = o.model, words, frame = frameOf(o, first.name, report.isSimulated)] {
         return psychometricChart(frame, first.trials, model, words);
     };
 }

@@ -98,18 +98,23 @@ void exportTransfer(ExportTable& table, const std::string& condition, const Part
 
 /// Information transfer by participant: the mean as text, all participants in both tables.
 void tellAndExport(std::ostream& out, const std::string& indent,
-                   const StudyCondition<IdentificationTrial>& condition, ExportTable& counts,
-                   ExportTable& each) {
+                   const StudyCondition<IdentificationTrial>& condition, std::size_t stimuli,
+                   ExportTable& counts, ExportTable& each) {
     std::vector<double> transferred;
+    std::string lacking;
     for (const auto& own : transferByParticipant(condition.trials)) {
         exportMatrix(counts, condition.name, own);
         exportTransfer(each, condition.name, own);
-        transferred.push_back(own.transfer.bestBits());
+        if (own.matrix.stimuli() == stimuli)
+            transferred.push_back(own.transfer.bestBits());
+        else
+            lacking += (lacking.empty() ? "; without " : ", ") + printable(own.participant);
     }
+    if (!lacking.empty()) lacking += ", for lack of a stimulus";
     const Moments moments{transferred};
     if (moments.n > 1)
         out << indent << "IT of participants: mean " << bits(moments.mean) << ", standard error "
-            << bits(moments.standardError()) << ", " << moments.n << " participants\n";
+            << bits(moments.standardError()) << ", " << moments.n << " participants" << lacking << '\n';
 }
 
 std::string patternsOf(const ConfusionMatrix& matrix) {
@@ -154,7 +159,7 @@ void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings
         if (!condition.name.empty()) out << printable(condition.name) << '\n';
         tell(out, condition.name.empty() ? "" : "  ", matrix, it, transferByParticipant(condition.trials));
         if (job.tolerance > 0) tellChance(out, condition.name.empty() ? "" : "  ", matrix, job.tolerance);
-        tellAndExport(out, condition.name.empty() ? "" : "  ", condition, table, each);
+        tellAndExport(out, condition.name.empty() ? "" : "  ", condition, matrix.stimuli(), table, each);
         matrices.emplace_back(nameOr(condition.name, "all trials"), matrix);
     }
     report.participants = each.text();

@@ -236,13 +236,14 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         if (!widths.empty()) {
             LineSeries mean =
                 curve(model.with(meanOf(thresholds), meanOf(widths), meanOf(lapses)), least, most);
-            mean.name = "function of the mean threshold and width";
+            mean.name = std::string{"function of the mean "} + words.half(model) + " and width";
             mean.style = 4;
             chart.series.push_back(std::move(mean));
         }
         const Moments own{thresholds};
         chart.threshold = ChartValue::around(own.mean, own.halfInterval());
-        chart.thresholdWords = "threshold " + fixedNumber(own.mean, decimalsOf(0.2 * meanOf(widths)));
+        chart.thresholdWords =
+            words.half(model) + (" " + fixedNumber(own.mean, decimalsOf(0.2 * meanOf(widths))));
     }
     chart.series.push_back(std::move(answers));
     if (model.guess > 0.0) chart.references = {{100.0 * model.guess, "guessing"}};

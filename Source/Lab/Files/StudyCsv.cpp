@@ -267,7 +267,9 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
         RatingTrial trial{StudyRows::textIf(row, participant),
                           kindOf(row, stimulus, StudyRows::textIf(row, condition)),
                           {}};
-        if (group) trial.condition.append(stimulus ? " group=" : "group=").append(row.cells[*group]);
+        if (group)
+            trial.condition.append(StudyRows::textIf(row, stimulus).empty() ? "group=" : " group=")
+                .append(row.cells[*group]);
         for (const auto c : scales) // of this session; others lack answers
             trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));
         conditionNamed(rows, ratings, rows.sessionOf(row)).push_back(std::move(trial));
@@ -290,15 +292,15 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     const std::optional<AnswerKind> answer = tasks                    ? answerOf(row.cells[*tasks])
                                              : rows.optional("value") ? AnswerKind::number
                                                                       : AnswerKind::choice;
-    LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")),
-                     rows.conditionOf(row), rows.text(row, rows.required("stimulus"))};
-    if (answer == AnswerKind::level)
-        trial.kind = LevelTrial::Kind::adjustment;
-    else if (answer == AnswerKind::number)
-        trial.kind = LevelTrial::Kind::magnitude;
-    else if (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty() ||
-             (tasks && row.cells[rows.required("level_db")].empty()))
+    if (answer != AnswerKind::level && answer != AnswerKind::number &&
+        (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty() ||
+         (tasks && row.cells[rows.required("level_db")].empty())))
         return std::nullopt;
+    LevelTrial trial{answer == AnswerKind::level    ? LevelTrial::Kind::adjustment
+                     : answer == AnswerKind::number ? LevelTrial::Kind::magnitude
+                                                    : LevelTrial::Kind::staircase,
+                     StudyRows::textIf(row, rows.optional("participant")), rows.conditionOf(row),
+                     rows.text(row, rows.required("stimulus"))};
     if (trial.kind == LevelTrial::Kind::staircase) {
         trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
         trial.session = StudyRows::textIf(row, rows.optional("session"));

@@ -228,9 +228,13 @@ bool isLevelItself(const std::vector<std::string>& moved) {
 std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     const StudyTaskDescription& task = describe(session.task);
     std::string words = session.name;
-    if (session.isTraining)
-        words += task.analysis == "levels" ? " (training, counted among levels alone)"
-                                           : " (training, left out of analyses)";
+    const auto isMatch = [](const SessionPlan& s) { return s.answer() == AnswerKind::level; };
+    if (session.isTraining) // as takeLevelTrial() has it
+        words += isMatch(session) && std::ranges::none_of(
+                                         protocol.sessions,
+                                         [&](const SessionPlan& s) { return isMatch(s) && !s.isTraining; })
+                     ? " (training, counted among levels alone)"
+                     : " (training, left out of analyses)";
     words += ": task " + std::string(task.name);
     if (!session.question.empty()) words += ", " + spoken(session.question);
     if (!session.instruction.empty()) words += ", after the page " + spoken(session.instruction);

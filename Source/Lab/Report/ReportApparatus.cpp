@@ -264,7 +264,8 @@ std::set<std::string> orderedConditions(const Orders& orders) {
 } // namespace
 
 void tellOrders(ReportBuilder& report) {
-    if (!report.trials.knowTasks()) return; // rows of other programs may be sorted, so their order is unknown
+    // rows of other programs may be sorted, so their order is unknown
+    if (!report.trials.knowTasks() || !report.trials.all.column("trial")) return;
     const Orders orders = ordersOf(report.trials.all);
     const auto conditions = orderedConditions(orders);
     if (conditions.size() < 2) return;

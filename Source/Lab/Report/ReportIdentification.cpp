@@ -33,7 +33,7 @@ std::vector<IdentifiedCondition> conditionsOf(const Identified& data, int tolera
         for (const auto& own : transferByParticipant(trials)) {
             one.shares.push_back(100.0 * static_cast<double>(own.matrix.correct()) /
                                  static_cast<double>(own.matrix.trials()));
-            one.bits.push_back(own.transfer.bestBits());
+            if (own.matrix.stimuli() == matrix.stimuli()) one.bits.push_back(own.transfer.bestBits());
         }
         all.push_back(std::move(one));
     }
@@ -126,15 +126,16 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
         "Information transfer of all participants' trials together" + words +
             report.asThesis("Fig. 3.11, 4.2") +
             ": one estimate per condition, so it has no interval. Dotted: log2 of the number of stimuli.");
-    if (hasPeople) {
+    if (hasPeople && std::ranges::none_of(all, [](const auto& c) { return c.bits.empty(); })) {
         auto own = barsOf(report.frame("Information transfer of participants" + words), "IT (bit)", all,
                           [](const auto& c) { return withInterval(c.bits); });
         own.ceilings = it.ceilings, own.ceilingWords = it.ceilingWords;
-        report.page.figure({barChart(own)},
-                           "Mean of the participants' own information transfer" + words + report.intervals() +
-                               ". Few trials make everyone's too high, though never higher than "
-                               "their logarithm: compare conditions of as many stimuli and "
-                               "trials only.");
+        report.page.figure({barChart(own)}, "Mean of the participants' own information transfer" + words +
+                                                report.intervals() +
+                                                ", without those who lack a stimulus. Few trials make "
+                                                "everyone's too high, though never higher than "
+                                                "their logarithm: compare conditions of as many stimuli and "
+                                                "trials only.");
     }
     BarChart pc = barsOf(report.frame("Percent correct" + words), "correct (%)", all,
                          [](const auto& c) { return withInterval(c.shares); });

@@ -106,14 +106,14 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, co
     const std::string caption = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
                                 ". Circles: all participants' trials, larger where there were more";
     if (!isFitted) return report.page.figure(charts, caption + ".");
+    const std::string half = words.half(model);
     report.page.figure(
         charts,
-        caption +
-            "; thin lines: the function of each participant who has one; thick: the mean of the thresholds "
-            "and that of the widths that there are. " +
-            (report.people() > 1 ? "Dotted: mean threshold, shaded its 95 % interval over participants where "
-                                   "there are several. "
-                                 : "Dotted: threshold. ") +
+        caption + "; thin lines: the function of each participant who has one; thick: that of the mean " +
+            half + " and of the mean of the widths that there are. Dotted: " +
+            (report.people() > 1
+                 ? "mean " + half + ", shaded its 95 % interval over participants where there are several. "
+                 : half + ". ") +
             "The functions are " +
             std::string(psychometricShapeNames[static_cast<std::size_t>(model.shape)]) + ", with " +
             (model.guess > 0.0

@@ -365,7 +365,9 @@ void tellTimes(ReportBuilder& report) {
     std::size_t unknown = 0;
     for (const TrialFile& file : report.trials.files) {
         const auto code = file.head.find("participant"), observer = file.head.find("observer");
-        if (code == file.head.end() || observer == file.head.end() || observer->second != "person") continue;
+        if (code == file.head.end() || observer == file.head.end() || observer->second != "person" ||
+            report.trials.facts.isExcluded(code->second))
+            continue;
         if (file.times.empty()) {
             ++unknown;
             continue;

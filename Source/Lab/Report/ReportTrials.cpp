@@ -296,7 +296,7 @@ std::string UnfinishedRun::words() const {
     return "participant " + participant + " did not finish " + session + " in " + condition + ": " +
            std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +
            (isAdaptive   ? ", so this threshold is left out of means and tests"
-            : trials > 0 ? ", which means and tests count like the whole"
+            : trials > 0 ? ", which means count like the whole, and tests where no level is lacking"
                          : "");
 }
 

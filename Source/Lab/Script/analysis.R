@@ -180,7 +180,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   })
   attempt(test, "residuals normality", {
     left <- as.matrix(lm.fit(x, cells)$residuals)
-    shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n) }
+    shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n, note = if (length(left) > n) paste("of", length(left), "residuals") else "") }
     # of two cells the differences: what is left of both of them is the same with two signs
     shapiro("residuals normality", if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
     if (length(between) > 0 && ncol(cells) > 1) shapiro("participants' means normality", rowMeans(left))
@@ -441,6 +441,7 @@ study <- function(study, scales = character(), points = character()) {
   as.published <<- grepl("protocol [^ ]*-thesis", study)
   if (!("participant" %in% names(d))) return(finish(study))
   is.told <- "task" %in% names(d)
+  if (is.told) for (column in setdiff(c("session", "correct", "level_db"), names(d))) d[[column]] <- rep("", nrow(d))
   if (!is.told) points <- union(points, Filter(function(scale) all(d[[scale]] %in% c("", "NA", 1:7)), scales)) # of other programs
   # a trial that ran out of time has no other answer
   for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks", c("group", "condition"))
@@ -507,7 +508,10 @@ study <- function(study, scales = character(), points = character()) {
   if (file.exists("thresholds.csv")) parts.in(table.of("thresholds.csv"), function(own, session) {
     for (m in unique(own$method)) compare(paste0("threshold by ", m, session), own[own$method == m, ], "threshold", columns = c("group", "condition"))
   }) else from("psychometric.csv", c("threshold", "jnd"))
-  from("psychometric-stimuli.csv", c("threshold", "jnd"))
+  if (file.exists(file <- "psychometric-stimuli.csv")) { # of two answers, none of them right, both ends lapse
+    if (with(table.of(file), all(guess == lapse))) spoken <- c(spoken, threshold = "point of subjective equality")
+    from(file, c("threshold", "jnd"))
+  }
   if (!is.told && !any(file.exists(c("identification.csv", "psychometric.csv")))) each("", "correct", function(own, words) compare("share of right answers", own, "correct"))
   each("adjust", "value", function(own, words) if (is.told) compare(paste0("matched levels", words), own, "value"))
   each("estimate", "value", function(own, words) compare(paste0("magnitudes", words), own, "value", "magnitudes"))

@@ -54,6 +54,7 @@ for (n in c(2, 3, 4, 12, 49, 50)) for (levels in list(2, 3, 6, c(2, 3), c(2, 2, 
     same(paste("Mauchly p, n", n), line(ours, "a sphericity")$p, mauchly.test(fit, X = ~ 1)$p.value)
     left <- aov(y ~ a + participant, m)$residuals
     same(paste("normality, n", n), line(ours, "residuals normality")$p, shapiro.test(left)$p.value)
+    if (line(ours, "residuals normality")$note != paste("of", length(left), "residuals")) fault("the number of residuals is not told")
   }
 }
 
@@ -212,7 +213,9 @@ ours <- whole(d[c("participant", "condition", "group")], NULL)
 same("group of thresholds", line(ours[grepl("^analysis of variance of threshold", ours$test), ], "group")$p,
      anova(lm(y ~ g, data.frame(y = tapply(as.numeric(d$threshold), d$participant, mean), g = rep(c("a", "b"), each = 4))))[["Pr(>F)"]][1])
 if (!any(grepl("Greenhouse and Geisser's p ", capture.output(from <- anova.test("t", "psychometric.csv", "threshold", "condition"))))) fault("the correction is not named")
-unlink("psychometric.csv")
+d$guess <- d$lapse <- 0.01; rows(d, "psychometric-stimuli.csv"); unlink("psychometric.csv")
+if (!any(grepl("of point of subjective equality by", whole(d, NULL)$test))) fault("half of two answers is called a threshold")
+unlink("psychometric-stimuli.csv")
 # Sessions of a kind are studies of their own, in tables of the report by the end of their conditions' names.
 d <- expand.grid(condition = c("x", "y", "z"), session = c("early", "late"), participant = person(8), stringsAsFactors = FALSE); d$task <- "choose"; d$phase <- "main"
 d$threshold <- rnorm(nrow(d)) + 4 * (d$session == "late"); d$method <- "staircase"; rows(d, "thresholds.csv"); own <- d; own$condition <- paste(d$condition, "in", d$session)
@@ -280,6 +283,11 @@ d$correct <- as.integer(runif(nrow(d)) < ifelse(d$condition == "c2", 0.9, 0.6));
 ours <- line(whole(d, character()), "condition: c1 - c2")
 same("right answers", ours$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
 if (!identical(ours$size, "d_z")) fault("the effect of pairs is called", ours$size)
+# A task is named, and no session, level or right answer.
+d$task <- "choose"; d$choice <- ifelse(d$correct == 1, "A", "B"); d$correct <- NULL; ours <- whole(d, character()); wide <- tapply(d$choice == "A", list(d$participant, d$condition), mean)
+same("a task without a session", line(ours[grepl("^pairs", ours$test), ], "condition: c1 - c2")$p, exact.p(round(wide[, 1] - wide[, 2], 9)))
+d$task <- "rate"; d$comfort <- 9 * d$trial + runif(nrow(d))
+if (!any(grepl("variance of comfort by", whole(d, "comfort")$test))) fault("a scale without a session is not compared")
 # A questionnaire of another program, in whole numbers from 1 to 7: ranks.
 d <- data.frame(participant = person(21), group = rep(c("g", "h", "k"), 7), comfort = sample(1:5, 21, TRUE), level = round(100 * runif(21)))
 ours <- whole(d, c("comfort", "level"))

@@ -62,7 +62,7 @@ for (i in seq_len(nrow(fits))) {
   same(paste("sides threshold", fits$participant[i]), as.numeric(fits$threshold[i]), best$par[1], 1e-2)
 }
 both <- names(which(table(fits$participant) == 2)); fits <- fits[fits$participant %in% both, ]
-within("sides", "threshold", transform(fits, y = as.numeric(fits$threshold)), "condition")
+within("sides", "point of subjective equality", transform(fits, y = as.numeric(fits$threshold)), "condition")
 
 d <- trials("numbers"); d$x <- log10(as.numeric(d$stimulus)); d$y <- log10(as.numeric(d$value))
 slopes <- do.call(rbind, lapply(split(d, list(d$participant, d$condition)), function(o) data.frame(participant = o$participant[1], condition = o$condition[1], y = coef(lm(y ~ x, o))[[2]])))
