@@ -512,7 +512,7 @@ void StudiesTab::paint(juce::Graphics& g) {
 void StudiesTab::resized() {
     constexpr int captionHeight = 15, space = 5, foot = 32, lower = 24; // all of it, with Begin, in a small
                                                                         // window
-    const int line = std::clamp((getHeight() - controlsHeight) / 5 + 22, 22, rowHeight);
+    const int line = std::clamp((getHeight() - controlsHeight) / 5 + 21, 21, rowHeight);
     auto area = getLocalBounds();
     const auto caption = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };
     caption(choiceName_);
