@@ -118,8 +118,7 @@ void MixStrip::paint(juce::Graphics& g) {
 void MixStrip::resized() {
     auto area = getLocalBounds().withTrimmedTop(28);
     actuator_.setBounds(area.removeFromTop(20));
-    area.removeFromTop(10);
-    place(area, 0);
+    place(area.withTrimmedTop(10), 0);
 }
 
 MixPanel::MixPanel(PluginProcessor& plugin, MixHands hands)

@@ -340,7 +340,7 @@ juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     return lines.size() <= 2 ? lines.joinIntoString("\n") : juce::String{};
 }
 
-/// Why nothing is felt; empty: something is, or may be at once.
+/// Empty: something is felt, or may be at once.
 juce::String WorldPanel::whyNothing(double nowMs) const {
     constexpr double quietMs = 4000.0;
     if (model_.isSilent()) return "silent";
@@ -351,6 +351,11 @@ juce::String WorldPanel::whyNothing(double nowMs) const {
     return nowMs - hitAtMs_ > quietMs ? "no hits" : "";
 }
 
+void WorldPanel::showSentence() {
+    const auto hit = shownHit_.amplitude == 0.0 ? juce::String{} : sentenceOn(shownHit_);
+    sentence_.setText(why_.isEmpty() ? hit : inLines({"Nothing felt", why_}), juce::dontSendNotification);
+}
+
 void WorldPanel::refresh(const MixerMoment& moment) {
     const double now = juce::Time::getMillisecondCounterHiRes();
     if (std::exchange(hitScene_, model_.mix().scene) != model_.mix().scene) shownHit_ = {}, hitAtMs_ = now;
@@ -358,11 +363,7 @@ void WorldPanel::refresh(const MixerMoment& moment) {
     for (const auto& hit : moment.hits)
         if (now - hitAtMs_ > shownMs || std::abs(hit.amplitude) > std::abs(shownHit_.amplitude))
             shownHit_ = hit, hitAtMs_ = now, isOther = true;
-    if (const auto why = whyNothing(now); why != std::exchange(why_, why) || isOther)
-        sentence_.setText(why.isNotEmpty()             ? inLines({"Nothing felt", why})
-                          : shownHit_.amplitude == 0.0 ? juce::String{}
-                                                       : sentenceOn(shownHit_),
-                          juce::dontSendNotification);
+    if (const auto why = whyNothing(now); why != std::exchange(why_, why) || isOther) showSentence();
     if (hasMaster_) master_.refresh(moment);
     lookAfterPlayer();
     moveHand();
@@ -401,7 +402,7 @@ void WorldPanel::resized() {
     tiltName_.setBounds(row.removeFromRight(58));
     tilt_.setBounds(row.removeFromRight(38));
     sentence_.setBounds(row);
-    why_ = "other"; // it is broken anew
+    showSentence();
     auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(48);
     const int tools = isShow_ ? 0 : DrawBar::widthFor(top.getHeight());
     bar_.setBounds(top.removeFromLeft(tools));

@@ -94,6 +94,7 @@ private:
     juce::String sentenceOn(const CollisionEvent& hit) const;
     juce::String inLines(const juce::StringArray& parts) const;
     juce::String whyNothing(double nowMs) const;
+    void showSentence();
 
     MixerModel& model_;
     WorldView view_;
@@ -119,7 +120,7 @@ private:
     double hitAtMs_ = 0.0;
     CollisionEvent shownHit_;               // of amplitude 0: none yet
     std::shared_ptr<const Scene> hitScene_; // in which it was
-    juce::String why_;                      // nothing is felt, as shown
+    juce::String why_;                      // as shown
     std::shared_ptr<const Scene> shown_;
     std::uint64_t shownEdits_ = 0;
 };
