@@ -349,12 +349,16 @@ ReportedContacts::Push ReportedContacts::pushed(const Waiting& each) const {
     if (each.momentum == FedPoints::none) return {told, anyPush.second};
     const double pushed = std::max(told, momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum)));
     const double gap = of.gapMetres > 0.0 ? of.gapMetres / events_.stepSeconds() : HUGE_VAL;
-    const double left = std::clamp(bodies_.approach(of.a, of.b, of.point, of.normal, true), 0.0, gap);
+    const double after = bodies_.approach(of.a, of.b, of.point, of.normal, true);
+    const double left = std::clamp(after, 0.0, gap), speed = speedOf(of);
     const double mass = bodies_.effectiveMassKg(of.a, of.b, of.point, of.normal);
+    // what approaches still is to stop and to bounce, what has stopped is perhaps to bounce in the next step
+    const double owed =
+        left > 0.0 ? (1.0 + of.restitution) * left : std::max(0.0, of.restitution * speed + after);
     // An engine that saw the surface coming leaves what closes the gap; the next step stops that likewise.
     const double taken = bodies_.approach(of.a, of.b, of.point, of.normal) - left;
-    const bool goesOn = of.gapMetres > 0.0 && !each.isKick && left > 0.0 && taken > 0.05 * speedOf(of);
-    return {goesOn ? pushed * speedOf(of) / taken : pushed, pushed + (1.0 + of.restitution) * left * mass};
+    const bool goesOn = of.gapMetres > 0.0 && !each.isKick && left > 0.0 && taken > 0.05 * speed;
+    return {goesOn ? pushed * speed / taken : pushed, pushed + owed * mass};
 }
 
 // Of contacts that are not soft: the impulse of the impact is that of the new points.

@@ -192,6 +192,18 @@ TEST_F(ContactFeedTest, ACollisionIsWhatTheSolverChangedAndLeft) {
     }
 }
 
+// Havok stops what bounces, and sends it back in the next step.
+TEST_F(ContactFeedTest, ABounceThatComesAStepLaterIsWhole) {
+    FedContact contact = landing();
+    contact.isSoft = true, contact.restitution = 0.5;
+    beginStep(0.01);
+    EXPECT_EQ(feed.move(ball, {}, {{0.0F, -3.0F}, 0.0F}), "");
+    EXPECT_EQ(feed.moved(ball, {}), "");
+    EXPECT_EQ(feed.touch(contact), "");
+    endStep(), step();
+    EXPECT_NEAR(events().at(0).source.impulseNewtonSeconds, 9.0, 1e-6);
+}
+
 // A corner at (0.25, -0.05) from the centre; friction holds it, or is 0.1 of what goes along the normal:
 // the impulses are those of two equations for the corner's velocity.
 TEST_F(ContactFeedTest, FrictionAtAnEdgeCountsAsTheEngineShowsIt) {

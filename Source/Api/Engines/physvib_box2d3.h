@@ -68,60 +68,19 @@ typedef struct physvib_box2d3 {
     double last_step_s;                        /**< length of the step before */
 } physvib_box2d3;
 
-/* An error of this step; `number`: the body that made it, or NULL. What was not told before comes first. */
-PHYSVIB_UNUSED static void physvib_box2d3_fail(physvib_box2d3* haptics, physvib_box2d3_number* number,
-                                               int code, const char* line) {
-    const int is_new = !number || !number->is_told;
-    if (code >= 0 || haptics->is_new || (haptics->code != PHYSVIB_OK && !is_new)) return;
-    haptics->code = code, haptics->is_new = is_new;
-    if (number) number->is_told = 1;
-    if (!number)
-        snprintf(haptics->error, sizeof haptics->error, "%s", line);
-    else if (number->id < 0)
-        snprintf(haptics->error, sizeof haptics->error, "Box2D's body %d: %s", number->body.index1, line);
-    else
-        snprintf(haptics->error, sizeof haptics->error, "body %d: %s", number->id, line);
-}
-
-/* The number of a body, -1 if it has none. The body's user data are not used. */
-PHYSVIB_UNUSED static int physvib_box2d3_id(const physvib_box2d3* haptics, b2BodyId body) {
-    if (body.index1 >= haptics->capacity || !B2_ID_EQUALS(haptics->numbers[body.index1].body, body))
-        return -1;
-    return haptics->numbers[body.index1].id;
-}
-
-/* The entry of a body, new if it has none; NULL: no memory. */
-PHYSVIB_UNUSED static physvib_box2d3_number* physvib_box2d3_entry(physvib_box2d3* haptics, b2BodyId body) {
-    physvib_box2d3_number* numbers = haptics->numbers;
-    if (body.index1 >= haptics->capacity) {
-        const int capacity = 2 * body.index1 + 64;
-        numbers = (physvib_box2d3_number*)realloc(numbers, (size_t)capacity * sizeof *numbers);
-        if (!numbers) return NULL;
-        memset(numbers + haptics->capacity, 0, (size_t)(capacity - haptics->capacity) * sizeof *numbers);
-        haptics->numbers = numbers, haptics->capacity = capacity;
-    }
-    numbers += body.index1;
-    if (!B2_ID_EQUALS(numbers->body, body)) { /* perhaps the index of one that was destroyed */
-        memset(numbers, 0, sizeof *numbers);
-        numbers->body = body, numbers->id = -1;
-    }
-    return numbers;
-}
-
-/* Call at the end; `world` is the caller's. */
-PHYSVIB_UNUSED static void physvib_box2d3_free(physvib_box2d3* haptics) {
-    free(haptics->numbers), free(haptics->found);
-    haptics->numbers = NULL, haptics->capacity = 0;
-    haptics->found = NULL, haptics->found_capacity = 0;
-}
-
-/* Call before b2DestroyBody. */
-PHYSVIB_UNUSED static int physvib_box2d3_remove(physvib_box2d3* haptics, b2BodyId body) {
-    const int id = physvib_box2d3_id(haptics, body);
-    if (id < 0) return PHYSVIB_OK;
-    haptics->numbers[body.index1].id = -1;
-    return physvib_world_remove_body(haptics->world, id);
-}
+#define PHYSVIB_BOX(name) physvib_box2d3##name
+#define PHYSVIB_BOX_STATE physvib_box2d3
+#define PHYSVIB_BOX_WORLD(haptics) ((haptics)->box2d)
+#define PHYSVIB_BOX_NAME "Box2D"
+#define PHYSVIB_B(name) b2##name
+#define PHYSVIB_B_EQUALS B2_ID_EQUALS
+#include "physvib_boxes.h"
+#undef PHYSVIB_BOX
+#undef PHYSVIB_BOX_STATE
+#undef PHYSVIB_BOX_WORLD
+#undef PHYSVIB_BOX_NAME
+#undef PHYSVIB_B
+#undef PHYSVIB_B_EQUALS
 
 /* Sets a body's values (from physvib_body_init); mass, inertia and gravity scale are Box2D's of the step. */
 PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3* haptics, b2BodyId body, int id,
@@ -162,17 +121,6 @@ PHYSVIB_UNUSED static double physvib_box2d3_turn(const physvib_box2d3* haptics, 
                                                  b2Vec2 arm) {
     const double spin = haptics->numbers[body.index1].spin;
     return -spin * spin * (arm.x * normal.x + arm.y * normal.y);
-}
-
-/* When a gap closes, in steps after the start of this one; below 0: in the step before. Sub-steps change the
- * velocity before they move a body: its path is faster by half a sub-step's gravity. Box2D pushes up to a
- * sub-step before they meet: then it closes after this step. */
-PHYSVIB_UNUSED static double physvib_box2d3_fraction(const physvib_box2d3* haptics, double gap, double speed,
-                                                     double pull, double seconds) {
-    const double start = fmax(0.5 * speed, speed + 0.5 * pull * haptics->sub_step_s),
-                 root = fmax(0, start * start + 2 * pull * gap),
-                 length = gap < 0 ? haptics->last_step_s : seconds;
-    return length > 0 ? fmin(2, fmax(-1, 2 * gap / (start + sqrt(root)) / length)) : 0;
 }
 
 PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b2ContactData* found,
@@ -230,28 +178,15 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3* haptics, const b
                         physvib_error());
 }
 
-/* An awake body's contacts: each once, with its second body, or the first if that is static or asleep. */
-PHYSVIB_UNUSED static void physvib_box2d3_body(physvib_box2d3* haptics, b2BodyId body, double seconds) {
-    const int most = b2Body_GetContactCapacity(body);
-    b2ContactData* found = haptics->found;
-    int count, i, p;
-    if (most > haptics->found_capacity) {
-        found = (b2ContactData*)realloc(found, 2 * (size_t)most * sizeof *found);
-        if (!found) {
-            physvib_box2d3_fail(haptics, NULL, PHYSVIB_ERROR_MEMORY, "contacts: expected memory for them");
-            return;
-        }
-        haptics->found = found, haptics->found_capacity = 2 * most;
-    }
-    count = b2Body_GetContactData(body, found, most);
-    for (i = 0; i < count; ++i) {
-        const b2BodyId a = b2Shape_GetBody(found[i].shapeIdA), b = b2Shape_GetBody(found[i].shapeIdB);
-        const int is_second = B2_ID_EQUALS(b, body),
-                  rests = b2Body_GetType(b) == b2_staticBody || !b2Body_IsAwake(b);
-        if (!is_second && !(B2_ID_EQUALS(a, body) && rests)) continue;
-        for (p = 0; p < found[i].manifold.pointCount; ++p)
-            physvib_box2d3_point(haptics, &found[i], p, seconds);
-    }
+PHYSVIB_UNUSED static void physvib_box2d3_contact(physvib_box2d3* haptics, const b2ContactData* found,
+                                                  double seconds) {
+    int p;
+    for (p = 0; p < found->manifold.pointCount; ++p) physvib_box2d3_point(haptics, found, p, seconds);
+}
+
+PHYSVIB_UNUSED static double physvib_box2d3_gravity(const physvib_box2d3* haptics) {
+    const b2Vec2 g = b2World_GetGravity(haptics->box2d);
+    return sqrt((double)(g.x * g.x + g.y * g.y));
 }
 
 /* Before the step: a body's motion, and its velocity as it would be without contacts. */
@@ -313,90 +248,4 @@ PHYSVIB_UNUSED static void physvib_box2d3_after(physvib_box2d3* haptics, const b
     }
 }
 
-/* Call instead of b2World_Step. Returns PHYSVIB_OK, or an error that no step before has returned: that of a
- * body is told once. haptics->code and haptics->error last as long as the error does. */
-PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3* haptics, double seconds, int sub_steps) {
-    const b2Vec2 g = b2World_GetGravity(haptics->box2d);
-    b2BodyEvents moved;
-    int i;
-    haptics->code = PHYSVIB_OK, haptics->is_new = 0, haptics->error[0] = 0;
-    haptics->sub_step_s = seconds / (sub_steps > 0 ? sub_steps : 1);
-    physvib_box2d3_fail(
-        haptics, NULL,
-        physvib_world_begin_step(haptics->world, seconds, sqrt((double)(g.x * g.x + g.y * g.y))),
-        physvib_error());
-    for (i = 1; i < haptics->capacity; ++i) {
-        const b2BodyId body = haptics->numbers[i].body;
-        if (body.index1 && haptics->numbers[i].id >= 0 && b2Body_IsValid(body) &&
-            b2Body_GetType(body) != b2_staticBody && b2Body_IsAwake(body))
-            physvib_box2d3_before(haptics, &haptics->numbers[i], seconds);
-    }
-    b2World_Step(haptics->box2d, (float)seconds, sub_steps);
-    moved = b2World_GetBodyEvents(haptics->box2d);
-    physvib_box2d3_after(haptics, &moved);
-    for (i = 0; i < moved.moveCount; ++i) physvib_box2d3_body(haptics, moved.moveEvents[i].bodyId, seconds);
-    for (i = 0; i < moved.moveCount; ++i) /* for the next step's contacts */
-        if (physvib_box2d3_id(haptics, moved.moveEvents[i].bodyId) >= 0)
-            physvib_box2d3_stop(haptics, &haptics->numbers[moved.moveEvents[i].bodyId.index1], seconds);
-    haptics->last_step_s = seconds;
-    physvib_box2d3_fail(haptics, NULL, physvib_world_end_step(haptics->world), physvib_error());
-    return haptics->is_new ? haptics->code : PHYSVIB_OK;
-}
-
-PHYSVIB_UNUSED static int physvib_box2d3_may_touch(b2Filter a, b2Filter b) {
-    if (a.groupIndex == b.groupIndex && a.groupIndex != 0) return a.groupIndex > 0;
-    return (a.maskBits & b.categoryBits) != 0 && (a.categoryBits & b.maskBits) != 0;
-}
-
-#define PHYSVIB_BOX2D3_SHAPES 32 /* of a body that an explanation looks at; the others are left out */
-
-/* True if a filter keeps the body from all others that have numbers. */
-PHYSVIB_UNUSED static int physvib_box2d3_is_filtered(const physvib_box2d3* haptics, b2BodyId body) {
-    b2ShapeId own[PHYSVIB_BOX2D3_SHAPES], theirs[PHYSVIB_BOX2D3_SHAPES];
-    const int count = b2Body_GetShapes(body, own, PHYSVIB_BOX2D3_SHAPES);
-    int has_others = 0, i, a, b;
-    for (i = 1; i < haptics->capacity; ++i) {
-        const b2BodyId other = haptics->numbers[i].body;
-        int others;
-        if (!other.index1 || haptics->numbers[i].id < 0 || B2_ID_EQUALS(other, body) ||
-            !b2Body_IsValid(other))
-            continue;
-        others = b2Body_GetShapes(other, theirs, PHYSVIB_BOX2D3_SHAPES);
-        for (a = 0; a < count; ++a)
-            for (b = 0; b < others; ++b, has_others = 1)
-                if (physvib_box2d3_may_touch(b2Shape_GetFilter(own[a]), b2Shape_GetFilter(theirs[b])))
-                    return 0;
-    }
-    return has_others;
-}
-
-/* PHYSVIB_NOTE_..., or -1. */
-PHYSVIB_UNUSED static int physvib_box2d3_note(const physvib_box2d3* haptics, b2BodyId body) {
-    b2ShapeId shapes[PHYSVIB_BOX2D3_SHAPES];
-    const int count = b2Body_GetShapes(body, shapes, PHYSVIB_BOX2D3_SHAPES);
-    int sensors = 0, i;
-    if (!b2Body_IsEnabled(body)) return PHYSVIB_NOTE_DISABLED;
-    for (i = 0; i < count; ++i) sensors += b2Shape_IsSensor(shapes[i]) ? 1 : 0;
-    if (count > 0 && sensors == count) return PHYSVIB_NOTE_SENSOR;
-    if (physvib_box2d3_is_filtered(haptics, body)) return PHYSVIB_NOTE_FILTERED;
-    return b2Body_GetType(body) != b2_staticBody && !b2Body_IsAwake(body) ? PHYSVIB_NOTE_ASLEEP : -1;
-}
-
-/* Writes to `text` why nothing is felt since the last call: an error of this header, or what
- * physvib_world_explain says after a look at all numbered bodies. */
-PHYSVIB_UNUSED static void physvib_box2d3_explain(const physvib_box2d3* haptics, char* text, size_t size) {
-    int i, note;
-    if (size == 0) return;
-    if (haptics->code != PHYSVIB_OK) {
-        strncpy(text, haptics->error, size - 1), text[size - 1] = 0;
-        return;
-    }
-    for (i = 1; i < haptics->capacity; ++i) {
-        const b2BodyId body = haptics->numbers[i].body;
-        if (!body.index1 || haptics->numbers[i].id < 0 || !b2Body_IsValid(body)) continue;
-        note = physvib_box2d3_note(haptics, body);
-        if (note >= 0) physvib_world_note(haptics->world, haptics->numbers[i].id, note);
-    }
-    physvib_world_explain(haptics->world, text, size);
-}
 #endif

@@ -5,7 +5,7 @@ import { mkdtempSync, openSync, closeSync, readSync, rmSync, writeSync } from 'n
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
-const types = ['fixed', 'kinematic', 'dynamic'], traits = { chipmunk: { halfStep: -1 }, pymunk: { halfStep: -1 }, ode: { pushesApart: true }, bullet: { pushesApart: true }, box2d3: { halfStep: 1 / 4 }, mujoco: { pushesApart: true, halfSeconds: 0.002, isClosed: true, hasNoKinematic: true } };
+const types = ['fixed', 'kinematic', 'dynamic'], traits = { chipmunk: { halfStep: -1 }, pymunk: { halfStep: -1 }, ode: { pushesApart: true }, bullet: { pushesApart: true }, box2d3: { halfStep: 1 / 4 }, box3d: { halfStep: 1 / 4 }, mujoco: { pushesApart: true, halfSeconds: 0.002, isClosed: true, hasNoKinematic: true } };
 
 /** A driver as those of drivers.mjs, of a command; both pipes wait, as a step's answer is needed before the next. */
 export const native = (name, command) => async (_, __, { gravity }) => {
