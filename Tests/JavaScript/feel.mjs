@@ -116,6 +116,27 @@ test('with a context it plays what the ball does, and the context stays the game
     assert.deepEqual([context.isAlive, context.isClosed], [false, false]);
 });
 
+test('what is felt is heard, in the same frame, left and right by its place', async () => {
+    const onsetOf = channel => channel.findIndex(value => Math.abs(value) > 1e-7);
+    for (const [sound, ears] of [[true, [5, 6]], [{ outputs: [8, 7], level: 0.2 }, [8, 7]]]) {
+        const one = game(), context = new Context(), felt = await feel(one.engine, { ...field, physvib, context, outputs: [1, 2, 3, 4], sound });
+        await until(() => felt.output || felt.error);
+        assert.equal(felt.error, null);
+        felt.set(one.ball, 'wooden board');
+        heard(one, context);
+        const [left, right, ...hands] = [...ears, 1, 2, 3, 4].map(output => context.heard[output - 1]), onset = Math.min(...hands.map(onsetOf).filter(frame => frame >= 0));
+        console.log(`the ear ${onsetOf(left) - onset} frames behind the hand`);
+        assert.equal(onsetOf(left), onset);
+        const power = channel => channel.reduce((sum, value) => sum + value * value, 0);
+        assert.ok(Math.abs(Math.sqrt(power(right) / power(left)) - Math.sqrt(0.25 / 0.75)) < 0.02, 'at a quarter of the field, by the law of energy');
+        felt.close();
+    }
+    const context = new Context(), felt = await feel(game().engine, { ...field, physvib, context, layout: 'pico8', sound: true });
+    await until(() => felt.output);
+    assert.equal(felt.sound, null, 'no output is left');
+    felt.close();
+});
+
 test('a page plays from the first gesture on, once, and until it is closed', () => onPage({ userActivation: { hasBeenActive: false } }, async gesture => {
     const one = game(), felt = await feel(one.engine, { ...field, physvib });
     felt.set(one.ball, 'wooden board');

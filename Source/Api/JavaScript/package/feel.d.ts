@@ -19,6 +19,8 @@ export interface FeelOptions extends AttachOptions {
     outputs?: readonly number[];
     /** 0 to 1 (0.25). */
     level?: number;
+    /** The same hits for ears, too, left and right by their place: on two outputs (those behind the actuators'), at a level of 0 to 1 (0.1). */
+    sound?: true | { outputs?: readonly [number, number]; level?: number };
     /** s */
     latency?: number;
     worklet?: string | URL;
@@ -37,6 +39,8 @@ export interface Felt<Body = any> {
     readonly haptics: SteppedHaptics<Body>;
     /** From the first gesture on; null before, and without audio. */
     readonly output: Output | null;
+    /** null: not asked for, or the device has no outputs for it (then the monitor is what is heard). */
+    readonly sound: Output | null;
     readonly pads: Pads | null;
     readonly error: Error | null;
     /** A material's name makes the body a source of it. */

@@ -24,12 +24,15 @@ const kinds = [
     [engine => engine.mujoco && engine.model, (...given) => import('./mujoco.js').then(({ attach }) => attach(...given))],
     [engine => typeof engine.bodies === 'function' && engine.read, attachVelocities],
 ];
+const heardLevel = 0.1; // 20 dB below full scale, as libphysvib-live's
 const gestures = ['pointerdown', 'keydown', 'touchend'], early = { capture: true };
 
 class Felt {
     #closed = false; #begin = () => this.#open();
     /** What plays, from the first gesture on; null before, and where there is no audio. */
     output = null;
+    /** The same hits for ears, if they were asked for and the device has outputs for them: left and right by their place. */
+    sound = null;
     /** Why there is none, if it failed. */
     error = null;
     constructor(physvib, haptics, { context, pads, ...options }) {
@@ -48,14 +51,20 @@ class Felt {
             this.#isOwn = !this.#context;
             this.#context ??= new AudioContext();
             await this.#context.resume();
-            const output = await play(this.physvib, this.#context, this.#options);
-            if (this.#closed) return output.close();
-            this.output = output;
-            output.follow(this.haptics);
+            const { sound, ...options } = this.#options, output = await play(this.physvib, this.#context, options), ears = sound && this.#earsOf(sound, output, options), heard = ears ? await play(this.physvib, this.#context, ears) : null;
+            if (this.#closed) return void [output, heard].forEach(each => each?.close());
+            Object.assign(this, { output, sound: heard });
+            for (const each of [output, heard]) each?.follow(this.haptics);
         } catch (error) {
             this.error = error;
             console.error(`PhysVib: no sound, the game goes on: ${error.message}`);
         }
+    }
+    // The two outputs behind the actuators', if none are given. With two in all, the monitor is what is heard.
+    #earsOf({ outputs, level = heardLevel }, { channels, isDirect, context }, { latency, worklet, fieldWidth, fieldHeight }) {
+        if (!isDirect || (!outputs && context.destination.maxChannelCount < channels + 2)) return null;
+        const layout = { extentWidth: fieldWidth, extentHeight: fieldHeight, places: [0, fieldWidth].map(x => ({ x, y: fieldHeight / 2 })) };
+        return { outputs: outputs ?? [channels + 1, channels + 2], level, layout, law: 'energy', latency, worklet, fieldWidth, fieldHeight };
     }
     /** As haptics.set; or the name of a material, of a source. */
     set(body, values = {}) { return this.haptics.set(body, typeof values === 'string' ? { isSource: true, material: values } : values); }
@@ -65,18 +74,19 @@ class Felt {
         this.#closed = true;
         for (const name of gestures) globalThis.document?.removeEventListener(name, this.#begin, early);
         this.output?.close();
+        this.sound?.close();
         this.pads?.close();
         this.haptics.free();
         if (this.#isOwn) this.#context?.close?.();
     }
 }
 
-export async function feel(engine, { physvib, pixelsPerMetre, metresPerUnit = pixelsPerMetre ? 1 / pixelsPerMetre : undefined, fieldWidth = 1, fieldHeight = fieldWidth, layout, outputs, level, latency, worklet, context, profile, phone, ...settings } = {}) {
+export async function feel(engine, { physvib, pixelsPerMetre, metresPerUnit = pixelsPerMetre ? 1 / pixelsPerMetre : undefined, fieldWidth = 1, fieldHeight = fieldWidth, layout, outputs, level, sound, latency, worklet, context, profile, phone, ...settings } = {}) {
     const kind = kinds.find(([isOne]) => isOne(Object(engine), settings));
     expectThat(kind !== undefined, 'feel', "an engine's world (of Matter, Planck, Rapier, box2d3-wasm with b2, cannon-es, Babylon's scene, { havok, world, bodies }, { Jolt, interface }, { mujoco, model, data }, or { bodies, read })", engine);
     physvib ??= await load();
     const haptics = await kind[1](physvib, engine, { fullScaleImpulse: 'automatic', ...settings, fieldWidth, fieldHeight, ...(metresPerUnit && { metresPerUnit }) });
-    const field = { fieldWidth, fieldHeight }, given = Object.fromEntries(Object.entries({ layout, outputs, level, latency, worklet }).filter(([, value]) => value !== undefined));
+    const field = { fieldWidth, fieldHeight }, given = Object.fromEntries(Object.entries({ layout, outputs, level, sound, latency, worklet }).filter(([, value]) => value !== undefined));
     try {
         const pads = globalThis.navigator?.getGamepads ? rumble(physvib, { ...field, ...(profile && { profile }), ...(phone !== undefined && { phone }), ...(latency && { latency }) }) : null;
         return new Felt(physvib, haptics, { ...field, ...given, context, pads });
