@@ -77,17 +77,17 @@ std::vector<PredictedPartial> predictPartials(std::span<const double> samples, d
 
 // Model selection.
 
-constexpr std::size_t mostPartials = 6;
 constexpr double cleanShare = 1e-11; // of the energy: a smaller residual is rounding
 constexpr double shortHit = 8.0;     // omega / tau
 constexpr double penalty = 1.5;      // per parameter, in units of ln N: for it and its search (Schwarz 1978)
 
 } // namespace
 
-HitFit::HitFit(std::vector<double> samples, std::size_t guess, double rateHz)
+HitFit::HitFit(std::vector<double> samples, std::size_t guess, double rateHz, std::size_t most)
     : samples_{std::move(samples)}
     , onset_{guess}
     , rateHz_{rateHz}
+    , most_{most}
     , energy_{energyOf(samples_)}
     , fit_{rest(), rateHz} {
     addPartials();
@@ -140,7 +140,7 @@ double HitFit::costOf(double unexplained, std::size_t numbers) const {
 void HitFit::addPartials() {
     const auto cost = [this] { return costOf(unexplainedEnergy(), 4 * fit_.partials().size()); };
     double least = cost();
-    while (fit_.partials().size() < mostPartials && unexplainedEnergy() > cleanShare * energy_) {
+    while (fit_.partials().size() < most_ && unexplainedEnergy() > cleanShare * energy_) {
         const std::size_t onset = onset_;
         const std::vector<Partial> partials = fit_.partials();
         fit_.addHighest();
@@ -182,7 +182,7 @@ void HitFit::tryOtherStarts() {
     if (strongest.omega > shortHit * strongest.tau) return;
     for (const double lives : {2.0, 4.0})
         for (const std::size_t blocks : {16u, 48u})
-            for (std::size_t count = 1; count <= 4; ++count) {
+            for (std::size_t count = 1; count <= std::min<std::size_t>(4, most_); ++count) {
                 if (unexplainedEnergy() < cleanShare * energy_ && count >= partials().size()) break;
                 const auto length = std::min(rest().size(), samplesIn(lives / longest.tau, rateHz_));
                 std::vector<Partial> starts;

@@ -55,8 +55,10 @@ private:
 /// fewer parameters. Message thread (M) only.
 class HitFit {
 public:
-    /// `guess`: initial onset in `samples`; it moves by at most onsetReachSeconds per partial.
-    HitFit(std::vector<double> samples, std::size_t guess, double rateHz);
+    static constexpr std::size_t usualPartials = 6;
+    /// `guess`: initial onset in `samples`; it moves by at most onsetReachSeconds per partial. `most`:
+    /// partials.
+    HitFit(std::vector<double> samples, std::size_t guess, double rateHz, std::size_t most = usualPartials);
     HitFit(const HitFit&) = delete; // the fits refer to the samples
     HitFit& operator=(const HitFit&) = delete;
 
@@ -91,6 +93,7 @@ private:
     std::vector<double> samples_;
     std::size_t onset_;
     double rateHz_;
+    std::size_t most_;
     double energy_;
     PartialFit fit_;
     std::optional<StruckFit> struck_; ///< set if Eq. 5.1 fits better

@@ -7,7 +7,9 @@
 #include "Measure/Spectrum.h"
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <span>
 #include <string>
 
 namespace physvib {
@@ -45,14 +47,15 @@ Result<ContactSound> byFit(const std::vector<float>& samples, const HitExcerpt& 
     const std::size_t begin = hit.begin - std::min(hit.begin, samplesIn(onsetReachSeconds, rateHz));
     const HitFit hitFit{cut(samples, begin, hit.end, hit.offset), hit.begin - begin, rateHz};
     const std::vector<Partial> partials = hitFit.partials();
-    std::size_t best = partials.size();
+    std::vector<std::size_t> wanted;
     for (std::size_t k = 0; k < partials.size(); ++k) {
         const double hz = partials[k].omega / (2.0 * std::numbers::pi);
-        const bool isWanted = hz >= band.lowHz && hz <= band.highHz && partials[k].tau >= slowestTau;
-        const auto height = [&](std::size_t at) { return partials[at].spectralPeak(hitFit.seconds()); };
-        if (isWanted && (best == partials.size() || height(k) > height(best))) best = k;
+        if (hz >= band.lowHz && hz <= band.highHz && partials[k].tau >= slowestTau) wanted.push_back(k);
     }
-    if (best == partials.size()) return Failure{noneIn(band)};
+    if (wanted.empty()) return Failure{noneIn(band)};
+    std::ranges::stable_sort(wanted, std::greater{},
+                             [&](std::size_t k) { return partials[k].spectralPeak(hitFit.seconds()); });
+    const std::size_t best = wanted.front();
     const PartialError error = hitFit.errorOf(best);
     const Partial& p = partials[best];
     ContactSound sound;
@@ -62,6 +65,9 @@ Result<ContactSound> byFit(const std::vector<float>& samples, const HitExcerpt& 
     sound.decayErrorPerSecond = error.tau;
     sound.residualShare = hitFit.unexplainedEnergy() / hitFit.energy();
     sound.partials = static_cast<int>(partials.size());
+    for (const std::size_t k : std::span(wanted).subspan(1))
+        sound.others.push_back({partials[k].omega / (2.0 * std::numbers::pi), partials[k].tau,
+                                partials[k].amplitude() / p.amplitude()});
     double own = 0.0;
     for (double t = 0.0; t < hitFit.seconds(); t += 1.0 / rateHz) own += p.at(t) * p.at(t);
     sound.ownShare = own / hitFit.energy();

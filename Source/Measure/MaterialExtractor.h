@@ -16,10 +16,16 @@ struct ExtractionBand {
     double lowHz = 20.0, highHz = 1000.0; ///< tactile range
 };
 
+/// A further partial of it; `amplitude`: relative to the material's own.
+struct FurtherPartial {
+    double frequencyHz = 0.0, decayPerSecond = 0.0, amplitude = 0.0;
+};
+
 /// Estimated sound of one contact.
 struct ContactSound {
     double frequencyHz = 0.0;
     double decayPerSecond = 0.0;
+    std::vector<FurtherPartial> others; ///< in the band, the highest spectral peak first; none with twoPeaks
     /// standard errors (HitFit::errorOf); 0 with twoPeaks
     double frequencyErrorHz = 0.0, decayErrorPerSecond = 0.0;
     double residualShare = 0.0; ///< share of the impact's energy that the fitted partials do not explain

@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <functional>
+#include <map>
 #include <sstream>
 #include <system_error>
 
@@ -33,34 +34,49 @@ bool isListed(const Option& option) {
     return !option.meaning.empty() && std::ranges::find(option.spellings, "--help") == option.spellings.end();
 }
 
-void writeOptionTable(std::ostream& out, const OptionTable& command) {
-    if (std::ranges::none_of(command.options, isListed)) return;
-    out << "\n| option | value | default | meaning |\n| --- | --- | --- | --- |\n";
-    for (const Option& option : command.options)
-        if (isListed(option))
-            out << "| " << spelt(option) << " | " << asCode(option.isPlace ? option.range : option.value())
-                << " | " << asCode(option.initial) << " | " << tableCell(option.meaning)
-                << (option.isRequired ? " (required) |\n" : " |\n");
+/// Rows of tables that were written, and the command of each.
+using WrittenRows = std::map<std::string, std::string>;
+
+void writeOptionTable(std::ostream& out, const OptionTable& command, WrittenRows& written) {
+    std::string table;
+    std::map<std::string, std::string> again; // by the command that has them in its table
+    for (const Option& option : command.options) {
+        if (!isListed(option)) continue;
+        const std::string row = "| " + spelt(option) + " | " +
+                                asCode(option.isPlace ? option.range : option.value()) + " | " +
+                                asCode(option.initial) + " | " + tableCell(option.meaning) +
+                                (option.isRequired ? " (required) |\n" : " |\n");
+        const auto [before, isNew] = written.emplace(row, command.words);
+        if (isNew)
+            table += row;
+        else
+            again[before->second] += (again[before->second].empty() ? "" : ", ") + spelt(option);
+    }
+    if (!table.empty())
+        out << "\n| option | value | default | meaning |\n| --- | --- | --- | --- |\n" << table;
+    for (const auto& [other, names] : again) out << "\nAs `" << other << "`: " << names << ".\n";
 }
 
-void writeSection(std::ostream& out, const OptionTable& command, const std::string& heading) {
+void writeSection(std::ostream& out, const OptionTable& command, const std::string& heading,
+                  WrittenRows& written) {
     std::string sentence = command.meaning + '.';
     sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
     out << '\n' << heading << " `" << command.words << "`\n" << sentence << '\n';
-    writeOptionTable(out, command);
-    for (const OptionTable& inner : command.commands) writeSection(out, inner, heading + '#');
+    writeOptionTable(out, command, written);
+    for (const OptionTable& inner : command.commands) writeSection(out, inner, heading + '#', written);
 }
 
 /// Markdown with a table of options for each command of a program. Message thread.
 std::string markdownPage(const OptionTable& program) {
     std::ostringstream out;
+    WrittenRows written;
     out << "<!-- SPDX-License-Identifier: MIT -->\n<!-- Generated: " << program.words
         << " --reference FOLDER, and FOLDER/md/" << program.words << ".md -->\n# Commands and options\n\n"
         << "Every command of `" << program.words << "` with its options. `" << program.words
         << " COMMAND --help` and `man " << program.words
         << "-COMMAND` print the same. Options of ranges refuse other values.\n";
-    writeOptionTable(out, program);
-    for (const OptionTable& command : program.commands) writeSection(out, command, "##");
+    writeOptionTable(out, program, written);
+    for (const OptionTable& command : program.commands) writeSection(out, command, "##", written);
     return out.str();
 }
 

@@ -97,6 +97,25 @@ TEST_F(MaterialCommand, TexturesOfARenderedScrapeAreThoseOfItsScene) {
     EXPECT_NE(outcome.err.find(" grains a second, "), std::string::npos) << outcome.err;
 }
 
+TEST_F(MaterialCommand, ModesAreTheOvertonesOfABody) {
+    record("0.1,349,106.99,0.5,0,0\n0.1,610,150,0.25,0,0");
+    const auto outcome = call("material hit.wav --modes 4");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    std::istringstream lines{outcome.out};
+    std::string head;
+    std::getline(lines, head);
+    EXPECT_EQ(head, "frequency_hz,decay_per_s,amplitude");
+    for (const auto& [hz, decay, amplitude] : {std::tuple{349.0, 106.99, 1.0}, {610.0, 150.0, 0.5}}) {
+        double found[3] = {};
+        char comma = 0;
+        lines >> found[0] >> comma >> found[1] >> comma >> found[2];
+        EXPECT_NEAR(found[0], hz, 0.5);
+        EXPECT_NEAR(found[1], decay, 0.02 * decay);
+        EXPECT_NEAR(found[2], amplitude, 0.02);
+    }
+    refuses("material hit.wav --modes 5", 2, "--modes", 2);
+}
+
 TEST_F(MaterialCommand, WhatIsNoScrapeIsOneLine) {
     record("0.1,349,106.99,0,0,0");
     refuses("material --texture hit.wav --speed 1", 1, "hit.wav: expected a scrape, found silence", 2);

@@ -29,6 +29,8 @@ KNOWN = {
     ("Rapier", "pole", 60): "it pushes the head in two steps, and both are felt",
     ("Rapier", "Newton's cradle", 60): "it hands on over several steps",
     ("Rapier", "Newton's cradle", 240): "it hands on over several steps",
+    ("Rapier", "stack that lands", 240): "a box that leans is felt once more",
+    ("Box2D 3", "domino row", 60): "its first step gives one of five less than the threshold",
 }
 
 

@@ -32,3 +32,5 @@ find "$@" -type f \( -path '*/GMRockKit/Tom*.wav' -o -path '*/GMRockKit/Cowbell*
 for key in 1c 1e 23 2c 39; do find "$@" -type f -path "*/buckle/wav/$key-[01].wav"; done | sort >>"$folder/list"
 [ "$(wc -l <"$folder/list")" -gt 0 ] || { echo "recordings.sh: expected the packages' recordings, found none" >&2; exit 1; }
 while read -r file; do row "$file"; done <"$folder/list"
+figures=$(dirname "$physvib")/physvib-partial-figures
+[ ! -x "$figures" ] || { echo && xargs "$figures" <"$folder/list"; }

@@ -18,6 +18,7 @@
 #include <iostream>
 #include <numbers>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -64,9 +65,10 @@ struct MaterialOptions {
     std::string path;
     std::string band = "20-1000"; ///< "LO-HI" in Hz
     std::string rule = "fit";     ///< or "two-peaks"
-    bool lists = false;           ///< list the built-in materials
-    std::string picturePath;      ///< empty: none
-    std::string texturePath;      ///< a scrape recording, instead of an impact
+    int modes = 1;
+    bool lists = false;      ///< list the built-in materials
+    std::string picturePath; ///< empty: none
+    std::string texturePath; ///< a scrape recording, instead of an impact
     std::optional<double> speedMetresPerSecond;
     double loadNewtons = 1.0, massKg = 1.0;
 };
@@ -149,6 +151,9 @@ void declareMaterial(OptionTable& command, MaterialOptions& o) {
     command.add("--band", o.band, "Hz within which the frequency is looked for").as("LO-HI");
     command.add("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks")
         .oneOf({"fit", "two-peaks"});
+    command.add("--modes", o.modes, "partials to be printed, the strongest first: a body's overtones")
+        .as("N")
+        .in(1, 4);
     command
         .add("--picture", o.picturePath,
              "waveform and spectrum of the contact, and of the mode that was found, with the band")
@@ -189,8 +194,15 @@ int runMaterial(const MaterialOptions& o) {
                                         sound.value, {band->lowHz, band->highHz});
                    }}});
     if (code != exitDone) return code;
-    std::cout << "frequency_hz,decay_per_s\n"
-              << numberText(sound.value.frequencyHz) << ',' << numberText(sound.value.decayPerSecond) << '\n';
+    const auto pair = [](double hz, double perSecond) {
+        return numberText(hz) + ',' + numberText(perSecond);
+    };
+    const bool hasAmplitudes = o.modes > 1;
+    std::cout << "frequency_hz,decay_per_s" << (hasAmplitudes ? ",amplitude\n" : "\n")
+              << pair(sound.value.frequencyHz, sound.value.decayPerSecond) << (hasAmplitudes ? ",1\n" : "\n");
+    for (const FurtherPartial& other : sound.value.others | std::views::take(o.modes - 1))
+        std::cout << pair(other.frequencyHz, other.decayPerSecond) << ',' << numberText(other.amplitude)
+                  << '\n';
     std::cerr << "physvib: " << howSure(sound.value) << '\n';
     return exitDone;
 }
