@@ -41,3 +41,19 @@ for (const [name, make] of Object.entries(drivers)) if (names.length > 0 ? names
     console.log(`${name}: ${felt} of ${lives} felt, ${left.toFixed(2)} MB more than behind 2,000${alone ? `, the engine alone ${alone.toFixed(2)}` : ''}, ${known} known`);
     assert.ok(felt === lives && left - alone < 1 && known <= 1);
 });
+
+test('Matter: what has left the world is kept by nobody', async () => {
+    const { attach } = await load(folder, 'physvib/matter'), { default: Matter } = await load(folder, 'matter-js'), engine = Matter.Engine.create(), haptics = attach(physvib, engine), kept = [];
+    for (let i = 0; i < 300; ++i) {
+        const body = Matter.Bodies.circle(100, 100, 10);
+        Matter.Composite.add(engine.world, body);
+        haptics.set(body, { isSource: true, frequencyHz: 200, decayPerSecond: 30 });
+        Matter.Engine.update(engine, 10);
+        Matter.Composite.remove(engine.world, body);
+        kept.push(new WeakRef(body));
+    }
+    for (let i = 0; i < 4; ++i) { Matter.Engine.update(engine, 10); await new Promise(setImmediate); gc(); }
+    const count = kept.filter(body => body.deref()).length;
+    assert.ok(count < 10, `${count} of 300 are kept`);
+    haptics.free();
+});
