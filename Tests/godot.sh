@@ -74,6 +74,8 @@ for script in outputs life nodes games hands; do
     grep -E '^(right|WRONG|[0-9]+ wrong)' "$project/out" || failed=1
     grep -q '^0 wrong' "$project/out" || failed=1
 done
+godot -s sound.gd >"$project/out" 2>&1 || failed=1 # in real time
+grep -E '^(right|WRONG|[0-9]+ wrong)' "$project/out" || failed=1
 godot -s orders.gd --fixed-fps 60 -- changes=2000 >"$project/out" 2>&1 || failed=1
 grep -E '^[0-9]+ (orders|scenes)' "$project/out" || failed=1
 godot -s motors.gd --fixed-fps 60 >"$project/out" 2>&1 || failed=1

@@ -136,6 +136,9 @@ std::string felt(const ContactCounts& c, const OutputFacts* output) {
     const bool isOfMetres = c.fieldWidthMetres < farMetres;
     if (isOfMetres && farthest(c) > farMetres)
         return made + ", in a field of " + metres(c.fieldWidthMetres) + ": this looks like pixels; " + divide;
+    if (isOfMetres && c.gravityMetresPerSecond2 > strongGravity)
+        return made + ", under a gravity of " + threeDigits(c.gravityMetresPerSecond2) +
+               " m/s^2: this looks like pixels; " + divide;
     if (output != nullptr)
         if (std::string why = outputReason(c, *output); !why.empty()) return why;
     if (std::string why = ownField(c, made); !why.empty()) return why;

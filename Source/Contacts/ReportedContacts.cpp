@@ -352,9 +352,9 @@ ReportedContacts::Push ReportedContacts::pushed(const Waiting& each) const {
     const double after = bodies_.approach(of.a, of.b, of.point, of.normal, true);
     const double left = std::clamp(after, 0.0, gap), speed = speedOf(of);
     const double mass = bodies_.effectiveMassKg(of.a, of.b, of.point, of.normal);
-    // what approaches still is to stop and to bounce, what has stopped is perhaps to bounce in the next step
-    const double owed =
-        left > 0.0 ? (1.0 + of.restitution) * left : std::max(0.0, of.restitution * speed + after);
+    // what has nearly stopped is perhaps to bounce in the next step; over an edge most of the speed is left
+    const double owed = after < 0.5 * speed ? std::max(0.0, of.restitution * speed + std::min(after, gap))
+                                            : (1.0 + of.restitution) * left;
     // An engine that saw the surface coming leaves what closes the gap; the next step stops that likewise.
     const double taken = bodies_.approach(of.a, of.b, of.point, of.normal) - left;
     const bool goesOn = of.gapMetres > 0.0 && !each.isKick && left > 0.0 && taken > 0.05 * speed;

@@ -187,6 +187,12 @@ const std::vector<Reason>& reasons() {
          },
          {"1.5 times what gravity adds in a step", "0.3 m/s", "shorter steps"}},
         {"PixelsOfGravity", [](Silent& s) { s.hit(0.02, 981.0); }, {"981 m/s^2", "pixels"}},
+        {"PixelsOfGravityThatAreFelt",
+         [](Silent& s) {
+             s.contact.approach_m_per_s = 40.0;
+             s.hit(0.02, 981.0);
+         },
+         {"under a gravity of 981 m/s^2", "pixels"}},
         {"Pixels",
          [](Silent& s) {
              s.contact.x_m = 400.0;

@@ -94,6 +94,33 @@ test('other engines are known, and what is none is refused', async () => {
     await assert.rejects(feel(worlds[0][1], { feildWidth: 1 }), /feildWidth/);
 });
 
+test('Havok: a bounce off a floor that moves is whole', async () => {
+    const havok = await (await load(folder, '@babylonjs/havok')).default({ wasmBinary: readFileSync(join(folder, 'node_modules/@babylonjs/havok/lib/esm/HavokPhysics.wasm')) }), { MAXIMUM } = havok.MaterialCombine, noTurn = [0, 0, 0, 1];
+    for (const rise of [0, 0.03, 0.5, -0.5]) {
+        const [, world] = havok.HP_World_Create(), still = [0, 0, 0], e = 0.5, massKg = 0.2;
+        havok.HP_World_SetGravity(world, [0, -9.81, 0]);
+        const [floor, ball] = [[havok.HP_Shape_CreateBox(still, noTurn, [10, 1, 10])[1], 'KINEMATIC', -0.5], [havok.HP_Shape_CreateSphere(still, 0.1)[1], 'DYNAMIC', 0.9]].map(([shape, kind, y]) => {
+            const [, body] = havok.HP_Body_Create(), [centre, mass, inertia, turn] = havok.HP_Shape_BuildMassProperties(shape)[1];
+            havok.HP_Shape_SetMaterial(shape, [0, 0, e, MAXIMUM, MAXIMUM]);
+            havok.HP_Body_SetShape(body, shape);
+            havok.HP_Body_SetMotionType(body, havok.MotionType[kind]);
+            if (kind === 'DYNAMIC') havok.HP_Body_SetMassProperties(body, [centre, massKg, inertia.map(one => one * massKg / mass), turn]);
+            havok.HP_Body_SetQTransform(body, [[0, y, 0], noTurn]);
+            havok.HP_World_AddBody(world, body, false);
+            return body;
+        });
+        const felt = await feel({ havok, world, bodies: () => [floor, ball] }, { fieldWidth: 4, fieldHeight: 3, fieldX: -2, fullScaleImpulse: 1 });
+        felt.set(ball, 'wooden board');
+        for (let i = 1; i <= 40; ++i) {
+            havok.HP_Body_SetTargetQTransform(floor, [[0, -0.5 + rise * i / 60, 0], noTurn]);
+            felt.update(1 / 60);
+        }
+        const [{ impulse }] = felt.haptics.take(true), due = massKg * Math.sqrt(2 * 9.81 * 0.8 + rise ** 2) * (1 + e);
+        assert.ok(Math.abs(impulse / due - 1) < 0.02, `${rise} m/s: ${impulse} N s, due ${due}`);
+        felt.close();
+    }
+});
+
 /** Steps until the ball has bounced; the sum of what actuators get. */
 function heard({ step }, context) {
     for (let i = 0; i < 300; ++i) {

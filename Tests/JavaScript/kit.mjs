@@ -65,7 +65,8 @@ async function play(make, situation) {
         time += seconds;
     }
     const said = haptics.explain(), events = haptics.take(true).filter(({ kind }) => kind === 'hit').map(event => ({ ...event, at: event.timeNs * 1e-9, body: ids.get(event.fixture) }));
-    const error = haptics.error;
+    const felt = all => all.filter(({ kind }) => kind === 'hit').map(({ timeNs, impulse }) => `${timeNs} ${impulse}`).join(), other = second && felt(second.take(true));
+    const error = haptics.error ?? (second && !driver.isSteppedByOne && other !== felt(events) ? new Error(`of two that are attached one feels ${felt(events)}, the other ${other}`) : null);
     haptics.free();
     second?.free();
     driver.end?.();

@@ -4,7 +4,8 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { load } from './installed.mjs';
 
-const [folder] = process.argv.slice(2), [{ createElement: h, act }, { create }, { Physics, RigidBody, BallCollider, CuboidCollider }, { Felt, useSource }] = await Promise.all(['react', '@react-three/test-renderer', '@react-three/rapier', 'physvib/react'].map(name => load(folder, name).then(module => ({ ...module.default, ...module }))));
+const [folder] = process.argv.slice(2), [{ createElement: h, act, useMemo }, { create }, Rapier, { Felt, useSource }] = await Promise.all(['react', '@react-three/test-renderer', '@react-three/rapier', 'physvib/react'].map(name => load(folder, name).then(module => ({ ...module.default, ...module }))));
+const { Physics, RigidBody, BallCollider, CuboidCollider } = Rapier;
 globalThis.IS_REACT_ACT_ENVIRONMENT = true;
 const rate = 60, massKg = 0.2, height = 0.8, radius = 0.1;
 
@@ -40,3 +41,32 @@ test('what is no source is not felt', () => scene({}, h(RigidBody, { colliders: 
     assert.equal(felt.haptics.take(true).length, 0);
     assert.match(felt.explain(), /source/);
 }));
+
+test('each of several instances is felt, and what an object names is a source', () => {
+    const { InstancedRigidBodies } = Rapier;
+    function Balls() {
+        const ref = useSource({ material: 'steel plate' }), instances = useMemo(() => [-1, 1].map((x, key) => ({ key, position: [x, height + radius, 0] })), []);
+        return h(InstancedRigidBodies, { ref, instances, colliders: false, colliderNodes: [h(BallCollider, { key: 0, args: [radius], mass: massKg })] }, h('instancedMesh', { args: [undefined, undefined, 2], count: 2 }));
+    }
+    return scene({}, h(Balls), async ({ felt, run }) => {
+        await run(0.7);
+        assert.equal(new Set(felt.haptics.take(true).map(({ x }) => Math.round(x))).size, 2, felt.explain());
+    });
+});
+
+test('a material that is none, and a source outside <Felt>, are told, and the scene goes on', async () => {
+    const { error } = console, lines = [];
+    console.error = line => lines.push(String(line));
+    try {
+        await scene({}, [h(Ball, { key: 'odd', material: 'wood of nobody', position: [1, 1, 0] }), h(Ball, { key: 'good', material: 'wooden board' })], async ({ felt, run }) => {
+            await run(0.7);
+            assert.ok(felt.haptics.take(true).length > 0, felt.explain());
+        });
+        const renderer = await create(h('group', null, h((await load(folder, 'react')).Suspense, { fallback: null }, h(Physics, null, h(Ball, { material: 'wooden board' })))));
+        for (let i = 0; i < 100 && !lines.some(line => /outside of <Felt>/.test(line)); ++i) await act(() => new Promise(next => setTimeout(next, 5)));
+        await act(() => renderer.unmount());
+    } finally {
+        console.error = error;
+    }
+    for (const found of [/PhysVib: nothing is felt, the scene goes on: material: expected one that vibrates/, /useSource is outside of <Felt>/]) assert.ok(lines.some(line => found.test(line)), lines.join('\n'));
+});

@@ -185,7 +185,12 @@ PHYSVIB_UNUSED static void PHYSVIB_BOX(_explain)(const PHYSVIB_BOX_STATE* haptic
     }
     for (i = 1; i < haptics->capacity; ++i) {
         const PHYSVIB_B(BodyId) body = haptics->numbers[i].body;
-        if (!body.index1 || haptics->numbers[i].id < 0 || !PHYSVIB_B(Body_IsValid)(body)) continue;
+        if (!body.index1 || !PHYSVIB_B(Body_IsValid)(body)) continue;
+        if (haptics->numbers[i].id < 0 && haptics->numbers[i].is_told) {
+            snprintf(text, size, PHYSVIB_BOX_NAME "'s body %d is not felt: give it a number.", body.index1);
+            return;
+        }
+        if (haptics->numbers[i].id < 0) continue;
         note = PHYSVIB_BOX(_note)(haptics, body);
         if (note >= 0) physvib_world_note(haptics->world, haptics->numbers[i].id, note);
     }

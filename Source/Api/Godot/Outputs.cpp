@@ -14,7 +14,8 @@ constexpr int maxPads = 8;
 constexpr double commandSeconds = 0.1; // a command ends by itself if the game stops sending
 } // namespace
 
-Outputs::Outputs() = default;
+Outputs::Outputs(GDExtensionObjectPtr of)
+    : node(of) {}
 Outputs::~Outputs() { close(); }
 
 void Outputs::configure(const OutputSettings& wanted) {
@@ -36,7 +37,7 @@ void Outputs::configure(const OutputSettings& wanted) {
 }
 
 std::string Outputs::open(const std::string& name) {
-    constexpr std::string_view osc = "osc:";
+    constexpr std::string_view osc = "osc:", bus = "sound:";
     if (name.empty() || (name == "controllers" && pads != nullptr)) return "";
     if (name == "phone") return hasPhone = true, "";
     if (name == "xr") return hasHands = true, "";
@@ -45,6 +46,11 @@ std::string Outputs::open(const std::string& name) {
                                    &pads) == PHYSVIB_OK
                    ? ""
                    : physvib_error();
+    if (name == "sound" || name.starts_with(bus)) {
+        sound = std::make_unique<Sound>();
+        return sound->open(node, name == "sound" ? "Master" : name.substr(bus.size()),
+                           settings.fieldWidthMetres, settings.fieldHeightMetres);
+    }
     if (name.starts_with(osc)) {
         Osc receiver;
         const std::string error = receiver.open(name.substr(osc.size()));
@@ -64,6 +70,7 @@ void Outputs::play(physvib_world world, const physvib_event& event) {
     if (settings.isSilent) return;
     for (const auto& device : devices) device->play(world, event);
     for (const Osc& receiver : receivers) receiver.play(event);
+    if (sound != nullptr) sound->play(event);
     if (pads != nullptr) strikePads(world, event);
     if (hasHands) hands.play(event, clockSeconds);
     if (!hasPhone || event.kind != PHYSVIB_HIT) return;
@@ -94,6 +101,7 @@ void Outputs::update(double gameSeconds) {
     clockSeconds += timeScale > 0.0 ? gameSeconds / timeScale : 1e-6 * static_cast<double>(now - lastUpdate);
     lastUpdate = now;
     if (hasHands && !settings.isSilent) hands.update(clockSeconds);
+    if (sound != nullptr && !settings.isSilent) sound->update();
     if (pads == nullptr) return;
     std::array<physvib_motors, maxPads> motors{};
     if (physvib_pads_pull(pads, std::llround(1e9 * clockSeconds), motors.data(), maxPads) < 0) return;
@@ -118,6 +126,7 @@ std::vector<double> Outputs::left() const {
 
 void Outputs::rest() {
     hands.rest();
+    if (sound != nullptr) sound->rest();
     for (int pad = 0; pad < maxPads; ++pad)
         if ((rumbling >> static_cast<unsigned>(pad) & 1U) != 0)
             singleton("Input").call("stop_joy_vibration", pad);
@@ -129,9 +138,73 @@ void Outputs::close() {
     isOpen = false;
     devices.clear();
     receivers.clear();
+    sound.reset();
     hasPhone = hasHands = false;
     if (pads != nullptr) physvib_pads_free(pads);
     pads = nullptr;
+}
+
+Sound::~Sound() {
+    if (const Value there(api.instanceFromId(player)); there.object() != nullptr) there.call("queue_free");
+    if (renderer != nullptr) physvib_renderer_free(renderer);
+}
+
+// A world that enters the tree may get its child only afterwards.
+std::string Sound::open(GDExtensionObjectPtr world, const std::string& bus, double fieldWidthMetres,
+                        double fieldHeightMetres) {
+    constexpr double bufferSeconds = 0.05; // a frame of the game, and a block of Godot's
+    rate = singleton("AudioServer").call("get_mix_rate").real();
+    physvib_renderer_settings ears;
+    physvib_renderer_settings_init(&ears, sizeof ears);
+    ears.rate_hz = static_cast<int>(std::lround(rate));
+    ears.law = PHYSVIB_LAW_ENERGY;
+    ears.field_width_m = ears.layout.extent_width_m = fieldWidthMetres;
+    ears.field_height_m = ears.layout.extent_height_m = fieldHeightMetres;
+    ears.layout.count = 2;
+    for (int i = 0; i < 2; ++i)
+        ears.layout.x_m[i] = i * fieldWidthMetres, ears.layout.y_m[i] = 0.5 * fieldHeightMetres;
+    if (physvib_renderer_create(&ears, &renderer) != PHYSVIB_OK) return physvib_error();
+    const Value stream = singleton("ClassDB").call("instantiate", "AudioStreamGenerator"),
+                made = singleton("ClassDB").call("instantiate", "AudioStreamPlayer");
+    stream.call("set_mix_rate", rate);
+    stream.call("set_buffer_length", bufferSeconds);
+    made.call("set_stream", stream);
+    made.call("set_bus", bus.c_str());
+    player = api.instanceId(made.object());
+    Value(world).call("call_deferred", "add_child", made);
+    return "";
+}
+
+// Each as far behind its time in the world as those before: a frame comes when it comes.
+void Sound::play(physvib_event event) {
+    constexpr double leadSeconds = 0.04, mostSeconds = 0.12; // a frame of the game and a block of Godot's
+    const double ahead = 1e-9 * static_cast<double>(event.time_ns + later) - filled / rate;
+    if (!(ahead >= 0.0 && ahead <= mostSeconds)) // the first one, or the game stood still
+        later = std::llround(1e9 * (filled / rate + leadSeconds)) - event.time_ns;
+    event.time_ns += later;
+    physvib_renderer_strike(renderer, &event);
+}
+
+void Sound::update() {
+    const Value there(api.instanceFromId(player));
+    if (there.object() == nullptr || !there.call("is_inside_tree").isTrue()) return;
+    if (!there.call("is_playing").isTrue()) there.call("play");
+    const Value playback = there.call("get_stream_playback");
+    const auto frames = static_cast<int>(playback.call("get_frames_available").whole());
+    if (frames < 1) return;
+    std::vector<float> samples(2 * static_cast<std::size_t>(frames));
+    if (physvib_renderer_pull_interleaved(renderer, samples.data(), 2, frames) != PHYSVIB_OK) return;
+    const Value list = Value::empty(type::places);
+    for (std::size_t i = 0; i < samples.size(); i += 2)
+        list.call("append", Value::vector({samples[i], samples[i + 1], 0.0}, false));
+    playback.call("push_buffer", list);
+    filled += frames;
+}
+
+void Sound::rest() {
+    if (const Value there(api.instanceFromId(player)); there.object() != nullptr) there.call("stop");
+    const std::int64_t now = std::llround(1e9 * filled / rate);
+    if (renderer != nullptr) physvib_renderer_silence(renderer, now, now);
 }
 
 void XrHands::play(const physvib_event& event, double nowSeconds) {

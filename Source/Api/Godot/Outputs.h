@@ -45,8 +45,30 @@ private:
     std::array<Ringing, 2> hands{};
 };
 
+/// The hits as sound, left and right by their place, by a player of Godot's that a renderer fills.
+class Sound {
+public:
+    Sound() = default;
+    ~Sound();
+    Sound(const Sound&) = delete;
+    Sound& operator=(const Sound&) = delete;
+    /// A child of `world`, a node, on that bus. Returns the error; empty: it will play.
+    std::string open(GDExtensionObjectPtr world, const std::string& bus, double fieldWidthMetres,
+                     double fieldHeightMetres);
+    void play(physvib_event event);
+    void update(); ///< once a frame: what Godot has played since is filled up again
+    void rest();   ///< it stops until the next update
+
+private:
+    std::uint64_t player = 0; ///< Godot's number of it: it goes with the world
+    physvib_renderer renderer = nullptr;
+    double rate = 0.0, filled = 0.0; ///< frames
+    std::int64_t later = 0;          ///< ns from the world's time to the stream's
+};
+
 struct OutputSettings {
-    std::vector<std::string> names; ///< controllers, phone, xr, osc:HOST:PORT, or a device of libphysvib-live
+    std::vector<std::string> names; ///< controllers, phone, xr, sound, osc:HOST:PORT, or a device of
+                                    ///< libphysvib-live
     bool isSilent;
     physvib_layout layout;
     double levelDb, fieldWidthMetres, fieldHeightMetres;
@@ -55,7 +77,7 @@ struct OutputSettings {
 
 class Outputs {
 public:
-    Outputs();
+    explicit Outputs(GDExtensionObjectPtr of); ///< `of`: the world's node
     ~Outputs();
     Outputs(const Outputs&) = delete;
     Outputs& operator=(const Outputs&) = delete;
@@ -74,7 +96,9 @@ private:
     std::string open(const std::string& name); ///< returns the error
     void strikePads(physvib_world world, const physvib_event& event);
 
+    GDExtensionObjectPtr node;
     OutputSettings settings{};
+    std::unique_ptr<Sound> sound;
     physvib_pads pads = nullptr;
     bool isOpen = false, hasPhone = false, hasHands = false;
     XrHands hands;

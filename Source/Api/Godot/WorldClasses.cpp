@@ -35,7 +35,8 @@ std::vector<Property> propertiesOf(bool isSpace) {
         {"physics_materials", type::dictionary, [] { return Value::empty(type::dictionary); }, 0, 0,
          "Strength", hintKeys, "24/17:PhysicsMaterial;24/17:HapticMaterial"},
         {"outputs", type::texts, [] { return controllersAlone(); }, 0, 0, "Output", hintElements,
-         "4/3:controllers,phone,xr,osc:127.0.0.1:9000,JACK:system,BOARD:auto"}, // texts with suggestions
+         "4/3:controllers,phone,xr,sound,osc:127.0.0.1:9000,JACK:system,BOARD:auto"}, // texts with
+                                                                                      // suggestions
         {"layout", type::text, [] { return Value("phone4"); }, 0, 0, "Output", hintEnumSuggestion,
          "phone1,phone2,phone3,phone4,ring4,cabinet4,pico4,pico8,glove5,sleeve8,vest16"},
         {"actuators", type::places, [] { return Value::empty(type::places); }, 0, 0, "Output"},

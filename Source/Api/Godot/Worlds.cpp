@@ -103,7 +103,8 @@ std::vector<const HapticWorld*> worldsInTree; // in the order in which they came
 
 HapticWorld::HapticWorld(GDExtensionObjectPtr itsObject, bool isItSpace)
     : Instance(itsObject, worldProperties(isItSpace))
-    , isSpace(isItSpace) {}
+    , isSpace(isItSpace)
+    , outputs(itsObject) {}
 
 HapticWorld::~HapticWorld() {
     std::erase(worldsInTree, this);

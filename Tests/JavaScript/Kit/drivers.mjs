@@ -102,7 +102,7 @@ async function box2d3(folder, physvib, { gravity }) {
     const world = b2.b2CreateWorld(settings), shapes = new Map(), keyOf = body => `${body.index1},${body.generation}`, at = (x, y) => new b2.b2Vec2(x, y);
     let count = 0;
     const driver = {
-        attach: () => attach(physvib, world, { b2, ...field }), halfStep: 1 / 4, count: () => count,
+        attach: () => attach(physvib, world, { b2, ...field }), isSteppedByOne: true, halfStep: 1 / 4, count: () => count,
         create(of) {
             const def = b2.b2DefaultBodyDef(), form = b2.b2DefaultShapeDef();
             def.type = types[of.type ?? 'dynamic'];
@@ -342,7 +342,7 @@ async function velocities(folder, physvib, { gravity }) {
     }
     return {
         attach: () => attachVelocities(physvib, { bodies: () => [...bodies].filter(body => !body.isSensor && !body.isPassed), read: (body, to) => Object.assign(to, { x: body.x, y: body.y, vx: body.vx, vy: body.vy, width: body.width, height: body.height, radius: body.radius, massKg: body.massKg, gravityScale: body.gravityScale }), gravity: () => pull },
-            { metresPerUnit: 1, yDown: false, ...field }), halfStep: 1, count: () => bodies.size, isUnturned: true,
+            { metresPerUnit: 1, yDown: false, ...field }), isSteppedByOne: true, halfStep: 1, count: () => bodies.size, isUnturned: true,
         create(of) { const body = { x: of.x, y: of.y, vx: of.vx ?? 0, vy: of.vy ?? 0, radius: of.radius ?? 0, width: 2 * (of.radius ?? of.half[0]), height: 2 * (of.radius ?? of.half[1]), massKg: isDynamic(of) ? of.massKg : 0, ownKg: of.massKg, gravityScale: 1, restitution: of.restitution ?? 0, isSensor: of.sensor ?? false }; bodies.add(body); return body; },
         get: ({ x, y, vx, vy, massKg }) => ({ x, y, vx, vy, angle: 0, spin: 0, massKg }), put: (body, x, y) => Object.assign(body, { x, y }), fling: (body, vx, vy) => Object.assign(body, { vx, vy }),
         type: (body, type) => Object.assign(body, { massKg: type === 'dynamic' ? body.ownKg : 0 }), mass: (body, massKg) => Object.assign(body, { massKg }), gravityScale: (body, gravityScale) => Object.assign(body, { gravityScale }), gravity: y => { pull.y = -y; },

@@ -11,8 +11,18 @@ const numberOf = id => id?.[0]; // Babylon takes it from what it disposes of
 // MaterialCombine, by its number.
 const combined = [(a, b) => Math.sqrt(a * b), Math.min, Math.max, (a, b) => (a + b) / 2, (a, b) => a * b];
 
+const attached = new Set(), last = new WeakMap(); // of a module: the events of each world's last step
+/** Whoever reads events first takes them from Havok: of several that are attached, the others get the same. */
+function eventsOf(hk, world) {
+    const worlds = last.get(hk), events = worlds.get(numberOf(world)) ?? [];
+    if (worlds.has(numberOf(world))) return events;
+    for (let at = hk.HP_World_GetCollisionEvents(world)[1]; at; at = hk.HP_World_GetNextCollisionEvent(world, at)) events.push(hk.HP_Event_AsCollision(at)[1]);
+    worlds.set(numberOf(world), events);
+    return events;
+}
+
 class HavokHaptics extends SpaceHaptics {
-    #there = new Map(); #masks = new Map(); #hk; #idOf; #end;
+    #there = new Map(); #masks = new Map(); #hk; #world; #idOf; #end;
 
     /** `engine`: havok (the module), world, bodies(), idOf(body), bodyOf(thing), gravity(). */
     constructor(physvib, { havok: hk, world, idOf, bodies, ...engine }, options) {
@@ -44,8 +54,8 @@ class HavokHaptics extends SpaceHaptics {
             },
             contacts(tell) {
                 const bounce = ([, , [shape]]) => of('HP_Shape_GetMaterial', shape);
-                for (let at = of('HP_World_GetCollisionEvents', world); at; at = hk.HP_World_GetNextCollisionEvent(world, at)) {
-                    const [type, onA, onB] = of('HP_Event_AsCollision', at), a = bodyBy(onA[0]), b = bodyBy(onB[0]);
+                for (const [type, onA, onB] of eventsOf(hk, world)) {
+                    const a = bodyBy(onA[0]), b = bodyBy(onB[0]);
                     if (!a || !b || type === hk.EventType.COLLISION_FINISHED) continue;
                     const [, , e, , how] = bounce(onA), [, , f, , also] = bounce(onB), normal = xyz(onA[4]), place = xyz(onA[3]);
                     tell(a, b, place, normal, dot(plus(xyz(onB[3]), place, -1), normal), combined[Math.max(how.value, also.value)](e, f));
@@ -55,18 +65,27 @@ class HavokHaptics extends SpaceHaptics {
         }, options);
         this.#hk = hk;
         this.#idOf = idOf;
+        attached.add(this);
+        if (!last.has(hk)) last.set(hk, new Map());
+        this.#world = world;
         this.#end = aroundSteps(hk, 'HP_World_Step', this, (of, seconds) => seconds, of => numberOf(of) === numberOf(world));
     }
-    // Bodies tell of contacts if they are asked to.
+    before(seconds) {
+        last.get(this.#hk).delete(numberOf(this.#world));
+        super.before(seconds);
+    }
+    #askedBy(body) { return [...attached].find(each => each !== this && each.#masks.has(body)); }
+    // Bodies tell of contacts if they are asked to; what they were asked before anybody attached, they are asked again in the end.
     #listen(body) {
-        const id = this.#idOf(body), [, before] = this.#hk.HP_Body_GetEventMask(id), { COLLISION_STARTED, COLLISION_CONTINUED } = this.#hk.EventType;
+        const id = this.#idOf(body), before = this.#askedBy(body)?.#masks.get(body) ?? this.#hk.HP_Body_GetEventMask(id)[1], { COLLISION_STARTED, COLLISION_CONTINUED } = this.#hk.EventType;
         this.#masks.set(body, before);
         this.#hk.HP_Body_SetEventMask(id, before | COLLISION_STARTED.value | COLLISION_CONTINUED.value);
     }
     left({ body }) { this.#masks.delete(body); }
     detach() {
         this.#end();
-        for (const [body, before] of this.#masks) if (this.engine.isThere(body)) this.#hk.HP_Body_SetEventMask(this.#idOf(body), before);
+        attached.delete(this);
+        for (const [body, before] of this.#masks) if (this.engine.isThere(body) && !this.#askedBy(body)) this.#hk.HP_Body_SetEventMask(this.#idOf(body), before);
     }
 }
 

@@ -4,9 +4,10 @@ import { createContext, createElement, useContext, useEffect, useRef, useState }
 import { useRapier } from '@react-three/rapier';
 import { feel } from './feel.js';
 
-const Context = createContext(null);
+const Context = createContext(undefined); // of who is outside
+const goesOn = error => console.error(`PhysVib: nothing is felt, the scene goes on: ${error.message ?? error}`);
 
-/** What feel() gives for the world around, whose options the props are; null until it is there. */
+/** What feel() gives for the world around, whose options the props are, as they are at first; null until it is there. */
 export function Felt({ children, onReady, ...options }) {
     const { world } = useRapier(), [felt, setFelt] = useState(null);
     useEffect(() => {
@@ -15,7 +16,7 @@ export function Felt({ children, onReady, ...options }) {
             if (isOver) return made.close();
             setFelt(mine = made);
             onReady?.(made);
-        }, error => console.error(`PhysVib: nothing is felt, the scene goes on: ${error.message}`));
+        }, goesOn);
         return () => {
             isOver = true;
             mine?.close();
@@ -26,16 +27,21 @@ export function Felt({ children, onReady, ...options }) {
 }
 
 /** What <Felt> around has. */
-export const useFelt = () => useContext(Context);
+export const useFelt = () => useContext(Context) ?? null;
 
-/** A ref for <RigidBody>: that body feels, as felt.set() says; `values`: a material's name, or an object. */
+/** A ref for <RigidBody> or <InstancedRigidBodies>: these feel, as felt.set() says; `values`: a material's name, or an object. */
 export function useSource(values) {
-    const body = useRef(null), felt = useFelt(), said = JSON.stringify(values);
+    const body = useRef(null), felt = useContext(Context), said = JSON.stringify(values);
     useEffect(() => {
-        const set = body.current;
-        if (!felt || !set) return undefined;
-        felt.set(set, values);
-        return () => { if (felt.haptics.known(set)) felt.haptics.remove(set); };
+        if (felt === undefined) goesOn('useSource is outside of <Felt>');
+        const bodies = [body.current ?? []].flat();
+        if (!felt) return undefined;
+        try {
+            for (const each of bodies) felt.set(each, typeof values === 'string' ? values : { isSource: true, ...values });
+        } catch (error) {
+            goesOn(error);
+        }
+        return () => { for (const each of bodies) if (felt.haptics.known(each)) felt.haptics.remove(each); };
     }, [felt, said]);
     return body;
 }
