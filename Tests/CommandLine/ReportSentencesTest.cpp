@@ -104,6 +104,10 @@ std::vector<Sentence> sentences() {
     const Edit noStaircase = [](Row& row) {
         if (row["participant"] == "P2" && row["quest"].empty()) row["participant"].clear();
     };
+    const Edit lacks = [](Row& row) {
+        if (row["participant"] == "P2" && (row["trial"] == "5" || row["trial"] == "6"))
+            row["participant"].clear();
+    };
     const Edit stopsEarly = [](Row& row) {
         if (row["participant"] == "P2" && std::stoi(row["trial"]) > 20) row["participant"].clear();
     };
@@ -236,7 +240,10 @@ std::vector<Sentence> sentences() {
         {"no response; trials left out for that: ", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
         {"participant P2 did not finish main in ", of(interleaved, 3, stopsEarly, true),
          of(interleaved, 3, {}, true)},
-        {"no description is known for these trials", of(grid, 2, set("phase", "training")), of(grid, 3)},
+        {"no means are known of these columns", of(grid, 2, set("phase", "training")), of(grid, 3)},
+        {"of a factor's level a participant has the mean", of(methods, 2), of(twice, 2)},
+        {"P2: the file lacks trials 5, 6 of main in ", of(interleaved, 3, lacks, true),
+         of(interleaved, 3, {}, true)},
         {"in participants' own words", of(told, 2), of(grid, 3)},
         {" of them empty: counted by stimulus", of(told, 2, set("response", "", "P2")), of(told, 2)},
         {"trials ran out of time, without an answer: analyses leave them out", of(timed, 3, {}, true),
@@ -278,6 +285,16 @@ std::set<std::string> wordsOf(const Protocol& protocol) {
     for (const ThesisDeviation& one : deviationsOf(protocol))
         words.insert(withoutNumbers(std::string{one.here}));
     return words;
+}
+
+TEST(ReportSentences, OlderPlansCallThePointOfEqualityAThreshold) {
+    const auto trials = readReportTrials({{"P1.csv", fileOf(points(), 1, {})}}, {}, {}).value;
+    const auto said = comparedWithPlan("# physvib 1 plan=study hash=" + trials.common("hash") +
+                                           " participants=1\n- test: t of threshold by a\n",
+                                       "plan", trials, {"t of point of subjective equality by a"})
+                          .value;
+    ASSERT_EQ(said.size(), 3u);
+    EXPECT_EQ(said[1], "Protocol, number of participants and tests are as planned.");
 }
 
 TEST(ReportSentences, EachIsThereOnlyWhereRowsMakeItTrue) {
