@@ -65,7 +65,7 @@ TEST_F(Report, TheTestsAreThoseOfTheScriptBesideIt) {
     for (const char* words :
          {"analysis of variance of realism by A, F, DR\n  A: F(1, 4) = ",
           "analysis of variance of liking by A, F, DR\n", "pairs by t of liking by A, F, DR\n",
-          "over scales, A: Holm&#39;s p of 2 tests: realism "})
+          "over scales, A: Holm&#39;s p of 3 tests: realism "})
         EXPECT_EQ(count(page(), words), 1u) << words;
     EXPECT_TRUE(has(page(), ", R version ")) << "whose figures these are";
 }

@@ -297,7 +297,7 @@ std::string UnfinishedRun::words() const {
            (missing.empty() ? " did not finish " + session + " in " + condition
                             : ": the file lacks " + missing + " of " + session + " in " + condition) +
            ": " + std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +
-           (isOver       ? ", and its levels end for all that"
+           (isOver       ? ", which bring it to its end"
             : isAdaptive ? ", so this threshold is left out of means and tests"
             : trials > 0 ? ", which means count like the whole, and tests where no level is lacking"
                          : "");
@@ -330,11 +330,12 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
         std::string words;
         int next = 1;
         for (const int number : numbers[run]) {
-            for (; next < number; ++next)
-                words.append(words.empty() ? "" : ", ").append(std::to_string(next));
+            if (number > next)
+                words += (words.empty() ? "" : ", ") + std::to_string(next) +
+                         (number > next + 1 ? " to " + std::to_string(number - 1) : "");
             next = number + 1;
         }
-        return words.empty() ? words : (words.find(',') == words.npos ? "trial " : "trials ") + words;
+        return words.empty() ? words : (words.find(' ') == words.npos ? "trial " : "trials ") + words;
     };
     std::vector<UnfinishedRun> unfinished;
     for (const std::string& who : people)

@@ -103,8 +103,8 @@ struct UnfinishedRun {
     std::size_t trials = 0;  ///< rows of it
     std::size_t planned = 0; ///< of the protocol; of a staircase or a precision: the most
     bool isAdaptive = false; ///< its threshold rests on too few trials
-    std::string missing{};   ///< "trials 3, 8": not in the file, though later ones are
-    bool isOver = false;     ///< for all that, its levels came to their end
+    std::string missing{};   ///< "trials 3, 8 to 9": not in the file, though later ones are
+    bool isOver = false;     ///< its other rows bring it to its end
 
     std::string words() const;
 };

@@ -361,7 +361,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
   design <- design.of(d, columns); factors <- c(design$within, design$between)
   if (kind == "magnitudes" && length(unique(d$level_db)) > 1) { design$over <- c(design$over, "level_db"); design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over, level by level")) }
-  if (zeros > 0) design$notes <- c(design$notes, paste(zeros, "magnitudes of 0, which has no logarithm, left out"))
+  if (zeros > 0) design$notes <- c(design$notes, paste(zeros, if (zeros == 1) "magnitude" else "magnitudes", "of 0, which has no logarithm, left out"))
   if (length(design$notes) > 0) cat(what, "\n", sep = "")
   for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over.*", "not tested", note))
   if (length(factors) == 0) return(invisible())

@@ -259,27 +259,20 @@ using Run = std::vector<const LevelTrial*>; // one participant's trials of a ses
 /// Levels that stayed though as many answers in a row moved others: the ends of a staircase's levels.
 std::set<double> endsOf(const Run& run) {
     std::set<double> ends;
-    std::array<std::size_t, 2> enough{run.size(), run.size()}; // wrong, right
+    const int none = static_cast<int>(run.size());
+    std::array<int, 2> enough{none, none}; // wrong, right
     for (const bool isKnown : {false, true}) {
-        std::size_t inARow = 0;
-        bool isWhole = run.empty() || run.front()->gaps == 0; // no answer in a row is lacking
+        int inARow = run.empty() || run.front()->gaps == 0 ? 0 : -none; // behind a gap nobody knows how many
         for (std::size_t i = 0; i + 1 < run.size(); ++i) {
-            const bool isRight = run[i]->value > 0.5;
+            const bool isRight = run[i]->value > 0.5, isNext = run[i + 1]->gaps == run[i]->gaps;
             const double move = run[i + 1]->levelDb - run[i]->levelDb;
-            const bool isOther = i > 0 && (run[i - 1]->value > 0.5) != isRight;
+            const bool isOther = i > 0 && inARow != -none && (run[i - 1]->value > 0.5) != isRight;
             inARow = isOther ? 1 : inARow + 1;
-            isWhole |= isOther && run[i - 1]->gaps == run[i]->gaps;
-            if (run[i + 1]->gaps != run[i]->gaps) {
-                inARow = 0, isWhole = false;
-                continue;
-            }
-            if (!isWhole)
-                isWhole = move != 0.0;
-            else if (isRight ? move < 0.0 : move > 0.0)
-                enough[isRight] = std::min(enough[isRight], inARow);
-            else if (isKnown && inARow >= enough[isRight])
+            if (isNext && (isRight ? move < 0.0 : move > 0.0))
+                enough[isRight] = inARow > 0 ? std::min(enough[isRight], inARow) : enough[isRight];
+            else if (isNext && isKnown && inARow >= enough[isRight])
                 ends.insert(run[i]->levelDb);
-            if (move != 0.0) inARow = 0;
+            if (!isNext || move != 0.0) inARow = isNext ? 0 : -none;
         }
     }
     return ends;

@@ -184,7 +184,7 @@ rows(d)
 ours <- told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes")); logs <- tapply(log10(d$value), d$participant, mean); in.a <- tapply(d$group == "a", d$participant, all)
 same("logarithms by ranks", line(ours, "group: a - b")$p, exact.p(logs[in.a], logs[!in.a]))
 d$value[3] <- 0; rows(d)
-if (!any(grepl("1 magnitudes of 0", told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes"))$note))) fault("a magnitude of 0 goes without a word")
+if (!any(grepl("1 magnitude of 0", told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes"))$note))) fault("a magnitude of 0 goes without a word")
 if (!any(grepl("levels (2, column level_db of trials.csv): averaged over", ours$note, fixed = TRUE))) fault("levels that are averaged over are not told")
 # People who lack levels, in a mixed model of all: the likelihood ratios of lmer's own formulas, with factors within and between.
 if (requireNamespace("lme4", quietly = TRUE)) {
