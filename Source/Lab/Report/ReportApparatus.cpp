@@ -6,6 +6,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Files/TrialLog.h"
+#include "Lab/Report/BidsDataset.h"
 #include "Lab/Report/ProtocolWords.h"
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Study/StudyPlan.h"
@@ -128,13 +129,8 @@ std::string meaningOf(std::string_view column, const Moved& all) {
                             : "in dB of " + listed(moved) + " at 0 dB (a ratio: 20 dB is 10 times as much)");
         return words + "; where participants set a level, that at the start. ";
     }
-    if (column == trialColumns::peakG)
-        return "peak_g: the peak of the signal that left for the strongest actuator, of each part of a "
-               "trial, times the full scale that its layout states, in g. ";
-    if (column == trialColumns::rmsG) return "rms_g: its root mean square, likewise. ";
-    if (column == trialColumns::exposure)
-        return "a8_m_per_s2: the participant's exposure up to there, A(8) by ISO 5349-1. ";
-    return {};
+    const std::string words{column};
+    return words + ": " + columnMeaning(column) + (column == trialColumns::peakG ? ", in g. " : ". ");
 }
 
 /// How the columns in g come about.
