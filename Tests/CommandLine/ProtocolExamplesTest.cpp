@@ -32,7 +32,7 @@ TEST_F(ProtocolExamples, AreCheckedRunAndReported) {
             call("report " + name + "/*.csv --protocol " + name + ".json --out " + name + "-report");
         ASSERT_EQ(reported.exitCode, 0) << name << ": " << reported.err;
         const std::string page = read(name + "-report/index.html");
-        for (const char* untrue : {"no description is known", " did not finish "})
+        for (const char* untrue : {"no means are known", " did not finish "})
             EXPECT_EQ(page.find(untrue), std::string::npos) << name << ": " << untrue;
     }
 }

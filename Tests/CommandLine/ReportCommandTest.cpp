@@ -65,7 +65,7 @@ TEST_F(Report, TheTestsAreThoseOfTheScriptBesideIt) {
     for (const char* words :
          {"analysis of variance of realism by A, F, DR\n  A: F(1, 4) = ",
           "analysis of variance of liking by A, F, DR\n", "pairs by t of liking by A, F, DR\n",
-          "over all scales, A: Holm&#39;s p realism "})
+          "over scales, A: Holm&#39;s p of 3 tests: realism "})
         EXPECT_EQ(count(page(), words), 1u) << words;
     EXPECT_TRUE(has(page(), ", R version ")) << "whose figures these are";
 }
@@ -381,7 +381,7 @@ TEST_F(Report, UnknownTrialsHaveTheirTableAndAreTold) {
     write("t.csv", "when,what\n1,a\n");
     const auto outcome = call("report t.csv --out out");
     EXPECT_EQ(outcome.exitCode, 0);
-    EXPECT_TRUE(has(outcome.err, "no description is known for these trials")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "no means are known of these columns")) << outcome.err;
     EXPECT_TRUE(has(page(), "<td>a</td>"));
 }
 

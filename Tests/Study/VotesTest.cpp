@@ -61,6 +61,17 @@ TEST(Votes, RatingsAlsoShowTheLevelsOfFactors) {
     EXPECT_EQ(summaries[1].condition + ", " + summaries[2].condition, "f=2 l=1, f=1");
 }
 
+TEST(Votes, ALevelCountsATrialOnceAndItsConditionsAlike) {
+    const auto summaries = summariseRatings({{"P1", "f=2 l=1 & f=2 l=2", {80}},
+                                             {"P1", "f=2 l=1 & f=2 l=2", {60}},
+                                             {"P1", "f=1 l=1 & f=2 l=2", {40}},
+                                             {"P1", "f=1 l=1 & f=1 l=2", {40}}});
+    const auto two = std::ranges::find(summaries, "f=2", &RatingSummary::condition);
+    ASSERT_NE(two, summaries.end());
+    EXPECT_EQ(two->trials, 3u);
+    EXPECT_NEAR(two->means[0], 55.0, 1e-12);
+}
+
 TEST(Votes, OneRatingHasNoIntervalAndNoNumberIsMissing) {
     const auto summaries = summariseRatings({{"", "AV-FV-DRV", {80}}});
     EXPECT_EQ(summaries.at(0).deviations[0] + summaries[0].halfIntervals[0], 0.0);
@@ -68,24 +79,29 @@ TEST(Votes, OneRatingHasNoIntervalAndNoNumberIsMissing) {
 
 TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
     std::vector<LevelTrial> trials;
-    const auto add = [&](const char* who, const std::vector<double>& levels, const std::string& answers) {
+    const auto add = [&](const char* who, const std::vector<double>& levels, const std::string& answers,
+                         const char* session = "", std::size_t gaps = 0) {
         for (std::size_t i = 0; i < levels.size(); ++i)
-            trials.push_back(
-                {LevelTrial::Kind::staircase, who, "A", who, levels[i], answers[i] == 'r' ? 1.0 : 0.0});
+            trials.push_back({LevelTrial::Kind::staircase, who, "A", who, levels[i],
+                              answers[i] == 'r' ? 1.0 : 0.0, session, "", gaps});
     };
     add("P1", {8, 8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrrwrrwrrw"); // turns at 4, 5, 4.5 and 5
     add("P2", {2, 1}, "rr");
     add("P3", {1, 1, 0, 0, 0, 1, 1, 0, 1}, "rrrrwrrwr"); // two right at 0, which is as low as it goes
+    add("P4", {8, 8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrrwrrwrrw", "main/1");
+    add("P4", {2, 1}, "rr", "main/2");
+    add("P5", {8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrwrrwrrw", "", 1); // its first row is not there
     const auto summaries = summariseLevels(trials);
-    EXPECT_EQ(summaries.at(0).reversals, 4u) << "of who has a threshold";
-    EXPECT_EQ(summaries[0].trials, 11u);
-    EXPECT_EQ(summaries[0].participants, 1u);
+    EXPECT_EQ(summaries.at(0).reversals, 8u) << "of who has a threshold";
+    EXPECT_EQ(summaries[0].trials, 21u);
+    EXPECT_EQ(summaries[0].participants, 2u);
     EXPECT_NEAR(summaries[0].estimate, 4.75, 1e-12);
     EXPECT_EQ(summaries[0].leftOut.at(0),
               "participant P2 left out: a staircase has fewer than two reversals");
-    EXPECT_EQ(
-        summaries[0].leftOut.at(1),
-        "participant P3 left out: half or more of the reversals that count were at an end of its levels");
+    EXPECT_EQ(summaries[0].leftOut.at(1), "participant P3 left out: a staircase had half or more of the "
+                                          "reversals that count at an end of its levels");
+    EXPECT_EQ(summaries[0].leftOut.at(2), "participant P4 left out: staircase 2 of main has fewer than two "
+                                          "reversals; a threshold is the mean of 2 staircases");
 }
 
 TEST(LevelTrials, MatchesAreMeansAndMagnitudesGeometricMeans) {

@@ -123,6 +123,13 @@ void analyseRatings(const RatingData& data, const Findings& to) {
                 : intervals.contains(true) ? "participants"
                                            : "trials, of one participant")
             << '\n';
+    std::set<std::string> conditions;
+    for (const auto& session : data.conditions)
+        for (const RatingTrial& trial : session.trials)
+            conditions.insert(inSession(trial.condition, session.name));
+    if (summaries.size() > conditions.size())
+        out << "of a factor's level a participant has the mean of their means of all conditions whose names "
+               "have it\n";
     report.picture = [scales, summaries, isSimulated = data.isSimulated] {
         return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, summaries);
     };

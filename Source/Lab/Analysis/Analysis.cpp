@@ -30,7 +30,7 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
                                               ": of no built-in protocol: whether all levels came to their "
                                               "end is known to `physvib report --protocol`");
             for (const UnfinishedRun& run : unfinishedRuns(trials.value))
-                if (run.isAdaptive &&
+                if (run.isAdaptive && !run.isOver &&
                     std::erase_if(data.value.conditions.front().trials,
                                   [&](const LevelTrial& trial) {
                                       return trial.participant == run.participant &&
@@ -135,7 +135,7 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
             found.insert("places");
         if (has("c1")) found.insert("percent-counts");
         if (has("choice")) found.insert("choices");
-        if ((has("value") && has("stimulus")) || (has("level_db") && has("correct"))) found.insert("levels");
+        if (has("value") || (has("level_db") && has("correct"))) found.insert("levels");
         const bool hasScale =
             std::ranges::any_of(table.columns, [](const auto& column) { return !trialColumns::has(column); });
         if (found.empty() && has("participant") && (has("stimulus") || has("condition") || has("group")) &&

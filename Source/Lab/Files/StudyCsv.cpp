@@ -296,11 +296,12 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
         (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty() ||
          (tasks && row.cells[rows.required("level_db")].empty())))
         return std::nullopt;
-    LevelTrial trial{answer == AnswerKind::level    ? LevelTrial::Kind::adjustment
-                     : answer == AnswerKind::number ? LevelTrial::Kind::magnitude
-                                                    : LevelTrial::Kind::staircase,
-                     StudyRows::textIf(row, rows.optional("participant")), rows.conditionOf(row),
-                     rows.text(row, rows.required("stimulus"))};
+    LevelTrial trial{
+        answer == AnswerKind::level    ? LevelTrial::Kind::adjustment
+        : answer == AnswerKind::number ? LevelTrial::Kind::magnitude
+                                       : LevelTrial::Kind::staircase,
+        StudyRows::textIf(row, rows.optional("participant")), rows.conditionOf(row),
+        StudyRows::textIf(row, rows.optional(rows.optional("stimulus") ? "stimulus" : "level_db"))};
     if (trial.kind == LevelTrial::Kind::staircase) {
         trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
         trial.session = StudyRows::textIf(row, rows.optional("session"));
@@ -331,8 +332,14 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     const bool hasMatches = std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
         return task && answerOf(row.cells[*task]) == AnswerKind::level && !isTraining(row);
     });
+    const auto number = rows.optional("trial"); // of a session, in our own files
+    std::map<std::array<std::string, 3>, std::pair<int, std::size_t>> followed; // last number, gaps
     for (const CsvRow& row : rows.table().rows) {
         const auto answer = task ? answerOf(row.cells[*task]) : std::nullopt;
+        const auto named = [&](const char* column) { return StudyRows::textIf(row, rows.optional(column)); };
+        auto& [last, gaps] = followed[{named("participant"), named("condition"), named("session")}];
+        if (const int own = task && number ? parseNumber<int>(row.cells[*number]).value_or(0) : 0; own > 0)
+            gaps += own > last + 1, last = own;
         if (isTraining(row) && (answer != AnswerKind::level || hasMatches)) continue;
         if (answer == AnswerKind::wish) continue; // explorations have no stimulus
         if (task ? answer == AnswerKind::number : rows.optional("value").has_value()) {
@@ -344,10 +351,13 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
             ofTraining += isTraining(row);
+            trial->gaps = gaps;
             conditionNamed(rows, data, {}).push_back(std::move(*trial));
         }
     }
     if (ofTraining > 0) data.warnings.emplace_back("levels were set in a training, and no others: it counts");
+    if (taken > 0 && !rows.optional("stimulus") && rows.optional("level_db") && rows.optional("value"))
+        data.warnings.push_back(rows.table().name + " has no column stimulus: level_db (dB) stands for it");
     if (zeros > 0)
         data.warnings.push_back(counted(zeros, "magnitude") + " of 0, which has no logarithm, left out");
     return taken;

@@ -50,10 +50,11 @@ std::string vectorInR(const std::vector<std::string>& words) {
 } // namespace
 
 std::string analysisScript(const std::string& study, const std::vector<std::string>& scales,
-                           const std::vector<std::string>& points) {
+                           const std::vector<std::string>& points, const std::string& half) {
     std::string text = embedded(analysisScriptName);
     text += "study(" + inR(study) + ", " + vectorInR(scales) +
-            (points.empty() ? "" : ", " + vectorInR(points)) + ")\n";
+            (points.empty() ? "" : ", " + vectorInR(points)) + (half.empty() ? "" : ", half = " + inR(half)) +
+            ")\n";
     return withOrigin(study, text);
 }
 

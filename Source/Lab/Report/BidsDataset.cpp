@@ -71,6 +71,10 @@ std::string description(const BidsWords& words) {
 
 } // namespace
 
+std::string columnMeaning(std::string_view column) {
+    return meanings().at(std::string{column}).at("Description").get<std::string>();
+}
+
 std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const BidsWords& words) {
     std::map<std::string, std::string> files;
     const auto participant = trials.column("participant");

@@ -21,4 +21,7 @@ struct BidsWords {
 /// column `participant`. Codes that differ only in hyphens get a number. Any thread (allocates).
 std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const BidsWords& words);
 
+/// What a column of our own trial files means. Any thread (allocates).
+std::string columnMeaning(std::string_view column);
+
 } // namespace physvib

@@ -6,8 +6,10 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Files/TrialLog.h"
+#include "Lab/Report/BidsDataset.h"
 #include "Lab/Report/ProtocolWords.h"
 #include "Lab/Report/ReportBuilder.h"
+#include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <array>
@@ -100,9 +102,6 @@ void tellApparatus(ReportBuilder& report) {
     report.addTable("apparatus.csv", table.text());
     for (const std::string& sentence : sentencesOf(kinds)) report.page.paragraph(sentence);
     tellNoise(report, kinds);
-    if (kinds.size() > 1)
-        report.page.note("trials had " + std::to_string(kinds.size()) +
-                         " different settings of the apparatus");
 }
 
 // Report section on levels and exposure, from the columns level_db, peak_g, rms_g and a8_m_per_s2.
@@ -130,13 +129,8 @@ std::string meaningOf(std::string_view column, const Moved& all) {
                             : "in dB of " + listed(moved) + " at 0 dB (a ratio: 20 dB is 10 times as much)");
         return words + "; where participants set a level, that at the start. ";
     }
-    if (column == trialColumns::peakG)
-        return "peak_g: the peak of the signal that left for the strongest actuator, of each part of a "
-               "trial, times the full scale that its layout states, in g. ";
-    if (column == trialColumns::rmsG) return "rms_g: its root mean square, likewise. ";
-    if (column == trialColumns::exposure)
-        return "a8_m_per_s2: the participant's exposure up to there, A(8) by ISO 5349-1. ";
-    return {};
+    const std::string words{column};
+    return words + ": " + columnMeaning(column) + (column == trialColumns::peakG ? ", in g. " : ". ");
 }
 
 /// How the columns in g come about.
@@ -234,48 +228,27 @@ Orders ordersOf(const CsvTable& all) {
     return orders;
 }
 
-std::string balanceWords(const Orders& orders, const std::set<std::string>& conditions) {
-    std::map<std::pair<std::string, std::size_t>, std::size_t> atPlace;
-    std::set<std::pair<std::string, std::string>> successions;
-    for (const auto& [participant, order] : orders)
-        for (std::size_t place = 0; place < order.size(); ++place) {
-            ++atPlace[{order[place], place}];
-            if (place > 0) successions.emplace(order[place - 1], order[place]);
-        }
-    std::size_t fewest = orders.size(), most = 0;
-    for (const std::string& condition : conditions)
-        for (std::size_t place = 0; place < conditions.size(); ++place) {
-            const std::size_t count = atPlace[{condition, place}];
-            fewest = std::min(fewest, count), most = std::max(most, count);
-        }
-    return "A condition was at one place of the order " + std::to_string(fewest) +
-           (most > fewest ? " to " + std::to_string(most) : std::string{}) + " times; " +
-           std::to_string(successions.size()) + " of " +
-           std::to_string(conditions.size() * (conditions.size() - 1)) +
-           " successions of two conditions occurred.";
-}
-
-std::set<std::string> orderedConditions(const Orders& orders) {
-    std::set<std::string> all;
-    for (const auto& [participant, order] : orders) all.insert(order.begin(), order.end());
-    return all;
-}
-
 } // namespace
 
 void tellOrders(ReportBuilder& report) {
     // rows of other programs may be sorted, so their order is unknown
     if (!report.trials.knowTasks() || !report.trials.all.column("trial")) return;
     const Orders orders = ordersOf(report.trials.all);
-    const auto conditions = orderedConditions(orders);
-    if (conditions.size() < 2) return;
+    std::vector<std::vector<std::string>> each;
+    for (const auto& [participant, order] : orders) each.push_back(order);
+    const OrderBalance balance = orderBalance(each);
+    if (balance.possibleSuccessions == 0) return;
     ExportTable table{"orders", report.isSimulated(), "participant,place,condition"};
     for (const auto& [participant, order] : orders)
         for (std::size_t place = 0; place < order.size(); ++place)
             table.row(participant, place + 1, order[place]);
     report.addTable("orders.csv", table.text());
     report.page.subheading("Orders of the conditions");
-    report.page.paragraph(balanceWords(orders, conditions));
+    report.page.paragraph(
+        "A condition was at one place of the order " + std::to_string(balance.fewestAtPlace) +
+        (balance.mostAtPlace > balance.fewestAtPlace ? " to " + std::to_string(balance.mostAtPlace) : "") +
+        " times; " + std::to_string(balance.successions) + " of " +
+        std::to_string(balance.possibleSuccessions) + " successions of two conditions occurred.");
     report.page.table(table.text(), "orders.csv", 200, true);
 }
 

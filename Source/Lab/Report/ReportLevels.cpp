@@ -149,7 +149,7 @@ void tellLevels(ReportBuilder& report) {
             {levelChart(report.frame("Matched levels"), summaries, LevelTrial::Kind::adjustment)},
             "Levels that were set by adjustment: means" + report.intervals() + ".");
     tellThresholds(report, trials, summaries);
-    if (has(LevelTrial::Kind::magnitude)) tellMagnitudes(report);
+    if (has(LevelTrial::Kind::magnitude) && report.trials.all.column("stimulus")) tellMagnitudes(report);
 }
 
 } // namespace physvib

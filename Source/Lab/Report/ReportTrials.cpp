@@ -293,9 +293,12 @@ bool hasAdaptiveRows(const ReportTrials& trials) {
 }
 
 std::string UnfinishedRun::words() const {
-    return "participant " + participant + " did not finish " + session + " in " + condition + ": " +
-           std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +
-           (isAdaptive   ? ", so this threshold is left out of means and tests"
+    return "participant " + participant +
+           (missing.empty() ? " did not finish " + session + " in " + condition
+                            : ": the file lacks " + missing + " of " + session + " in " + condition) +
+           ": " + std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +
+           (isOver       ? ", which bring it to its end"
+            : isAdaptive ? ", so this threshold is left out of means and tests"
             : trials > 0 ? ", which means count like the whole, and tests where no level is lacking"
                          : "");
 }
@@ -306,16 +309,34 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
         return {};
     std::map<RunKey, Answers> runs;
     std::vector<std::string> people;
+    std::map<RunKey, std::set<int>> numbers;
+    const auto keyOf = [&](const CsvRow& row) {
+        return RunKey{cell(row, "participant"), cell(row, "condition"), cell(row, "session")};
+    };
+    const auto isNumbered = [&](const CsvRow& row) {
+        numbers[keyOf(row)].insert(parseNumber<int>(cell(row, "trial")).value_or(1));
+    };
     for (const CsvRow& row : trials.all.rows) {
         const std::string& who = cell(row, "participant");
+        isNumbered(row);
         if (std::ranges::find(people, who) == people.end()) people.push_back(who);
         const auto staircase = parseNumber<std::size_t>(cell(row, trialColumns::staircase));
-        runs[{who, cell(row, "condition"), cell(row, "session")}].push_back(
+        runs[keyOf(row)].push_back(
             {cell(row, "correct") == "1", staircase.value_or(1) - 1, cell(row, trialColumns::ranOut) == "1"});
     }
     std::map<RunKey, std::size_t> notLeft; // answered, though no evidence
-    for (const CsvRow& row : trials.notLeft)
-        ++notLeft[{cell(row, "participant"), cell(row, "condition"), cell(row, "session")}];
+    for (const CsvRow& row : trials.notLeft) ++notLeft[keyOf(row)], isNumbered(row);
+    const auto missingOf = [&](const RunKey& run) {
+        std::string words;
+        int next = 1;
+        for (const int number : numbers[run]) {
+            if (number > next)
+                words += (words.empty() ? "" : ", ") + std::to_string(next) +
+                         (number > next + 1 ? " to " + std::to_string(number - 1) : "");
+            next = number + 1;
+        }
+        return words.empty() ? words : (words.find(' ') == words.npos ? "trial " : "trials ") + words;
+    };
     std::vector<UnfinishedRun> unfinished;
     for (const std::string& who : people)
         for (const ConditionPlan& planned : trials.protocol->conditions)
@@ -324,10 +345,11 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
                 const Answers& answers = runs[{who, planned.name, plan.name}];
                 const std::size_t most =
                     static_cast<std::size_t>(mostTrialsOf(plan, stimuliOf(planned).size()));
-                if (isUnfinished(plan, answers,
-                                 most - std::min(most, notLeft[{who, planned.name, plan.name}])))
+                const RunKey key{who, planned.name, plan.name};
+                const bool isOver = !isUnfinished(plan, answers, most - std::min(most, notLeft[key]));
+                if (const std::string missing = missingOf(key); !isOver || !missing.empty())
                     unfinished.push_back({who, planned.name, plan.name, answers.size(), most,
-                                          plan.adaptedAlternative() != nullptr});
+                                          plan.adaptedAlternative() != nullptr, missing, isOver});
             }
     return unfinished;
 }

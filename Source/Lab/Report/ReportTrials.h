@@ -97,12 +97,14 @@ bool hasAdaptiveRows(const ReportTrials& trials);
 
 // Sessions of the protocol that a participant's rows do not bring to their end.
 
-/// A session in a condition that ended before the protocol ends it.
+/// A session in a condition that ended before the protocol ends it, or lacks rows.
 struct UnfinishedRun {
     std::string participant, condition, session;
     std::size_t trials = 0;  ///< rows of it
     std::size_t planned = 0; ///< of the protocol; of a staircase or a precision: the most
     bool isAdaptive = false; ///< its threshold rests on too few trials
+    std::string missing{};   ///< "trials 3, 8 to 9": not in the file, though later ones are
+    bool isOver = false;     ///< its other rows bring it to its end
 
     std::string words() const;
 };

@@ -112,8 +112,9 @@ void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
     if (!data || !report.trials.knowTasks() || std::ranges::none_of(data.value.conditions, hasLevels)) return;
     report.page.subheading("Psychometric functions");
     const bool isFitted = report.analysis("psychometric", fit, "psychometric-stimuli.csv").error.empty();
-    tellFunctions(report, data.value, fit.model, fitWords(report.trials.columns, fit.level, measure),
-                  isFitted);
+    const FitWords words = fitWords(report.trials.columns, fit.level, measure);
+    report.half = words.half(fit.model);
+    tellFunctions(report, data.value, fit.model, words, isFitted);
 }
 
 } // namespace

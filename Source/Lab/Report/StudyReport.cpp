@@ -5,6 +5,7 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
 #include "Io/Text/CsvText.h"
+#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Report/AnalysisScript.h"
@@ -111,13 +112,15 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
         if (std::ranges::find(kinds, section.analysis) != kinds.end()) section.tell(report);
     if (!tellDescriptions(report) && kinds.empty()) {
         made.notes.emplace_back(
-            "no description is known for these trials: the report has their table and the participants");
+            "no means are known of these columns: the report has their table, the participants, and what "
+            "analysis.R tests");
         report.page.heading("Results");
         report.page.note(made.notes.back());
         report.page.table(report.tableText(trialsTable), trialsTable);
     }
     if (report.people() > 1) {
-        made.files[analysisScriptName] = analysisScript(studyWords(trials), report.scales, inPoints(trials));
+        made.files[analysisScriptName] =
+            analysisScript(studyWords(trials), report.scales, inPoints(trials), report.half);
         tellTests(report, made, script);
     }
     if (!trials.facts.plan.empty()) {
@@ -300,12 +303,21 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
             "nothing to test; the scripts can be.");
         return sentences;
     }
-    for (const std::string& test : tests)
-        if (!planned.contains(test)) sentences.push_back("Not planned: " + test);
-    for (const std::string& test : planned)
-        if (std::ranges::find(tests, test) == tests.end()) sentences.push_back("Planned, not done: " + test);
+    std::string renamed;
+    for (std::string test : tests) {
+        if (const auto at = test.find(FitWords::equality); at != test.npos && !planned.contains(test)) {
+            test.replace(at, std::string_view{FitWords::equality}.size(), FitWords::threshold); // of older
+                                                                                                // plans
+            if (planned.contains(test))
+                renamed = std::string{"What the plan calls "} + FitWords::threshold + " is the " +
+                          FitWords::equality + ": no answer is right.";
+        }
+        if (planned.erase(test) == 0) sentences.push_back("Not planned: " + test);
+    }
+    for (const std::string& test : planned) sentences.push_back("Planned, not done: " + test);
     if (sentences.size() == 1)
         sentences.emplace_back("Protocol, number of participants and tests are as planned.");
+    if (!renamed.empty()) sentences.push_back(renamed);
     return sentences;
 }
 

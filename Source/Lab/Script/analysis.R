@@ -257,8 +257,8 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
     })
     ps <- sapply(tests, function(one) one$p)
     corrected <- p.adjust(ps, correction, length(ps))
-    if (!is.within) cat("  ", f, ": ", paste0(names(own), " n = ", lengths(own), ", mean ", sapply(own, function(y) format(signif(mean(y), 4), digits = 4)),
-                        sapply(own, function(y) if (length(y) > 1) paste(", standard deviation", format(signif(sd(y), 3), digits = 3)) else ""), collapse = "; "), "\n", sep = "")
+    if (!is.within) cat("  ", f, ": ", paste0(names(own), " n = ", lengths(own), sapply(own, function(y) paste(if (by == "t") ", mean" else ", median", format(signif(if (by == "t") mean(y) else median(y), 4), digits = 4))),
+                        sapply(own, function(y) if (by == "t" && length(y) > 1) paste(", standard deviation", format(signif(sd(y), 3), digits = 3)) else ""), collapse = "; "), "\n", sep = "")
     for (k in seq_along(tests)) {
       one <- tests[[k]]; effect <- paste0(f, ": ", two[[k]][1], " - ", two[[k]][2])
       if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = "the differences do not vary")
@@ -325,22 +325,22 @@ factor.names <- function(column, d) {
 # The factors that rows vary in: of which everybody has all levels with those of the others (within), or one alone (between). Others are averaged over,
 # and so are more than 12 stimuli without a factor's name beside other factors.
 design.of <- function(d, columns = c("group", "condition", "stimulus")) {
-  out <- list(within = character(), between = character(), notes = character())
+  out <- list(within = character(), between = character(), over = character(), notes = character())
   seen <- list()
   people <- length(unique(d$participant))
   if (!("task" %in% names(d)) && "session" %in% names(d) && any(tapply(d$session, d$participant, function(s) length(unique(s))) > 1))
-    out$notes <- paste0("session (", length(unique(d$session)), "): averaged over")
+    { out$over <- "session"; out$notes <- paste0("session (", length(unique(d$session)), "): averaged over, level by level") }
   for (f in unlist(lapply(columns, factor.names, d))) {
     own <- level(d, f); levels <- unique(own)
     if (length(levels) < 2) next
     if (any(vapply(seen, function(other) nrow(unique(data.frame(other, own))) == length(levels) && length(unique(other)) == length(levels), NA))) next
-    if (anyNA(own)) { out$notes <- c(out$notes, paste(f, "is not of every trial: averaged over")); next }
-    if (f == "stimulus" && length(levels) > 12 && length(seen) > 0) { out$notes <- c(out$notes, paste0("stimulus (", length(levels), "): averaged over")); next }
+    if (anyNA(own)) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste(f, "is not of every trial: averaged over, level by level")); next }
+    if (f == "stimulus" && length(levels) > 12 && length(seen) > 0) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste0("stimulus (", length(levels), "): averaged over, level by level")); next }
     if (all(tapply(own, d$participant, function(l) length(unique(l))) == 1)) out$between <- c(out$between, f)
     else {
       counts <- do.call(table, unname(c(list(d$participant), lapply(c(out$within, f), function(one) level(d, one)))))
       whole <- sum(apply(counts > 0, 1, all))
-      if (whole < max(2, people / 2)) { out$notes <- c(out$notes, paste0(f, ": ", whole, " of ", people, " participants have all its levels with those of other factors: averaged over")); next }
+      if (whole < max(2, people / 2)) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste0(f, ": ", whole, " of ", people, " participants have all its levels with those of other factors: averaged over, level by level")); next }
       out$within <- c(out$within, f)
     }
     seen[[f]] <- own
@@ -360,11 +360,16 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   zeros <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) <= 0) else 0
   if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
   design <- design.of(d, columns); factors <- c(design$within, design$between)
-  if (kind == "magnitudes" && length(unique(d$level_db)) > 1) design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
-  if (zeros > 0) design$notes <- c(design$notes, paste(zeros, "magnitudes of 0, which has no logarithm, left out"))
+  if (kind == "magnitudes" && length(unique(d$level_db)) > 1) { design$over <- c(design$over, "level_db"); design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over, level by level")) }
+  if (zeros > 0) design$notes <- c(design$notes, paste(zeros, if (zeros == 1) "magnitude" else "magnitudes", "of 0, which has no logarithm, left out"))
   if (length(design$notes) > 0) cat(what, "\n", sep = "")
-  for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over", "not tested", note))
+  for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over.*", "not tested", note))
   if (length(factors) == 0) return(invisible())
+  if (length(design$over) > 0) { # a participant's mean of each level first: not the level that has most rows
+    y <- if (measure %in% names(d)) as.numeric(d[[measure]]) else as.numeric(d[[column]] == sub("^[^=]*=", "", measure))
+    own <- do.call(paste, c(list(d$participant), lapply(c(factors, design$over), function(f) level(d, f)), sep = "\r"))
+    d[[measure]] <- ave(y, own); d <- d[!duplicated(own), ]
+  }
   if (kind == "magnitudes" && length(factors) > 1) kind <- "scores"
   few <- function(some) Filter(function(f) length(unique(level(d, f))) <= most.levels, some)
   name <- paste(what, "by", paste(factors, collapse = ", "))
@@ -377,15 +382,18 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
                correction = if (as.published) "bonferroni" else "holm", between = few(design$between), paired = !as.published)
   if (length(few(factors)) < length(factors)) result(paste("pairs of", name), "factors", "", NA, NA, length(unique(d$participant)), note = "more than 12 levels")
 }
-# Several scales, or shares of several alternatives, ask one question each: Holm's correction over them, effect by effect.
-across <- function(tests, what, statistics = c("F", "chi-squared")) {
-  own <- results$test %in% tests & results$statistic %in% statistics & !is.na(results$p)
-  for (effect in unique(results$effect[own])) {
-    at <- which(own & results$effect == effect)
-    results$p_across[at] <<- p.adjust(ifelse(is.na(results$p_corrected[at]), results$p[at], results$p_corrected[at]), "holm")
-    name <- sub(" by .*", "", sub("^(.* of|pairs by ranks of) ", "", results$test[at]))
-    if (length(at) > 1) cat("over all ", what, ", ", effect, ": Holm's p ", paste(name, ifelse(results$p_across[at] < 1e-4, "< 0.0001",
-                            signif(results$p_across[at], 3)), collapse = ", "), "\n", sep = "")
+# Several scales, or shares of several alternatives, ask one question each: Holm's correction over all tests that were made of an effect. Where some
+# scales have a test of a whole factor, those whose two levels were compared as a pair alone, by ranks, stand beside them.
+across <- function(tests, what, pairs = TRUE) {
+  at <- which(results$test %in% tests & results$statistic %in% c("F", "chi-squared", "V", "W") & !is.na(results$p))
+  name <- sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|(Friedman's|Kruskal and Wallis'|Friedman's and Kruskal and Wallis') test|pairs by ranks) of ", "", results$test[at]))
+  ranks <- results$statistic[at] %in% c("V", "W"); effect <- results$effect[at]; all <- unique(name)
+  if (!pairs && !all(ranks)) { effect[ranks] <- sub(": .*", "", effect[ranks]); own <- !(ranks & name %in% name[!ranks]); at <- at[own]; name <- name[own]; effect <- effect[own] }
+  for (one in unique(effect)) {
+    i <- at[effect == one]; of <- name[effect == one]
+    results$p_across[i] <<- p.adjust(ifelse(is.na(results$p_corrected[i]), results$p[i], results$p_corrected[i]), "holm")
+    if (length(i) > 1) cat("over ", what, ", ", one, ": Holm's p of ", length(i), " tests: ", paste(of, ifelse(results$p_across[i] < 1e-4, "< 0.0001",
+                           signif(results$p_across[i], 3)), collapse = ", "), if (length(no <- setdiff(all, of)) > 0) paste("; none was made of", paste(no, collapse = ", ")), "\n", sep = "")
   }
 }
 # Objects that were rated side by side are levels of a factor; one that was also felt openly, the hidden reference, is looked at.
@@ -435,8 +443,9 @@ single.trials <- function(test, own, measure) { cat(test, "\n", sep = ""); attem
   a <- anova(lm(y ~ id + w1 * w2, rows)); left <- nrow(a)
   for (i in 2:(left - 1)) result(test, c("", "target_column", "target_row", "target_column:target_row")[i], "F", a$F[i], a$`Pr(>F)`[i], nrow(rows), a$Df[i], a$Df[left])
 }) }
-# All tests of a report's folder. `scales`: the columns of ratings; `points`: those of them whose scores are ranks.
-study <- function(study, scales = character(), points = character()) {
+# All tests of a report's folder. `scales`: the columns of ratings; `points`: those of them whose scores are ranks; `half`: what the page calls the level of
+# a half.
+study <- function(study, scales = character(), points = character(), half = "threshold") {
   d <- table.of("trials.csv")
   as.published <<- grepl("protocol [^ ]*-thesis", study)
   if (!("participant" %in% names(d))) return(finish(study))
@@ -484,7 +493,7 @@ study <- function(study, scales = character(), points = character()) {
     before <- unique(results$test)
     columns <- c("group", "condition", if (!file.exists("psychometric-stimuli.csv")) "stimulus") # of levels the function tells more
     for (a in if (length(names) == 2) names[1] else names) compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks", columns)
-    across(setdiff(unique(results$test), before), "alternatives", c("chi-squared", "V", "W"))
+    across(setdiff(unique(results$test), before), "alternatives")
   })
   before <- unique(results$test)
   aside <- character() # sessions whose scales are objects
@@ -501,17 +510,12 @@ study <- function(study, scales = character(), points = character()) {
       compare(paste0(scale, words), own, scale, columns = c("group", "condition"))
     } else compare(paste0(scale, words), own, scale, if (scale %in% points) "ranks" else "scores")
   })
-  if (length(scales) > 1) { # pairs alone, as of points in two conditions, are corrected over scales themselves
-    own <- setdiff(unique(results$test), before)
-    across(own, "scales", if (any(results$statistic[results$test %in% own] %in% c("F", "chi-squared"))) c("F", "chi-squared") else c("V", "W"))
-  }
+  if (length(scales) > 1) across(setdiff(unique(results$test), before), "scales", pairs = FALSE)
   if (file.exists("thresholds.csv")) parts.in(table.of("thresholds.csv"), function(own, session) {
     for (m in unique(own$method)) compare(paste0("threshold by ", m, session), own[own$method == m, ], "threshold", columns = c("group", "condition"))
   }) else from("psychometric.csv", c("threshold", "jnd"))
-  if (file.exists(file <- "psychometric-stimuli.csv")) { # of two answers, none of them right, both ends lapse
-    if (with(table.of(file), all(guess == lapse))) spoken <- c(spoken, threshold = "point of subjective equality")
-    from(file, c("threshold", "jnd"))
-  }
+  spoken <- c(spoken, threshold = half)
+  from("psychometric-stimuli.csv", c("threshold", "jnd"))
   if (!is.told && !any(file.exists(c("identification.csv", "psychometric.csv")))) each("", "correct", function(own, words) compare("share of right answers", own, "correct"))
   each("adjust", "value", function(own, words) if (is.told) compare(paste0("matched levels", words), own, "value"))
   each("estimate", "value", function(own, words) compare(paste0("magnitudes", words), own, "value", "magnitudes"))

@@ -72,15 +72,15 @@ RankInterval rankInterval(std::vector<double> values) {
 namespace {
 
 /// The factors in a condition's name: "size=small" of "pair=wood size=small", the letters of a method.
-std::vector<std::string> factorsOf(const std::string& condition) {
-    std::vector<std::string> factors;
+std::set<std::string> factorsOf(const std::string& condition) {
+    std::set<std::string> factors; // a pair's parts may share them
     for (std::string_view rest = condition; !rest.empty();) {
         std::string_view word = takeUntil(' ', rest);
         RenderingMethod method;
         const bool isMethod = renderingMethodNamed(word, method);
         if (word.find('=') != word.npos || (isMethod && word.size() < condition.size()))
-            factors.emplace_back(word);
-        while (isMethod && !word.empty()) factors.emplace_back(takeUntil('-', word));
+            factors.emplace(word);
+        while (isMethod && !word.empty()) factors.emplace(takeUntil('-', word));
     }
     return factors;
 }
@@ -124,12 +124,18 @@ ChoiceSummary summarise(const std::string& condition, const std::vector<const Ch
 
 using Chosen = std::vector<const RatingTrial*>;
 
+/// Each participant's mean of their means of conditions: none counts more as it has more trials.
 std::vector<double> participantMeans(const Chosen& trials, std::size_t scale) {
-    std::map<std::string, std::vector<double>> scores;
+    std::map<std::string, std::map<std::string, std::vector<double>>> scores;
     for (const auto* trial : trials)
-        if (!std::isnan(trial->scores[scale])) scores[trial->participant].push_back(trial->scores[scale]);
+        if (const double score = trial->scores[scale]; !std::isnan(score))
+            scores[trial->participant][trial->condition].push_back(score);
     std::vector<double> means;
-    for (const auto& [participant, own] : scores) means.push_back(Moments(own).mean);
+    for (const auto& [participant, conditions] : scores) {
+        std::vector<double> own;
+        for (const auto& [condition, values] : conditions) own.push_back(Moments(values).mean);
+        means.push_back(Moments(own).mean);
+    }
     return means;
 }
 
@@ -248,23 +254,25 @@ auto labelKey(const std::string& label) {
     return std::tuple{!isNumber, isNumber ? number : 0.0, std::string_view{label}};
 }
 
-using Run = std::vector<const LevelTrial*>; // one participant's trials of a session
+using Run = std::vector<const LevelTrial*>; // one participant's trials of a session, or of one staircase
 
 /// Levels that stayed though as many answers in a row moved others: the ends of a staircase's levels.
 std::set<double> endsOf(const Run& run) {
     std::set<double> ends;
-    std::array<std::size_t, 2> enough{run.size(), run.size()}; // wrong, right
+    const int none = static_cast<int>(run.size());
+    std::array<int, 2> enough{none, none}; // wrong, right
     for (const bool isKnown : {false, true}) {
-        std::size_t inARow = 0;
+        int inARow = run.empty() || run.front()->gaps == 0 ? 0 : -none; // behind a gap nobody knows how many
         for (std::size_t i = 0; i + 1 < run.size(); ++i) {
-            const bool isRight = run[i]->value > 0.5;
+            const bool isRight = run[i]->value > 0.5, isNext = run[i + 1]->gaps == run[i]->gaps;
             const double move = run[i + 1]->levelDb - run[i]->levelDb;
-            inARow = i > 0 && (run[i - 1]->value > 0.5) != isRight ? 1 : inARow + 1;
-            if (isRight ? move < 0.0 : move > 0.0)
-                enough[isRight] = std::min(enough[isRight], inARow);
-            else if (isKnown && inARow >= enough[isRight])
+            const bool isOther = i > 0 && inARow != -none && (run[i - 1]->value > 0.5) != isRight;
+            inARow = isOther ? 1 : inARow + 1;
+            if (isNext && (isRight ? move < 0.0 : move > 0.0))
+                enough[isRight] = inARow > 0 ? std::min(enough[isRight], inARow) : enough[isRight];
+            else if (isNext && isKnown && inARow >= enough[isRight])
                 ends.insert(run[i]->levelDb);
-            if (move != 0.0) inARow = 0;
+            if (!isNext || move != 0.0) inARow = isNext ? 0 : -none;
         }
     }
     return ends;
@@ -333,13 +341,29 @@ double poolThresholds(const std::map<std::string, Run>& participants, std::vecto
     return deviation;
 }
 
-/// Why this is no threshold; null: it is one.
-const char* faultOf(LevelTrial::Kind kind, const Run& trials, double threshold) {
-    if (kind == LevelTrial::Kind::staircase)
-        return std::isnan(threshold) ? "a staircase has fewer than two reversals"
-               : std::isinf(threshold)
-                   ? "half or more of the reversals that count were at an end of its levels"
-                   : nullptr;
+/// Why these are no threshold, staircase by staircase; empty: they are one.
+std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
+                    const std::vector<double>& each) {
+    if (kind == LevelTrial::Kind::staircase) {
+        std::string words;
+        std::size_t at = 0, bad = 0;
+        for (const auto& [key, run] : runsOf(trials)) {
+            const double own = each[at++];
+            if (std::isfinite(own)) continue;
+            const std::size_t slash = key.first.find('/');
+            words +=
+                (bad++ > 0 ? "; " : "") +
+                (each.size() == 1 ? std::string{"a staircase"}
+                 : slash == std::string::npos
+                     ? "the staircase of " + key.first
+                     : "staircase " + key.first.substr(slash + 1) + " of " + key.first.substr(0, slash)) +
+                (std::isnan(own) ? " has fewer than two reversals"
+                                 : " had half or more of the reversals that count at an end of its levels");
+        }
+        if (bad < each.size() && bad > 0)
+            words += "; a threshold is the mean of " + std::to_string(each.size()) + " staircases";
+        return words;
+    }
     double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();
     for (const LevelTrial* trial : trials) {
         const auto levels = questPlan(trial->quest)->levels;
@@ -347,8 +371,7 @@ const char* faultOf(LevelTrial::Kind kind, const Run& trials, double threshold) 
         least = std::max(least, levels.front() + 0.5 * step),
         most = std::min(most, levels.back() - 0.5 * step);
     }
-    return threshold < least || threshold > most ? "its threshold is at an end of the levels of QUEST+"
-                                                 : nullptr;
+    return threshold < least || threshold > most ? "its threshold is at an end of the levels of QUEST+" : "";
 }
 
 void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>& participants) {
@@ -372,7 +395,7 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
     std::size_t at = 0;
     for (const auto& [participant, trials] : participants) {
         const double threshold = meanOf(own[at++]);
-        if (const char* const why = faultOf(summary.kind, trials, threshold)) {
+        if (const auto why = faultOf(summary.kind, trials, threshold, own[at - 1]); !why.empty()) {
             summary.leftOut.push_back("participant " + participant + " left out: " + why);
             summary.trials -= trials.size();
             summary.reversals -= reversals[at - 1];

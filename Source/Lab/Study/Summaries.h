@@ -158,6 +158,7 @@ struct LevelTrial {
     double levelDb = 0.0;           ///< staircase, QUEST+: level of the trial
     double value = 0.0;             ///< adjustment: dB; magnitude: > 0; else 1 if correct, 0 if not
     std::string session{}, quest{}; ///< QUEST+: the text of its plan (QuestMethod.h)
+    std::size_t gaps = 0; ///< places before it where its session lacks trials, whose answers are not known
 };
 
 struct LevelSummary {

@@ -184,7 +184,7 @@ rows(d)
 ours <- told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes")); logs <- tapply(log10(d$value), d$participant, mean); in.a <- tapply(d$group == "a", d$participant, all)
 same("logarithms by ranks", line(ours, "group: a - b")$p, exact.p(logs[in.a], logs[!in.a]))
 d$value[3] <- 0; rows(d)
-if (!any(grepl("1 magnitudes of 0", told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes"))$note))) fault("a magnitude of 0 goes without a word")
+if (!any(grepl("1 magnitude of 0", told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes"))$note))) fault("a magnitude of 0 goes without a word")
 if (!any(grepl("levels (2, column level_db of trials.csv): averaged over", ours$note, fixed = TRUE))) fault("levels that are averaged over are not told")
 # People who lack levels, in a mixed model of all: the likelihood ratios of lmer's own formulas, with factors within and between.
 if (requireNamespace("lme4", quietly = TRUE)) {
@@ -202,9 +202,9 @@ if (requireNamespace("lme4", quietly = TRUE)) {
   }
 } else cat("lme4 is not here: its models were not tried\n")
 # Objects side by side are a factor; a hidden reference that is rated low is told; points are ranks; groups stand in the table of people.
-whole <- function(d, scales, points = character(), people = NULL) {
+whole <- function(d, scales, points = character(), people = NULL, ...) {
   unlink(c("similarity.csv", "mds.csv", "participants.csv")); rows(d); if (!is.null(people)) rows(people, "participants.csv")
-  results <<- similarity <<- places <<- data.frame(); capture.output(study("of a test", scales, points)); results
+  results <<- similarity <<- places <<- data.frame(); spoken.words <<- capture.output(study("of a test", scales, points, ...)); results
 }
 # A group that stands in the trials alone is a factor of what is computed of them, too.
 d <- data.frame(participant = rep(person(8), each = 3), condition = c("x", "y", "z"), group = rep(c("a", "b"), each = 12), threshold = as.character(rnorm(24)), jnd = "1")
@@ -213,8 +213,8 @@ ours <- whole(d[c("participant", "condition", "group")], NULL)
 same("group of thresholds", line(ours[grepl("^analysis of variance of threshold", ours$test), ], "group")$p,
      anova(lm(y ~ g, data.frame(y = tapply(as.numeric(d$threshold), d$participant, mean), g = rep(c("a", "b"), each = 4))))[["Pr(>F)"]][1])
 if (!any(grepl("Greenhouse and Geisser's p ", capture.output(from <- anova.test("t", "psychometric.csv", "threshold", "condition"))))) fault("the correction is not named")
-d$guess <- d$lapse <- 0.01; rows(d, "psychometric-stimuli.csv"); unlink("psychometric.csv")
-if (!any(grepl("of point of subjective equality by", whole(d, NULL)$test))) fault("half of two answers is called a threshold")
+rows(d, "psychometric-stimuli.csv"); unlink("psychometric.csv")
+if (!any(grepl("of point of subjective equality by", whole(d, NULL, half = "point of subjective equality")$test))) fault("half of two answers is called a threshold")
 unlink("psychometric-stimuli.csv")
 # Sessions of a kind are studies of their own, in tables of the report by the end of their conditions' names.
 d <- expand.grid(condition = c("x", "y", "z"), session = c("early", "late"), participant = person(8), stringsAsFactors = FALSE); d$task <- "choose"; d$phase <- "main"
@@ -247,6 +247,18 @@ ours <- whole(d, "effort"); late <- tapply(d$ran_out, list(d$participant, d$cond
 # Shares of thirds: equal differences are ties, whatever their last binary digit is.
 same("ran out", ours$p[grepl("ran out of time in main", ours$test)], exact.p(round(late[, 1] - late[, 2], 9)))
 same("answers in time", line(ours[!grepl("ran out", ours$test), ], "condition: c1 - c2")$p, t.test(effort[, 1], effort[, 2], paired = TRUE)$p.value)
+# Over scales: scores, points, and points of two conditions, which are compared as a pair alone; interactions are of scores.
+d <- expand.grid(condition = c("x", "y"), stimulus = c("s", "t"), participant = person(9), stringsAsFactors = FALSE); d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$parts <- ""
+d$`ease of use` <- round(rnorm(36, 50, 9) + 5 * (d$condition == "y"), 2); d$rough <- round(rnorm(36, 50, 9), 2); d$agree <- sample(1:5, 36, TRUE) + (d$condition == "y")
+ours <- whole(d, c("ease of use", "rough", "agree"), "agree"); three <- line(ours, "condition"); pair <- ours[ours$effect == "condition: x - y" & ours$statistic == "V", ]
+for (i in 1:2) same("over scales and ranks", three$p_across[i], p.adjust(c(three$p, pair$p), "holm")[i])
+same("ranks over scales", pair$p_across, p.adjust(c(three$p, pair$p), "holm")[3])
+for (words in c("^over scales, condition: Holm's p of 3 tests: ease of use .*, rough .*, agree [^;]*$", "^over scales, condition:stimulus: Holm's p of 2 tests: ease of use .*, rough .*; none was made of agree$"))
+  if (!any(grepl(words, spoken.words))) fault("the tests that are corrected together are not told:", words)
+# What is averaged over counts level by level, though a person has more rows of one.
+d <- expand.grid(level_db = c(0, 6), condition = c("c1", "c2"), participant = person(8), stringsAsFactors = FALSE); d$value <- exp(rnorm(32, 2)); d <- rbind(d, d[c(2, 2, 5, 7, 7), ]); d$value <- round(d$value, 3); rows(d)
+wide <- with(aggregate(log10(value) ~ ., d, mean), tapply(`log10(value)`, list(participant, condition), mean))
+same("levels that are averaged over", line(told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes")), "condition: c1 - c2")$difference, median(wide[, 1] - wide[, 2]))
 # Shares of several alternatives are one question; groups have their Levene's test, around medians.
 d <- expand.grid(trial = 1:9, participant = person(12), condition = c("c1", "c2"), stringsAsFactors = FALSE)
 d$task <- "choose"; d$session <- "main"; d$phase <- "main"; d$stimulus <- ""; d$parts <- "A|B|C"; d$correct <- ""; d$level_db <- ""
@@ -293,5 +305,6 @@ d <- data.frame(participant = person(21), group = rep(c("g", "h", "k"), 7), comf
 ours <- whole(d, c("comfort", "level"))
 same("others' points", line(ours[grepl("of comfort by", ours$test), ], "group")$p, kruskal.test(d$comfort, d$group)$p.value)
 if (!any(grepl("variance of level by", ours$test))) fault("scores are taken as points")
+if (!any(grepl("group: g n = 7, median [1-5.]+; h n = 7, median ", spoken.words))) fault("groups whose medians are compared are told by means")
 cat(faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)
