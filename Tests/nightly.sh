@@ -36,7 +36,7 @@ step() {
         farseer) ensure_packages git mono-mcs mono-runtime && Tests/Engines/farseer.sh build/release ;;
         pymunk) Tests/Api/pymunk.sh $PWD/build/release/lib/libphysvib.so.1 ;;
         quick) Tests/quick.py build/release ;;
-        osc) Tests/Osc/run.sh $bin ;;
+        osc) Tests/Osc/run.sh $bin && Tests/Osc/oscquery.sh ;;
         jalv) ensure_packages jalv && Tests/Plugin/Formats/jalv.sh "$PWD/build/release" 5 ;;
         ardour) ensure_packages $physvib_host_packages && for format in lv2 vst3; do Tests/Plugin/Formats/ardour-song.sh build/release $format || return 1; done ;;
         daws) Tests/Plugin/Formats/Daws/daws.sh build/release build/nightly/daws ;;
