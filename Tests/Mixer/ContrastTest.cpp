@@ -55,7 +55,8 @@ struct Contrasts : testing::TestWithParam<Theme> {
 
     Contrasts() {
         view.setSize(1280, 720);
-        view.setTheme(GetParam());
+        view.setTheme(GetParam() == Theme::dark ? Theme::light : Theme::dark);
+        view.setTheme(GetParam()); // what was written in the other is read in this one
     }
     void expectReadable(const std::string& state) {
         model.dispatchPendingMessages();

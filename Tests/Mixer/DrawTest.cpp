@@ -228,6 +228,10 @@ TEST(Drawing, TheWorldSaysWhyNothingIsFelt) {
     EXPECT_TRUE(says("paused"));
     board.model.setSlowness(1);
     EXPECT_TRUE(says("draw a ball: B"));
+    board.model.change("Scene",
+                       [](Mix& m) { m.scene = std::make_shared<const Scene>(*findBuiltInScene("marbles")); });
+    board.model.dispatchPendingMessages();
+    EXPECT_FALSE(says("draw a ball: B")) << "its script does";
     board.model.setSilent(true);
     EXPECT_TRUE(says("silent"));
 }

@@ -234,7 +234,8 @@ void FirstStart::end(bool hasChosen) {
 
 bool FirstStart::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
-    if (key == KeyPress::escapeKey) return end(tested_ >= 0), false; // and it silences
+    if (const bool isTest = tested_ >= 0; key == KeyPress::escapeKey)
+        return end(isTest), !isTest; // after a test it silences: the world goes on
     if (tested_ < 0) {
         if (key == KeyPress::upKey) return choose(chosen_ - 1), true;
         if (key == KeyPress::downKey) return choose(chosen_ + 1), true;

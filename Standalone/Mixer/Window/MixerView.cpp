@@ -42,6 +42,25 @@ constexpr TabEntry tabEntries[]{
     {false, "Events", make<EventsTab>},       {false, "Takes", make<TakesTab>},
     {false, "Telemetry", make<TelemetryTab>}};
 
+/// What is typed keeps the colour that it was typed in.
+void inkTexts(juce::Component& in) {
+    if (auto* const editor = dynamic_cast<juce::TextEditor*>(&in))
+        editor->applyColourToAllText(shade(in, Shade::text));
+    for (auto* child : in.getChildren()) inkTexts(*child);
+}
+
+/// A path that has no room in a line loses its beginning, and is not broken.
+juce::String fittingWords(const juce::String& words, const juce::Font& font, int room) {
+    auto all = juce::StringArray::fromTokens(words, " ", {});
+    for (auto& word : all)
+        while (room > 40 && text::pixels(font, word) > room) {
+            const auto rest = word.trimCharactersAtStart(dots() + "/");
+            word = dots() + (rest.containsChar('/') ? rest.fromFirstOccurrenceOf("/", true, false)
+                                                    : rest.substring(1));
+        }
+    return all.joinIntoString(" ");
+}
+
 } // namespace
 
 MixerView::MixerView(MixerModel& model)
@@ -107,6 +126,7 @@ MixerView::~MixerView() {
 
 void MixerView::setTheme(Theme theme) {
     look_.setTheme(theme);
+    inkTexts(*this);
     sendLookAndFeelChange();
     mixChanged();
     repaint();
@@ -126,8 +146,8 @@ void MixerView::mixChanged() {
         hintOnLevels(model_, why);
     }
     const bool isTrouble = model_.trouble().isNotEmpty();
-    if (trouble_.getText() != model_.trouble()) newsAtMs_ = nowMs();
-    trouble_.setText(model_.trouble(), juce::dontSendNotification);
+    if (trouble_.getTooltip() != model_.trouble()) newsAtMs_ = nowMs();
+    trouble_.setTooltip(model_.trouble());
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
     const auto tint = shade(*this, model_.isNews() ? Shade::accent : Shade::limit);
     trouble_.setColour(juce::Label::backgroundColourId,
@@ -235,8 +255,8 @@ void MixerView::refresh() {
     tabs_.refresh(latest_); // folded or not: a study goes on there, takes and lanes are followed
     scope_.refresh(latest_);
     strips_.refresh(latest_);
-    constexpr double newsMs = 10e3;                              // it lies over the materials to draw with
-    const bool isShown = trouble_.getText() == model_.trouble(); // the change may not have come yet
+    constexpr double newsMs = 10e3;                                 // it lies over the materials to draw with
+    const bool isShown = trouble_.getTooltip() == model_.trouble(); // the change may not have come yet
     const bool isSeen = !act_->isVisible() || model_.messages().shown().label == "saved";
     if (isShown && model_.isNews() && isSeen && nowMs() - newsAtMs_ > newsMs) model_.report({});
     keepPace();
@@ -277,12 +297,20 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     raiseCard();
 }
 
+// Esc closes a card or a menu; what sounds, or did as long ago as meters hold, is silenced as well.
+bool MixerView::onlyCloses() {
+    if (openCard() == nullptr && juce::Component::getCurrentlyModalComponent() == nullptr) return false;
+    look();
+    return model_.isOnlySeen() || std::ranges::all_of(latest_.holds, [](float h) { return h == 0.0f; });
+}
+
 void MixerView::raiseCard() {
     auto* const open = openCard();
     curtain_.setVisible(open != nullptr);
     if (open == nullptr) return grabKeyboardFocus();
     curtain_.toFront(false);
     addAndMakeVisible(*open);
+    inkTexts(*open);
     open->toFront(false);
     placeCards();
     cardFocus_.give(*open);
@@ -406,9 +434,10 @@ void MixerView::resized() {
         bar_.setBounds(area.removeFromTop(TopBar::lineHeight).removeFromRight(TopBar::showWidth));
     } else {
         bar_.setBounds(area.removeFromTop(bar_.heightFor(getWidth())));
-        const auto a = arrange(area.reduced(edge),
-                               {strips_.widthFor(StripView::width), strips_.widthFor(StripView::mostWidth)},
-                               dividers_, mode_, panels());
+        const auto a =
+            arrange(area.reduced(edge),
+                    {strips_.widthFor(StripView::easyWidth), strips_.widthFor(StripView::mostWidth)},
+                    dividers_, mode_, panels());
         for (const auto& [panel, bounds] :
              std::initializer_list<std::pair<juce::Component*, juce::Rectangle<int>>>{{&world_, a.world},
                                                                                       {&tabs_, a.tabs},
@@ -426,7 +455,11 @@ void MixerView::resized() {
     if (act_->isVisible())
         act_->setBounds(
             buttons.removeFromRight(30 + text::pixels(text::font(text::medium), act_->getButtonText())));
-    trouble_.setBorderSize({0, panelInset, 0, banner.getRight() - buttons.getRight() + 4});
+    const juce::BorderSize<int> around{0, panelInset, 0, banner.getRight() - buttons.getRight() + 4};
+    trouble_.setBorderSize(around);
+    trouble_.setText(fittingWords(trouble_.getTooltip(), trouble_.getFont(),
+                                  banner.getWidth() - around.getLeftAndRight() - 2),
+                     juce::dontSendNotification);
     placeCards();
 }
 

@@ -132,6 +132,7 @@ private:
     void look();
     void moveDivider(double Dividers::*which, int pixels, int whole, int now);
     static void releaseAtRightClick(const juce::MouseEvent& e);
+    bool onlyCloses();
     void raiseCard();
     void showPanels();
     void placeCards();
@@ -167,7 +168,7 @@ private:
     double newsAtMs_ = 0.0;
     std::array<float, limits::maxEnchanters> peaks_{}; // since the strips were updated
     Tips tooltips_{*this};
-    EmergencyStop stop_{*this, [this] { model_.setSilent(true); }};
+    EmergencyStop stop_{*this, [this] { model_.setSilent(true); }, [this] { return onlyCloses(); }};
 };
 
 } // namespace physvib

@@ -50,11 +50,16 @@ void DrawPane::use(DrawTool tool) {
 void DrawPane::setMaterial(int material) {
     material_ = material;
     isPicked_ = true;
-    if (tool_ == DrawTool::choose)
-        changeChosen("Material", [material](const Scene&, BodyDescription& body) {
-            for (auto& fixture : body.fixtures) fixture.material = material;
-        });
+    if (tool_ == DrawTool::choose) giveMaterial(material);
     if (onChange) onChange();
+}
+
+void DrawPane::giveMaterial(int material) {
+    changeChosen("Material", [material](const Scene& scene, BodyDescription& body) {
+        if (scene.materials[static_cast<std::size_t>(material)].frequencyHz <= 0.0)
+            setSource(scene, body, false); // of nothing that does not vibrate
+        for (auto& fixture : body.fixtures) fixture.material = material;
+    });
 }
 
 void DrawPane::setSnapping(bool snaps) {

@@ -648,6 +648,37 @@ TEST(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
     EXPECT_TRUE(model.mix().strips[0].isMuted) << "without a card it does";
 }
 
+TEST(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
+    TestFolder folder;
+    FakeInterface hands;
+    MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("esc.json"), folder("config")};
+    Hand hand{window};
+    auto& view = window.view();
+    auto& model = window.model();
+    const auto isSilentAfterACard = [&] {
+        window.saveAs();
+        EXPECT_TRUE(runUntil([&] { return view.openCard() != nullptr; }));
+        runFor(0.1);
+        hand.key(juce::KeyPress::escapeKey);
+        EXPECT_TRUE(runUntil([&] { return view.openCard() == nullptr; }));
+        return model.isSilent();
+    };
+    model.setSlowness(0);
+    ASSERT_TRUE(runUntil([&] {
+        hands.play(64), view.refresh();
+        return std::ranges::all_of(view.latest().holds, [](float hold) { return hold == 0.0f; });
+    }));
+    EXPECT_FALSE(isSilentAfterACard()) << "nothing sounded";
+    model.strikes().testPulse(0);
+    for (int k = 0; k < 100; ++k) hands.play(64);
+    view.refresh();
+    EXPECT_GT(view.latest().holds[0], 0.0f);
+    EXPECT_TRUE(isSilentAfterACard());
+    model.setSilent(false);
+    hand.key(juce::KeyPress::escapeKey);
+    EXPECT_TRUE(model.isSilent()) << "where none is open";
+}
+
 TEST(Window, TheRightButtonOfTheMousePressesNoButton) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
