@@ -182,6 +182,7 @@ TEST(Arrangement, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
     EXPECT_LT(narrow, StripView::mostWidth);
     EXPECT_TRUE(attach->isVisible());
     w.view.setSize(1024, 700);
+    EXPECT_GE(widthOf("Mute A"), 24) << "for a pointer";
     w.attach(6);
     auto* last = find(w.view, "Strip F");
     const auto* row = last->findParentComponentOfClass<juce::Viewport>();

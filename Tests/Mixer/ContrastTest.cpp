@@ -113,9 +113,6 @@ TEST_P(Contrasts, OfSixtyFourActuators) {
 }
 
 TEST_P(Contrasts, OfCards) {
-    view.setHint(true);
-    expectReadable("hint");
-    view.setHint(false);
     view.setFirstStart(std::make_unique<FirstStart>(
         model, std::vector<FeltChoice>{{"JACK:system, 8 outputs", noDevice, 8},
                                        {"No device: seen, not felt", noDevice, 0}}));

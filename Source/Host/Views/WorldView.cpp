@@ -564,8 +564,6 @@ void WorldView::drawGrip(juce::Graphics& g) const {
         words, juce::Justification::centred, false);
 }
 
-// Mouse input in the world view: pulls bodies; moves, attaches and detaches actuators.
-
 namespace {
 
 /// Whether the mouse moved; a long press without movement is no drag, as in JUCE.

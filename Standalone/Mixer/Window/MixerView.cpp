@@ -42,6 +42,12 @@ constexpr TabEntry tabEntries[]{
     {false, "Events", make<EventsTab>},       {false, "Takes", make<TakesTab>},
     {false, "Telemetry", make<TelemetryTab>}};
 
+/// In its place: it is animated to where it is now.
+void comeIn(juce::Component& c) {
+    constexpr int ms = 120;
+    if (c.isShowing()) juce::Desktop::getInstance().getAnimator().fadeIn(&c, ms);
+}
+
 /// What is typed keeps the colour that it was typed in.
 void inkTexts(juce::Component& in) {
     if (auto* const editor = dynamic_cast<juce::TextEditor*>(&in))
@@ -157,9 +163,11 @@ void MixerView::mixChanged() {
     act_->setTitle(act);
     act_->setTooltip(act);
     act_->setVisible(act.isNotEmpty());
+    const bool comes = isTrouble && !trouble_.isVisible();
     trouble_.setVisible(isTrouble);
     dismiss_->setVisible(isTrouble);
     resized(); // the strips or the field may want another share
+    if (comes) comeIn(trouble_);
 }
 
 // The handle moves with the panels, so each call starts from their present places.
@@ -281,12 +289,6 @@ void MixerView::keepPace() {
     if (isTimerRunning() && getTimerInterval() != wanted) startTimer(wanted);
 }
 
-void MixerView::setHint(bool isShown) {
-    if (isShown == isHintShown_) return;
-    isHintShown_ = isShown;
-    repaint(world_.getBounds());
-}
-
 void MixerView::setFirstStart(std::unique_ptr<FirstStart> card) {
     firstStart_ = std::move(card);
     raiseCard();
@@ -313,6 +315,7 @@ void MixerView::raiseCard() {
     inkTexts(*open);
     open->toFront(false);
     placeCards();
+    comeIn(*open);
     cardFocus_.give(*open);
 }
 
@@ -334,11 +337,6 @@ bool MixerView::shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarg
     canMoveFiles = false;
     files = scope_.find<EventsTab>()->filesToDrag();
     return !files.isEmpty();
-}
-
-void MixerView::mouseDown(const juce::MouseEvent& e) {
-    setHint(false);
-    releaseAtRightClick(e);
 }
 
 // JUCE's buttons take every button of the mouse. One that is not down when it is released does nothing.
@@ -363,7 +361,6 @@ void MixerView::setScreen(juce::Component* screen) {
 }
 
 void MixerView::chooseStudy(const StudyCall& call) {
-    setHint(false);
     tabs_.choose("Studies");
     auto& tab = *tabs_.find<StudiesTab>();
     if (call.folder.isNotEmpty())
@@ -387,7 +384,6 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
     }
     // without a focused component, keys go to the screen before the world
     if (screen_ != nullptr && screen_->keyPressed(key)) return true;
-    setHint(false);
     if (key == KeyPress::escapeKey) return model_.setSilent(true), true;
     if (key == KeyPress::F2Key) return bar_.onMode(), true;
     if (key == KeyPress::F3Key) return setPanels({panels().hasDrawer, !panels().hasLower}), true;
@@ -406,25 +402,9 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
 void MixerView::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::ground)); }
 
 void MixerView::paintOverChildren(juce::Graphics& g) {
-    if (isDropShown_) {
-        g.setColour(shade(*this, Shade::accent));
-        g.drawRect(getLocalBounds(), 3);
-    }
-    if (!isHintShown_) return;
-    static const juce::StringArray lines{
-        "Hold the actuators, or put the headphones on: they start quietly.",
-        "Drag a ball to throw it. The bar at the left draws balls, walls and joints.",
-        "Esc silences everything. F2: the engineer's strips, materials, outputs, studies."};
-    const auto font = text::font(text::medium);
-    const auto at = world_.getBounds().withSizeKeepingCentre(590, 34 + 26 * lines.size());
-    g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));
-    g.fillRoundedRectangle(at.toFloat(), 10.0f);
-    g.setFont(font);
-    auto area = at.reduced(20, 15);
-    for (const auto& line : lines) {
-        g.setColour(shade(*this, Shade::text));
-        g.drawText(line, area.removeFromTop(26), juce::Justification::centredLeft, true);
-    }
+    if (!isDropShown_) return;
+    g.setColour(shade(*this, Shade::accent));
+    g.drawRect(getLocalBounds(), 3);
 }
 
 void MixerView::resized() {
@@ -472,8 +452,6 @@ void MixerView::placeCards() {
         progress_->setTopLeftPosition(world_.getRight() - progress_->getWidth() - 8,
                                       world_.getBottom() - 56 - progress_->getHeight());
 }
-
-// Divides the window between world, tabs, scope and strips.
 
 namespace {
 

@@ -131,8 +131,6 @@ std::optional<BodyPlace> DrawPane::placeNow(const std::string& name) const {
     return pose ? std::optional{BodyPlace{{pose->xMetres, pose->yMetres}, pose->angleRadians}} : std::nullopt;
 }
 
-// ---- the mouse
-
 void DrawPane::mouseDown(const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu()) return onMenu ? onMenu(e.position) : void();
     to_ = at(e);
@@ -192,8 +190,6 @@ void DrawPane::mouseUp(const juce::MouseEvent& e) {
 void DrawPane::mouseDoubleClick(const juce::MouseEvent&) {
     if (tool_ == DrawTool::polygon) closePolygon();
 }
-
-// Converts mouse strokes to new bodies, and erases bodies and joints.
 
 namespace {
 
@@ -367,8 +363,6 @@ void DrawPane::setRainPattern(const RainPattern& pattern) {
     if (onChange) onChange();
 }
 
-// Creates joints between bodies, or between a body and the field.
-
 // The field itself is not a body. A joint to it uses a static body, or a small disc that is added there.
 std::string DrawPane::fieldBody(std::vector<Action>& actions, const Vector& place) {
     for (const auto& body : drawing().drawn().bodies)
@@ -439,8 +433,6 @@ void DrawPane::join() {
     model_.messages().withdraw("joint");
     edit(wordsOf(tool_).name, std::move(actions));
 }
-
-// Applies mouse gestures on the selected bodies: handles, sizes, places.
 
 namespace {
 
@@ -534,8 +526,6 @@ std::map<std::string, BodyPlace> DrawPane::movedNow() const {
     return places;
 }
 
-// Keyboard commands for tools and selected bodies.
-
 void DrawPane::nudge(Vector byMetres, double byRadians) {
     std::map<std::string, BodyPlace> places;
     for (const std::string& name : chosen_)
@@ -605,8 +595,6 @@ bool DrawPane::handleKey(const juce::KeyPress& key) {
     if (key.getTextCharacter() == '-') return scaleChosen(1.0 / 1.1), true;
     return false;
 }
-
-// Draws joints, the selection with its handles, and the shape being drawn.
 
 // Rotates and moves the point with the body from its drawn to its current pose.
 Vector DrawPane::carried(const Vector& point, const std::string& name) const {

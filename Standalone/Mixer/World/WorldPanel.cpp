@@ -221,8 +221,6 @@ void WorldPanel::setPlay(bool isPlay, bool hasMaster) {
     resized();
 }
 
-// ---- a scene's player
-
 /// Who begins to play takes over from the scene's script: the world begins anew without what that did.
 void WorldPanel::play(const std::vector<Action>& actions) {
     if (actions.empty()) return;
@@ -356,7 +354,9 @@ juce::String WorldPanel::whyNothing(double nowMs) const {
     if (model_.session().world().slowness() == 0) return "paused";
     const auto isFixed = [](const BodyDescription& body) { return body.type == BodyType::staticBody; };
     const Scene& drawn = model_.world().drawing().drawn();
-    if (drawn.script.empty() && std::ranges::all_of(drawn.bodies, isFixed)) return "draw a ball: B";
+    const auto brings = [](const ScriptInput& input) { return bodyPutBy(input.action) != nullptr; };
+    if (std::ranges::all_of(drawn.bodies, isFixed) && std::ranges::none_of(drawn.script, brings))
+        return "draw a ball: B";
     return nowMs - hitAtMs_ > quietMs ? "no hits" : "";
 }
 
@@ -419,7 +419,7 @@ void WorldPanel::resized() {
     view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
     constexpr int silenceHigh = 40;               // the button lies over the corner of a show
     view_.setRoom(isShow_ ? juce::BorderSize<int>{silenceHigh, 0, 0, 0}
-                          : juce::BorderSize<int>{20, tools - 12, 44, 0});
+                          : juce::BorderSize<int>{20, tools - 12, 34, 0});
     pane_.setBounds(view_.getBounds().withTrimmedBottom(isShow_ ? 0 : 44)); // not over the row of words
     top.removeFromLeft(8);
     script_.setBounds(top.withHeight(script_.getHeight()));
@@ -427,8 +427,6 @@ void WorldPanel::resized() {
     body_.setName({}); // in another room at another place
     placeInspector();
 }
-
-// Menus of what lies under the pointer: an actuator, a body, or the empty field.
 
 juce::PopupMenu WorldPanel::menuAt(juce::Point<float> place) {
     juce::PopupMenu menu;
@@ -504,8 +502,6 @@ void WorldPanel::addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector plac
     menu.addItem("Attach an actuator here", model_.mix().count() < limits::maxEnchanters, false,
                  [this, at] { model_.attach(at.x, at.y); });
 }
-
-// Timeline with a mark for each recorded input and the two ends of the kept part.
 
 namespace {
 
