@@ -241,8 +241,6 @@ void MidiPanel::resized() {
     list_.setBounds(area.withTrimmedTop(6));
 }
 
-// Draws the keyboard: keys, their marks and labels.
-
 namespace {
 
 constexpr int captionPixels = 20;

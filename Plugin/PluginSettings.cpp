@@ -142,8 +142,6 @@ std::string faultOfParameters(const PluginState& state) {
     return {};
 }
 
-// Instrument presets: layout, voice, strike level, and notes with their own sound and place.
-
 namespace {
 
 /// A note of a kit: what it sounds like, and where, in parts of the field.

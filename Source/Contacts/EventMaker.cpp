@@ -98,8 +98,6 @@ void EventMaker::addModes(const Sound& sound) noexcept {
         if (mode.frequencyHz > 0.0) add(mode.frequencyHz, mode.decayPerSecond, mode.relativeAmplitude, 0);
 }
 
-// Learns the level of a world's hits.
-
 namespace {
 
 // The exponent of a strength is 1.5: between 1, the sum of vibrations in phase, and 2, of those that are not.

@@ -126,8 +126,6 @@ OnsetImpacts::HandedOn OnsetImpacts::handOn(std::int32_t camera, const StrikeCau
         point};
 }
 
-// Sums the impulses of collisions per component of the contact graph.
-
 StrikeCauses::StrikeCauses() {
     strikes_.reserve(CollisionCatcher::expectedCollisions);
     sums_.reserve(CollisionCatcher::expectedCollisions);

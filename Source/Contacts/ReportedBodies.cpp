@@ -160,8 +160,6 @@ BodyFacts ReportedBodies::facts(std::uint64_t body) const {
     return {body, told.massKg, static_cast<float>(told.gravityScale), told.massKg > 0.0, true};
 }
 
-// Integrates reported surface speeds to positions along the surfaces.
-
 void ReportedSlides::tell(const Rub& told) {
     const std::uint64_t key = pairKey(told.a, told.b);
     std::int32_t at = trackOf_.find(key);

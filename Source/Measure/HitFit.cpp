@@ -75,8 +75,6 @@ std::vector<PredictedPartial> predictPartials(std::span<const double> samples, d
     return found;
 }
 
-// Model selection.
-
 constexpr double cleanShare = 1e-11; // of the energy: a smaller residual is rounding
 constexpr double shortHit = 8.0;     // omega / tau
 constexpr double penalty = 1.5;      // per parameter, in units of ln N: for it and its search (Schwarz 1978)

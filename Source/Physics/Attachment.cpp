@@ -284,8 +284,6 @@ void noteSources(const b2World& world, const FixtureTable& fixtures, ContactCoun
 }
 } // namespace physvib
 
-// Box2D listener that is one link in a chain of listeners.
-
 namespace physvib {
 /// A game's listener may forward calls to the listener that it replaced, which may be this one: each call is
 /// processed once.

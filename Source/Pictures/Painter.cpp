@@ -248,8 +248,6 @@ void Painter::blend(int x, int y, Colour colour) {
         image_.blend(x, y, colour);
 }
 
-// Rectangles and ellipses as outlines.
-
 namespace {
 constexpr float quarter = 0.5522848f; // of a circle by a cubic: its handles, as a share of the radius
 }

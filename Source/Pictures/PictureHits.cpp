@@ -88,8 +88,6 @@ void drawLegend(const Canvas& canvas, const HitColours& colours, Area row) {
     }
 }
 
-// Assigns colours to impacts by material, part of the body or frequency, and names them in the legend.
-
 namespace {
 
 constexpr double anyDecay = -1.0;

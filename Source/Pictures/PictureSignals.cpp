@@ -87,8 +87,6 @@ void drawSignals(const Canvas& canvas, const PictureInput& input, const HitColou
     hits.drawLabels(canvas, grid, "s", axisRow);
 }
 
-// Draws one lane per channel: waveforms, or strips of brightness if there are many channels.
-
 namespace {
 
 constexpr int mostWaves = 16; // above, a lane is too low for a waveform and becomes a strip of brightness

@@ -29,8 +29,6 @@ Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
                   share(place.zMetres, input.layout.extentWidthMetres) * input.fieldWidthMetres);
 }
 
-// ---- bodies
-
 namespace {
 
 // What stands outside the field (walls, as a rule) shows as a frame of at most this width.
@@ -91,8 +89,6 @@ void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap&
     if (poses.empty())
         for (const auto& joint : input.scene->joints) drawJoint(canvas, describedPose(joint), map);
 }
-
-// ---- hits
 
 namespace {
 
@@ -172,8 +168,6 @@ std::string whoHitWhom(const PictureInput& input, const CollisionEvent& hit) {
                                                             : ", slid over by ";
     return felt.empty() || by.empty() ? felt : felt + how + by;
 }
-
-// ---- enchanters
 
 float closestPair(const PictureInput& input, const FieldMap& map) {
     float closest = 400.0f; // alone

@@ -78,8 +78,6 @@ Result<PadProfile> findPad(const std::string& nameOrPath) {
                    " or a file NAME.json"};
 }
 
-// Simulates the motor commands of an event list offline, in time order.
-
 namespace {
 
 class OfflinePad {

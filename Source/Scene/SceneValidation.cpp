@@ -168,8 +168,6 @@ std::vector<std::string> sceneWarnings(const Scene& scene) {
     return warnings;
 }
 
-// Checks that names of bodies and joints in a scene are unique and exist.
-
 namespace {
 
 using detail::itemPath;

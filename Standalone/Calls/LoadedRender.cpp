@@ -158,8 +158,6 @@ std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<co
     return warnings;
 }
 
-// Loads a coupling, checks it against the layout, and describes its residual error.
-
 namespace {
 
 std::string percent(double share) { return fixedNumber(100.0 * share, 1) + " %"; }

@@ -129,8 +129,6 @@ void noteGiven(const OptionTable& command, RenderJob& o) {
         if (!option.said.empty()) o.given.insert(option.spellings.front());
 }
 
-// Parses option values; each reader returns what it expected, and the parser adds the option's name.
-
 namespace {
 
 std::string readField(const std::string& word, FieldSize& field) {

@@ -111,8 +111,6 @@ std::string writeReference(const OptionTable& program, const std::filesystem::pa
     return writeInto(folder / "fish", program.words + ".fish", fishCompletion(program));
 }
 
-// Writes a manual page: name, synopsis, options, commands, exit codes.
-
 namespace {
 
 /// Escapes text for man: hyphens can be copied, and no line is read as a request.

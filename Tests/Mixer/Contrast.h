@@ -83,7 +83,7 @@ public:
     }
 
 private:
-    void draw(int, const juce::AffineTransform& at, const std::function<void()>& drawn) override {
+    void draw(int glyph, const juce::AffineTransform& at, const std::function<void()>& drawn) override {
         const float high = pixelsHigh();
         const auto cell =
             juce::Rectangle<float>{at.getTranslationX(), at.getTranslationY() - high, high, 1.3f * high}
@@ -95,6 +95,10 @@ private:
         Pixels under;
         double most = 0.0;
         juce::Colour ink;
+        const auto middle =
+            (this->ink(glyph) + juce::Point{at.getTranslationX(), at.getTranslationY()}).getCentre();
+        if (after == before && !this->ink(glyph).isEmpty() && clip().contains(middle))
+            under = before, most = 1.0, ink = commonest(before); // as its ground
         for (std::size_t i = 0; i < after.size(); ++i)
             if (after[i] != before[i]) {
                 under.push_back(before[i]);

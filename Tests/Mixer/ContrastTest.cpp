@@ -55,7 +55,8 @@ struct Contrasts : testing::TestWithParam<Theme> {
 
     Contrasts() {
         view.setSize(1280, 720);
-        view.setTheme(GetParam());
+        view.setTheme(GetParam() == Theme::dark ? Theme::light : Theme::dark);
+        view.setTheme(GetParam()); // what was written in the other is read in this one
     }
     void expectReadable(const std::string& state) {
         model.dispatchPendingMessages();
@@ -112,9 +113,6 @@ TEST_P(Contrasts, OfSixtyFourActuators) {
 }
 
 TEST_P(Contrasts, OfCards) {
-    view.setHint(true);
-    expectReadable("hint");
-    view.setHint(false);
     view.setFirstStart(std::make_unique<FirstStart>(
         model, std::vector<FeltChoice>{{"JACK:system, 8 outputs", noDevice, 8},
                                        {"No device: seen, not felt", noDevice, 0}}));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window's components without a display: every control's name and keys, sizes, looks, clicks.
+#include "Contrast.h"
 #include "Live/Documents/Mix.h"
 #include "MixerTesting.h"
 #include "Scene/SceneFile.h"
@@ -161,36 +162,6 @@ TEST(MixerView, TheTabKeyComesToEveryControl) {
     });
 }
 
-TEST(MixerView, EveryTextFitsAndEveryControlHasASizeAtTheSmallestWindow) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
-    for (const auto& size :
-         {std::pair{MixerView::minWidth, MixerView::minHeight}, {1440, 900}, {3000, 1800}}) {
-        view.setSize(size.first, size.second);
-        for (int k = 0; const auto& tab : view.tabs().names()) {
-            view.tabs().choose(tab);
-            view.scope().choose(view.scope().names()[k++ % view.scope().names().size()]);
-            walk(view, [&](juce::Component& c) {
-                if (!isControl(c) || isPartOfControl(c)) return;
-                EXPECT_GE(c.getWidth(), 14) << c.getTitle() << " at " << size.first;
-                EXPECT_GE(c.getHeight(), 14) << c.getTitle() << " at " << size.first;
-            });
-        }
-    }
-}
-
-double contrast(juce::Colour a, juce::Colour b) {
-    const auto luminance = [](juce::Colour c) {
-        const auto linear = [](double v) {
-            return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-        };
-        return 0.2126 * linear(c.getFloatRed()) + 0.7152 * linear(c.getFloatGreen()) +
-               0.0722 * linear(c.getFloatBlue());
-    };
-    const auto [low, high] = std::minmax({luminance(a), luminance(b)});
-    return (high + 0.05) / (low + 0.05);
-}
-
 TEST(MixerView, TextHasEnoughContrastInBothLooks) { // WCAG 2.1, 1.4.3: 4.5 for text, 3 for what is large or
                                                     // drawn
     MixerModel model{onlyNoDevice(), noDevice};
@@ -257,25 +228,6 @@ TEST(MixerView, LettersOfOtherScriptsAreDrawnWhereAFontIsThere) {
         EXPECT_TRUE(hasLetters({}, "Silence"));
     }
     EXPECT_EQ(hasLetters({}, korean), wasThere) << "only while they are shown";
-}
-
-TEST(MixerView, WhatComesLaterCanBeReadAsWell) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
-    model.attach(0.5, 0.5);
-    model.dispatchPendingMessages();
-    int labels = 0;
-    for (const auto& tab : view.tabs().names()) {
-        view.tabs().choose(tab);
-        walk(view, [&](juce::Component& c) {
-            const auto* label = dynamic_cast<juce::Label*>(&c);
-            if (label == nullptr || label->getText().isEmpty()) return;
-            ++labels;
-            EXPECT_GE(contrast(label->findColour(juce::Label::textColourId), shade(view, Shade::panel)), 3.0)
-                << label->getText() << " of " << tab;
-        });
-    }
-    EXPECT_GT(labels, 20);
 }
 
 TEST(MixerView, ButtonsDoWhatTheySay) {
@@ -399,7 +351,6 @@ TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
     model.messages().add(
         {juce::String::repeatedString("a long message ", 30), false, {"Do it", [] {}}, "long"});
     model.dispatchPendingMessages();
-    view.setHint(true);
     auto* silence = dynamic_cast<juce::Button*>(find(view, "Silence"));
     ASSERT_NE(silence, nullptr);
     for (const auto& [width, height] :

@@ -181,8 +181,6 @@ TEST_F(RecoveryCopiesTest, OfTwoHundredKillsNoneLosesWhatWasWhole) {
     EXPECT_GT(known.size(), 5u) << "hardly a run has kept anything";
 }
 
-// ---- settings
-
 class SettingsTest : public FolderTest {
 protected:
     fs::path settings() const { return folder / "mixer.settings"; }

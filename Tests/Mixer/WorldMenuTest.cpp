@@ -243,6 +243,36 @@ TEST(Inspector, NeverCoversWhatIsSelectedAndNamesItsMaterial) {
     EXPECT_TRUE(isNamed);
 }
 
+TEST(Inspector, ASwatchGivesWhatIsChosenItsMaterialAndOneUndoTakesItBack) {
+    Field f;
+    std::vector<std::string> names;
+    for (const double x : {0.3, 0.6})
+        f.add(DrawTool::ball, x, 0.5), names.push_back(f.drawn().bodies.back().name);
+    f.pane.use(DrawTool::ball); // the palette is for the next one
+    f.pane.choose(names);
+    const auto materials = [&] {
+        std::vector<int> all;
+        for (const auto& name : names)
+            all.push_back(f.model.world().drawing().find(name)->fixtures[0].material);
+        return all;
+    };
+    const auto before = materials();
+    ASSERT_NE(before[0], 1);
+    auto* const swatch =
+        dynamic_cast<juce::Button*>(find(f.panel, "Made of " + utf8(f.drawn().materials[1].name)));
+    ASSERT_NE(swatch, nullptr);
+    EXPECT_GE(std::min(swatch->getWidth(), swatch->getHeight()), 24);
+    EXPECT_TRUE(swatch->getParentComponent()->getLocalBounds().contains(swatch->getBounds()));
+    const int next = f.pane.material();
+    swatch->onClick();
+    f.settle();
+    EXPECT_EQ(materials(), (std::vector{1, 1})) << f.model.trouble();
+    EXPECT_TRUE(swatch->getToggleState());
+    EXPECT_EQ(f.pane.material(), next);
+    f.model.undoManager().undo();
+    EXPECT_EQ(materials(), before);
+}
+
 TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
     Field f;
     f.view.setSize(1280, 720);

@@ -24,5 +24,32 @@ TEST(WorldView, ABodyIsSeenWhereItIsWhenThatIsFelt) {
     }
 }
 
+// At once its middle is white; the ring of one that is silenced is empty.
+TEST(WorldView, AGlowIsOfWhatIsFelt) {
+    Mix mix = MixerModel::firstMix();
+    Scene scene = *mix.scene;
+    scene.bodies.clear();
+    WorldView view;
+    view.setSize(600, 400);
+    view.show(scene);
+    const CollisionEvent hit{.frequencyHz = 200.0,
+                             .decayPerSecond = 50.0,
+                             .amplitude = 1.0,
+                             .x = 0.5 * scene.fieldWidthMetres,
+                             .y = 0.5 * scene.fieldHeightMetres};
+    const auto glows = [&](bool isFelt, std::vector<bool> muted) {
+        view.show(mix.layout, mix.panner(), std::move(muted));
+        juce::Thread::sleep(500); // longer than one is seen
+        view.update({{}, 0, 0, std::span{&hit, 1}, {}, isFelt});
+        const auto at = view.placeOfShare({0.5, 0.5}).toInt();
+        return view.createComponentSnapshot(view.getLocalBounds()).getPixelAt(at.x, at.y).getBrightness() >
+               0.9f;
+    };
+    EXPECT_TRUE(glows(true, {}));
+    EXPECT_TRUE(glows(true, {true, true, true, false})) << "D plays it";
+    EXPECT_FALSE(glows(true, {true, true, true, true}));
+    EXPECT_FALSE(glows(false, {})) << "all is silent";
+}
+
 } // namespace
 } // namespace physvib

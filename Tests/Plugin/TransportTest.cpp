@@ -131,8 +131,6 @@ TEST(Transport, TwentyTakesOfALoopHaveEqualEventsAndSamples) {
     }
 }
 
-// In the tempo of a host.
-
 constexpr double rateHz = 48000;
 
 /// Discs that rain on a floor, one every half second from 0.5 s on: at 120 a minute one on each beat.

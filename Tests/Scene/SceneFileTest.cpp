@@ -329,8 +329,6 @@ TEST(SceneFile, AbsurdRequestsAreRefusedWithTheLimit) {
               "my.json: bodies: expected at most 4096 in all, found 100004");
 }
 
-// ---- variables
-
 const std::string variable = R"("variables": [
     { "name": "size", "default": "big", "choices": [
         { "value": "big", "set": {} },
@@ -391,8 +389,6 @@ TEST(SceneVariables, FaultsNameTheirField) {
     for (const auto& [what, by, message] : cases)
         EXPECT_EQ(errorOf(replaced(varied, what, by)), "my.json: " + message);
 }
-
-// ---- broken files
 
 TEST(SceneFile, NoMutationCrashesOrHalfLoads) {
     std::mt19937 random(31);

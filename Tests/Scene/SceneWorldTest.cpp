@@ -60,8 +60,6 @@ public:
 
 double mass(const World& world, std::size_t fixture) { return world.fixture(fixture).GetBody()->GetMass(); }
 
-// ---- outlines
-
 /// Height at which a small ball comes to rest on body 0, dropped at x.
 double restingHeight(const Shape& ground, double x) {
     Scene scene = emptyScene();
@@ -140,8 +138,6 @@ TEST(SceneWorld, BodiesStartAsTheyAreDescribed) {
     EXPECT_NEAR(world.pose(1).xMetres, 1.0 + 2.0 * (1.0 - std::exp(-1.0)), 0.02);
     EXPECT_NEAR(world.pose(2).yMetres, 1.5, 1.0e-4);
 }
-
-// ---- joints
 
 TEST(SceneWorld, MotorTurnsAHingeUpToItsLimit) {
     Scene scene = emptyScene();
@@ -222,8 +218,6 @@ TEST(SceneWorld, WeldGluesTwoBodies) {
     EXPECT_NEAR(world.pose(0).xMetres, 2.5, 0.01); // 100 N s on 200 kg
     EXPECT_NEAR(world.pose(1).xMetres - world.pose(0).xMetres, 1.2, 0.01);
 }
-
-// ---- actions
 
 TEST(SceneWorld, TiltTurnsTheScenesGravity) {
     Scene scene = emptyScene();

@@ -220,8 +220,6 @@ physvib_int64 physvib_play_out_ns(int rateHz, int blockFrames, int stepsPerSecon
     return (law.outputLatencyFrames() * nsPerSecond + rateHz - 1) / rateHz;
 }
 
-// C functions of controllers' motors: queue events, pull the command for the next frame.
-
 using namespace physvib;
 using namespace physvib::api;
 

@@ -174,8 +174,6 @@ void registerClass(const Class& type) {
     api.registerSignal(api.library, name.get(), signal.get(), &hit.info, 1);
 }
 
-// The properties of one object.
-
 namespace {
 std::uint64_t changes = 0;
 

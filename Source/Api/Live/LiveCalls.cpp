@@ -235,8 +235,6 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
     });
 }
 
-// The functions of physvib-live.h that play one hit at once.
-
 using namespace physvib::api;
 
 int physvib_live_impact(physvib_live live, double x, double y, double strength) {
@@ -253,8 +251,6 @@ int physvib_live_impact_of(physvib_live live, const char* material, double x, do
         return physvib_live_strike(live, &event, 1);
     });
 }
-
-// physvib_live_devices: what can be opened.
 
 using namespace physvib;
 using namespace physvib::api;
@@ -307,8 +303,6 @@ int physvib_live_devices(physvib_device* devices, int capacity, size_t size) {
         return static_cast<int>(all.size());
     });
 }
-
-// physvib_live_explain: why nothing is felt of a world on an open device.
 
 using namespace physvib;
 using namespace physvib::api;

@@ -11,8 +11,6 @@
 
 namespace physvib {
 
-// Frequency bands of onset detection in music, and the onset itself.
-
 struct BeatBand {
     std::string_view name;
     double lowHz = 0.0, highHz = 0.0;

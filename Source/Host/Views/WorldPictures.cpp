@@ -121,8 +121,6 @@ void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::Aff
     drawEdges(g, path, place, juce::Colour{factsOf(look).colour}.darker(0.9f), isHollow);
 }
 
-// Keeps a picture per kind of disc, angle and place between pixels.
-
 namespace {
 
 constexpr std::size_t mostKinds = 12; // at most some megabytes

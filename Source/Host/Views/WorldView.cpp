@@ -14,6 +14,7 @@ namespace {
 constexpr double hitMs = 450.0;         // how long a hit glows
 constexpr std::size_t maxHits = 48;     // simultaneous; more would only glare
 constexpr std::size_t maxTraces = 400;  // for 30 sliding pairs
+constexpr double leastGain = 0.02;      // of an actuator that plays a hit
 constexpr float wallPixels = 11.0f;     // bodies around the field are drawn as a frame of this width
 constexpr float lowBadge = 24.0f;       // has small text
 constexpr float minSpokePixels = 4.0f;  // radius of a circle whose rotation is seen
@@ -79,9 +80,10 @@ void WorldView::show(const Scene& scene) {
     repaint();
 }
 
-void WorldView::show(const LayoutDescription& layout, const PhantomPanner& panner) {
+void WorldView::show(const LayoutDescription& layout, const PhantomPanner& panner, std::vector<bool> muted) {
     layout_ = layout;
     panner_ = panner;
+    muted_ = std::move(muted);
     gains_ = {};
     badges_.clear();
     repaint();
@@ -114,7 +116,7 @@ void WorldView::update(WorldMoment moment) {
     bool isOther = !hits_.empty() || !traces_.empty() || !moment.hits.empty() ||
                    (!ahead_.empty() && !isSame(before, ahead_.front().poses));
     const double now = juce::Time::getMillisecondCounterHiRes();
-    for (const auto& event : moment.hits) addHit(event, now);
+    for (const auto& event : moment.hits) addHit(event, now, moment.isFelt);
     while (!hits_.empty() && (hits_.size() > maxHits || now - hits_.front().shownAtMs > hitMs))
         hits_.pop_front();
     while (!traces_.empty() && (traces_.size() > maxTraces || now - traces_.front().shownAtMs > hitMs))
@@ -359,8 +361,16 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) {
 }
 
 // All grains of one update form one segment of a contact's path, which starts where the last one ended.
-void WorldView::addHit(const CollisionEvent& event, double nowMs) {
-    if (event.source.kind == ContactKind::hit) return hits_.push_back({event, colourOf(event), nowMs});
+void WorldView::addHit(const CollisionEvent& event, double nowMs, bool isFelt) {
+    if (isFelt && std::ranges::find(muted_, true) != muted_.end()) { // whether another one plays it
+        PhantomPanner::Gains gains{};
+        panner_.gainsAt(event, gains);
+        isFelt = false;
+        for (int j = 0; j < panner_.channels(); ++j)
+            isFelt = isFelt || (gains[static_cast<std::size_t>(j)] >= leastGain && !isMuted(j));
+    }
+    if (event.source.kind == ContactKind::hit)
+        return hits_.push_back({event, colourOf(event), nowMs, isFelt});
     const auto isSamePair = [&](const Trace& t) {
         return t.source.fixture == event.source.fixture && t.source.other == event.source.other;
     };
@@ -368,7 +378,7 @@ void WorldView::addHit(const CollisionEvent& event, double nowMs) {
     const Vector here{event.x, event.y};
     if (last == traces_.rend() || last->shownAtMs != nowMs)
         return traces_.push_back({event.source, last == traces_.rend() ? here : last->toMetres, here,
-                                  event.amplitude, colourOf(event), nowMs});
+                                  event.amplitude, colourOf(event), nowMs, isFelt});
     // the middle between the points of a two-point contact
     last->toMetres = {0.5 * (last->toMetres.x + here.x), 0.5 * (last->toMetres.y + here.y)};
     if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
@@ -382,6 +392,11 @@ void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
         juce::Path path;
         path.startNewSubPath(at.at(trace.fromMetres.x, trace.fromMetres.y));
         path.lineTo(at.at(trace.toMetres.x, trace.toMetres.y));
+        if (!trace.isFelt) {
+            g.setColour(shade(*this, Shade::muted).withAlpha(fade));
+            g.strokePath(path, juce::PathStrokeType{1.5f});
+            continue;
+        }
         const auto amber = trace.colour.interpolatedWith(shade(*this, Shade::now), 0.7f);
         for (const auto& [colour, pixels, alpha] : {std::tuple{amber, 10.0f + 12.0f * level, 0.22f},
                                                     {amber, 5.0f + 6.0f * level, 0.45f},
@@ -400,9 +415,15 @@ void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
                     fade = (1.0f - age) * std::sqrt(level);
         const auto centre = at.at(hit.event.x, hit.event.y);
         const float radius = 10.0f + 34.0f * level * (0.5f + 0.5f * age);
+        const auto ring = juce::Rectangle<float>{1.5f * radius, 1.5f * radius}.withCentre(centre);
+        if (!hit.isFelt) { // a glow says that it is
+            g.setColour(shade(*this, Shade::muted).withAlpha(1.0f - age));
+            g.drawEllipse(ring, 1.4f);
+            continue;
+        }
         glows_.draw(g, centre, radius, hit.colour.interpolatedWith(amber, 0.7f).withAlpha(0.85f * fade));
         g.setColour(amber.withAlpha(0.8f * fade));
-        g.drawEllipse(juce::Rectangle<float>{1.5f * radius, 1.5f * radius}.withCentre(centre), 1.4f);
+        g.drawEllipse(ring, 1.4f);
         g.setColour(juce::Colours::white.withAlpha(fade));
         g.fillEllipse(juce::Rectangle<float>{6.0f, 6.0f}.withCentre(centre));
     }
@@ -411,7 +432,7 @@ void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
 // Lines from the strongest current hit to each actuator; width and brightness show the actuator's gain.
 void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
     const auto light = [](const Hit& hit) {
-        return levelOf(hit.event.amplitude) * (1.0f - ageOf(hit.shownAtMs));
+        return hit.isFelt ? levelOf(hit.event.amplitude) * (1.0f - ageOf(hit.shownAtMs)) : 0.0f;
     };
     const auto strongest = std::ranges::max_element(hits_, {}, light);
     if (strongest == hits_.end() || panner_.channels() == 0) return;
@@ -420,7 +441,7 @@ void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
     const auto from = at.at(strongest->event.x, strongest->event.y);
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const auto gain = static_cast<float>(gains[static_cast<std::size_t>(j)]);
-        if (gain < 0.02f) continue;
+        if (gains[static_cast<std::size_t>(j)] < leastGain || isMuted(j)) continue;
         g.setColour(
             enchanterColour(*this, j).withAlpha(std::min(1.0f, 1.3f * std::sqrt(gain) * light(*strongest))));
         g.drawLine({from, badgeAt(j).getCentre()}, 1.0f + 4.0f * gain);
@@ -445,7 +466,7 @@ void WorldView::drawEnchanters(juce::Graphics& g) const {
             g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(way.getStart()));
         }
     for (int j = 0; j < layout_.geometry.count; ++j) {
-        const auto colour = enchanterColour(*this, j);
+        const auto colour = isMuted(j) ? shade(*this, Shade::muted) : enchanterColour(*this, j);
         const auto badge = badgeAt(j);
         const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
         // may extend over the field
@@ -458,6 +479,10 @@ void WorldView::drawEnchanters(juce::Graphics& g) const {
         if (j == selected_) g.drawRoundedRectangle(badge.expanded(4.0f), 9.0f, 1.5f);
         g.setFont(badgeFont());
         g.drawText(labelOf(j), badge.reduced(3.0f, 0.0f), juce::Justification::centred, true);
+        if (!isMuted(j)) continue;
+        for (const auto& [corner, other] : {std::pair{badge.getBottomLeft(), badge.getTopRight()},
+                                            {badge.getTopRight(), badge.getBottomLeft()}})
+            g.drawLine({corner, corner + (other - corner) * 0.3f}, 2.0f); // struck out, its letter is not
     }
 }
 
@@ -538,8 +563,6 @@ void WorldView::drawGrip(juce::Graphics& g) const {
         pullText(grip_.from.getDistanceFrom(grip_.to) / screenPixelsPerMetre(*this, displayWidthMetres_)),
         words, juce::Justification::centred, false);
 }
-
-// Mouse input in the world view: pulls bodies; moves, attaches and detaches actuators.
 
 namespace {
 

@@ -24,6 +24,7 @@ struct WorldMoment {
     std::int64_t aheadNs = 0;             ///< output latency of these poses
     std::span<const CollisionEvent> hits; ///< that have been played
     std::span<const float> peaks;         ///< per actuator, 1 = full scale
+    bool isFelt = true;                   ///< false: these hits are seen, and are silenced
 };
 
 /// A place in the field, each coordinate 0 to 1 from its lower left corner.
@@ -43,8 +44,8 @@ public:
 
     /// Shows another scene, or the same with more bodies. M.
     void show(const Scene& scene);
-    /// Sets the actuators and their panning law. M.
-    void show(const LayoutDescription& layout, const PhantomPanner& panner);
+    /// Sets the actuators, their panning law and which are muted. M.
+    void show(const LayoutDescription& layout, const PhantomPanner& panner, std::vector<bool> muted = {});
     /// M, several times a second; repaints if something has changed.
     void update(WorldMoment moment);
     /// Draws bodies with the textures of their materials where there are any; otherwise one colour per
@@ -138,6 +139,7 @@ private:
         CollisionEvent event;
         juce::Colour colour;
         double shownAtMs;
+        bool isFelt;
     };
     struct Trace { // path of a rolling or sliding contact between two updates
         CollisionSource source;
@@ -145,6 +147,7 @@ private:
         double amplitude;
         juce::Colour colour;
         double shownAtMs;
+        bool isFelt;
     };
     struct Map {
         juce::Rectangle<float> field;
@@ -191,7 +194,11 @@ private:
     bool drawSmall(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour, double angle,
                    const juce::AffineTransform& place, const Map& at);
     void drawHits(juce::Graphics& g, const Map& at) const;
-    void addHit(const CollisionEvent& event, double nowMs);
+    void addHit(const CollisionEvent& event, double nowMs, bool isFelt);
+    bool isMuted(int enchanter) const {
+        return static_cast<std::size_t>(enchanter) < muted_.size() &&
+               muted_[static_cast<std::size_t>(enchanter)];
+    }
     void drawTraces(juce::Graphics& g, const Map& at) const;
     void drawRays(juce::Graphics& g, const Map& at) const;
     void drawHalos(juce::Graphics& g) const;
@@ -212,6 +219,7 @@ private:
     std::size_t scripted_ = 0; // number of bodies from scriptedCast(), which come first
     LayoutDescription layout_;
     PhantomPanner panner_;
+    std::vector<bool> muted_;    // per actuator
     std::deque<Snapshot> ahead_; // poses not felt yet, except the first
     std::deque<Hit> hits_;
     std::deque<Trace> traces_;

@@ -127,8 +127,6 @@ std::string barChart(const BarChart& chart) {
     return svg.finish(chart.frame.title, chart.frame.isSimulated);
 }
 
-// Lines.
-
 namespace {
 
 using namespace detail;

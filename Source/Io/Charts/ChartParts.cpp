@@ -102,8 +102,6 @@ void drawAxisBelow(Svg& svg, const PlotArea& area, const ChartAxis& axis, const 
 }
 } // namespace physvib::detail
 
-// Writes SVG elements as text.
-
 namespace physvib {
 namespace {
 

@@ -106,8 +106,6 @@ std::string gridChart(const GridChart& chart) {
     return svg.finish(chart.frame.title, chart.frame.isSimulated);
 }
 
-// The response field.
-
 namespace {
 
 using namespace detail;

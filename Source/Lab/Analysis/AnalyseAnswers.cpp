@@ -169,8 +169,6 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
     };
 }
 
-// Analyses psychometric and power-law: one fit per participant, and means with intervals per condition.
-
 namespace {
 
 using LevelAnswers = StudyData<LevelAnswer>;

@@ -73,8 +73,6 @@ void analysePlaces(const StudyData<PlaceTrial>& data, const Findings& to) {
     }
 }
 
-// Analyses of perceptual resolution, as text and tables.
-
 namespace {
 
 constexpr std::size_t mostTiesTold = 20;

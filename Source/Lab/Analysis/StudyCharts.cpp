@@ -166,8 +166,6 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
     return charts;
 }
 
-// Charts of fits: answers as points, fitted functions as lines.
-
 namespace {
 
 constexpr int curvePoints = 80;

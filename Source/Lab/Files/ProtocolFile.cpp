@@ -146,8 +146,6 @@ Result<Protocol> findProtocol(const std::string& nameOrPath) {
     return Failure{"no protocol " + inQuotes(nameOrPath) + " (see physvib study list)"};
 }
 
-// JSON schema of protocol files, from the same table of fields that reads and writes them.
-
 namespace {
 
 template <class T>

@@ -90,8 +90,6 @@ GainLane thinned(const GainLane& lane, std::size_t mostPoints) {
     return kept;
 }
 
-// Combines strips with the faders, mutes and lanes of their groups.
-
 namespace {
 
 const StripGroup* groupOf(const Mix& mix, const Strip& strip) {
@@ -173,8 +171,6 @@ void removeGroup(Mix& mix, int group) {
     }
     mix.groups.erase(mix.groups.begin() + group);
 }
-
-// Lowers each value of a mixer state to its limit, and notes what was lowered.
 
 namespace {
 

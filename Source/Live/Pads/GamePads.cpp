@@ -195,8 +195,6 @@ std::unique_ptr<GamePad> GamePads::open(const std::string& name) {
     return {};
 }
 
-// Loads all SDL functions, or none.
-
 namespace {
 
 struct Loaded {

@@ -79,8 +79,6 @@ std::vector<std::string> recordingPaths(const SessionLog& log) {
     return paths;
 }
 
-// Reads a recorded contact, trims it to its strongest hit and normalises its level.
-
 namespace {
 
 void normalise(std::vector<float>& samples) {

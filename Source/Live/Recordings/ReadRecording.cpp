@@ -57,8 +57,6 @@ std::string streamRecording(const std::filesystem::path& path, SoundTaker& taker
     return fault.empty() ? fault : path.string() + ": " + fault;
 }
 
-// Sounds.
-
 namespace {
 
 /// The file as libsndfile sees it, with a limit of the bytes read: a decoder may seek the end and go back,

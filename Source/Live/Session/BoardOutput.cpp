@@ -180,8 +180,6 @@ PathGains::Gains BoardOutput::gainsAt(const CollisionEvent& event) const noexcep
     return {gains[0], gains[1], gains[2], gains[3]};
 }
 
-// Formats the counters of the link and the board as text.
-
 namespace {
 
 using State = BoardLinkStatus::State;

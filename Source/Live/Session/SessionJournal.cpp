@@ -143,8 +143,6 @@ std::string SessionJournal::finish(std::size_t mostBytes) {
     return fault();
 }
 
-// Appends all pending lines at once, or keeps them pending if the disk fails.
-
 void GrowingFile::open(const std::filesystem::path& path) {
     path_ = path;
     file_ = SystemFile::grow(path);

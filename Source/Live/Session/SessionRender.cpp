@@ -44,8 +44,6 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
     return keepGoing;
 }
 
-// Prepares a saved session's recordings: resampled sets, and timed controls that change between them.
-
 std::vector<std::string> notesOf(const LoadedRecordings& loaded) {
     std::vector<std::string> notes = notesOf(loaded.clips);
     for (const auto& set : loaded.sets)

@@ -273,8 +273,6 @@ std::int64_t WorldRunner::readPoses(std::vector<BodyPose>& poses) const {
     return shownNs_;
 }
 
-// Runs scenes one after the other, and converts world time to session time.
-
 namespace {
 
 // moveLog() keeps the last stall of a run, because it may still grow. So the first stall of `from` may be the

@@ -156,8 +156,6 @@ Scene newScene(const Scene& like, SceneGround ground) {
     return scene;
 }
 
-// Scales bodies, and sets density, source flag and type.
-
 namespace {
 
 double sized(double metres, double factor) {

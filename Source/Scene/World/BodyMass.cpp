@@ -55,8 +55,6 @@ double massKg(const BodyDescription& body, const Scene& scene) noexcept {
     return body.massKg > 0.0 ? body.massKg : bodyMoments(body, scene).massKg;
 }
 
-// Computes area, inertia and sizes by sums over the edges of outlines.
-
 namespace {
 
 Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }

@@ -31,8 +31,6 @@ namespace physvib {
 
 namespace {
 
-// The activity of an OSC port.
-
 std::string summary(const OscCounts& c) {
     std::ostringstream words;
     words << c.packets << " packets, " << c.bad << " bad, " << c.lost << " lost; " << c.messages
@@ -287,8 +285,6 @@ std::string playLive(LivePlay wanted) {
     if (!lost.empty()) return lost;
     return !unsaved.empty() ? unsaved : trouble;
 }
-
-// Plays a sound file as a `clip` message, with each channel on its own actuator.
 
 namespace {
 

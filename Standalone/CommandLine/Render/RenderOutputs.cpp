@@ -19,8 +19,6 @@
 
 namespace physvib {
 
-// Levels in words: in dB of full scale and in g.
-
 inline std::string inG(double g) { return fixedNumber(g, g < 0.1 ? 4 : 2) + " g"; }
 
 /// "peak -6.0 dBFS (0.50 g)", g that of the enchanter that moves most. An equalised channel holds drive: what

@@ -148,8 +148,6 @@ void CoursePlot::paint(juce::Graphics& g) {
              s && !s->isConfident() ? Shade::now : Shade::accent);
 }
 
-// Scales the measured excerpt for display.
-
 namespace {
 
 constexpr double longestSeconds = 1.0;
@@ -212,8 +210,6 @@ HitCourse courseOf(double frequencyHz, double decayPerSecond) {
     }
     return courseFrom(std::move(samples), rate);
 }
-
-// Sliders for grain distance, roughness and rolling, and a list of patterns.
 
 namespace {
 

@@ -427,8 +427,6 @@ void MaterialsTab::resized() {
     course_.setBounds(area);
 }
 
-// Draws the rows of the list of materials.
-
 namespace {
 
 constexpr double decibelsOfDecay = 60.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mixer's state, the session that plays it, and its output device.
 #include "Mixer/Model/MixerModel.h"
+#include "Live/Devices/NoDevice.h"
 #include "Live/Documents/Mix.h"
 #include "Scene/SceneFile.h"
 #include <algorithm>
@@ -345,6 +346,10 @@ bool MixerModel::reportFault(const std::string& fault) {
 void MixerModel::setSilent(bool silent) {
     output().setSilent(silent);
     showSilence();
+}
+
+bool MixerModel::isOnlySeen() const {
+    return output().device().starts_with(noDeviceType) && session().sinks().states().empty();
 }
 
 void MixerModel::showSilence() {

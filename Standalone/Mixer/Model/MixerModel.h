@@ -75,6 +75,7 @@ public:
     std::string monitorInstead(std::vector<int> outputs, double db);
     void setSilent(bool silent);                         ///< set by the user at the machine
     bool isSilent() const noexcept { return isSilent_; } ///< as displayed: keys refer to what users see
+    bool isOnlySeen() const; ///< there is neither a device nor a board or controller
 
     void setDisplayWidth(double metres); ///< of the display, to scale drags; 0: as the system reports
     double displayWidthMetres() const noexcept { return displayWidthMetres_; }

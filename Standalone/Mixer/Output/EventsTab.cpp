@@ -242,8 +242,6 @@ void EventsTab::resized() {
     describeChoice();
 }
 
-// Exports the selected contacts of the events list to files.
-
 void EventsTab::showMenu() {
     juce::PopupMenu menu;
     menu.addItem("Save as clip" + dots(), [safe = juce::Component::SafePointer<EventsTab>{this}] {

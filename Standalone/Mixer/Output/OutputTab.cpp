@@ -352,8 +352,6 @@ void OutputTab::resized() {
     facts_.setBounds(area);
 }
 
-// OSC controls of the output tab: accepted senders, receiver of impacts, and orientation of a phone.
-
 namespace {
 
 // in the order of OscUse

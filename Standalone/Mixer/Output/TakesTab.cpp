@@ -244,8 +244,6 @@ void TakesTab::resized() {
     none_.setBounds(area.withHeight(rowHeight).reduced(10, 0));
 }
 
-// Reads the levels on a thread of its own, and moves start and end by mouse and keys.
-
 namespace {
 
 constexpr int columns = 400;

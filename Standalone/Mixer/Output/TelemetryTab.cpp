@@ -113,8 +113,6 @@ void TelemetryTab::refresh(const MixerMoment& moment) {
     facts_.set(telemetryFacts(model_, moment, medianLoad()));
 }
 
-// Draws facts column by column from the top.
-
 namespace {
 
 constexpr int lowestRow = 18, highestRow = 26, afterName = 14;

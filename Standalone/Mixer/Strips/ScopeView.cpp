@@ -108,8 +108,6 @@ void ScopeView::resized() {
     lanes_ = area;
 }
 
-// Updates the spectra ten times a second, and redraws only visible changes.
-
 namespace {
 
 constexpr float visibleDb = 0.3f;

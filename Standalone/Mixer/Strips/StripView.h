@@ -11,7 +11,8 @@ namespace physvib {
 
 class StripView final : public StripParts, public juce::FileDragAndDropTarget {
 public:
-    static constexpr int width = 78, mostWidth = 132; ///< they share the panel
+    /// They share the panel; from `easyWidth` on each button is as wide as a pointer needs.
+    static constexpr int width = 78, easyWidth = 104, mostWidth = 132;
 
     StripView(MixerModel& model, int strip);
     void mixChanged();

@@ -124,8 +124,6 @@ void StripsPanel::resized() {
     attach_.setBounds(places.removeFromLeft(attachWidth).withTrimmedTop(2).withTrimmedBottom(2));
 }
 
-// Controls of a strip group and their edits of the mixer state.
-
 GroupView::GroupView(MixerModel& model, int group)
     : model_{model}
     , index_{static_cast<std::size_t>(group)} {

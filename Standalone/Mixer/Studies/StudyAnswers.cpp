@@ -103,8 +103,6 @@ void StudyAnswerPane::resized() {
     if (answer_) answer_->setBounds(area);
 }
 
-// Answers that need no field: labels, alternatives, scales, a level, a number, words.
-
 namespace {
 
 constexpr int space = 16;

@@ -180,8 +180,6 @@ bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
     return true;
 }
 
-// Composes the texts of tasks.
-
 juce::String
 StudyWords::operator()(const std::string& english,
                        std::initializer_list<std::pair<const char*, juce::String>> values) const {

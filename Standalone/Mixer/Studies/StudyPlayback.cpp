@@ -263,8 +263,6 @@ void StudyMarkers::push(const std::string& words, double secondsFromNow) {
     outlet_->pushText(outlet_->outlet, &text, outlet_->clock() + secondsFromNow);
 }
 
-// Plays a session of its own on the borrowed output, and keeps its journal.
-
 namespace {
 
 constexpr std::int64_t fadeNs = 100'000'000;  // longer than the fade-out of any mode, by
@@ -417,8 +415,6 @@ void StudyWorld::finish() {
     journal_.reset();
     session_.reset();
 }
-
-// Converts mouse and key input to inputs of the session that is played.
 
 StudyWorldPane::StudyWorldPane(MixerModel& model)
     : model_{model}

@@ -136,8 +136,6 @@ void StudyScreen::parentSizeChanged() {
     if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
 }
 
-// ---- pages
-
 void StudyScreen::showNext() {
     const bool asksComment = page_ == Page::trial && !study_->protocol().closingQuestion.empty();
     if (experiment().isDone())
@@ -273,8 +271,6 @@ void StudyScreen::submitComment() {
     showPage(Page::done);
 }
 
-// ---- keys
-
 bool StudyScreen::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     if (key.isKeyCode(KeyPress::tabKey)) return false; // moves the focus
@@ -298,8 +294,6 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
         goOn();
     return true; // no key reaches the mixer below
 }
-
-// Course of a trial: plays its parts, and stores the answer.
 
 namespace {
 
@@ -528,8 +522,6 @@ void StudyScreen::updatePause() {
                     say_(pause_.isEnabled() ? "space bar: answer" : "when each was felt for long enough"));
 }
 
-// Texts and layout of the study screen.
-
 namespace {
 
 constexpr int studyBarHeight = 56, partWidth = 300, partHeight = 84, choiceHeight = 216;
@@ -602,8 +594,6 @@ void StudyScreen::updateParts() {
     }
 }
 
-// ---- words
-
 juce::String StudyScreen::headline() const {
     switch (page_) {
     case Page::trial: return say_.question(experiment().session(), experiment().condition());
@@ -675,8 +665,6 @@ juce::String StudyScreen::progressWords() const {
         words.add(say_("trial {n}", {{"n", trial}}));
     return words.joinIntoString(juce::String::fromUTF8("   \xc2\xb7   "));
 }
-
-// ---- places
 
 void StudyScreen::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::ground));

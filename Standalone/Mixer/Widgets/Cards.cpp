@@ -66,8 +66,6 @@ void askForValues(juce::Component& from, const juce::String& title, const juce::
     host->setCard(std::move(made));
 }
 
-// From the top: title, words, content; from the bottom: answers in rows of three, from the right.
-
 Card::Card(int width)
     : width_{width} {
     setWantsKeyboardFocus(true);
@@ -131,8 +129,6 @@ void Card::resized() {
     place(area.removeFromBottom(contentHigh()));
     words_.setBounds(area.withTrimmedTop(4));
 }
-
-// Lists folders and files, and checks a typed name.
 
 FileCard::FileCard(const Choice& choice)
     : Card{wide}

@@ -88,8 +88,6 @@ void StudyFont::use(const juce::String& typeface) {
     juce::Typeface::clearTypefaceCache();
 }
 
-// Searches for a typeface when a new letter is to be displayed.
-
 bool ShownLetters::show(const juce::String& words) {
     juce::String fresh;
     for (const auto letter : words)

@@ -234,7 +234,8 @@ void FirstStart::end(bool hasChosen) {
 
 bool FirstStart::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
-    if (key == KeyPress::escapeKey) return end(tested_ >= 0), false; // and it silences
+    if (const bool isTest = tested_ >= 0; key == KeyPress::escapeKey)
+        return end(isTest), !isTest; // after a test it silences: the world goes on
     if (tested_ < 0) {
         if (key == KeyPress::upKey) return choose(chosen_ - 1), true;
         if (key == KeyPress::downKey) return choose(chosen_ + 1), true;
@@ -257,8 +258,9 @@ void FirstStart::show() {
     if (!isTest) {
         const bool hasChoice = choices_.size() > 1;
         say("Where are your actuators?",
-            hasChoice ? "Play here tests each of them in turn, quietly at first. Nothing plays before."
-                      : "No device was found. Plug one in, and choose it under Output.");
+            (hasChoice ? "Play here tests each of them in turn, quietly at first. Nothing plays before."
+                       : "No device was found. Plug one in, and choose it under Output.") +
+                juce::String{" Then drag a ball to throw it; Esc silences."});
         play_.setButtonText(hasChoice ? "Play here" : "Go on");
         setAnswers(hasChoice ? std::vector{&play_, &without_} : std::vector{&play_});
     } else {

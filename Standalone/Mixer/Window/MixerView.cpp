@@ -42,6 +42,31 @@ constexpr TabEntry tabEntries[]{
     {false, "Events", make<EventsTab>},       {false, "Takes", make<TakesTab>},
     {false, "Telemetry", make<TelemetryTab>}};
 
+/// In its place: it is animated to where it is now.
+void comeIn(juce::Component& c) {
+    constexpr int ms = 120;
+    if (c.isShowing()) juce::Desktop::getInstance().getAnimator().fadeIn(&c, ms);
+}
+
+/// What is typed keeps the colour that it was typed in.
+void inkTexts(juce::Component& in) {
+    if (auto* const editor = dynamic_cast<juce::TextEditor*>(&in))
+        editor->applyColourToAllText(shade(in, Shade::text));
+    for (auto* child : in.getChildren()) inkTexts(*child);
+}
+
+/// A path that has no room in a line loses its beginning, and is not broken.
+juce::String fittingWords(const juce::String& words, const juce::Font& font, int room) {
+    auto all = juce::StringArray::fromTokens(words, " ", {});
+    for (auto& word : all)
+        while (room > 40 && text::pixels(font, word) > room) {
+            const auto rest = word.trimCharactersAtStart(dots() + "/");
+            word = dots() + (rest.containsChar('/') ? rest.fromFirstOccurrenceOf("/", true, false)
+                                                    : rest.substring(1));
+        }
+    return all.joinIntoString(" ");
+}
+
 } // namespace
 
 MixerView::MixerView(MixerModel& model)
@@ -107,6 +132,7 @@ MixerView::~MixerView() {
 
 void MixerView::setTheme(Theme theme) {
     look_.setTheme(theme);
+    inkTexts(*this);
     sendLookAndFeelChange();
     mixChanged();
     repaint();
@@ -126,8 +152,8 @@ void MixerView::mixChanged() {
         hintOnLevels(model_, why);
     }
     const bool isTrouble = model_.trouble().isNotEmpty();
-    if (trouble_.getText() != model_.trouble()) newsAtMs_ = nowMs();
-    trouble_.setText(model_.trouble(), juce::dontSendNotification);
+    if (trouble_.getTooltip() != model_.trouble()) newsAtMs_ = nowMs();
+    trouble_.setTooltip(model_.trouble());
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
     const auto tint = shade(*this, model_.isNews() ? Shade::accent : Shade::limit);
     trouble_.setColour(juce::Label::backgroundColourId,
@@ -137,9 +163,11 @@ void MixerView::mixChanged() {
     act_->setTitle(act);
     act_->setTooltip(act);
     act_->setVisible(act.isNotEmpty());
+    const bool comes = isTrouble && !trouble_.isVisible();
     trouble_.setVisible(isTrouble);
     dismiss_->setVisible(isTrouble);
     resized(); // the strips or the field may want another share
+    if (comes) comeIn(trouble_);
 }
 
 // The handle moves with the panels, so each call starts from their present places.
@@ -235,8 +263,8 @@ void MixerView::refresh() {
     tabs_.refresh(latest_); // folded or not: a study goes on there, takes and lanes are followed
     scope_.refresh(latest_);
     strips_.refresh(latest_);
-    constexpr double newsMs = 10e3;                              // it lies over the materials to draw with
-    const bool isShown = trouble_.getText() == model_.trouble(); // the change may not have come yet
+    constexpr double newsMs = 10e3;                                 // it lies over the materials to draw with
+    const bool isShown = trouble_.getTooltip() == model_.trouble(); // the change may not have come yet
     const bool isSeen = !act_->isVisible() || model_.messages().shown().label == "saved";
     if (isShown && model_.isNews() && isSeen && nowMs() - newsAtMs_ > newsMs) model_.report({});
     keepPace();
@@ -261,12 +289,6 @@ void MixerView::keepPace() {
     if (isTimerRunning() && getTimerInterval() != wanted) startTimer(wanted);
 }
 
-void MixerView::setHint(bool isShown) {
-    if (isShown == isHintShown_) return;
-    isHintShown_ = isShown;
-    repaint(world_.getBounds());
-}
-
 void MixerView::setFirstStart(std::unique_ptr<FirstStart> card) {
     firstStart_ = std::move(card);
     raiseCard();
@@ -277,14 +299,23 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     raiseCard();
 }
 
+// Esc closes a card or a menu; what sounds, or did as long ago as meters hold, is silenced as well.
+bool MixerView::onlyCloses() {
+    if (openCard() == nullptr && juce::Component::getCurrentlyModalComponent() == nullptr) return false;
+    look();
+    return model_.isOnlySeen() || std::ranges::all_of(latest_.holds, [](float h) { return h == 0.0f; });
+}
+
 void MixerView::raiseCard() {
     auto* const open = openCard();
     curtain_.setVisible(open != nullptr);
     if (open == nullptr) return grabKeyboardFocus();
     curtain_.toFront(false);
     addAndMakeVisible(*open);
+    inkTexts(*open);
     open->toFront(false);
     placeCards();
+    comeIn(*open);
     cardFocus_.give(*open);
 }
 
@@ -306,11 +337,6 @@ bool MixerView::shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarg
     canMoveFiles = false;
     files = scope_.find<EventsTab>()->filesToDrag();
     return !files.isEmpty();
-}
-
-void MixerView::mouseDown(const juce::MouseEvent& e) {
-    setHint(false);
-    releaseAtRightClick(e);
 }
 
 // JUCE's buttons take every button of the mouse. One that is not down when it is released does nothing.
@@ -335,7 +361,6 @@ void MixerView::setScreen(juce::Component* screen) {
 }
 
 void MixerView::chooseStudy(const StudyCall& call) {
-    setHint(false);
     tabs_.choose("Studies");
     auto& tab = *tabs_.find<StudiesTab>();
     if (call.folder.isNotEmpty())
@@ -359,7 +384,6 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
     }
     // without a focused component, keys go to the screen before the world
     if (screen_ != nullptr && screen_->keyPressed(key)) return true;
-    setHint(false);
     if (key == KeyPress::escapeKey) return model_.setSilent(true), true;
     if (key == KeyPress::F2Key) return bar_.onMode(), true;
     if (key == KeyPress::F3Key) return setPanels({panels().hasDrawer, !panels().hasLower}), true;
@@ -378,25 +402,9 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
 void MixerView::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::ground)); }
 
 void MixerView::paintOverChildren(juce::Graphics& g) {
-    if (isDropShown_) {
-        g.setColour(shade(*this, Shade::accent));
-        g.drawRect(getLocalBounds(), 3);
-    }
-    if (!isHintShown_) return;
-    static const juce::StringArray lines{
-        "Hold the actuators, or put the headphones on: they start quietly.",
-        "Drag a ball to throw it. The bar at the left draws balls, walls and joints.",
-        "Esc silences everything. F2: the engineer's strips, materials, outputs, studies."};
-    const auto font = text::font(text::medium);
-    const auto at = world_.getBounds().withSizeKeepingCentre(590, 34 + 26 * lines.size());
-    g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));
-    g.fillRoundedRectangle(at.toFloat(), 10.0f);
-    g.setFont(font);
-    auto area = at.reduced(20, 15);
-    for (const auto& line : lines) {
-        g.setColour(shade(*this, Shade::text));
-        g.drawText(line, area.removeFromTop(26), juce::Justification::centredLeft, true);
-    }
+    if (!isDropShown_) return;
+    g.setColour(shade(*this, Shade::accent));
+    g.drawRect(getLocalBounds(), 3);
 }
 
 void MixerView::resized() {
@@ -406,9 +414,10 @@ void MixerView::resized() {
         bar_.setBounds(area.removeFromTop(TopBar::lineHeight).removeFromRight(TopBar::showWidth));
     } else {
         bar_.setBounds(area.removeFromTop(bar_.heightFor(getWidth())));
-        const auto a = arrange(area.reduced(edge),
-                               {strips_.widthFor(StripView::width), strips_.widthFor(StripView::mostWidth)},
-                               dividers_, mode_, panels());
+        const auto a =
+            arrange(area.reduced(edge),
+                    {strips_.widthFor(StripView::easyWidth), strips_.widthFor(StripView::mostWidth)},
+                    dividers_, mode_, panels());
         for (const auto& [panel, bounds] :
              std::initializer_list<std::pair<juce::Component*, juce::Rectangle<int>>>{{&world_, a.world},
                                                                                       {&tabs_, a.tabs},
@@ -426,7 +435,11 @@ void MixerView::resized() {
     if (act_->isVisible())
         act_->setBounds(
             buttons.removeFromRight(30 + text::pixels(text::font(text::medium), act_->getButtonText())));
-    trouble_.setBorderSize({0, panelInset, 0, banner.getRight() - buttons.getRight() + 4});
+    const juce::BorderSize<int> around{0, panelInset, 0, banner.getRight() - buttons.getRight() + 4};
+    trouble_.setBorderSize(around);
+    trouble_.setText(fittingWords(trouble_.getTooltip(), trouble_.getFont(),
+                                  banner.getWidth() - around.getLeftAndRight() - 2),
+                     juce::dontSendNotification);
     placeCards();
 }
 
@@ -439,8 +452,6 @@ void MixerView::placeCards() {
         progress_->setTopLeftPosition(world_.getRight() - progress_->getWidth() - 8,
                                       world_.getBottom() - 56 - progress_->getHeight());
 }
-
-// Divides the window between world, tabs, scope and strips.
 
 namespace {
 

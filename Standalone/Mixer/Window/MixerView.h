@@ -95,9 +95,6 @@ public:
     void chooseStudy(const StudyCall& call);
     /// The window is to be closed: pauses or leaves a study on its screen. False if there is none.
     bool pauseStudy();
-    /// Three lines of help for new users; a click or key closes them.
-    void setHint(bool isShown);
-    bool isHintShown() const noexcept { return isHintShown_; }
     /// Shows a card over the world, which gets the keyboard; null: none.
     void setFirstStart(std::unique_ptr<FirstStart> card);
     FirstStart* firstStart() noexcept { return firstStart_.get(); }
@@ -119,7 +116,7 @@ public:
     bool shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details,
                                               juce::StringArray& files, bool& canMoveFiles) override;
 
-    void mouseDown(const juce::MouseEvent& e) override;
+    void mouseDown(const juce::MouseEvent& e) override { releaseAtRightClick(e); }
     void mouseDrag(const juce::MouseEvent& e) override { releaseAtRightClick(e); }
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
@@ -132,6 +129,7 @@ private:
     void look();
     void moveDivider(double Dividers::*which, int pixels, int whole, int now);
     static void releaseAtRightClick(const juce::MouseEvent& e);
+    bool onlyCloses();
     void raiseCard();
     void showPanels();
     void placeCards();
@@ -161,13 +159,13 @@ private:
     ShownLetters letters_;
     std::uint64_t lettersOf_ = ~std::uint64_t{0}; // edit count of the world at the last check
     juce::String whySilent_;                      // as shown
-    bool isHintShown_ = false, isDropShown_ = false, isShow_ = false;
+    bool isDropShown_ = false, isShow_ = false;
     MixerMoment latest_;
     int restedLooks_ = 0, looks_ = 0;
     double newsAtMs_ = 0.0;
     std::array<float, limits::maxEnchanters> peaks_{}; // since the strips were updated
     Tips tooltips_{*this};
-    EmergencyStop stop_{*this, [this] { model_.setSilent(true); }};
+    EmergencyStop stop_{*this, [this] { model_.setSilent(true); }, [this] { return onlyCloses(); }};
 };
 
 } // namespace physvib

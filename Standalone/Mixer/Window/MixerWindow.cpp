@@ -79,7 +79,6 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     if (isFirst && !endedBadly) later(*this, [](MixerWindow& window) { window.showFirstStart(); });
     reportInstead();
     offerRecovery();
-    if (!isFirst && !endedBadly) showHintOnce(); // else after the questions
     if (!files_.settingsFault().empty()) model_->messages().add({utf8(files_.settingsFault())});
     startTimer(500);
 }
@@ -164,18 +163,13 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
             "Another output begins the session anew: the mix stays, its past and its undo steps are lost.");
 }
 
-// ---- the first start, and messages on devices that replace missing ones
-
 void MixerWindow::showFirstStart() { addFirstStart(feltChoices(drivers_, likelySinks())); }
 
 FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
     auto card = std::make_unique<FirstStart>(*model_, std::move(choices));
     card->onEnd = [this](bool hasChosen) {
         if (hasChosen) files_.settings().setValue(chosenSetting, true);
-        later(*this, [](MixerWindow& window) {
-            window.view_->setFirstStart(nullptr);
-            window.showHintOnce();
-        });
+        later(*this, [](MixerWindow& window) { window.view_->setFirstStart(nullptr); });
     };
     card->onSink = [this](const DeviceChoice& choice) {
         files_.settings().setValue(chosenSetting, true);
@@ -195,12 +189,6 @@ void MixerWindow::reportInstead() {
         if (there.type != noDeviceType && there.channels > 0 && there.type + ":" + there.name != wanted)
             return model_->messages().add({"There is " + utf8(there.type + ":" + there.name) + " (" +
                                            juce::String{there.channels} + " outputs) instead, under Output"});
-}
-
-void MixerWindow::showHintOnce() {
-    auto& settings = files_.settings();
-    if (!settings.getBoolValue("hint-seen")) view_->setHint(true);
-    settings.setValue("hint-seen", true);
 }
 
 void MixerWindow::nameWindow() {
@@ -382,7 +370,11 @@ constexpr const char* shortcuts =
 
 void MixerWindow::showMenu(juce::Component& from) {
     juce::PopupMenu menu, help;
-    add(help, {"First steps"}, [this] { view_->setHint(true); });
+    add(help, {"First steps"}, [this] {
+        model_->announce(
+            "Drag a ball to throw it; the bar at the left draws. Esc silences everything, F2 has all "
+            "controls.");
+    });
     add(help, {"Keys" + dots()}, [this] {
         const juce::KeyPress escape{juce::KeyPress::escapeKey};
         view_->setQuestion(std::make_unique<QuestionCard>(
@@ -472,8 +464,6 @@ juce::PopupMenu MixerWindow::worldMenu() {
     add(menu, {"Save the layout" + dots()}, [this] { exportLayout(); });
     return menu;
 }
-
-// Opens and saves sessions, scenes and layouts; records and renders; asks before unsaved changes are lost.
 
 namespace {
 
@@ -779,8 +769,6 @@ void MixerWindow::import(const juce::String& title) {
     chooseFile(title, sessionEnding, false, [this](const juce::File& file) { openFile(file); });
 }
 
-// Offers recovery copies of earlier runs one by one, to be opened or discarded.
-
 namespace {
 
 constexpr std::size_t maxOffered = 20; // as many as a user may look through; each is read when it is shown
@@ -814,9 +802,8 @@ void MixerWindow::offerRecovery() {
 
 void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std::size_t at) {
     if (copies.empty()) {
-        if (view_->question() == nullptr) return;
-        view_->setQuestion(nullptr);
-        return showHintOnce();
+        if (view_->question() != nullptr) view_->setQuestion(nullptr);
+        return;
     }
     const std::size_t most = std::min(copies.size(), maxOffered);
     const auto copy = copies[at];
@@ -837,7 +824,7 @@ void MixerWindow::showCopy(const std::vector<std::filesystem::path>& copies, std
     std::vector<QuestionCard::Answer> answers{
         {"Take it up", [this, copy] { recover(copy); }, static_cast<bool>(session)},
         {"Discard it", [discard, copy] { discard({copy}); }},
-        {"Not now", [this] { view_->setQuestion(nullptr), showHintOnce(); }}};
+        {"Not now", [this] { view_->setQuestion(nullptr); }}};
     if (most > 1) {
         answers.push_back({"Newer", [this, copies, at] { showCopy(copies, at - 1); }, at > 0,
                            juce::KeyPress{juce::KeyPress::leftKey}});
@@ -859,12 +846,9 @@ void MixerWindow::recover(const std::filesystem::path& copy) {
         savedEdits_ = neverSaved;
         files_.copies().forget(); // the previous session was saved or discarded by the user
         files_.copies().goOnFrom(copy);
-        showHintOnce();
         model_->reportFault(files_.keepNow(*model_));
     });
 }
-
-// Saves the drawing as a scene file, and creates empty scenes to draw in.
 
 void MixerWindow::saveScene(bool isNow) {
     files_.scenesFolder().createDirectory();
@@ -902,8 +886,6 @@ void MixerWindow::newScene(SceneGround ground) {
     });
     view_->world().drawing().use(DrawTool::ball);
 }
-
-// Shares the world as a link to the web page.
 
 namespace {
 
@@ -967,8 +949,6 @@ void MixerWindow::serve() {
         });
     });
 }
-
-// Zoom and full screen of the window.
 
 namespace {
 

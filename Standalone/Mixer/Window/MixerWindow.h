@@ -121,7 +121,6 @@ private:
     void say(const juce::String& words) { model_->report(words); }
     void announceSaved(const juce::String& words, const juce::File& file); ///< with a button that shows the
                                                                            ///< file
-    void showHintOnce();
     void serve();
     void chooseFolder();
     juce::File folderOfDocuments() const;

@@ -234,7 +234,7 @@ void TopBar::resized() {
     auto states = isOneLine ? juce::Rectangle<int>{} : area.removeFromBottom(secondLine);
     area.setHeight(lineHeight - 18);
     constexpr int button = 36, between = 8, tight = 2;
-    silence_.setBounds(area.removeFromRight(156));
+    silence_.setBounds(area.removeFromRight(166));
     area.removeFromRight(between);
     struct Control {
         juce::Component* component;
@@ -244,7 +244,7 @@ void TopBar::resized() {
                                                                                 {&save_, button, tight},
                                                                                 {&undo_, button, tight},
                                                                                 {&redo_, button, between},
-                                                                                {&scene_, 144, between},
+                                                                                {&scene_, 134, between},
                                                                                 {&pause_, button, tight},
                                                                                 {&step_, button, tight},
                                                                                 {&slow_, button, tight},

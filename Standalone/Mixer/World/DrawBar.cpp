@@ -54,7 +54,7 @@ void DrawBar::show() {
 }
 
 namespace {
-constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1, groupGap = 8;
+constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1;
 
 /// Hands, shapes, joints, and what takes away.
 int groupOf(int button) { return button < 2 ? 0 : button < 9 ? 1 : button < 14 ? 2 : 3; }
@@ -78,17 +78,89 @@ int DrawBar::widthFor(int height) {
 
 void DrawBar::resized() {
     const int rows = perColumn(getHeight()), each = highFor(getHeight());
-    const int apart = std::clamp((getHeight() + between - rows * (each + between)) / 3, 0,
-                                 rows < buttonCount ? groupGap / 2 : groupGap);
+    const int apart = rows < buttonCount ? 0 // columns of one line each
+                                         : std::min((getHeight() + between - rows * (each + between)) / 3, 8);
     for (int k = 0; k <= static_cast<int>(tools_.size()); ++k) {
         auto& button = k < static_cast<int>(tools_.size())
                            ? static_cast<juce::Component&>(*tools_[static_cast<std::size_t>(k)])
                            : snap_;
-        button.setBounds(k / rows * (wide + between),
-                         k % rows * (each + between) + (groupOf(k) - groupOf(k / rows * rows)) * apart, wide,
+        button.setBounds(k / rows * (wide + between), k % rows * (each + between) + groupOf(k) * apart, wide,
                          each);
     }
 }
+
+/// A material's chip: a picture of its decay, or a flat line for a material that does not vibrate.
+class MaterialSwatch final : public juce::Button {
+public:
+    MaterialSwatch(const Material& material, juce::Colour colour)
+        : juce::Button{utf8(material.name)}
+        , material_{material}
+        , colour_{colour} {
+        setTitle("Material " + getName());
+        setWantsKeyboardFocus(true);
+    }
+    /// `why`: it is not felt at usual impacts; empty: it is.
+    void setWhy(const std::string& why) {
+        isFelt_ = why.empty();
+        setTooltip(isFelt_ ? getName() + ": draw with it; with the mouse over it, it is played once"
+                           : getName() + " is not felt at usual impacts: " + utf8(why));
+        repaint();
+    }
+    enum class Show { picture, name, remark }; ///< a remark says in words that it is not felt
+    int wanted(Show show) const {
+        return show == Show::picture ? 32 : 38 + text::pixels(text::font(text::small), words(show));
+    }
+    void setShow(Show show) {
+        show_ = show;
+        repaint();
+    }
+    std::function<void()> onEnter;
+    void mouseEnter(const juce::MouseEvent& e) override {
+        juce::Button::mouseEnter(e);
+        if (onEnter) onEnter();
+    }
+    void paintButton(juce::Graphics& g, bool isOver, bool) override {
+        g.setColour(shade(*this, getToggleState() ? Shade::raised : Shade::panel)
+                        .brighter(isOver ? 0.1f : 0.0f)
+                        .withAlpha(0.95f));
+        g.fillRoundedRectangle(getLocalBounds().toFloat(), 6.0f);
+        g.setColour(shade(*this, Shade::accent));
+        if (getToggleState()) g.drawRoundedRectangle(getLocalBounds().toFloat().reduced(0.75f), 6.0f, 1.5f);
+        g.setColour(colour_);
+        g.strokePath(decay(), juce::PathStrokeType{1.6f},
+                     juce::AffineTransform::translation(7.0f, 0.5f * static_cast<float>(getHeight())));
+        g.setColour(shade(*this, getToggleState() ? Shade::text : Shade::muted));
+        g.setFont(text::font(text::small));
+        g.drawText(words(show_), getLocalBounds().withTrimmedLeft(30), juce::Justification::centredLeft,
+                   true);
+    }
+
+private:
+    juce::String words(Show show) const {
+        return show == Show::picture ? juce::String{}
+                                     : getName() + (show == Show::remark && !isFelt_ ? ": not felt" : "");
+    }
+    /// The first tenth of a second, with fewer waves than it has, so that they can be told apart.
+    juce::Path decay() const {
+        constexpr double wide = 18.0, high = 8.0, seconds = 0.1, wavesPerHertz = 0.012;
+        juce::Path path;
+        path.startNewSubPath(0.0f, 0.0f);
+        for (double x = 0.5; x <= wide; x += 0.5) {
+            const double share = x / wide;
+            const double wave =
+                std::sin(juce::MathConstants<double>::twoPi * wavesPerHertz * material_.frequencyHz * share);
+            path.lineTo(
+                static_cast<float>(x),
+                static_cast<float>(-high * wave * std::exp(-material_.decayPerSecond * seconds * share)));
+        }
+        return path;
+    }
+
+    const Material material_;
+    const juce::Colour colour_;
+    Show show_ = Show::name;
+    bool isFelt_ = true;
+};
 
 BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
     : model_{model}
@@ -171,6 +243,8 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
                    &speed_, &torqueName_, &torque_, &springName_, &spring_});
 }
 
+BodyPanel::~BodyPanel() = default;
+
 void BodyPanel::edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit) {
     const auto error = actions ? model_.world().edit(name, actions.value, continuesEdit) : actions.error;
     if (!error.empty()) model_.report(utf8(error));
@@ -219,10 +293,26 @@ void BodyPanel::show() {
     bounceName_.setText(marked("bounce", differ(bounceOf)), juce::dontSendNotification);
     moves_.setButtonText(marked("moves", differ(isMoving)));
     source_.setButtonText(marked("haptic source", differ(isSource)));
+    const bool isMixed = differ([](const auto& b) { return b.fixtures[0].material; });
     const auto material =
-        differ([](const auto& b) { return b.fixtures[0].material; })
-            ? juce::String{"several materials"}
-            : utf8(scene.materials[static_cast<std::size_t>(body->fixtures[0].material)].name);
+        isMixed ? juce::String{"several materials"}
+                : utf8(scene.materials[static_cast<std::size_t>(body->fixtures[0].material)].name);
+    if (std::exchange(shown_, scene.materials) != scene.materials) {
+        materials_.clear();
+        for (int i = 0; i < static_cast<int>(shown_.size()); ++i) {
+            auto& swatch = *materials_.emplace_back(
+                std::make_unique<MaterialSwatch>(shown_[static_cast<std::size_t>(i)], palette::material(i)));
+            describe(swatch, "Made of " + swatch.getName(),
+                     swatch.getName() + ": what is chosen is made of it");
+            swatch.setShow(MaterialSwatch::Show::picture);
+            swatch.onClick = [this, i] { pane_.giveMaterial(i), show(); };
+            addAndMakeVisible(swatch);
+            prepareControls(swatch);
+        }
+        resized();
+    }
+    for (int i = 0; auto& swatch : materials_)
+        swatch->setToggleState(i++ == body->fixtures[0].material && !isMixed, juce::dontSendNotification);
     name_.setText(
         (chosen.size() == 1 ? utf8(chosen[0]) : juce::String{static_cast<int>(chosen.size())} + " bodies") +
             " " + juce::String::charToString(0x00b7) + " " + material,
@@ -244,6 +334,10 @@ void BodyPanel::resized() {
     auto row = area.removeFromTop(rowHigh);
     moves_.setBounds(row.removeFromLeft(82));
     source_.setBounds(row);
+    for (int k = 0; auto& swatch : materials_) {
+        if (k++ % perRow == 0) row = area.removeFromTop(rowHigh);
+        swatch->setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1));
+    }
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},
                                         {&speedName_, &speed_},
@@ -255,79 +349,6 @@ void BodyPanel::resized() {
         slider->setBounds(row.reduced(4, 2));
     }
 }
-
-// Chips of the materials to draw with: each shows its decay, and plays under the mouse.
-
-/// A material's chip: a picture of its decay, or a flat line for a material that does not vibrate.
-class MaterialPalette::Swatch final : public juce::Button {
-public:
-    Swatch(const Material& material, juce::Colour colour)
-        : juce::Button{utf8(material.name)}
-        , material_{material}
-        , colour_{colour} {
-        setTitle("Material " + getName());
-        setWantsKeyboardFocus(true);
-    }
-    /// `why`: it is not felt at usual impacts; empty: it is.
-    void setWhy(const std::string& why) {
-        isFelt_ = why.empty();
-        setTooltip(isFelt_ ? getName() + ": draw with it; with the mouse over it, it is played once"
-                           : getName() + " is not felt at usual impacts: " + utf8(why));
-        repaint();
-    }
-    enum class Show { picture, name, remark }; ///< a remark says in words that it is not felt
-    int wanted(Show show) const {
-        return show == Show::picture ? 32 : 38 + text::pixels(text::font(text::small), words(show));
-    }
-    void setShow(Show show) {
-        show_ = show;
-        repaint();
-    }
-    std::function<void()> onEnter;
-    void mouseEnter(const juce::MouseEvent& e) override {
-        juce::Button::mouseEnter(e);
-        if (onEnter) onEnter();
-    }
-    void paintButton(juce::Graphics& g, bool isOver, bool) override {
-        g.setColour(shade(*this, getToggleState() ? Shade::raised : Shade::panel)
-                        .brighter(isOver ? 0.1f : 0.0f)
-                        .withAlpha(0.95f));
-        g.fillRoundedRectangle(getLocalBounds().toFloat(), 6.0f);
-        g.setColour(colour_);
-        g.strokePath(decay(), juce::PathStrokeType{1.6f},
-                     juce::AffineTransform::translation(7.0f, 0.5f * static_cast<float>(getHeight())));
-        g.setColour(shade(*this, getToggleState() ? Shade::text : Shade::muted));
-        g.setFont(text::font(text::small));
-        g.drawText(words(show_), getLocalBounds().withTrimmedLeft(30), juce::Justification::centredLeft,
-                   true);
-    }
-
-private:
-    juce::String words(Show show) const {
-        return show == Show::picture ? juce::String{}
-                                     : getName() + (show == Show::remark && !isFelt_ ? ": not felt" : "");
-    }
-    /// The first tenth of a second, with fewer waves than it has, so that they can be told apart.
-    juce::Path decay() const {
-        constexpr double wide = 18.0, high = 8.0, seconds = 0.1, wavesPerHertz = 0.012;
-        juce::Path path;
-        path.startNewSubPath(0.0f, 0.0f);
-        for (double x = 0.5; x <= wide; x += 0.5) {
-            const double share = x / wide;
-            const double wave =
-                std::sin(juce::MathConstants<double>::twoPi * wavesPerHertz * material_.frequencyHz * share);
-            path.lineTo(
-                static_cast<float>(x),
-                static_cast<float>(-high * wave * std::exp(-material_.decayPerSecond * seconds * share)));
-        }
-        return path;
-    }
-
-    const Material material_;
-    const juce::Colour colour_;
-    Show show_ = Show::name;
-    bool isFelt_ = true;
-};
 
 namespace {
 
@@ -378,8 +399,8 @@ void MaterialPalette::show() {
         shown_ = materials;
         swatches_.clear();
         for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
-            auto& swatch = *swatches_.emplace_back(
-                std::make_unique<Swatch>(materials[static_cast<std::size_t>(i)], palette::material(i)));
+            auto& swatch = *swatches_.emplace_back(std::make_unique<MaterialSwatch>(
+                materials[static_cast<std::size_t>(i)], palette::material(i)));
             swatch.onClick = [this, i] {
                 pane_.setMaterial(i);
                 hintOnMaterial(model_, i);
@@ -415,8 +436,8 @@ void MaterialPalette::resized() {
     auto area = getLocalBounds();
     for (auto [list, wide] : {std::pair{&count_, 106}, {&way_, 150}})
         if (list->isVisible()) list->setBounds(area.removeFromLeft(wide)), area.removeFromLeft(between);
-    using Show = Swatch::Show;
-    const auto showOf = [](const Swatch& swatch, Show others) { // the selected one keeps its name
+    using Show = MaterialSwatch::Show;
+    const auto showOf = [](const MaterialSwatch& swatch, Show others) { // the selected one keeps its name
         return others == Show::picture && swatch.getToggleState() ? Show::name : others;
     };
     Show show = Show::remark;

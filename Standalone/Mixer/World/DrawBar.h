@@ -31,6 +31,9 @@ private:
     juce::TextButton snap_{"#"};
 };
 
+/// A material's chip, which shows its decay.
+class MaterialSwatch;
+
 /// Name and colour of each material: a click selects it for drawing, and hovering plays it once. With the
 /// rain, also its number of balls. Message thread.
 class MaterialPalette final : public juce::Component {
@@ -41,35 +44,39 @@ public:
     void resized() override;
 
 private:
-    class Swatch;
     MixerModel& model_;
     DrawPane& pane_;
     std::vector<Material> shown_;
     std::set<std::tuple<bool, int, bool>> surfaces_; // those that the remarks are about
-    std::vector<std::unique_ptr<Swatch>> swatches_;
+    std::vector<std::unique_ptr<MaterialSwatch>> swatches_;
     juce::ComboBox count_, way_;
     int chosen_ = -1;
 };
 
-/// Static or moving, haptic source or not, density and restitution of the selected bodies; of a single one
-/// also speed and torque of its motor, and stiffness of its spring. Message thread.
+/// Static or moving, haptic source or not, material, density and restitution of the selected bodies; of a
+/// single one also speed and torque of its motor, and stiffness of its spring. Message thread.
 class BodyPanel final : public juce::Component {
 public:
     BodyPanel(MixerModel& model, DrawPane& pane);
+    ~BodyPanel() override;
     void show();
     void paint(juce::Graphics& g) override;
     void resized() override;
     int wantedHeight() const {
-        return high + (drivenJoint_.empty() ? 0 : 2 * rowHigh) + (springJoint_.empty() ? 0 : rowHigh);
+        const int rows = (static_cast<int>(materials_.size()) + perRow - 1) / perRow;
+        return high + rows * rowHigh + (drivenJoint_.empty() ? 0 : 2 * rowHigh) +
+               (springJoint_.empty() ? 0 : rowHigh);
     }
     static constexpr int wide = 230;
 
 private:
-    static constexpr int high = 122, rowHigh = 28;
+    static constexpr int high = 122, rowHigh = 28, perRow = 6;
     void edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit);
 
     MixerModel& model_;
     DrawPane& pane_;
+    std::vector<Material> shown_;
+    std::vector<std::unique_ptr<MaterialSwatch>> materials_;
     std::string drivenJoint_, springJoint_; // of the single selected body; empty: none
     juce::Label name_;
     Caption densityName_{"density"}, bounceName_{"bounce"}, speedName_{"motor"}, torqueName_{"torque"},

@@ -50,11 +50,16 @@ void DrawPane::use(DrawTool tool) {
 void DrawPane::setMaterial(int material) {
     material_ = material;
     isPicked_ = true;
-    if (tool_ == DrawTool::choose)
-        changeChosen("Material", [material](const Scene&, BodyDescription& body) {
-            for (auto& fixture : body.fixtures) fixture.material = material;
-        });
+    if (tool_ == DrawTool::choose) giveMaterial(material);
     if (onChange) onChange();
+}
+
+void DrawPane::giveMaterial(int material) {
+    changeChosen("Material", [material](const Scene& scene, BodyDescription& body) {
+        if (scene.materials[static_cast<std::size_t>(material)].frequencyHz <= 0.0)
+            setSource(scene, body, false); // of nothing that does not vibrate
+        for (auto& fixture : body.fixtures) fixture.material = material;
+    });
 }
 
 void DrawPane::setSnapping(bool snaps) {
@@ -126,8 +131,6 @@ std::optional<BodyPlace> DrawPane::placeNow(const std::string& name) const {
     return pose ? std::optional{BodyPlace{{pose->xMetres, pose->yMetres}, pose->angleRadians}} : std::nullopt;
 }
 
-// ---- the mouse
-
 void DrawPane::mouseDown(const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu()) return onMenu ? onMenu(e.position) : void();
     to_ = at(e);
@@ -187,8 +190,6 @@ void DrawPane::mouseUp(const juce::MouseEvent& e) {
 void DrawPane::mouseDoubleClick(const juce::MouseEvent&) {
     if (tool_ == DrawTool::polygon) closePolygon();
 }
-
-// Converts mouse strokes to new bodies, and erases bodies and joints.
 
 namespace {
 
@@ -362,8 +363,6 @@ void DrawPane::setRainPattern(const RainPattern& pattern) {
     if (onChange) onChange();
 }
 
-// Creates joints between bodies, or between a body and the field.
-
 // The field itself is not a body. A joint to it uses a static body, or a small disc that is added there.
 std::string DrawPane::fieldBody(std::vector<Action>& actions, const Vector& place) {
     for (const auto& body : drawing().drawn().bodies)
@@ -434,8 +433,6 @@ void DrawPane::join() {
     model_.messages().withdraw("joint");
     edit(wordsOf(tool_).name, std::move(actions));
 }
-
-// Applies mouse gestures on the selected bodies: handles, sizes, places.
 
 namespace {
 
@@ -529,8 +526,6 @@ std::map<std::string, BodyPlace> DrawPane::movedNow() const {
     return places;
 }
 
-// Keyboard commands for tools and selected bodies.
-
 void DrawPane::nudge(Vector byMetres, double byRadians) {
     std::map<std::string, BodyPlace> places;
     for (const std::string& name : chosen_)
@@ -600,8 +595,6 @@ bool DrawPane::handleKey(const juce::KeyPress& key) {
     if (key.getTextCharacter() == '-') return scaleChosen(1.0 / 1.1), true;
     return false;
 }
-
-// Draws joints, the selection with its handles, and the shape being drawn.
 
 // Rotates and moves the point with the body from its drawn to its current pose.
 Vector DrawPane::carried(const Vector& point, const std::string& name) const {

@@ -28,7 +28,8 @@ public:
 
     void use(DrawTool tool); ///< the hand tool acts in the view below
     DrawTool tool() const noexcept { return tool_; }
-    void setMaterial(int material); ///< for new bodies and the selected ones
+    void setMaterial(int material);  ///< for new bodies and, with the arrow, the selected ones
+    void giveMaterial(int material); ///< to the selected ones
     int material() const noexcept { return material_; }
     void setSnapping(bool snaps);
     bool snaps() const noexcept { return snaps_; }

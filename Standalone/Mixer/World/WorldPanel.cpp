@@ -117,7 +117,9 @@ void WorldPanel::mixChanged() {
     shownEdits_ = model_.world().edits();
     pane_.mixChanged();
     showTools();
-    view_.show(mix.layout, mix.panner());
+    std::vector<bool> muted;
+    for (int j = 0; j < mix.count(); ++j) muted.push_back(mix.isSilent(j));
+    view_.show(mix.layout, mix.panner(), std::move(muted));
     master_.mixChanged();
     view_.setDisplayWidth(model_.displayWidthMetres());
     law_.setText(juce::String{nameOf(mix.panner().law()).data()} + " law" + dot + "exponent " +
@@ -219,8 +221,6 @@ void WorldPanel::setPlay(bool isPlay, bool hasMaster) {
     resized();
 }
 
-// ---- a scene's player
-
 /// Who begins to play takes over from the scene's script: the world begins anew without what that did.
 void WorldPanel::play(const std::vector<Action>& actions) {
     if (actions.empty()) return;
@@ -316,7 +316,10 @@ juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = model_.world().scene();
     const auto name = materialName(scene, hit), place = placeText(scene, hit);
     if (isClip(hit.sound)) return inLines({name, place});
-    if (isPlay_) return inLines({name, strengthWords(strongestOf(model_.mix(), hit).levelG) + " " + place});
+    if (isPlay_)
+        return inLines({name, (model_.isOnlySeen() ? juce::String{"seen"}
+                                                   : strengthWords(strongestOf(model_.mix(), hit).levelG)) +
+                                  " " + place});
     const auto hz = number(hit.frequencyHz, 0) + " Hz",
                felt = number(strongestOf(model_.mix(), hit).levelG, 2) + " g " + place;
     const auto tau = juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s";
@@ -340,14 +343,20 @@ juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     return lines.size() <= 2 ? lines.joinIntoString("\n") : juce::String{};
 }
 
+juce::String WorldPanel::whyMuted() const {
+    return model_.isSilent() ? "silent" : whySilent(model_.mix()).isNotEmpty() ? "levels down" : "";
+}
+
 /// Empty: something is felt, or may be at once.
 juce::String WorldPanel::whyNothing(double nowMs) const {
     constexpr double quietMs = 4000.0;
-    if (model_.isSilent()) return "silent";
-    if (whySilent(model_.mix()).isNotEmpty()) return "levels down";
+    if (const auto why = whyMuted(); why.isNotEmpty()) return why;
     if (model_.session().world().slowness() == 0) return "paused";
     const auto isFixed = [](const BodyDescription& body) { return body.type == BodyType::staticBody; };
-    if (std::ranges::all_of(model_.world().drawing().drawn().bodies, isFixed)) return "draw a ball: B";
+    const Scene& drawn = model_.world().drawing().drawn();
+    const auto brings = [](const ScriptInput& input) { return bodyPutBy(input.action) != nullptr; };
+    if (std::ranges::all_of(drawn.bodies, isFixed) && std::ranges::none_of(drawn.script, brings))
+        return "draw a ball: B";
     return nowMs - hitAtMs_ > quietMs ? "no hits" : "";
 }
 
@@ -371,7 +380,8 @@ void WorldPanel::refresh(const MixerMoment& moment) {
     if (model_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
     placeInspector(false);
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits,
-                  std::span{moment.meters.peaks}.first(static_cast<std::size_t>(model_.mix().count()))});
+                  std::span{moment.meters.peaks}.first(static_cast<std::size_t>(model_.mix().count())),
+                  whyMuted().isEmpty()});
 }
 
 void WorldPanel::edit(const juce::String& name, const Action& action) {
@@ -409,15 +419,14 @@ void WorldPanel::resized() {
     view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
     constexpr int silenceHigh = 40;               // the button lies over the corner of a show
     view_.setRoom(isShow_ ? juce::BorderSize<int>{silenceHigh, 0, 0, 0}
-                          : juce::BorderSize<int>{20, tools - 12, 44, 0});
-    pane_.setBounds(view_.getBounds());
+                          : juce::BorderSize<int>{20, tools - 12, 34, 0});
+    pane_.setBounds(view_.getBounds().withTrimmedBottom(isShow_ ? 0 : 44)); // not over the row of words
     top.removeFromLeft(8);
     script_.setBounds(top.withHeight(script_.getHeight()));
     palette_.setBounds(top.removeFromTop(26));
+    body_.setName({}); // in another room at another place
     placeInspector();
 }
-
-// Menus of what lies under the pointer: an actuator, a body, or the empty field.
 
 juce::PopupMenu WorldPanel::menuAt(juce::Point<float> place) {
     juce::PopupMenu menu;
@@ -493,8 +502,6 @@ void WorldPanel::addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector plac
     menu.addItem("Attach an actuator here", model_.mix().count() < limits::maxEnchanters, false,
                  [this, at] { model_.attach(at.x, at.y); });
 }
-
-// Timeline with a mark for each recorded input and the two ends of the kept part.
 
 namespace {
 

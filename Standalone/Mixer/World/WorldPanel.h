@@ -93,6 +93,7 @@ private:
     std::optional<double> playersPlace();
     juce::String sentenceOn(const CollisionEvent& hit) const;
     juce::String inLines(const juce::StringArray& parts) const;
+    juce::String whyMuted() const;
     juce::String whyNothing(double nowMs) const;
     void showSentence();
 

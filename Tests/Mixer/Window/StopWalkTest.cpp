@@ -48,7 +48,7 @@ TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
          },
          [&] { return window->model().isSilent() && window->model().output().isSilent(); },
          [&] { window->model().setSilent(false); },
-         [](const juce::StringArray& steps) { return steps.size() > 3 && steps[2] == "item Quit"; }}};
+         [](const juce::StringArray& steps) { return steps.size() > 3 && steps[2] == "item Quit"; }, 2}};
     if (device != nullptr)
         walk.setMeasure([&](const juce::String& what) {
             if (what.isEmpty()) {

@@ -517,16 +517,6 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
     before.setAsCurrentWorkingDirectory();
 }
 
-TEST(Window, TheHintComesAfterTheFirstStart) {
-    TestFolder folder;
-    MixerWindow window{onlyNoDevice(), "", {}, folder("config")};
-    ASSERT_TRUE(runUntil([&] { return window.view().firstStart() != nullptr; }));
-    EXPECT_FALSE(window.view().isHintShown());
-    window.view().firstStart()->playHere();
-    ASSERT_TRUE(runUntil([&] { return window.view().firstStart() == nullptr; }));
-    EXPECT_TRUE(window.view().isHintShown());
-}
-
 TEST(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
@@ -646,6 +636,35 @@ TEST(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
     }
     hand.click(*find(view, "Mute A"));
     EXPECT_TRUE(model.mix().strips[0].isMuted) << "without a card it does";
+}
+
+TEST(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
+    TestFolder folder;
+    FakeInterface hands;
+    MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("esc.json"), folder("config")};
+    Hand hand{window};
+    auto& view = window.view();
+    auto& model = window.model();
+    const auto isSilentAfterACard = [&] {
+        window.saveAs();
+        runFor(0.1);
+        EXPECT_NE(view.openCard(), nullptr);
+        hand.key(juce::KeyPress::escapeKey);
+        EXPECT_TRUE(runUntil([&] { return view.openCard() == nullptr; }));
+        return model.isSilent();
+    };
+    model.setSlowness(0);
+    ASSERT_TRUE(runUntil([&] {
+        hands.play(64), view.refresh();
+        return std::ranges::all_of(view.latest().holds, [](float hold) { return hold == 0.0f; });
+    }));
+    EXPECT_FALSE(isSilentAfterACard()) << "nothing sounded";
+    model.strikes().testPulse(0);
+    for (int k = 0; k < 100; ++k) hands.play(64);
+    EXPECT_TRUE(isSilentAfterACard());
+    model.setSilent(false);
+    hand.key(juce::KeyPress::escapeKey);
+    EXPECT_TRUE(model.isSilent()) << "where none is open";
 }
 
 TEST(Window, TheRightButtonOfTheMousePressesNoButton) {
@@ -1082,7 +1101,7 @@ TEST(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
     EXPECT_EQ(menu(), nullptr);
     EXPECT_EQ(window.model().session().world().slowness(), 0) << "Space is the world's";
     choose(1, 0); // Help: First steps
-    EXPECT_TRUE(window.view().isHintShown());
+    EXPECT_TRUE(window.model().trouble().contains("Drag a ball"));
     hand.key(juce::KeyPress::spaceKey);
     EXPECT_EQ(menu(), nullptr);
     EXPECT_EQ(window.model().session().world().slowness(), 1) << "without a card as well";
