@@ -349,7 +349,8 @@ void MixerModel::setSilent(bool silent) {
 }
 
 bool MixerModel::isOnlySeen() const {
-    return output().device().starts_with(noDeviceType) && session().sinks().states().empty();
+    return output().device().starts_with(noDeviceType) && session().sinks().states().empty() &&
+           inputs_.choice().receiver.empty();
 }
 
 void MixerModel::showSilence() {

@@ -667,6 +667,21 @@ TEST(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
     EXPECT_TRUE(model.isSilent()) << "where none is open";
 }
 
+TEST(Window, EscSilencesFromACardWhatGoesToAReceiverAlone) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", folder("esc.json"), folder("config")};
+    OscChoice choice;
+    choice.use = OscUse::thisComputer, choice.receiver = "127.0.0.1:9";
+    EXPECT_EQ(window.model().inputs().use(choice), "");
+    window.model().strikes().testPulse(0);
+    runFor(0.3);
+    window.saveAs();
+    runFor(0.1);
+    Hand{window}.key(juce::KeyPress::escapeKey);
+    EXPECT_TRUE(runUntil([&] { return window.view().openCard() == nullptr; }));
+    EXPECT_TRUE(window.model().isSilent());
+}
+
 TEST(Window, TheRightButtonOfTheMousePressesNoButton) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
