@@ -29,6 +29,8 @@ def options() -> Iterator[str]:
                 yield command
             elif option := re.match(r"\| `(.+?)` \|", line):
                 yield f"{command} {option[1]}"
+            elif line.startswith("As `"): # options of another command's table
+                yield from (f"{command} {name}" for name in re.findall(r"`(.+?)`", line)[1:])
     for option in re.findall(r"^ +(?:-\w, *)?(--[\w-]+)", output(programs / "physvib-render", "--help"), re.M):
         yield f"physvib-render {option}"
 

@@ -74,7 +74,7 @@ typedef struct physvib_box2d3 {
 #define PHYSVIB_BOX_NAME "Box2D"
 #define PHYSVIB_B(name) b2##name
 #define PHYSVIB_B_EQUALS B2_ID_EQUALS
-#include "physvib_boxes.h"
+#include <physvib/engines/physvib_boxes.h>
 #undef PHYSVIB_BOX
 #undef PHYSVIB_BOX_STATE
 #undef PHYSVIB_BOX_WORLD

@@ -59,7 +59,7 @@ PHYSVIB_UNUSED static double physvib_box3d_dot(const physvib_box3d_vector* a, co
 #define PHYSVIB_BOX_NAME "Box3D"
 #define PHYSVIB_B(name) b3##name
 #define PHYSVIB_B_EQUALS B3_ID_EQUALS
-#include "physvib_boxes.h"
+#include <physvib/engines/physvib_boxes.h>
 #undef PHYSVIB_BOX
 #undef PHYSVIB_BOX_STATE
 #undef PHYSVIB_BOX_WORLD
