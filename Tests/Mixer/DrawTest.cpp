@@ -533,6 +533,7 @@ TEST(FirstStart, HeadphonesHaveTheFirstActuatorLeftAndTheSecondRight) {
     EXPECT_EQ(model.output().channelMap(), (std::vector{0, 1}));
     EXPECT_EQ(model.mix().levelDb, safeContactDb) << "no louder than a monitor begins";
     EXPECT_TRUE(model.device().listening().settings().contacts.empty());
+    EXPECT_FALSE(model.undoManager().canUndo()) << "which would be louder";
     const auto end = juce::Time::getMillisecondCounter() + 2500; // the device is looked at once a second
     EXPECT_TRUE(runUntil([&] { return model.look(), juce::Time::getMillisecondCounter() > end; }));
     EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();

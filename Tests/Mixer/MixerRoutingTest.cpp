@@ -237,6 +237,13 @@ TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
     EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1})) << "though the device has eight";
     EXPECT_EQ(model.trouble(), "C has no output: headphones have two, L and R");
     EXPECT_EQ(shownOutput(view, model, "C"), "none");
+    CollisionEvent hit;
+    hit.amplitude = 1.0, hit.frequencyHz = 200.0, hit.decayPerSecond = 30.0;
+    hit.x = 0.5 * model.world().scene().fieldWidthMetres,
+    hit.y = 0.5 * model.world().scene().fieldHeightMetres;
+    EXPECT_NE(strongestOf(model, hit).enchanter, 2) << "nothing of it is felt";
+    model.strikes().testPulse(2);
+    EXPECT_FALSE(runUntil([&] { return model.look().meters.peaks[2] > 0.0f; }, 0.5));
     routed.expectAsShown("attached");
     model.report({});
     model.change("Preset", [](Mix& mix) {

@@ -2,6 +2,7 @@
 // Opens the device, checks devices that may disappear and return, and heals mixer states in which two strips
 // have one output, as files may have them.
 #include "Mixer/Model/MixerDevice.h"
+#include "Live/Devices/NoDevice.h"
 #include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerModel.h"
 #include <algorithm>
@@ -23,6 +24,12 @@ std::string MixerDevice::open(const DeviceChoice& choice) {
     choice_ = choice;
     listening_.hearWanted();
     return error;
+}
+
+bool MixerDevice::isPlayed(std::size_t actuator) const {
+    if (!choice_.sinks.empty() || choice_.name.starts_with(noDeviceType) || outputs() == 0) return true;
+    const int output = mix_.strips[actuator].output;
+    return output >= 0 && output < outputs();
 }
 
 std::vector<int> MixerDevice::outputMap() const {

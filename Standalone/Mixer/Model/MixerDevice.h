@@ -79,6 +79,8 @@ public:
     const DeviceChoice& choice() const noexcept { return choice_; }
     const AudioDrivers& drivers() const noexcept { return drivers_; }
     int outputs() const { return rig_.output().deviceOutputs(); }
+    /// False: it has no output that plays, so nothing of it is felt. Of no device at all, all are seen.
+    bool isPlayed(std::size_t actuator) const;
 
     MixerListening& listening() noexcept { return listening_; }
     const MixerListening& listening() const noexcept { return listening_; }

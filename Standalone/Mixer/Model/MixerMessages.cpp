@@ -65,7 +65,8 @@ juce::String materialName(const Scene& scene, const CollisionEvent& hit) {
                              : utf8(scene.materials[static_cast<std::size_t>(index)].name);
 }
 
-StrongestActuator strongestOf(const Mix& mix, const CollisionEvent& hit) {
+StrongestActuator strongestOf(const MixerModel& model, const CollisionEvent& hit) {
+    const Mix& mix = model.mix();
     PhantomPanner::Gains gains{};
     mix.panner().gainsAt(hit, gains);
     StrongestActuator strongest;
@@ -73,7 +74,7 @@ StrongestActuator strongestOf(const Mix& mix, const CollisionEvent& hit) {
         const auto i = static_cast<std::size_t>(j);
         const double g =
             std::abs(hit.amplitude) * gains[i] * mix.layout.enchanters[i].fullScaleG * masterGain(mix);
-        if (g > strongest.levelG) strongest = {j, g};
+        if (g > strongest.levelG && model.device().isPlayed(i)) strongest = {j, g};
     }
     return strongest;
 }

@@ -82,7 +82,7 @@ struct StrongestActuator {
     double levelG = 0.0; ///< at that actuator, by its full scale and the master level; before strip and
                          ///< limiter
 };
-StrongestActuator strongestOf(const Mix& mix, const CollisionEvent& hit);
+StrongestActuator strongestOf(const MixerModel& model, const CollisionEvent& hit);
 
 /// "at the bottom left"
 juce::String placeText(const Scene& scene, const CollisionEvent& hit);

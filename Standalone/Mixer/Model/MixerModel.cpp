@@ -368,7 +368,9 @@ MixerMoment MixerModel::look() {
     signals_.follow(world.take(),
                     1e-9 * static_cast<double>(world.sceneNs()) - device_.outputLatencySeconds(),
                     world.slowness());
-    const float loudest = signals_.read(now_, mix_.count(), isSilent_);
+    MixerSignals::Played played{};
+    for (std::size_t j = 0; j < mix_.strips.size(); ++j) played[j] = !isSilent_ && device_.isPlayed(j);
+    const float loudest = signals_.read(now_, mix_.count(), played);
     now_.session = session().status();
     now_.device = output().status();
     exposure_.update();

@@ -27,14 +27,21 @@ void MixerSignals::follow(std::size_t run, double seconds, int slowness) {
     if (std::abs(seconds - run_.seconds()) > maxOffSeconds) run_.moveTo(seconds);
 }
 
-float MixerSignals::read(MixerMoment& moment, int enchanters, bool isSilent) {
+float MixerSignals::read(MixerMoment& moment, int enchanters, const Played& played) {
     const double now = nowMs(), passed = std::min(1000.0, now - readAtMs_);
     readAtMs_ = now;
     const auto fall = static_cast<float>(std::pow(10.0, -meterFallDbPerSecond * passed / 20'000.0));
-    for (auto& peak : moment.meters.peaks) peak = isSilent || peak * fall < 1e-4f ? 0.0f : peak * fall;
-    if (isSilent) moment.holds.fill(0.0f);
+    for (std::size_t j = 0; j < played.size(); ++j) {
+        float& peak = moment.meters.peaks[j];
+        peak = !played[j] || peak * fall < 1e-4f ? 0.0f : peak * fall;
+        if (!played[j]) moment.holds[j] = 0.0f;
+    }
     tap_.read([&](const float* const* block, int frames) {
-        isSilent ? measureSilence(frames, moment, enchanters) : measure(block, frames, moment, enchanters);
+        zeros_.resize(std::max(zeros_.size(), static_cast<std::size_t>(frames)));
+        std::array<const float*, limits::maxEnchanters> shown{};
+        for (std::size_t j = 0; j < static_cast<std::size_t>(enchanters); ++j)
+            shown[j] = played[j] ? block[j] : zeros_.data();
+        measure(shown.data(), frames, moment, enchanters);
     });
     float loudest = 0.0f;
     for (std::size_t j = 0; j < static_cast<std::size_t>(enchanters); ++j) {
@@ -47,13 +54,6 @@ float MixerSignals::read(MixerMoment& moment, int enchanters, bool isSilent) {
 }
 
 // The tap lies before the master, which mutes.
-void MixerSignals::measureSilence(int frames, MixerMoment& moment, int enchanters) {
-    if (zeros_.size() < static_cast<std::size_t>(frames)) zeros_.resize(static_cast<std::size_t>(frames));
-    std::array<const float*, limits::maxEnchanters> block{};
-    block.fill(zeros_.data());
-    measure(block.data(), frames, moment, enchanters);
-}
-
 void MixerSignals::measure(const float* const* block, int frames, MixerMoment& moment, int enchanters) {
     scope_.add(block, enchanters, frames);
     spectrum_.add(block, enchanters, frames);

@@ -253,12 +253,12 @@ public:
     void follow(std::size_t run, double seconds, int slowness);
 
     /// Updates peaks and holds of `moment`, which must be the same object each time. Returns the loudest peak
-    /// of the first `enchanters`. `isSilent`: the output is muted, so all signals are shown as zeros.
-    float read(MixerMoment& moment, int enchanters, bool isSilent);
+    /// of the first `enchanters`. Signals of those that are not played are shown as zeros.
+    using Played = std::array<bool, limits::maxEnchanters>;
+    float read(MixerMoment& moment, int enchanters, const Played& played);
 
 private:
     void measure(const float* const* block, int frames, MixerMoment& moment, int enchanters);
-    void measureSilence(int frames, MixerMoment& moment, int enchanters);
 
     SignalTap tap_{limits::maxEnchanters, 1 << 14};
     ScopeTrace scope_;

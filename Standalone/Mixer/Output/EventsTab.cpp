@@ -176,7 +176,7 @@ juce::String EventsTab::Rows::getNameForRow(int row) {
     const auto& hit = contact.event;
     const auto& scene = tab_.model_.world().scene();
     return nameOf(scene, contact) + " at " + timeText(hit.timeNs) + ", " +
-           number(strongestOf(tab_.model_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
+           number(strongestOf(tab_.model_, hit).levelG, 2) + " g " + placeText(scene, hit);
 }
 
 void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
@@ -189,7 +189,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
         g.fillRect(0, 0, width, height);
     }
     const Columns at{{width, height}};
-    const auto most = strongestOf(model.mix(), hit);
+    const auto most = strongestOf(model, hit);
     const int material = materialOf(model.world().scene(), hit);
     g.setColour(material < 0 ? palette::other : palette::material(material));
     g.fillEllipse(at.dot.toFloat().withSizeKeepingCentre(10.0f, 10.0f).translated(-4.0f, 0.0f));

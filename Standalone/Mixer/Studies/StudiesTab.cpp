@@ -474,7 +474,7 @@ juce::StringArray StudiesTab::advice() const {
     juce::StringArray lines;
     if (outputs_.isNotEmpty() && outputs_ != refused_) lines.add(outputs_);
     if (protocol_ && protocol_->hasPinkNoise && listening().noise.empty())
-        lines.add("It asks for pink noise: choose headphones.");
+        lines.add("It asks for pink noise: choose who hears it.");
     if (level_.isNotEmpty()) lines.add(level_);
     if (check_ && !check_->errors.empty())
         lines.add(utf8(check_->errors.front()));

@@ -67,6 +67,7 @@ std::string feltFault(const Protocol& protocol, MixerModel& model) {
 std::string outputsFault(const Protocol& protocol, const MixerModel& model) {
     const auto& strips = model.mix().strips;
     const auto& map = model.output().channelMap();
+    std::size_t most = 0;
     for (const ConditionPlan& condition : protocol.conditions) {
         const auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
         if (!layout) return layout.error;
@@ -74,16 +75,17 @@ std::string outputsFault(const Protocol& protocol, const MixerModel& model) {
         if (wanted > strips.size())
             return condition.layout + ": expected " + std::to_string(wanted) +
                    " actuators in the mixer, found " + std::to_string(strips.size());
-        std::vector<std::string> without;
-        for (std::size_t j = 0; j < wanted; ++j)
-            if (const int output = j < map.size() ? map[j] : -1;
-                !hasNoDevice(model) && (output < 0 || output >= model.device().outputs()))
-                without.push_back(model.mix().layout.enchanters[j].label);
-        if (!without.empty())
-            return std::to_string(without.size()) + " of " + std::to_string(wanted) +
-                   (without.size() == 1 ? " actuators has no output: " : " actuators have no output: ") +
-                   listed(without);
+        most = std::max(most, wanted);
     }
+    std::vector<std::string> without;
+    for (std::size_t j = 0; j < most; ++j)
+        if (const int output = j < map.size() ? map[j] : -1;
+            !hasNoDevice(model) && (output < 0 || output >= model.device().outputs()))
+            without.push_back(model.mix().layout.enchanters[j].label);
+    if (!without.empty())
+        return std::to_string(without.size()) + " of " + std::to_string(most) +
+               (without.size() == 1 ? " actuators has no output: " : " actuators have no output: ") +
+               listed(without);
     return model.output().isPlaying()
                ? std::string{}
                : "expected a device that runs, found none: " +

@@ -123,6 +123,7 @@ public:
 
     juce::String value(const juce::String& field) const; ///< as typed
     void setValue(const juce::String& field, const juce::String& value);
+    using Card::say;
 
     /// A square beside the words, with sharp pixels; null: none.
     void setPicture(const juce::Image& picture);

@@ -227,6 +227,7 @@ void FirstStart::louder() {
 }
 
 void FirstStart::end(bool hasChosen) {
+    model_.undoManager().clearUndoHistory(); // no undo raises the level at which it has tested
     if (tested_ >= 0) model_.setSlowness(slowness_);
     tested_ = -1;
     if (onEnd) onEnd(hasChosen); // may destroy this object

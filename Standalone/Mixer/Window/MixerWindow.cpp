@@ -908,9 +908,22 @@ void MixerWindow::share() {
         view_->setCard(nullptr);
         return at(address);
     };
-    const auto show = [at](QuestionCard& card, const juce::String& address) {
+    const juce::String sentence =
+        "Who opens the link in the page gets the same world and samples. It stands behind the #, so no "
+        "server gets it. " +
+        (served_.isNotEmpty()
+             ? juce::String{"The page is here while the mixer runs; a browser warns once of its certificate."}
+             : juce::String{PageServer::isThere() ? "127.0.0.1 is this computer alone; for"
+                                                  : "The page cannot be served here (Docs/web.md). For"} +
+                   " a phone, and a code that it reads, put an address that it can reach" +
+                   (here.empty() ? juce::String{"."} : ": this computer is " + utf8(here.front()) + "."));
+    const auto show = [at, sentence](QuestionCard& card, const juce::String& address) {
         card.setValue(linkField, at(address));
-        card.setPicture(isLoopback(address) ? juce::Image{} : qrPicture(at(address).toStdString()));
+        const auto code = isLoopback(address) ? juce::Image{} : qrPicture(at(address).toStdString());
+        card.setPicture(code);
+        card.say("Share the world", isLoopback(address) || code.isValid()
+                                        ? sentence
+                                        : sentence + " This world's link is too long for a code.");
     };
     std::vector<std::pair<juce::String, std::function<void()>>> answers{
         {"Copy the link",
@@ -922,17 +935,7 @@ void MixerWindow::share() {
         {"Open it", [whole] { openLink(whole()); }}};
     if (served_.isEmpty() && PageServer::isThere())
         answers.insert(answers.begin(), {"Serve it here", [this] { serve(); }});
-    ask("Share the world",
-        "Who opens the link in the page gets the same world and samples. It stands behind the #, so no "
-        "server gets it. " +
-            (served_.isNotEmpty()
-                 ? juce::String{"The page is here while the mixer runs; a browser warns once of its "
-                                "certificate."}
-                 : juce::String{PageServer::isThere() ? "127.0.0.1 is this computer alone; for"
-                                                      : "The page is not built here (Docs/web.md). For"} +
-                       " a phone, and a code that it reads, put an address that it can reach" +
-                       (here.empty() ? juce::String{"."} : ": this computer is " + utf8(here.front()) + ".")),
-        std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
+    ask("Share the world", sentence, std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
     show(*view_->question(), page);
 }
 

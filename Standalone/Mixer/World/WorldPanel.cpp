@@ -118,7 +118,8 @@ void WorldPanel::mixChanged() {
     pane_.mixChanged();
     showTools();
     std::vector<bool> muted;
-    for (int j = 0; j < mix.count(); ++j) muted.push_back(mix.isSilent(j));
+    for (int j = 0; j < mix.count(); ++j)
+        muted.push_back(mix.isSilent(j) || !model_.device().isPlayed(static_cast<std::size_t>(j)));
     view_.show(mix.layout, mix.panner(), std::move(muted));
     master_.mixChanged();
     view_.setDisplayWidth(model_.displayWidthMetres());
@@ -318,10 +319,10 @@ juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     if (isClip(hit.sound)) return inLines({name, place});
     if (isPlay_)
         return inLines({name, (model_.isOnlySeen() ? juce::String{"seen"}
-                                                   : strengthWords(strongestOf(model_.mix(), hit).levelG)) +
+                                                   : strengthWords(strongestOf(model_, hit).levelG)) +
                                   " " + place});
     const auto hz = number(hit.frequencyHz, 0) + " Hz",
-               felt = number(strongestOf(model_.mix(), hit).levelG, 2) + " g " + place;
+               felt = number(strongestOf(model_, hit).levelG, 2) + " g " + place;
     const auto tau = juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s";
     for (const auto& parts : {juce::StringArray{name, hz, tau, felt}, {name, hz, felt}})
         if (const auto words = inLines(parts); words.isNotEmpty()) return words;
