@@ -118,6 +118,28 @@ TEST(StudyCsv, OtherProgramsWordsForNothingAndForRight) {
               "f.csv:5: column trial: expected each trial once, not as in line 3, found \"1\"");
 }
 
+TEST(StudyCsv, OtherProgramsRowsThatAreThereTwiceAreRefusedAndPracticeIsTraining) {
+    const auto error = [](const std::string& rows, const std::vector<ColumnName>& names = {}) {
+        const std::string text = "participant,stimulus,response,rt,n,phase\n" + rows;
+        const NamedText file{text, "f.csv", names};
+        const auto data = readIdentification({&file, 1});
+        return data ? std::to_string(data.value.conditions.front().trials.size()) : data.error;
+    };
+    EXPECT_EQ(error("P,a,a,0.643,1,\nP,b,a,0.501,2,\nP,a,a,0.643,1,\n"),
+              "f.csv:4: column rt: expected each row once, not as in line 2, found \"0.643\"");
+    EXPECT_EQ(error("P,a,a,,,\nP,b,b,,,\nP,a,a,,,\n"), "3") << "answers may be alike";
+    const std::vector<ColumnName> names{
+        {"participant", "participant"}, {"stimulus", "stimulus"}, {"response", "response"}, {"trial", "n"}};
+    EXPECT_EQ(error("P,a,a,1,1,\nP,b,a,2,1,\n", names),
+              "f.csv:3: column trial: expected each trial once, not as in line 2, found \"1\"");
+    EXPECT_EQ(error("P,a,a,1,1,\nP,b,a,2,2,\nQ,b,a,2,2,\n", names), "3");
+    EXPECT_EQ(error("P,a,a,1,1,Practice\nP,b,a,2,1,warm-up\nP,b,a,2,1,before\n"), "1");
+    const std::string rows = "participant,stimulus,response\nP,a,a\n";
+    const NamedText files[] = {{rows, "f.csv"}, {rows, "g.csv"}};
+    EXPECT_EQ(readIdentification(files).error,
+              "g.csv: expected other rows than those of f.csv, found the same");
+}
+
 TEST(StudyCsv, SessionsOfOneKindArePartedWhoeverDidBoth) {
     const std::string head =
                           "participant,condition,session,task,stimulus,choice,value,parts,correct,level_db\n",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the mapped columns once, then reduces every row to them.
 #include "Lab/Files/StudyTables.h"
+#include "Io/Disk/ContentHash.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/TrialLog.h"
@@ -24,6 +25,15 @@ bool isNoAnswer(const std::string& column, const std::string& cell) {
                                labels[] = {"participant", "observer", "condition", "session", "phase",
                                            "task",        "stimulus", "parts",     "group"};
     return holds(none, cell) && !holds(labels, column);
+}
+
+/// Other programs' words for trials before a study.
+bool isTrainingWord(std::string cell) {
+    constexpr std::string_view words[] = {"practice", "practise", "train",   "training",
+                                          "warmup",   "warm-up",  "warm up", "familiarization"};
+    for (char& c : cell)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return holds(words, cell);
 }
 
 /// Splits "touch_x:0:1230". A name with another ending is a plain column name.
@@ -67,6 +77,11 @@ std::string numberLines(CsvTable& table, std::string_view places, const char* li
     return {};
 }
 
+std::string theirs(std::span<const ColumnName> names, const std::string& ours) {
+    const auto found = std::ranges::find(names, ours, &ColumnName::ours);
+    return found == names.end() ? ours : found->theirs;
+}
+
 bool isUtf8(std::string_view text) noexcept {
     while (!text.empty()) {
         const std::size_t bytes = firstCharacter(text).bytes;
@@ -84,20 +99,25 @@ void takeOthersWords(CsvTable& table) {
         for (CsvRow& row : table.rows) {
             std::string& cell = row.cells[c];
             if (isNoAnswer(table.columns[c], cell)) cell.clear();
+            if (table.columns[c] == trialColumns::phase && isTrainingWord(cell))
+                cell = trialColumns::training;
             if (table.columns[c] != "correct") continue;
             if (holds(right, cell)) cell.assign(1, '1');
             if (holds(wrong, cell)) cell.assign(1, '0');
         }
 }
 
-std::string doubledRowFault(const CsvTable& table) {
-    if (!trialHeadOf(table.comments).contains("protocol")) return {};
+/// A row that is there twice: of our own trials, and of others' where trial is named.
+std::string doubledRowFault(const CsvTable& table, bool isNamed) {
+    const bool isOurs = trialHeadOf(table.comments).contains("protocol");
     std::vector<std::size_t> columns;
-    for (const char* name : {"participant", "condition", "session", "trial"})
+    for (const std::string_view name :
+         {trialColumns::phase, {"condition"}, {"session"}, {"participant"}, {"trial"}})
         if (const auto column = table.column(name))
             columns.push_back(*column);
-        else
+        else if (name == "participant" || name == "trial" || (isOurs && name != trialColumns::phase))
             return {};
+    if (!isOurs && !isNamed) return {};
     std::map<std::vector<std::string>, std::size_t> lines;
     for (const CsvRow& row : table.rows) {
         std::vector<std::string> key;
@@ -108,6 +128,27 @@ std::string doubledRowFault(const CsvTable& table) {
             return table.fault(row, columns.back(),
                                "each trial once, not as in line " + std::to_string(first->second));
     }
+    return {};
+}
+
+/// Of others' rows that are alike in all cells, with a time to the thousandth: without one, answers may be.
+std::string sameRowFault(const CsvTable& table, std::span<const ColumnName> names) {
+    if (!trialHeadOf(table.comments).empty() || !table.column(theirs(names, "participant"))) return {};
+    std::set<std::size_t> given; // by the study, not the participant
+    for (const char* ours : {"participant", "condition", "stimulus", "level_db", "target_x", "target_y"})
+        if (const auto column = table.column(theirs(names, ours))) given.insert(*column);
+    std::map<std::vector<std::string>, std::size_t> lines;
+    for (const CsvRow& row : table.rows)
+        for (std::size_t c = 0; c < row.cells.size(); ++c)
+            if (const auto dot = row.cells[c].find('.'); !given.contains(c) && dot != std::string::npos &&
+                                                         row.cells[c].size() > dot + 3 &&
+                                                         parseNumber<double>(row.cells[c])) {
+                const auto [first, isNew] = lines.try_emplace(row.cells, row.line);
+                if (!isNew)
+                    return table.fault(row, c,
+                                       "each row once, not as in line " + std::to_string(first->second));
+                break;
+            }
     return {};
 }
 
@@ -202,10 +243,12 @@ Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
     CsvTable& table = read.value;
     if (!isUtf8(text))
         return Failure{table.name + ": expected UTF-8, found Latin-1 or the like: save it as CSV UTF-8"};
+    if (std::string fault = sameRowFault(table, names); !fault.empty()) return Failure{std::move(fault)};
     if (std::string fault = takeColumns(table, names, leftOut); !fault.empty())
         return Failure{std::move(fault)};
     takeOthersWords(table);
-    if (std::string fault = doubledRowFault(table); !fault.empty()) return Failure{std::move(fault)};
+    if (std::string fault = doubledRowFault(table, !names.empty()); !fault.empty())
+        return Failure{std::move(fault)};
     return read;
 }
 
@@ -269,8 +312,15 @@ std::string SharedParticipants::add(const CsvTable& head, const std::set<std::st
 
 std::string SharedParticipants::add(const CsvTable& table, std::string_view column) {
     std::set<std::string> participants;
+    std::string all;
     if (const auto at = table.column(column))
-        for (const CsvRow& row : table.rows) participants.insert(row.cells[*at]);
+        for (const CsvRow& row : table.rows) {
+            participants.insert(row.cells[*at]);
+            for (const std::string& cell : row.cells) all.append(cell).push_back('\n');
+        }
+    const auto [same, isNew] = rows_.try_emplace(contentHash(all), table.name);
+    if (!isNew && !all.empty() && trialHeadOf(table.comments).empty())
+        return table.name + ": expected other rows than those of " + same->second + ", found the same";
     return add(table, participants);
 }
 

@@ -199,6 +199,7 @@ public:
 private:
     std::map<std::pair<std::string, std::string>, std::string> trialFiles_; // by protocol and participant
     std::map<std::string, std::vector<std::string>> tables_;                // by participant
+    std::map<std::string, std::string> rows_;                               // by their hash
 };
 } // namespace physvib
 
