@@ -245,6 +245,15 @@ std::string listOf(const char* title, const std::vector<std::string>& lines) {
     return text;
 }
 
+/// A test without its factors, and these: a group adds one, and between people has a test of its own name.
+std::pair<std::string, std::string> stemOf(std::string test) {
+    constexpr std::string_view also = " and Kruskal and Wallis'", by = " by ";
+    if (const auto at = test.find(also); at != test.npos) test.erase(at, also.size());
+    const auto at = test.rfind(by);
+    return at == test.npos ? std::pair{test, std::string{}}
+                           : std::pair{test.substr(0, at), test.substr(at + by.size())};
+}
+
 } // namespace
 
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script) {
@@ -312,7 +321,16 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
                 renamed = std::string{"What the plan calls "} + FitWords::threshold + " is the " +
                           FitWords::equality + ": no answer is right.";
         }
-        if (planned.erase(test) == 0) sentences.push_back("Not planned: " + test);
+        if (planned.erase(test) > 0) continue;
+        const auto [stem, factors] = stemOf(test);
+        const auto other = std::ranges::find_if(planned, [&, of = stem](const auto& one) {
+            return stemOf(one).first == of && std::ranges::find(tests, one) == tests.end();
+        });
+        sentences.push_back(other == planned.end() || factors.empty()
+                                ? "Not planned: " + test
+                                : "Done by " + factors + ", planned by " + stemOf(*other).second + ": " +
+                                      stem);
+        if (other != planned.end()) planned.erase(other);
     }
     for (const std::string& test : planned) sentences.push_back("Planned, not done: " + test);
     if (sentences.size() == 1)
