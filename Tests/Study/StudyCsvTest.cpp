@@ -126,8 +126,9 @@ TEST(StudyCsv, OtherProgramsRowsThatAreThereTwiceAreRefusedAndPracticeIsTraining
         return data ? std::to_string(data.value.conditions.front().trials.size()) : data.error;
     };
     EXPECT_EQ(error("P,a,a,0.643,1,\nP,b,a,0.501,2,\nP,a,a,0.643,1,\n"),
-              "f.csv:4: column rt: expected each row once, not as in line 2, found \"0.643\"");
+              "f.csv:4: column rt: expected each trial once, not as in line 2, found \"0.643\"");
     EXPECT_EQ(error("P,a,a,,,\nP,b,b,,,\nP,a,a,,,\n"), "3") << "answers may be alike";
+    EXPECT_EQ(error("P,a,a,0.643,,\nP,a,a,0.642,,\nP,a,a,0.643,,\n"), "3") << "and so their times";
     const std::vector<ColumnName> names{
         {"participant", "participant"}, {"stimulus", "stimulus"}, {"response", "response"}, {"trial", "n"}};
     EXPECT_EQ(error("P,a,a,1,1,\nP,b,a,2,1,\n", names),

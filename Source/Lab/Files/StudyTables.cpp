@@ -27,15 +27,6 @@ bool isNoAnswer(const std::string& column, const std::string& cell) {
     return holds(none, cell) && !holds(labels, column);
 }
 
-/// Other programs' words for trials before a study.
-bool isTrainingWord(std::string cell) {
-    constexpr std::string_view words[] = {"practice", "practise", "train",   "training",
-                                          "warmup",   "warm-up",  "warm up", "familiarization"};
-    for (char& c : cell)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return holds(words, cell);
-}
-
 /// Splits "touch_x:0:1230". A name with another ending is a plain column name.
 ColumnName withRange(std::string ours, std::string words) {
     const std::size_t second = words.rfind(':'), first = second == std::string::npos || second == 0
@@ -77,11 +68,6 @@ std::string numberLines(CsvTable& table, std::string_view places, const char* li
     return {};
 }
 
-std::string theirs(std::span<const ColumnName> names, const std::string& ours) {
-    const auto found = std::ranges::find(names, ours, &ColumnName::ours);
-    return found == names.end() ? ours : found->theirs;
-}
-
 bool isUtf8(std::string_view text) noexcept {
     while (!text.empty()) {
         const std::size_t bytes = firstCharacter(text).bytes;
@@ -94,12 +80,14 @@ bool isUtf8(std::string_view text) noexcept {
 void takeOthersWords(CsvTable& table) {
     if (!trialHeadOf(table.comments).empty()) return;
     constexpr std::string_view right[] = {"true", "TRUE", "True", "1.0"},
-                               wrong[] = {"false", "FALSE", "False", "0.0"};
+                               wrong[] = {"false", "FALSE", "False", "0.0"},
+                               practice[] = {"practice", "Practice", "practise", "train",
+                                             "Training", "warmup",   "warm-up",  "warm up"};
     for (std::size_t c = 0; c < table.columns.size(); ++c)
         for (CsvRow& row : table.rows) {
             std::string& cell = row.cells[c];
             if (isNoAnswer(table.columns[c], cell)) cell.clear();
-            if (table.columns[c] == trialColumns::phase && isTrainingWord(cell))
+            if (table.columns[c] == trialColumns::phase && holds(practice, cell))
                 cell = trialColumns::training;
             if (table.columns[c] != "correct") continue;
             if (holds(right, cell)) cell.assign(1, '1');
@@ -107,49 +95,47 @@ void takeOthersWords(CsvTable& table) {
         }
 }
 
+std::string twiceFault(const CsvTable& table, const CsvRow& row, std::size_t column, std::size_t line) {
+    return table.fault(row, column, "each trial once, not as in line " + std::to_string(line));
+}
+
 /// A row that is there twice: of our own trials, and of others' where trial is named.
 std::string doubledRowFault(const CsvTable& table, bool isNamed) {
     const bool isOurs = trialHeadOf(table.comments).contains("protocol");
     std::vector<std::size_t> columns;
-    for (const std::string_view name :
-         {trialColumns::phase, {"condition"}, {"session"}, {"participant"}, {"trial"}})
-        if (const auto column = table.column(name))
-            columns.push_back(*column);
-        else if (name == "participant" || name == "trial" || (isOurs && name != trialColumns::phase))
-            return {};
-    if (!isOurs && !isNamed) return {};
+    for (const char* name : {"participant", "condition", "session", "phase", "trial"})
+        if (const auto column = table.column(name)) columns.push_back(*column);
+    if (!(isOurs || isNamed) || !table.column("participant") || !table.column("trial")) return {};
     std::map<std::vector<std::string>, std::size_t> lines;
     for (const CsvRow& row : table.rows) {
         std::vector<std::string> key;
         for (const std::size_t c : columns) key.push_back(row.cells[c]);
         if (key.back().empty()) continue;
         const auto [first, isNew] = lines.try_emplace(std::move(key), row.line);
-        if (!isNew)
-            return table.fault(row, columns.back(),
-                               "each trial once, not as in line " + std::to_string(first->second));
+        if (!isNew) return twiceFault(table, row, columns.back(), first->second);
     }
     return {};
 }
 
-/// Of others' rows that are alike in all cells, with a time to the thousandth: without one, answers may be.
-std::string sameRowFault(const CsvTable& table, std::span<const ColumnName> names) {
-    if (!trialHeadOf(table.comments).empty() || !table.column(theirs(names, "participant"))) return {};
-    std::set<std::size_t> given; // by the study, not the participant
-    for (const char* ours : {"participant", "condition", "stimulus", "level_db", "target_x", "target_y"})
-        if (const auto column = table.column(theirs(names, ours))) given.insert(*column);
+/// Of others' rows that are alike, with a time to the thousandth, where the other cells tell rows apart:
+/// elsewhere two answers may be alike.
+std::string sameRowFault(const CsvTable& table) {
+    if (!trialHeadOf(table.comments).empty()) return {};
     std::map<std::vector<std::string>, std::size_t> lines;
-    for (const CsvRow& row : table.rows)
-        for (std::size_t c = 0; c < row.cells.size(); ++c)
-            if (const auto dot = row.cells[c].find('.'); !given.contains(c) && dot != std::string::npos &&
-                                                         row.cells[c].size() > dot + 3 &&
-                                                         parseNumber<double>(row.cells[c])) {
-                const auto [first, isNew] = lines.try_emplace(row.cells, row.line);
-                if (!isNew)
-                    return table.fault(row, c,
-                                       "each row once, not as in line " + std::to_string(first->second));
-                break;
-            }
-    return {};
+    std::set<std::vector<std::string>> others;
+    std::string fault;
+    for (const CsvRow& row : table.rows) {
+        const auto time = std::ranges::find_if(row.cells, [](const std::string& cell) {
+            return cell.find('.') < std::max<std::size_t>(cell.size(), 3) - 3 && parseNumber<double>(cell);
+        });
+        if (time == row.cells.end()) continue;
+        const auto [first, isNew] = lines.try_emplace(row.cells, row.line);
+        const auto c = static_cast<std::size_t>(time - row.cells.begin());
+        if (!isNew && fault.empty()) fault = twiceFault(table, row, c, first->second);
+        auto rest = row.cells;
+        rest[c].clear(), others.insert(std::move(rest));
+    }
+    return 10 * others.size() < 9 * lines.size() ? std::string{} : fault;
 }
 
 std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, RowsLeftOut& leftOut) {
@@ -243,7 +229,7 @@ Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
     CsvTable& table = read.value;
     if (!isUtf8(text))
         return Failure{table.name + ": expected UTF-8, found Latin-1 or the like: save it as CSV UTF-8"};
-    if (std::string fault = sameRowFault(table, names); !fault.empty()) return Failure{std::move(fault)};
+    if (std::string fault = sameRowFault(table); !fault.empty()) return Failure{std::move(fault)};
     if (std::string fault = takeColumns(table, names, leftOut); !fault.empty())
         return Failure{std::move(fault)};
     takeOthersWords(table);

@@ -489,8 +489,11 @@ study <- function(study, scales = character(), points = character(), half = "thr
     for (w in unique(word)) run(own[word == w, ], w)
   }
   from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) parts.in(table.of(file), function(own, session) {
-    if (!is.told) for (f in runs.of(d)) result(sub("[.]csv$", "", file), "factors", "", NA, NA, length(unique(own$participant)), note = paste0(runs.words(d, f), "all trials together"))
-    for (m in measures) compare(paste0(if (m %in% names(spoken)) spoken[[m]] else m, words, session), own, m, columns = columns)
+    name <- function(m) if (m %in% names(spoken)) spoken[[m]] else m
+    what <- paste0(paste(vapply(measures, name, ""), collapse = ", "), words)
+    if (!is.told && length(runs.of(d)) > 0) cat(what, "\n", sep = "")
+    if (!is.told) for (f in runs.of(d)) result(what, "factors", "", NA, NA, length(unique(own$participant)), note = paste0(runs.words(d, f), "all trials together"))
+    for (m in measures) compare(paste0(name(m), words, session), own, m, columns = columns)
   })
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
