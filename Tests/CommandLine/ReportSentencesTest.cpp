@@ -305,7 +305,8 @@ TEST(ReportSentences, OlderPlansCallThePointOfEqualityAThreshold) {
                              " participants=1\n- test: Friedman's test of x by a, b\n",
                          "plan", trials, {"Friedman's and Kruskal and Wallis' test of x by a, b, group"})
             .value;
-    EXPECT_EQ(withGroup.back(), "Done by a, b, group, planned by a, b: Friedman's test of x");
+    EXPECT_EQ(withGroup.back(), "Planned as Friedman's test of x by a, b, done as Friedman's and Kruskal and "
+                                "Wallis' test of x by a, b, group");
 }
 
 TEST(ReportSentences, EachIsThereOnlyWhereRowsMakeItTrue) {

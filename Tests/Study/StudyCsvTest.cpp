@@ -119,26 +119,21 @@ TEST(StudyCsv, OtherProgramsWordsForNothingAndForRight) {
 }
 
 TEST(StudyCsv, OtherProgramsRowsThatAreThereTwiceAreRefusedAndPracticeIsTraining) {
-    const auto error = [](const std::string& rows, const std::vector<ColumnName>& names = {}) {
+    const auto read = [](const std::string& rows, const std::vector<ColumnName>& names = {}) {
         const std::string text = "participant,stimulus,response,rt,n,phase\n" + rows;
-        const NamedText file{text, "f.csv", names};
-        const auto data = readIdentification({&file, 1});
+        const NamedText files[] = {{text, "f.csv", names}, {text, "g.csv", names}};
+        const auto data = readIdentification({files, 1}), both = readIdentification(files);
+        EXPECT_FALSE(both) << "the same table twice";
         return data ? std::to_string(data.value.conditions.front().trials.size()) : data.error;
     };
-    EXPECT_EQ(error("P,a,a,0.643,1,\nP,b,a,0.501,2,\nP,a,a,0.643,1,\n"),
-              "f.csv:4: column rt: expected each trial once, not as in line 2, found \"0.643\"");
-    EXPECT_EQ(error("P,a,a,,,\nP,b,b,,,\nP,a,a,,,\n"), "3") << "answers may be alike";
-    EXPECT_EQ(error("P,a,a,0.643,,\nP,a,a,0.642,,\nP,a,a,0.643,,\n"), "3") << "and so their times";
-    const std::vector<ColumnName> names{
-        {"participant", "participant"}, {"stimulus", "stimulus"}, {"response", "response"}, {"trial", "n"}};
-    EXPECT_EQ(error("P,a,a,1,1,\nP,b,a,2,1,\n", names),
-              "f.csv:3: column trial: expected each trial once, not as in line 2, found \"1\"");
-    EXPECT_EQ(error("P,a,a,1,1,\nP,b,a,2,2,\nQ,b,a,2,2,\n", names), "3");
-    EXPECT_EQ(error("P,a,a,1,1,Practice\nP,b,a,2,1,warm-up\nP,b,a,2,1,before\n"), "1");
-    const std::string rows = "participant,stimulus,response\nP,a,a\n";
-    const NamedText files[] = {{rows, "f.csv"}, {rows, "g.csv"}};
-    EXPECT_EQ(readIdentification(files).error,
-              "g.csv: expected other rows than those of f.csv, found the same");
+    EXPECT_EQ(read("P,a,a,0.643,1,\nP,b,a,0.501,2,\nP,a,a,0.643,1,\n"),
+              "f.csv:4: column rt: expected each row once, found \"0.643\"");
+    EXPECT_EQ(read("P,a,a,0.643,,\nP,a,a,0.642,,\nP,a,a,0.643,,\n"), "3") << "answers may be alike";
+    std::vector<ColumnName> names{{"trial", "n"}};
+    for (const char* name : {"participant", "stimulus", "response"}) names.push_back({name, name});
+    EXPECT_NE(read("P,a,a,1,1,\nP,b,a,2,1,\n", names).find("trial: expected each trial once"),
+              std::string::npos);
+    EXPECT_EQ(read("P,a,a,1,1,Practice\nP,b,a,2,1,warm-up\nP,b,a,2,1,before\n"), "1");
 }
 
 TEST(StudyCsv, SessionsOfOneKindArePartedWhoeverDidBoth) {

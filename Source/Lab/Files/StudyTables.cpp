@@ -95,10 +95,6 @@ void takeOthersWords(CsvTable& table) {
         }
 }
 
-std::string twiceFault(const CsvTable& table, const CsvRow& row, std::size_t column, std::size_t line) {
-    return table.fault(row, column, "each trial once, not as in line " + std::to_string(line));
-}
-
 /// A row that is there twice: of our own trials, and of others' where trial is named.
 std::string doubledRowFault(const CsvTable& table, bool isNamed) {
     const bool isOurs = trialHeadOf(table.comments).contains("protocol");
@@ -112,7 +108,9 @@ std::string doubledRowFault(const CsvTable& table, bool isNamed) {
         for (const std::size_t c : columns) key.push_back(row.cells[c]);
         if (key.back().empty()) continue;
         const auto [first, isNew] = lines.try_emplace(std::move(key), row.line);
-        if (!isNew) return twiceFault(table, row, columns.back(), first->second);
+        if (!isNew)
+            return table.fault(row, columns.back(),
+                               "each trial once, not as in line " + std::to_string(first->second));
     }
     return {};
 }
@@ -121,21 +119,19 @@ std::string doubledRowFault(const CsvTable& table, bool isNamed) {
 /// elsewhere two answers may be alike.
 std::string sameRowFault(const CsvTable& table) {
     if (!trialHeadOf(table.comments).empty()) return {};
-    std::map<std::vector<std::string>, std::size_t> lines;
-    std::set<std::vector<std::string>> others;
+    std::set<std::vector<std::string>> all, others;
     std::string fault;
     for (const CsvRow& row : table.rows) {
         const auto time = std::ranges::find_if(row.cells, [](const std::string& cell) {
-            return cell.find('.') < std::max<std::size_t>(cell.size(), 3) - 3 && parseNumber<double>(cell);
+            return cell.size() > 3 + std::min(cell.size(), cell.find('.')) && parseNumber<double>(cell);
         });
         if (time == row.cells.end()) continue;
-        const auto [first, isNew] = lines.try_emplace(row.cells, row.line);
         const auto c = static_cast<std::size_t>(time - row.cells.begin());
-        if (!isNew && fault.empty()) fault = twiceFault(table, row, c, first->second);
+        if (!all.insert(row.cells).second) fault = table.fault(row, c, "each row once");
         auto rest = row.cells;
         rest[c].clear(), others.insert(std::move(rest));
     }
-    return 10 * others.size() < 9 * lines.size() ? std::string{} : fault;
+    return 10 * others.size() < 9 * all.size() ? std::string{} : fault;
 }
 
 std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, RowsLeftOut& leftOut) {

@@ -245,13 +245,11 @@ std::string listOf(const char* title, const std::vector<std::string>& lines) {
     return text;
 }
 
-/// A test without its factors, and these: a group adds one, and between people has a test of its own name.
-std::pair<std::string, std::string> stemOf(std::string test) {
-    constexpr std::string_view also = " and Kruskal and Wallis'", by = " by ";
+/// Without its factors: a group adds one, and between people has a test of its own name.
+std::string stemOf(std::string test) {
+    constexpr std::string_view also = " and Kruskal and Wallis'";
     if (const auto at = test.find(also); at != test.npos) test.erase(at, also.size());
-    const auto at = test.rfind(by);
-    return at == test.npos ? std::pair{test, std::string{}}
-                           : std::pair{test.substr(0, at), test.substr(at + by.size())};
+    return test.substr(0, test.rfind(" by "));
 }
 
 } // namespace
@@ -322,14 +320,11 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
                           FitWords::equality + ": no answer is right.";
         }
         if (planned.erase(test) > 0) continue;
-        const auto [stem, factors] = stemOf(test);
-        const auto other = std::ranges::find_if(planned, [&, of = stem](const auto& one) {
-            return stemOf(one).first == of && std::ranges::find(tests, one) == tests.end();
+        const auto other = std::ranges::find_if(planned, [&](const auto& one) {
+            return stemOf(one) == stemOf(test) && std::ranges::find(tests, one) == tests.end();
         });
-        sentences.push_back(other == planned.end() || factors.empty()
-                                ? "Not planned: " + test
-                                : "Done by " + factors + ", planned by " + stemOf(*other).second + ": " +
-                                      stem);
+        sentences.push_back(other == planned.end() ? "Not planned: " + test
+                                                   : "Planned as " + *other + ", done as " + test);
         if (other != planned.end()) planned.erase(other);
     }
     for (const std::string& test : planned) sentences.push_back("Planned, not done: " + test);
