@@ -115,20 +115,6 @@ std::string identity(int stimuli) {
     return text;
 }
 
-TEST_F(Analyse, PerfectAnswersTransferTheLogarithmOfTheirNumber) {
-    for (const auto& [stimuli, bits] : {std::pair{28, "4.81"}, {78, "6.29"}, {168, "7.39"}}) {
-        write("c.csv", identity(stimuli));
-        const auto outcome = call("analyse confusion c.csv");
-        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-        EXPECT_NE(outcome.out.find("trials: " + std::to_string(stimuli)), std::string::npos) << outcome.out;
-        EXPECT_NE(outcome.out.find("percent correct: 100.0"), std::string::npos) << outcome.out;
-        EXPECT_NE(outcome.out.find(std::string("\nIT: ") + bits + " bit"), std::string::npos) << outcome.out;
-        EXPECT_NE(outcome.out.find("\n2^IT: " + std::to_string(stimuli) + ".0\n"), std::string::npos)
-            << outcome.out;
-        EXPECT_NE(outcome.err.find("warning"), std::string::npos) << "one trial per stimulus is too few";
-    }
-}
-
 TEST_F(Analyse, ToleranceCountsNeighboursAsTheStimulus) {
     std::string text = "stimulus,response\n";
     for (int i = 0; i < 20; ++i) text += "\"1,1\",\"1,2\"\n\"3,3\",\"3,3\"\n";

@@ -364,27 +364,6 @@ TEST_F(Report, FitsHavePictures) {
     EXPECT_TRUE(has(read("p.svg"), "threshold "));
 }
 
-TEST_F(Report, OneParticipantIsToldAndNotTested) {
-    simulate("phantom-grids", 1);
-    const auto outcome = call("report phantom-grids-P01.csv --out out");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_TRUE(has(page(), "one participant: intervals and tests over participants are not possible"));
-    EXPECT_FALSE(has(outcome.out, "tests")) << outcome.out;
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "out/analysis.R"));
-    for (const char* untrue :
-         {"intervals over participants:", "intervals over participants.", "over 1 participant"})
-        EXPECT_FALSE(has(page(), untrue)) << untrue;
-    EXPECT_TRUE(has(page(), "(95 % interval over trials "));
-}
-
-TEST_F(Report, UnknownTrialsHaveTheirTableAndAreTold) {
-    write("t.csv", "when,what\n1,a\n");
-    const auto outcome = call("report t.csv --out out");
-    EXPECT_EQ(outcome.exitCode, 0);
-    EXPECT_TRUE(has(outcome.err, "no means are known of these columns")) << outcome.err;
-    EXPECT_TRUE(has(page(), "<td>a</td>"));
-}
-
 TEST_F(Report, RefusalsLeaveNothing) {
     simulate("magnitudes", 1);
     simulate("level-steps", 1);

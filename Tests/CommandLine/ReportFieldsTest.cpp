@@ -138,7 +138,7 @@ TEST_F(ReportFields, PeopleOfOneNumberAreNamed) {
 
 /// Methods as rows and facts can tell them; the protocol's own sentences come on top.
 const char* const rowSentences[] = {
-    R"(\d+ participants? in \d+ files?(; what follows is of the \d+ who are not excluded)?\.)",
+    R"(\d+ participants? in \d+ files?(; the table below is of all, everything else of the \d+ who are not excluded)?\.)",
     R"(Age: mean [0-9.]+ years, standard deviation [0-9.]+, \d+ to \d+ \(\d+ of \d+ known\)\.)",
     R"((Sex|Handedness): [^.]+\.)",
     R"(Ethics: Approved by the board, no\. 7\.)",

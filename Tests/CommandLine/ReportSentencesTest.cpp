@@ -108,6 +108,11 @@ std::vector<Sentence> sentences() {
         if (row["participant"] == "P2" && (row["trial"] == "5" || row["trial"] == "6"))
             row["participant"].clear();
     };
+    const Edit holes = [](Row& row) {
+        if (row["participant"] == "P2" && row["session"] == "main" && row["condition"] == "a" &&
+            (row["trial"] == "2" || row["trial"] > "6"))
+            row["participant"].clear();
+    };
     const Edit stopsEarly = [](Row& row) {
         if (row["participant"] == "P2" && std::stoi(row["trial"]) > 20) row["participant"].clear();
     };
@@ -135,7 +140,7 @@ std::vector<Sentence> sentences() {
          of(grid, 3, both(device, set("left", ""))), of(grid, 3, device)},
         {"trials had no device: nobody felt anything.",
          of(grid, 3, both(device, set("device", "None:no device"))), of(grid, 3, device)},
-        {"20 trials did not leave as planned (column left, or a peak of 0 g) and are left out",
+        {"20 trials did not leave as planned (column left, or a peak of 0 g) and are left out: of P2",
          of(grid, 3, both(device, set("left", "0", "P2"))), of(grid, 3, device)},
         {"the limiter lowered none of them.", of(grid, 3, device),
          of(grid, 3, both(device, set("limiter_db", "0.4")))},
@@ -240,6 +245,8 @@ std::vector<Sentence> sentences() {
          of(interleaved, 3, {}, true)},
         {"no means are known of these columns", of(grid, 2, set("phase", "training")), of(grid, 3)},
         {"of a factor's level a participant has the mean", of(methods, 2), of(twice, 2)},
+        {"P2: the file lacks trials 2, 7 to 8 of main in a: 5 of 8 trials", of(grid, 3, holes, true),
+         of(grid, 3)},
         {"P2: the file lacks trials 5 to 6 of main in ", of(interleaved, 3, lacks, true),
          of(interleaved, 3, {}, true)},
         {"in participants' own words", of(told, 2), of(grid, 3)},
@@ -293,6 +300,13 @@ TEST(ReportSentences, OlderPlansCallThePointOfEqualityAThreshold) {
                           .value;
     ASSERT_EQ(said.size(), 3u);
     EXPECT_EQ(said[1], "Protocol, number of participants and tests are as planned.");
+    const auto withGroup =
+        comparedWithPlan("# physvib 1 plan=study hash=" + trials.common("hash") +
+                             " participants=1\n- test: Friedman's test of x by a, b\n",
+                         "plan", trials, {"Friedman's and Kruskal and Wallis' test of x by a, b, group"})
+            .value;
+    EXPECT_EQ(withGroup.back(), "Planned as Friedman's test of x by a, b, done as Friedman's and Kruskal and "
+                                "Wallis' test of x by a, b, group");
 }
 
 TEST(ReportSentences, EachIsThereOnlyWhereRowsMakeItTrue) {

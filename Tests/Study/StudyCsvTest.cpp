@@ -118,6 +118,24 @@ TEST(StudyCsv, OtherProgramsWordsForNothingAndForRight) {
               "f.csv:5: column trial: expected each trial once, not as in line 3, found \"1\"");
 }
 
+TEST(StudyCsv, OtherProgramsRowsThatAreThereTwiceAreRefusedAndPracticeIsTraining) {
+    const auto read = [](const std::string& rows, const std::vector<ColumnName>& names = {}) {
+        const std::string text = "participant,stimulus,response,rt,n,phase\n" + rows;
+        const NamedText files[] = {{text, "f.csv", names}, {text, "g.csv", names}};
+        const auto data = readIdentification({files, 1}), both = readIdentification(files);
+        EXPECT_FALSE(both) << "the same table twice";
+        return data ? std::to_string(data.value.conditions.front().trials.size()) : data.error;
+    };
+    EXPECT_EQ(read("P,a,a,0.643,1,\nP,b,a,0.501,2,\nP,a,a,0.643,1,\n"),
+              "f.csv:4: column rt: expected each row once, found \"0.643\"");
+    EXPECT_EQ(read("P,a,a,0.643,,\nP,a,a,0.642,,\nP,a,a,0.643,,\n"), "3") << "answers may be alike";
+    std::vector<ColumnName> names{{"trial", "n"}};
+    for (const char* name : {"participant", "stimulus", "response"}) names.push_back({name, name});
+    EXPECT_NE(read("P,a,a,1,1,\nP,b,a,2,1,\n", names).find("trial: expected each trial once"),
+              std::string::npos);
+    EXPECT_EQ(read("P,a,a,1,1,Practice\nP,b,a,2,1,warm-up\nP,b,a,2,1,before\n"), "1");
+}
+
 TEST(StudyCsv, SessionsOfOneKindArePartedWhoeverDidBoth) {
     const std::string head =
                           "participant,condition,session,task,stimulus,choice,value,parts,correct,level_db\n",

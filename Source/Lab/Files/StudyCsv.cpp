@@ -267,7 +267,7 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
         RatingTrial trial{StudyRows::textIf(row, participant),
                           kindOf(row, stimulus, StudyRows::textIf(row, condition)),
                           {}};
-        if (group)
+        if (group && !row.cells[*group].empty())
             trial.condition.append(StudyRows::textIf(row, stimulus).empty() ? "group=" : " group=")
                 .append(row.cells[*group]);
         for (const auto c : scales) // of this session; others lack answers

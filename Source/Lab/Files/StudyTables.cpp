@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the mapped columns once, then reduces every row to them.
 #include "Lab/Files/StudyTables.h"
+#include "Io/Disk/ContentHash.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/TrialLog.h"
@@ -79,25 +80,28 @@ bool isUtf8(std::string_view text) noexcept {
 void takeOthersWords(CsvTable& table) {
     if (!trialHeadOf(table.comments).empty()) return;
     constexpr std::string_view right[] = {"true", "TRUE", "True", "1.0"},
-                               wrong[] = {"false", "FALSE", "False", "0.0"};
+                               wrong[] = {"false", "FALSE", "False", "0.0"},
+                               practice[] = {"practice", "Practice", "practise", "train",
+                                             "Training", "warmup",   "warm-up",  "warm up"};
     for (std::size_t c = 0; c < table.columns.size(); ++c)
         for (CsvRow& row : table.rows) {
             std::string& cell = row.cells[c];
             if (isNoAnswer(table.columns[c], cell)) cell.clear();
+            if (table.columns[c] == trialColumns::phase && holds(practice, cell))
+                cell = trialColumns::training;
             if (table.columns[c] != "correct") continue;
             if (holds(right, cell)) cell.assign(1, '1');
             if (holds(wrong, cell)) cell.assign(1, '0');
         }
 }
 
-std::string doubledRowFault(const CsvTable& table) {
-    if (!trialHeadOf(table.comments).contains("protocol")) return {};
+/// A row that is there twice: of our own trials, and of others' where trial is named.
+std::string doubledRowFault(const CsvTable& table, bool isNamed) {
+    const bool isOurs = trialHeadOf(table.comments).contains("protocol");
     std::vector<std::size_t> columns;
-    for (const char* name : {"participant", "condition", "session", "trial"})
-        if (const auto column = table.column(name))
-            columns.push_back(*column);
-        else
-            return {};
+    for (const char* name : {"participant", "condition", "session", "phase", "trial"})
+        if (const auto column = table.column(name)) columns.push_back(*column);
+    if (!(isOurs || isNamed) || !table.column("participant") || !table.column("trial")) return {};
     std::map<std::vector<std::string>, std::size_t> lines;
     for (const CsvRow& row : table.rows) {
         std::vector<std::string> key;
@@ -109,6 +113,25 @@ std::string doubledRowFault(const CsvTable& table) {
                                "each trial once, not as in line " + std::to_string(first->second));
     }
     return {};
+}
+
+/// Of others' rows that are alike, with a time to the thousandth, where the other cells tell rows apart:
+/// elsewhere two answers may be alike.
+std::string sameRowFault(const CsvTable& table) {
+    if (!trialHeadOf(table.comments).empty()) return {};
+    std::set<std::vector<std::string>> all, others;
+    std::string fault;
+    for (const CsvRow& row : table.rows) {
+        const auto time = std::ranges::find_if(row.cells, [](const std::string& cell) {
+            return cell.size() > 3 + std::min(cell.size(), cell.find('.')) && parseNumber<double>(cell);
+        });
+        if (time == row.cells.end()) continue;
+        const auto c = static_cast<std::size_t>(time - row.cells.begin());
+        if (!all.insert(row.cells).second) fault = table.fault(row, c, "each row once");
+        auto rest = row.cells;
+        rest[c].clear(), others.insert(std::move(rest));
+    }
+    return 10 * others.size() < 9 * all.size() ? std::string{} : fault;
 }
 
 std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, RowsLeftOut& leftOut) {
@@ -202,10 +225,12 @@ Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
     CsvTable& table = read.value;
     if (!isUtf8(text))
         return Failure{table.name + ": expected UTF-8, found Latin-1 or the like: save it as CSV UTF-8"};
+    if (std::string fault = sameRowFault(table); !fault.empty()) return Failure{std::move(fault)};
     if (std::string fault = takeColumns(table, names, leftOut); !fault.empty())
         return Failure{std::move(fault)};
     takeOthersWords(table);
-    if (std::string fault = doubledRowFault(table); !fault.empty()) return Failure{std::move(fault)};
+    if (std::string fault = doubledRowFault(table, !names.empty()); !fault.empty())
+        return Failure{std::move(fault)};
     return read;
 }
 
@@ -269,8 +294,15 @@ std::string SharedParticipants::add(const CsvTable& head, const std::set<std::st
 
 std::string SharedParticipants::add(const CsvTable& table, std::string_view column) {
     std::set<std::string> participants;
+    std::string all;
     if (const auto at = table.column(column))
-        for (const CsvRow& row : table.rows) participants.insert(row.cells[*at]);
+        for (const CsvRow& row : table.rows) {
+            participants.insert(row.cells[*at]);
+            for (const std::string& cell : row.cells) all.append(cell).push_back('\n');
+        }
+    const auto [same, isNew] = rows_.try_emplace(contentHash(all), table.name);
+    if (!isNew && !all.empty() && trialHeadOf(table.comments).empty())
+        return table.name + ": expected other rows than those of " + same->second + ", found the same";
     return add(table, participants);
 }
 

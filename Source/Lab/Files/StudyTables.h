@@ -52,8 +52,8 @@ struct RowsLeftOut {
 /// Rows with an empty cell in one of them are dropped and counted. From numeric true places target_x and
 /// target_y, columns target_column and target_row are derived, ascending from 1, if each axis has at most
 /// mostGridLines of them. In tables of other programs, answers that are none (null, None, NaN, NA, n/a)
-/// become empty cells, and right or wrong as true, TRUE, 1.0 become 1 or 0. Codes and labels stay: NA may be
-/// a participant. Any thread (allocates).
+/// become empty cells, right or wrong as true, TRUE, 1.0 become 1 or 0, and phases like practice training;
+/// codes stay. A row that is there twice is an error. Any thread (allocates).
 Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
                                 std::span<const ColumnName> names, RowsLeftOut& leftOut);
 
@@ -199,6 +199,7 @@ public:
 private:
     std::map<std::pair<std::string, std::string>, std::string> trialFiles_; // by protocol and participant
     std::map<std::string, std::vector<std::string>> tables_;                // by participant
+    std::map<std::string, std::string> rows_;                               // by their hash
 };
 } // namespace physvib
 

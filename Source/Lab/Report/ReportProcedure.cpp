@@ -213,7 +213,7 @@ void tellParticipants(ReportBuilder& report) {
             (facts.people.empty() ? "" : ",age,sex,handedness,excluded") + (hasGroups ? ",group" : "")};
     std::size_t most = 0;
     for (const auto& [code, own] : people) {
-        table.cells(code, own.number, own.observer, own.main, own.training, own.unanswered,
+        table.cells(code, own.number, own.observer, own.main, own.training, own.unanswered + own.ranOut,
                     own.seconds.empty() ? std::nullopt : std::optional{median(own.seconds)});
         if (!facts.people.empty()) {
             const PersonFacts* const person = facts.person(code);
@@ -228,11 +228,11 @@ void tellParticipants(ReportBuilder& report) {
     report.addTable("participants.csv", table.text());
     const auto analysed = static_cast<std::size_t>(
         std::ranges::count_if(people, [&](const auto& one) { return !facts.isExcluded(one.first); }));
-    report.page.paragraph(
-        counted(people.size(), "participant") + " in " + counted(report.trials.files.size(), "file") +
-        (analysed < people.size()
-             ? "; what follows is of the " + std::to_string(analysed) + " who are not excluded."
-             : "."));
+    report.page.paragraph(counted(people.size(), "participant") + " in " +
+                          counted(report.trials.files.size(), "file") +
+                          (analysed < people.size() ? "; the table below is of all, everything else of the " +
+                                                          std::to_string(analysed) + " who are not excluded."
+                                                    : "."));
     for (const std::string& note : report.trials.notes) report.page.note(note);
     tellFacts(report, people);
     if (people.size() == 1)
@@ -263,7 +263,11 @@ void tellParticipants(ReportBuilder& report) {
     }
     if (rows > 0)
         exclusions.push_back(counted(rows, "row") + " with nothing in one of the named columns left out");
-    if (!report.trials.notLeft.empty()) exclusions.push_back(notLeftWords(report.trials.notLeft.size()));
+    std::set<std::string> whose;
+    for (const CsvRow& row : report.trials.notLeft)
+        whose.insert(Cells{report.trials.all}(row, "participant"));
+    if (!whose.empty())
+        exclusions.push_back(notLeftWords(report.trials.notLeft.size()) + ": of " + joined(whose, ", "));
     tellSameNumbers(report.page, people);
     report.page.subheading("Exclusions");
     if (!report.trials.protocol && hasAdaptiveRows(report.trials))

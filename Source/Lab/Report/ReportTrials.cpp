@@ -2,7 +2,9 @@
 // Combines trial files into one table and checks their first lines; reads the facts of people.
 #include "Lab/Report/ReportTrials.h"
 #include "Io/Text/CsvTable.h"
+#include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
+#include "Lab/Analysis/Analysis.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/StudyTables.h"
 #include "Lab/Files/TrialLog.h"
@@ -144,6 +146,15 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
     if (const auto& unused = trials.leftOut.columns; !unused.empty())
         trials.notes.push_back("columns that --columns does not name, and that are not used: " +
                                joined(unused, ", "));
+    if (const auto kinds = analysesFor(trials.all);
+        !trials.knowTasks() && !kinds.empty() && kinds.front() != "ratings") {
+        std::set<std::string> scales;
+        for (const std::string& column : trials.all.columns)
+            if (!trialColumns::has(column)) scales.insert(column);
+        if (!columns.empty() && !scales.empty())
+            trials.notes.push_back("no ratings are looked at beside answers: " + joined(scales, ", ") +
+                                   "; a report that does not name the answers has them");
+    }
     findProtocolOf(trials, protocol);
     return trials;
 }
@@ -326,10 +337,12 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
     }
     std::map<RunKey, std::size_t> notLeft; // answered, though no evidence
     for (const CsvRow& row : trials.notLeft) ++notLeft[keyOf(row)], isNumbered(row);
-    const auto missingOf = [&](const RunKey& run) {
+    const auto missingOf = [&](const RunKey& run, int most) { // 0: not known
         std::string words;
         int next = 1;
-        for (const int number : numbers[run]) {
+        std::set<int>& own = numbers[run];
+        if (most > 0 && !own.empty() && *own.rbegin() > std::ssize(own)) own.insert(most + 1);
+        for (const int number : own) {
             if (number > next)
                 words += (words.empty() ? "" : ", ") + std::to_string(next) +
                          (number > next + 1 ? " to " + std::to_string(number - 1) : "");
@@ -347,7 +360,9 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
                     static_cast<std::size_t>(mostTrialsOf(plan, stimuliOf(planned).size()));
                 const RunKey key{who, planned.name, plan.name};
                 const bool isOver = !isUnfinished(plan, answers, most - std::min(most, notLeft[key]));
-                if (const std::string missing = missingOf(key); !isOver || !missing.empty())
+                const bool isFixed = plan.adaptedAlternative() == nullptr && plan.untilCorrect == 0;
+                if (const std::string missing = missingOf(key, isFixed ? static_cast<int>(most) : 0);
+                    !isOver || !missing.empty())
                     unfinished.push_back({who, planned.name, plan.name, answers.size(), most,
                                           plan.adaptedAlternative() != nullptr, missing, isOver});
             }

@@ -53,17 +53,21 @@ in.order <- function(levels) { # numbers by size
 }
 # The rows of a measure; "choice=RM" is 1 where the column says so, else 0. Rows without the measure are left out.
 where.is <- function(d, where) { for (words in where) d <- d[which(level(d, sub("=.*", "", words)) == sub("^[^=]*=", "", words)), ]; d }
-rows.of <- function(file, measure, factors, where = character()) {
+# Whose group is not known is in no test of a model that has it.
+rows.of <- function(file, measure, factors, where = character(), between = character()) {
   d <- if (is.data.frame(file)) file else table.of(file)
   d <- where.is(d, where)
+  unknown <- if ("group" %in% between) groupless(d)
+  d <- d[!(d$participant %in% unknown), ]
   column <- if (measure %in% names(d)) measure else sub("=.*", "", measure)
   d <- d[!(d[[column]] %in% c("", "NA")), ]
   y <- if (measure %in% names(d)) suppressWarnings(as.numeric(d[[column]])) else as.numeric(d[[column]] == sub("^[^=]*=", "", measure))
   if (anyNA(y)) stop(paste0("expected numbers in the column ", column, ", found ", d[[column]][is.na(y)][1]))
   rows <- data.frame(id = d$participant, y = y)
   for (i in seq_along(factors)) { own <- level(d, factors[i]); rows[[paste0("w", i)]] <- factor(own, levels = in.order(own)) }
-  rows
+  structure(rows, unknown = unknown)
 }
+groupless <- function(d) unique(d$participant[d$group %in% c("", NA)])
 # A participant per row, a combination of levels per column (the last factor varies fastest): means over rows. Who lacks a combination is left out.
 cells.of <- function(rows) {
   id <- factor(rows$id, levels = unique(rows$id))
@@ -71,7 +75,7 @@ cells.of <- function(rows) {
   means <- tapply(rows$y, list(id, cell), mean)
   whole <- complete.cases(means)
   if (sum(whole) < 2) stop(paste("expected two or more participants with all levels, found", sum(whole)))
-  structure(means[whole, , drop = FALSE], lacking = rownames(means)[!whole])
+  structure(means[whole, , drop = FALSE], lacking = rownames(means)[!whole], unknown = attr(rows, "unknown"))
 }
 # Values whose ranks are asked for: means that differ by the rounding of thirds are the same.
 even <- function(x, size = max(abs(x), 1e-300)) round(x / size, 9)
@@ -119,9 +123,11 @@ ranks.note <- function(t, equal, words) paste(c(if (equal > 0) paste(equal, "of 
 # A test that R refuses is a line that says why; the others go on.
 attempt <- function(test, effect, run) tryCatch(run, error = function(e) result(test, effect, "", NA, NA, NA, note = gsub("\n", "", conditionMessage(e), fixed = TRUE)))
 tell.lacking <- function(test, cells) { # once of the same cells
-  lacking <- attr(cells, "lacking")
-  of <- function(test) sub("^(analysis of variance|.* test|pairs by (t|ranks)) of ", "", test)
-  if (length(lacking) > 0 && !any(results$effect == "left out" & of(results$test) == of(test))) result(test, "left out", "", NA, NA, nrow(cells), note = paste("some levels are lacking of", paste(lacking, collapse = ", ")))
+  lacking <- attr(cells, "lacking"); unknown <- attr(cells, "unknown")
+  of <- function(test) sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|.* test|pairs by (t|ranks)) of ", "", test))
+  if (any(results$effect == "left out" & of(results$test) == of(test))) return(invisible())
+  if (length(unknown) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = paste0(paste(unknown, collapse = ", "), ": group not known, left out of tests by group and of those within people beside it"))
+  if (length(lacking) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = paste("some levels are lacking of", paste(lacking, collapse = ", ")))
 }
 
 # Of each group its means of the levels within participants, where they are few.
@@ -133,7 +139,7 @@ tell.means <- function(cells, group) if (nlevels(group) * ncol(cells) <= 24) for
 # Means of participants' cells, within and between them: each effect by its orthonormal contrasts of the cells, against its own error; between people by
 # sums of squares of type III. p is corrected by Greenhouse and Geisser.
 anova.test <- function(test, file, measure, within = character(), where = character(), between = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
-  rows <- rows.of(file, measure, within, where); cells <- cells.of(rows); n <- nrow(cells)
+  rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
   tell.lacking(test, cells)
   people <- setNames(lapply(between, function(b) of.people(file, measure, b, rownames(cells), where)), sprintf("b%d", seq_along(between)))
   x <- if (length(between) > 0) model.matrix(as.formula(paste("~", paste(names(people), collapse = "*"))), as.data.frame(people), lapply(people, function(f) "contr.sum"))
@@ -191,7 +197,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
 # the effects of several factors within them, too: with an intercept alone 16 of 100 studies without an effect would have one at 0.05.
 mixed <- function(test, file, measure, within, between, where) {
   factors <- c(within, between)
-  d <- aggregate(y ~ ., rows.of(file, measure, factors, where), mean)
+  d <- aggregate(y ~ ., rows.of(file, measure, factors, where, between), mean)
   own <- names(d)[-c(1, ncol(d))]
   x <- model.matrix(as.formula(paste("~", paste(own, collapse = "*"))), d, lapply(d[own], function(f) "contr.sum"))
   terms <- attr(x, "assign"); labels <- unlist(lapply(seq_along(own), function(m) combn(factors, m, paste, collapse = ":")))
@@ -206,15 +212,15 @@ mixed <- function(test, file, measure, within, between, where) {
            note = "p too small where people are few")
   }
 }
-friedman <- function(test, file, measure, within = character(), where = character(), between = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
-  rows <- rows.of(file, measure, within, where); cells <- cells.of(rows); n <- nrow(cells)
+friedman <- function(test, file, measure, within = character(), where = character(), between = character(), tested = c(within, between)) { cat(test, "\n", sep = ""); attempt(test, "all", {
+  rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
   tell.lacking(test, cells)
-  for (i in seq_along(within)) attempt(test, within[i], {
+  for (i in which(within %in% tested)) attempt(test, within[i], {
     t <- friedman.test(even(by.level(rows, cells, i)))
     if (is.nan(t$p.value)) stop("all levels are tied")
     result(test, within[i], "chi-squared", t$statistic, t$p.value, n, t$parameter, size = "Kendall's W", effect_size = t$statistic / (n * t$parameter))
   })
-  for (b in between) attempt(test, b, {
+  for (b in intersect(between, tested)) attempt(test, b, {
     t <- kruskal.test(even(rowMeans(cells)), of.people(file, measure, b, rownames(cells), where))
     if (is.nan(t$p.value)) stop("all people are tied")
     result(test, b, "chi-squared", t$statistic, t$p.value, n, t$parameter)
@@ -224,7 +230,7 @@ friedman <- function(test, file, measure, within = character(), where = characte
 # ranks of differences, or, not `paired`, those of Mann and Whitney, as if other people had given each level.
 pairs.test <- function(test, file, measure, within = character(), where = character(), by = "t", correction = "holm", between = character(), paired = TRUE) {
   cat(test, "\n", sep = ""); attempt(test, "all", {
-  rows <- rows.of(file, measure, within, where); cells <- cells.of(rows); n <- nrow(cells)
+  rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
   tell.lacking(test, cells)
   for (f in c(within, between)) {
     is.within <- f %in% within; is.signed <- is.within && paired
@@ -244,7 +250,8 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
       if (by == "t" && nlevels(groups) > 1) { # as the analysis of variance has it: each group counts alike
         m <- lm(a - b ~ groups, contrasts = list(groups = "contr.sum")); s <- coef(summary(m))[1, ]; df <- m$df.residual
         if (sum(m$residuals^2) <= 1e-26 * sum(a^2 + b^2)) return(list(p = NaN, n = n))
-        return(list(p = s[[4]], value = s[[3]], df = df, size = "d_z", effect = s[[1]] / sigma(m), difference = s[[1]], interval = s[[1]] + c(-1, 1) * qt(0.975, df) * s[[2]], n = n))
+        return(list(p = s[[4]], value = s[[3]], df = df, size = "d_z", effect = s[[1]] / sigma(m), difference = s[[1]], interval = s[[1]] + c(-1, 1) * qt(0.975, df) * s[[2]], n = n,
+                    note = "each group counts alike; SD within groups"))
       }
       size <- max(abs(c(a, b)), 1e-300); different <- if (is.signed) even(a - b, size)
       t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else if (is.signed) rank.test(different) else rank.test(even(a, size), even(b, size)), error = function(e) list(p.value = NaN))
@@ -282,14 +289,16 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   words <- alternatives.of(d); k <- length(words)
   if (k < 2) stop(paste("expected two alternatives or more, found", k))
   if (is.null(factors)) { design <- design.of(d); factors <- c(design$within, design$between) }
-  words.of <- function(f) paste0(f, "=", level(d, f))
+  unknown <- if ("group" %in% factors) groupless(d) # counts in no line of a group
+  words.of <- function(f) { words <- paste0(f, "=", level(d, f)); words[f == "group" & d$participant %in% unknown] <- NA; words }
   marks <- lapply(factors, words.of)
-  if (length(factors) > 1) marks <- c(marks, list(do.call(paste, marks)))
+  if (length(factors) > 1) { all <- do.call(paste, marks); all[d$participant %in% unknown] <- NA; marks <- c(marks, list(all)) }
+  if (length(unknown) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = paste0(paste(unknown, collapse = ", "), ": group not known, left out of lines of a group"))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
   if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
   lines <- expand.grid(group = groups, word = if (k == 2) words[1] else words, stringsAsFactors = FALSE)
   tests <- Map(function(group, word) {
-    of <- if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m == group))
+    of <- if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m %in% group))
     hits <- tapply(d$choice[of] == word, d$participant[of], sum); n <- tapply(of[of], d$participant[of], length)
     lead <- (k * hits - n) / n # leads of the same size tie to the bit
     away <- lead[lead != 0]
@@ -322,16 +331,19 @@ factor.names <- function(column, d) {
   }
   column
 }
+# Of other programs' tables: columns of which people have several runs.
+runs.of <- function(d) Filter(function(f) any(tapply(d[[f]], d$participant, function(s) length(unique(s))) > 1), intersect(c("session", "phase"), names(d)))
+runs.words <- function(d, f) { runs <- unique(d[[f]]); paste0(f, " (", if (length(runs) > 4) length(runs) else paste(runs, collapse = ", "), "): ") }
 # The factors that rows vary in: of which everybody has all levels with those of the others (within), or one alone (between). Others are averaged over,
 # and so are more than 12 stimuli without a factor's name beside other factors.
 design.of <- function(d, columns = c("group", "condition", "stimulus")) {
   out <- list(within = character(), between = character(), over = character(), notes = character())
   seen <- list()
   people <- length(unique(d$participant))
-  if (!("task" %in% names(d)) && "session" %in% names(d) && any(tapply(d$session, d$participant, function(s) length(unique(s))) > 1))
-    { out$over <- "session"; out$notes <- paste0("session (", length(unique(d$session)), "): averaged over, level by level") }
+  if (!("task" %in% names(d))) for (f in runs.of(d)) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste0(runs.words(d, f), "averaged over, level by level")) }
   for (f in unlist(lapply(columns, factor.names, d))) {
     own <- level(d, f); levels <- unique(own)
+    if (f == "group") { own[is.na(own)] <- ""; levels <- setdiff(levels, c("", NA)) }
     if (length(levels) < 2) next
     if (any(vapply(seen, function(other) nrow(unique(data.frame(other, own))) == length(levels) && length(unique(other)) == length(levels), NA))) next
     if (anyNA(own)) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste(f, "is not of every trial: averaged over, level by level")); next }
@@ -351,6 +363,7 @@ design.of <- function(d, columns = c("group", "condition", "stimulus")) {
 # ranks. Magnitudes: ranks of one factor; of several the analysis of variance of their logarithms. No ordinal mixed model of trials: with an intercept for
 # each person alone, 12 of 60 studies without an effect have one at 0.05 (Friedman's test: 4), and with one for each person's level it takes half a minute.
 most.levels <- 12 # of which every two are compared
+ranks.told <- FALSE
 as.published <- FALSE # a study -thesis: pairs as 4.2.2 and 5.2.2 have them, by t or Mann and Whitney's ranks, with Bonferroni's correction
 spoken <- c(percent_correct = "percent correct", distance = "distance from the target", variable = "variable error", jnd = "JND")
 compare <- function(what, d, measure, kind = "scores", columns = c("group", "condition", "stimulus")) {
@@ -374,21 +387,25 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   few <- function(some) Filter(function(f) length(unique(level(d, f))) <= most.levels, some)
   name <- paste(what, "by", paste(factors, collapse = ", "))
   if (kind == "scores") anova.test(paste("analysis of variance of", name), d, measure, design$within, between = design$between)
-  else if (any(vapply(factors, function(f) length(unique(level(d, f))) > 2, NA)))
-    friedman(paste(paste(c("Friedman's", "Kruskal and Wallis'")[c(length(design$within) > 0, length(design$between) > 0)], collapse = " and "), "test of", name),
-             d, measure, design$within, between = design$between)
+  else { # of two levels a pair is the whole test
+    more <- Filter(function(f) length(setdiff(unique(level(d, f)), if (f == "group") c("", NA))) > 2, factors)
+    if (length(factors) > 1 && !ranks.told) { cat("by ranks each factor is tested alone: interactions are not tested\n"); ranks.told <<- TRUE }
+    if (length(more) > 0)
+      friedman(paste(paste(c("Friedman's", "Kruskal and Wallis'")[c(any(design$within %in% more), any(design$between %in% more))], collapse = " and "), "test of", what, "by", paste(more, collapse = ", ")),
+               d, measure, design$within, between = design$between, tested = more)
+  }
   if (length(few(factors)) > 0)
     pairs.test(paste("pairs by", if (kind == "scores") "t" else "ranks", "of", name), d, measure, few(design$within), by = if (kind == "scores") "t" else "ranks",
                correction = if (as.published) "bonferroni" else "holm", between = few(design$between), paired = !as.published)
   if (length(few(factors)) < length(factors)) result(paste("pairs of", name), "factors", "", NA, NA, length(unique(d$participant)), note = "more than 12 levels")
 }
 # Several scales, or shares of several alternatives, ask one question each: Holm's correction over all tests that were made of an effect. Where some
-# scales have a test of a whole factor, those whose two levels were compared as a pair alone, by ranks, stand beside them.
+# scales have a test of a whole factor, factors whose two levels were compared as a pair alone, by ranks, stand beside them.
 across <- function(tests, what, pairs = TRUE) {
   at <- which(results$test %in% tests & results$statistic %in% c("F", "chi-squared", "V", "W") & !is.na(results$p))
   name <- sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|(Friedman's|Kruskal and Wallis'|Friedman's and Kruskal and Wallis') test|pairs by ranks) of ", "", results$test[at]))
   ranks <- results$statistic[at] %in% c("V", "W"); effect <- results$effect[at]; all <- unique(name)
-  if (!pairs && !all(ranks)) { effect[ranks] <- sub(": .*", "", effect[ranks]); own <- !(ranks & name %in% name[!ranks]); at <- at[own]; name <- name[own]; effect <- effect[own] }
+  if (!pairs && !all(ranks)) { effect[ranks] <- sub(": .*", "", effect[ranks]); own <- !(ranks & paste(name, effect) %in% paste(name, effect)[!ranks]); at <- at[own]; name <- name[own]; effect <- effect[own] }
   for (one in unique(effect)) {
     i <- at[effect == one]; of <- name[effect == one]
     results$p_across[i] <<- p.adjust(ifelse(is.na(results$p_corrected[i]), results$p[i], results$p_corrected[i]), "holm")
@@ -416,17 +433,18 @@ in.pairs <- function(own, scale, words) for (one in split(own, if ("condition" %
   means <- aggregate(y ~ a + b, means, mean)
   m <- matrix(NA, length(all), length(all), dimnames = list(all, all))
   m[cbind(means$a, means$b)] <- means$y; m[cbind(means$b, means$a)] <- means$y
-  similarity <<- rbind(similarity, data.frame(scale, condition, stimulus = all, m, check.names = FALSE, row.names = NULL))
+  similarity <<- rbind(similarity, data.frame(scale, session = sub("^ in ", "", words), condition, stimulus = all, m, check.names = FALSE, row.names = NULL))
   cat("means of ", scale, words, " in pairs", if (condition != "") paste0(", ", condition), "\n", sep = "")
   attempt(paste0("map of ", scale, words), condition, {
     if (length(all) < 3) stop("expected three stimuli or more")
     d <- if (grepl("^(dis|diff)", scale)) m else max(m, na.rm = TRUE) - m
     diag(d) <- 0
     map <- cmdscale(as.dist(d), k = 2, eig = TRUE)
-    if (ncol(map$points) < 2) stop("the stimuli lie on a line")
-    stress <- sqrt(sum((dist(map$points) - as.dist(d))^2) / sum(as.dist(d)^2))
-    cat("  map in two dimensions: stress-1 ", signif(stress, 3), "\n", sep = "")
-    places <<- rbind(places, data.frame(scale, condition, stimulus = all, x = map$points[, 1], y = map$points[, 2], stress))
+    at <- map$points[, seq_len(min(2, sum(map$eig > 1e-9 * max(abs(map$eig))))), drop = FALSE] # rounding makes no dimension
+    if (ncol(at) < 1) stop("no map: no eigenvalue is positive")
+    stress <- sqrt(sum((dist(at) - as.dist(d))^2) / sum(as.dist(d)^2))
+    cat("  ", if (ncol(at) < 2) "no map in two dimensions: only one eigenvalue is positive; in one dimension" else "map in two dimensions", ": stress-1 ", signif(stress, 3), "\n", sep = "")
+    places <<- rbind(places, data.frame(scale, session = sub("^ in ", "", words), condition, stimulus = all, x = at[, 1], y = if (ncol(at) < 2) NA else at[, 2], stress))
   })
 }
 # How far a participant's answers to the same target scatter around their own mean: what the size of a perceived grid rests on.
@@ -452,6 +470,8 @@ study <- function(study, scales = character(), points = character(), half = "thr
   is.told <- "task" %in% names(d)
   if (is.told) for (column in setdiff(c("session", "correct", "level_db"), names(d))) d[[column]] <- rep("", nrow(d))
   if (!is.told) points <- union(points, Filter(function(scale) all(d[[scale]] %in% c("", "NA", 1:7)), scales)) # of other programs
+  if (is.told) for (s in Filter(function(s) length(s) > 1, lapply(split(d$session, d$task), unique)))
+    cat("sessions ", paste(s, collapse = ", "), " are not compared with each other: a call that names the factor session does\n", sep = "")
   # a trial that ran out of time has no other answer
   for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks", c("group", "condition"))
   # rows of a task, session by session where there are several; of tables without tasks those with the column
@@ -469,7 +489,11 @@ study <- function(study, scales = character(), points = character(), half = "thr
     for (w in unique(word)) run(own[word == w, ], w)
   }
   from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) parts.in(table.of(file), function(own, session) {
-    for (m in measures) compare(paste0(if (m %in% names(spoken)) spoken[[m]] else m, words, session), own, m, columns = columns)
+    name <- function(m) if (m %in% names(spoken)) spoken[[m]] else m
+    what <- paste0(paste(vapply(measures, name, ""), collapse = ", "), words)
+    if (!is.told && length(runs.of(d)) > 0) cat(what, "\n", sep = "")
+    if (!is.told) for (f in runs.of(d)) result(what, "factors", "", NA, NA, length(unique(own$participant)), note = paste0(runs.words(d, f), "all trials together"))
+    for (m in measures) compare(paste0(name(m), words, session), own, m, columns = columns)
   })
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
@@ -526,6 +550,7 @@ finish <- function(study) {
   lme4 <- if (any(grepl("mixed model", results$effect))) paste(", lme4", packageVersion("lme4")) else ""
   writeLines(paste0("# ", study, ", ", R.version.string, lme4), "tests.csv")
   for (table in list(list(similarity, "similarity.csv"), list(places, "mds.csv"))) if (nrow(table[[1]]) > 0) {
+    if (all(table[[1]]$session == "")) table[[1]]$session <- NULL
     writeLines(paste0("# ", study, ", ", R.version.string), table[[2]])
     write.table(table[[1]], table[[2]], append = TRUE, sep = ",", row.names = FALSE, na = "", qmethod = "double")
   }

@@ -223,7 +223,10 @@ rows(own[c("method", "condition", "participant", "threshold")], "thresholds.csv"
 for (s in c("early", "late")) { wide <- tapply(d$threshold[d$session == s], list(d$participant[d$session == s], d$condition[d$session == s]), mean)
   same("a session's thresholds", line(ours[grepl(paste0("^pairs by t of threshold by staircase in ", s, " by condition"), ours$test), ], "condition: x - y")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value) }
 d$y <- d$threshold; rows(d[names(d) != "task"])
-if (!any(grepl("session (2): averaged over", told(compare("y", table.of("trials.csv"), "y"))$note, fixed = TRUE))) fault("another program's sessions are averaged without a word")
+if (!any(grepl("session (early, late): averaged over", told(compare("y", table.of("trials.csv"), "y"))$note, fixed = TRUE))) fault("another program's sessions are averaged without a word")
+d$phase <- rep(c("before", "after"), length.out = nrow(d))
+d$percent_correct <- rnorm(nrow(d)); rows(d[c("participant", "condition", "percent_correct")], "identification.csv"); ours <- whole(d[names(d) %in% c("participant", "condition", "phase")], NULL); unlink("identification.csv")
+if (!any(grepl("phase (before, after): all trials together", ours$note, fixed = TRUE))) fault("another program's runs are pooled without a word")
 d <- expand.grid(trial = 1:3, participant = person(8), stringsAsFactors = FALSE)
 d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$condition <- "c"; d$stimulus <- "s"; d$parts <- "ref|low|ref|mid"
 d$ref <- ifelse(d$participant == "05", 70, 97); d$low <- round(20 + 9 * rnorm(24)); d$mid <- round(60 + 9 * rnorm(24))
@@ -237,7 +240,28 @@ d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$stimulus <- ""; d$pa
 ours <- whole(d, "effort", "effort", data.frame(participant = person(8), group = rep(c("g", "h"), 4)))
 wide <- tapply(as.numeric(d$effort), list(d$participant, d$condition), mean)
 same("seven points", line(ours, "condition")$p, friedman.test(wide)$p.value)
-same("groups of the table of people", line(ours, "group")$p, kruskal.test(rowMeans(wide), rep(c("g", "h"), 4))$p.value)
+same("groups of the table of people", line(ours, "group: g - h")$p, exact.p(rowMeans(wide)[c(1, 3, 5, 7)], rowMeans(wide)[c(2, 4, 6, 8)]))
+if (nrow(line(ours, "group")) > 0) fault("two groups have a second test")
+if (sum(grepl("interactions are not tested", spoken.words)) != 1) fault("that ranks leave out interactions is not told once")
+# Two levels have one test by ranks, beside a factor of more; over scales each factor has its own.
+d$stimulus <- rep(c("s", "t"), each = 8, length.out = nrow(d)); d <- rbind(d, transform(d, stimulus = ifelse(stimulus == "s", "t", "s"))); d$effort <- sample(1:7, nrow(d), TRUE); d$calm <- sample(1:7, nrow(d), TRUE)
+ours <- whole(d, c("effort", "calm"), c("effort", "calm")); own <- line(ours, "stimulus: s - t")
+if (any(ours$statistic == "chi-squared" & ours$effect == "stimulus") || nrow(own) != 2) fault("two levels have two tests")
+if (!any(ours$test == "Friedman's test of effort by condition")) fault("a test is named after factors that it lacks")
+for (i in 1:2) { same("two levels over scales", own$p_across[i], p.adjust(own$p, "holm")[i]); own.three <- line(ours, "condition"); same("three levels over scales", own.three$p_across[i], p.adjust(own.three$p, "holm")[i]) }
+# Whose group is not known is in no group; of one known group, or none, everybody is compared.
+people <- data.frame(participant = person(8)[-8], group = c("g", "h", "g", "h", "g", "h", "")); d <- d[d$stimulus == "s", ]
+for (kind in list("effort", character())) {
+  ours <- whole(d, "effort", kind, people); g <- rowMeans(tapply(d$effort, list(d$participant, d$condition), mean))
+  if (!any(grepl("07, 08: group not known, left out", ours$note)) || !all(line(ours, "group: g - h")$n == 6) || !all(line(ours, "condition")$n == 6)) fault("who has no group is in a test by group, or goes without a word")
+  same("known groups", line(ours, "group: g - h")$p, if (length(kind) > 0) exact.p(g[c(1, 3, 5)], g[c(2, 4, 6)]) else t.test(g[c(1, 3, 5)], g[c(2, 4, 6)], var.equal = TRUE)$p.value)
+}
+if (!any(grepl("each group counts alike; SD within groups", ours$note))) fault("differences beside groups are not said to be of groups alike")
+ours <- whole(d, "effort", "effort", transform(people, group = rep(c("g", ""), length.out = 7)))
+if (any(grepl("group", ours$test)) || line(ours, "condition")$n != 8) fault("one known group is compared with none")
+d$task <- "choose"; d$choice <- sample(c("A", "B"), nrow(d), TRUE); d$correct <- d$level_db <- ""; rows(d); rows(data.frame(participant = person(8), group = c("g", "h", "g", "h", "g", "h", "", "")), "participants.csv")
+ours <- told(choices("t", "trials.csv"))
+if (any(grepl("group=($| )|NA", ours$effect)) || line(ours, "all")$n != 8 || line(ours, "group=g")$n != 3 || !any(grepl("07, 08: group not known", ours$note))) fault("shares of no group")
 if (any(grepl("variance", ours$test))) fault("points are taken as scores")
 # A trial that ran out of time is no answer: how often it was is compared, by rows that stay in trials.csv.
 d <- expand.grid(trial = 1:6, participant = person(7), condition = c("c1", "c2"), stringsAsFactors = FALSE)
@@ -289,6 +313,13 @@ whole(d, "difference")
 map <- read.csv("mds.csv", comment.char = "#"); m <- read.csv("similarity.csv", comment.char = "#")
 same("a matrix", m$b[m$stimulus == "a"], 3)
 if (max(abs(dist(map[c("x", "y")]) - dist(at))) > 1e-9 || map$stress[1] > 1e-9) fault("the map is another one")
+# Distances that grow faster than steps have no map in two dimensions; sessions have their own rows.
+d$difference <- (two[2, d$pair] - two[1, d$pair])^1.5; invisible(whole(d, "difference"))
+if (!any(grepl("no map in two dimensions: only one eigenvalue is positive; in one dimension: stress-1", spoken.words))) fault("that there is no map in two dimensions is not told")
+if ("session" %in% names(read.csv("mds.csv", comment.char = "#"))) fault("one session has a column")
+invisible(whole(rbind(d, transform(d, session = "later", difference = difference / 2)), "difference"))
+for (file in c("mds.csv", "similarity.csv")) if (!setequal(read.csv(file, comment.char = "#")$session, c("main", "later"))) fault("sessions are not told apart in", file)
+if (!any(grepl("sessions main, later are not compared with each other", spoken.words))) fault("sessions stand apart without a word")
 # Right and wrong answers, and no level: a table of another program.
 d <- expand.grid(trial = 1:9, participant = person(6), condition = c("c1", "c2"), stringsAsFactors = FALSE)
 d$correct <- as.integer(runif(nrow(d)) < ifelse(d$condition == "c2", 0.9, 0.6)); wide <- tapply(d$correct, list(d$participant, d$condition), mean)
