@@ -18,10 +18,10 @@ cpp() { find "$@" -type f \( -name '*.h' -o -name '*.cpp' \); }
 lines() { cpp "$@" | xargs cat | wc -l; }
 bytes() { cpp "$@" | xargs cat | tr -d ' \t\n\r\f\v' | wc -c; }
 
-say "products: lines of C++" "$(lines $products)" 117949
+say "products: lines of C++" "$(lines $products)" 118034
 say "products: files of C++" "$(cpp $products | wc -l)" 785
-say "products: bytes without white space" "$(bytes $products)" 4144236
-say "tests: lines of C++" "$(lines Tests)" 82216
+say "products: bytes without white space" "$(bytes $products)" 4148060
+say "tests: lines of C++" "$(lines Tests)" 82221
 say "tests: files of C++" "$(cpp Tests | wc -l)" 577
 if [ -n "$bin" ]; then
     say "tests: programs" "$(find "$bin" -maxdepth 1 -name 'physvib-*-tests' | wc -l)" 12
