@@ -162,6 +162,14 @@ test('what is felt is heard, in the same frame, left and right by its place', as
     await until(() => felt.output);
     assert.equal(felt.sound, null, 'no output is left');
     felt.close();
+    const { error } = console, other = new Context();
+    console.error = () => {};
+    const hands = await feel(game().engine, { ...field, physvib, context: other, outputs: [1, 2, 3, 4], sound: { outputs: [8, 9] } });
+    await until(() => hands.output);
+    console.error = error;
+    assert.match(hands.error?.message ?? '', /outputs: expected 2 different numbers, 1 to 8/);
+    assert.ok(hands.output && hands.sound === null, 'and the hands are felt');
+    hands.close();
 });
 
 test('a page plays from the first gesture on, once, and until it is closed', () => onPage({ userActivation: { hasBeenActive: false } }, async gesture => {

@@ -26,8 +26,10 @@ std::string MixerDevice::open(const DeviceChoice& choice) {
     return error;
 }
 
+bool MixerDevice::isNone() const { return rig_.output().device().starts_with(noDeviceType); }
+
 bool MixerDevice::isPlayed(std::size_t actuator) const {
-    if (!choice_.sinks.empty() || choice_.name.starts_with(noDeviceType) || outputs() == 0) return true;
+    if (!choice_.sinks.empty() || isNone() || outputs() == 0) return true;
     const int output = mix_.strips[actuator].output;
     return output >= 0 && output < outputs();
 }

@@ -79,6 +79,7 @@ public:
     const DeviceChoice& choice() const noexcept { return choice_; }
     const AudioDrivers& drivers() const noexcept { return drivers_; }
     int outputs() const { return rig_.output().deviceOutputs(); }
+    bool isNone() const; ///< what is open is no device: what happens is seen alone
     /// False: it has no output that plays, so nothing of it is felt. Of no device at all, all are seen.
     bool isPlayed(std::size_t actuator) const;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mixer's state, the session that plays it, and its output device.
 #include "Mixer/Model/MixerModel.h"
-#include "Live/Devices/NoDevice.h"
 #include "Live/Documents/Mix.h"
 #include "Scene/SceneFile.h"
 #include <algorithm>
@@ -349,8 +348,7 @@ void MixerModel::setSilent(bool silent) {
 }
 
 bool MixerModel::isOnlySeen() const {
-    return output().device().starts_with(noDeviceType) && session().sinks().states().empty() &&
-           inputs_.choice().receiver.empty();
+    return device_.isNone() && session().sinks().states().empty() && inputs_.choice().receiver.empty();
 }
 
 void MixerModel::showSilence() {

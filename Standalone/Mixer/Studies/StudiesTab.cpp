@@ -458,7 +458,7 @@ void StudiesTab::end() {
 void StudiesTab::mixChanged() {
     if (noiseOutputs_ != noiseChoices() || noise_.getNumItems() == 0) listNoise();
     const auto& mix = model_.mix();
-    const bool isFelt = !hasNoDevice(model_);
+    const bool isFelt = !model_.device().isNone();
     level_ = mix.levelDb < 0.0
                  ? "Felt " + number(-mix.levelDb, 1) +
                        " dB below the protocol's g: set the master level to 0 dB if those are meant."

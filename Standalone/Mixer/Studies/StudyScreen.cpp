@@ -5,7 +5,6 @@
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Live/Devices/NoDevice.h"
 #include "Mixer/Widgets/Parts.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/SceneEdits.h"
@@ -53,8 +52,6 @@ Apparatus apparatusOf(MixerModel& model) {
     return with;
 }
 
-bool hasNoDevice(const MixerModel& model) { return model.output().device().starts_with(noDeviceType); }
-
 std::string feltFault(const Protocol& protocol, MixerModel& model) {
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
@@ -80,7 +77,7 @@ std::string outputsFault(const Protocol& protocol, const MixerModel& model) {
     std::vector<std::string> without;
     for (std::size_t j = 0; j < most; ++j)
         if (const int output = j < map.size() ? map[j] : -1;
-            !hasNoDevice(model) && (output < 0 || output >= model.device().outputs()))
+            !model.device().isNone() && (output < 0 || output >= model.device().outputs()))
             without.push_back(model.mix().layout.enchanters[j].label);
     if (!without.empty())
         return std::to_string(without.size()) + " of " + std::to_string(most) +
@@ -461,7 +458,7 @@ void StudyScreen::submit(Answer answer) {
     answer.limiterDb = std::exchange(limiterDb_, 0.0);
     answer.exposure = exposure();
     answer.plays = std::max(1, progress_->plays());
-    if (!hasNoDevice(model_) && !felt_.empty())
+    if (!model_.device().isNone() && !felt_.empty())
         answer.left = std::ranges::all_of(unlike_, [](int plays) { return plays < maxUnlike; });
     answer.again = progress_->again();
     answer.seconds = std::round(nowMs() - firstFeltMs_) * 1e-3;

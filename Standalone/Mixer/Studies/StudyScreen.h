@@ -139,9 +139,6 @@ private:
 /// Settings of the apparatus now. Message thread.
 Apparatus apparatusOf(MixerModel& model);
 
-/// True if samples are discarded, as there is no device: the study can be seen. Message thread.
-bool hasNoDevice(const MixerModel& model);
-
 /// Empty, or why the study cannot be played in this mixer, checked with the first stimulus of each condition.
 /// Message thread.
 std::string feltFault(const Protocol& protocol, MixerModel& model);

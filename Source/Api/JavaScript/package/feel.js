@@ -51,14 +51,18 @@ class Felt {
             this.#isOwn = !this.#context;
             this.#context ??= new AudioContext();
             await this.#context.resume();
-            const { sound, ...options } = this.#options, output = await play(this.physvib, this.#context, options), ears = sound && this.#earsOf(sound, output, options), heard = ears ? await play(this.physvib, this.#context, ears) : null;
+            const { sound, ...options } = this.#options, output = await play(this.physvib, this.#context, options), ears = sound && this.#earsOf(sound, output, options), heard = ears ? await play(this.physvib, this.#context, ears).catch(error => this.#failed(error)) : null;
             if (this.#closed) return void [output, heard].forEach(each => each?.close());
             Object.assign(this, { output, sound: heard });
             for (const each of [output, heard]) each?.follow(this.haptics);
         } catch (error) {
-            this.error = error;
-            console.error(`PhysVib: no sound, the game goes on: ${error.message}`);
+            this.#failed(error);
         }
+    }
+    #failed(error) {
+        this.error = error;
+        console.error(`PhysVib: no sound, the game goes on: ${error.message}`);
+        return null;
     }
     // The two outputs behind the actuators', if none are given. With two in all, the monitor is what is heard.
     #earsOf({ outputs, level = heardLevel }, { channels, isDirect, context }, { latency, worklet, fieldWidth, fieldHeight }) {
