@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Builds the lookup table of MIDI notes from the rules of a state.
 #include "MidiMap.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -21,7 +22,7 @@ std::vector<int> vibratingMaterials(const Scene& scene) {
 constexpr double lowestPitchHz = 20.0, highestPitchHz = 500.0;
 
 double pitchHz(int note) {
-    double frequencyHz = 440.0 * std::exp2((note - 69) / 12.0);
+    double frequencyHz = 440.0 * portable::pow(2.0, (note - 69) / 12.0);
     while (frequencyHz < lowestPitchHz) frequencyHz *= 2.0;
     while (frequencyHz > highestPitchHz) frequencyHz /= 2.0;
     return frequencyHz;
@@ -171,12 +172,12 @@ NoteVoice voiceBy(NoteVoice voice, const NoteKnobs& knobs) noexcept {
 }
 
 double MidiTable::releasePerSecond(const NoteKnobs& knobs) const noexcept {
-    return std::log(1000.0) / (voice_.releaseSeconds * knobs.release);
+    return portable::log(1000.0) / (voice_.releaseSeconds * knobs.release);
 }
 
 double MidiTable::loudnessOf(int velocity, const NoteKnobs& knobs) const noexcept {
     const double exponent = voice_.velocityExponent * knobs.velocityCurve, share = velocity / 127.0;
-    return exponent == 1.0 ? share : std::pow(share, exponent);
+    return exponent == 1.0 ? share : portable::pow(share, exponent);
 }
 
 } // namespace physvib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The plug-in processor on the render thread: transport, controls, MIDI, samples. Nothing here allocates,
 // locks or waits.
+#include "Core/PortableMath.h"
 #include "PluginProcessor.h"
 #include <algorithm>
 #include <limits>
@@ -361,8 +362,8 @@ CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel,
         return std::clamp(at + by * size, 0.0, size);
     };
     if (shift != 0.0)
-        strike.frequencyHz = std::clamp(strike.frequencyHz * std::exp2(shift / 12.0), limits::slowestToneHz,
-                                        limits::maxFrequencyHz);
+        strike.frequencyHz = std::clamp(strike.frequencyHz * portable::pow(2.0, shift / 12.0),
+                                        limits::slowestToneHz, limits::maxFrequencyHz);
     strike.x =
         shifted(strike.x,
                 value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend + master) + 0.5 * touch.pan,

@@ -29,4 +29,5 @@ run=wine
 [ -e "$WINEPREFIX/system.reg" ] || quietly "$folder/wine.log" timeout 300 wine wineboot --init
 trap 'wineserver -k >/dev/null 2>&1 || true' EXIT
 tests core wire io contacts physics scene study formats measure api system
+export PHYSVIB_OTHER_SINE=1
 compare "$native" drawing fruit-basket

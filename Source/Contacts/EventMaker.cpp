@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Computes an impact's events: sound and place once per pair, time and amplitude for each impact.
 #include "Contacts/EventMaker.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -38,8 +39,8 @@ EventMaker::EventMaker(const FixtureTable& table, const PairSounds& pairs, const
     , events_(events)
     , counts_(counts)
     , model_(model)
-    , cos_(std::cos(settings.fieldRadians))
-    , sin_(std::sin(settings.fieldRadians))
+    , cos_(static_cast<float>(portable::cos(settings.fieldRadians)))
+    , sin_(static_cast<float>(portable::sin(settings.fieldRadians)))
     , isAtContact_(settings.location == ImpactLocation::contact) {}
 
 void EventMaker::setSource(std::int32_t camera) {
@@ -102,7 +103,7 @@ namespace {
 
 // The exponent of a strength is 1.5: between 1, the sum of vibrations in phase, and 2, of those that are not.
 double powerOf(double strength) { return strength * std::sqrt(strength); }
-double strengthOf(double power) { return std::cbrt(power * power); }
+double strengthOf(double power) { return portable::pow(power, 2.0 / 3.0); }
 
 // Infinite if neither body can be moved: such an impact says nothing about speeds.
 double lighterMassKg(const Impact& impact, const FixtureTable& table) {
@@ -125,8 +126,8 @@ void FullScale::learn(std::span<const Impact> impacts, const StepSpan& step, con
     if (!isHeard) return;
     const double seconds = static_cast<double>(step.endNs - learnedNs_) * 1.0e-9;
     learnedNs_ = step.endNs;
-    sounding_ = strengthOf(powerOf(sounding_ * std::exp(-fadePerSecond * seconds)) + power);
-    const double fallen = level_ * std::exp(-std::min(seconds, longestPauseSeconds) / fallSeconds);
+    sounding_ = strengthOf(powerOf(sounding_ * portable::exp(-fadePerSecond * seconds)) + power);
+    const double fallen = level_ * portable::exp(-std::min(seconds, longestPauseSeconds) / fallSeconds);
     const double thresholds = level_ > 0.0 ? leastThresholds : firstThresholds;
     level_ = std::max({fallen, sounding_, thresholds * step.leastMetresPerSecond * heaviestKg});
 }

@@ -3,6 +3,7 @@
 #pragma once
 #include "Contacts/Vectors.h"
 #include "Core/CollisionEvent.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -119,7 +120,7 @@ struct Collision {
     double impulse() const noexcept {
         // hypot of a 0 is exact, so a world in the plane keeps its bits
         const auto friction = static_cast<double>(frictionNewtonSeconds.length());
-        return std::hypot(normalImpulse, std::hypot(tangentialImpulse, friction));
+        return portable::hypot(normalImpulse, portable::hypot(tangentialImpulse, friction));
     }
 };
 

@@ -6,6 +6,7 @@
 #include "Contacts/Grains.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -145,7 +146,7 @@ struct SurfacePath {
 /// On the circumference of a disc: `towards` the point, in the disc's frame; that direction turns against the
 /// disc at `radiansPerSecond`. Any thread.
 inline SurfacePath aroundDisc(float radiusMetres, Vector2 towards, float radiansPerSecond) noexcept {
-    return {static_cast<double>(radiusMetres * std::atan2(towards.y, towards.x)),
+    return {static_cast<double>(radiusMetres * portable::atan2(towards.y, towards.x)),
             static_cast<double>(radiusMetres * radiansPerSecond)};
 }
 

@@ -2,6 +2,7 @@
 // Finds rows, grids and belts among the places of actuators, in the plane or in any other, and the triangles
 // of what closes around a place; and the cell that contains an impact.
 #include "Core/ActuatorCells.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -92,7 +93,7 @@ bool NeighbourCells::findRing(const Layout& layout) noexcept {
     Keys angles{};
     for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j) {
         const Place d = difference(onPlane(layout.places[j]), centre_);
-        angles[j] = std::atan2(d.yMetres, d.xMetres);
+        angles[j] = portable::atan2(d.yMetres, d.xMetres);
     }
     sortBy(angles, order_.data(), order_.data() + n);
     const double near = tolerance(layout);
@@ -100,7 +101,7 @@ bool NeighbourCells::findRing(const Layout& layout) noexcept {
         const Place a = place(layout, k), b = place(layout, (k + 1) % n), c = place(layout, (k + 2) % n);
         const Place chord = difference(c, a);
         const double inwards = crossProduct(chord, difference(b, a)); // times the chord's length
-        if (inwards > near * std::hypot(chord.xMetres, chord.yMetres)) return false;
+        if (inwards > near * portable::hypot(chord.xMetres, chord.yMetres)) return false;
         if (crossProduct(difference(a, centre_), difference(b, centre_)) <= near * near) return false;
     }
     return true;
@@ -368,7 +369,7 @@ struct Face {
         const Direction right = directionOf(sumOf(all[corners[0]], plane.normal, -plane.reach)),
                         up = vectorProduct(plane.normal, right);
         const auto angle = [&](std::uint8_t m) {
-            return std::atan2(scalarProduct(all[m], up), scalarProduct(all[m], right));
+            return portable::atan2(scalarProduct(all[m], up), scalarProduct(all[m], right));
         };
         sortActuators(corners.data(), corners.data() + count, angle);
     }

@@ -6,6 +6,7 @@
 #include "Core/Actuators/GuardLaw.h"
 #include "Core/CollisionEvent.h"
 #include "Core/NameNumbers.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -114,8 +115,8 @@ constexpr std::array<char, 9> nameOf(const RenderingMethod& method) noexcept {
 
 /// The largest value of sin(2 pi f t) exp(-tau t), a little before its first quarter period. Any thread.
 inline double peakOfDecay(double frequencyHz, double decayPerSecond) noexcept {
-    const double turn = 2.0 * std::numbers::pi * frequencyHz, phase = std::atan2(turn, decayPerSecond);
-    return std::sin(phase) * std::exp(-decayPerSecond * phase / turn);
+    const double turn = 2.0 * std::numbers::pi * frequencyHz, phase = portable::atan2(turn, decayPerSecond);
+    return portable::sin(phase) * portable::exp(-decayPerSecond * phase / turn);
 }
 
 /// Impacts of one world, in time order. An impact from rest peaks at the fixed amplitude. A later one adds
@@ -141,9 +142,9 @@ private:
         std::int64_t sinceNs = 0, untilNs = 0;
 
         double at(std::int64_t timeNs) const noexcept {
-            return timeNs >= untilNs
-                       ? 0.0
-                       : level * std::exp(-1e-9 * decayPerSecond * static_cast<double>(timeNs - sinceNs));
+            return timeNs >= untilNs ? 0.0
+                                     : level * portable::exp(-1e-9 * decayPerSecond *
+                                                             static_cast<double>(timeNs - sinceNs));
         }
     };
 
@@ -183,8 +184,8 @@ struct FrequencyRemap {
 
     double operator()(double frequencyHz) const noexcept {
         if (!band.isKnown()) return frequencyHz;
-        const double place = std::log(frequencyHz / feltLowHz) / std::log(feltHighHz / feltLowHz);
-        return band.lowHz * std::pow(band.highHz / band.lowHz, std::clamp(place, 0.0, 1.0));
+        const double place = portable::log(frequencyHz / feltLowHz) / portable::log(feltHighHz / feltLowHz);
+        return band.lowHz * portable::pow(band.highHz / band.lowHz, std::clamp(place, 0.0, 1.0));
     }
     bool operator==(const FrequencyRemap&) const = default;
 };
@@ -217,7 +218,7 @@ struct EventShaping {
 
 private:
     void cut(CollisionEvent& event) const noexcept {
-        const double seconds = -std::log(truncation) / event.decayPerSecond;
+        const double seconds = -portable::log(truncation) / event.decayPerSecond;
         if (!(seconds < 1e9)) return; // hardly decays: no cut
         const auto life = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(seconds * 1e9)) -
                                                         event.course.sinceNs);
@@ -231,8 +232,8 @@ private:
 /// Integral of an event over its length, in seconds at full scale; `seconds`: until it ends. Any thread.
 inline double areaOf(const CollisionEvent& e, double seconds) noexcept {
     const double turn = 2.0 * std::numbers::pi * e.frequencyHz, decay = e.decayPerSecond,
-                 end = std::cos(turn * seconds) * turn + std::sin(turn * seconds) * decay;
-    return e.amplitude * (turn - std::exp(-decay * seconds) * end) / (turn * turn + decay * decay);
+                 end = portable::cos(turn * seconds) * turn + portable::sin(turn * seconds) * decay;
+    return e.amplitude * (turn - portable::exp(-decay * seconds) * end) / (turn * turn + decay * decay);
 }
 
 /// Whether the event is what meanOff() has added to a hit. Any thread.

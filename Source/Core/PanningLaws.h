@@ -2,8 +2,8 @@
 // Table of the panning laws: name and gain function of each. Files, options, messages, bindings and the
 // plug-in's parameter read it; a test compares it with Docs/panning.md.
 #pragma once
+#include "Core/PortableMath.h"
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -33,8 +33,8 @@ struct PanningLawDescription {
 /// All panning laws, indexed by PanningLaw.
 inline constexpr auto panningLaws = std::to_array<PanningLawDescription>({
     {PanningLaw::linear, "linear", [](double u) noexcept { return 1.0 - u; }},
-    {PanningLaw::log, "log", [](double u) noexcept { return 1.0 - std::log2(1.0 + u); }},
-    {PanningLaw::logOuter, "log-outer", [](double u) noexcept { return std::log2(2.0 - u); }},
+    {PanningLaw::log, "log", [](double u) noexcept { return 1.0 - portable::log2(1.0 + u); }},
+    {PanningLaw::logOuter, "log-outer", [](double u) noexcept { return portable::log2(2.0 - u); }},
     {PanningLaw::energy, "energy", [](double u) noexcept { return std::sqrt(1.0 - u); }},
     {PanningLaw::neighbours, "neighbours", [](double u) noexcept { return std::sqrt(1.0 - u); }},
     {PanningLaw::automatic, "auto", [](double u) noexcept { return 1.0 - u; }},

@@ -2,6 +2,7 @@
 // Gains of a panning law for each arrangement of actuators: single, line, rectangle, triangle, scattered.
 // The panning rule, at the end, decides which of them, or which cells, an event uses.
 #include "Core/PhantomPanner.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -45,9 +46,9 @@ bool PhantomPanner::findLine() noexcept {
     Vector reach;
     for (int j = 1; j < layout_.count; ++j) {
         const Vector d{place(j).x - origin.x, place(j).y - origin.y};
-        if (std::hypot(d.x, d.y) > std::hypot(reach.x, reach.y)) reach = d;
+        if (portable::hypot(d.x, d.y) > portable::hypot(reach.x, reach.y)) reach = d;
     }
-    const double length = std::hypot(reach.x, reach.y);
+    const double length = portable::hypot(reach.x, reach.y);
     if (length > 0.0) lineDirection_ = {reach.x / length, reach.y / length};
     // The layout's extent along the line: its width for a horizontal line, its height for a vertical one.
     lineExtent_ = std::abs(lineDirection_.x) * layout_.extentWidthMetres +
@@ -80,12 +81,12 @@ bool PhantomPanner::isRectangle() const noexcept {
 double PhantomPanner::factor(Rule rule, double distanceRatio) noexcept {
     const double u = std::clamp(distanceRatio, 0.0, 1.0);
     const double value = describe(rule.law).factor(u);
-    return rule.exponent == 1.0 ? value : std::pow(value, rule.exponent);
+    return rule.exponent == 1.0 ? value : portable::pow(value, rule.exponent);
 }
 
 void PhantomPanner::nearestGains(Vector p, Gains& gains) const noexcept {
     const auto distance = [&](int j) {
-        return std::hypot(std::hypot(p.x - place(j).x, p.y - place(j).y), p.z - place(j).z);
+        return portable::hypot(portable::hypot(p.x - place(j).x, p.y - place(j).y), p.z - place(j).z);
     };
     int nearest = 0;
     for (int j = 1; j < layout_.count; ++j)
@@ -126,7 +127,7 @@ void PhantomPanner::triangleGains(Rule rule, Vector p, Gains& gains) const noexc
             const Vector e{t.x - s.x, t.y - s.y};
             const double along = ((p.x - s.x) * e.x + (p.y - s.y) * e.y) / (e.x * e.x + e.y * e.y);
             const double share = std::clamp(along, 0.0, 1.0);
-            const double distance = std::hypot(s.x + share * e.x - p.x, s.y + share * e.y - p.y);
+            const double distance = portable::hypot(s.x + share * e.x - p.x, s.y + share * e.y - p.y);
             if (nearest >= 0.0 && distance >= nearest) continue;
             nearest = distance;
             weight = {};

@@ -2,14 +2,14 @@
 // Conversions and constants of units. One home for them, so that every level that is set or displayed is the
 // same.
 #pragma once
-#include <cmath>
+#include "Core/PortableMath.h"
 
 namespace physvib {
 /// 20 dB are a factor of ten. Any thread.
-inline double fromDecibels(double decibels) noexcept { return std::pow(10.0, decibels / 20.0); }
+inline double fromDecibels(double decibels) noexcept { return portable::pow(10.0, decibels / 20.0); }
 
 /// Decibels of an amplitude of 0 or more; 0 gives minus infinity. Any thread.
-inline double toDecibels(double amplitude) noexcept { return 20.0 * std::log10(amplitude); }
+inline double toDecibels(double amplitude) noexcept { return 20.0 * portable::log10(amplitude); }
 
 // Standard gravity (1 g) in SI units.
 

@@ -2,6 +2,7 @@
 // Renders a clip wave by wave: interpolates amplitude and frequency; the phase is the integral of the
 // frequency.
 #include "Formats/ClipSound.h"
+#include "Core/PortableMath.h"
 #include "Formats/Clip.h"
 #include <cmath>
 #include <cstddef>
@@ -65,7 +66,7 @@ double shape(ClipWaveform waveform, double cycles) {
     case ClipWaveform::triangle: return 1.0 - 4.0 * std::abs(place < 0.75 ? place - 0.25 : place - 1.25);
     case ClipWaveform::sawtoothUp: return place < 0.5 ? 2.0 * place : 2.0 * place - 2.0;
     case ClipWaveform::sawtoothDown: return place < 0.5 ? -2.0 * place : 2.0 - 2.0 * place;
-    default: return std::sin(2.0 * std::numbers::pi * place);
+    default: return portable::sin(2.0 * std::numbers::pi * place);
     }
 }
 

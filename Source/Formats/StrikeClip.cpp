@@ -3,6 +3,7 @@
 // mode's events is one decaying sine.
 #include "Formats/StrikeClip.h"
 #include "Core/ClockLaw.h"
+#include "Core/PortableMath.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/TimeOrder.h"
 #include <algorithm>
@@ -27,7 +28,7 @@ struct Mode {
     auto operator<=>(const Mode&) const = default;
     /// The factor by which a phasor changes in so many seconds.
     Phasor turn(double seconds) const {
-        return std::exp(Phasor{-decayPerSecond, 2.0 * std::numbers::pi * frequencyHz} * seconds);
+        return portable::exp(Phasor{-decayPerSecond, 2.0 * std::numbers::pi * frequencyHz} * seconds);
     }
 };
 
@@ -49,7 +50,7 @@ void addEdges(std::vector<Edge>& edges, const Mode& mode, const CollisionEvent& 
 }
 
 double positivePhase(Phasor phasor) {
-    const double phase = std::arg(phasor);
+    const double phase = portable::atan2(phasor.imag(), phasor.real());
     return phase < 0.0 ? phase + 2.0 * std::numbers::pi : phase;
 }
 
@@ -62,11 +63,11 @@ std::vector<ClipWave> wavesOf(const Mode& mode, std::vector<Edge> edges, double 
         for (; i < edges.size() && edges[i].tick == tick; ++i) ringing += edges[i].added;
         const bool isLast = i == edges.size();
         const std::int64_t length = isLast ? std::numeric_limits<std::int64_t>::max() : edges[i].tick - tick;
-        if (std::abs(ringing) > silence && !(isLast && mode.decayPerSecond == 0.0))
+        if (portable::abs(ringing) > silence && !(isLast && mode.decayPerSecond == 0.0))
             waves.push_back({static_cast<double>(tick) / ticks,
                              positivePhase(ringing),
                              ClipWaveform::sine,
-                             decayCurve(std::abs(ringing), mode.decayPerSecond, length, error, ticks),
+                             decayCurve(portable::abs(ringing), mode.decayPerSecond, length, error, ticks),
                              {{0.0, mode.frequencyHz}}});
         if (!isLast) ringing *= mode.turn(static_cast<double>(length) / ticks);
     }
@@ -100,8 +101,8 @@ std::vector<ClipBand> packed(std::vector<ModeWave> waves, std::size_t modes) {
 
 /// The largest distance of exp(-s) from its chord over [0, u]; it lies where the slopes are equal.
 double chordError(double u) {
-    const double slope = -std::expm1(-u) / u;
-    return 1.0 - slope * (1.0 - std::log(slope));
+    const double slope = -portable::expm1(-u) / u;
+    return 1.0 - slope * (1.0 - portable::log(slope));
 }
 
 /// The longest u whose chord stays within `error`; the error grows with u.
@@ -161,9 +162,9 @@ std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::
         return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(u / decayPerTick, 9e15)));
     };
     for (std::int64_t tick = 0; tick < endTick;) {
-        const double left = std::exp(-decayPerTick * static_cast<double>(tick));
+        const double left = portable::exp(-decayPerTick * static_cast<double>(tick));
         if (decayPerTick > 0.0 && left <= lastChord * error) {
-            const std::int64_t last = tick + ticksOf(std::log(std::max(1.0, left / error)));
+            const std::int64_t last = tick + ticksOf(portable::log(std::max(1.0, left / error)));
             if (last <= endTick) {
                 curve.push_back(at(last, 0.0));
                 return curve;
@@ -172,7 +173,7 @@ std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::
         tick = decayPerTick > 0.0
                    ? std::min(endTick, tick + ticksOf(longestChord(std::min(error / left, 0.5))))
                    : endTick;
-        curve.push_back(at(tick, amplitude * std::exp(-decayPerTick * static_cast<double>(tick))));
+        curve.push_back(at(tick, amplitude * portable::exp(-decayPerTick * static_cast<double>(tick))));
     }
     return curve;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Validates a scene: ranges, totals, outlines and masses, then references.
 #include "Scene/SceneValidation.h"
+#include "Core/PortableMath.h"
 #include "Scene/MaterialTable.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneRanges.h"
@@ -85,7 +86,7 @@ std::string checkTotals(const Scene& scene) {
 std::string checkEdges(const std::vector<Vector>& v, bool isLoop) {
     for (std::size_t i = 0; i + (isLoop ? 0 : 1) < v.size(); ++i) {
         const Vector& next = v[(i + 1) % v.size()];
-        if (std::hypot(next.x - v[i].x, next.y - v[i].y) < minSizeMetres)
+        if (portable::hypot(next.x - v[i].x, next.y - v[i].y) < minSizeMetres)
             return "expected edges at least 0.01 m long";
     }
     return {};
@@ -113,7 +114,7 @@ std::string checkCentre(const PlacedBody& placed, const Scene& scene) {
     if (placed.body->type != BodyType::dynamicBody) return {};
     const BodyMoments moments = bodyMoments(*placed.body, scene);
     const double radius = std::sqrt(moments.inertiaKgSquareMetres / moments.massKg);
-    const double distance = std::hypot(moments.centreMetres.x, moments.centreMetres.y);
+    const double distance = portable::hypot(moments.centreMetres.x, moments.centreMetres.y);
     if (distance <= farthestRadii * radius) return {};
     return placed.path + ".fixtures: expected a centre of mass nearer to the body's origin";
 }
@@ -245,7 +246,7 @@ private:
         if (!bodies_.contains(joint.bodyB)) return missing(path + ".body_b", "body", joint.bodyB);
         if (joint.bodyA == joint.bodyB) return path + ".body_b: expected another body than body_a";
         const auto isNoAxis = [](const auto* slides) {
-            return slides != nullptr && std::hypot(slides->axis.x, slides->axis.y) < 1.0e-3;
+            return slides != nullptr && portable::hypot(slides->axis.x, slides->axis.y) < 1.0e-3;
         };
         if (isNoAxis(std::get_if<WheelJoint>(&joint.joint)) ||
             isNoAxis(std::get_if<SliderJoint>(&joint.joint)))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Seeded random numbers that are the same on every machine, unlike the standard library's distributions.
 #pragma once
+#include "Core/PortableMath.h"
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -44,8 +45,8 @@ public:
 
     /// Standard normal (Box and Muller 1958).
     double normal() noexcept {
-        const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-        return radius * std::cos(2.0 * std::numbers::pi * uniform());
+        const double radius = std::sqrt(-2.0 * portable::log(1.0 - uniform()));
+        return radius * portable::cos(2.0 * std::numbers::pi * uniform());
     }
 
     bool chance(double probability) noexcept { return uniform() < probability; }

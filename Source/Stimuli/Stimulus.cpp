@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Creates the events of pattern and phantom stimuli.
 #include "Stimuli/Stimulus.h"
+#include "Core/PortableMath.h"
 #include <cmath>
 #include <numbers>
 
@@ -38,8 +39,8 @@ EnchanterLayout isolatingLayout(int count) noexcept {
     layout.count = count;
     for (int j = 0; j < count; ++j) { // on a circle: the panner treats five and more as scattered
         const double angle = 2.0 * std::numbers::pi * j / count;
-        layout.places[static_cast<std::size_t>(j)] = {0.5 + 0.5 * std::cos(angle),
-                                                      0.5 + 0.5 * std::sin(angle)};
+        layout.places[static_cast<std::size_t>(j)] = {0.5 + 0.5 * portable::cos(angle),
+                                                      0.5 + 0.5 * portable::sin(angle)};
     }
     return layout;
 }

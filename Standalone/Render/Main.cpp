@@ -102,13 +102,17 @@ Result<Source> sourceOf(const Options& o) {
     return source;
 }
 
+InstructionSet setNamed(const std::string& name) {
+    return static_cast<InstructionSet>(std::ranges::find(instructionSetNames, name) -
+                                       instructionSetNames.begin());
+}
+
 RendererSettings settingsOf(const Options& o, const EnchanterLayout& layout, const Source& source) {
     const FieldSize field = source.field.isKnown() ? source.field : extentOf(layout);
     RendererSettings settings{
         .sampleRateHz = o.sampleRateHz,
         .panner = {layout, PanningLaw::automatic, 1.0, field.widthMetres, field.heightMetres}};
-    const auto set = std::ranges::find(instructionSetNames, o.instructions);
-    settings.instructions = static_cast<InstructionSet>(set - instructionSetNames.begin());
+    settings.instructions = setNamed(o.instructions);
     return settings;
 }
 
@@ -233,6 +237,9 @@ void declare(CLI::App& app, Options& o) {
                    "vector instructions; scalar: the same bytes on every machine")
         ->check(
             CLI::IsMember(std::vector<std::string>(instructionSetNames.begin(), instructionSetNames.end())))
+        ->check([](const std::string& name) {
+            return isAvailable(setNamed(name)) ? std::string{} : "this build or processor has no " + name;
+        })
         ->capture_default_str();
     app.add_option("--out", o.wavPath, "32-bit float WAV, one channel per actuator")->type_name("FILE.wav");
     app.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv");

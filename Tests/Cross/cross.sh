@@ -100,4 +100,7 @@ compare() {
         done
     done
     python3 Tests/Cross/compare.py "$renders" "$@"
+    say "hashes of the same renders on every machine:"
+    # shellcheck disable=SC2086 # a list of words
+    Tests/Cross/hashes.sh "$other" $run
 }

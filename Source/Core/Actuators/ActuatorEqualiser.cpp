@@ -32,7 +32,7 @@ ActuatorEqualiser::ActuatorEqualiser(const EqualisedActuator& actuator, int samp
             section_[static_cast<std::size_t>(sections_++)] = {1.0, atTop,
                                                                RootPair::bilinear(highHz, q, sampleRateHz_)};
     const double middleHz = std::sqrt(band.lowHz * band.highHz);
-    section_[0].scale(1.0 / std::abs(at(middleHz) * resonator.at(middleHz)));
+    section_[0].scale(1.0 / portable::abs(at(middleHz) * resonator.at(middleHz)));
 }
 
 bool ActuatorEqualiser::process(float* io, int frames, bool isSilent) noexcept {
@@ -61,8 +61,9 @@ double ActuatorEqualiser::flatLevel(double driveLimit) const noexcept {
     constexpr int steps = 400; // a resonance of Q 100 is wider than one step of a four-octave band
     double largest = 0.0;
     for (int i = 0; i <= steps; ++i)
-        largest = std::max(largest, std::abs(at(band_.lowHz * std::pow(band_.highHz / band_.lowHz,
-                                                                       static_cast<double>(i) / steps))));
+        largest =
+            std::max(largest, portable::abs(at(band_.lowHz * portable::pow(band_.highHz / band_.lowHz,
+                                                                           static_cast<double>(i) / steps))));
     return driveLimit / largest;
 }
 

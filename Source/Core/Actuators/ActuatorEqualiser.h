@@ -8,6 +8,7 @@
 // half the rate): stable and minimal-phase.
 #pragma once
 #include "Core/Limits.h"
+#include "Core/PortableMath.h"
 #include <array>
 #include <cmath>
 #include <complex>
@@ -27,13 +28,14 @@ struct RootPair {
     static RootPair of(double frequencyHz, double q, double sampleRateHz) noexcept {
         const double angle = 2.0 * std::numbers::pi * frequencyHz / sampleRateHz, decay = 0.5 * angle / q;
         const double turn = angle * angle - decay * decay; // < 0: two real roots
-        const double cosine = turn >= 0.0 ? std::cos(std::sqrt(turn)) : std::cosh(std::sqrt(-turn));
-        return {-2.0 * std::exp(-decay) * cosine, std::exp(-2.0 * decay)};
+        const double cosine = turn >= 0.0 ? portable::cos(std::sqrt(turn)) : portable::cosh(std::sqrt(-turn));
+        return {-2.0 * portable::exp(-decay) * cosine, portable::exp(-2.0 * decay)};
     }
 
     /// The same roots under the bilinear transform, exact at `frequencyHz`: for slopes to 0 at half the rate.
     static RootPair bilinear(double frequencyHz, double q, double sampleRateHz) noexcept {
-        const double k = std::tan(std::numbers::pi * frequencyHz / sampleRateHz), whole = 1.0 + k / q + k * k;
+        const double k = portable::tan(std::numbers::pi * frequencyHz / sampleRateHz),
+                     whole = 1.0 + k / q + k * k;
         return {2.0 * (k * k - 1.0) / whole, (1.0 - k / q + k * k) / whole};
     }
 
@@ -64,8 +66,9 @@ public:
     void scale(double factor) noexcept { gain_ *= factor; }
 
     std::complex<double> at(double frequencyHz, double sampleRateHz) const noexcept {
-        const auto zInverse = std::polar(1.0, -2.0 * std::numbers::pi * frequencyHz / sampleRateHz);
-        return gain_ * zeros_.at(zInverse) / poles_.at(zInverse);
+        const auto zInverse =
+            portable::exp(std::complex{0.0, -2.0 * std::numbers::pi * frequencyHz / sampleRateHz});
+        return gain_ * portable::quotient(zeros_.at(zInverse), poles_.at(zInverse));
     }
 
 private:
@@ -89,7 +92,7 @@ struct Resonator {
     /// H at a frequency > 0. Any thread.
     std::complex<double> at(double frequencyHz) const noexcept {
         const double ratio = frequencyHz / resonanceHz;
-        return -ratio * ratio / q / std::complex<double>(1.0 - ratio * ratio, ratio / q);
+        return portable::quotient(-ratio * ratio / q, {1.0 - ratio * ratio, ratio / q});
     }
 
     /// After the drive the vibration falls by exp(-t ringDownPerSecond): shorter decays would need braking.

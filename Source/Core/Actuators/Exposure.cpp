@@ -3,6 +3,7 @@
 // tenth of the rate, by a decibel and more at 5 kHz. So poles are mapped exactly, and zeros are chosen so
 // that the magnitude matches at three frequencies (after Vicanek 2016).
 #include "Core/Actuators/Exposure.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <numbers>
 
@@ -37,12 +38,14 @@ Biquad matched(RootPair poles, double rateHz, double (*magnitude)(double), doubl
                double highHz) noexcept {
     const auto squareAt = [&](double f) {
         const double wanted =
-            magnitude(f) * std::abs(poles.at(std::polar(1.0, -2.0 * std::numbers::pi * f / rateHz)));
+            magnitude(f) *
+            std::abs(poles.at(portable::exp(std::complex{0.0, -2.0 * std::numbers::pi * f / rateHz})));
         return wanted * wanted;
     };
     // |b0 + b1 z^-1 + b2 z^-2|^2 = atZero (1 - p) + atTop p + 4 bend p (1 - p), p = sin^2(w / 2)
-    const double atZero = squareAt(0.0), low = std::pow(std::sin(std::numbers::pi * lowHz / rateHz), 2),
-                 high = std::pow(std::sin(std::numbers::pi * highHz / rateHz), 2);
+    const double atZero = squareAt(0.0),
+                 low = portable::pow(portable::sin(std::numbers::pi * lowHz / rateHz), 2),
+                 high = portable::pow(portable::sin(std::numbers::pi * highHz / rateHz), 2);
     const double lowRest = squareAt(lowHz) / low - atZero * (1.0 - low) / low,
                  highRest = squareAt(highHz) / high - atZero * (1.0 - high) / high;
     const double bend = 0.25 * (lowRest - highRest) / (high - low),

@@ -3,6 +3,7 @@
 #include "Core/Modes/ModeBank.h"
 #include "Core/Modes/ModeIncrements.h"
 #include "Core/Modes/ModeTable.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -263,7 +264,7 @@ void ModeBank::shape(int slot) noexcept {
         static_cast<double>(m.phaseIncrement) * (2.0 * std::numbers::pi / 18446744073709551616.0);
     const double decay = static_cast<double>(m.decayIncrement) * (std::numbers::ln2 / octaveUnit);
     const std::size_t powers = static_cast<std::size_t>(slot) * tileSize;
-    tiles_.add(slot, {&cosPowers_[powers], &sinPowers_[powers], std::hypot(turn, decay),
+    tiles_.add(slot, {&cosPowers_[powers], &sinPowers_[powers], portable::hypot(turn, decay),
                       unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(tile)) *
                           decayFactor<double>(m.decayIncrement * tile),
                       m.isGated});

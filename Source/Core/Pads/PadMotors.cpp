@@ -38,7 +38,7 @@ bool PadMotors::strike(const CollisionEvent& event, const PhantomPanner& grips) 
     voice.endNs = event.durationNs > 0 ? voice.startNs + event.durationNs : 0;
     voice.decayPerSecond = event.decayPerSecond;
     voice.energy = event.amplitude * event.amplitude;
-    voice.heavyShare = 1.0 / (1.0 + std::pow(event.frequencyHz / law_.splitHz, 4.0));
+    voice.heavyShare = 1.0 / (1.0 + portable::pow(event.frequencyHz / law_.splitHz, 4.0));
     voice.travelNs = event.course.travelNs;
     voice.fromSide = sideOf(event, grips);
     voice.toSide = voice.travelNs > 0 ? sideOf(movedAlong(event, 1.0), grips) : voice.fromSide;
@@ -88,7 +88,7 @@ PadMotors::Energies PadMotors::shared(double energy, double heavyShare, double s
 PadMotors::Energies PadMotors::energiesAt(const Voice& voice, std::int64_t timeNs) const noexcept {
     if (voice.endNs != 0 && timeNs >= voice.endNs) return {};
     const std::int64_t sinceNs = std::max<std::int64_t>(0, timeNs - voice.startNs);
-    const double left = std::exp(-2.0 * voice.decayPerSecond * secondsOf(sinceNs));
+    const double left = portable::exp(-2.0 * voice.decayPerSecond * secondsOf(sinceNs));
     if (voice.travelNs == 0) return {voice.low * left, voice.high * left};
     const double way = std::min(1.0, secondsOf(sinceNs) / secondsOf(voice.travelNs));
     return shared(voice.energy * left, voice.heavyShare,
@@ -97,7 +97,7 @@ PadMotors::Energies PadMotors::energiesAt(const Voice& voice, std::int64_t timeN
 
 double PadMotors::wanted(double amplitude) const noexcept {
     if (amplitude < law_.floor) return 0.0;
-    return leastFelt + (1.0 - leastFelt) * std::pow(std::min(1.0, amplitude), law_.exponent);
+    return leastFelt + (1.0 - leastFelt) * portable::pow(std::min(1.0, amplitude), law_.exponent);
 }
 
 // An impact above the perception floor drives at least the motor with the larger share.

@@ -9,6 +9,7 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,7 +45,7 @@ struct PadMotor {
     /// The share of a change of strength that is reached after `seconds`: a first-order lag.
     double shareOfWay(double seconds, bool rises) const noexcept {
         constexpr double logOfTen = 2.302585092994046;
-        return 1.0 - std::exp(-logOfTen * seconds / (rises ? riseSeconds : fallSeconds));
+        return 1.0 - portable::exp(-logOfTen * seconds / (rises ? riseSeconds : fallSeconds));
     }
     double strengthAfter(double strength, double command, double seconds) const noexcept {
         const double towards = strengthOf(command);

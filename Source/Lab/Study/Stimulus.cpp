@@ -2,6 +2,7 @@
 // Checks a stimulus job against its valid ranges.
 #include "Lab/Study/Stimulus.h"
 #include "Core/Actuators/Exposure.h"
+#include "Core/PortableMath.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/PercentCounts.h"
@@ -78,8 +79,8 @@ double weightedSquares(double frequencyHz, double decayPerSecond, double seconds
     for (std::size_t k = 0; k < 8; ++k)
         for (std::size_t j = 0; j < 8; ++j) {
             const Complex both = poles[k] + poles[j]; // 0 of a tone that does not decay
-            squares +=
-                residues[k] * residues[j] * (both == 0.0 ? seconds : (std::exp(both * seconds) - 1.0) / both);
+            squares += residues[k] * residues[j] *
+                       (both == 0.0 ? seconds : (portable::exp(both * seconds) - 1.0) / both);
         }
     return squares.real();
 }
@@ -95,7 +96,7 @@ double PhantomJob::peakFactor(double frequencyHz) const noexcept {
     if (levelOf == LevelOf::weighted)
         return std::sqrt(0.5 * seconds / weightedSquares(frequencyHz, decayPerSecond, seconds));
     const double twice = 2.0 * decayPerSecond, // integral of the squared envelope, in s:
-        envelopeSeconds = twice > 0.0 ? -std::expm1(-twice * seconds) / twice : seconds;
+        envelopeSeconds = twice > 0.0 ? -portable::expm1(-twice * seconds) / twice : seconds;
     return levelOf == LevelOf::peak ? 1.0
                                     : std::sqrt((levelOf == LevelOf::rms ? seconds : 1.0) / envelopeSeconds);
 }

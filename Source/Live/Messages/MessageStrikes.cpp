@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Computes the events of the messages strike, pattern, phantom, path and clip.
 #include "Core/ActuatorCells.h"
+#include "Core/PortableMath.h"
 #include "Core/Samples.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Messages/MessageValues.h"
@@ -129,7 +130,8 @@ struct Route {
 
 double distance(const EnchanterPlace& a, const EnchanterPlace& b) {
     // nested, so that a path in the plane keeps its length to the bit
-    return std::hypot(std::hypot(b.xMetres - a.xMetres, b.yMetres - a.yMetres), b.zMetres - a.zMetres);
+    return portable::hypot(portable::hypot(b.xMetres - a.xMetres, b.yMetres - a.yMetres),
+                           b.zMetres - a.zMetres);
 }
 
 /// Constant speed; of consecutive equal places only the first is used.

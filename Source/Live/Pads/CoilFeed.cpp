@@ -2,6 +2,7 @@
 // The device's clock decides how many reports there are, a steady clock when each leaves: blocks come in
 // bursts, and a controller wants its reports evenly.
 #include "Live/Pads/CoilFeed.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -35,8 +36,8 @@ CoilFeed::Sides CoilFeed::sidesOf(const EnchanterLayout& layout) noexcept {
     for (std::size_t j = 0; j < places.size(); ++j) {
         const double share = width > 0.0 ? (places[j].xMetres - left.xMetres) / width : 0.5,
                      angle = 0.5 * std::numbers::pi * share;
-        sides.gains[j] = {share < 1.0 ? static_cast<float>(std::cos(angle)) : 0.0f,
-                          static_cast<float>(std::sin(angle))};
+        sides.gains[j] = {share < 1.0 ? static_cast<float>(portable::cos(angle)) : 0.0f,
+                          static_cast<float>(portable::sin(angle))};
     }
     return sides;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Encoders of reports. All numbers are little-endian.
 #include "Live/Pads/PadReports.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <cmath>
 
@@ -69,7 +70,7 @@ constexpr std::array steamOn{steamOff[0], steamOff[1], steamMode(2, 2, 1), steam
 
 // 32 steps an octave above 10 Hz.
 int toneStep(double hz, int least, int most) noexcept {
-    return std::clamp(static_cast<int>(std::lround(32.0 * std::log2(std::max(hz, 10.0) / 10.0))), least,
+    return std::clamp(static_cast<int>(std::lround(32.0 * portable::log2(std::max(hz, 10.0) / 10.0))), least,
                       most);
 }
 
@@ -77,9 +78,9 @@ int toneStep(double hz, int least, int most) noexcept {
 // scale; what is above may damage the actuator.
 int amplitudeStep(double amplitude) noexcept {
     if (!(amplitude >= 0.0085)) return 0;
-    const double step = amplitude > 0.23    ? 32.0 * std::log2(8.7 * amplitude)
-                        : amplitude > 0.115 ? 16.0 * std::log2(17.0 * amplitude)
-                                            : std::min(15.0, 1.0 + 4.0 * std::log2(amplitude / 0.01));
+    const double step = amplitude > 0.23    ? 32.0 * portable::log2(8.7 * amplitude)
+                        : amplitude > 0.115 ? 16.0 * portable::log2(17.0 * amplitude)
+                                            : std::min(15.0, 1.0 + 4.0 * portable::log2(amplitude / 0.01));
     return std::clamp(static_cast<int>(std::lround(step)), 1, 100);
 }
 

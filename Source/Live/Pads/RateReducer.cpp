@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One kernel for each position that an output frame can have between two input frames.
 #include "Live/Pads/RateReducer.h"
+#include "Core/PortableMath.h"
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -17,8 +18,9 @@ std::vector<float> kernelFor(double before, std::size_t taps, double cyclesPerFr
     for (std::size_t k = 0; k < taps; ++k) {
         const double t = static_cast<double>(taps - 1 - k) - before,
                      x = 2.0 * std::numbers::pi * cyclesPerFrame * t;
-        const double window = std::abs(t) < half ? 0.5 + 0.5 * std::cos(std::numbers::pi * t / half) : 0.0;
-        weights[k] = window * (x == 0.0 ? 1.0 : std::sin(x) / x);
+        const double window =
+            std::abs(t) < half ? 0.5 + 0.5 * portable::cos(std::numbers::pi * t / half) : 0.0;
+        weights[k] = window * (x == 0.0 ? 1.0 : portable::sin(x) / x);
     }
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<float> kernel;

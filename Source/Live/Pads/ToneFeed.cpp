@@ -2,6 +2,7 @@
 // From what rings to two tones. A report is short against most decays, so the mean energy within it counts.
 #include "Live/Pads/ToneFeed.h"
 #include "Core/Pads/PadMotors.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <cmath>
 
@@ -19,8 +20,8 @@ double energyOf(const CollisionEvent& event, std::int64_t fromNs) {
     if (end <= begin) return 0.0;
     const double age = 1e-9 * static_cast<double>(begin - event.timeNs + event.course.sinceNs),
                  seconds = 1e-9 * static_cast<double>(end - begin), rate = 2.0 * event.decayPerSecond;
-    const double mean = rate * seconds > 1e-9 ? -std::expm1(-rate * seconds) / rate : seconds;
-    return event.amplitude * event.amplitude * std::exp(-rate * age) * mean /
+    const double mean = rate * seconds > 1e-9 ? -portable::expm1(-rate * seconds) / rate : seconds;
+    return event.amplitude * event.amplitude * portable::exp(-rate * age) * mean /
            (1e-9 * static_cast<double>(ToneFeed::reportNs));
 }
 
@@ -28,20 +29,20 @@ double energyOf(const CollisionEvent& event, std::int64_t fromNs) {
 struct Band {
     double low, high, resonance;
 };
-const Band lowBand{std::log2(40.9), std::log2(626.0), std::log2(160.0)},
-    highBand{std::log2(81.8), std::log2(1252.0), std::log2(320.0)};
+const Band lowBand{portable::log2(40.9), portable::log2(626.0), portable::log2(160.0)},
+    highBand{portable::log2(81.8), portable::log2(1252.0), portable::log2(320.0)};
 
 /// Energy, pitch and squared pitch of some partials, summed.
 struct Part {
     double energy = 0.0, pitch = 0.0, square = 0.0;
     void add(const ToneFeed::Partial& partial) {
-        const double p = std::log2(partial.frequencyHz);
+        const double p = portable::log2(partial.frequencyHz);
         energy += partial.energy, pitch += partial.energy * p, square += partial.energy * p * p;
     }
     Part without(const Part& other) const {
         return {energy - other.energy, pitch - other.pitch, square - other.square};
     }
-    double hertz() const { return std::exp2(pitch / energy); }
+    double hertz() const { return portable::pow(2.0, pitch / energy); }
     /// How far the partials are from one tone of the band, squared; of two that fit, the one nearer to its
     /// resonance is better.
     double errorIn(const Band& band) const {

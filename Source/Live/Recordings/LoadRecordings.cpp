@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Loads each recording of a saved session once, and checks the limits on samples.
 #include "Live/Recordings/LoadRecordings.h"
+#include "Core/PortableMath.h"
 #include "Core/Samples.h"
 #include "Io/Disk/ReadFile.h"
 #include "Live/Recordings/ClipFolder.h"
@@ -103,15 +104,15 @@ std::vector<float> syntheticContact(double frequencyHz, double decayPerSecond, s
         if (f < 0.45 * sampleRateHz)
             for (std::size_t n = 0; n < samples.size(); ++n) {
                 const double t = static_cast<double>(n) / sampleRateHz;
-                samples[n] +=
-                    static_cast<float>(a * std::sin(2.0 * std::numbers::pi * f * t) * std::exp(-decay * t));
+                samples[n] += static_cast<float>(a * portable::sin(2.0 * std::numbers::pi * f * t) *
+                                                 portable::exp(-decay * t));
             }
         weight *= 0.6;
         decay *= 1.4;
     }
     for (std::size_t n = 0; n < samples.size(); ++n)
-        samples[n] += static_cast<float>(0.3 * random.normal() *
-                                         std::exp(-static_cast<double>(n) / (noiseSeconds * sampleRateHz)));
+        samples[n] += static_cast<float>(
+            0.3 * random.normal() * portable::exp(-static_cast<double>(n) / (noiseSeconds * sampleRateHz)));
     return samples;
 }
 
@@ -125,7 +126,7 @@ std::vector<float> linearTone(double frequencyHz, double decayPerSecond, int sam
     for (std::size_t n = 0; n < samples.size(); ++n)
         samples[n] = static_cast<float>(
             (1.0 - static_cast<double>(n) / length) *
-            std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(n) / sampleRateHz));
+            portable::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(n) / sampleRateHz));
     return samples;
 }
 
@@ -193,8 +194,8 @@ double energyOfMode(double frequencyHz, double decayPerSecond, int rateHz) {
     std::vector<float> mode(static_cast<std::size_t>(matchedSeconds * rateHz));
     for (std::size_t n = 0; n < mode.size(); ++n) {
         const double t = static_cast<double>(n) / rateHz;
-        mode[n] = static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * t) *
-                                     std::exp(-decayPerSecond * t));
+        mode[n] = static_cast<float>(portable::sin(2.0 * std::numbers::pi * frequencyHz * t) *
+                                     portable::exp(-decayPerSecond * t));
     }
     return energyOf(mode, rateHz);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Creates joints, and adjusts joints to bodies that have moved.
+#include "Core/PortableMath.h"
 #include "Scene/Drawing/BodyMotion.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/World/BodyMass.h"
@@ -15,7 +16,7 @@ using detail::placeOf;
 /// True if the places differ by no more than a seed's jitter.
 bool isNear(const BodyDescription& a, const BodyDescription& b) {
     constexpr double near = 2.0e-3;
-    return std::hypot(a.positionMetres.x - b.positionMetres.x, a.positionMetres.y - b.positionMetres.y) <
+    return portable::hypot(a.positionMetres.x - b.positionMetres.x, a.positionMetres.y - b.positionMetres.y) <
                near &&
            std::abs(a.angleRadians - b.angleRadians) < near;
 }
@@ -45,7 +46,7 @@ Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
     }
     if (a.first == b.first) return Failure{"a joint: expected two bodies, found " + a.first + " twice"};
     if (heaviest <= 0.0) return Failure{"a joint: expected a body that moves"};
-    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    const double length = portable::hypot(to.x - from.x, to.y - from.y);
     if (kind != JointKind::pin && kind != JointKind::motor && length < sceneLimits::minSizeMetres)
         return Failure{"a rope, spring or slider: expected two places"};
     JointDescription joint;
@@ -74,7 +75,7 @@ Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
             pin.motorRadiansPerSecond = motorRadiansPerSecond,
             pin.maxTorqueNewtonMetres =
                 std::min(sceneLimits::maxTorqueNewtonMetres,
-                         motorGravities * std::max(1.0, std::hypot(g.x, g.y)) * heaviest);
+                         motorGravities * std::max(1.0, portable::hypot(g.x, g.y)) * heaviest);
         joint.joint = pin;
     }
     actions.push_back(JoinAction{std::move(joint)});
@@ -139,7 +140,7 @@ Result<std::vector<Action>> driven(const SceneDrawing& drawing, const std::strin
     std::vector<Action> actions{UnjoinAction{joint}};
     constexpr double near = 1e-6;
     const Vector before = anchorOf(*drawn), after = anchorOf(*next);
-    if (std::hypot(after.x - before.x, after.y - before.y) > near)
+    if (portable::hypot(after.x - before.x, after.y - before.y) > near)
         for (const BodyDescription& body : here.bodies)
             if (body.type == BodyType::dynamicBody &&
                 (body.name == next->bodyA || body.name == next->bodyB)) {
@@ -202,7 +203,7 @@ Scene sceneNow(const Scene& drawn, const PoseNow& now) {
                     kind.anchorMetres = onA;
                     if constexpr (requires { kind.axis; }) {
                         kind.axis = a->second.way(kind.axis);
-                        const double length = std::hypot(kind.axis.x, kind.axis.y),
+                        const double length = portable::hypot(kind.axis.x, kind.axis.y),
                                      way = ((onB.x - onA.x) * kind.axis.x + (onB.y - onA.y) * kind.axis.y) /
                                            length;
                         if (kind.travelMetres)

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Transform of points that move with a body, for edits of places and joints. Any thread.
 #pragma once
+#include "Core/PortableMath.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include <cmath>
 
 namespace physvib::detail {
 
 inline Vector turned(const Vector& v, double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
+    const double c = portable::cos(angle), s = portable::sin(angle);
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 

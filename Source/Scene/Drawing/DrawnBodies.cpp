@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Creates bodies from drawn points: convex hulls, and simplified polylines.
+#include "Core/PortableMath.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 constexpr double smallest = 2.0 * sceneLimits::minSizeMetres; // across
 constexpr std::size_t mostLineCorners = sceneLimits::maxChainVertices / 2;
 
-double distance(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
+double distance(const Vector& a, const Vector& b) { return portable::hypot(b.x - a.x, b.y - a.y); }
 double cross(const Vector& o, const Vector& a, const Vector& b) {
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
@@ -153,7 +154,7 @@ Result<BodyDescription> drawnWall(const Vector& from, const Vector& to, double t
     if (std::min(length, thicknessMetres) < sceneLimits::minSizeMetres) return tooSmall("wall");
     BodyDescription wall = bodyOf(BoxShape{length, thicknessMetres},
                                   {0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}, BodyType::staticBody);
-    wall.angleRadians = std::atan2(to.y - from.y, to.x - from.x);
+    wall.angleRadians = portable::atan2(to.y - from.y, to.x - from.x);
     return wall;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sums mass, centre and inertia over a body's fixtures.
 #include "Scene/World/BodyMass.h"
+#include "Core/PortableMath.h"
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -20,7 +21,7 @@ FixtureMoments momentsOf(const FixtureDescription& fixture, const Scene& scene) 
     const Material& material = scene.materials[static_cast<std::size_t>(fixture.material)];
     const ShapeMoments shape = momentsOf(fixture.shape);
     const double mass = material.densityKgPerSquareMetre * shape.areaSquareMetres;
-    const double c = std::cos(fixture.angleRadians), s = std::sin(fixture.angleRadians);
+    const double c = portable::cos(fixture.angleRadians), s = portable::sin(fixture.angleRadians);
     const Vector& local = shape.centroidMetres;
     const Vector centre{fixture.offsetMetres.x + c * local.x - s * local.y,
                         fixture.offsetMetres.y + s * local.x + c * local.y};
@@ -60,7 +61,7 @@ namespace {
 Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
 double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
 double cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
-double length(const Vector& a) { return std::hypot(a.x, a.y); }
+double length(const Vector& a) { return portable::hypot(a.x, a.y); }
 
 const Vector& after(const std::vector<Vector>& outline, std::size_t i) {
     return outline[i + 1 < outline.size() ? i + 1 : 0];

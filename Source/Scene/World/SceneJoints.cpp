@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Creates Box2D joints from a scene's descriptions.
+#include "Core/PortableMath.h"
 #include "Scene/World/SceneBodies.h"
 #include "Scene/World/SceneWorld.h"
 #include <cmath>
@@ -31,7 +32,7 @@ void setLimits(bool& isLimited, float& lower, float& upper, const std::optional<
 }
 
 Vector unit(const Vector& axis) {
-    const double length = std::hypot(axis.x, axis.y);
+    const double length = portable::hypot(axis.x, axis.y);
     return {axis.x / length, axis.y / length};
 }
 

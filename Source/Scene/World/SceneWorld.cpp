@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Builds a scene's Box2D world, and applies actions to it.
 #include "Scene/World/SceneWorld.h"
+#include "Core/PortableMath.h"
 #include "Scene/World/SceneBodies.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 constexpr double heldSeconds = 0.5;
 
 Vector turnedBy(const Vector& v, double angleRadians) {
-    const double c = std::cos(angleRadians), s = std::sin(angleRadians);
+    const double c = portable::cos(angleRadians), s = portable::sin(angleRadians);
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Our functions against the C library's longest type, and their bits against those of every other machine.
+#include "Core/PortableMath.h"
+#include <bit>
+#include <cstring>
+#include <functional>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace physvib {
+namespace {
+
+using Long = long double;
+
+/// Arguments of both signs and many sizes.
+struct Arguments {
+    std::mt19937_64 random{3};
+    double within(double low, double high) {
+        return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+    }
+    double anySize(double least, double most) { return std::exp2(within(std::log2(least), std::log2(most))); }
+};
+
+/// How far a value lies from the true one, in units in the last place of that.
+double unitsApart(double value, Long truth) {
+    const double nearest = static_cast<double>(truth), up = std::nextafter(std::abs(nearest), INFINITY);
+    return static_cast<double>(std::abs(static_cast<Long>(value) - truth) / (up - std::abs(nearest)));
+}
+
+struct Function {
+    const char* name;
+    double most; // units in the last place
+    std::function<double(double, double)> ours;
+    std::function<Long(Long, Long)> theirs;
+    std::function<double(Arguments&)> x, y;
+};
+
+std::vector<Function> functions() {
+    const auto any = [](double least, double most) {
+        return [=](Arguments& a) { return a.anySize(least, most); };
+    };
+    const auto within = [](double low, double high) {
+        return [=](Arguments& a) { return a.within(low, high); };
+    };
+    const auto none = within(0.0, 1.0);
+    return {
+        {"exp", 1, [](double x, double) { return portable::exp(x); },
+         [](Long x, Long) { return std::exp(x); }, within(-700, 700), none},
+        {"exp", 1, [](double x, double) { return portable::exp(x); },
+         [](Long x, Long) { return std::exp(x); }, within(-2, 2), none},
+        {"expm1", 2, [](double x, double) { return portable::expm1(-x); },
+         [](Long x, Long) { return std::expm1(-x); }, any(1e-12, 40), none},
+        {"cosh", 2, [](double x, double) { return portable::cosh(x); },
+         [](Long x, Long) { return std::cosh(x); }, within(0, 50), none},
+        {"log", 1, [](double x, double) { return portable::log(x); },
+         [](Long x, Long) { return std::log(x); }, any(1e-300, 1e300), none},
+        {"log", 1, [](double x, double) { return portable::log(x); },
+         [](Long x, Long) { return std::log(x); }, within(0.5, 2), none},
+        {"log2", 1, [](double x, double) { return portable::log2(x); },
+         [](Long x, Long) { return std::log2(x); }, within(0.5, 2), none},
+        {"log10", 1, [](double x, double) { return portable::log10(x); },
+         [](Long x, Long) { return std::log10(x); }, any(1e-9, 1e9), none},
+        {"pow", 1, [](double x, double y) { return portable::pow(x, y); },
+         [](Long x, Long y) { return std::pow(x, y); }, any(1e-20, 1e20), within(-10, 10)},
+        {"sin", 1, [](double x, double) { return portable::sin(x); },
+         [](Long x, Long) { return std::sin(x); }, within(-10, 10), none},
+        {"sin", 1, [](double x, double) { return portable::sin(x); },
+         [](Long x, Long) { return std::sin(x); }, within(-1e6, 1e6), none},
+        {"cos", 1, [](double x, double) { return portable::cos(x); },
+         [](Long x, Long) { return std::cos(x); }, within(-10, 10), none},
+        {"tan", 2, [](double x, double) { return portable::tan(x); },
+         [](Long x, Long) { return std::tan(x); }, within(0, 1.57), none},
+        {"atan2", 2, [](double x, double y) { return portable::atan2(x, y); },
+         [](Long x, Long y) { return std::atan2(x, y); }, within(-1, 1), within(-1, 1)},
+        {"atan2", 2, [](double x, double y) { return portable::atan2(x, y); },
+         [](Long x, Long y) { return std::atan2(x, y); }, any(1e-100, 1e100), any(1e-100, 1e100)},
+        {"hypot", 2, [](double x, double y) { return portable::hypot(x, y); },
+         [](Long x, Long y) { return std::hypot(x, y); }, any(1e-200, 1e200), any(1e-200, 1e200)},
+    };
+}
+
+TEST(PortableMath, IsWithinAUnitOrTwoInTheLastPlace) {
+    for (const Function& f : functions()) {
+        Arguments arguments;
+        double worst = 0.0, at = 0.0;
+        for (int i = 0; i < 20'000; ++i) {
+            const double x = f.x(arguments), y = f.y(arguments);
+            const double apart = unitsApart(f.ours(x, y), f.theirs(x, y));
+            if (!(apart <= worst)) worst = apart, at = x;
+        }
+        // where the longest type is a double, its own rounding is in the difference
+        const double more = std::numeric_limits<Long>::digits > 53 ? 0.0 : 1.0;
+        EXPECT_LE(worst, f.most + more) << f.name << " of " << at;
+    }
+}
+
+// FNV-1a over the bits of many results: one number on every machine.
+TEST(PortableMath, HasTheBitsOfEveryOtherMachine) {
+    std::uint64_t hash = 14695981039346656037u;
+    const std::vector<Function> all = functions();
+    std::mt19937_64 random{5};
+    for (int i = 0; i < 20'000; ++i) {
+        const double x = 0.01 + 30.0 * static_cast<double>(random() >> 11) * 0x1p-53,
+                     y = -5.0 + 10.0 * static_cast<double>(random() >> 11) * 0x1p-53;
+        for (const Function& f : all)
+            hash = (hash ^ std::bit_cast<std::uint64_t>(f.ours(x, y))) * 1099511628211u;
+    }
+    EXPECT_EQ(hash, 2612934645853174601u);
+}
+
+TEST(PortableMath, IsExactWhereOneExpectsIt) {
+    namespace p = portable;
+    EXPECT_EQ(p::exp(0.0), 1.0);
+    EXPECT_EQ(p::log(1.0), 0.0);
+    for (int n = -40; n <= 40; ++n) {
+        EXPECT_EQ(p::log2(std::ldexp(1.0, n)), n);
+        EXPECT_EQ(p::pow(2.0, n), std::ldexp(1.0, n));
+    }
+    for (int n = -20; n <= 20; ++n) {
+        EXPECT_EQ(p::log10(std::stod("1e" + std::to_string(n))), n);
+        EXPECT_EQ(p::pow(10.0, n), std::stod("1e" + std::to_string(n)));
+    }
+    EXPECT_EQ(p::sin(0.0), 0.0);
+    EXPECT_EQ(p::cos(0.0), 1.0);
+    EXPECT_EQ(p::hypot(3.0, -4.0), 5.0);
+    for (const double y : {0.0, -0.0, 1.0, -1.0, double(INFINITY), -double(INFINITY)})
+        for (const double x : {0.0, -0.0, 1.0, -1.0, double(INFINITY), -double(INFINITY)})
+            EXPECT_EQ(p::atan2(y, x), std::atan2(y, x)) << y << ' ' << x;
+}
+
+TEST(PortableMath, IsNoNumberOrInfiniteWhereTheCLibraryIs) {
+    namespace p = portable;
+    const double no = NAN, far = INFINITY;
+    for (const double x : {no, far, -far, 0.0, -1.0, 1e308, -1e308, 5e-324}) {
+        const auto alike = [&](double a, double b) {
+            return std::isnan(b)   ? std::isnan(a)
+                   : std::isinf(b) ? a == b
+                                   : std::abs(a - b) <= 1e-15 * std::abs(b);
+        };
+        EXPECT_TRUE(alike(p::exp(x), std::exp(x))) << x;
+        EXPECT_TRUE(alike(p::log(x), std::log(x))) << x;
+        EXPECT_TRUE(alike(p::log10(x), std::log10(x))) << x;
+        EXPECT_TRUE(alike(p::hypot(x, x), std::hypot(x, x))) << x;
+        EXPECT_TRUE(std::abs(x) >= 1e6 || alike(p::sin(x), std::sin(x))) << x;
+        EXPECT_EQ(std::isnan(p::cos(x)), std::isnan(std::cos(x))) << x;
+        EXPECT_TRUE(alike(p::atan2(x, 1.0), std::atan2(x, 1.0))) << x;
+        for (const double y : {-2.5, 0.0, 0.5, 3.0})
+            EXPECT_TRUE(x < 0.0 || alike(p::pow(x, y), std::pow(x, y))) << x << " to " << y;
+    }
+}
+
+} // namespace
+} // namespace physvib
