@@ -28,5 +28,5 @@ libs=$debs/usr/lib/aarch64-linux-gnu
 export PKG_CONFIG_LIBDIR="$libs/pkgconfig" PKG_CONFIG_SYSROOT_DIR="$debs"
 run="qemu-aarch64 -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH=$libs"
 house -DPHYSVIB_SESSION=ON -DCMAKE_BUILD_RPATH="$libs"
-tests core wire io contacts physics scene study formats measure api session
+tests engine api session
 compare "$native" marbles fruit-basket

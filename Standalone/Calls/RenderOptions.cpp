@@ -117,7 +117,7 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
     command.addOneOf<InstructionSet>(
         "--instructions", o.instructions,
         {{"best", InstructionSet::best}, {"scalar", InstructionSet::scalar}},
-        "best: the fastest here; scalar: the same bytes of the same hits on every machine");
+        "best: the vectors of this processor, with the same bytes on all; scalar: double precision");
     command
         .add("--patience", o.patienceSeconds,
              "time-out: processor time, beyond its own length, that a world may take to simulate")

@@ -234,7 +234,7 @@ void declare(CLI::App& app, Options& o) {
         ->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz))
         ->capture_default_str();
     app.add_option("--instructions", o.instructions,
-                   "vector instructions; scalar: the same bytes on every machine")
+                   "vector instructions, all with the same bytes; scalar: double precision")
         ->check(
             CLI::IsMember(std::vector<std::string>(instructionSetNames.begin(), instructionSetNames.end())))
         ->check([](const std::string& name) {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # One hash per render, the same on every machine: of a list on several layouts and of all scenes, in double precision (scalar) and by
-# vectors, with fused multiply-adds (AVX2, AVX-512, NEON) and without (SSE4). What differs from hashes.txt is printed, and is the exit
+# vectors (SSE4, AVX2, AVX-512, NEON). What differs from hashes.txt is printed, and is the exit
 # code for lists; for scenes unless PHYSVIB_OTHER_SINE is set: Box2D turns bodies by the C library's sinf and cosf.
 # usage: hashes.sh PATH/physvib-render [WORD...]   (words before the program, as: wine)
 #        hashes.sh --update PATH/physvib-render
@@ -35,7 +35,7 @@ row() {
     printf '%s,%s,%s\n' "$name" "$column" "$(sha256sum <a.wav | cut -c1-16)"
 }
 for set in scalar sse4 avx2 avx512 neon; do
-    case $set in scalar | sse4) column=$set ;; *) column=fused ;; esac
+    [ $set = scalar ] && column=scalar || column=vectors
     for layout in phone1 phone4 ring3 pico8 vest16; do row "list $layout" $set $column list.csv --layout $layout --field 6.4,3.6; done
     for scene in "$here"/../../Source/Scene/Scenes/*.json; do
         scene=$(basename "$scene" .json)

@@ -88,6 +88,10 @@ set(calls "[^A-Za-z_.>:](getpid|gethostname|isatty|fileno|mkdtemp|mkstemp|fork|w
 file(GLOB_RECURSE files ${ROOT}/Source/*.h ${ROOT}/Source/*.cpp ${ROOT}/Plugin/*.h ${ROOT}/Plugin/*.cpp ${ROOT}/Standalone/*.h ${ROOT}/Standalone/*.cpp)
 list(FILTER files EXCLUDE REGEX "(Posix|Windows)\\.(h|cpp)$")
 refuse("^ *# *include *(${systems})|${calls}" "only in a file ...Posix or ...Windows" ${files})
+# What samples and events depend on has the same bits everywhere; what is drawn, measured and counted need not.
+file(GLOB_RECURSE files ${ROOT}/Source/Core/*.h ${ROOT}/Source/Core/*.cpp ${ROOT}/Source/Contacts/* ${ROOT}/Source/Physics/* ${ROOT}/Source/Scene/*.h ${ROOT}/Source/Scene/*.cpp
+                        ${ROOT}/Source/Stimuli/* ${ROOT}/Source/Formats/* ${ROOT}/Source/Live/*.h ${ROOT}/Source/Live/*.cpp)
+refuse("std::(sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|polar|arg)\\(" "Core/PortableMath.h has it" ${files})
 if(bad)
     list(JOIN bad "\n" lines)
     message(FATAL_ERROR "includes that leave their room:\n${lines}")

@@ -7,9 +7,8 @@
 
 namespace physvib {
 
-/// Sets with fused multiply-adds (avx2, avx512, neon) give the same bytes as each other; sse4 and scalar
-/// differ from them by rounding. `scalar` computes in double precision throughout: it is the reference and
-/// gives the same bytes on every machine.
+/// The vector sets give the same bytes as each other. `scalar` computes in double precision throughout: it is
+/// the reference, within a millionth of them.
 enum class InstructionSet { best, scalar, sse4, avx2, avx512, neon };
 
 constexpr std::array<std::string_view, 6> instructionSetNames{"best", "scalar", "sse4",

@@ -5,7 +5,7 @@
 // Lanes hold polynomial coefficients as (sine, cosine) pairs, so one 64-bit broadcast of an amplitude (re,
 // im) serves both products. A panel of 16 floats times a few channels stays in registers while modes are
 // read; after 64 modes it is added to sums in double precision. Every lane does the same operations in the
-// same order whatever the vector's width: sets with fused multiply-adds agree to the bit.
+// same order whatever the vector's width, and no set fuses a product with its sum: all agree to the bit.
 #include "Core/Modes/TileKernels.h"
 #include "Core/Trigonometry.h"
 
@@ -22,6 +22,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace physvib::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+// a b + c and c - a b, with the product rounded. Loads and broadcasts bound these loops: fused operations
+// were no faster (Docs/platforms.md).
+template <class V>
+HWY_INLINE V mulAdd(V a, V b, V c) {
+    return hn::Add(hn::Mul(a, b), c);
+}
+template <class V>
+HWY_INLINE V negMulAdd(V a, V b, V c) {
+    return hn::Sub(c, hn::Mul(a, b));
+}
 
 using Panel = hn::CappedTag<float, 16>; // eight coefficients
 using Line = hn::CappedTag<float, 8>;   // the amplitudes of four channels
@@ -60,7 +71,7 @@ HWY_INLINE void addPanel(const Rows& rows, const float* amplitudes, std::size_t 
             double pair; // two floats copied as one value; never used as a number
             hwy::CopySameSize(reinterpret_cast<const double*>(amplitudes + 2 * j), &pair);
             const auto z = hn::BitCast(d, hn::Set(pairs, pair));
-            for (std::size_t v = 0; v < vectors; ++v) sum[j][v] = hn::MulAdd(z, part[v], sum[j][v]);
+            for (std::size_t v = 0; v < vectors; ++v) sum[j][v] = mulAdd(z, part[v], sum[j][v]);
         }
     }
     const hn::Half<Panel> half;
@@ -87,8 +98,8 @@ HWY_INLINE void turn(const TileLayer& layer, const std::int32_t* slots, std::siz
             layer.amplitudes + slot * static_cast<std::size_t>(layer.floatsPerSlot) + firstLine * 16;
         for (std::size_t l = 0; l < lines; ++l)
             for (std::size_t k = 0; k < 8; k += lanes)
-                hn::Store(hn::MulAdd(im, hn::Load(d, from + l * 16 + 8 + k),
-                                     hn::Mul(re, hn::Load(d, from + l * 16 + k))),
+                hn::Store(mulAdd(im, hn::Load(d, from + l * 16 + 8 + k),
+                                 hn::Mul(re, hn::Load(d, from + l * 16 + k))),
                           d, z + l * 8 + k);
     }
 }
@@ -157,8 +168,8 @@ HWY_INLINE void expand(const double* coefficients, std::size_t rank, const float
                 const auto ue = hn::Load(d, basis + k * half + t + v * lanes),
                            uo = hn::Load(d, basis + (k + 1) * half + t + v * lanes);
                 for (std::size_t j = 0; j < channels; ++j) {
-                    even[j][v] = hn::MulAdd(hn::Set(d, c[j * most + k]), ue, even[j][v]);
-                    odd[j][v] = hn::MulAdd(hn::Set(d, c[j * most + k + 1]), uo, odd[j][v]);
+                    even[j][v] = mulAdd(hn::Set(d, c[j * most + k]), ue, even[j][v]);
+                    odd[j][v] = mulAdd(hn::Set(d, c[j * most + k + 1]), uo, odd[j][v]);
                 }
             }
         for (std::size_t j = 0; j < channels; ++j)
@@ -206,8 +217,8 @@ void advance(const TileCarriers& carriers) {
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) { // arrays are padded
         const auto re = hn::Load(d, carriers.re + i), im = hn::Load(d, carriers.im + i);
         const auto stepRe = hn::Load(d, carriers.stepRe + i), stepIm = hn::Load(d, carriers.stepIm + i);
-        const auto nextRe = hn::NegMulAdd(im, stepIm, hn::Mul(re, stepRe));
-        const auto nextIm = hn::MulAdd(im, stepRe, hn::Mul(re, stepIm));
+        const auto nextRe = negMulAdd(im, stepIm, hn::Mul(re, stepRe));
+        const auto nextIm = mulAdd(im, stepRe, hn::Mul(re, stepIm));
         hn::Store(nextRe, d, carriers.re + i);
         hn::Store(nextIm, d, carriers.im + i);
         hn::Store(hn::DemoteTo(narrow, nextRe), narrow, carriers.roundedRe + i);
@@ -264,8 +275,8 @@ HWY_INLINE void fillWaves(const TileStrikes& s, const Onsets& onsets, double* wa
         for (std::size_t k = static_cast<std::size_t>(e.from) / panelFloats * panelFloats; k < frames;
              k += lanes) {
             const auto sounds = hn::Ge(hn::Iota(d, static_cast<double>(k)), from);
-            hn::Store(hn::IfThenElseZero(sounds, hn::MulAdd(re, hn::LoadU(d, e.sinPowers + k),
-                                                            hn::Mul(im, hn::LoadU(d, e.cosPowers + k)))),
+            hn::Store(hn::IfThenElseZero(sounds, mulAdd(re, hn::LoadU(d, e.sinPowers + k),
+                                                        hn::Mul(im, hn::LoadU(d, e.cosPowers + k)))),
                       d, waves + k);
         }
     }
@@ -291,7 +302,7 @@ HWY_INLINE void addToTails(const TileStrikes& s, const double* waves, const doub
             for (std::size_t j = 0; j < channels; ++j) {
                 const auto g = hn::Set(d, gains[2 * j]);
                 for (std::size_t v = 0; v < vectors; ++v)
-                    sum[j][v] = hn::MulAdd(g, hn::Load(d, wave + v * lanes), sum[j][v]);
+                    sum[j][v] = mulAdd(g, hn::Load(d, wave + v * lanes), sum[j][v]);
             }
         for (std::size_t j = 0; j < channels; ++j)
             for (std::size_t v = 0; v < vectors; ++v)
