@@ -43,6 +43,11 @@ std::vector<Function> functions() {
         return [=](Arguments& a) { return a.within(low, high); };
     };
     const auto none = within(0.0, 1.0);
+#ifdef _WIN32
+    constexpr double widest = 100.0; // that library is not exact beyond
+#else
+    constexpr double widest = 1e6;
+#endif
     return {
         {"exp", 1, [](double x, double) { return portable::exp(x); },
          [](Long x, Long) { return std::exp(x); }, within(-700, 700), none},
@@ -65,7 +70,7 @@ std::vector<Function> functions() {
         {"sin", 1, [](double x, double) { return portable::sin(x); },
          [](Long x, Long) { return std::sin(x); }, within(-10, 10), none},
         {"sin", 1, [](double x, double) { return portable::sin(x); },
-         [](Long x, Long) { return std::sin(x); }, within(-1e6, 1e6), none},
+         [](Long x, Long) { return std::sin(x); }, within(-widest, widest), none},
         {"cos", 1, [](double x, double) { return portable::cos(x); },
          [](Long x, Long) { return std::cos(x); }, within(-10, 10), none},
         {"tan", 2, [](double x, double) { return portable::tan(x); },
