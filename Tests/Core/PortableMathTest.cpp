@@ -44,7 +44,7 @@ std::vector<Function> functions() {
     };
     const auto none = within(0.0, 1.0);
 #ifdef _WIN32
-    constexpr double widest = 100.0; // that library is not exact beyond
+    constexpr double widest = 10.0; // that library is not exact beyond
 #else
     constexpr double widest = 1e6;
 #endif
