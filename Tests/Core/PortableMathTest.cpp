@@ -22,7 +22,7 @@ struct Arguments {
 };
 
 /// How far a value lies from the true one, in units in the last place of that.
-double unitsApart(double value, Long truth) {
+[[maybe_unused]] double unitsApart(double value, Long truth) {
     const double nearest = static_cast<double>(truth), up = std::nextafter(std::abs(nearest), INFINITY);
     return static_cast<double>(std::abs(static_cast<Long>(value) - truth) / (up - std::abs(nearest)));
 }
