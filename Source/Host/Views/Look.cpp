@@ -296,34 +296,50 @@ void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int heig
     g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(tip));
 }
 
-// Within JUCE's bounds, which are those of bold text.
+/// In one size of letters, with as many lines as it takes.
+static juce::TextLayout layoutOfTip(const juce::String& tip, juce::Colour colour) {
+    juce::AttributedString words;
+    words.append(tip, text::font(text::small), colour);
+    juce::TextLayout layout;
+    layout.createLayoutWithBalancedLineLengths(words, 380.0f);
+    return layout;
+}
+
+juce::Rectangle<int> Look::getTooltipBounds(const juce::String& tip, juce::Point<int> at,
+                                            juce::Rectangle<int> within) {
+    const auto layout = layoutOfTip(tip, {});
+    const int width = static_cast<int>(layout.getWidth()) + 14,
+              height = static_cast<int>(layout.getHeight()) + 8;
+    return juce::Rectangle<int>{at.x > within.getCentreX() ? at.x - (width + 12) : at.x + 24,
+                                at.y > within.getCentreY() ? at.y - (height + 6) : at.y + 6, width, height}
+        .constrainedWithin(within);
+}
+
 void Look::drawTooltip(juce::Graphics& g, const juce::String& tip, int width, int height) {
     const juce::Rectangle<int> area{width, height};
     g.fillAll(findColour(juce::TooltipWindow::backgroundColourId));
     g.setColour(findColour(juce::TooltipWindow::outlineColourId));
     g.drawRect(area);
-    g.setColour(findColour(juce::TooltipWindow::textColourId));
-    g.setFont(text::font(text::small));
-    g.drawFittedText(tip, area.reduced(5, 2), juce::Justification::centredLeft, 9, 1.0f);
+    layoutOfTip(tip, findColour(juce::TooltipWindow::textColourId))
+        .draw(g, area.toFloat().reduced(6.0f, 3.0f));
 }
 
 std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::Component&) {
     struct Ring final : juce::FocusOutline::OutlineWindowProperties {
         juce::Rectangle<int> getOutlineBounds(juce::Component& c) override {
+            of = &c;
             const auto ring = c.getScreenBounds().expanded(2);
             const auto* parent = c.getParentComponent(); // cuts what is outside it
             return parent ? ring.getIntersection(parent->getScreenBounds()) : ring;
         }
         void drawOutline(juce::Graphics& g, int width, int height) override {
-            g.setColour(colour);
+            if (of != nullptr) g.setColour(shade(*of, Shade::accent)); // of the present look
             g.drawRoundedRectangle(juce::Rectangle<int>{width, height}.toFloat().reduced(1.0f), corner + 1.0f,
                                    2.0f);
         }
-        juce::Colour colour;
+        juce::Component::SafePointer<juce::Component> of;
     };
-    auto ring = std::make_unique<Ring>();
-    ring->colour = findColour(idOf(Shade::accent));
-    return std::make_unique<juce::FocusOutline>(std::move(ring));
+    return std::make_unique<juce::FocusOutline>(std::make_unique<Ring>());
 }
 
 } // namespace physvib

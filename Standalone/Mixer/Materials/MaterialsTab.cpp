@@ -13,7 +13,7 @@ namespace physvib {
 namespace {
 
 constexpr int rowPixels = 28, headPixels = 20;
-constexpr int tallPixels = 300; // of the tab; in a lower tab, half a row shows that the list can scroll
+constexpr int tallPixels = 300; // of the tab
 constexpr double arrowRatio = 1.01;
 constexpr double usualHz = 165.0, usualDecay = 22.0; // of a material that begins as a silent one
 
@@ -389,11 +389,10 @@ void MaterialsTab::resized() {
     new_->setBounds(headArea_.withLeft(headArea_.getRight() - 44));
     const bool isTall = area.getHeight() >= tallPixels;
     const int line = isTall ? rowHeight : rowHeight - 4, between = isTall ? 6 : 4;
-    const int controls = 3 * line + 4 * between, least = isTall ? 3 * rowPixels : 5 * rowPixels / 2,
-              plots = std::max(70, std::min(230, (area.getHeight() - controls) * 52 / 100));
-    const int rows = std::max(
-        least, std::min(static_cast<int>(order_.size()) * rowPixels, area.getHeight() - controls - plots));
-    list_.setBounds(area.removeFromTop(rows));
+    const int room = area.getHeight() - 3 * line - 4 * between, all = static_cast<int>(order_.size()),
+              plots = std::max(70, std::min({230, room * 52 / 100, room - 5 * rowPixels})); // rows come first
+    list_.setBounds(
+        area.removeFromTop(std::clamp((room - plots) / rowPixels, 3, std::max(3, all)) * rowPixels));
     area.removeFromTop(between);
     auto row = area.removeFromTop(line);
     const auto place = [&row](juce::Label& name, juce::Component& control, int nameWidth, int width) {

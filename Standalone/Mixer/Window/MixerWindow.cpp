@@ -355,16 +355,72 @@ void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> act)
     menu.addItem(made.setAction(std::move(act)));
 }
 
-constexpr const char* shortcuts =
-    "Esc: silence. Space: pause. Full stop: one step.\n"
-    "F2: play or engineer. F3: strips and what is below. F4: the drawer. F10: menu. F11: full screen.\n"
-    "Arrow keys: tilt. Shift and a drag: hold. A: the other of A and B.\n"
-    "H hand, S select, B ball, X box, P polygon, L line, W wall, N rain, I pin, R rope, K spring, D slider, "
-    "M motor, E eraser, G grid, Return: one in the middle.\n"
-    "Selected: arrow keys move, [ and ] turn, + and - size, Delete, Ctrl+C, V, D, A.\n"
-    "Ctrl+Z, Ctrl+Shift+Z: undo, redo. Ctrl+R: record. Ctrl+Shift+R: record hands. Ctrl+E: render.\n"
-    "Ctrl+N, O, S, Shift+S: new, open, save, save as. Ctrl++, Ctrl+-, Ctrl+0: zoom. Ctrl+Q: quit.\n"
-    "In a strip: T test pulse, Shift+T sweep, G group. Tab: the next control.";
+/// Keys, and what they do, in two halves side by side.
+class KeysCard final : public Card {
+public:
+    explicit KeysCard(std::function<void()> close)
+        : Card{940} {
+        for (const auto& [key, does] : std::initializer_list<std::pair<const char*, const char*>>{
+                 {"Esc", "silence"},
+                 {"Esc, a card or menu open", "closes it, silences what sounds or did 1.5 s before"},
+                 {"Space", "pause"},
+                 {".", "one step of a paused world"},
+                 {"F2", "play or engineer"},
+                 {"F3", "strips, and what is below"},
+                 {"F4", "the drawer"},
+                 {"F10, Ctrl+Q", "menu, quit"},
+                 {"F11", "full screen"},
+                 {"Arrow keys", "tilt"},
+                 {"Shift + drag", "holds a body"},
+                 {"A", "the other of A and B"},
+                 {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
+                 {"Ctrl+R, Ctrl+Shift+R", "record; record hands"},
+                 {"Ctrl+E", "render"},
+                 {"Ctrl+N, O, S, Shift+S", "new, open, save, save as"},
+                 {"Ctrl++, Ctrl+-, Ctrl+0", "zoom"},
+                 {"T, Shift+T, G in a strip", "test pulse, sweep, group"},
+                 {"Tab", "the next control"},
+                 {"Arrows, [ ], + -", "move, turn, size what is selected"},
+                 {"Delete, Ctrl+C, V, D, A", "delete, copy, paste, double, select all"},
+                 {"G, Return", "grid; one in the middle"}})
+            rows_.emplace_back(key, does);
+        for (const auto& tool : drawTools)
+            rows_.emplace_back(
+                juce::String::charToString(static_cast<juce::juce_wchar>(tool.key)).toUpperCase(), tool.name);
+        say("Keys", {});
+        close_.onClick = std::move(close);
+        setAnswers({&close_});
+        fit();
+    }
+    bool keyPressed(const juce::KeyPress& key) override {
+        if (key == juce::KeyPress::escapeKey || key == juce::KeyPress::returnKey)
+            return close_.triggerClick(), true;
+        return false;
+    }
+    void paint(juce::Graphics& g) override {
+        Card::paint(g);
+        auto area = content_;
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            if (k == half()) area = content_.withTrimmedLeft(480);
+            auto row = area.removeFromTop(line);
+            g.setColour(shade(*this, Shade::text));
+            g.setFont(text::font(text::small, juce::Font::bold));
+            g.drawText(rows_[k].first, row.removeFromLeft(180), juce::Justification::centredLeft, true);
+            g.setFont(text::font(text::small));
+            g.drawText(rows_[k].second, row, juce::Justification::centredLeft, true);
+        }
+    }
+
+private:
+    static constexpr int line = 20;
+    std::size_t half() const { return (rows_.size() + 1) / 2; }
+    int contentHigh() const override { return static_cast<int>(half()) * line; }
+    void place(juce::Rectangle<int> content) override { content_ = content; }
+
+    std::vector<std::pair<juce::String, juce::String>> rows_;
+    juce::Rectangle<int> content_;
+    juce::TextButton close_{"Close"};
+};
 
 } // namespace
 
@@ -376,10 +432,8 @@ void MixerWindow::showMenu(juce::Component& from) {
             "controls.");
     });
     add(help, {"Keys" + dots()}, [this] {
-        const juce::KeyPress escape{juce::KeyPress::escapeKey};
-        view_->setQuestion(std::make_unique<QuestionCard>(
-            "Keys", shortcuts,
-            std::vector<QuestionCard::Answer>{{"Close", [this] { view_->setCard(nullptr); }, true, escape}}));
+        view_->setCard(std::make_unique<KeysCard>(
+            [this] { later(*this, [](MixerWindow& window) { window.view_->setCard(nullptr); }); }));
     });
     menu.addSubMenu("File", fileMenu());
     menu.addSubMenu("Edit", editMenu());
@@ -881,8 +935,7 @@ void MixerWindow::recordScript() {
 
 void MixerWindow::newScene(SceneGround ground) {
     model_->change("New scene", [&](Mix& mix) {
-        mix.scene =
-            std::make_shared<const Scene>(physvib::newScene(model_->world().drawing().drawn(), ground));
+        mix.scene = std::make_shared<const Scene>(physvib::newScene(*MixerModel::firstMix().scene, ground));
     });
     view_->world().drawing().use(DrawTool::ball);
 }
