@@ -132,7 +132,7 @@ juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
         if (scene_.materials[i].frequencyHz == event.frequencyHz &&
             scene_.materials[i].decayPerSecond == event.decayPerSecond)
-            return palette::material(static_cast<int>(i));
+            return palette::material(scene_.materials, static_cast<int>(i));
     return palette::other;
 }
 
@@ -333,7 +333,7 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) {
         for (const auto& fixture : body.fixtures) {
             const auto place = placeOf(fixture, pose, at);
             const auto colour =
-                palette::material(fixture.material)
+                palette::material(scene_.materials, fixture.material)
                     .withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f);
             if (areMany && drawSmall(g, fixture, colour, pose.angleRadians + fixture.angleRadians, place, at))
                 continue;

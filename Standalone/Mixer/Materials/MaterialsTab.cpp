@@ -86,8 +86,9 @@ MaterialsTab::MaterialsTab(MixerModel& model, WorldView& world)
     describe(feel_, "Feel the material at the spot",
              "Plays one hit of the material at the cross in the world; a click in the world plays it there");
     feel_.onClick = [this] { feelAt(spot_); };
-    new_ = quietButton("New" + dots(), "A material of one's own: a copy of the chosen one, with a name");
-    new_->onClick = [this] { copyChosen(); };
+    new_ = quietButton("New" + dots(),
+                       "A material of one's own: a copy of the chosen one, with a name and a colour");
+    new_->onClick = [this] { askName(true); };
     browse_ = quietButton(
         juce::String::fromUTF8("Recording\xe2\x80\xa6"),
         "Measure frequency and decay from a recording of one hit; it can be dropped here as well");
@@ -168,8 +169,8 @@ void MaterialsTab::showChosen() {
     ShownHit shown;
     const auto* recording = recordingOf(chosenIndex());
     if (sounds)
-        shown = {material->frequencyHz, material->decayPerSecond, palette::material(chosenIndex()),
-                 recording};
+        shown = {material->frequencyHz, material->decayPerSecond,
+                 palette::material(model_.world().scene().materials, chosenIndex()), recording};
     if (shown == shown_) return;
     shown_ = shown;
     const auto course = recording ? recording->course
@@ -245,50 +246,45 @@ bool MaterialsTab::changeList(const juce::String& name,
     return true;
 }
 
-void MaterialsTab::copyChosen() {
+/// A copy of the chosen one is made, or that itself is named.
+void MaterialsTab::askName(bool isCopy) {
     const auto* material = chosen();
     if (material == nullptr) return;
+    static const juce::StringArray colours{"by its place", "red",  "amber", "light blue", "mauve",
+                                           "tan",          "blue", "brown", "olive"};
+    const auto name = utf8(material->name);
     askForValues(
-        *this, "A material of one's own", "Make it", {{"Name", "own " + utf8(material->name)}},
-        [this, index = chosenIndex()](const juce::StringArray& values) {
-            int last = 0;
-            const bool isMade = changeList("New material", [&](std::vector<Material>& all) {
-                Material own = all[static_cast<std::size_t>(index)];
-                own.name = values[0].toStdString();
-                if (own.frequencyHz <= 0.0) own.frequencyHz = usualHz, own.decayPerSecond = usualDecay;
-                last = static_cast<int>(all.size());
-                all.push_back(own);
-            });
-            if (isMade) choose(last);
+        *this, isCopy ? "A material of one's own" : "Name and colour", isCopy ? "Make it" : "Change",
+        {{"Name", isCopy ? "own " + name : name}, {"Colour", colours[material->colour], {}, colours}},
+        [this, isCopy, index = chosenIndex()](const juce::StringArray& values) {
+            int at = index;
+            const auto change = [&](std::vector<Material>& all) {
+                if (isCopy) {
+                    all.push_back(
+                        all[static_cast<std::size_t>(std::exchange(at, static_cast<int>(all.size())))]);
+                    if (all.back().frequencyHz <= 0.0)
+                        all.back().frequencyHz = usualHz, all.back().decayPerSecond = usualDecay;
+                }
+                Material& own = all[static_cast<std::size_t>(at)];
+                own.name = values[0].toStdString(), own.colour = colours.indexOf(values[1]);
+            };
+            if (changeList(isCopy ? "New material" : "Name and colour", change)) choose(at);
         },
-        "It begins as a copy of " + utf8(material->name) +
-            ": set its frequency, decay and surface, or measure a recording. The world begins anew.");
-}
-
-void MaterialsTab::renameChosen() {
-    const auto* material = chosen();
-    if (material == nullptr) return;
-    askForValues(
-        *this, "Rename the material", "Rename", {{"Name", utf8(material->name)}},
-        [this, index = chosenIndex()](const juce::StringArray& values) {
-            if (changeList("Rename", [&](std::vector<Material>& all) {
-                    all[static_cast<std::size_t>(index)].name = values[0].toStdString();
-                }))
-                choose(index);
-        },
-        "The world begins anew.");
+        isCopy ? "It begins as a copy of " + name +
+                     ": set its frequency, decay and surface, or measure a recording. The world begins anew."
+               : "The world begins anew.");
 }
 
 void MaterialsTab::showMenu() {
     const juce::Component::SafePointer<MaterialsTab> safe{this};
-    const auto item = [safe](void (MaterialsTab::*act)()) {
-        return [safe, act] {
-            if (safe != nullptr) (safe->*act)();
+    const auto item = [safe](bool isCopy) {
+        return [safe, isCopy] {
+            if (safe != nullptr) safe->askName(isCopy);
         };
     };
     juce::PopupMenu menu;
-    menu.addItem("Copy" + dots(), item(&MaterialsTab::copyChosen));
-    menu.addItem("Rename" + dots(), item(&MaterialsTab::renameChosen));
+    menu.addItem("Copy" + dots(), item(true));
+    menu.addItem("Name and colour" + dots(), item(false));
     menu.setLookAndFeel(&getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withMousePosition());
 }
@@ -444,9 +440,9 @@ juce::String MaterialsTab::Rows::getNameForRow(int row) {
 
 void MaterialsTab::Rows::listBoxItemClicked(int, const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu()) return tab_.showMenu();
-    if (!tab_.feel_.isEnabled()) return;
-    if (MaterialColumns{e.eventComponent->getLocalBounds()}.sign.contains(e.getPosition()))
-        tab_.feelAt(tab_.spot_);
+    const MaterialColumns at{e.eventComponent->getLocalBounds()};
+    if (at.dot.contains(e.getPosition())) return tab_.askName(false);
+    if (tab_.feel_.isEnabled() && at.sign.contains(e.getPosition())) tab_.feelAt(tab_.spot_);
 }
 
 void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height,
@@ -460,7 +456,8 @@ void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width,
     }
     const MaterialColumns at{{width, height}};
     const bool sounds = m.frequencyHz > 0.0;
-    g.setColour(palette::material(index).withMultipliedAlpha(sounds ? 1.0f : 0.5f));
+    g.setColour(palette::material(tab_.model_.world().scene().materials, index)
+                    .withMultipliedAlpha(sounds ? 1.0f : 0.5f));
     g.fillEllipse(at.dot.withWidth(14).toFloat().withSizeKeepingCentre(12.0f, 12.0f));
     g.setFont(text::font(text::medium));
     g.setColour(shade(tab_, sounds ? Shade::text : Shade::muted));
