@@ -355,69 +355,56 @@ void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> act)
     menu.addItem(made.setAction(std::move(act)));
 }
 
-/// Keys, and what they do, in two halves side by side.
+constexpr const char* keys =
+    "Esc\tsilence\nEsc, a card or menu open\tcloses it, silences what sounds or did 1.5 s before\n"
+    "Space\tpause\n.\tone step of a paused world\nF2\tplay or engineer\nF3\tstrips, and what is below\n"
+    "F4\tthe drawer\nF10, Ctrl+Q\tmenu, quit\nF11\tfull screen\nArrow keys\ttilt\nShift + drag\tholds a "
+    "body\n"
+    "A\tthe other of A and B\nCtrl+Z, Ctrl+Shift+Z\tundo, redo\nCtrl+R, Ctrl+Shift+R\trecord; record hands\n"
+    "Ctrl+E\trender\nCtrl+N, O, S, Shift+S\tnew, open, save, save as\nCtrl++, Ctrl+-, Ctrl+0\tzoom\n"
+    "T, Shift+T, G in a strip\ttest pulse, sweep, group\nTab\tthe next control\n"
+    "Arrows, [ ], + -\tmove, turn, size what is selected\n"
+    "Delete, Ctrl+C, V, D, A\tdelete, copy, paste, double, all\nG, Return\tgrid; one in the middle";
+
+/// A key and what it does in each row, in two halves side by side.
 class KeysCard final : public Card {
 public:
     explicit KeysCard(std::function<void()> close)
         : Card{940} {
-        for (const auto& [key, does] : std::initializer_list<std::pair<const char*, const char*>>{
-                 {"Esc", "silence"},
-                 {"Esc, a card or menu open", "closes it, silences what sounds or did 1.5 s before"},
-                 {"Space", "pause"},
-                 {".", "one step of a paused world"},
-                 {"F2", "play or engineer"},
-                 {"F3", "strips, and what is below"},
-                 {"F4", "the drawer"},
-                 {"F10, Ctrl+Q", "menu, quit"},
-                 {"F11", "full screen"},
-                 {"Arrow keys", "tilt"},
-                 {"Shift + drag", "holds a body"},
-                 {"A", "the other of A and B"},
-                 {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
-                 {"Ctrl+R, Ctrl+Shift+R", "record; record hands"},
-                 {"Ctrl+E", "render"},
-                 {"Ctrl+N, O, S, Shift+S", "new, open, save, save as"},
-                 {"Ctrl++, Ctrl+-, Ctrl+0", "zoom"},
-                 {"T, Shift+T, G in a strip", "test pulse, sweep, group"},
-                 {"Tab", "the next control"},
-                 {"Arrows, [ ], + -", "move, turn, size what is selected"},
-                 {"Delete, Ctrl+C, V, D, A", "delete, copy, paste, double, select all"},
-                 {"G, Return", "grid; one in the middle"}})
-            rows_.emplace_back(key, does);
+        rows_.addLines(keys);
         for (const auto& tool : drawTools)
-            rows_.emplace_back(
-                juce::String::charToString(static_cast<juce::juce_wchar>(tool.key)).toUpperCase(), tool.name);
+            rows_.add(juce::String::charToString(static_cast<juce::juce_wchar>(tool.key)).toUpperCase() +
+                      "\t" + tool.name);
         say("Keys", {});
         close_.onClick = std::move(close);
         setAnswers({&close_});
         fit();
     }
     bool keyPressed(const juce::KeyPress& key) override {
-        if (key == juce::KeyPress::escapeKey || key == juce::KeyPress::returnKey)
-            return close_.triggerClick(), true;
-        return false;
+        if (key != juce::KeyPress::escapeKey && key != juce::KeyPress::returnKey) return false;
+        return close_.onClick(), true;
     }
     void paint(juce::Graphics& g) override {
         Card::paint(g);
-        auto area = content_;
-        for (std::size_t k = 0; k < rows_.size(); ++k) {
-            if (k == half()) area = content_.withTrimmedLeft(480);
-            auto row = area.removeFromTop(line);
-            g.setColour(shade(*this, Shade::text));
+        g.setColour(shade(*this, Shade::text));
+        for (int k = 0; k < rows_.size(); ++k) {
+            auto row = content_.translated(k / half() * 480, k % half() * line).withHeight(line);
             g.setFont(text::font(text::small, juce::Font::bold));
-            g.drawText(rows_[k].first, row.removeFromLeft(180), juce::Justification::centredLeft, true);
+            g.drawText(rows_[k].upToFirstOccurrenceOf("\t", false, false), row.removeFromLeft(180),
+                       juce::Justification::centredLeft);
             g.setFont(text::font(text::small));
-            g.drawText(rows_[k].second, row, juce::Justification::centredLeft, true);
+            g.drawText(rows_[k].fromFirstOccurrenceOf("\t", false, false), row,
+                       juce::Justification::centredLeft);
         }
     }
 
 private:
     static constexpr int line = 20;
-    std::size_t half() const { return (rows_.size() + 1) / 2; }
-    int contentHigh() const override { return static_cast<int>(half()) * line; }
+    int half() const { return (rows_.size() + 1) / 2; }
+    int contentHigh() const override { return half() * line; }
     void place(juce::Rectangle<int> content) override { content_ = content; }
 
-    std::vector<std::pair<juce::String, juce::String>> rows_;
+    juce::StringArray rows_;
     juce::Rectangle<int> content_;
     juce::TextButton close_{"Close"};
 };
