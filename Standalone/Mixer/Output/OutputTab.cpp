@@ -4,7 +4,6 @@
 #include "Live/Devices/NoDevice.h"
 #include "Mixer/Model/MixerDevice.h"
 #include "Mixer/Widgets/Cards.h"
-#include "Mixer/Window/PageLink.h"
 
 namespace physvib {
 namespace {

@@ -317,8 +317,8 @@ juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = model_.world().scene();
     const auto name = materialName(scene, hit), place = placeText(scene, hit);
     if (isClip(hit.sound)) return inLines({name, place});
-    const double g = strongestOf(model_, hit).levelG; // 0: whoever would play it is muted, or has no output
-    const bool isSeen = g == 0.0 || (isPlay_ && model_.isOnlySeen());
+    const double g = strongestOf(model_, hit).levelG; // none: who would play it is muted, or has no output
+    const bool isSeen = g < 0.005 || (isPlay_ && model_.isOnlySeen());
     const auto felt = (isSeen    ? juce::String{"seen"}
                        : isPlay_ ? strengthWords(g)
                                  : number(g, 2) + " g") +
