@@ -326,12 +326,12 @@ TEST(Arrangement, APageWithoutRoomScrolls) {
     EXPECT_EQ(viewport->getHeight(), page->getHeight());
 }
 
-TEST(Arrangement, TheListOfMaterialsShowsFourWholeRows) {
+TEST(Arrangement, TheListOfMaterialsShowsWholeRows) {
     Window w;
-    w.view.setSize(1024, 700);
+    w.view.setSize(1016, 660);
     w.view.tabs().choose("Materials");
     auto* list = dynamic_cast<juce::ListBox*>(find(w.view, "List of materials"));
-    EXPECT_GE(list->getHeight(), 4 * list->getRowHeight());
+    EXPECT_GE(list->getHeight(), 5 * list->getRowHeight());
     EXPECT_EQ(list->getHeight() % list->getRowHeight(), 0);
 }
 

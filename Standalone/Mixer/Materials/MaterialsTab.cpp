@@ -178,6 +178,7 @@ void MaterialsTab::showChosen() {
                                   : HitCourse{};
     spectrum_.show(shown, course);
     course_.show(shown, course);
+    resized();
 }
 
 void MaterialsTab::setSound(bool isFrequency, bool continuesEdit) {
@@ -302,6 +303,7 @@ void MaterialsTab::measureNext() {
         measuring_.reset(new Measuring{waiting_.front(), *this});
         waiting_.pop_front();
     }
+    resized();
     repaint();
 }
 
@@ -334,6 +336,7 @@ void MaterialsTab::finish(const Job& job, const Result<RecordedHit>& hit) {
 
 void MaterialsTab::setDropping(bool isDropping) {
     isDropping_ = isDropping;
+    resized();
     repaint();
 }
 
@@ -385,10 +388,14 @@ void MaterialsTab::resized() {
     new_->setBounds(headArea_.withLeft(headArea_.getRight() - 44));
     const bool isTall = area.getHeight() >= tallPixels;
     const int line = isTall ? rowHeight : rowHeight - 4, between = isTall ? 6 : 4;
+    // in a low tab, a recording has its plots, and rows come first
+    const bool hasPlots = isTall || isDropping_ || isMeasuring() || recordingOf(chosenIndex()) != nullptr;
     const int room = area.getHeight() - 3 * line - 4 * between, all = static_cast<int>(order_.size()),
-              plots = std::max(70, std::min({230, room * 52 / 100, room - 5 * rowPixels})); // rows come first
+              plots = hasPlots ? std::max(70, std::min({230, room * 52 / 100, room - 5 * rowPixels})) : 0;
     list_.setBounds(
         area.removeFromTop(std::clamp((room - plots) / rowPixels, 3, std::max(3, all)) * rowPixels));
+    for (juce::Component* plot : std::initializer_list<juce::Component*>{&spectrum_, &course_})
+        plot->setVisible(hasPlots);
     area.removeFromTop(between);
     auto row = area.removeFromTop(line);
     const auto place = [&row](juce::Label& name, juce::Component& control, int nameWidth, int width) {
