@@ -296,32 +296,15 @@ void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int heig
     g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(tip));
 }
 
-/// In one size of letters, with as many lines as it takes.
-static juce::TextLayout layoutOfTip(const juce::String& tip, juce::Colour colour) {
-    juce::AttributedString words;
-    words.append(tip, text::font(text::small), colour);
-    juce::TextLayout layout;
-    layout.createLayoutWithBalancedLineLengths(words, 380.0f);
-    return layout;
-}
-
-juce::Rectangle<int> Look::getTooltipBounds(const juce::String& tip, juce::Point<int> at,
-                                            juce::Rectangle<int> within) {
-    const auto layout = layoutOfTip(tip, {});
-    const int width = static_cast<int>(layout.getWidth()) + 14,
-              height = static_cast<int>(layout.getHeight()) + 8;
-    return juce::Rectangle<int>{at.x > within.getCentreX() ? at.x - (width + 12) : at.x + 24,
-                                at.y > within.getCentreY() ? at.y - (height + 6) : at.y + 6, width, height}
-        .constrainedWithin(within);
-}
-
+// Within JUCE's bounds, which are those of bold text, in one size: drawFittedText would make it smaller.
 void Look::drawTooltip(juce::Graphics& g, const juce::String& tip, int width, int height) {
     const juce::Rectangle<int> area{width, height};
     g.fillAll(findColour(juce::TooltipWindow::backgroundColourId));
     g.setColour(findColour(juce::TooltipWindow::outlineColourId));
     g.drawRect(area);
-    layoutOfTip(tip, findColour(juce::TooltipWindow::textColourId))
-        .draw(g, area.toFloat().reduced(6.0f, 3.0f));
+    juce::AttributedString words;
+    words.append(tip, text::font(text::small), findColour(juce::TooltipWindow::textColourId));
+    words.draw(g, area.toFloat().reduced(5.0f, 2.0f));
 }
 
 std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::Component&) {

@@ -148,8 +148,6 @@ public:
     void drawRotarySlider(juce::Graphics& g, int x, int y, int width, int height, float place, float start,
                           float end, juce::Slider& slider) override;
     int getSliderThumbRadius(juce::Slider&) override { return 9; }
-    juce::Rectangle<int> getTooltipBounds(const juce::String& tip, juce::Point<int> at,
-                                          juce::Rectangle<int> within) override;
     void drawTooltip(juce::Graphics& g, const juce::String& tip, int width, int height) override;
     std::unique_ptr<juce::FocusOutline> createFocusOutlineForComponent(juce::Component&) override;
 
