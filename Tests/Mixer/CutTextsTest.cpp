@@ -110,7 +110,7 @@ TEST(Tooltips, HaveOneSizeOfLetters) {
     };
     Look look;
     for (const auto& tool : drawTools) {
-        const auto tip = juce::String{tool.name} + ": " + tool.does + ". " + tool.does;
+        const auto tip = juce::String{tool.name} + ": " + tool.does + " (I)";
         const auto area = look.getTooltipBounds(tip, {}, {1024, 700});
         Sizes sizes{juce::Image{juce::Image::RGB, area.getWidth(), area.getHeight(), true,
                                 juce::SoftwareImageType{}}};
