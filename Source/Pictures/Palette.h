@@ -37,6 +37,13 @@ inline Colour material(int index) {
     return Colour::of(chosen[static_cast<std::size_t>(index) % chosen.size()]);
 }
 
+/// Of a material of a list: its own, or by its place; of what is in none, by that number. Any thread.
+Colour materialOf(const auto& list, int index) {
+    const bool isIn = index >= 0 && index < static_cast<int>(list.size());
+    const int own = isIn ? list[static_cast<std::size_t>(index)].colour : 0;
+    return material(own > 0 ? own - 1 : index);
+}
+
 constexpr int rampCount = 6;
 
 /// Colour of a frequency class, low (cool) to high (warm). Any thread.

@@ -132,7 +132,7 @@ void HitColours::takeMaterials(const PictureInput& input) {
     for (const auto index : used) {
         if (index >= materials.size()) continue;
         const auto& m = materials[index];
-        const auto colour = palette::material(static_cast<int>(index));
+        const auto colour = palette::materialOf(materials, static_cast<int>(index));
         rules_.push_back({m.frequencyHz, m.frequencyHz, m.decayPerSecond, colour});
         const auto name = cleanLine(m.name);
         classes_.push_back(

@@ -35,15 +35,14 @@ namespace {
 constexpr float wallPixels = 12.0f;
 
 // A chain is a line: it is stroked, the others are filled.
-void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, bool isDynamic,
+void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, Colour colour,
                  const Transform& body, const FieldMap& map) {
     const auto move = Transform::rotation(static_cast<float>(-fixture.angleRadians))
                           .translated(map.length(fixture.offsetMetres.x), -map.length(fixture.offsetMetres.y))
                           .followedBy(body);
     const auto outline = shapeOutline<Path>(fixture.shape, map.pixelsPerMetre);
     const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
-    canvas.graphics.setColour(
-        palette::material(fixture.material).withMultipliedBrightness(isDynamic ? 0.9f : 0.6f));
+    canvas.graphics.setColour(colour);
     isLine ? canvas.graphics.strokePath(outline, 3.0f, move) : canvas.graphics.fillPath(outline, move);
     if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) {
         Path spoke; // shows the rotation
@@ -57,11 +56,15 @@ void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, bool i
     canvas.graphics.strokePath(outline, isLine ? 1.0f : 2.0f, move);
 }
 
-void drawBody(const Canvas& canvas, const BodyDescription& body, const BodyPose& mark, const FieldMap& map) {
+void drawBody(const Canvas& canvas, const Scene& scene, const BodyDescription& body, const BodyPose& mark,
+              const FieldMap& map) {
+    const float bright = body.type == BodyType::dynamicBody ? 0.9f : 0.6f;
     const auto move = Transform::rotation(static_cast<float>(-mark.angleRadians))
                           .translated(map.at(mark.xMetres, mark.yMetres));
     for (const auto& fixture : body.fixtures)
-        drawFixture(canvas, fixture, body.type == BodyType::dynamicBody, move, map);
+        drawFixture(canvas, fixture,
+                    palette::materialOf(scene.materials, fixture.material).withMultipliedBrightness(bright),
+                    move, map);
 }
 
 void drawJoint(const Canvas& canvas, const JointPose& joint, const FieldMap& map) {
@@ -83,7 +86,7 @@ void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap&
         const auto& at = cast[i].positionMetres;
         const BodyPose start{at.x, at.y, cast[i].angleRadians, i < input.scene->bodies.size()};
         const BodyPose& mark = i < poses.size() ? poses[i] : start;
-        if (mark.isPresent) drawBody(canvas, cast[i], mark, map);
+        if (mark.isPresent) drawBody(canvas, *input.scene, cast[i], mark, map);
     }
     for (const JointPose& joint : input.poses.joints) drawJoint(canvas, joint, map);
     if (poses.empty())

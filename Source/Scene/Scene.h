@@ -31,6 +31,7 @@ struct Material {
     double roughness = 1.0;
     GrainPattern grainPattern = GrainPattern::random;
     double rolling = 0.2;
+    int colour = 0; ///< in pictures: one of eight, from 1; 0: by its place among the materials
     bool operator==(const Material&) const = default;
 
     void setTexture(const Texture& t) noexcept {

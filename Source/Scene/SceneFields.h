@@ -61,6 +61,7 @@ void visitFields(auto& v, FieldsOf<Material>) {
     v.field("frequency_hz", &Material::frequencyHz, upTo(limits::maxFrequencyHz), Need::optional);
     v.field("decay_per_s", &Material::decayPerSecond, upTo(limits::maxDecayPerSecond), Need::optional);
     visitTexture<Material>(v);
+    v.field("colour", &Material::colour, upTo(8.0), Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<CircleShape>) {

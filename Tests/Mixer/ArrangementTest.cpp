@@ -105,6 +105,11 @@ TEST(Arrangement, TheWorldHasTheRoom) {
             const double share =
                 1.0 * w.view.world().getWidth() * w.view.world().getHeight() / (width * height);
             EXPECT_GE(share, least) << width << (mode == Mode::play ? " to play" : " engineer");
+            const auto& view = w.view.world().view();
+            const auto field = view.placeOfShare({1.0, 0.0}) - view.placeOfShare({0.0, 1.0});
+            if (width == 1280)
+                EXPECT_GE(field.x * field.y / static_cast<float>(width * height),
+                          mode == Mode::play ? 0.6f : 0.24f);
         }
     }
 }
@@ -183,6 +188,7 @@ TEST(Arrangement, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
     EXPECT_TRUE(attach->isVisible());
     w.view.setSize(1024, 700);
     EXPECT_GE(widthOf("Mute A"), 24) << "for a pointer";
+    EXPECT_GE(find(w.view, "Gain of A")->getHeight(), 84 + 16) << "the throw, and half a cap at each end";
     w.attach(6);
     auto* last = find(w.view, "Strip F");
     const auto* row = last->findParentComponentOfClass<juce::Viewport>();
@@ -229,10 +235,10 @@ TEST(Arrangement, ANarrowBarHasTwoLinesAndNothingOfItIsCut) {
     for (const auto& [width, height] : sizes) {
         w.view.setSize(width, height);
         auto* bar = find(w.view, "Transport and device");
-        EXPECT_EQ(bar->getHeight() > TopBar::lineHeight, width < 1400) << width;
+        EXPECT_EQ(bar->getHeight() > TopBar::lineHeight, width < 1260) << width;
         std::vector<juce::Rectangle<int>> places;
         for (auto* child : bar->getChildren()) {
-            if (child->getBounds().isEmpty()) continue;
+            if (child->getBounds().isEmpty() || !child->isVisible()) continue;
             EXPECT_TRUE(bar->getLocalBounds().contains(child->getBounds()))
                 << child->getTitle() << " at " << width;
             for (const auto& other : places)
@@ -318,6 +324,15 @@ TEST(Arrangement, APageWithoutRoomScrolls) {
         EXPECT_LE(other->getHeight(), other->findParentComponentOfClass<juce::Viewport>()->getHeight());
     w.view.setSize(3840, 2160);
     EXPECT_EQ(viewport->getHeight(), page->getHeight());
+}
+
+TEST(Arrangement, TheListOfMaterialsShowsWholeRows) {
+    Window w;
+    w.view.setSize(1016, 660);
+    w.view.tabs().choose("Materials");
+    auto* list = dynamic_cast<juce::ListBox*>(find(w.view, "List of materials"));
+    EXPECT_GE(list->getHeight(), 5 * list->getRowHeight());
+    EXPECT_EQ(list->getHeight() % list->getRowHeight(), 0);
 }
 
 TEST(Arrangement, TheListOfActuatorsShowsWholeRows) {

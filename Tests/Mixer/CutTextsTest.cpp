@@ -98,6 +98,28 @@ TEST(CutTexts, AreOnNoPageAtAnySize) {
     }
 }
 
+// A tooltip has as many lines as its words take in the one size.
+TEST(Tooltips, HaveOneSizeOfLetters) {
+    struct Sizes final : LetterRenderer {
+        using LetterRenderer::LetterRenderer;
+        void draw(int, const juce::AffineTransform&, const std::function<void()>&) override {
+            EXPECT_EQ(getFont().getHeight(), text::small);
+            ++letters;
+        }
+        int letters = 0;
+    };
+    Look look;
+    for (const auto& tool : drawTools) {
+        const auto tip = juce::String{tool.name} + ": " + tool.does + " (I)";
+        const auto area = look.getTooltipBounds(tip, {}, {1024, 700});
+        Sizes sizes{juce::Image{juce::Image::RGB, area.getWidth(), area.getHeight(), true,
+                                juce::SoftwareImageType{}}};
+        juce::Graphics g{sizes};
+        look.drawTooltip(g, tip, area.getWidth(), area.getHeight());
+        EXPECT_GE(sizes.letters, tip.removeCharacters(" ").length()) << tip;
+    }
+}
+
 // An actuator that is attached while others play begins quietly: its strip says by how much.
 TEST(StripTexts, AGainIsWrittenBesideTheName) {
     MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};

@@ -7,6 +7,7 @@
 #include "Live/Recordings/Recording.h"
 #include "Mixer/Knock.h"
 #include "MixerTesting.h"
+#include "Scene/SceneFile.h"
 #include "Support/WriteSound.h"
 
 namespace physvib {
@@ -53,18 +54,23 @@ TEST_F(Materials, OneOfOnesOwnIsACopyWithANameAndNoNameIsThereTwice) {
     const auto before = all().size();
     const auto make = [&](const char* name) {
         dynamic_cast<juce::Button&>(
-            *find(tab, "A material of one's own: a copy of the chosen one, with a name"))
+            *find(tab, "A material of one's own: a copy of the chosen one, with a name and a colour"))
             .onClick();
         ASSERT_NE(view.question(), nullptr);
         view.question()->setValue("Name", name);
+        view.question()->setValue("Colour", "olive");
         view.question()->answer("Make it");
         ASSERT_TRUE(runUntil([&] { return view.card() == nullptr; }));
     };
     make("my wood");
     ASSERT_TRUE(runUntil([&] { return all().size() == before + 1; }));
     Material expected = all()[wood];
-    expected.name = "my wood";
+    expected.name = "my wood", expected.colour = 8;
     EXPECT_EQ(all().back(), expected);
+    EXPECT_EQ(palette::material(all(), static_cast<int>(before)),
+              palette::material(std::vector<Material>{}, 7));
+    EXPECT_EQ(readScene(sceneJson(model.world().drawing().drawn()), "own").value.materials, all())
+        << "it is kept";
     slider("Frequency").setValue(205.0, juce::sendNotificationSync);
     EXPECT_EQ(model.world().scene().materials.back().frequencyHz, 205.0) << "it is the chosen one";
     make("my wood");

@@ -52,6 +52,18 @@ TEST(MixerOsc, IsSwitchedInTheOutputTab) {
     EXPECT_EQ(model.inputs().choice().use, OscUse::off);
 }
 
+TEST(MixerOsc, APhonesAddressIsShownAsTextAndAsACode) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    view.tabs().choose("Output");
+    dynamic_cast<juce::ComboBox&>(*find(view, "OSC")).setSelectedItemIndex(2, juce::sendNotificationSync);
+    ASSERT_NE(view.question(), nullptr) << model.trouble();
+    EXPECT_TRUE(view.question()->words().contains(":9")) << view.question()->words();
+    EXPECT_TRUE(view.question()->picture().isValid());
+    view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    EXPECT_TRUE(runUntil([&] { return view.question() == nullptr; }, 1.0));
+}
+
 TEST(MixerOsc, WhatStrikesIsFeltAndSaved) {
     MixerModel model{onlyNoDevice(), noDevice};
     ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), "");

@@ -242,6 +242,11 @@ TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
     hit.x = 0.5 * model.world().scene().fieldWidthMetres,
     hit.y = 0.5 * model.world().scene().fieldHeightMetres;
     EXPECT_NE(strongestOf(model, hit).enchanter, 2) << "nothing of it is felt";
+    hit.x *= 0.5; // between A and C
+    EXPECT_GT(strongestOf(model, hit).levelG, 0.0);
+    model.change("Mute", [](Mix& mix) { mix.strips[0].isMuted = true; });
+    EXPECT_EQ(strongestOf(model, hit).levelG, 0.0) << "who is muted plays nothing";
+    model.undoManager().undo();
     model.strikes().testPulse(2);
     EXPECT_FALSE(runUntil([&] { return model.look().meters.peaks[2] > 0.0f; }, 0.5));
     routed.expectAsShown("attached");

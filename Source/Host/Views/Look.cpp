@@ -296,34 +296,33 @@ void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int heig
     g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(tip));
 }
 
-// Within JUCE's bounds, which are those of bold text.
+// Within JUCE's bounds, which are those of bold text, in one size: drawFittedText would make it smaller.
 void Look::drawTooltip(juce::Graphics& g, const juce::String& tip, int width, int height) {
     const juce::Rectangle<int> area{width, height};
     g.fillAll(findColour(juce::TooltipWindow::backgroundColourId));
     g.setColour(findColour(juce::TooltipWindow::outlineColourId));
     g.drawRect(area);
-    g.setColour(findColour(juce::TooltipWindow::textColourId));
-    g.setFont(text::font(text::small));
-    g.drawFittedText(tip, area.reduced(5, 2), juce::Justification::centredLeft, 9, 1.0f);
+    juce::AttributedString words;
+    words.append(tip, text::font(text::small), findColour(juce::TooltipWindow::textColourId));
+    words.draw(g, area.toFloat().reduced(5.0f, 2.0f));
 }
 
 std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::Component&) {
     struct Ring final : juce::FocusOutline::OutlineWindowProperties {
         juce::Rectangle<int> getOutlineBounds(juce::Component& c) override {
+            of = &c;
             const auto ring = c.getScreenBounds().expanded(2);
             const auto* parent = c.getParentComponent(); // cuts what is outside it
             return parent ? ring.getIntersection(parent->getScreenBounds()) : ring;
         }
         void drawOutline(juce::Graphics& g, int width, int height) override {
-            g.setColour(colour);
+            if (of != nullptr) g.setColour(shade(*of, Shade::accent)); // of the present look
             g.drawRoundedRectangle(juce::Rectangle<int>{width, height}.toFloat().reduced(1.0f), corner + 1.0f,
                                    2.0f);
         }
-        juce::Colour colour;
+        juce::Component::SafePointer<juce::Component> of;
     };
-    auto ring = std::make_unique<Ring>();
-    ring->colour = findColour(idOf(Shade::accent));
-    return std::make_unique<juce::FocusOutline>(std::move(ring));
+    return std::make_unique<juce::FocusOutline>(std::make_unique<Ring>());
 }
 
 } // namespace physvib

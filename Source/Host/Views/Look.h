@@ -28,7 +28,9 @@ using Argb = juce::uint32;
 using picture::palette::materialCount;
 
 inline juce::Colour enchanter(int index) { return juceColour(picture::palette::enchanter(index)); }
-inline juce::Colour material(int index) { return juceColour(picture::palette::material(index)); }
+inline juce::Colour material(const auto& list, int index) {
+    return juceColour(picture::palette::materialOf(list, index));
+}
 inline juce::Colour ramp(int index) { return juceColour(picture::palette::ramp(index)); }
 
 } // namespace physvib::palette

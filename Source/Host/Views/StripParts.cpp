@@ -38,6 +38,23 @@ void Fader::resized() {
     setMouseDragSensitivity(std::max(1, length - margins)); // the handle follows the pointer
 }
 
+void drawScale(juce::Graphics& g, const Fader& fader) {
+    constexpr int figure = 20, least = 10; // pixels
+    const int x = fader.getBounds().getCentreX() + 4;
+    const bool hasFigures = x + 12 + figure <= fader.getParentWidth();
+    g.setFont(text::font(11.0f));
+    for (int last = -least; const int db : {6, 0, -6, -12, -24, -40}) {
+        if (db > fader.getMaximum()) continue;
+        const int y = fader.getY() + juce::roundToInt(fader.getPositionOfValue(db));
+        g.setColour(shade(fader, db == 0 ? Shade::text : Shade::muted));
+        g.fillRect(x, y, db == 0 ? 9 : 6, 1);
+        if (!hasFigures || y - last < least) continue;
+        last = y;
+        g.drawText((db > 0 ? "+" : "") + readable::words(db, 0), x + 12, y - 7, figure, 14,
+                   juce::Justification::centredLeft, false);
+    }
+}
+
 void PeakMeter::set(float peak, float hold) {
     const float height = meterHeight(peak), held = meterHeight(hold);
     if (std::abs(height - peak_) < 0.004f && std::abs(held - hold_) < 0.004f) return;
@@ -173,7 +190,7 @@ void StripParts::askDelay() {
 }
 
 void StripParts::place(juce::Rectangle<int> area, int left) {
-    auto row = area.removeFromBottom(22);
+    auto row = area.removeFromBottom(18);
     level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
     most_.setBounds(row);
     row = area.removeFromBottom(24);
@@ -205,6 +222,7 @@ void StripParts::paint(juce::Graphics& g, int enchanter, const juce::String& nam
     g.setColour(shade(*this, isQuiet ? Shade::muted : Shade::text));
     g.setFont(bold);
     g.drawText(name, row, juce::Justification::centred, true);
+    drawScale(g, fader_);
     g.setColour(shade(*this, Shade::muted));
     g.setFont(text::font(11.0f));
     const auto bar = meter_.getBounds().toFloat();

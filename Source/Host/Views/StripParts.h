@@ -52,6 +52,9 @@ public:
     void resized() override;
 };
 
+/// The fader's own marks right of its groove, in its parent, with figures where that has the room. M.
+void drawScale(juce::Graphics& g, const Fader& fader);
+
 /// Slider for the ceiling of a strip, the highest level of its actuator, in dB of full scale. It only reacts
 /// to dragging: a click, a double click or the wheel could raise the limit by accident while the actuator
 /// touches skin.
@@ -78,7 +81,7 @@ protected:
     /// Buttons, figures and, above them, meter and fader, from `left` on.
     void place(juce::Rectangle<int> area, int left);
     /// The fader's gain stands beside the name, unless it is 0 dB or the name needs the room; the meter's
-    /// scale is between meter and fader.
+    /// scale is right of the meter.
     void paint(juce::Graphics& g, int enchanter, const juce::String& name, bool isQuiet);
 
     PeakMeter meter_;

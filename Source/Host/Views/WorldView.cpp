@@ -132,7 +132,7 @@ juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
         if (scene_.materials[i].frequencyHz == event.frequencyHz &&
             scene_.materials[i].decayPerSecond == event.decayPerSecond)
-            return palette::material(static_cast<int>(i));
+            return palette::material(scene_.materials, static_cast<int>(i));
     return palette::other;
 }
 
@@ -333,7 +333,7 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) {
         for (const auto& fixture : body.fixtures) {
             const auto place = placeOf(fixture, pose, at);
             const auto colour =
-                palette::material(fixture.material)
+                palette::material(scene_.materials, fixture.material)
                     .withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f);
             if (areMany && drawSmall(g, fixture, colour, pose.angleRadians + fixture.angleRadians, place, at))
                 continue;
@@ -410,6 +410,8 @@ void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
 
 void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
     const auto amber = shade(*this, Shade::now);
+    const bool isLight = shade(*this, Shade::well).getPerceivedBrightness() > 0.5f; // where thin lines are
+                                                                                    // faint
     for (const auto& hit : hits_) {
         const float age = ageOf(hit.shownAtMs), level = levelOf(hit.event.amplitude),
                     fade = (1.0f - age) * std::sqrt(level);
@@ -422,8 +424,8 @@ void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
             continue;
         }
         glows_.draw(g, centre, radius, hit.colour.interpolatedWith(amber, 0.7f).withAlpha(0.85f * fade));
-        g.setColour(amber.withAlpha(0.8f * fade));
-        g.drawEllipse(ring, 1.4f);
+        g.setColour(amber.withAlpha(isLight ? std::sqrt(fade) : 0.8f * fade));
+        g.drawEllipse(ring, isLight ? 2.0f : 1.4f);
         g.setColour(juce::Colours::white.withAlpha(fade));
         g.fillEllipse(juce::Rectangle<float>{6.0f, 6.0f}.withCentre(centre));
     }

@@ -13,7 +13,7 @@ namespace physvib {
 namespace {
 
 constexpr int rowPixels = 28, headPixels = 20;
-constexpr int tallPixels = 300; // of the tab; in a lower tab, half a row shows that the list can scroll
+constexpr int tallPixels = 300; // of the tab
 constexpr double arrowRatio = 1.01;
 constexpr double usualHz = 165.0, usualDecay = 22.0; // of a material that begins as a silent one
 
@@ -86,8 +86,9 @@ MaterialsTab::MaterialsTab(MixerModel& model, WorldView& world)
     describe(feel_, "Feel the material at the spot",
              "Plays one hit of the material at the cross in the world; a click in the world plays it there");
     feel_.onClick = [this] { feelAt(spot_); };
-    new_ = quietButton("New" + dots(), "A material of one's own: a copy of the chosen one, with a name");
-    new_->onClick = [this] { copyChosen(); };
+    new_ = quietButton("New" + dots(),
+                       "A material of one's own: a copy of the chosen one, with a name and a colour");
+    new_->onClick = [this] { askName(true); };
     browse_ = quietButton(
         juce::String::fromUTF8("Recording\xe2\x80\xa6"),
         "Measure frequency and decay from a recording of one hit; it can be dropped here as well");
@@ -168,8 +169,8 @@ void MaterialsTab::showChosen() {
     ShownHit shown;
     const auto* recording = recordingOf(chosenIndex());
     if (sounds)
-        shown = {material->frequencyHz, material->decayPerSecond, palette::material(chosenIndex()),
-                 recording};
+        shown = {material->frequencyHz, material->decayPerSecond,
+                 palette::material(model_.world().scene().materials, chosenIndex()), recording};
     if (shown == shown_) return;
     shown_ = shown;
     const auto course = recording ? recording->course
@@ -177,6 +178,7 @@ void MaterialsTab::showChosen() {
                                   : HitCourse{};
     spectrum_.show(shown, course);
     course_.show(shown, course);
+    resized();
 }
 
 void MaterialsTab::setSound(bool isFrequency, bool continuesEdit) {
@@ -245,50 +247,45 @@ bool MaterialsTab::changeList(const juce::String& name,
     return true;
 }
 
-void MaterialsTab::copyChosen() {
+/// A copy of the chosen one is made, or that itself is named.
+void MaterialsTab::askName(bool isCopy) {
     const auto* material = chosen();
     if (material == nullptr) return;
+    static const juce::StringArray colours{"by its place", "red",  "amber", "light blue", "mauve",
+                                           "tan",          "blue", "brown", "olive"};
+    const auto name = utf8(material->name);
     askForValues(
-        *this, "A material of one's own", "Make it", {{"Name", "own " + utf8(material->name)}},
-        [this, index = chosenIndex()](const juce::StringArray& values) {
-            int last = 0;
-            const bool isMade = changeList("New material", [&](std::vector<Material>& all) {
-                Material own = all[static_cast<std::size_t>(index)];
-                own.name = values[0].toStdString();
-                if (own.frequencyHz <= 0.0) own.frequencyHz = usualHz, own.decayPerSecond = usualDecay;
-                last = static_cast<int>(all.size());
-                all.push_back(own);
-            });
-            if (isMade) choose(last);
+        *this, isCopy ? "A material of one's own" : "Name and colour", isCopy ? "Make it" : "Change",
+        {{"Name", isCopy ? "own " + name : name}, {"Colour", colours[material->colour], {}, colours}},
+        [this, isCopy, index = chosenIndex()](const juce::StringArray& values) {
+            int at = index;
+            const auto change = [&](std::vector<Material>& all) {
+                if (isCopy) {
+                    all.push_back(
+                        all[static_cast<std::size_t>(std::exchange(at, static_cast<int>(all.size())))]);
+                    if (all.back().frequencyHz <= 0.0)
+                        all.back().frequencyHz = usualHz, all.back().decayPerSecond = usualDecay;
+                }
+                Material& own = all[static_cast<std::size_t>(at)];
+                own.name = values[0].toStdString(), own.colour = colours.indexOf(values[1]);
+            };
+            if (changeList(isCopy ? "New material" : "Name and colour", change)) choose(at);
         },
-        "It begins as a copy of " + utf8(material->name) +
-            ": set its frequency, decay and surface, or measure a recording. The world begins anew.");
-}
-
-void MaterialsTab::renameChosen() {
-    const auto* material = chosen();
-    if (material == nullptr) return;
-    askForValues(
-        *this, "Rename the material", "Rename", {{"Name", utf8(material->name)}},
-        [this, index = chosenIndex()](const juce::StringArray& values) {
-            if (changeList("Rename", [&](std::vector<Material>& all) {
-                    all[static_cast<std::size_t>(index)].name = values[0].toStdString();
-                }))
-                choose(index);
-        },
-        "The world begins anew.");
+        isCopy ? "It begins as a copy of " + name +
+                     ": set its frequency, decay and surface, or measure a recording. The world begins anew."
+               : "The world begins anew.");
 }
 
 void MaterialsTab::showMenu() {
     const juce::Component::SafePointer<MaterialsTab> safe{this};
-    const auto item = [safe](void (MaterialsTab::*act)()) {
-        return [safe, act] {
-            if (safe != nullptr) (safe->*act)();
+    const auto item = [safe](bool isCopy) {
+        return [safe, isCopy] {
+            if (safe != nullptr) safe->askName(isCopy);
         };
     };
     juce::PopupMenu menu;
-    menu.addItem("Copy" + dots(), item(&MaterialsTab::copyChosen));
-    menu.addItem("Rename" + dots(), item(&MaterialsTab::renameChosen));
+    menu.addItem("Copy" + dots(), item(true));
+    menu.addItem("Name and colour" + dots(), item(false));
     menu.setLookAndFeel(&getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withMousePosition());
 }
@@ -306,6 +303,7 @@ void MaterialsTab::measureNext() {
         measuring_.reset(new Measuring{waiting_.front(), *this});
         waiting_.pop_front();
     }
+    resized();
     repaint();
 }
 
@@ -338,6 +336,7 @@ void MaterialsTab::finish(const Job& job, const Result<RecordedHit>& hit) {
 
 void MaterialsTab::setDropping(bool isDropping) {
     isDropping_ = isDropping;
+    resized();
     repaint();
 }
 
@@ -389,11 +388,14 @@ void MaterialsTab::resized() {
     new_->setBounds(headArea_.withLeft(headArea_.getRight() - 44));
     const bool isTall = area.getHeight() >= tallPixels;
     const int line = isTall ? rowHeight : rowHeight - 4, between = isTall ? 6 : 4;
-    const int controls = 3 * line + 4 * between, least = isTall ? 3 * rowPixels : 5 * rowPixels / 2,
-              plots = std::max(70, std::min(230, (area.getHeight() - controls) * 52 / 100));
-    const int rows = std::max(
-        least, std::min(static_cast<int>(order_.size()) * rowPixels, area.getHeight() - controls - plots));
-    list_.setBounds(area.removeFromTop(rows));
+    // in a low tab, a recording has its plots, and rows come first
+    const bool hasPlots = isTall || isDropping_ || isMeasuring() || recordingOf(chosenIndex()) != nullptr;
+    const int room = area.getHeight() - 3 * line - 4 * between, all = static_cast<int>(order_.size()),
+              plots = hasPlots ? std::max(70, std::min({230, room * 52 / 100, room - 5 * rowPixels})) : 0;
+    list_.setBounds(
+        area.removeFromTop(std::clamp((room - plots) / rowPixels, 3, std::max(3, all)) * rowPixels));
+    for (juce::Component* plot : std::initializer_list<juce::Component*>{&spectrum_, &course_})
+        plot->setVisible(hasPlots);
     area.removeFromTop(between);
     auto row = area.removeFromTop(line);
     const auto place = [&row](juce::Label& name, juce::Component& control, int nameWidth, int width) {
@@ -445,9 +447,9 @@ juce::String MaterialsTab::Rows::getNameForRow(int row) {
 
 void MaterialsTab::Rows::listBoxItemClicked(int, const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu()) return tab_.showMenu();
-    if (!tab_.feel_.isEnabled()) return;
-    if (MaterialColumns{e.eventComponent->getLocalBounds()}.sign.contains(e.getPosition()))
-        tab_.feelAt(tab_.spot_);
+    const MaterialColumns at{e.eventComponent->getLocalBounds()};
+    if (at.dot.contains(e.getPosition())) return tab_.askName(false);
+    if (tab_.feel_.isEnabled() && at.sign.contains(e.getPosition())) tab_.feelAt(tab_.spot_);
 }
 
 void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height,
@@ -461,7 +463,8 @@ void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width,
     }
     const MaterialColumns at{{width, height}};
     const bool sounds = m.frequencyHz > 0.0;
-    g.setColour(palette::material(index).withMultipliedAlpha(sounds ? 1.0f : 0.5f));
+    g.setColour(palette::material(tab_.model_.world().scene().materials, index)
+                    .withMultipliedAlpha(sounds ? 1.0f : 0.5f));
     g.fillEllipse(at.dot.withWidth(14).toFloat().withSizeKeepingCentre(12.0f, 12.0f));
     g.setFont(text::font(text::medium));
     g.setColour(shade(tab_, sounds ? Shade::text : Shade::muted));

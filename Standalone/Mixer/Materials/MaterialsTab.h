@@ -54,6 +54,7 @@ private:
         void returnKeyPressed(int) override { tab_.typeFrequency(); }
         void selectedRowsChanged(int) override { tab_.showChosen(); }
         juce::String getNameForRow(int row) override;
+        juce::String getTooltipForRow(int) override { return "Its dot: name and colour; right click: copy"; }
 
     private:
         MaterialsTab& tab_;
@@ -83,8 +84,7 @@ private:
     void browse();
     /// The world begins anew with another list of materials.
     bool changeList(const juce::String& name, const std::function<void(std::vector<Material>&)>& change);
-    void copyChosen();
-    void renameChosen();
+    void askName(bool isCopy);
     void showMenu();
     void measureNext();
     void handleAsyncUpdate() override;

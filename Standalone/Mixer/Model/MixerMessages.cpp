@@ -74,7 +74,7 @@ StrongestActuator strongestOf(const MixerModel& model, const CollisionEvent& hit
         const auto i = static_cast<std::size_t>(j);
         const double g =
             std::abs(hit.amplitude) * gains[i] * mix.layout.enchanters[i].fullScaleG * masterGain(mix);
-        if (g > strongest.levelG && model.device().isPlayed(i)) strongest = {j, g};
+        if (g > strongest.levelG && model.device().isPlayed(i) && !mix.isSilent(j)) strongest = {j, g};
     }
     return strongest;
 }

@@ -191,7 +191,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     const Columns at{{width, height}};
     const auto most = strongestOf(model, hit);
     const int material = materialOf(model.world().scene(), hit);
-    g.setColour(material < 0 ? palette::other : palette::material(material));
+    g.setColour(material < 0 ? palette::other : palette::material(model.world().scene().materials, material));
     g.fillEllipse(at.dot.toFloat().withSizeKeepingCentre(10.0f, 10.0f).translated(-4.0f, 0.0f));
     const auto cell = [&](const juce::String& words, juce::Rectangle<int> area, Shade which, bool isNumber) {
         g.setColour(shade(tab_, which));

@@ -160,11 +160,13 @@ void OutputTab::open() {
     mixChanged();
 }
 
-juce::String OutputTab::ownersOf(int output) const {
+juce::String OutputTab::ownersOf(int output, bool isMuteTold) const {
     const auto& mix = model_.mix();
     juce::String owners;
     for (std::size_t j = 0; j < mix.strips.size(); ++j)
-        if (mix.strips[j].output == output) owners << " " << utf8(mix.layout.enchanters[j].label);
+        if (mix.strips[j].output == output)
+            owners << " " << utf8(mix.layout.enchanters[j].label)
+                   << (isMuteTold && mix.isSilent(static_cast<int>(j)) ? " (muted)" : "");
     return owners;
 }
 
@@ -221,7 +223,7 @@ juce::String OutputTab::heardWords() const {
     if (model_.device().choice().isHeadphones)
         for (int ear = 0; ear < DeviceChoice::ears; ++ear)
             words << (ear == 0 ? "left:" : ", right:")
-                  << (ownersOf(ear).isEmpty() ? juce::String{" nobody"} : ownersOf(ear));
+                  << (ownersOf(ear).isEmpty() ? juce::String{" nobody"} : ownersOf(ear, true));
     else if (sent.contacts.size() == 2)
         words << "left on " << sent.contacts[0] + 1 << ", right on " << sent.contacts[1] + 1;
     else if (!model_.device().choice().monitor.empty())
@@ -315,7 +317,8 @@ void OutputTab::refresh(const MixerMoment& moment) {
          r.late > 0 ? Shade::now : Shade::text},
         {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
                                                 : juce::String{moment.device.deviceXruns}},
-        {"Opened again", juce::String{moment.device.losses} + " times"}};
+        {"Opened again",
+         juce::String{moment.device.losses} + (moment.device.losses == 1 ? " time" : " times")}};
     std::ranges::move(sinkFacts(), std::back_inserter(facts));
     facts.insert(facts.begin() +
                      (model_.inputs().status() ? 1 : static_cast<std::ptrdiff_t>(facts.size())), // in sight
@@ -391,13 +394,21 @@ void OutputTab::prepareOsc() {
 
 void OutputTab::listen() {
     OscChoice choice = model_.inputs().choice();
+    const auto before = choice.use;
     choice.use = static_cast<OscUse>(osc_.getSelectedItemIndex());
     if (const int hold = phone_.getSelectedItemIndex(); hold >= 0)
         choice.turnDegrees = phoneHolds[static_cast<std::size_t>(hold)].turnDegrees;
     useOsc(choice, "Messages by OSC: ");
-    if (const auto osc = model_.inputs().status(); osc && choice.use == OscUse::anyComputer)
-        model_.announce("A phone sends its messages to " + reachedAt(osc->address)); // the state may be out
-                                                                                     // of sight
+    const auto osc = model_.inputs().status();
+    auto* const host = findParentComponentOfClass<CardHost>();
+    if (!osc || choice.use == before || choice.use != OscUse::anyComputer || host == nullptr) return;
+    const auto address = reachedAt(osc->address), first = address.upToFirstOccurrenceOf(" ", false, false);
+    auto card = std::make_unique<QuestionCard>(
+        "A phone by OSC", "It sends its messages to " + address + ". The code is " + first + " as text.",
+        std::vector<QuestionCard::Answer>{
+            {"Close", [host] { host->setCard(nullptr); }, true, juce::KeyPress{juce::KeyPress::escapeKey}}});
+    card->setPicture(qrPicture(first.toStdString()));
+    host->setCard(std::move(card));
 }
 
 void OutputTab::sendHitsTo(const juce::String& receiver) {

@@ -39,7 +39,7 @@ private:
     void listHeard();
     void chooseMonitor();
     void chooseMarks();
-    juce::String ownersOf(int output) const;
+    juce::String ownersOf(int output, bool isMuteTold = false) const;
     juce::String heardWords() const;
 
     juce::ComboBox device_, rate_, block_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;

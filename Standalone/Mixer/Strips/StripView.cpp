@@ -133,13 +133,13 @@ void StripView::paintOverChildren(juce::Graphics& g) {
 }
 
 void StripView::resized() {
-    group_->setBounds(getLocalBounds().withTrimmedTop(27).removeFromTop(20));
+    group_->setBounds(getLocalBounds().withTrimmedTop(24).removeFromTop(17));
     auto area = getLocalBounds().withTrimmedTop(MasterStrip::metersTop);
-    auto row = area.removeFromBottom(22).reduced(2, 0);
+    auto row = area.removeFromBottom(20).reduced(2, 0);
     test_->setBounds(row.removeFromLeft(row.getWidth() * 6 / 10));
     sweep_.setBounds(row);
-    output_.setBounds(area.removeFromBottom(26).reduced(2, 1));
-    place(area, (getWidth() - width) / 2);
+    output_.setBounds(area.removeFromBottom(24).reduced(2, 1));
+    place(area, std::max(0, (getWidth() - easyWidth) / 2));
 }
 
 } // namespace physvib

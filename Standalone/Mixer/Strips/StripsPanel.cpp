@@ -106,7 +106,7 @@ void StripsPanel::showOutputs(int enchanter) {
 }
 
 void StripsPanel::resized() {
-    auto area = getLocalBounds().reduced(panelInset, 10);
+    auto area = getLocalBounds().reduced(panelInset, 6);
     master_.setBounds(area.removeFromRight(MasterStrip::width));
     area.removeFromRight(8);
     viewport_.setBounds(area);
@@ -199,6 +199,7 @@ void GroupView::paint(juce::Graphics& g) {
     auto area = getLocalBounds();
     g.setColour(shade(*this, Shade::raised));
     g.fillRoundedRectangle(area.toFloat(), 6.0f);
+    drawScale(g, fader_);
     auto bar = area.removeFromTop(4).toFloat();
     std::vector<int> members;
     for (int j = 0; j < model_.mix().count(); ++j)
@@ -215,17 +216,17 @@ void GroupView::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::muted));
     g.setFont(text::font(text::small));
     g.drawText(members.empty() ? juce::String{"no strip yet"} : labels.joinIntoString(" "),
-               getLocalBounds().withTrimmedTop(28).removeFromTop(18).reduced(4, 0),
+               getLocalBounds().withTrimmedTop(24).removeFromTop(17).reduced(4, 0),
                juce::Justification::centred, true);
 }
 
 void GroupView::resized() {
     auto area = getLocalBounds();
-    name_.setBounds(area.withTrimmedTop(8).removeFromTop(20).reduced(3, 0));
-    area.removeFromTop(56);
-    remove_->setBounds(area.removeFromBottom(22).reduced(2, 0));
-    area.removeFromBottom(26);
-    level_.setBounds(area.removeFromBottom(22));
+    name_.setBounds(area.withTrimmedTop(4).removeFromTop(20).reduced(3, 0));
+    area.removeFromTop(MasterStrip::metersTop);
+    remove_->setBounds(area.removeFromBottom(20).reduced(2, 0));
+    area.removeFromBottom(24);
+    level_.setBounds(area.removeFromBottom(18));
     mute_.setBounds(area.removeFromBottom(24).withSizeKeepingCentre(28, 24));
     area.removeFromBottom(8);
     fader_.setBounds(area.withSizeKeepingCentre(32, area.getHeight()).expanded(0, 8));

@@ -360,7 +360,7 @@ void StudiesTab::offerLayout() {
         "This study is felt on " + utf8(counted(wanted, "actuator")), true, {}, "study-layout"};
     if (model_.device().choice().isHeadphones && wanted > ears && other != knownProtocols().end()) {
         offer.words += ", and headphones are two";
-        offer.act = {"Take " + titleOf(other->name).toLowerCase(),
+        offer.act = {"Choose " + titleOf(other->name) + " instead",
                      [this, name = other->name] { chooseProtocol(name), offerLayout(); }};
     } else if (wanted > model_.mix().strips.size())
         offer.act = {"Use " + utf8(name), [this, own = layout] {

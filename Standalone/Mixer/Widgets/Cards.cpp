@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Finds the window's host of cards, and closes a card before its answer is used.
 #include "Mixer/Widgets/Cards.h"
+#include "Io/Text/QrCode.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -64,6 +65,22 @@ void askForValues(juce::Component& from, const juce::String& title, const juce::
     auto made = std::make_unique<QuestionCard>(title, words, std::move(answers), fields);
     *card = made.get();
     host->setCard(std::move(made));
+}
+
+juce::Image qrPicture(const std::string& link) {
+    constexpr int most = 370; // the longest has 177 modules
+    QrCode code{link};
+    if (code.side() == 0) return {};
+    const int side = code.side() + 2 * QrCode::quietModules, each = std::min(6, most / side);
+    juce::Image picture{juce::Image::RGB, side * each, side * each, false};
+    juce::Graphics g{picture};
+    g.fillAll(juce::Colours::white);
+    g.setColour(juce::Colours::black);
+    for (int y = 0; y < code.side(); ++y)
+        for (int x = 0; x < code.side(); ++x)
+            if (code.isDark(x, y))
+                g.fillRect((x + QrCode::quietModules) * each, (y + QrCode::quietModules) * each, each, each);
+    return picture;
 }
 
 Card::Card(int width)

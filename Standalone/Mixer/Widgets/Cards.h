@@ -188,6 +188,9 @@ public:
     virtual void setScreen(juce::Component* screen) = 0;
 };
 
+/// A link as a QR code, dark on white in any look, of at most 370 pixels; null if it is too long. Any thread.
+juce::Image qrPicture(const std::string& link);
+
 /// All for the message thread. `use` and `cancelled` are called later, after the card has gone, and not if
 /// `from` has gone as well. Without a host above `from` nothing happens.
 /// Asks for one file or folder.

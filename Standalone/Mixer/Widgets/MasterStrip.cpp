@@ -61,13 +61,14 @@ void MasterStrip::paintFlat(juce::Graphics& g) const {
 
 void MasterStrip::paint(juce::Graphics& g) {
     if (isFlat_) return paintFlat(g);
+    drawScale(g, fader_);
     g.setColour(shade(*this, Shade::text));
     g.setFont(text::font(text::medium, juce::Font::bold));
-    g.drawText("Master", getLocalBounds().withTrimmedTop(8).removeFromTop(20), juce::Justification::centred,
+    g.drawText("Master", getLocalBounds().withTrimmedTop(4).removeFromTop(20), juce::Justification::centred,
                false);
     g.setFont(text::font(text::small));
     g.setColour(shade(*this, Shade::muted));
-    g.drawText(number(model_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(28).removeFromTop(18),
+    g.drawText(number(model_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(24).removeFromTop(16),
                juce::Justification::centred, false);
     g.setColour(shade(*this, limiter_.isHolding() ? Shade::limit : Shade::muted));
     g.drawText(limiterWords(), limiterText_, juce::Justification::centred, false);
@@ -81,14 +82,13 @@ void MasterStrip::paint(juce::Graphics& g) {
 void MasterStrip::resized() {
     if (isFlat_) return fader_.setBounds(getLocalBounds().withTrimmedLeft(flatWords));
     auto area = getLocalBounds().withTrimmedTop(metersTop);
-    ceiling_ = area.removeFromBottom(22);
-    ceilingName_ = area.removeFromBottom(22);
-    area.removeFromBottom(4);
+    ceiling_ = area.removeFromBottom(20);
+    ceilingName_ = area.removeFromBottom(20);
     limiterText_ = area.removeFromBottom(22);
     area.removeFromBottom(32);
     meter_.setBounds(area.withX(10).withWidth(14));
     limiter_.setBounds(area.withX(31).withWidth(8));
-    fader_.setBounds(area.withX(46).withWidth(40).expanded(0, 8));
+    fader_.setBounds(area.withX(34).withWidth(40).expanded(0, 8));
 }
 
 } // namespace physvib

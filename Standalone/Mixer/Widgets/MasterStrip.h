@@ -15,7 +15,7 @@ double maxG(const MixerModel& model, std::size_t strip);
 class MasterStrip final : public juce::Component {
 public:
     static constexpr int width = 90, flatWords = 112;
-    static constexpr int metersTop = 56; ///< of a strip, too
+    static constexpr int metersTop = 48; ///< of a strip, too
 
     /// `isFlat`: in one row without a meter, for where there are no strips.
     explicit MasterStrip(MixerModel& model, bool isFlat = false);

@@ -99,12 +99,16 @@ void TwoLines::set(const juce::String& first, const juce::String& second, Shade 
 
 void TwoLines::paint(juce::Graphics& g) {
     auto area = getLocalBounds();
+    const auto font = text::font(text::small);
     const auto line = [&](const juce::String& words, juce::Rectangle<int> row, Shade which) {
         g.setColour(shade(*this, which));
-        g.setFont(text::font(text::small));
+        g.setFont(font);
         g.drawText(words, row, juce::Justification::centredLeft, true);
     };
-    line(first_, area.removeFromTop(getHeight() / 2), shade_);
+    const bool isLow = 0.5f * static_cast<float>(getHeight()) < font.getHeight();
+    line(first_,
+         isLow ? area.removeFromLeft(text::pixels(font, first_) + gap) : area.removeFromTop(getHeight() / 2),
+         shade_);
     line(second_, area, Shade::muted);
 }
 
@@ -115,7 +119,7 @@ void drawPanel(juce::Graphics& g, const juce::Component& component) {
 
 void drawCard(juce::Graphics& g, const juce::Component& component) {
     const auto area = component.getLocalBounds().toFloat();
-    g.setColour(shade(component, Shade::raised));
+    g.setColour(shade(component, Shade::panel)); // on which what is pressed stands out
     g.fillRoundedRectangle(area, 12.0f);
     g.setColour(shade(component, Shade::accent));
     g.drawRoundedRectangle(area.reduced(0.75f), 12.0f, 1.5f);

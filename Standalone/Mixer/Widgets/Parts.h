@@ -25,7 +25,7 @@ private:
     Sign sign_;
 };
 
-/// A line of text with a less prominent one below.
+/// A line of text with a less prominent one below, or beside it where it is low.
 class TwoLines final : public ReadOut, public juce::SettableTooltipClient {
 public:
     explicit TwoLines(const juce::String& title) { setTitle(title); }

@@ -355,16 +355,59 @@ void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> act)
     menu.addItem(made.setAction(std::move(act)));
 }
 
-constexpr const char* shortcuts =
-    "Esc: silence. Space: pause. Full stop: one step.\n"
-    "F2: play or engineer. F3: strips and what is below. F4: the drawer. F10: menu. F11: full screen.\n"
-    "Arrow keys: tilt. Shift and a drag: hold. A: the other of A and B.\n"
-    "H hand, S select, B ball, X box, P polygon, L line, W wall, N rain, I pin, R rope, K spring, D slider, "
-    "M motor, E eraser, G grid, Return: one in the middle.\n"
-    "Selected: arrow keys move, [ and ] turn, + and - size, Delete, Ctrl+C, V, D, A.\n"
-    "Ctrl+Z, Ctrl+Shift+Z: undo, redo. Ctrl+R: record. Ctrl+Shift+R: record hands. Ctrl+E: render.\n"
-    "Ctrl+N, O, S, Shift+S: new, open, save, save as. Ctrl++, Ctrl+-, Ctrl+0: zoom. Ctrl+Q: quit.\n"
-    "In a strip: T test pulse, Shift+T sweep, G group. Tab: the next control.";
+constexpr const char* keys =
+    "Esc\tsilence\nEsc, a card or menu open\tcloses it, silences what sounds or did 1.5 s before\n"
+    "Space\tpause\n.\tone step of a paused world\nF2\tplay or engineer\nF3\tstrips, and what is below\n"
+    "F4\tthe drawer\nF10, Ctrl+Q\tmenu, quit\nF11\tfull screen\nArrow keys\ttilt\nShift + drag\tholds a "
+    "body\n"
+    "A\tthe other of A and B\nCtrl+Z, Ctrl+Shift+Z\tundo, redo\nCtrl+R, Ctrl+Shift+R\trecord; record hands\n"
+    "Ctrl+E\trender\nCtrl+N, O, S, Shift+S\tnew, open, save, save as\nCtrl++, Ctrl+-, Ctrl+0\tzoom\n"
+    "T, Shift+T, G in a strip\ttest pulse, sweep, group\nTab\tthe next control\n"
+    "Arrows, [ ], + -\tmove, turn, size what is selected\n"
+    "Delete, Ctrl+C, V, D, A\tdelete, copy, paste, double, all\nG, Return\tgrid; one in the middle";
+
+/// A key and what it does in each row, in two halves side by side.
+class KeysCard final : public Card {
+public:
+    explicit KeysCard(std::function<void()> close)
+        : Card{940} {
+        rows_.addLines(keys);
+        for (const auto& tool : drawTools)
+            rows_.add(juce::String::charToString(static_cast<juce::juce_wchar>(tool.key)).toUpperCase() +
+                      "\t" + tool.name);
+        say("Keys", {});
+        close_.onClick = std::move(close);
+        setAnswers({&close_});
+        fit();
+    }
+    bool keyPressed(const juce::KeyPress& key) override {
+        if (key != juce::KeyPress::escapeKey && key != juce::KeyPress::returnKey) return false;
+        return close_.onClick(), true;
+    }
+    void paint(juce::Graphics& g) override {
+        Card::paint(g);
+        g.setColour(shade(*this, Shade::text));
+        for (int k = 0; k < rows_.size(); ++k) {
+            auto row = content_.translated(k / half() * 480, k % half() * line).withHeight(line);
+            g.setFont(text::font(text::small, juce::Font::bold));
+            g.drawText(rows_[k].upToFirstOccurrenceOf("\t", false, false), row.removeFromLeft(180),
+                       juce::Justification::centredLeft);
+            g.setFont(text::font(text::small));
+            g.drawText(rows_[k].fromFirstOccurrenceOf("\t", false, false), row,
+                       juce::Justification::centredLeft);
+        }
+    }
+
+private:
+    static constexpr int line = 20;
+    int half() const { return (rows_.size() + 1) / 2; }
+    int contentHigh() const override { return half() * line; }
+    void place(juce::Rectangle<int> content) override { content_ = content; }
+
+    juce::StringArray rows_;
+    juce::Rectangle<int> content_;
+    juce::TextButton close_{"Close"};
+};
 
 } // namespace
 
@@ -376,10 +419,8 @@ void MixerWindow::showMenu(juce::Component& from) {
             "controls.");
     });
     add(help, {"Keys" + dots()}, [this] {
-        const juce::KeyPress escape{juce::KeyPress::escapeKey};
-        view_->setQuestion(std::make_unique<QuestionCard>(
-            "Keys", shortcuts,
-            std::vector<QuestionCard::Answer>{{"Close", [this] { view_->setCard(nullptr); }, true, escape}}));
+        view_->setCard(std::make_unique<KeysCard>(
+            [this] { later(*this, [](MixerWindow& window) { window.view_->setCard(nullptr); }); }));
     });
     menu.addSubMenu("File", fileMenu());
     menu.addSubMenu("Edit", editMenu());
@@ -881,8 +922,7 @@ void MixerWindow::recordScript() {
 
 void MixerWindow::newScene(SceneGround ground) {
     model_->change("New scene", [&](Mix& mix) {
-        mix.scene =
-            std::make_shared<const Scene>(physvib::newScene(model_->world().drawing().drawn(), ground));
+        mix.scene = std::make_shared<const Scene>(physvib::newScene(*MixerModel::firstMix().scene, ground));
     });
     view_->world().drawing().use(DrawTool::ball);
 }

@@ -43,7 +43,7 @@ public:
     void saveScene(bool isNow); ///< asks for a file; bodies as drawn, or at their current places
     std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or an error
     void recordScript();               ///< records user input in the world: starts or ends
-    void newScene(SceneGround ground); ///< keeps field and materials of the current scene
+    void newScene(SceneGround ground); ///< with the field and the materials of the first start
     /// Size of everything in the window; 0: by the display's size. A percentage that leaves no room for the
     /// window is lowered.
     void setZoom(int percent);

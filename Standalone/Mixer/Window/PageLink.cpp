@@ -2,7 +2,6 @@
 // Writes a link as the page's link.js does.
 #include "Mixer/Window/PageLink.h"
 #include "Io/Text/NumberText.h"
-#include "Io/Text/QrCode.h"
 #include "Scene/SceneFile.h"
 #include <cmath>
 #include <juce_core/juce_core.h>
@@ -109,22 +108,6 @@ Result<std::string> PageServer::begin() {
     if (address.startsWith("https://")) return (address + "/").toStdString();
     return Failure{"The page is not served: " +
                    (words.isEmpty() ? std::string{"expected python3"} : words.toStdString())};
-}
-
-juce::Image qrPicture(const std::string& link) {
-    constexpr int most = 370; // the longest has 177 modules
-    QrCode code{link};
-    if (code.side() == 0) return {};
-    const int side = code.side() + 2 * QrCode::quietModules, each = std::min(6, most / side);
-    juce::Image picture{juce::Image::RGB, side * each, side * each, false};
-    juce::Graphics g{picture};
-    g.fillAll(juce::Colours::white);
-    g.setColour(juce::Colours::black);
-    for (int y = 0; y < code.side(); ++y)
-        for (int x = 0; x < code.side(); ++x)
-            if (code.isDark(x, y))
-                g.fillRect((x + QrCode::quietModules) * each, (y + QrCode::quietModules) * each, each, each);
-    return picture;
 }
 
 } // namespace physvib

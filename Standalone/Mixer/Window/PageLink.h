@@ -4,7 +4,6 @@
 #include "Io/Result.h"
 #include "Live/Documents/Mix.h"
 #include <juce_events/juce_events.h>
-#include <juce_graphics/juce_graphics.h>
 
 namespace physvib {
 
@@ -17,9 +16,6 @@ bool isLoopback(const juce::String& address);
 
 /// In the system's browser, to the letter. Message thread.
 void openLink(juce::String link);
-
-/// A link as a QR code, dark on white in any look, of at most 370 pixels; null if it is too long. Any thread.
-juce::Image qrPicture(const std::string& link);
 
 /// Serves the page by https to this network, by Standalone/Web/serve.py, until it goes.
 class PageServer {

@@ -31,7 +31,8 @@ juce::String dotted(const juce::StringArray& parts) {
 } // namespace
 
 TopBar::TopBar(MixerModel& model)
-    : model_{model} {
+    : model_{model}
+    , hasBoard_{!model.session().sinks().states().empty()} {
     setTitle("Transport and device");
     describe(menu_, "Menu", "Open, save, record, render (F10)");
     menu_.setMouseClickGrabsKeyboardFocus(false); // after its menu the keys are again of who had them
@@ -81,7 +82,10 @@ TopBar::TopBar(MixerModel& model)
     };
     silence_.getProperties().set(stopProperty, true);
     silence_.setMouseClickGrabsKeyboardFocus(false); // an open card keeps it
-    describe(silence_, "Silence", "Silence every actuator at once (Esc); a press lifts the silence");
+    describe(silence_, "Silence",
+             "Silence every actuator at once; a press lifts the silence. Esc silences too; an open card or "
+             "menu it "
+             "closes, and then silences only what sounds, or did 1.5 s before");
     silence_.onClick = [this] { model_.setSilent(!model_.isSilent()); };
     addAll(*this, {&menu_, &save_, &undo_, &redo_, &scene_, &pause_, &step_, &slow_, &restart_, &seed_,
                    &time_, &record_, &mode_, &device_, &board_, &load_, &silence_});
@@ -164,7 +168,8 @@ void TopBar::refresh(const MixerMoment& moment) {
         number(output.sampleRateHz() / 1000.0, output.sampleRateHz() % 1000 == 0 ? 0 : 1) + " kHz";
     const auto felt = "felt " + number(1e3 * model_.device().outputLatencySeconds(), 0) + " ms ",
                whole = felt + "after the contact";
-    const bool isWhole = text::pixels(text::font(text::small), whole) <= device_.getWidth();
+    const int beside = getHeight() > lineHeight ? 170 : 0; // for the name, in its line
+    const bool isWhole = text::pixels(text::font(text::small), whole) <= device_.getWidth() - beside;
     if (!moment.device.isRunning)
         device_.set("No sound", model_.device().trouble(), Shade::limit);
     else
@@ -177,7 +182,7 @@ void TopBar::refresh(const MixerMoment& moment) {
                                       : felt + "later",
                     isNone ? Shade::now : Shade::text);
     device_.setTooltip(name);
-    const bool hadLoad = isToldOfLoad_, hadBoard = hasBoard_;
+    const bool hadLoad = isToldOfLoad_;
     const auto& r = moment.session.render;
     const auto lost = model_.session().world().drops() + r.untold;
     load_.set("Load " + number(100.0 * moment.device.load, 1) + " %",
@@ -195,8 +200,7 @@ void TopBar::refresh(const MixerMoment& moment) {
         sinks.empty() ? Shade::muted
         : areReady    ? Shade::accent
                       : Shade::limit);
-    hasBoard_ = !sinks.empty();
-    if (hadLoad != isToldOfLoad_ || hadBoard != hasBoard_) showControls();
+    if (hadLoad != isToldOfLoad_) resized();
 }
 
 void TopBar::setShow(bool isShow) {
@@ -213,14 +217,10 @@ void TopBar::setPlay(bool isPlay) {
     showControls();
 }
 
-// To play, a load and a board are seen when they have something to say.
 void TopBar::showControls() {
     for (auto* child : getChildren()) child->setVisible(!isShow_ || child == &silence_);
-    if (isShow_ || !isPlay_) return resized();
     for (juce::Component* c : std::initializer_list<juce::Component*>{&step_, &slow_, &seed_, &time_})
-        c->setVisible(false);
-    load_.setVisible(isToldOfLoad_);
-    board_.setVisible(hasBoard_);
+        c->setVisible(!isShow_ && !isPlay_);
     resized();
 }
 
@@ -231,7 +231,7 @@ void TopBar::paint(juce::Graphics& g) {
 void TopBar::resized() {
     auto area = getLocalBounds().reduced(gap, 9);
     const bool isOneLine = getHeight() <= lineHeight;
-    auto states = isOneLine ? juce::Rectangle<int>{} : area.removeFromBottom(secondLine);
+    const auto states = area.removeFromBottom(isOneLine ? 0 : secondLine).translated(0, 5);
     area.setHeight(lineHeight - 18);
     constexpr int button = 36, between = 8, tight = 2;
     silence_.setBounds(area.removeFromRight(166));
@@ -258,12 +258,17 @@ void TopBar::resized() {
                                                                                         // all
         area.removeFromLeft(after);
     }
-    placeStates(isOneLine ? area : states);
+    if (!isShow_) placeStates(isOneLine ? area : states);
 }
 
+// To play, and where there is little room, a load and a board are seen when they have something to say.
 void TopBar::placeStates(juce::Rectangle<int> area) {
-    if (load_.isVisible()) load_.setBounds(area.removeFromRight(112));
-    if (board_.isVisible()) board_.setBounds(area.removeFromRight(108));
+    const bool isSecond = getHeight() > lineHeight,
+               hasRoom = !isPlay_ && (isSecond || getWidth() >= minFacts);
+    load_.setVisible(hasRoom || isToldOfLoad_);
+    board_.setVisible(hasRoom || hasBoard_);
+    if (load_.isVisible()) load_.setBounds(area.removeFromRight(isSecond ? 200 : 112));
+    if (board_.isVisible()) board_.setBounds(area.removeFromRight(isSecond ? 200 : 108));
     device_.setBounds(area.withTrimmedRight(8));
 }
 

@@ -27,24 +27,26 @@ public:
     std::function<void()> onMode; ///< the other mode is wanted
 
     static constexpr int lineHeight = 52, showWidth = WorldPanel::silenceWidth;
-    /// One line, or two in a narrow window.
+    /// One line, or two in a narrow window, or where a board has something to say there.
     int heightFor(int width) const {
-        return isPlay_ || width >= minOneLine ? lineHeight : lineHeight + secondLine;
+        return isPlay_ || width >= (hasBoard_ ? minFacts : minOneLine) ? lineHeight : lineHeight + secondLine;
     }
 
     void paint(juce::Graphics& g) override;
     void resized() override;
 
 private:
-    static constexpr int minOneLine = 1400, secondLine = 34; // the states need their room in one line, too
+    static constexpr int minOneLine = 1260, minFacts = 1400, secondLine = 24; // with load and board in it,
+                                                                              // too
     void placeStates(juce::Rectangle<int> area);
     void showControls();
-    bool isShow_ = false, isPlay_ = false, isToldOfLoad_ = false, hasBoard_ = false;
+    bool isShow_ = false, isPlay_ = false, isToldOfLoad_ = false;
     void chooseScene();
     void listScenes();
     juce::Array<juce::File> own_;
 
     MixerModel& model_;
+    const bool hasBoard_;
     int looks_ = 0;
     bool isRecording_ = false;
     std::int64_t recordedFromNs_ = -1; // not seen yet

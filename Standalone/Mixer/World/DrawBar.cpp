@@ -300,8 +300,8 @@ void BodyPanel::show() {
     if (std::exchange(shown_, scene.materials) != scene.materials) {
         materials_.clear();
         for (int i = 0; i < static_cast<int>(shown_.size()); ++i) {
-            auto& swatch = *materials_.emplace_back(
-                std::make_unique<MaterialSwatch>(shown_[static_cast<std::size_t>(i)], palette::material(i)));
+            auto& swatch = *materials_.emplace_back(std::make_unique<MaterialSwatch>(
+                shown_[static_cast<std::size_t>(i)], palette::material(shown_, i)));
             describe(swatch, "Made of " + swatch.getName(),
                      swatch.getName() + ": what is chosen is made of it");
             swatch.setShow(MaterialSwatch::Show::picture);
@@ -400,7 +400,7 @@ void MaterialPalette::show() {
         swatches_.clear();
         for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
             auto& swatch = *swatches_.emplace_back(std::make_unique<MaterialSwatch>(
-                materials[static_cast<std::size_t>(i)], palette::material(i)));
+                materials[static_cast<std::size_t>(i)], palette::material(materials, i)));
             swatch.onClick = [this, i] {
                 pane_.setMaterial(i);
                 hintOnMaterial(model_, i);

@@ -18,7 +18,7 @@ constexpr double handMs = 10.0;      // between inputs of a hand that holds; mic
 constexpr double handSeconds = 0.02; // for each way: the next input comes before it has ended, and the hand
                                      // does not stop between
 // pixels of the panel; else there is no room for what the tab says as well, and for a knob beside the master
-constexpr int lawNeeds = 700, masterNeeds = 260, knobNeeds = 820;
+constexpr int lawNeeds = 700, masterNeeds = 260, knobNeeds = 820, foot = 42; // the row of words
 const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
 const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
 
@@ -157,7 +157,7 @@ void WorldPanel::placeInspector(bool isEdited) {
     const auto room = getLocalBounds()
                           .withTrimmedLeft(bar_.getRight())
                           .withTrimmedTop(40)
-                          .withTrimmedBottom(48)
+                          .withTrimmedBottom(foot)
                           .reduced(8, 0);
     std::vector<juce::Rectangle<int>> inTheWay{pane_.chosenArea().toNearestInt() + pane_.getPosition()};
     for (const auto& badge : view_.badges()) inTheWay.push_back(badge.toNearestInt() + view_.getPosition());
@@ -317,12 +317,14 @@ juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = model_.world().scene();
     const auto name = materialName(scene, hit), place = placeText(scene, hit);
     if (isClip(hit.sound)) return inLines({name, place});
-    if (isPlay_)
-        return inLines({name, (model_.isOnlySeen() ? juce::String{"seen"}
-                                                   : strengthWords(strongestOf(model_, hit).levelG)) +
-                                  " " + place});
-    const auto hz = number(hit.frequencyHz, 0) + " Hz",
-               felt = number(strongestOf(model_, hit).levelG, 2) + " g " + place;
+    const double g = strongestOf(model_, hit).levelG; // none: who would play it is muted, or has no output
+    const bool isSeen = g < 0.005 || (isPlay_ && model_.isOnlySeen());
+    const auto felt = (isSeen    ? juce::String{"seen"}
+                       : isPlay_ ? strengthWords(g)
+                                 : number(g, 2) + " g") +
+                      " " + place;
+    if (isPlay_) return inLines({name, felt});
+    const auto hz = number(hit.frequencyHz, 0) + " Hz";
     const auto tau = juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s";
     for (const auto& parts : {juce::StringArray{name, hz, tau, felt}, {name, hz, felt}})
         if (const auto words = inLines(parts); words.isNotEmpty()) return words;
@@ -349,9 +351,10 @@ juce::String WorldPanel::whyMuted() const {
 }
 
 /// Empty: something is felt, or may be at once.
-juce::String WorldPanel::whyNothing(double nowMs) const {
+juce::String WorldPanel::whyNothing(double nowMs, bool isRunning) const {
     constexpr double quietMs = 4000.0;
     if (const auto why = whyMuted(); why.isNotEmpty()) return why;
+    if (!isRunning) return "no device plays";
     if (model_.session().world().slowness() == 0) return "paused";
     const auto isFixed = [](const BodyDescription& body) { return body.type == BodyType::staticBody; };
     const Scene& drawn = model_.world().drawing().drawn();
@@ -373,7 +376,8 @@ void WorldPanel::refresh(const MixerMoment& moment) {
     for (const auto& hit : moment.hits)
         if (now - hitAtMs_ > shownMs || std::abs(hit.amplitude) > std::abs(shownHit_.amplitude))
             shownHit_ = hit, hitAtMs_ = now, isOther = true;
-    if (const auto why = whyNothing(now); why != std::exchange(why_, why) || isOther) showSentence();
+    if (const auto why = whyNothing(now, moment.device.isRunning); why != std::exchange(why_, why) || isOther)
+        showSentence();
     if (hasMaster_) master_.refresh(moment);
     lookAfterPlayer();
     moveHand();
@@ -392,8 +396,7 @@ void WorldPanel::edit(const juce::String& name, const Action& action) {
 void WorldPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
 
 void WorldPanel::resized() {
-    auto area = getLocalBounds().reduced(panelInset, 10);
-    auto row = area.removeFromBottom(38);
+    auto row = getLocalBounds().reduced(panelInset, 0).removeFromBottom(foot).withTrimmedBottom(5);
     const bool isEngineer = !isShow_ && !isPlay_;
     law_.setVisible(isEngineer && getWidth() >= lawNeeds + (hasMaster_ ? masterNeeds : 0));
     compare_.setVisible(isEngineer);
@@ -414,14 +417,14 @@ void WorldPanel::resized() {
     tilt_.setBounds(row.removeFromRight(38));
     sentence_.setBounds(row);
     showSentence();
-    auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(48);
+    auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(foot);
     const int tools = isShow_ ? 0 : DrawBar::widthFor(top.getHeight());
     bar_.setBounds(top.removeFromLeft(tools));
     view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
     constexpr int silenceHigh = 40;               // the button lies over the corner of a show
     view_.setRoom(isShow_ ? juce::BorderSize<int>{silenceHigh, 0, 0, 0}
-                          : juce::BorderSize<int>{20, tools - 12, 34, 0});
-    pane_.setBounds(view_.getBounds().withTrimmedBottom(isShow_ ? 0 : 44)); // not over the row of words
+                          : juce::BorderSize<int>{20, tools - 12, foot - 14, 0});
+    pane_.setBounds(view_.getBounds().withTrimmedBottom(isShow_ ? 0 : foot - 4)); // not over the row of words
     top.removeFromLeft(8);
     script_.setBounds(top.withHeight(script_.getHeight()));
     palette_.setBounds(top.removeFromTop(26));

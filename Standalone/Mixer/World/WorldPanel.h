@@ -94,7 +94,7 @@ private:
     juce::String sentenceOn(const CollisionEvent& hit) const;
     juce::String inLines(const juce::StringArray& parts) const;
     juce::String whyMuted() const;
-    juce::String whyNothing(double nowMs) const;
+    juce::String whyNothing(double nowMs, bool isRunning) const;
     void showSentence();
 
     MixerModel& model_;

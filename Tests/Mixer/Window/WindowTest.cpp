@@ -298,7 +298,15 @@ TEST(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     auto& pane = window.view().world().drawing();
     auto& model = window.model();
     model.setSlowness(0);
+    model.change("Materials", [](Mix& mix) {
+        Scene scene = *mix.scene;
+        scene.materials.resize(2);
+        scene.bodies.clear();
+        mix.scene = std::make_shared<const Scene>(scene);
+    });
     window.newScene(SceneGround::floor);
+    EXPECT_EQ(model.mix().scene->materials, MixerModel::firstMix().scene->materials)
+        << "not of the scene before";
     runFor(0.5);
     const auto at = [&](double x, double y) { return hand.placeOf(view, view.placeOfShare({x, y})); };
     const auto draw = [&](DrawTool tool, juce::Point<float> from, juce::Point<float> to) {
