@@ -53,6 +53,7 @@ step() {
         projucer) Tests/House/projucer.sh ;;
         tidy) Tests/House/tidy.sh ;;
         abi) Tests/Release/abi.sh ;;
+        meson) ensure_packages meson && Tests/Package/meson.sh "$(mktemp -d)/felt" ;;
         sweep) Tests/Sweep/sweeps.sh $bin ;;
         godot) Tests/godot.sh build/release build/nightly/godot && Tests/godot-sanitized.sh build/nightly/godot && Tests/godot-cross.sh build/nightly/godot-arm64 ;;
         web) Tests/web.sh $bin/physvib ;;
