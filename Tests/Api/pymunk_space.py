@@ -44,6 +44,22 @@ class Space(unittest.TestCase):
             self.assertAlmostEqual(events["impulse_n_s"][0] / (1.5 * math.sqrt(2 * 0.8 * G)), 1.0, delta=0.02)
             self.assertAlmostEqual(events["x_m"][0], 0.0, delta=1e-3)
 
+    def test_where_y_points_down_the_floor_is_below(self) -> None:
+        space = pymunk.Space()
+        space.gravity = (0, G * UNITS)
+        haptics = physvib.attach(space, metres_per_unit=1 / UNITS, y_down_from_m=6.0)
+        space.add(pymunk.Segment(space.static_body, (0, 590), (800, 590), 0))
+        ball = pymunk.Body(1.0, pymunk.moment_for_circle(1.0, 0, 10))
+        ball.position = (200, 500)
+        shape = pymunk.Circle(ball, 10)
+        space.add(ball, shape)
+        haptics.set(shape, is_camera=True, frequency_hz=200.0, decay_per_s=30.0)
+        for _ in range(60):
+            haptics.step(1 / 60)
+        event = haptics.take(at_once=True)[0]
+        self.assertAlmostEqual(event["x_m"], 2.0, delta=0.01)
+        self.assertAlmostEqual(event["y_m"], 0.1, delta=0.15)  # of 6 m
+
     def test_a_pole_is_felt_where_its_head_lands(self) -> None:
         space, haptics = self.room(240)
         body = pymunk.Body(3.0, pymunk.moment_for_box(3.0, (10, 200)))

@@ -96,7 +96,7 @@ func _initialize():
 	check(of("left_hand").all(func(pulse): return absf(pulse[2] - 120) < 1e-6), "in the material's hertz")
 	var first: int = of("left_hand")[0][0]
 	var worst := 0.0
-	for i in 20: worst = maxf(worst, absf(at("left_hand", first + i) - hits[0][1] * exp(-8 * (i + 1) / 60.0)))
+	for i in 20: worst = maxf(worst, absf(at("left_hand", first + i) - hits[0][1] * exp(-8 * i / 60.0)))
 	check(first - hits[0][0] <= 1 and worst < 0.1 * hits[0][1], "at %d frames, and as it decays: %.4f of %.4f off at most" % [first - hits[0][0], worst, hits[0][1]])
 	check(of("left_hand")[-1][3] == 0.0, "it ends")
 
@@ -109,7 +109,7 @@ func _initialize():
 	for each in [strong, weak]: each.queue_free()
 	check(hits.size() == 2 and hits[1][1] < 0.5 * hits[0][1], "a strong hit and a weak one: %s" % [hits])
 	first = of("left_hand")[0][0]
-	check(range(20).all(func(i): return absf(at("left_hand", first + i) - hits[0][1] * exp(-8 * (i + 1) / 60.0)) < 0.01), "the weak one changes nothing while the strong one rings")
+	check(range(20).all(func(i): return absf(at("left_hand", first + i) - hits[0][1] * exp(-8 * i / 60.0)) < 0.01), "the weak one changes nothing while the strong one rings")
 
 	headset.pulses.clear()
 	ball = drop(2, 1.0)

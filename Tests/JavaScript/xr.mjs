@@ -11,7 +11,7 @@ const [folder] = process.argv.slice(2), physvib = await (await load(folder, 'phy
 
 /** A headset whose time goes as the test says: every pulse of both hands. */
 class Headset {
-    ms = 0; timers = new Map(); pulses = []; next = 0;
+    ms = 0; timers = new Map(); pulses = []; next = 0; lateMs = 0; // a busy page calls back later
     constructor() {
         this.device = new XRDevice(metaQuest3);
         this.session = { inputSources: this.device.inputSources };
@@ -19,7 +19,7 @@ class Headset {
             const pulse = actuator.pulse.bind(actuator);
             actuator.pulse = (value, ms) => { const done = pulse(value, ms); this.pulses.push({ ms: this.ms, hand: handedness, value, length: ms }); return done; };
         }
-        this.system = { now: () => this.ms, setTimeout: (call, ms) => { this.timers.set(++this.next, { at: this.ms + ms, call }); return this.next; }, clearTimeout: timer => this.timers.delete(timer) };
+        this.system = { now: () => this.ms, setTimeout: (call, ms) => { this.timers.set(++this.next, { at: this.ms + ms + this.lateMs, call }); return this.next; }, clearTimeout: timer => this.timers.delete(timer) };
     }
     run(until) {
         for (;;) {
@@ -66,6 +66,20 @@ test('each hit is felt on the hand that made it', () => {
     assert.throws(() => felt.follow(haptics, { foot: { id: 1 } }), /follow: expected left, right/);
     felt.close();
     world.free();
+});
+
+test('a busy page passes no hit over, and ends it', () => {
+    const play = (lateMs, amplitude) => {
+        const headset = Object.assign(new Headset(), { lateMs }), felt = hands(physvib, headset.session, headset.system);
+        felt.strike('right', [hit(20, amplitude, { decayPerSecond: 107 })], 0);
+        headset.run(1500);
+        return headset.of('right').map(({ value }) => value);
+    };
+    for (const amplitude of [0.5, 0.1]) for (const lateMs of [10, 20, 40, 100]) {
+        const pulses = play(lateMs, amplitude), most = Math.max(...play(0, amplitude));
+        assert.ok(most > 0 && Math.max(...pulses) === most, `${lateMs} ms late, ${amplitude}: ${pulses} instead of ${most} at first`);
+        assert.equal(pulses.at(-1), 0, 'it ends');
+    }
 });
 
 test('a weak hit never ends a strong one, and silence is silence', () => {

@@ -19,6 +19,7 @@ function phoneMotor(navigator) {
 
 class Pads {
     #waves; #motors; #latency; #timer = null; #ends = new Set(); #level; #now; #pads; #vibrate; #setTimer; #clearTimer; #last = { low: 0, high: 0 };
+    #next = null; // what follows a command that was the strongest of several
     /** Commands sent so far, and those that a controller has refused. */
     commands = 0;
     refused = 0;
@@ -63,6 +64,7 @@ class Pads {
     /** Everything stands still, now. */
     stop() {
         this.#motors.stop(this.#now() * nsPerMs);
+        this.#next = null;
         this.#waves.stop([...this.#pads()]);
         this.#send({ low: 0, high: 0 });
         this.#wait();
@@ -78,15 +80,22 @@ class Pads {
     // A timer per command: at rest there is none.
     #wait() {
         this.#clearTimer(this.#timer);
-        const dueNs = Math.min(this.#motors.dueNs, this.#waves.dueNs);
+        const dueNs = Math.min(this.#motors.dueNs, this.#waves.dueNs, this.#next?.dueNs ?? Infinity);
         if (dueNs === Infinity) return;
         this.#timer = this.#setTimer(() => this.#act(), Math.max(0, Math.ceil(dueNs / nsPerMs - this.#now()))); // timers know whole milliseconds
     }
     #act() {
         const nowNs = this.#now() * nsPerMs;
-        let command = null;
-        while (this.#motors.dueNs <= nowNs) command = this.#motors.next(this.#level); // a page that was busy passes over what is over
-        if (command) this.#send(command);
+        let peak = this.#next?.dueNs <= nowNs ? this.#next : null, last = peak;
+        // A page that was busy sends the strongest of what is due, per motor: a hit that is over is felt, and then what followed it.
+        for (let first = true; this.#motors.dueNs <= nowNs; first = false) {
+            last = this.#motors.next(this.#level);
+            peak = first ? last : { low: Math.max(peak.low, last.low), high: Math.max(peak.high, last.high) };
+        }
+        if (peak) {
+            this.#send(peak);
+            this.#next = peak.low > last.low || peak.high > last.high ? { ...last, dueNs: nowNs + 1e9 / this.#motors.commandsPerSecond } : null;
+        }
         this.#waves.send([...this.#pads()], nowNs, this.#level);
         this.#wait();
     }

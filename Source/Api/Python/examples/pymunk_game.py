@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """A game with pymunk and pygame: balls fall into a box, each click adds one, and all of them are felt. python3 pymunk_game.py [DEVICE]: "PAD:auto", "JACK:system"; without
 one, each hit is printed."""
+import os
 import sys
 
+os.environ.setdefault("SDL_JOYSTICK_HIDAPI", "0")  # before pygame.init: a controller stops by itself if the game is killed
 import physvib
 import pygame
 import pymunk
@@ -11,7 +13,7 @@ UNITS, WIDE, HIGH = 100, 800, 600  # a metre, and the window, in pixels
 pygame.init()
 window, clock, space = pygame.display.set_mode((WIDE, HIGH)), pygame.time.Clock(), pymunk.Space()
 space.gravity = (0, 9.81 * UNITS)  # pixels point down
-haptics = physvib.attach(space, metres_per_unit=1 / UNITS, field_width_m=WIDE / UNITS, full_scale_impulse_n_s=physvib.AUTOMATIC)
+haptics = physvib.attach(space, metres_per_unit=1 / UNITS, field_width_m=WIDE / UNITS, y_down_from_m=HIGH / UNITS, full_scale_impulse_n_s=physvib.AUTOMATIC)
 live = physvib.Live(sys.argv[1], field_m=(WIDE / UNITS, HIGH / UNITS)) if len(sys.argv) > 1 else None
 corners = [(0, 0), (0, HIGH), (WIDE, HIGH), (WIDE, 0)]
 for start, end in zip(corners, corners[1:]):

@@ -15,8 +15,9 @@ from .world import POINT_BY_PLACE, World
 class SpaceHaptics:
     """Of `attach`. Shapes have numbers, in the order in which they were first met, that stand in events."""
 
-    def __init__(self, space: Any, metres_per_unit: float, **settings: Any) -> None:
+    def __init__(self, space: Any, metres_per_unit: float, y_down_from_m: float | None, **settings: Any) -> None:
         self.space, self.world, self.metres = space, World(**settings), metres_per_unit
+        self._top, self._turn = (0.0, 1.0) if y_down_from_m is None else (y_down_from_m, -1.0)
         self._ids: dict[Any, int] = {}
         self._values: dict[Any, dict[str, Any]] = {}
         self._met: dict[Any, Any] = {}  # velocities before the solver
@@ -92,7 +93,7 @@ class SpaceHaptics:
             self.world.set_mass(number, self._values[shape].get("mass_kg", self._mass(body)))
             at, v = body.local_to_world(body.center_of_gravity), body.velocity
             self._met[body] = v
-            self.world.move(number, at[0] * self.metres, at[1] * self.metres, v[0] * self.metres, v[1] * self.metres, body.angular_velocity)
+            self.world.move(number, *self._place(at), v[0] * self.metres, self._turn * v[1] * self.metres, self._turn * body.angular_velocity)
 
     def push(self, arbiter: Any) -> None:
         """Behind the solver."""
@@ -106,9 +107,12 @@ class SpaceHaptics:
             # a pair that meets again within three steps has the impulse of before, too, which moved nobody
             impulse = min(impulse, max(self._gained(body, nx, ny) for body in (a.body, b.body)))
         for point in points.points:
-            self.world.touch(self.id(a), self.id(b), point.point_a[0] * self.metres, point.point_a[1] * self.metres, normal_x=nx, normal_y=ny, impulse_n_s=impulse,
+            self.world.touch(self.id(a), self.id(b), *self._place(point.point_a), normal_x=nx, normal_y=self._turn * ny, impulse_n_s=impulse,
                              is_impulse_of_pair=1, restitution=min(1.0, max(0.0, arbiter.restitution)), gap_m=point.distance * self.metres,
                              gap_fraction=1.0, point_id=POINT_BY_PLACE)  # pymunk moves first, then looks; it tells no other impulse
+
+    def _place(self, at: Any) -> tuple[float, float]:
+        return at[0] * self.metres, self._top + self._turn * at[1] * self.metres
 
     def _load(self, a: Any, b: Any, nx: float, ny: float) -> float:
         gravity = self.space.gravity
@@ -148,8 +152,8 @@ class SpaceHaptics:
             del self._values[shape]
 
 
-def attach(space: Any, *, metres_per_unit: float = 1.0, **settings: Any) -> SpaceHaptics:
+def attach(space: Any, *, metres_per_unit: float = 1.0, y_down_from_m: float | None = None, **settings: Any) -> SpaceHaptics:
     """A pymunk.Space whose contacts are felt: `set(shape, is_camera=True, frequency_hz=200, decay_per_s=30)`, then `step(seconds)` instead of
-    space.step, and `take()`. `metres_per_unit`: 0.01 if a metre is 100 of the space's units. `settings`: see World. It takes the space's callback of
+    space.step, and `take()`. `metres_per_unit`: 0.01 if a metre is 100 of the space's units. `y_down_from_m`: the field's height (m) if y points down, as in pygame. `settings`: see World. It takes the space's callback of
     collisions between any types."""
-    return SpaceHaptics(space, metres_per_unit, **settings)
+    return SpaceHaptics(space, metres_per_unit, y_down_from_m, **settings)
