@@ -96,6 +96,28 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
     write("t.csv", "participant,task,condition,stimulus,value\nA,estimate,x,1,2\nA,estimate,y,1,2\n");
     ASSERT_EQ(call("report t.csv --out sorted").exitCode, 0);
     EXPECT_FALSE(has(read("sorted/index.html"), "Orders of the conditions")) << "nothing counts trials";
+    // Practice is no trial that counts, answered or not; who has no whole row is named; of two levels of
+    // pairs.
+    rows = "p,g,when,c,likes\n";
+    for (const char* who : {"P,x", "Q,", "R,y", "S,y"})
+        for (const char* when : {",practice,", ",test,", ",test,"})
+            for (const char* what : {"calm,", "wild,"})
+                rows += std::string{who} + when + what +
+                        (who[0] == 'P' && (when[1] == 'p' || what[0] == 'w') ? "null\n" : "40\n");
+    write("t.csv", rows + "T,y,test,,10\n");
+    ASSERT_EQ(
+        call("report t.csv --out likes --columns participant=p,group=g,phase=when,condition=c,likes=likes")
+            .exitCode,
+        0);
+    const std::string likes = read("likes/index.html");
+    for (const char* line : {"\nP,,,4,2,2,", "\nQ,,,4,2,0,", "\nT,,,0,0,0,"})
+        EXPECT_TRUE(has(read("likes/participants.csv"), line)) << read("likes/participants.csv");
+    for (const char* words :
+         {"5 participants in 1 file", "Groups: 1 not known, 1 x, 2 y.", ">1 row with nothing in one of",
+          "participant T has 0 trials, others have up to 4", "participant P: 2 trials without an answer",
+          "condition=calm: 8 trials of 4 participants", "group=not known: 4 trials of 1 participant"})
+        EXPECT_TRUE(has(likes, words)) << words << likes.substr(likes.find("Participants<"), 3000);
+    EXPECT_EQ(count(likes, "others have up to"), 1u);
     write("t.csv", "participant,group,ease,fun\nA,x,4,1\nA,x,4,\nB,x,5,2\nB,x,6,4\nC,y,1,\nD,y,2,3\n");
     ASSERT_EQ(call("report t.csv --out ease").exitCode, 0);
     const std::string ease = read("ease/index.html");
@@ -203,7 +225,8 @@ TEST_F(Report, AnswersAtLevelsOfOtherProgramsGetFunctionsInTheirOwnWords) {
     for (const char* bad : {"Orders of the conditions", "level (dB)", "Trainings", "own level"})
         EXPECT_FALSE(has(html, bad)) << bad;
     const auto analysed = call("analyse psychometric f.csv --guess 0 --lapse 0" + columns);
-    EXPECT_TRUE(has(html, "none: threshold ") && has(analysed.out, "none: threshold ")) << analysed.err;
+    EXPECT_TRUE(has(html, "none: 50 % point ") && has(analysed.out, "none: 50 % point ")) << analysed.err;
+    EXPECT_TRUE(has(read("out/analysis.R"), "half = \"50 % point\""));
 }
 
 TEST_F(Report, OfOtherProgramsTablesItTellsWhatIsNotAnsweredNotNamedAndGrouped) {
@@ -227,8 +250,8 @@ TEST_F(Report, SmallLevelsKeepTheirDigitsAndFewPeopleTheirInterval) {
     const auto outcome = call("analyse psychometric f.csv --guess 0 --lapse 0 --shape normal --export t.csv "
                               "--columns participant=who,level_db=speed,correct=faster");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_TRUE(has(outcome.out, "threshold 0.00")) << outcome.out;
-    EXPECT_FALSE(has(outcome.out, "threshold 0.00 ")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "50 % point 0.00")) << outcome.out;
+    EXPECT_FALSE(has(outcome.out, "50 % point 0.00 ")) << outcome.out;
     EXPECT_LT(outcome.out.size(), 130u) << "no end at a million: " << outcome.out;
     EXPECT_TRUE(has(read("t.csv"), ",0,0,")) << "neither guesses nor lapses";
 }
@@ -279,6 +302,18 @@ TEST_F(Report, LevelsThatAnswersChoseTellNoSlope) {
 TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
     if (!hasProgram("Rscript")) GTEST_SKIP() << "Rscript (Debian: r-base-core) is not here";
     const std::string kept = "Protocol, number of participants and tests are as planned.";
+    write("brighter.json",
+          R"({"physvib_protocol": 1, "name": "brighter", "conditions": [
+        {"name": "a", "layout": "phone2", "stimuli": "calls", "factors": [{"name": "hz", "values": ["300", "260", "220", "150"], "alternative": "b", "otherwise": "100"}],
+         "call": "stimulus phantom --at 0.5,0.5 --layout phone2 --frequency {hz} --level-g 0.1"},
+        {"name": "b", "layout": "phone2", "stimuli": "calls", "factors": [{"name": "hz", "values": ["300", "260", "220", "150"], "alternative": "b", "otherwise": "100"}],
+         "call": "stimulus phantom --at 0.5,0.5 --layout phone2 --frequency {hz} --level-g 0.3"}],
+        "sessions": [{"name": "main", "task": "choose", "alternatives": [{"name": "a"}, {"name": "b"}], "correct": "b", "repetitions": 12}]})");
+    call("study plan brighter.json --participants 4 --out brighter.txt");
+    for (const char* test :
+         {"analysis of variance of threshold by condition", "pairs by t of JND by condition"})
+        EXPECT_TRUE(has(read("brighter.txt"), test)) << read("brighter.txt");
+    std::filesystem::remove(folder_ / "analysis.R");
     for (const std::string name : {"phantom-grids", "eight-methods", "magnitudes"}) {
         const auto planned = call("study plan " + name + " --participants 4 --out plan.txt");
         ASSERT_EQ(planned.exitCode, 0) << name;
@@ -306,7 +341,7 @@ TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
     EXPECT_TRUE(has(page("other"), "Planned, not done: other")) << plan;
     EXPECT_TRUE(has(page("other"), "Not planned: Friedman"));
     refuses("report magnitudes-P01.csv --plan magnitudes-P01.csv --out none", 1,
-            "expected a plan of `physvib study plan`", 19);
+            "expected a plan of `physvib study plan`", 21);
 }
 
 TEST_F(Report, PeopleInTwoTablesAreNamed) {
@@ -361,7 +396,7 @@ TEST_F(Report, FitsHavePictures) {
     ASSERT_EQ(call("analyse psychometric t.csv --guess 0 --picture p.svg").exitCode, 0);
     EXPECT_EQ(read("p.svg").rfind("<svg xmlns=", 0), 0u);
     EXPECT_EQ(count(read("p.svg"), ">SIMULATED<"), 1u);
-    EXPECT_TRUE(has(read("p.svg"), "threshold "));
+    EXPECT_TRUE(has(read("p.svg"), "50 % point "));
 }
 
 TEST_F(Report, RefusalsLeaveNothing) {

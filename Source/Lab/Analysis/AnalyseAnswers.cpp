@@ -31,8 +31,8 @@ const char* kindWord(LevelTrial::Kind kind) {
 
 void tell(std::ostream& out, const LevelSummary& s) {
     const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
-    out << wholeLabel(s.condition) << (s.stimulus.empty() ? "" : ", " + wholeLabel(s.stimulus)) << ": "
-        << kindWord(s.kind) << ' ';
+    out << wholeLabel(s.condition) << (s.stimulus.empty() || s.condition.empty() ? "" : ", ")
+        << wholeLabel(s.stimulus) << ": " << kindWord(s.kind) << ' ';
     const bool isThreshold = s.kind == LevelTrial::Kind::staircase || s.kind == LevelTrial::Kind::quest;
     if (isThreshold && s.thresholds.empty()) {
         out << "of nobody, " << counted(s.trials, "trial") << '\n';

@@ -59,7 +59,7 @@ struct FitWords {
     static constexpr const char *threshold = "threshold", *equality = "point of subjective equality";
     /// What the level of one half is; `choice=left` of two has no right answer.
     const char* half(const PsychometricModel& model) const {
-        return model.guess > 0.0 || answer.find('=') == std::string::npos ? threshold : equality;
+        return model.guess > 0.0 ? threshold : answer.find('=') < answer.size() ? equality : "50 % point";
     }
 };
 

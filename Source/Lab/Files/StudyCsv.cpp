@@ -263,13 +263,16 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     if (!ratings.scales.empty() && ratings.scales != names)
         throw StudyFault{rows.table().name + ": expected the scales of the files before"};
     ratings.scales = names;
+    const bool hasGroups = group && std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
+                               return !row.cells[*group].empty();
+                           });
     return rows.each(AnswerKind::scores, [&](const CsvRow& row) {
         RatingTrial trial{StudyRows::textIf(row, participant),
                           kindOf(row, stimulus, StudyRows::textIf(row, condition)),
                           {}};
-        if (group && !row.cells[*group].empty())
+        if (hasGroups)
             trial.condition.append(StudyRows::textIf(row, stimulus).empty() ? "group=" : " group=")
-                .append(row.cells[*group]);
+                .append(row.cells[*group].empty() ? "not known" : row.cells[*group]);
         for (const auto c : scales) // of this session; others lack answers
             trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));
         conditionNamed(rows, ratings, rows.sessionOf(row)).push_back(std::move(trial));

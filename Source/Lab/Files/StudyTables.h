@@ -8,6 +8,7 @@
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -42,9 +43,10 @@ inline constexpr std::string_view answerColumns[] = {"response", "choice", "corr
 
 /// What of other programs' tables is not read.
 struct RowsLeftOut {
-    std::size_t rows = 0;                          ///< instructions, fixations, trials without an answer
-    std::map<std::string, std::size_t> unanswered; ///< of them these trials, by participant
-    std::set<std::string> columns;                 ///< that are not named
+    std::size_t rows = 0; ///< instructions, fixations, trials without an answer
+    /// Of each of their participants: main trials among them, and trainings beside them.
+    std::map<std::string, std::array<std::size_t, 2>> unanswered;
+    std::set<std::string> columns; ///< that are not named
 };
 
 /// A table of trials in UTF-8, with one row per trial; otherwise one line on what is not as expected. With
@@ -82,8 +84,11 @@ public:
         table_ = std::move(read.value);
         if (kept == Kept::all) return;
         const LeftRows rows{table_};
-        if (const auto late = optional(trialColumns::ranOut))
-            ranOut_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return row.cells[*late] == "1"; });
+        std::erase_if(table_.rows, [&](const CsvRow& row) {
+            const bool isLate = named(row, trialColumns::ranOut) == "1";
+            ranOut_ += isLate && named(row, trialColumns::phase) != trialColumns::training;
+            return isLate;
+        });
         notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return rows.didNotLeave(row); });
     }
 
@@ -93,7 +98,7 @@ public:
         return notLeft_;
     } ///< rows dropped as they did not leave as planned
 
-    std::size_t ranOut() const noexcept { return ranOut_; } ///< rows dropped as they have no answer in time
+    std::size_t ranOut() const noexcept { return ranOut_; } ///< main trials without an answer in time
 
     const CsvTable& table() const { return table_; }
 

@@ -26,7 +26,7 @@ public:
     const ReportTrials& trials;
     ReportPage page;
     std::vector<std::string> scales; ///< columns of ratings that can be read
-    std::string half{};              ///< what the page calls the level of a half in psychometric-stimuli.csv
+    std::string half{};              ///< what the page calls the level of a half
     bool isSimulated() const noexcept { return trials.isSimulated; }
 
     /// Number of participants in the rows, by the column participant; 1 without it.

@@ -28,7 +28,9 @@ void tellFits(ReportBuilder& report) {
     const NamedText file{report.tableText(trialsTable), trialsTable};
     const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
-    tellFunctions(report, data.value, fit.model, fitWords(report.trials.columns), isFitted);
+    const FitWords words = fitWords(report.trials.columns);
+    report.half = words.half(fit.model);
+    tellFunctions(report, data.value, fit.model, words, isFitted);
 }
 
 /// The answers by level, and the threshold that the method found.

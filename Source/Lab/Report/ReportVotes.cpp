@@ -34,10 +34,9 @@ void tellTwoFactors(ReportBuilder& report, SessionOfChoices session) {
     auto& trials = session.trials;
     std::set<std::string> both;
     for (ChoiceTrial& trial : trials) {
-        const std::string& of = trial.condition;
-        const std::size_t last = of.rfind(' '), before = last == 0 ? of.npos : of.rfind(' ', last - 1);
-        if (last == of.npos) return;
-        trial.condition = of.substr(before == of.npos ? 0 : before + 1);
+        const auto words = factorWords(trial.condition);
+        if (words.size() < 2) return;
+        trial.condition = words.end()[-2] + " " + words.back();
         both.insert(trial.condition);
     }
     if (both.size() > mostShown) return;

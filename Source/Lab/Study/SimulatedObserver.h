@@ -54,7 +54,8 @@ private:
     PulsePattern feltPattern(PulsePattern pattern, const PatternSet& set, SeededRandom& random) const;
     double blurOf(const ConditionPlan& condition) const noexcept;
     FieldPlace feltPlace(const FieldPlace& place, double blur, SeededRandom& random) const;
-    std::string chosen(const SessionPlan& session, const Trial& trial, SeededRandom& random) const;
+    std::string chosen(const SessionPlan& session, const ConditionPlan& condition, const Trial& trial,
+                       SeededRandom& random) const;
     static std::string answered(const SessionPlan& session, const ConditionPlan& condition,
                                 const Trial& trial, SeededRandom& random);
     static std::string described(const SessionPlan& session, SeededRandom& random);

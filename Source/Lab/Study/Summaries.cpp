@@ -69,13 +69,27 @@ RankInterval rankInterval(std::vector<double> values) {
     return {values[left], values[values.size() - 1 - left]};
 }
 
+std::vector<std::string> factorWords(std::string_view condition) {
+    std::vector<std::string> words;
+    bool isNew = true;
+    while (!condition.empty()) {
+        const std::string_view word = takeUntil(' ', condition);
+        const std::size_t equals = condition.find('=');
+        const bool isLast = word == "&" && equals > 0 && equals < condition.find(' ');
+        isNew |= word.find('=') - 1 < word.size();
+        if (!isLast && isNew) words.emplace_back(word);
+        if (!isLast && !isNew) words.back().append(" ").append(word);
+        isNew = isLast;
+    }
+    return words;
+}
+
 namespace {
 
 /// The factors in a condition's name: "size=small" of "pair=wood size=small", the letters of a method.
 std::set<std::string> factorsOf(const std::string& condition) {
     std::set<std::string> factors; // a pair's parts may share them
-    for (std::string_view rest = condition; !rest.empty();) {
-        std::string_view word = takeUntil(' ', rest);
+    for (std::string_view word : factorWords(condition)) {
         RenderingMethod method;
         const bool isMethod = renderingMethodNamed(word, method);
         if (word.find('=') != word.npos || (isMethod && word.size() < condition.size()))
