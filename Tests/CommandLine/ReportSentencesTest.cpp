@@ -300,14 +300,8 @@ std::set<std::string> wordsOf(const Protocol& protocol) {
     return words;
 }
 
-TEST(ReportSentences, OlderPlansCallThePointOfEqualityAThreshold) {
+TEST(ReportSentences, AGroupChangesTheNameOfAPlannedTest) {
     const auto trials = readReportTrials({{"P1.csv", fileOf(points(), 1, {})}}, {}, {}).value;
-    const auto said = comparedWithPlan("# physvib 1 plan=study hash=" + trials.common("hash") +
-                                           " participants=1\n- test: t of threshold by a\n",
-                                       "plan", trials, {"t of point of subjective equality by a"})
-                          .value;
-    ASSERT_EQ(said.size(), 3u);
-    EXPECT_EQ(said[1], "Protocol, number of participants and tests are as planned.");
     const auto withGroup =
         comparedWithPlan("# physvib 1 plan=study hash=" + trials.common("hash") +
                              " participants=1\n- test: Friedman's test of x by a, b\n",

@@ -94,9 +94,7 @@ public:
 
     std::size_t leftOut() const noexcept { return leftOut_.rows; } ///< rows dropped for an empty mapped cell
 
-    std::size_t notLeft() const noexcept {
-        return notLeft_;
-    } ///< rows dropped as they did not leave as planned
+    std::size_t notLeft() const noexcept { return notLeft_; } ///< rows that did not leave as planned
 
     std::size_t ranOut() const noexcept { return ranOut_; } ///< main trials without an answer in time
 

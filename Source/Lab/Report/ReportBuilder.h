@@ -58,6 +58,11 @@ public:
     /// Adds a table. Precondition: its name is unused.
     void addTable(const std::string& name, std::string csv) { tables_[name] = std::move(csv); }
     const std::string& tableText(const std::string& name) const { return tables_.at(name); }
+    /// What a reader finds in the table of all trials.
+    auto read(auto reader, const auto&... how) const {
+        const NamedText file{tableText(trialsTable), trialsTable};
+        return reader(std::span{&file, 1}, how...);
+    }
 
     /// Runs an analysis. Its warnings and text are added to the page, and its table is stored as `name`.CSV.
     /// `error` is empty on success.

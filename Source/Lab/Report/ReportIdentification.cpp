@@ -164,8 +164,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
 
 void tellIdentification(ReportBuilder& report) {
     report.page.heading("Identification");
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readIdentification({&file, 1});
+    const auto data = report.read(readIdentification);
     if (!data) return report.page.note(data.error);
     tellCriterion(report, data.value, 0);
     if (isGrid(data.value)) tellCriterion(report, data.value, 1);
@@ -212,8 +211,7 @@ std::string perceivedChart(ReportBuilder& report, const Places& places, bool isR
 
 void tellPlaces(ReportBuilder& report) {
     report.page.heading("Perceived places");
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    auto data = readLocations({&file, 1});
+    auto data = report.read(readLocations);
     if (!data) return report.page.note(data.error);
     AnalysisReport resolution =
         report.analysis("resolution", report.optionsFor(trialsTable), "resolution.csv");

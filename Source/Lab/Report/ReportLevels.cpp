@@ -25,8 +25,7 @@ void tellFits(ReportBuilder& report) {
     AnalysisJob fit = report.optionsFor(trialsTable);
     fit.model.guess = report.trials.guess;
     const bool isFitted = report.analysis("psychometric", fit, "psychometric.csv").error.empty();
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
+    const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
     const FitWords words = fitWords(report.trials.columns);
     report.half = words.half(fit.model);
@@ -62,8 +61,7 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
 
 void tellMagnitudes(ReportBuilder& report) {
     report.page.subheading("Magnitudes");
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readLevelAnswers({&file, 1}, {"stimulus", "value", true});
+    const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"stimulus", "value", true});
     if (!data) return report.page.note("stimuli are no levels, so there is no power law: " + data.error);
     const auto words = report.analysis("power-law", report.optionsFor(trialsTable), "power-law.csv");
     if (!words.error.empty()) return;

@@ -317,15 +317,7 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
             "nothing to test; the scripts can be.");
         return sentences;
     }
-    std::string renamed;
-    for (std::string test : tests) {
-        if (const auto at = test.find(FitWords::equality); at != test.npos && !planned.contains(test)) {
-            test.replace(at, std::string_view{FitWords::equality}.size(), FitWords::threshold); // of older
-                                                                                                // plans
-            if (planned.contains(test))
-                renamed = std::string{"What the plan calls "} + FitWords::threshold + " is the " +
-                          FitWords::equality + ": no answer is right.";
-        }
+    for (const std::string& test : tests) {
         if (planned.erase(test) > 0) continue;
         const auto other = std::ranges::find_if(planned, [&](const auto& one) {
             return stemOf(one) == stemOf(test) && std::ranges::find(tests, one) == tests.end();
@@ -337,7 +329,6 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     for (const std::string& test : planned) sentences.push_back("Planned, not done: " + test);
     if (sentences.size() == 1)
         sentences.emplace_back("Protocol, number of participants and tests are as planned.");
-    if (!renamed.empty()) sentences.push_back(renamed);
     return sentences;
 }
 

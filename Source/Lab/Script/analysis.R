@@ -400,7 +400,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   zeros <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) == 0) else 0
   if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
   design <- design.of(d, columns); design$over <- c(design$over, over)
-  if (below > 0) design$notes <- c(design$notes, paste(below, if (below == 1) "value is" else "values are", "below 0, so these are no magnitudes: compared as they are"))
+  if (below > 0) design$notes <- c(design$notes, paste(below, if (below == 1) "value is" else "values are", "below 0, so these are no magnitudes: compared as they are (a column task, with adjust, tells of levels that were set)"))
   if (kind == "magnitudes" && length(unique(d$level_db)) > 1) { design$over <- c(design$over, "level_db"); design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over, level by level")) }
   if (zeros > 0) design$notes <- c(design$notes, paste(zeros, if (zeros == 1) "magnitude" else "magnitudes", "of 0, which has no logarithm, left out"))
   alike <- alike.for(d, design); d <- alike$d; design <- alike$design; factors <- c(design$within, design$between)

@@ -5,7 +5,6 @@
 #include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace physvib {
@@ -244,8 +243,7 @@ double SimulatedObserver::scored(const Trial& trial, SeededRandom& random) const
 /// Stevens' power law with an exponent near one and the same level noise.
 double SimulatedObserver::magnitude(const ConditionPlan& condition, const Trial& trial,
                                     SeededRandom& random) const {
-    double levelG = condition.levelG; // default if the stimulus label is not a level
-    std::from_chars(trial.stimulus.data(), trial.stimulus.data() + trial.stimulus.size(), levelG);
+    const double levelG = parseNumber<double>(trial.stimulus).value_or(condition.levelG);
     const double db =
         toDecibels(std::max(levelG, 1e-6)) + trial.levelDb + settings_.levelNoiseDb * random.normal();
     return std::max(0.01, roundedTo(10.0 * fromDecibels(0.9 * db), 100.0));

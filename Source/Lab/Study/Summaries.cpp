@@ -4,10 +4,10 @@
 #include "Lab/Study/Summaries.h"
 #include "Core/EventShaping.h"
 #include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
 #include "Lab/Study/QuestMethod.h"
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -262,10 +262,8 @@ bool isSame(const LevelSummary& s, const LevelTrial& t) {
 
 /// Sort key: numbers by value, then all other labels by their bytes.
 auto labelKey(const std::string& label) {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), number);
-    const bool isNumber = error == std::errc{} && end == label.data() + label.size() && std::isfinite(number);
-    return std::tuple{!isNumber, isNumber ? number : 0.0, std::string_view{label}};
+    const auto number = parseNumber<double>(label);
+    return std::tuple{!number, number.value_or(0.0), std::string_view{label}};
 }
 
 using Run = std::vector<const LevelTrial*>; // one participant's trials of a session, or of one staircase
