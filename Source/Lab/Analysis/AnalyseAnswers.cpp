@@ -109,7 +109,6 @@ void analyseRatings(const RatingData& data, const Findings& to) {
             out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
             if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
             if (summary.scored[s] < summary.trials)
-
                 out << " (of " << counted(summary.scored[s], "trial") << " of "
                     << counted(summary.raters[s], "participant") << ')';
             table.row(summary.condition, scales[s], summary.scored[s], summary.raters[s], summary.means[s],

@@ -49,13 +49,11 @@ struct RowsLeftOut {
     std::set<std::string> columns; ///< that are not named
 };
 
-/// A table of trials in UTF-8, with one row per trial; otherwise one line on what is not as expected. With
-/// `names` it has the named columns alone, under our names, and `observer`, as that may mark simulated data.
-/// Rows with an empty cell in one of them are dropped and counted. From numeric true places target_x and
-/// target_y, columns target_column and target_row are derived, ascending from 1, if each axis has at most
-/// mostGridLines of them. In tables of other programs, answers that are none (null, None, NaN, NA, n/a)
-/// become empty cells, right or wrong as true, TRUE, 1.0 become 1 or 0, and phases like practice training;
-/// codes stay. A row that is there twice is an error. Any thread (allocates).
+/// A table in UTF-8, one row per trial; otherwise one line on what is not as expected. With `names` it has
+/// these columns alone, under our names, and `observer`; rows that lack a cell of them are dropped and
+/// counted. Numbers target_x and target_y make columns target_column and target_row, ascending from 1, of at
+/// most mostGridLines. Of other programs, answers that are none (null, NA) become empty, right or wrong 1 or
+/// 0, phases like practice training; codes stay. A row twice is an error. Any thread (allocates).
 Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
                                 std::span<const ColumnName> names, RowsLeftOut& leftOut);
 
@@ -107,8 +105,7 @@ public:
         throw StudyFault{table_.name + ": expected a column " + std::string(column) + ", found none"};
     }
 
-    /// Calls take(row) for each row that is not training and, if the table has tasks, has this kind of
-    /// answer. nullopt selects rows without a task. Returns the number of rows taken.
+    /// Of each main row, if the table has tasks, of this kind of answer (nullopt: of none). How many were.
     template <class Take>
     std::size_t each(std::optional<AnswerKind> answer, Take take) const {
         const auto phase = optional(trialColumns::phase), tasks = optional(trialColumns::task);

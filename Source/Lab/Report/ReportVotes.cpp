@@ -94,7 +94,7 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
 
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.
 void tellConstantStimuli(ReportBuilder& report) {
-    AnalysisJob fit = report.optionsFor(trialsTable);
+    AnalysisJob fit = report.options();
     fit.level = "stimulus";
     std::string measure = "correct";
     const auto sessions =
@@ -122,8 +122,7 @@ void tellChoices(ReportBuilder& report) {
     report.page.heading("Choices");
     const auto data = report.read(readChoices);
     if (!data) return report.page.note(data.error);
-    if (const auto words = report.analysis("choices", report.optionsFor(trialsTable), "choices.csv");
-        !words.error.empty())
+    if (const auto words = report.analysis("choices", report.options(), "choices.csv"); !words.error.empty())
         return;
     tellConstantStimuli(report);
     for (const auto& session : data.value.conditions) tellShares(report, session);
@@ -133,8 +132,7 @@ void tellRatings(ReportBuilder& report) {
     report.page.heading("Ratings");
     const auto data = report.read(readRatings);
     if (!data) return report.page.note(data.error);
-    if (const auto words = report.analysis("ratings", report.optionsFor(trialsTable), "ratings.csv");
-        !words.error.empty())
+    if (const auto words = report.analysis("ratings", report.options(), "ratings.csv"); !words.error.empty())
         return;
     report.scales = data.value.scales;
     for (const auto& session : data.value.conditions) tellScores(report, data.value, session);

@@ -18,8 +18,7 @@ bool varies(const std::string& label, const char* part) {
     return ("-" + label + "-").find(std::string("-") + part + "-") != std::string::npos;
 }
 
-/// Means as printed in the thesis. Spreads between participants are chosen so that the printed tests follow
-/// for its number of participants (ObserverTest recomputes them).
+/// Means as printed; spreads, so that the printed tests follow (ObserverTest recomputes them).
 ObserverSettings fittedToTheThesis(ObserverSettings settings) {
     settings.placeBlur = 0.2073;
     settings.ringBlur = 0.1524;

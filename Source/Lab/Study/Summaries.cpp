@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Quantiles by bisection; choices and ratings grouped by name; thresholds from reversals or QUEST+, means in
-// dB or in logarithms.
+// Quantiles by bisection; choices and ratings by name; thresholds from reversals or QUEST+.
 #include "Lab/Study/Summaries.h"
 #include "Core/EventShaping.h"
 #include "Io/Text/CsvText.h"
@@ -71,15 +70,15 @@ RankInterval rankInterval(std::vector<double> values) {
 
 std::vector<std::string> factorWords(std::string_view condition) {
     std::vector<std::string> words;
-    bool isNew = true;
     while (!condition.empty()) {
         const std::string_view word = takeUntil(' ', condition);
-        const std::size_t equals = condition.find('=');
-        const bool isLast = word == "&" && equals > 0 && equals < condition.find(' ');
-        isNew |= word.find('=') - 1 < word.size();
-        if (!isLast && isNew) words.emplace_back(word);
-        if (!isLast && !isNew) words.back().append(" ").append(word);
-        isNew = isLast;
+        const bool isNew = words.empty() || word.find('=') - 1 < word.size();
+        if (isNew && !words.empty() && words.back().ends_with(" &"))
+            words.back().erase(words.back().size() - 2);
+        if (isNew)
+            words.emplace_back(word);
+        else
+            words.back().append(" ").append(word);
     }
     return words;
 }
