@@ -82,20 +82,31 @@ TEST_F(Report, WordsInTheScriptAreTheSameInEveryLocale) {
 }
 
 TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
-    const char* const given[] = {"false", "true", "true", "true"};
-    std::string rows = "p,g,ok,x\n";
-    for (int n = 0; n < 60; ++n)
-        rows += std::string{"P"} + std::to_string(n % 3) + (n % 3 ? ",old," : ",young,") +
-                (n == 7 ? "null" : given[n % 4]) + "," + std::to_string(n % 5) + "\n";
-    write("t.csv", rows);
-    ASSERT_EQ(call("report t.csv --out out --columns participant=p,group=g,correct=ok,level_db=x").exitCode,
-              0);
-    EXPECT_TRUE(has(page(), "Groups: 2 old, 1 young."));
-    EXPECT_TRUE(has(page(), "participant P1: 1 trial without an answer left out")) << page();
-    EXPECT_FALSE(has(page(), "Nobody and no main trial is left out before"));
     write("t.csv", "participant,task,condition,stimulus,value\nA,estimate,x,1,2\nA,estimate,y,1,2\n");
     ASSERT_EQ(call("report t.csv --out sorted").exitCode, 0);
     EXPECT_FALSE(has(read("sorted/index.html"), "Orders of the conditions")) << "nothing counts trials";
+    // Practice is no trial that counts, answered or not; who has no whole row is named; of two levels of
+    // pairs.
+    std::string rows = "p,g,when,c,likes\n";
+    for (const char* who : {"P,x", "Q,", "R,y", "S,y"})
+        for (const char* when : {",practice,", ",test,", ",test,"})
+            for (const char* what : {"calm,", "wild,"})
+                rows += std::string{who} + when + what +
+                        (who[0] == 'P' && (when[1] == 'p' || what[0] == 'w') ? "null\n" : "40\n");
+    write("t.csv", rows + "T,y,test,,10\n");
+    ASSERT_EQ(
+        call("report t.csv --out likes --columns participant=p,group=g,phase=when,condition=c,likes=likes")
+            .exitCode,
+        0);
+    const std::string likes = read("likes/index.html");
+    for (const char* line : {"\nP,,,4,2,2,", "\nQ,,,4,2,0,", "\nT,,,0,0,0,"})
+        EXPECT_TRUE(has(read("likes/participants.csv"), line)) << read("likes/participants.csv");
+    for (const char* words :
+         {"5 participants in 1 file", "Groups: 1 not known, 1 x, 2 y.", ">1 row with nothing in one of",
+          "participant T has 0 trials, others have up to 4", "participant P: 2 trials without an answer",
+          "condition=calm: 8 trials of 4 participants", "group=not known: 4 trials of 1 participant"})
+        EXPECT_TRUE(has(likes, words)) << words << likes.substr(likes.find("Participants<"), 3000);
+    EXPECT_EQ(count(likes, "others have up to"), 1u);
     write("t.csv", "participant,group,ease,fun\nA,x,4,1\nA,x,4,\nB,x,5,2\nB,x,6,4\nC,y,1,\nD,y,2,3\n");
     ASSERT_EQ(call("report t.csv --out ease").exitCode, 0);
     const std::string ease = read("ease/index.html");
@@ -169,7 +180,6 @@ TEST_F(Report, OtherProgramsTablesAreReadByTheirNames) {
     const std::string columns = " --columns participant=subject,stimulus=sound,response=key_resp.keys";
     const auto outcome = call("report p.csv --out out" + columns);
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_TRUE(has(page(), "4 participants in 1 file"));
     EXPECT_TRUE(has(page(), "1 row with nothing in one of the named columns left out"));
     EXPECT_EQ(read("out/trials.csv").find("key_resp"), std::string::npos);
     const auto analysed = call("analyse confusion p.csv" + columns);
@@ -203,7 +213,8 @@ TEST_F(Report, AnswersAtLevelsOfOtherProgramsGetFunctionsInTheirOwnWords) {
     for (const char* bad : {"Orders of the conditions", "level (dB)", "Trainings", "own level"})
         EXPECT_FALSE(has(html, bad)) << bad;
     const auto analysed = call("analyse psychometric f.csv --guess 0 --lapse 0" + columns);
-    EXPECT_TRUE(has(html, "none: threshold ") && has(analysed.out, "none: threshold ")) << analysed.err;
+    EXPECT_TRUE(has(html, "none: 50 % point ") && has(analysed.out, "none: 50 % point ")) << analysed.err;
+    EXPECT_TRUE(has(read("out/analysis.R"), "half = \"50 % point\""));
 }
 
 TEST_F(Report, OfOtherProgramsTablesItTellsWhatIsNotAnsweredNotNamedAndGrouped) {
@@ -212,7 +223,6 @@ TEST_F(Report, OfOtherProgramsTablesItTellsWhatIsNotAnsweredNotNamedAndGrouped) 
                            "participant=who,level_db=speed,correct=faster");
     EXPECT_TRUE(has(told.err, "that are not used: masker")) << told.err;
     EXPECT_TRUE(has(page(), "participant a: 1 trial without an answer left out"));
-    EXPECT_TRUE(has(page(), "1 row with nothing in one of the named columns left out"));
     std::string ratings = "who,team,glove,ease\n";
     for (const char* who : {"a,x", "b,x", "c,y", "d,y"})
         ratings += std::string{who} + ",on,40\n" + who + ",off,50\n";
@@ -227,8 +237,8 @@ TEST_F(Report, SmallLevelsKeepTheirDigitsAndFewPeopleTheirInterval) {
     const auto outcome = call("analyse psychometric f.csv --guess 0 --lapse 0 --shape normal --export t.csv "
                               "--columns participant=who,level_db=speed,correct=faster");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_TRUE(has(outcome.out, "threshold 0.00")) << outcome.out;
-    EXPECT_FALSE(has(outcome.out, "threshold 0.00 ")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "50 % point 0.00")) << outcome.out;
+    EXPECT_FALSE(has(outcome.out, "50 % point 0.00 ")) << outcome.out;
     EXPECT_LT(outcome.out.size(), 130u) << "no end at a million: " << outcome.out;
     EXPECT_TRUE(has(read("t.csv"), ",0,0,")) << "neither guesses nor lapses";
 }
@@ -361,7 +371,7 @@ TEST_F(Report, FitsHavePictures) {
     ASSERT_EQ(call("analyse psychometric t.csv --guess 0 --picture p.svg").exitCode, 0);
     EXPECT_EQ(read("p.svg").rfind("<svg xmlns=", 0), 0u);
     EXPECT_EQ(count(read("p.svg"), ">SIMULATED<"), 1u);
-    EXPECT_TRUE(has(read("p.svg"), "threshold "));
+    EXPECT_TRUE(has(read("p.svg"), "50 % point "));
 }
 
 TEST_F(Report, RefusalsLeaveNothing) {

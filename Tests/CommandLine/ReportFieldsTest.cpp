@@ -211,22 +211,6 @@ TEST_F(ReportFields, TheNoiseOfTheRoomIsToldWhereThereWasAny) {
             "level-steps-P01.csv: --noise: expected trials with pink noise, found none", 2);
 }
 
-TEST_F(ReportFields, TheApparatusIsWhatTheRowsSay) {
-    plant("level-steps", 1, "0.5,-3,-30,JACK:system");
-    const std::string noisy = page("report level-steps-P01.csv --out out");
-    EXPECT_TRUE(has(noisy, "trials left through the device JACK:system, every part within 1 dB of its plan, "
-                           "at a master level of -3 dB, with pink noise of -30 dB of full scale (root mean "
-                           "square); the limiter lowered "));
-    EXPECT_TRUE(has(noisy, "of them, by at most 0.5 dB."));
-    std::string rows = read("level-steps-P01.csv");
-    for (std::size_t at = rows.find(",-30,JACK"); at != std::string::npos; at = rows.find(",-30,JACK"))
-        rows.replace(at, 9, ",off,JACK");
-    write("level-steps-P01.csv", rows);
-    const std::string silent = page("report level-steps-P01.csv --out out");
-    EXPECT_TRUE(has(silent, "-3 dB, without pink noise; the limiter lowered "));
-    EXPECT_FALSE(has(silent, "with pink noise of")) << "the protocol asks for it, and nobody heard it";
-}
-
 TEST_F(ReportFields, ConditionsAreNamedInFull) {
     plant("eight-methods", 3, "0,0,off,JACK:system");
     const std::string html =

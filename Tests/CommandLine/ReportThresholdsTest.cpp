@@ -12,38 +12,40 @@ namespace {
 
 class ReportThresholds : public test::CommandLine {
 protected:
-    /// A built-in protocol in three conditions, with simulated participants, as a report.
-    void reportOf(const std::string& name, int participants) const {
-        Protocol protocol = *std::ranges::find(builtInProtocols(), name, &Protocol::name);
-        protocol.name = "three-" + name;
+    /// Writes study.json: a protocol in three conditions.
+    void writeThree(Protocol protocol) const {
+        protocol.name = "three-" + protocol.name;
         protocol.conditions.resize(3, protocol.conditions.front());
         for (std::size_t i = 0; i < 3; ++i)
             protocol.conditions[i].name = std::string("C").append(1, "abc"[i]);
-        write("three.json", protocolJson(protocol));
-        ASSERT_EQ(
-            call("study run three.json --observer simulated --participants " + std::to_string(participants))
-                .exitCode,
-            0);
-        const auto outcome = call("report three-" + name + "-P*.csv --out out");
-        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    }
-    void expectPairs(const std::string& method, int participants) const {
-        std::map<std::string, int> people;
-        for (const CsvRow& row : readCsvTable(read("out/thresholds.csv"), "t").value.rows) {
-            EXPECT_EQ(row.cells[0], method);
-            ++people[row.cells[1]];
-        }
-        ASSERT_EQ(people.size(), 3u);
-        for (const auto& [condition, number] : people) EXPECT_EQ(number, participants) << condition;
-        if (hasProgram("Rscript"))
-            EXPECT_NE(read("out/tests.csv").find("pairs by t of threshold by " + method + " by condition"),
-                      std::string::npos);
+        write("study.json", protocolJson(protocol));
     }
 };
 
 TEST_F(ReportThresholds, AreComparedWithinPeople) {
-    reportOf("level-steps", 4), expectPairs("staircase", 4);
-    reportOf("level-quest", 4), expectPairs("quest", 4);
+    for (const auto& [name, method] :
+         {std::pair<std::string, std::string>{"level-steps", "staircase"}, {"level-quest", "quest"}}) {
+        writeThree(findProtocol(name).value);
+        ASSERT_EQ(call("study run study.json --observer simulated --participants 4").exitCode, 0);
+        ASSERT_EQ(call("report three-" + name + "-P*.csv --out out").exitCode, 0);
+        std::map<std::string, int> people;
+        for (const CsvRow& row : readCsvTable(read("out/thresholds.csv"), "t").value.rows)
+            people[row.cells[0] + row.cells[1]] += 1;
+        EXPECT_EQ(people,
+                  (std::map<std::string, int>{{method + "Ca", 4}, {method + "Cb", 4}, {method + "Cc", 4}}));
+        if (hasProgram("Rscript"))
+            EXPECT_NE(read("out/tests.csv").find("pairs by t of threshold by " + method + " by condition"),
+                      std::string::npos);
+    }
+}
+
+TEST_F(ReportThresholds, OfConstantStimuliArePlanned) {
+    if (!hasProgram("Rscript")) GTEST_SKIP() << "Rscript (Debian: r-base-core) is not here";
+    writeThree(loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/frequency-constant.json").value);
+    const std::string plan = call("study plan study.json --participants 4 --out plan.txt").out;
+    for (const char* test :
+         {"analysis of variance of threshold by condition", "pairs by t of JND by condition"})
+        EXPECT_NE(plan.find(test), std::string::npos) << plan;
 }
 
 } // namespace

@@ -50,12 +50,14 @@ TEST(PlaceErrors, TablesOfOtherProgramsAreReadWithTargetsAnywhere) {
                 std::to_string(100 + 7 * i) + "," + std::to_string(-3 * i) + "," +
                 std::to_string(103 + 7 * i) + "," + std::to_string(4 - 3 * i) + "\n";
     text += "P9,L1,5,5,,\n"; // no answer
-    const auto words =
-        parseColumnNames(std::vector<std::string>{"participant=who", "stimulus=landmark", "target_x=true_x",
-                                                  "target_y=true_y", "x=touch_x", "y=touch_y"})
-            .value;
-    const NamedText file{text, "t.csv", words};
-    const auto read = readPlaces({&file, 1});
+    const auto as = [&](const std::vector<std::string>& words, auto reader) {
+        const auto columns = parseColumnNames(words).value;
+        const NamedText file{text, "t.csv", columns};
+        return reader(std::span{&file, 1});
+    };
+    const std::vector<std::string> words{"participant=who", "stimulus=landmark", "target_x=true_x",
+                                         "target_y=true_y", "x=touch_x",         "y=touch_y"};
+    const auto read = as(words, readPlaces);
     ASSERT_TRUE(read) << read.error;
     ASSERT_EQ(read.value.conditions.front().trials.size(), 40u);
     EXPECT_EQ(read.value.warnings.front(),
@@ -64,26 +66,18 @@ TEST(PlaceErrors, TablesOfOtherProgramsAreReadWithTargetsAnywhere) {
         EXPECT_DOUBLE_EQ(one.distance, 5.0) << one.participant;
         EXPECT_NEAR(one.gainX, 1.0, 1e-12);
     }
-    EXPECT_EQ(readLocations({&file, 1}).error,
+    EXPECT_EQ(as(words, readLocations).error,
               "t.csv: column target_x: expected at most 16 different places, found more; `physvib analyse "
               "places` takes targets on no grid");
-    const auto line =
-        parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x"}).value; // a line, and
-                                                                                          // places as names
-    const NamedText onALine{text, "t.csv", line};
-    const auto one = readPlaces({&onALine, 1});
-    ASSERT_TRUE(one) << one.error;
+    const std::vector<std::string> line{"target_x=true_x", "x=touch_x"}; // and places as names
+    const auto one = as(line, readPlaces);
     EXPECT_EQ(one.value.conditions.front().trials.front().target, "100");
-    const auto half =
-        parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x", "y=touch_y"}).value;
-    const NamedText without{text, "t.csv", half};
-    EXPECT_EQ(readPlaces({&without, 1}).error,
+    EXPECT_EQ(as({"target_x=true_x", "x=touch_x", "y=touch_y"}, readPlaces).error,
               "t.csv: expected both columns target_y and y, or none of them, found y");
-    const auto units =
-        parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x:0:1230"}).value;
-    EXPECT_EQ(unitFault(line), "");
-    EXPECT_EQ(unitFault(units),
-              "--columns: expected a range of both x and target_x, or of none of them, as they are compared");
+    EXPECT_EQ(unitFault(parseColumnNames(line).value), "");
+    EXPECT_EQ(
+        unitFault(parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x:0:1230"}).value),
+        "--columns: expected a range of both x and target_x, or of none of them, as they are compared");
 }
 
 TEST(PlaceErrors, OurOwnRowsHaveTheirGridInTheCall) {

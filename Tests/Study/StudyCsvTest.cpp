@@ -33,6 +33,10 @@ TEST(StudyCsv, TrialsWithoutAResponseAreLeftOutAndTold) {
 }
 
 TEST(StudyCsv, TrainingAndOtherTasksDoNotCount) {
+    EXPECT_EQ(readOne(readIdentification, "phase,stimulus,response,ran_out\ntraining,x,,1\nmain,x,,1\nmain,x,"
+                                          "y,0\ntraining,x,,1\n")
+                  .value.warnings,
+              std::vector<std::string>{"f.csv: left out: 1 trial ran out of time, without an answer"});
     const auto data = readOne(readIdentification,
                               "observer,phase,task,stimulus,response\nsimulated-PHONE,training,identify,x,"
                               "y\nsimulated-PHONE,main,identify,x,x\nsimulated-PHONE,main,rate,x,\n");

@@ -72,6 +72,16 @@ TEST(Votes, ALevelCountsATrialOnceAndItsConditionsAlike) {
     EXPECT_NEAR(two->means[0], 55.0, 1e-12);
 }
 
+TEST(Votes, NamesOfLevelsAreWholeWhereTheyHaveSpaces) {
+    std::string names;
+    for (const auto& one : summariseRatings({{"P1", "condition=no noise stimulus=rather soft = b", {80}},
+                                             {"P1", "condition=no noise stimulus=rather hard", {20}},
+                                             {"P1", "condition=hum stimulus=f & rather soft", {10}}}))
+        if (one.condition.find(" stimulus") == std::string::npos) names += one.condition + "; ";
+    EXPECT_EQ(names, "condition=hum; condition=no noise; stimulus=f & rather soft; stimulus=rather hard; "
+                     "stimulus=rather soft = b; ");
+}
+
 TEST(Votes, OneRatingHasNoIntervalAndNoNumberIsMissing) {
     const auto summaries = summariseRatings({{"", "AV-FV-DRV", {80}}});
     EXPECT_EQ(summaries.at(0).deviations[0] + summaries[0].halfIntervals[0], 0.0);

@@ -31,8 +31,8 @@ const char* kindWord(LevelTrial::Kind kind) {
 
 void tell(std::ostream& out, const LevelSummary& s) {
     const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
-    out << wholeLabel(s.condition) << (s.stimulus.empty() ? "" : ", " + wholeLabel(s.stimulus)) << ": "
-        << kindWord(s.kind) << ' ';
+    out << wholeLabel(s.condition) << (s.stimulus.empty() || s.condition.empty() ? "" : ", ")
+        << wholeLabel(s.stimulus) << ": " << kindWord(s.kind) << ' ';
     const bool isThreshold = s.kind == LevelTrial::Kind::staircase || s.kind == LevelTrial::Kind::quest;
     if (isThreshold && s.thresholds.empty()) {
         out << "of nobody, " << counted(s.trials, "trial") << '\n';
@@ -109,7 +109,6 @@ void analyseRatings(const RatingData& data, const Findings& to) {
             out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
             if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
             if (summary.scored[s] < summary.trials)
-
                 out << " (of " << counted(summary.scored[s], "trial") << " of "
                     << counted(summary.raters[s], "participant") << ')';
             table.row(summary.condition, scales[s], summary.scored[s], summary.raters[s], summary.means[s],

@@ -56,10 +56,11 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
 /// Axis labels of the fitted levels and answers.
 struct FitWords {
     std::string level = "level (dB)", answer = "correct";
-    static constexpr const char *threshold = "threshold", *equality = "point of subjective equality";
     /// What the level of one half is; `choice=left` of two has no right answer.
     const char* half(const PsychometricModel& model) const {
-        return model.guess > 0.0 || answer.find('=') == std::string::npos ? threshold : equality;
+        return model.guess > 0.0                  ? "threshold"
+               : answer.find('=') < answer.size() ? "point of subjective equality"
+                                                  : "50 % point";
     }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Readers for each kind of study table; StudyRows provides the rows.
+// Readers for each kind of study table.
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Files/StudyTables.h"
 #include "Lab/Study/Experiment.h"
@@ -15,12 +15,6 @@ namespace {
 
 using detail::StudyFault;
 using detail::StudyRows;
-
-/// "c3" from "c" and 3.
-std::string numbered(std::string prefix, std::size_t number) {
-    appendNumber(prefix, number);
-    return prefix;
-}
 
 template <class Trial>
 std::vector<Trial>& conditionNamed(const StudyRows& rows, StudyData<Trial>& data, const std::string& name) {
@@ -263,13 +257,16 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     if (!ratings.scales.empty() && ratings.scales != names)
         throw StudyFault{rows.table().name + ": expected the scales of the files before"};
     ratings.scales = names;
+    const bool hasGroups = group && std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
+                               return !row.cells[*group].empty();
+                           });
     return rows.each(AnswerKind::scores, [&](const CsvRow& row) {
         RatingTrial trial{StudyRows::textIf(row, participant),
                           kindOf(row, stimulus, StudyRows::textIf(row, condition)),
                           {}};
-        if (group && !row.cells[*group].empty())
+        if (hasGroups)
             trial.condition.append(StudyRows::textIf(row, stimulus).empty() ? "group=" : " group=")
-                .append(row.cells[*group]);
+                .append(row.cells[*group].empty() ? "not known" : row.cells[*group]);
         for (const auto c : scales) // of this session; others lack answers
             trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));
         conditionNamed(rows, ratings, rows.sessionOf(row)).push_back(std::move(trial));
@@ -434,12 +431,12 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
 std::vector<std::size_t> countColumns(const StudyRows& rows) {
     std::vector<std::size_t> columns;
     for (std::size_t i = 1; i <= mostGridLines; ++i) {
-        const auto found = rows.optional(numbered("c", i));
+        const auto found = rows.optional(std::string("c").append(std::to_string(i)));
         if (!found) break;
         columns.push_back(*found);
     }
     if (columns.empty()) rows.required("c1");
-    if (rows.optional(numbered("c", mostGridLines + 1)))
+    if (rows.optional(std::string("c").append(std::to_string(mostGridLines + 1))))
         throw StudyFault{rows.table().name + ": expected at most " + std::to_string(mostGridLines) +
                          " columns c1, c2, ..."};
     return columns;
@@ -510,12 +507,12 @@ std::string percentCountsCsv(std::span<const PercentCounts> counts, const Proven
     std::size_t columns = 0;
     for (const auto& grid : counts) columns = std::max(columns, grid.columns);
     std::string text = provenanceComment(provenance) + "condition,row";
-    for (std::size_t c = 1; c <= columns; ++c) text += numbered(",c", c);
+    for (std::size_t c = 1; c <= columns; ++c) text.append(",c").append(std::to_string(c));
     text += '\n';
     for (const auto& grid : counts)
         for (std::size_t row = 0; row < grid.rows; ++row) {
             appendCell(text, grid.condition);
-            text += numbered(",", row + 1);
+            text.append(",").append(std::to_string(row + 1));
             for (std::size_t c = 0; c < columns; ++c)
                 text.append(",").append(c < grid.columns ? numberText(grid.at(row, c)) : "0");
             text += '\n';

@@ -63,9 +63,8 @@ Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedT
 Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files);
 
 /// Columns target_x, x; optional target_y and y, stimulus (without it the place identifies the target),
-/// condition, participant. True and answered places have the same unit, which can be any. Our own trial files
-/// have target_column, target_row and render instead; their true places become shares of the field, like the
-/// answers, with a warning.
+/// condition, participant; in any unit. Our own files have target_column, target_row and render; their true
+/// places become shares of the field, with a warning.
 Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files);
 
 /// Columns choice (or response); optional condition, stimulus, participant. The result's conditions are

@@ -27,6 +27,9 @@ bool isNoAnswer(const std::string& column, const std::string& cell) {
     return holds(none, cell) && !holds(labels, column);
 }
 
+constexpr std::string_view practice[] = {"practice", "Practice", "practise", "train",   "Training",
+                                         "warmup",   "warm-up",  "warm up",  "training"};
+
 /// Splits "touch_x:0:1230". A name with another ending is a plain column name.
 ColumnName withRange(std::string ours, std::string words) {
     const std::size_t second = words.rfind(':'), first = second == std::string::npos || second == 0
@@ -80,9 +83,7 @@ bool isUtf8(std::string_view text) noexcept {
 void takeOthersWords(CsvTable& table) {
     if (!trialHeadOf(table.comments).empty()) return;
     constexpr std::string_view right[] = {"true", "TRUE", "True", "1.0"},
-                               wrong[] = {"false", "FALSE", "False", "0.0"},
-                               practice[] = {"practice", "Practice", "practise", "train",
-                                             "Training", "warmup",   "warm-up",  "warm up"};
+                               wrong[] = {"false", "FALSE", "False", "0.0"};
     for (std::size_t c = 0; c < table.columns.size(); ++c)
         for (CsvRow& row : table.rows) {
             std::string& cell = row.cells[c];
@@ -155,6 +156,7 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, Rows
             leftOut.columns.insert(column);
     const bool hasScales = !std::ranges::all_of(names, trialColumns::has, &ColumnName::ours);
     const auto who = std::ranges::find(columns, "participant") - columns.begin();
+    const auto phase = std::ranges::find(columns, trialColumns::phase) - columns.begin();
     std::erase_if(table.rows, [&](const CsvRow& row) {
         bool isRated = !hasScales, isAnswered = true, isTrial = false, isWhole = true;
         for (std::size_t c = 0; c < names.size(); ++c) {
@@ -164,13 +166,16 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, Rows
                 isRated |= has; // of scales one is enough
             else if (holds(answerColumns, ours))
                 isAnswered &= has;
-            else
-                isWhole &= has, isTrial |= ours != "participant" && ours != trialColumns::group;
+            else if (ours != trialColumns::group) // nobody goes for want of one
+                isWhole &= has, isTrial |= ours != "participant";
         }
         if (isWhole && isRated && isAnswered) return false;
-        ++leftOut.rows;
-        if (isWhole && isTrial && who < std::ssize(columns))
-            ++leftOut.unanswered[row.cells[from[static_cast<std::size_t>(who)]]];
+        const auto cell = [&](std::ptrdiff_t at) {
+            return at < std::ssize(columns) ? row.cells[from[static_cast<std::size_t>(at)]] : std::string{};
+        };
+        const bool isUnanswered = isWhole && isTrial, isTraining = holds(practice, cell(phase));
+        leftOut.rows += !isUnanswered || !isTraining;
+        if (!cell(who).empty()) leftOut.unanswered[cell(who)][isTraining] += isUnanswered;
         return true;
     });
     for (CsvRow& row : table.rows) {

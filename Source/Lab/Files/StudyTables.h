@@ -8,6 +8,7 @@
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -42,18 +43,17 @@ inline constexpr std::string_view answerColumns[] = {"response", "choice", "corr
 
 /// What of other programs' tables is not read.
 struct RowsLeftOut {
-    std::size_t rows = 0;                          ///< instructions, fixations, trials without an answer
-    std::map<std::string, std::size_t> unanswered; ///< of them these trials, by participant
-    std::set<std::string> columns;                 ///< that are not named
+    std::size_t rows = 0; ///< instructions, fixations, trials without an answer
+    /// Of each of their participants: main trials among them, and trainings beside them.
+    std::map<std::string, std::array<std::size_t, 2>> unanswered;
+    std::set<std::string> columns; ///< that are not named
 };
 
-/// A table of trials in UTF-8, with one row per trial; otherwise one line on what is not as expected. With
-/// `names` it has the named columns alone, under our names, and `observer`, as that may mark simulated data.
-/// Rows with an empty cell in one of them are dropped and counted. From numeric true places target_x and
-/// target_y, columns target_column and target_row are derived, ascending from 1, if each axis has at most
-/// mostGridLines of them. In tables of other programs, answers that are none (null, None, NaN, NA, n/a)
-/// become empty cells, right or wrong as true, TRUE, 1.0 become 1 or 0, and phases like practice training;
-/// codes stay. A row that is there twice is an error. Any thread (allocates).
+/// A table in UTF-8, one row per trial; otherwise one line on what is not as expected. With `names` it has
+/// these columns alone, under our names, and `observer`; rows that lack a cell of them are dropped and
+/// counted. Numbers target_x and target_y make columns target_column and target_row, ascending from 1, of at
+/// most mostGridLines. Of other programs, answers that are none (null, NA) become empty, right or wrong 1 or
+/// 0, phases like practice training; codes stay. A row twice is an error. Any thread (allocates).
 Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
                                 std::span<const ColumnName> names, RowsLeftOut& leftOut);
 
@@ -82,18 +82,19 @@ public:
         table_ = std::move(read.value);
         if (kept == Kept::all) return;
         const LeftRows rows{table_};
-        if (const auto late = optional(trialColumns::ranOut))
-            ranOut_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return row.cells[*late] == "1"; });
+        std::erase_if(table_.rows, [&](const CsvRow& row) {
+            const bool isLate = named(row, trialColumns::ranOut) == "1";
+            ranOut_ += isLate && named(row, trialColumns::phase) != trialColumns::training;
+            return isLate;
+        });
         notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return rows.didNotLeave(row); });
     }
 
     std::size_t leftOut() const noexcept { return leftOut_.rows; } ///< rows dropped for an empty mapped cell
 
-    std::size_t notLeft() const noexcept {
-        return notLeft_;
-    } ///< rows dropped as they did not leave as planned
+    std::size_t notLeft() const noexcept { return notLeft_; } ///< rows that did not leave as planned
 
-    std::size_t ranOut() const noexcept { return ranOut_; } ///< rows dropped as they have no answer in time
+    std::size_t ranOut() const noexcept { return ranOut_; } ///< main trials without an answer in time
 
     const CsvTable& table() const { return table_; }
 
@@ -104,8 +105,7 @@ public:
         throw StudyFault{table_.name + ": expected a column " + std::string(column) + ", found none"};
     }
 
-    /// Calls take(row) for each row that is not training and, if the table has tasks, has this kind of
-    /// answer. nullopt selects rows without a task. Returns the number of rows taken.
+    /// Of each main row, if the table has tasks, of this kind of answer (nullopt: of none). How many were.
     template <class Take>
     std::size_t each(std::optional<AnswerKind> answer, Take take) const {
         const auto phase = optional(trialColumns::phase), tasks = optional(trialColumns::task);

@@ -194,6 +194,11 @@ void tellDoses(ReportBuilder& report) {
                       *std::ranges::max_element(own));
         }
     }
+    if (meanings.empty() && std::ranges::any_of(all.rows, [cell = Cells{all}](const CsvRow& row) {
+            return cell(row, columns::render).empty() ||
+                   answerOf(cell(row, columns::task)) == AnswerKind::level;
+        }))
+        return;
     report.page.subheading("Levels and exposure");
     if (meanings.empty())
         return report.page.paragraph("Every trial had the level of its call; nobody measured what was felt.");

@@ -31,13 +31,6 @@ std::size_t ReportBuilder::people() const {
     return std::max<std::size_t>(1, codes.size());
 }
 
-AnalysisJob ReportBuilder::optionsFor(const std::string& table) const {
-    AnalysisJob options;
-    options.files = {table};
-    options.made = &tables_;
-    return options;
-}
-
 void ReportBuilder::warn(const std::vector<std::string>& warnings) {
     std::vector<std::string> fresh;
     for (const std::string& words : warnings)

@@ -26,14 +26,13 @@ public:
     const ReportTrials& trials;
     ReportPage page;
     std::vector<std::string> scales; ///< columns of ratings that can be read
-    std::string half{};              ///< what the page calls the level of a half in psychometric-stimuli.csv
+    std::string half{};              ///< what the page calls the level of a half
     bool isSimulated() const noexcept { return trials.isSimulated; }
 
     /// Number of participants in the rows, by the column participant; 1 without it.
     std::size_t people() const;
 
-    /// ", 95 % intervals over participants"; of one participant, who has none, that there are none. Some
-    /// bars may be of one participant alone.
+    /// ", 95 % intervals over participants", if there are. Some bars may be of one participant alone.
     std::string intervals(bool someAlone = false) const {
         return people() < 2 ? ", of one participant without intervals"
                : someAlone  ? ", 95 % intervals over participants, or over trials where there was one"
@@ -52,15 +51,23 @@ public:
                    : std::string{};
     }
 
-    /// Options for an analysis of one of the report's tables.
-    AnalysisJob optionsFor(const std::string& table) const;
+    /// Of an analysis of all trials.
+    AnalysisJob options() const {
+        AnalysisJob job;
+        job.files = {trialsTable}, job.made = &tables_;
+        return job;
+    }
 
     /// Adds a table. Precondition: its name is unused.
     void addTable(const std::string& name, std::string csv) { tables_[name] = std::move(csv); }
     const std::string& tableText(const std::string& name) const { return tables_.at(name); }
+    /// What a reader finds in the table of all trials.
+    auto read(auto reader, const auto&... how) const {
+        const NamedText file{tableText(trialsTable), trialsTable};
+        return reader(std::span{&file, 1}, how...);
+    }
 
-    /// Runs an analysis. Its warnings and text are added to the page, and its table is stored as `name`.CSV.
-    /// `error` is empty on success.
+    /// Runs an analysis: warnings and text go to the page, its table to `name`. `error` is empty on success.
     AnalysisReport analysis(const std::string& kind, const AnalysisJob& options, const std::string& name);
 
     /// Frame of the next chart, with a unique name.

@@ -108,7 +108,7 @@ bool isGrid(const Identified& data) {
 void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance) {
     const std::string suffix = tolerance ? "-tolerance-" + std::to_string(tolerance) : "",
                       words = tolerance ? ", 1 step of tolerance" : "";
-    AnalysisJob options = report.optionsFor(trialsTable);
+    AnalysisJob options = report.options();
     options.tolerance = tolerance;
     report.page.subheading(tolerance ? "With one step of tolerance" : "Exact answers");
     const AnalysisReport confusion = report.analysis("confusion", options, "confusion" + suffix + ".csv");
@@ -164,8 +164,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
 
 void tellIdentification(ReportBuilder& report) {
     report.page.heading("Identification");
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readIdentification({&file, 1});
+    const auto data = report.read(readIdentification);
     if (!data) return report.page.note(data.error);
     tellCriterion(report, data.value, 0);
     if (isGrid(data.value)) tellCriterion(report, data.value, 1);
@@ -212,11 +211,9 @@ std::string perceivedChart(ReportBuilder& report, const Places& places, bool isR
 
 void tellPlaces(ReportBuilder& report) {
     report.page.heading("Perceived places");
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    auto data = readLocations({&file, 1});
+    auto data = report.read(readLocations);
     if (!data) return report.page.note(data.error);
-    AnalysisReport resolution =
-        report.analysis("resolution", report.optionsFor(trialsTable), "resolution.csv");
+    AnalysisReport resolution = report.analysis("resolution", report.options(), "resolution.csv");
     if (!resolution.error.empty()) return;
     report.addTable("percent-counts.csv", resolution.counts);
     Places& places = data.value.conditions;
@@ -256,7 +253,7 @@ void tellPlaceErrors(ReportBuilder& report) {
         "Variable error: standard deviation around a target's own mean, both axes together. Gain: slope of "
         "answered over true places; 1 is neither drawn together nor apart. Means over participants of their "
         "means over targets; each target counts as much.");
-    report.analysis("places", report.optionsFor(trialsTable), "places.csv");
+    report.analysis("places", report.options(), "places.csv");
 }
 
 } // namespace physvib

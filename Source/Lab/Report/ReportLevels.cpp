@@ -22,13 +22,14 @@ double guessOf(const ReportTrials& trials) {
 /// Of tables that do not say how levels were chosen.
 void tellFits(ReportBuilder& report) {
     report.page.subheading("Psychometric functions");
-    AnalysisJob fit = report.optionsFor(trialsTable);
+    AnalysisJob fit = report.options();
     fit.model.guess = report.trials.guess;
     const bool isFitted = report.analysis("psychometric", fit, "psychometric.csv").error.empty();
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
+    const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
-    tellFunctions(report, data.value, fit.model, fitWords(report.trials.columns), isFitted);
+    const FitWords words = fitWords(report.trials.columns);
+    report.half = words.half(fit.model);
+    tellFunctions(report, data.value, fit.model, words, isFitted);
 }
 
 /// The answers by level, and the threshold that the method found.
@@ -60,10 +61,9 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
 
 void tellMagnitudes(ReportBuilder& report) {
     report.page.subheading("Magnitudes");
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readLevelAnswers({&file, 1}, {"stimulus", "value", true});
+    const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"stimulus", "value", true});
     if (!data) return report.page.note("stimuli are no levels, so there is no power law: " + data.error);
-    const auto words = report.analysis("power-law", report.optionsFor(trialsTable), "power-law.csv");
+    const auto words = report.analysis("power-law", report.options(), "power-law.csv");
     if (!words.error.empty()) return;
     std::vector<std::string> charts;
     for (const auto& condition : data.value.conditions)
@@ -130,7 +130,7 @@ void tellLevels(ReportBuilder& report) {
                          "reversals are not looked for");
         return tellFits(report);
     }
-    AnalysisJob options = report.optionsFor(trialsTable);
+    AnalysisJob options = report.options();
     options.protocol = report.trials.protocol;
     const auto data = readFinishedLevels(options);
     if (!data) return report.page.note(data.error);

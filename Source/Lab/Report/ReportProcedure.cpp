@@ -43,21 +43,24 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
             if (const auto number = file.head.find("number"); number != file.head.end() && own.number.empty())
                 own.number = number->second;
             own.observer = cell(row, trialColumns::observer);
-            (cell(row, trialColumns::phase) == trialColumns::training ? own.training : own.main) += 1;
-            const bool ranOut = cell(row, trialColumns::ranOut) == "1";
-            own.ranOut += ranOut && cell(row, trialColumns::phase) != trialColumns::training;
+            own.group = cell(row, trialColumns::group);
+            const bool isTraining = cell(row, trialColumns::phase) == trialColumns::training,
+                       ranOut = cell(row, trialColumns::ranOut) == "1";
+            ++(isTraining ? own.training : own.main);
+            if (isTraining) continue;
+            own.ranOut += ranOut;
             own.unanswered += !ranOut && (trials.knowTasks() ? answerOf(cell(row, trialColumns::task)) ==
                                                                        AnswerKind::label &&
                                                                    cell(row, "response").empty()
                                                              : hasNoAnswer(cell, row));
-            own.group = cell(row, trialColumns::group);
-            if (const auto seconds = parseNumber<double>(cell(row, "response_s"));
-                seconds && cell(row, trialColumns::phase) != trialColumns::training)
+            if (const auto seconds = parseNumber<double>(cell(row, "response_s")))
                 own.seconds.push_back(*seconds);
         }
     }
-    for (const auto& [code, unanswered] : trials.leftOut.unanswered)
-        person(code).main += unanswered, person(code).unanswered += unanswered;
+    for (const auto& [code, unanswered] : trials.leftOut.unanswered) {
+        Attended& own = person(code);
+        own.main += unanswered[0], own.unanswered += unanswered[0], own.training += unanswered[1];
+    }
     return people;
 }
 
@@ -160,12 +163,12 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
                             " of the table of people has no trials here");
     std::map<std::string, std::size_t> groups;
     for (const auto& [code, own] : attended) // in rows, or in the table of people
-        if (const auto* const person = facts.person(code); !facts.isExcluded(code))
+        if (const auto* const person = facts.person(code); !facts.isExcluded(code) && own.main > 0)
             ++groups[own.group.empty() && person ? person->group : own.group];
-    groups.erase("");
     std::vector<std::string> sizes;
-    for (const auto& [group, size] : groups) sizes.push_back(std::to_string(size) + " " + group);
-    if (!sizes.empty()) report.page.paragraph("Groups: " + listed(sizes) + ".");
+    for (const auto& [group, size] : groups)
+        sizes.push_back(std::to_string(size) + (group.empty() ? " not known" : " " + group));
+    if (groups.size() > groups.count("")) report.page.paragraph("Groups: " + listed(sizes) + ".");
     const Moments moments{ages};
     if (!ages.empty())
         report.page.paragraph(

@@ -18,8 +18,7 @@
 
 namespace physvib {
 
-// Facts of a study that trial files do not contain: participants, exclusions with reasons, ethics, consent,
-// and the noise level at the ear.
+// Facts of a study that trial files do not contain.
 
 /// One participant; unknown fields are empty.
 struct PersonFacts {
@@ -77,19 +76,16 @@ struct ReportTrials {
 /// Returns an empty string, or why a call in a file is not allowed.
 using CallCheck = std::function<std::string(std::string_view call)>;
 
-/// Reads named texts. Files of different studies or with different columns give an error that names them.
-/// `protocol`: given by the user; without it, a built-in one is looked up. Any thread.
+/// Texts by name. `protocol`: given by the user; without it, a built-in one is looked up. Any thread.
 Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, std::string>>& texts,
                                       const std::vector<ColumnName>& columns,
                                       const std::optional<Protocol>& protocol,
                                       const CallCheck& callFault = {});
 
-/// Stores the facts and removes the rows of excluded participants from `all` (`files` keeps them). Returns a
-/// line if no participant remains, else an empty string. Any thread.
+/// Takes the rows of excluded people from `all` (`files` keeps them). A line if nobody remains. Any thread.
 std::string takeFacts(ReportTrials& trials, StudyFacts facts);
 
-/// All rows as one table with that first line, without unanswered training touches. `parts` has the answers
-/// that there were to choose. Any thread.
+/// All rows but unanswered training touches; `parts` has the answers that there were. Any thread.
 std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine);
 
 /// True if a main trial of our own files was right or wrong at a level that followed the answers.
@@ -109,8 +105,7 @@ struct UnfinishedRun {
     std::string words() const;
 };
 
-/// From the columns participant, condition, session and correct, and the protocol; excluded participants are
-/// not among them. Nothing is known without a protocol. Explorations end when participants like. Any thread.
+/// Of people who are not excluded; none without a protocol. Explorations end when people like. Any thread.
 std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials);
 
 } // namespace physvib

@@ -34,10 +34,9 @@ void tellTwoFactors(ReportBuilder& report, SessionOfChoices session) {
     auto& trials = session.trials;
     std::set<std::string> both;
     for (ChoiceTrial& trial : trials) {
-        const std::string& of = trial.condition;
-        const std::size_t last = of.rfind(' '), before = last == 0 ? of.npos : of.rfind(' ', last - 1);
-        if (last == of.npos) return;
-        trial.condition = of.substr(before == of.npos ? 0 : before + 1);
+        const auto words = factorWords(trial.condition);
+        if (words.size() < 2) return;
+        trial.condition = words.end()[-2] + " " + words.back();
         both.insert(trial.condition);
     }
     if (both.size() > mostShown) return;
@@ -94,8 +93,8 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
 }
 
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.
-void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
-    AnalysisJob fit = report.optionsFor(trialsTable);
+void tellConstantStimuli(ReportBuilder& report) {
+    AnalysisJob fit = report.options();
     fit.level = "stimulus";
     std::string measure = "correct";
     const auto sessions =
@@ -105,7 +104,7 @@ void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
         if (session.answers.size() == 2) // of one interval: half way is subjective equality
             fit.model.guess = 0.0, measure = fit.measure = "choice=" + session.answers.back();
     }
-    const auto data = readLevelAnswers({&file, 1}, {"stimulus", measure, false});
+    const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"stimulus", measure, false});
     const auto hasLevels = [](const auto& one) { // two are a factor's
         return countByLevel(one.trials, [](const LevelAnswer& trial) { return trial.counted(); }).size() > 2;
     };
@@ -121,23 +120,19 @@ void tellConstantStimuli(ReportBuilder& report, const NamedText& file) {
 
 void tellChoices(ReportBuilder& report) {
     report.page.heading("Choices");
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readChoices({&file, 1});
+    const auto data = report.read(readChoices);
     if (!data) return report.page.note(data.error);
-    if (const auto words = report.analysis("choices", report.optionsFor(trialsTable), "choices.csv");
-        !words.error.empty())
+    if (const auto words = report.analysis("choices", report.options(), "choices.csv"); !words.error.empty())
         return;
-    tellConstantStimuli(report, file);
+    tellConstantStimuli(report);
     for (const auto& session : data.value.conditions) tellShares(report, session);
 }
 
 void tellRatings(ReportBuilder& report) {
     report.page.heading("Ratings");
-    const NamedText file{report.tableText(trialsTable), trialsTable};
-    const auto data = readRatings({&file, 1});
+    const auto data = report.read(readRatings);
     if (!data) return report.page.note(data.error);
-    if (const auto words = report.analysis("ratings", report.optionsFor(trialsTable), "ratings.csv");
-        !words.error.empty())
+    if (const auto words = report.analysis("ratings", report.options(), "ratings.csv"); !words.error.empty())
         return;
     report.scales = data.value.scales;
     for (const auto& session : data.value.conditions) tellScores(report, data.value, session);

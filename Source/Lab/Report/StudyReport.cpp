@@ -49,7 +49,10 @@ std::string firstLine(const ReportTrials& trials) {
 std::string titleOf(const ReportTrials& trials) {
     if (trials.protocol) return "Report: " + trials.protocol->title;
     const std::string name = trials.common("protocol");
-    return "Report: " + (name.empty() ? trials.files.front().name : name);
+    const std::size_t others = trials.files.size() - 1;
+    return "Report: " + (!name.empty() ? name
+                                       : trials.files.front().name +
+                                             (others > 0 ? " and " + std::to_string(others) + " more" : ""));
 }
 
 /// The same in a plan and in the report of the study.
@@ -91,7 +94,7 @@ void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run
     const std::string table = ran.value[testsTable];
     made.tests = testsIn(table);
     report.page.paragraph("By " + table.substr(std::min<std::size_t>(2, table.size()), table.find('\n') - 2) +
-                          (made.tests.empty() ? ": nothing to compare." : ":"));
+                          (made.tests.empty() ? ": no test was made." : ":"));
     report.page.lines(ran.value[testsWords]);
     ran.value.erase(testsWords);
     made.files.merge(ran.value);
@@ -221,8 +224,12 @@ std::string codeOf(int number) { return std::string("P").append(std::to_string(n
 
 std::string simulatedFile(const Protocol& protocol, int number) {
     const Participant participant{codeOf(number), number, "simulated"};
-    Experiment experiment{protocol, participant};
-    const SimulatedObserver observer{ObserverSettings{}, protocol, participant};
+    Protocol rehearsal = protocol;
+    for (SessionPlan& session : rehearsal.sessions) // so that a function is found where there may be one
+        if (!session.correct.empty() || session.answers.size() == 2)
+            session.repetitions = std::max(session.repetitions, 100);
+    Experiment experiment{rehearsal, participant};
+    const SimulatedObserver observer{ObserverSettings{}, rehearsal, participant};
     std::string text = trialHeader(protocol, participant, PHYSVIB_VERSION);
     while (!experiment.isDone())
         text += trialRow(protocol, participant, experiment.take(observer.answer(experiment)));
@@ -310,15 +317,7 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
             "nothing to test; the scripts can be.");
         return sentences;
     }
-    std::string renamed;
-    for (std::string test : tests) {
-        if (const auto at = test.find(FitWords::equality); at != test.npos && !planned.contains(test)) {
-            test.replace(at, std::string_view{FitWords::equality}.size(), FitWords::threshold); // of older
-                                                                                                // plans
-            if (planned.contains(test))
-                renamed = std::string{"What the plan calls "} + FitWords::threshold + " is the " +
-                          FitWords::equality + ": no answer is right.";
-        }
+    for (const std::string& test : tests) {
         if (planned.erase(test) > 0) continue;
         const auto other = std::ranges::find_if(planned, [&](const auto& one) {
             return stemOf(one) == stemOf(test) && std::ranges::find(tests, one) == tests.end();
@@ -330,7 +329,6 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     for (const std::string& test : planned) sentences.push_back("Planned, not done: " + test);
     if (sentences.size() == 1)
         sentences.emplace_back("Protocol, number of participants and tests are as planned.");
-    if (!renamed.empty()) sentences.push_back(renamed);
     return sentences;
 }
 

@@ -59,13 +59,14 @@ rows.of <- function(file, measure, factors, where = character(), between = chara
   d <- where.is(d, where)
   unknown <- if ("group" %in% between) groupless(d)
   d <- d[!(d$participant %in% unknown), ]
+  all <- c(attr(file, "absent"), d$participant)
   column <- if (measure %in% names(d)) measure else sub("=.*", "", measure)
   d <- d[!(d[[column]] %in% c("", "NA")), ]
   y <- if (measure %in% names(d)) suppressWarnings(as.numeric(d[[column]])) else as.numeric(d[[column]] == sub("^[^=]*=", "", measure))
   if (anyNA(y)) stop(paste0("expected numbers in the column ", column, ", found ", d[[column]][is.na(y)][1]))
   rows <- data.frame(id = d$participant, y = y)
   for (i in seq_along(factors)) { own <- level(d, factors[i]); rows[[paste0("w", i)]] <- factor(own, levels = in.order(own)) }
-  structure(rows, unknown = unknown)
+  structure(rows, unknown = unknown, absent = setdiff(all, c(rows$id, unknown)))
 }
 groupless <- function(d) unique(d$participant[d$group %in% c("", NA)])
 # A participant per row, a combination of levels per column (the last factor varies fastest): means over rows. Who lacks a combination is left out.
@@ -75,7 +76,7 @@ cells.of <- function(rows) {
   means <- tapply(rows$y, list(id, cell), mean)
   whole <- complete.cases(means)
   if (sum(whole) < 2) stop(paste("expected two or more participants with all levels, found", sum(whole)))
-  structure(means[whole, , drop = FALSE], lacking = rownames(means)[!whole], unknown = attr(rows, "unknown"))
+  structure(means[whole, , drop = FALSE], lacking = rownames(means)[!whole], unknown = attr(rows, "unknown"), absent = attr(rows, "absent"))
 }
 # Values whose ranks are asked for: means that differ by the rounding of thirds are the same.
 even <- function(x, size = max(abs(x), 1e-300)) round(x / size, 9)
@@ -122,12 +123,13 @@ rank.test <- function(a, b = NULL) {
 ranks.note <- function(t, equal, words) paste(c(if (equal > 0) paste(equal, "of them", words), if (grepl("rank", t$method) && !grepl("exact", t$method)) "p by a normal approximation"), collapse = ", ")
 # A test that R refuses is a line that says why; the others go on.
 attempt <- function(test, effect, run) tryCatch(run, error = function(e) result(test, effect, "", NA, NA, NA, note = gsub("\n", "", conditionMessage(e), fixed = TRUE)))
+values.lacking <- function(people) paste("values are lacking of", paste(people, collapse = ", "))
 tell.lacking <- function(test, cells) { # once of the same cells
-  lacking <- attr(cells, "lacking"); unknown <- attr(cells, "unknown")
+  lacking <- c(attr(cells, "lacking"), attr(cells, "absent")); unknown <- attr(cells, "unknown")
   of <- function(test) sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|.* test|pairs by (t|ranks)) of ", "", test))
   if (any(results$effect == "left out" & of(results$test) == of(test))) return(invisible())
   if (length(unknown) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = paste0(paste(unknown, collapse = ", "), ": group not known, left out of tests by group and of those within people beside it"))
-  if (length(lacking) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = paste("some levels are lacking of", paste(lacking, collapse = ", ")))
+  if (length(lacking) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = values.lacking(lacking))
 }
 
 # Of each group its means of the levels within participants, where they are few.
@@ -191,7 +193,8 @@ anova.test <- function(test, file, measure, within = character(), where = charac
     shapiro("residuals normality", if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
     if (length(between) > 0 && ncol(cells) > 1) shapiro("participants' means normality", rowMeans(left))
   })
-  if (length(attr(cells, "lacking")) > 0 && requireNamespace("lme4", quietly = TRUE)) attempt(test, "mixed model", mixed(test, file, measure, within, between, where))
+  if (length(attr(cells, "lacking")) > 0) attempt(test, "mixed model", if (requireNamespace("lme4", quietly = TRUE)) mixed(test, file, measure, within, between, where)
+                                                                  else stop("the package lme4, for a model of all people, is not here"))
 }) }
 # Where people lack levels, all of them in one model (lme4): each effect by the likelihood ratio of the model with and without it. People differ in
 # the effects of several factors within them, too: with an intercept alone 16 of 100 studies without an effect would have one at 0.05.
@@ -232,6 +235,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
   cat(test, "\n", sep = ""); attempt(test, "all", {
   rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
   tell.lacking(test, cells)
+  if (by == "t" && length(between) > 0 && n <= nlevels(interaction(lapply(between, function(b) of.people(file, measure, b, rownames(cells), where)), drop = TRUE))) stop("expected more people than groups")
   for (f in c(within, between)) {
     is.within <- f %in% within; is.signed <- is.within && paired
     own <- if (is.within) by.level(rows, cells, match(f, within)) else split(unname(rowMeans(cells)), of.people(file, measure, f, rownames(cells), where))
@@ -259,7 +263,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
       if (is.nan(t$p.value)) return(out)
       if (by == "t") return(modifyList(out, list(df = t$parameter, size = "d_z", effect = mean(a - b) / sd(a - b), difference = mean(a - b), interval = t$conf.int)))
       share <- if (is.signed) t$statistic / sum(seq_len(sum(different != 0))) else t$statistic / (length(a) * length(b))
-      modifyList(out, list(effect = 2 * share - 1, difference = if (is.signed) median(a - b) else median(a) - median(b),
+      modifyList(out, list(effect = 2 * share - 1, difference = if (is.signed) median(a - b) else even(median(a) - median(b), size) * size,
                            note = ranks.note(t, if (is.signed) sum(different == 0) else 0, "without a difference")))
     })
     ps <- sapply(tests, function(one) one$p)
@@ -272,7 +276,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
       else result(test, effect, if (by == "t") "t" else if (is.signed) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], correction, size = one$size,
                   effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], note = c(one$note, "")[1], lines = length(ps))
     }
-    if (by == "t" && is.within && n > 1) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
+    if (by == "t" && is.within && !all(is.nan(ps))) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
       of <- if (nlevels(groups) > 1) table(groups) else n
       found <- uniroot(function(d) pt(qt(1 - alpha / 2, n - length(of)), n - length(of), d * length(of) / sqrt(sum(1 / of)), lower.tail = FALSE) - 0.8, c(0, 100), tol = 1e-9)$root
       cat("  power: n = ", n, " finds d_z = ", round(found, 2), " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
@@ -294,6 +298,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   marks <- lapply(factors, words.of)
   if (length(factors) > 1) { all <- do.call(paste, marks); all[d$participant %in% unknown] <- NA; marks <- c(marks, list(all)) }
   if (length(unknown) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = paste0(paste(unknown, collapse = ", "), ": group not known, left out of lines of a group"))
+  if (length(absent <- setdiff(everybody, d$participant)) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = values.lacking(absent))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
   if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
   lines <- expand.grid(group = groups, word = if (k == 2) words[1] else words, stringsAsFactors = FALSE)
@@ -310,7 +315,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   for (i in seq_along(tests)) {
     one <- tests[[i]]; effect <- if (k == 2) lines$group[i] else paste0(lines$word[i], ", ", lines$group[i])
     if (is.na(ps[i])) result(test, effect, "V", NA, NA, one$n, note = "one participant, or shares of chance alone")
-    else result(test, effect, if (is.null(one$t$parameter)) "V" else paste("of", one$t$parameter, "people who lean to one side, to", lines$word[i], "by an exact binomial"), one$t$statistic, ps[i], one$n, p_corrected = corrected[i],
+    else result(test, effect, if (is.null(one$t$parameter)) "V" else paste("exact binomial, of", one$t$parameter, "people who lean to one side those to", lines$word[i]), one$t$statistic, ps[i], one$n, p_corrected = corrected[i],
                 correction = "holm", size = paste("share of", lines$word[i]), effect_size = one$share, note = ranks.note(one$t, one$equal, "at chance"))
   }
 }) }
@@ -359,6 +364,25 @@ design.of <- function(d, columns = c("group", "condition", "stimulus")) {
   }
   out
 }
+# Means are compared that are of the same levels: who lacks some of what is averaged over is left out. Where fewer than half of the people have them all, levels count that a participant has
+# with all those of the factors within people, and nothing is compared between people. Of more than 12 (items), or of levels of one participant each, those count that there are.
+alike.for <- function(d, design) {
+  key <- function(factors) do.call(paste, c(list(character(nrow(d))), lapply(factors, function(f) level(d, f)), sep = "\r"))
+  block <- key(design$over); cell <- key(c(design$over, design$within)); own <- paste(d$participant, block)
+  number <- function(by) tapply(cell, by, function(cells) length(unique(cells)))
+  whole <- number(d$participant) == length(unique(cell))
+  if (length(design$over) == 0 || all(whole)) return(list(d = d, design = design))
+  are.items <- length(unique(block)) > most.levels || all(tapply(d$participant, block, function(who) length(unique(who))) == 1)
+  if (!are.items && sum(whole) >= max(2, length(whole) / 2)) return(list(d = d[d$participant %in% names(whole)[whole], ], design = design))
+  kept <- number(own)[own] == number(block)[block]
+  if (setequal(d$participant[kept], d$participant)) d <- d[kept, ]
+  design$notes <- sub("level by level", "those that each has", design$notes)
+  if (!are.items && length(design$between) > 0) {
+    design$notes <- c(design$notes, paste0(paste(design$between, collapse = ", "), ": not tested, as people's means are of unequal levels of ", paste(design$over, collapse = ", ")))
+    design$between <- character()
+  }
+  list(d = d, design = design)
+}
 # The model that a measure and its factors call for. Scores: analysis of variance, pairs by t. Ranks: Friedman's or Kruskal and Wallis' test, pairs by
 # ranks. Magnitudes: ranks of one factor; of several the analysis of variance of their logarithms. No ordinal mixed model of trials: with an intercept for
 # each person alone, 12 of 60 studies without an effect have one at 0.05 (Friedman's test: 4), and with one for each person's level it takes half a minute.
@@ -366,15 +390,20 @@ most.levels <- 12 # of which every two are compared
 ranks.told <- FALSE
 as.published <- FALSE # a study -thesis: pairs as 4.2.2 and 5.2.2 have them, by t or Mann and Whitney's ranks, with Bonferroni's correction
 spoken <- c(percent_correct = "percent correct", distance = "distance from the target", variable = "variable error", jnd = "JND")
-compare <- function(what, d, measure, kind = "scores", columns = c("group", "condition", "stimulus")) {
-  column <- sub("=.*", "", measure)
+everybody <- character() # who has trials
+compare <- function(what, d, measure, kind = "scores", columns = c("group", "condition", "stimulus"), over = character()) {
+  column <- sub("=.*", "", measure); all <- union(everybody, d$participant)
   d <- d[!(d[[column]] %in% c("", "NA")), ]
   if (length(unique(d$participant)) < 2) return(invisible())
-  zeros <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) <= 0) else 0
+  below <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) < 0) else 0
+  if (below > 0) { kind <- "scores"; what <- sub("magnitudes", "values", what) }
+  zeros <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) == 0) else 0
   if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
-  design <- design.of(d, columns); factors <- c(design$within, design$between)
+  design <- design.of(d, columns); design$over <- c(design$over, over)
+  if (below > 0) design$notes <- c(design$notes, paste(below, if (below == 1) "value is" else "values are", "below 0, so these are no magnitudes: compared as they are (a column task, with adjust, tells of levels that were set)"))
   if (kind == "magnitudes" && length(unique(d$level_db)) > 1) { design$over <- c(design$over, "level_db"); design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over, level by level")) }
   if (zeros > 0) design$notes <- c(design$notes, paste(zeros, if (zeros == 1) "magnitude" else "magnitudes", "of 0, which has no logarithm, left out"))
+  alike <- alike.for(d, design); d <- alike$d; design <- alike$design; factors <- c(design$within, design$between)
   if (length(design$notes) > 0) cat(what, "\n", sep = "")
   for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over.*", "not tested", note))
   if (length(factors) == 0) return(invisible())
@@ -383,6 +412,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
     own <- do.call(paste, c(list(d$participant), lapply(c(factors, design$over), function(f) level(d, f)), sep = "\r"))
     d[[measure]] <- ave(y, own); d <- d[!duplicated(own), ]
   }
+  attr(d, "absent") <- setdiff(all, d$participant)
   if (kind == "magnitudes" && length(factors) > 1) kind <- "scores"
   few <- function(some) Filter(function(f) length(unique(level(d, f))) <= most.levels, some)
   name <- paste(what, "by", paste(factors, collapse = ", "))
@@ -449,8 +479,8 @@ in.pairs <- function(own, scale, words) for (one in split(own, if ("condition" %
 }
 # How far a participant's answers to the same target scatter around their own mean: what the size of a perceived grid rests on.
 scatter.of <- function(own) {
-  keys <- intersect(c("participant", "group", "condition"), names(own))
-  of <- interaction(own[c(keys, "target_column", "target_row")], drop = TRUE)
+  own$target <- paste(own$target_row, own$target_column); keys <- intersect(c("participant", "group", "condition", "target"), names(own))
+  of <- interaction(own[keys], drop = TRUE)
   both <- tapply(as.numeric(own$x), of, var) + tapply(as.numeric(own$y), of, var)
   na.omit(cbind(own[match(levels(of), of), keys, drop = FALSE], variable = as.vector(sqrt(both))))
 }
@@ -467,9 +497,9 @@ study <- function(study, scales = character(), points = character(), half = "thr
   d <- table.of("trials.csv")
   as.published <<- grepl("protocol [^ ]*-thesis", study)
   if (!("participant" %in% names(d))) return(finish(study))
-  is.told <- "task" %in% names(d)
+  is.told <- "task" %in% names(d); everybody <<- unique(d$participant)
   if (is.told) for (column in setdiff(c("session", "correct", "level_db"), names(d))) d[[column]] <- rep("", nrow(d))
-  if (!is.told) points <- union(points, Filter(function(scale) all(d[[scale]] %in% c("", "NA", 1:7)), scales)) # of other programs
+  if (!is.told) points <- union(points, Filter(function(scale) all(d[[scale]] %in% c("", "NA") | suppressWarnings(as.numeric(d[[scale]])) %in% 1:7), scales)) # of other programs
   if (is.told) for (s in Filter(function(s) length(s) > 1, lapply(split(d$session, d$task), unique)))
     cat("sessions ", paste(s, collapse = ", "), " are not compared with each other: a call that names the factor session does\n", sep = "")
   # a trial that ran out of time has no other answer
@@ -495,10 +525,11 @@ study <- function(study, scales = character(), points = character(), half = "thr
     if (!is.told) for (f in runs.of(d)) result(what, "factors", "", NA, NA, length(unique(own$participant)), note = paste0(runs.words(d, f), "all trials together"))
     for (m in measures) compare(paste0(name(m), words, session), own, m, columns = columns)
   })
+  spoken <- c(spoken, threshold = half)
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
-    compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"))
+    compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"), over = "target")
     for (one in split(own, if ("condition" %in% names(own)) factor(own$condition, unique(own$condition)) else rep("", nrow(own)))) {
       place <- if (length(unique(own$condition)) > 1) paste(words, "of", one$condition[1]) else words
       for (m in c("x", "y")) {
@@ -538,7 +569,6 @@ study <- function(study, scales = character(), points = character(), half = "thr
   if (file.exists("thresholds.csv")) parts.in(table.of("thresholds.csv"), function(own, session) {
     for (m in unique(own$method)) compare(paste0("threshold by ", m, session), own[own$method == m, ], "threshold", columns = c("group", "condition"))
   }) else from("psychometric.csv", c("threshold", "jnd"))
-  spoken <- c(spoken, threshold = half)
   from("psychometric-stimuli.csv", c("threshold", "jnd"))
   if (!is.told && !any(file.exists(c("identification.csv", "psychometric.csv")))) each("", "correct", function(own, words) compare("share of right answers", own, "correct"))
   each("adjust", "value", function(own, words) if (is.told) compare(paste0("matched levels", words), own, "value"))
@@ -547,7 +577,8 @@ study <- function(study, scales = character(), points = character(), half = "thr
   finish(study)
 }
 finish <- function(study) {
-  lme4 <- if (any(grepl("mixed model", results$effect))) paste(", lme4", packageVersion("lme4")) else ""
+  everybody <<- character()
+  lme4 <- if (any(grepl("mixed model", results$effect)) && requireNamespace("lme4", quietly = TRUE)) paste(", lme4", packageVersion("lme4")) else ""
   writeLines(paste0("# ", study, ", ", R.version.string, lme4), "tests.csv")
   for (table in list(list(similarity, "similarity.csv"), list(places, "mds.csv"))) if (nrow(table[[1]]) > 0) {
     if (all(table[[1]]$session == "")) table[[1]]$session <- NULL

@@ -3,9 +3,9 @@
 // cells, since 0 log 0 is 0.
 #include "Lab/Study/Identification.h"
 #include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -26,21 +26,14 @@ struct LabelOrder {
 
 using Labels = std::set<std::string, LabelOrder>;
 
-bool takeNumber(std::string_view text, int& number) noexcept {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc{} && end == text.data() + text.size() && number > 0;
-}
-
 } // namespace
 
 std::optional<GridCell> parseGridCell(std::string_view label) noexcept {
     const std::size_t comma = label.find(',');
-    GridCell cell;
     if (comma == std::string_view::npos) return std::nullopt;
-    if (!takeNumber(trimmed(label.substr(0, comma)), cell.row) ||
-        !takeNumber(trimmed(label.substr(comma + 1)), cell.column))
-        return std::nullopt;
-    return cell;
+    const auto row = parseNumber<int>(trimmed(label.substr(0, comma))),
+               column = parseNumber<int>(trimmed(label.substr(comma + 1)));
+    return row > 0 && column > 0 ? std::optional{GridCell{*row, *column}} : std::nullopt;
 }
 
 std::string gridLabel(const GridCell& cell) {

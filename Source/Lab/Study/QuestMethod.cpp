@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Converts QUEST+ settings to a grid of psychometric functions, and to and from text.
 #include "Lab/Study/QuestMethod.h"
+#include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
 #include "Lab/Study/Protocol.h"
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -25,16 +26,14 @@ double levelAt(const QuestMethod& m, int step) {
 
 std::vector<std::string_view> wordsOf(std::string_view text) {
     std::vector<std::string_view> words;
-    while (!text.empty()) {
-        words.push_back(text.substr(0, text.find(' ')));
-        text.remove_prefix(std::min(words.back().size() + 1, text.size()));
-    }
+    while (!text.empty()) words.push_back(takeUntil(' ', text));
     return words;
 }
 
 bool take(std::string_view word, double& number) {
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    return error == std::errc{} && end == word.data() + word.size() && std::isfinite(number);
+    const auto read = parseNumber<double>(word);
+    number = read.value_or(0.0);
+    return read.has_value();
 }
 
 } // namespace

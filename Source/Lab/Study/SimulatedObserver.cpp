@@ -2,9 +2,9 @@
 // Response models of the simulated observer, one per task.
 #include "Lab/Study/SimulatedObserver.h"
 #include "Core/Units.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace physvib {
@@ -18,8 +18,7 @@ bool varies(const std::string& label, const char* part) {
     return ("-" + label + "-").find(std::string("-") + part + "-") != std::string::npos;
 }
 
-/// Means as printed in the thesis. Spreads between participants are chosen so that the printed tests follow
-/// for its number of participants (ObserverTest recomputes them).
+/// Means as printed; spreads, so that the printed tests follow (ObserverTest recomputes them).
 ObserverSettings fittedToTheThesis(ObserverSettings settings) {
     settings.placeBlur = 0.2073;
     settings.ringBlur = 0.1524;
@@ -103,7 +102,7 @@ Answer SimulatedObserver::answer(const Experiment& experiment) const {
                       blurOf(condition), random);
         break;
     case AnswerKind::choice:
-        answer.response = session.answers.empty() ? chosen(session, trial, random)
+        answer.response = session.answers.empty() ? chosen(session, condition, trial, random)
                                                   : answered(session, condition, trial, random);
         break;
     case AnswerKind::scores:
@@ -183,9 +182,20 @@ FieldPlace SimulatedObserver::feltPlace(const FieldPlace& place, double blur, Se
     return {x, felt(place.y, settings_.offsetY)};
 }
 
+/// Where a stimulus stands among all by its number, or in their list, from 0 to 1.
+double standingOf(const ConditionPlan& condition, const Trial& trial) {
+    const auto items = stimuliOf(condition);
+    const auto own = parseNumber<double>(trial.stimulus);
+    const auto before =
+        own ? std::ranges::count_if(
+                  items, [&](const StimulusItem& item) { return parseNumber<double>(item.label) < own; })
+            : std::ranges::find(items, trial.stimulus, &StimulusItem::label) - items.begin();
+    return (static_cast<double>(before) + 0.5) / static_cast<double>(items.size());
+}
+
 /// Picks the stronger of two different levels; otherwise the first listed alternative, by its preference.
-std::string SimulatedObserver::chosen(const SessionPlan& session, const Trial& trial,
-                                      SeededRandom& random) const {
+std::string SimulatedObserver::chosen(const SessionPlan& session, const ConditionPlan& condition,
+                                      const Trial& trial, SeededRandom& random) const {
     if (session.adaptedAlternative()) {
         std::size_t strongest = 0;
         double most = -1e9;
@@ -197,7 +207,10 @@ std::string SimulatedObserver::chosen(const SessionPlan& session, const Trial& t
             }
         return trial.parts[strongest];
     }
-    if (!session.correct.empty() && random.chance(0.5)) return session.correct; // knows half of them
+    if (!session.correct.empty()) // knows half of them, the later ones
+        return random.chance(1.25 * standingOf(condition, trial) - 0.125)
+                   ? session.correct
+                   : session.alternatives[random.below(session.alternatives.size())].name;
     if (random.chance(settings_.firstAlternativePreference)) return session.alternatives.front().name;
     return session.alternatives[1 + random.below(session.alternatives.size() - 1)].name;
 }
@@ -205,10 +218,7 @@ std::string SimulatedObserver::chosen(const SessionPlan& session, const Trial& t
 /// The later a stimulus stands, the later an answer.
 std::string SimulatedObserver::answered(const SessionPlan& session, const ConditionPlan& condition,
                                         const Trial& trial, SeededRandom& random) {
-    const auto items = stimuliOf(condition);
-    const auto at =
-        static_cast<double>(std::ranges::find(items, trial.stimulus, &StimulusItem::label) - items.begin());
-    const double share = (at + 0.5) / static_cast<double>(items.size()) + 0.2 * random.normal();
+    const double share = standingOf(condition, trial) + 0.2 * random.normal();
     return session.answers[static_cast<std::size_t>(std::clamp(share, 0.0, 0.999) *
                                                     static_cast<double>(session.answers.size()))];
 }
@@ -232,8 +242,7 @@ double SimulatedObserver::scored(const Trial& trial, SeededRandom& random) const
 /// Stevens' power law with an exponent near one and the same level noise.
 double SimulatedObserver::magnitude(const ConditionPlan& condition, const Trial& trial,
                                     SeededRandom& random) const {
-    double levelG = condition.levelG; // default if the stimulus label is not a level
-    std::from_chars(trial.stimulus.data(), trial.stimulus.data() + trial.stimulus.size(), levelG);
+    const double levelG = parseNumber<double>(trial.stimulus).value_or(condition.levelG);
     const double db =
         toDecibels(std::max(levelG, 1e-6)) + trial.levelDb + settings_.levelNoiseDb * random.normal();
     return std::max(0.01, roundedTo(10.0 * fromDecibels(0.9 * db), 100.0));

@@ -33,13 +33,11 @@ struct ObserverSettings {
 inline constexpr std::string_view observerNames =
     "simulated, simulated-PHONE, simulated-RING or simulated-thesis";
 
-/// The observer with that name; nullopt if unknown. The place blurs of simulated-PHONE and simulated-RING are
-/// fitted to the percent correct of thesis 4.1.2. simulated-thesis is fitted to all printed results of the
-/// five studies, spreads included (tests repeat the fits). Other values are assumptions. Any thread.
+/// The observer with that name; nullopt if unknown. simulated-PHONE and simulated-RING are fitted to thesis
+/// 4.1.2, simulated-thesis to all printed results (tests repeat the fits); others are assumed. Any thread.
 std::optional<ObserverSettings> observerNamed(std::string_view name);
 
-/// Answers depend only on the seed, the participant and the trial, so an interrupted study resumes with the
-/// same answers. Message thread only.
+/// Answers depend only on seed, participant and trial: also when a study resumes. Message thread only.
 class SimulatedObserver {
 public:
     /// `protocol` outlives the observer.
@@ -54,7 +52,8 @@ private:
     PulsePattern feltPattern(PulsePattern pattern, const PatternSet& set, SeededRandom& random) const;
     double blurOf(const ConditionPlan& condition) const noexcept;
     FieldPlace feltPlace(const FieldPlace& place, double blur, SeededRandom& random) const;
-    std::string chosen(const SessionPlan& session, const Trial& trial, SeededRandom& random) const;
+    std::string chosen(const SessionPlan& session, const ConditionPlan& condition, const Trial& trial,
+                       SeededRandom& random) const;
     static std::string answered(const SessionPlan& session, const ConditionPlan& condition,
                                 const Trial& trial, SeededRandom& random);
     static std::string described(const SessionPlan& session, SeededRandom& random);

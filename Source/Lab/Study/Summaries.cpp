@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Quantiles by bisection; choices and ratings grouped by name; thresholds from reversals or QUEST+, means in
-// dB or in logarithms.
+// Quantiles by bisection; choices and ratings by name; thresholds from reversals or QUEST+.
 #include "Lab/Study/Summaries.h"
 #include "Core/EventShaping.h"
 #include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
 #include "Lab/Study/QuestMethod.h"
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -69,13 +68,27 @@ RankInterval rankInterval(std::vector<double> values) {
     return {values[left], values[values.size() - 1 - left]};
 }
 
+std::vector<std::string> factorWords(std::string_view condition) {
+    std::vector<std::string> words;
+    while (!condition.empty()) {
+        const std::string_view word = takeUntil(' ', condition);
+        const bool isNew = words.empty() || word.find('=') - 1 < word.size();
+        if (isNew && !words.empty() && words.back().ends_with(" &"))
+            words.back().erase(words.back().size() - 2);
+        if (isNew)
+            words.emplace_back(word);
+        else
+            words.back().append(" ").append(word);
+    }
+    return words;
+}
+
 namespace {
 
 /// The factors in a condition's name: "size=small" of "pair=wood size=small", the letters of a method.
 std::set<std::string> factorsOf(const std::string& condition) {
     std::set<std::string> factors; // a pair's parts may share them
-    for (std::string_view rest = condition; !rest.empty();) {
-        std::string_view word = takeUntil(' ', rest);
+    for (std::string_view word : factorWords(condition)) {
         RenderingMethod method;
         const bool isMethod = renderingMethodNamed(word, method);
         if (word.find('=') != word.npos || (isMethod && word.size() < condition.size()))
@@ -248,10 +261,8 @@ bool isSame(const LevelSummary& s, const LevelTrial& t) {
 
 /// Sort key: numbers by value, then all other labels by their bytes.
 auto labelKey(const std::string& label) {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), number);
-    const bool isNumber = error == std::errc{} && end == label.data() + label.size() && std::isfinite(number);
-    return std::tuple{!isNumber, isNumber ? number : 0.0, std::string_view{label}};
+    const auto number = parseNumber<double>(label);
+    return std::tuple{!number, number.value_or(0.0), std::string_view{label}};
 }
 
 using Run = std::vector<const LevelTrial*>; // one participant's trials of a session, or of one staircase

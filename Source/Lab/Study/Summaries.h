@@ -96,6 +96,9 @@ inline Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept 
 
 // Summaries of forced choices and slider ratings by condition (thesis 5.2, 5.3).
 
+/// "pair=wood", "size=very small" of "pair=wood size=very small". Any thread (allocates).
+std::vector<std::string> factorWords(std::string_view condition);
+
 /// One forced choice: alternative, condition and participant (which may be empty).
 struct ChoiceTrial {
     std::string participant, condition, choice;

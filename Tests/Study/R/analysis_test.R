@@ -337,5 +337,48 @@ ours <- whole(d, c("comfort", "level"))
 same("others' points", line(ours[grepl("of comfort by", ours$test), ], "group")$p, kruskal.test(d$comfort, d$group)$p.value)
 if (!any(grepl("variance of level by", ours$test))) fault("scores are taken as points")
 if (!any(grepl("group: g n = 7, median [1-5.]+; h n = 7, median ", spoken.words))) fault("groups whose medians are compared are told by means")
+# Who has no value at all is named beside who lacks a level, in choices, too.
+d <- expand.grid(condition = c("x", "y", "z"), participant = person(9), stringsAsFactors = FALSE); d$warmth <- round(30 * runif(27), 1) + 8
+d$warmth[d$participant == "04" | (d$participant == "07" & d$condition == "x")] <- NA
+left <- line(whole(d, "warmth"), "left out")
+if (nrow(left) != 1 || left$n != 7 || !grepl("07, 04$", left$note)) fault("who has no value is not named:", left$note)
+d$choice <- ifelse(d$participant == "02", NA, sample(c("hot", "cold"), 27, TRUE)); d$warmth <- NULL
+if (sum(grepl("lacking of 02$", whole(d, character())$note)) < 2) fault("who never chose is not named")
+# Seven points are ranks, however numbers are written.
+d$choice <- NULL; d$grip <- sprintf("%.1f", sample(1:7, 27, TRUE)); tests <- unique(whole(d, "grip")$test); d$grip <- as.integer(d$grip)
+if (!any(grepl("Friedman's", tests)) || !identical(tests, unique(whole(d, "grip")$test))) fault("4.0 and 4 call for two models")
+# Nothing is compared between people whose means are of unequal conditions: here group h is the later one, and nobody differs by group.
+d <- expand.grid(condition = c("c1", "c2", "c3"), participant = person(12), stringsAsFactors = FALSE); d$group <- ifelse(as.integer(d$participant) <= 6, "g", "h"); d$y <- rnorm(36, 60 * (d$condition == "c3"))
+d <- d[!(d$group == "g" & d$condition == "c3" & d$participant != "02") & !(d$group == "h" & d$condition == "c1" & d$participant != "08"), ]; rows(d)
+for (kind in c("scores", "ranks")) { ours <- told(compare("y", table.of("trials.csv"), "y", kind)); if (!all(is.na(ours$p)) || !any(grepl("^group: not tested.*condition", ours$note))) fault("groups are compared by means of other conditions") }
+# Stimuli that nobody lacks are compared by the conditions that each participant had with all of them.
+d <- merge(d, data.frame(stimulus = c("s", "t"))); d$y <- round(d$y + rnorm(nrow(d)), 3); d <- d[!(d$participant == "02" & d$condition == "c3" & d$stimulus == "t"), ]; rows(d); ours <- told(compare("y", table.of("trials.csv"), "y"))
+m <- d[!(d$participant == "02" & d$condition == "c3"), ]; wide <- tapply(m$y, list(m$participant, m$stimulus), mean)
+same("levels that each has", line(ours, "stimulus: s - t")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
+if (any(grepl("group", ours$effect)) || !any(grepl("those that each has", ours$note))) fault("what is averaged over is not told")
+# Stimuli of one condition alone are averaged over; who lacks one is named and left out, as of other programs' sessions.
+d <- expand.grid(stimulus = c("u 1", "u 2", "v 1", "v 2"), participant = person(8), stringsAsFactors = FALSE); d$condition <- substr(d$stimulus, 1, 1); d$y <- rnorm(32) + 9 * (d$stimulus == "v 2"); d <- d[-12, ]; rows(d)
+wide <- with(d[d$participant != "03", ], tapply(y, list(participant, condition), mean)); ours <- told(compare("y", table.of("trials.csv"), "y"))
+same("stimuli of a condition", line(ours, "condition: u - v")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
+if (!any(grepl("of 03$", line(ours, "left out")$note))) fault("who lacks what is averaged over goes without a word")
+d$session <- ifelse(grepl("1", d$stimulus), "one", "two"); d$stimulus <- "s"; d$group <- ifelse(as.integer(d$participant) %% 2 == 0, "g", "h"); rows(d)
+if (!all(line(told(compare("y", table.of("trials.csv"), "y")), "group: g - h")$n == 7)) fault("one session counts as two")
+d$session <- paste(d$participant, d$session); rows(d)
+if (!all(line(told(compare("y", table.of("trials.csv"), "y")), "group: g - h")$n == 8)) fault("sessions with names of their own are taken as lacking")
+d <- expand.grid(target_column = 1:2, trial = 1:3, condition = c("c1", "c2"), participant = person(8), stringsAsFactors = FALSE); d$target_row <- 1; d$x <- runif(96) + d$target_column * runif(96); d$y <- runif(96)
+ours <- whole(d[!(d$participant == "05" & d$condition == "c2" & d$target_column == 2), ], character()); own <- ours[grepl("variable error", ours$test), ]
+if (!any(grepl("of 05$", own$note)) || !all(line(own, "condition: c1 - c2")$n == 7)) fault("errors of unequal targets are compared")
+# Values below 0 are no magnitudes: they are compared as they are.
+d <- expand.grid(trial = 1:2, condition = c("c1", "c2"), participant = person(9), stringsAsFactors = FALSE); d$value <- round(rnorm(36, 3 * (d$condition == "c2") - 2), 2); d$value[5] <- 0; wide <- tapply(d$value, list(d$participant, d$condition), mean)
+ours <- whole(d, character())
+same("values below 0", line(ours, "condition: c1 - c2")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
+if (any(grepl("magnitudes? of 0|logarithm", c(ours$note, ours$test))) || !any(grepl("below 0", ours$note))) fault("values below 0 are called magnitudes")
+# Medians that are the same differ by 0; power is told of tests that were made; who is in no model as lme4 is lacking.
+d <- data.frame(participant = person(6), group = rep(c("g", "h", "h"), 2), y = c(0.2, 0.1, 0.5, 0.4, 0, 0.9)); rows(d); ours <- line(told(pairs.test("t", "trials.csv", "y", between = "group", by = "ranks")), "group: g - h")
+if (!identical(abs(ours$difference), 0)) fault("equal medians differ by", ours$difference)
+d <- expand.grid(condition = c("x", "y"), participant = person(5)); d$y <- 2; rows(d)
+if (any(grepl("power", capture.output(pairs.test("t", "trials.csv", "y", "condition"))))) fault("a test that was not made has power")
+d$y <- rnorm(10); rows(d[-1, ])
+if (!requireNamespace("lme4", quietly = TRUE) && !any(grepl("lme4", told(anova.test("t", "trials.csv", "y", "condition"))$note))) fault("that lme4 is lacking is not told")
 cat(faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)
