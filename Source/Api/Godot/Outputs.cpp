@@ -98,8 +98,7 @@ void Outputs::strikePads(physvib_world world, const physvib_event& event) {
 void Outputs::update(double gameSeconds) {
     const std::int64_t now = singleton("Time").call("get_ticks_usec").whole();
     timeScale = singleton("Engine").call("get_time_scale").real();
-    if (hasHands && !settings.isSilent)
-        hands.update(clockSeconds); // before: a hit's first pulse is not a frame old
+    if (hasHands && !settings.isSilent) hands.update(clockSeconds); // a first pulse is no frame old
     clockSeconds += timeScale > 0.0 ? gameSeconds / timeScale : 1e-6 * static_cast<double>(now - lastUpdate);
     lastUpdate = now;
     if (sound != nullptr && !settings.isSilent) sound->update();
