@@ -11,6 +11,7 @@
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/PageLink.h"
 #include "Scene/FileKind.h"
+#include "Scene/SceneEdits.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
@@ -154,13 +155,17 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
         for (const SinkKind& kind : sinkKinds())
             files_.settings().setValue(kind.setting.data(), utf8(choice.placeOf(kind)));
         const bool isFirst = view_->firstStart() != nullptr, wasChanged = isChanged();
-        play(Mix{model_->mix()}, document_, model_->session().world().slowness() == 0);
+        Mix mix = model_->mix();
+        if (const auto& takes = model_->saved().log.takes; !takes.empty()) // with what was drawn, as a file
+                                                                           // opens
+            mix.scene = std::make_shared<const Scene>(sceneAsLeft(takes.back()));
+        play(std::move(mix), document_, model_->session().world().slowness() == 0);
         if (wasChanged) savedEdits_ = neverSaved;
         if (isFirst && !choice.sinks.empty()) return testBeside(kindOf(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // the tab where it was chosen
     };
-    askThen(use,
-            "Another output begins the session anew: the mix stays, its past and its undo steps are lost.");
+    askThen(use, "Another output begins the session anew: mix and drawing stay, its past and its undo steps "
+                 "are lost.");
 }
 
 void MixerWindow::showFirstStart() { addFirstStart(feltChoices(drivers_, likelySinks())); }

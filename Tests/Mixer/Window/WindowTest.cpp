@@ -481,6 +481,31 @@ TEST(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     next(-6.0, MixerModel::firstMix().levelDb, false);
 }
 
+TEST(Window, AnotherOutputKeepsWhatWasDrawn) {
+    TestFolder folder;
+    for (const char* answer : {"Do not save", "Save"}) {
+        MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
+        Hand hand{window};
+        auto& view = window.view().world().view();
+        window.model().setSlowness(0);
+        window.newScene(SceneGround::floor);
+        runFor(0.5);
+        window.view().world().drawing().use(DrawTool::box);
+        hand.drag(hand.placeOf(view, view.placeOfShare({0.4, 0.3})),
+                  hand.placeOf(view, view.placeOfShare({0.6, 0.4})));
+        runFor(0.3);
+        const Scene drawn = window.model().world().drawing().drawn();
+        ASSERT_FALSE(drawn.bodies.empty());
+        DeviceChoice other = window.model().device().choice();
+        other.sinks = {{"BOARD", "/dev/not-there"}};
+        window.model().device().onSinksWanted(other);
+        ASSERT_TRUE(runUntil([&] { return window.view().question() != nullptr; }));
+        window.view().question()->answer(answer);
+        ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.size() == 1; }));
+        EXPECT_EQ(window.model().world().drawing().drawn().bodies.size(), drawn.bodies.size()) << answer;
+    }
+}
+
 TEST(Window, ASessionSavedPausedOpensPaused) {
     TestFolder folder;
     for (const int slowness : {0, 8, 1}) {
