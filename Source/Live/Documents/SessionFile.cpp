@@ -129,11 +129,7 @@ SavedSession readSessionRoot(const JsonField& root) {
     readEach(root, "recordings", [&](const JsonField& item) { readRecordingsChange(item, log); });
     readEach(root, "clips", [&](const JsonField& item) { readClipFile(item, log); });
     readEach(root, "strikes", [&](const JsonField& item) { log.strikes.push_back(readStrike(item)); });
-    if (root.has("desk")) {
-        session.mix = readMix(root["desk"]);
-        session.mix->scene = std::make_shared<const Scene>(sceneAsLeft(log.takes.back()));
-        session.mix->seed = log.takes.back().seed;
-    }
+    if (root.has("desk")) session.mix = readMix(root["desk"]);
     return session;
 }
 
@@ -254,10 +250,10 @@ bool endsPaused(const SavedSession& session) {
 }
 
 Mix mixOf(const SavedSession& session) {
-    if (session.mix) return *session.mix;
-    Mix mix;
+    Mix mix = session.mix.value_or(Mix{});
     mix.scene = std::make_shared<const Scene>(sceneAsLeft(session.log.takes.back()));
     mix.seed = session.log.takes.back().seed;
+    if (session.mix) return mix;
     const PhantomPanner& panner =
         session.log.panners.empty() ? session.panner : session.log.panners.back().panner;
     const bool isDescribed = session.log.panners.empty() && !session.layout.enchanters.empty();

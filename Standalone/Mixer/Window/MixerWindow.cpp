@@ -11,7 +11,6 @@
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/PageLink.h"
 #include "Scene/FileKind.h"
-#include "Scene/SceneEdits.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
@@ -155,11 +154,7 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
         for (const SinkKind& kind : sinkKinds())
             files_.settings().setValue(kind.setting.data(), utf8(choice.placeOf(kind)));
         const bool isFirst = view_->firstStart() != nullptr, wasChanged = isChanged();
-        Mix mix = model_->mix();
-        if (const auto& takes = model_->saved().log.takes; !takes.empty()) // with what was drawn, as a file
-                                                                           // opens
-            mix.scene = std::make_shared<const Scene>(sceneAsLeft(takes.back()));
-        play(std::move(mix), document_, model_->session().world().slowness() == 0);
+        play(mixOf(model_->saved()), document_, model_->session().world().slowness() == 0);
         if (wasChanged) savedEdits_ = neverSaved;
         if (isFirst && !choice.sinks.empty()) return testBeside(kindOf(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // the tab where it was chosen
