@@ -6,7 +6,7 @@ import { join, resolve } from 'node:path';
 import { inBrowsers, receive, send, serve } from './browser/browsers.mjs';
 
 const [folder, page, seconds = '20', ...wanted] = process.argv.slice(2), modules = join(resolve(folder), 'node_modules'), root = join(import.meta.dirname, '../..');
-const parts = ['silent', 'velocities', 'bodies', 'space', 'lives', 'clock'], tests = [...parts, 'the page'], rates = [30, 45, 60, 90, 144];
+const parts = ['silent', 'velocities', 'bodies', 'space', 'lives', 'clock'], tests = [...parts, 'the page'], rates = [30, 45, 60, 90, 144, '60, the smallest page'];
 const npm = '/node_modules', asked = { test: 'test', 'assert/strict': 'assert', module: '', path: '', url: '' };
 const imports = { physvib: `${npm}/physvib/physvib.js`, 'physvib/': `${npm}/physvib/`, ...Object.fromEntries(['audio', 'velocities', 'matter', 'planck', 'rapier2d', 'rapier3d', 'box2d3'].map(name => [`physvib/${name}`, `${npm}/physvib/${name}.js`])),
     'matter-js': '/matter.mjs', planck: `${npm}/planck/dist/planck.mjs`, ...Object.fromEntries(['2d', '3d'].map(kind => [`@dimforge/rapier${kind}-compat`, `${npm}/@dimforge/rapier${kind}-compat/dist/rapier.mjs`])),
@@ -18,7 +18,7 @@ const made = {
 globalThis.process = { argv: ['', '', ''], versions: {} };
 import('/Tests/JavaScript/' + location.search.slice(1) + '.mjs').then(() => import('/browser/node.mjs')).then(({ run }) => run()).then(told => parent.postMessage(told, '*'), ${tell});
 </script>`,
-    '/rates.html': `${head}<script type="module">import('/browser/rates.mjs').then(({ rateOf }) => rateOf(+location.search.slice(1), ${+seconds})).then(told => parent.postMessage(told, '*'), ${tell});</script>`,
+    '/rates.html': `${head}<script type="module">import('/browser/rates.mjs').then(({ rateOf }) => rateOf(parseInt(location.search.slice(1)), ${+seconds}, location.search.includes('smallest'))).then(told => parent.postMessage(told, '*'), ${tell});</script>`,
     '/': `<!DOCTYPE html><link rel="icon" href="data:,"><body><script type="module">
 const told = {};
 for (const [name, place, most] of ${JSON.stringify([...parts.map(name => [name, `/test.html?${name}`, 300]), ['the page', '/page/index.html?seed=3', 120], ...rates.map(rate => [rate, `/rates.html?${rate}`, +seconds + 30])])}) {

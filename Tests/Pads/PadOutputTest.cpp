@@ -181,6 +181,25 @@ TEST_F(Pads, AControllerThatHangsHoldsUpNobody) {
     EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
 }
 
+/// A hit that begins and ends while the controller holds up a call is felt when it returns, then the rest.
+TEST_F(Pads, AHitDuringACallThatHangsIsFeltAfterIt) {
+    VirtualPad pad{"held"};
+    Following following{"held"};
+    ASSERT_EQ(following.fault, "");
+    pad.hangs = true;
+    following.output.made(hit(50 * ms, 60.0, 0.02, 0.5));
+    ASSERT_TRUE(soon([&] { return following.device.block(), pad.isHanging.load(); }));
+    CollisionEvent thump = hit(following.device.sessionNs() + 40 * ms, 60.0, 1.0, 0.5);
+    thump.decayPerSecond = 100.0;
+    following.output.made(thump);
+    following.device.run(600 * ms);
+    pad.hangs = false;
+    EXPECT_TRUE(soon([&] { return following.device.block(), pad.told().size() > 2 && pad.isAtRest(); }));
+    double strongest = 0.0;
+    for (const auto& told : pad.told()) strongest = std::max({strongest, told.low, told.high});
+    EXPECT_EQ(strongest, 1.0);
+}
+
 TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
     VirtualPad one{"one"}, two{"two"};
     PadOutput first{anyPad, phone()}, second{anyPad, phone()};

@@ -44,13 +44,10 @@ public:
         pulledNs_ = untilNs;
         for (; lateCount_ > 0; motors_.strike(late_[lateCount_], grips_))
             late_[--lateCount_].timeNs = untilNs + leadNs();
-        if (motors_.dueNs() > untilNs) return last_;
-        PadCommand peak;
-        for (int n = 0; n < maxCommands && motors_.dueNs() <= untilNs; ++n) {
-            last_ = motors_.next(level);
-            peak = {last_.timeNs, std::max(peak.low, last_.low), std::max(peak.high, last_.high)};
-        }
-        return peak;
+        const PadMotors::Due due = motors_.nextUntil(untilNs, level);
+        if (due.count == 0) return last_;
+        last_ = due.last;
+        return due.strongest;
     }
 
     /// Discards all events and lets the motors rest. Times may begin again at 0.
@@ -63,7 +60,6 @@ public:
 private:
     std::int64_t leadNs() const noexcept { return static_cast<std::int64_t>(1e9 * law_.leadSeconds); }
 
-    static constexpr int maxCommands = 1000; // bounds a pull after a pause of minutes; the next goes on
     PadLaw law_;
     PhantomPanner grips_; // the left and the right end of the field
     PadMotors motors_;

@@ -191,4 +191,15 @@ PadCommand PadMotors::next(double level) noexcept {
     return {nowNs, low_.command, high_.command};
 }
 
+PadMotors::Due PadMotors::nextUntil(std::int64_t untilNs, double level) noexcept {
+    constexpr int most = 1000;
+    Due due;
+    for (; due.count < most && dueNs() <= untilNs; ++due.count) {
+        due.last = next(level);
+        due.strongest = {due.last.timeNs, std::max(due.strongest.low, due.last.low),
+                         std::max(due.strongest.high, due.last.high)};
+    }
+    return due;
+}
+
 } // namespace physvib

@@ -100,6 +100,18 @@ public:
     /// The command that is due, with all strengths multiplied by `level`; 0 stops the motors.
     PadCommand next(double level) noexcept;
 
+    /// What was due until a time: the strongest command, per motor, so that no impact is passed over when
+    /// the caller was late, and the last one, which follows it.
+    struct Due {
+        PadCommand strongest, last;
+        int count = 0;
+    };
+    /// Takes all commands that are due, at most a thousand (a pause of minutes; the next call goes on).
+    Due nextUntil(std::int64_t untilNs, double level) noexcept;
+
+    std::int64_t intervalNs() const noexcept { ///< between two commands
+        return static_cast<std::int64_t>(1e9 / law_.commandsPerSecond);
+    }
     std::uint64_t lost() const noexcept { return lost_; } ///< events for which there was no room
 
 private:
@@ -121,9 +133,6 @@ private:
         std::int64_t kickEndNs = 0;
     };
 
-    std::int64_t intervalNs() const noexcept {
-        return static_cast<std::int64_t>(1e9 / law_.commandsPerSecond);
-    }
     std::int64_t leadNs() const noexcept { return static_cast<std::int64_t>(1e9 * law_.leadSeconds); }
     Energies shared(double energy, double heavyShare, double side) const noexcept;
     Energies energiesAt(const Voice& voice, std::int64_t timeNs) const noexcept;

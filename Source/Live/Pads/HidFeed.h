@@ -15,6 +15,8 @@ struct HidFeedKind {
     std::string_view name; ///< "DualSense by Bluetooth"
 };
 
+inline constexpr int silentReports = 5; ///< as Linux' own driver sends to a Switch's controller
+
 /// Makes reports. next() and the others without a remark: one thread, the controller's.
 class HidFeed {
 public:
@@ -35,7 +37,7 @@ public:
     /// The report that is due at that steady time, if one is. `sessionNs`: what is felt now on the device;
     /// `level`: the master level, 0: silent within this report.
     virtual std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) = 0;
-    /// A report of silence.
+    /// A report of silence; sent `silentReports` times, as radio may lose one and a motor holds what it had.
     virtual PadReport rest() = 0;
     virtual std::uint64_t lost() const noexcept { return 0; }   ///< frames or events; any thread
     virtual bool playsClips() const noexcept { return true; }   ///< as SinkState

@@ -31,7 +31,7 @@ std::string HidOutput::awaitReady(const std::function<bool()>& keepGoing) {
 
 void HidOutput::follow(OutputClock* device) {
     device_.follow(
-        device, [] {}, [] { return false; }); // reports of silence and off are written within 20 ms
+        device, [] {}, [] { return false; }); // the first report of silence is written within 20 ms
 }
 
 void HidOutput::run() {
@@ -91,7 +91,8 @@ void HidOutput::sendAll(std::span<const PadReport> reports) {
 
 void HidOutput::rest() {
     if (!pad_ || !hasSent_) return;
-    send(feed_->rest());
+    for (int i = 0; i < silentReports && send(feed_->rest()); ++i)
+        std::this_thread::sleep_for(std::chrono::duration<double>{switchSeconds});
     sendAll(feed_->off());
     hasSent_ = false;
 }

@@ -61,6 +61,8 @@ void PadOutput::begin() {
     motors_ = PadMotors{law};
     layouts_.clear();
     stopsNs_.clear();
+    wanted_ = {};
+    holdsUntilNs_ = 0;
 }
 
 void PadOutput::run() {
@@ -116,7 +118,7 @@ void PadOutput::takeControls(std::int64_t sessionNs) {
         if (control.kind == RenderControl::Kind::stopAll) stopsNs_.push_back(control.timeNs);
     }
     for (; !stopsNs_.empty() && stopsNs_.front() <= sessionNs; stopsNs_.erase(stopsNs_.begin()))
-        motors_.stop(stopsNs_.front());
+        motors_.stop(stopsNs_.front()), holdsUntilNs_ = 0;
 }
 
 void PadOutput::takeEvents() {
@@ -130,10 +132,13 @@ void PadOutput::takeEvents() {
 
 std::optional<PadCommand> PadOutput::command(std::int64_t sessionNs, std::int64_t nowNs) {
     const double level = static_cast<double>(device_.level());
-    PadCommand newest = level > 0.0 ? sent_ : PadCommand{}; // silence: at once, at any command rate
-    int due = 0;
-    for (; motors_.dueNs() <= sessionNs; ++due) newest = motors_.next(level);
-    if (due > 1) counts_.late += static_cast<std::uint64_t>(due - 1);
+    if (level <= 0.0) wanted_ = {}, holdsUntilNs_ = 0; // silence: at once, at any command rate
+    PadCommand newest = nowNs < holdsUntilNs_ ? sent_ : wanted_;
+    if (const auto due = motors_.nextUntil(sessionNs, level); due.count > 0) { // several, if a call was held
+        counts_.late += static_cast<std::uint64_t>(due.count - 1);
+        newest = due.strongest, wanted_ = due.last;
+        holdsUntilNs_ = newest.isSame(wanted_) ? 0 : nowNs + motors_.intervalNs();
+    }
     if (!pad_) return {};
     if (!newest.isSame(sent_)) return ++counts_.commands, newest;
     if (sent_.isSame({}) || nowNs - sentNs_ < repeatNs) return {};

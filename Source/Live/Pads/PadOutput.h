@@ -22,7 +22,7 @@ namespace physvib {
 /// Counts of what was sent to a controller, for display and tests.
 struct PadCounts {
     std::uint64_t events = 0, commands = 0, repeats = 0; ///< repeats: sent again before the time-out
-    std::uint64_t late = 0;    ///< commands replaced by the next one before they were sent
+    std::uint64_t late = 0;    ///< commands sent as part of a later one: of several, the strongest is
     std::uint64_t refused = 0; ///< by the controller
     std::uint64_t connections = 0;
 };
@@ -64,8 +64,9 @@ private:
     std::atomic<double> leadSeconds_{0.0};
 
     std::unique_ptr<GamePad> pad_; // the thread's alone, as the next two lines
-    PadCommand sent_;
+    PadCommand sent_, wanted_;
     std::int64_t sentNs_ = 0, looksNs_ = 0; // steady clock
+    std::int64_t holdsUntilNs_ = 0; // until then the strongest of several is felt; then what is wanted
 
     FollowedDevice device_; // its mutex guards the members below, used by the thread and M
     PadProfile profile_;

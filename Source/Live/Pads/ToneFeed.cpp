@@ -131,14 +131,14 @@ std::optional<PadReport> ToneFeed::next(std::int64_t nowNs, std::int64_t session
     const TonePair left = tonesOf(0, sessionNs, static_cast<double>(level)),
                    right = tonesOf(1, sessionNs, static_cast<double>(level));
     const bool rests = left == TonePair{} && right == TonePair{};
-    if (rests && isAtRest_) return {};
-    isAtRest_ = rests;
+    if (rests && silent_ >= silentReports) return {};
+    silent_ = rests ? silent_ + 1 : 0;
     dueNs_ = nowNs - dueNs_ < reportNs ? dueNs_ + reportNs : nowNs + reportNs;
     return switchTones(left, right, number_++);
 }
 
 PadReport ToneFeed::rest() {
-    isAtRest_ = true;
+    silent_ = silentReports;
     return switchTones({}, {}, number_++);
 }
 

@@ -53,7 +53,7 @@ private:
     std::vector<std::int64_t> stopsNs_;
     std::vector<Voice> voices_;
     std::int64_t dueNs_ = INT64_MIN / 2; // steady time of the next report
-    bool isAtRest_ = true;
+    int silent_ = silentReports;         // reports of silence since the last tone
     std::uint32_t number_ = 0;
 };
 

@@ -14,15 +14,26 @@ const listener = `registerProcessor('listener', class extends AudioWorkletProces
         return true;
     }
 })`;
+// The smallest page that could: each message is the next quantum's click. A hit may have happened a picture before, so one latency for all is at least a picture more than its longest.
+const smallest = `registerProcessor('smallest', class extends AudioWorkletProcessor {
+    constructor() { super(); this.port.onmessage = () => { this.isHit = true; }; }
+    process(_, [[out]]) { if (this.isHit) out[0] = 1; this.isHit = false; return true; }
+})`;
 const settled = 1.5, between = 0.2, stutter = 0.03; // s: the game's first second says what latency it wants
 
-/** What a game tells of `seconds` at so many pictures. */
-export async function rateOf(pictures, seconds) {
+async function smallestOf(context) {
+    await context.audioWorklet.addModule(URL.createObjectURL(new Blob([smallest], { type: 'text/javascript' })));
+    const node = new AudioWorkletNode(context, 'smallest');
+    return { node, latencyFrames: 0, latency: 0, moves: 0, status: { late: 0 }, close: () => {}, follow: ({ follow }) => follow(events => { if (events.length > 0) node.port.postMessage(0); }) };
+}
+
+/** What a game tells of `seconds` at so many pictures; or the smallest page. */
+export async function rateOf(pictures, seconds, isSmallest = false) {
     const physvib = await load(), context = new AudioContext(), heard = [], struck = [];
     await Promise.race([context.resume(), new Promise(done => setTimeout(done, 10000))]); // Firefox opens its sound for seconds
     if (context.state !== 'running') return { error: `the AudioContext is ${context.state}` };
     await context.audioWorklet.addModule(URL.createObjectURL(new Blob([listener], { type: 'text/javascript' })));
-    const output = await play(physvib, context, { layout: 'phone1', fieldWidth: 1, fieldHeight: 1 }), ear = new AudioWorkletNode(context, 'listener');
+    const output = isSmallest ? await smallestOf(context) : await play(physvib, context, { layout: 'phone1', fieldWidth: 1, fieldHeight: 1 }), ear = new AudioWorkletNode(context, 'listener');
     ear.port.onmessage = ({ data }) => heard.push(data / context.sampleRate - output.latencyFrames / context.sampleRate);
     output.node.connect(ear).connect(new GainNode(context, { gain: 0 })).connect(context.destination);
     const world = physvib.world(), followers = new Set();
@@ -41,7 +52,7 @@ export async function rateOf(pictures, seconds) {
         if (at > settled - between && (passed > 1 / pictures + stutter || Math.abs(ahead - aheadBefore) > stutter)) ++stutters; // of pictures or of sound, on a busy machine
         aheadBefore = ahead;
         world.step(passed, 9.81, () => { if (isHit) world.touch(1, 0, { x: 0.5, y: 0.5, normalX: 0, normalY: -1, approach: 3, fraction: 1 }); });
-        const events = world.take();
+        const events = world.take(true);
         for (const follower of followers) follower(events, world);
     }
     await new Promise(done => setTimeout(done, 800));

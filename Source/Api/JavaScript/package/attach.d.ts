@@ -20,7 +20,7 @@ export interface Haptics<Body = any> {
     /** What ended haptics, told once on the console; null: nothing did. The game goes on without them. */
     readonly error: Error | null;
     take(atOnce?: boolean): FullHapticEvent[];
-    /** After each step; what it returns ends that. */
+    /** After each step, with all that is known: a later step may still add what happened before. What it returns ends that. */
     follow(follower: (events: FullHapticEvent[], world: World) => void): () => void;
     /** Events that nobody took, and that have made room for newer ones. */
     readonly forgotten: number;

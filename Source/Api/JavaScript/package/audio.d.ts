@@ -3,7 +3,7 @@ import type { HapticEvent, Impact, Nanoseconds, PhysVib, RendererSettings, Rende
 import type { Haptics } from './attach.js';
 
 export interface AudioOptions extends RendererSettings {
-    /** From a collision to its vibration, s: more than two steps of the game and its longest stutter. Left out: 0.06, or what the first second of the game wants. */
+    /** From a collision to its vibration, s: more than a step of the game and its longest stutter. Left out: what the first second of the game wants, as little as 0.03. */
     latency?: number;
     /** 0 to 1: full scale (0.25). */
     level?: number;

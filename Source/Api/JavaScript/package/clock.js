@@ -6,7 +6,7 @@ import { PhysVibError } from './module.js';
 const nsPerMs = 1e6;
 const frameNs = 15e3; // less than one of audio: by so much a picture may move a line that is learned
 const firstLearningNs = 1000 * nsPerMs, learningNs = 700 * nsPerMs; // meanwhile each picture may move it
-const usualLatencyNs = 60 * nsPerMs, mostLatencyNs = 250 * nsPerMs, reserveNs = 8 * nsPerMs, lessNs = 16 * nsPerMs;
+const mostLatencyNs = 250 * nsPerMs, reserveNs = 8 * nsPerMs, lessNs = 16 * nsPerMs;
 const leastPictures = 5; // to fit a line, and to find that it is wrong
 const suddenNs = 60 * nsPerMs; // from one picture to the next: the game stood still
 const calmNs = 750 * nsPerMs; // a latency that is too large is made smaller after as long
@@ -15,16 +15,16 @@ const room = 160; // pictures: a second of 144 and more
 export class Clock {
     #worlds = new Float64Array(room); #nows = new Float64Array(room); #olds = new Float64Array(room); #count = 0; #next = 0; // pictures, the last of them before #next
     #world = null; #now = 0; #rate = 1; // the line: at that time of the world, and how fast it goes
-    #step = null; #before = null; #old = 0; #lastNow = 0; // the world's time after the last step, and after the one before; of this picture, the oldest that becomes final
+    #step = null; #old = 0; #lastNow = 0; // the world's time after the last step, and before this picture's first
     #learnsUntil = Infinity; #spread = 0; #wasSudden = false; #changed = 0; #patience = calmNs; #isFixed;
     /** How often the line was begun anew, or the latency changed: a game that stood still, or whose pace changed. */
     moves = 0;
 
-    /** `latency`: from a collision to its vibration, s; undefined: 0.06, or more if the game's steps or its pictures want it. */
+    /** `latency`: from a collision to its vibration, s; undefined: as little as the game's steps and pictures, and the page's clock, allow. */
     constructor(latency) {
         this.#isFixed = latency !== undefined;
         if (this.#isFixed && !(latency >= 0 && latency <= 10)) throw new RangeError(`latency: expected 0 to 10 s, found ${latency}`);
-        this.latencyNs = this.#isFixed ? latency * 1e9 : usualLatencyNs;
+        this.latencyNs = this.#isFixed ? latency * 1e9 : 60e6; // until it is learned
     }
 
     /** After a step: the world's time and the other's. */
@@ -32,8 +32,8 @@ export class Clock {
         if (worldNs === this.#step) return;
         if (this.#step === null || worldNs < this.#step) this.#begin(worldNs, nowNs);
         else if (nowNs !== this.#lastNow) this.#end(nowNs);
-        if (nowNs !== this.#lastNow) this.#old = this.#before ?? worldNs;
-        [this.#before, this.#step, this.#lastNow] = [this.#step, worldNs, nowNs];
+        if (nowNs !== this.#lastNow) this.#old = this.#step ?? worldNs;
+        [this.#step, this.#lastNow] = [worldNs, nowNs];
     }
 
     /** When what happened at that time of the world is felt. */
@@ -42,7 +42,7 @@ export class Clock {
 
     #begin(worldNs, nowNs) {
         if (this.#step !== null) ++this.moves;
-        [this.#world, this.#now, this.#rate, this.#count, this.#before] = [worldNs, nowNs, 1, 0, null];
+        [this.#world, this.#now, this.#rate, this.#count, this.#step] = [worldNs, nowNs, 1, 0, null];
         this.#learnsUntil = nowNs + firstLearningNs;
     }
 
@@ -53,7 +53,7 @@ export class Clock {
         if (isSudden) {
             if (this.#wasSudden) this.#rate = (now - this.#nows[last]) / (world - this.#worlds[last]); // so it is the pace
             this.#learnAnew(now, 0);
-            this.#old = this.#before = world; // what was before is over
+            this.#old = world; // what was before is over
         }
         this.#wasSudden = isSudden;
         [this.#worlds[this.#next], this.#nows[this.#next], this.#olds[this.#next]] = [world, now, this.#old];
@@ -115,11 +115,11 @@ export class Clock {
         return Math.max(most - least, grain < 30 * nsPerMs ? grain : 0);
     }
 
-    // Events are final a step after they happened; pictures come late, and clocks of pages stand still between blocks of audio.
+    // An event has happened within the picture's steps; pictures come late, and clocks of pages stand still between blocks of audio.
     #wanted(n) {
         let most = 0;
         for (let i = this.#count - n; i < this.#count; ++i) most = Math.max(most, this.#neededAt(this.#at(i)));
-        return Math.min(mostLatencyNs, Math.max(usualLatencyNs, most + this.#spreadOf(n) + reserveNs));
+        return Math.min(mostLatencyNs, most + this.#spreadOf(n) + reserveNs);
     }
     #neededAt(at) { return this.#nows[at] - this.#lineAt(this.#olds[at]); }
 
@@ -129,7 +129,7 @@ export class Clock {
             const at = this.#at(i), each = this.#nows[at] - this.#lineAt(this.#worlds[at]);
             least = Math.min(least, each);
             most = Math.max(most, each);
-            if (this.#neededAt(at) > this.latencyNs - reserveNs / 2) ++late;
+            if (this.#neededAt(at) > this.latencyNs - reserveNs) ++late;
         }
         const bound = this.#spread + reserveNs / 2;
         if (this.#count >= leastPictures && (least > bound || most < -bound)) {
@@ -152,7 +152,7 @@ export class Clock {
             this.latencyNs = Math.max(this.latencyNs, this.#wanted(Math.min(this.#count, leastPictures)));
         } else {
             const n = Math.min(this.#count, room - 1);
-            if (this.latencyNs <= usualLatencyNs + lessNs || now - this.#changed < this.#patience || this.#nows[this.#at(this.#count - 1)] - this.#nows[this.#at(this.#count - n)] < calmNs) return;
+            if (now - this.#changed < this.#patience || this.#nows[this.#at(this.#count - 1)] - this.#nows[this.#at(this.#count - n)] < calmNs) return;
             const wanted = this.#wanted(n);
             if (wanted > this.latencyNs - lessNs) return;
             this.latencyNs = wanted;

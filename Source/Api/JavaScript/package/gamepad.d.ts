@@ -7,7 +7,7 @@ export interface RumbleOptions {
     profile?: string | PadProfile;
     fieldWidth?: number;
     fieldHeight?: number;
-    /** From a collision to its vibration, s. Left out: 0.06, or what the first second of the game wants. */
+    /** From a collision to its vibration, s. Left out: what the first second of the game wants. */
     latency?: number;
     /** (1) */
     level?: number;

@@ -12,7 +12,7 @@ const wrongArgument = -2; // PHYSVIB_ERROR_ARGUMENT
 const mayTouch = (a, b) => (a.group === b.group && a.group !== 0 ? a.group > 0 : (a.mask & b.category) !== 0 && (a.category & b.mask) !== 0);
 
 export class Haptics {
-    #known = new Map(); #away = new WeakMap(); #lastAway = null; #next = 0; #followers = new Set(); #waiting = []; #journal = new Journal(); #isFree = false; #isInStep = false; #unsound = null; #unfollowed = null;
+    #known = new Map(); #away = new WeakMap(); #lastAway = null; #next = 0; #followers = new Set(); #waiting = []; #held = []; #startNs = 0; #journal = new Journal(); #isFree = false; #isInStep = false; #unsound = null; #unfollowed = null;
     /** Events that nobody took, and that have made room for newer ones. */
     forgotten = 0;
     /** What ended haptics; null: nothing did. The game goes on without them. */
@@ -164,6 +164,7 @@ export class Haptics {
     /** Before the engine steps. */
     begin(seconds, gravity) {
         this.#sweep();
+        this.#startNs = this.world.timeNs;
         this.world.beginStep(seconds, gravity);
         this.#isInStep = true;
     }
@@ -176,12 +177,17 @@ export class Haptics {
             this.#observed();
             this.#isInStep = false;
             this.world.endStep();
-            const taken = this.world.take();
-            this.#waiting.push(...taken);
+            const taken = this.world.take(true);
+            this.#settle(taken);
             if (this.#waiting.length > mostKept) this.forgotten += this.#waiting.splice(0, this.#waiting.length - mostKept).length;
             return taken;
         });
         if (events) for (const follower of this.#followers) this.#hand(events, follower);
+    }
+    // Who takes gets a list in the order of time: of what was before this step, nothing more can come.
+    #settle(events) {
+        if (events.length > 0) this.#held = this.#held.concat(events).sort((a, b) => a.timeNs - b.timeNs || a.fixture - b.fixture);
+        while (this.#held[0]?.timeNs < this.#startNs) this.#waiting.push(this.#held.shift());
     }
     // A follower is called within the engine's step: what it throws ends it alone.
     #hand(events, follower) {
@@ -206,7 +212,7 @@ export class Haptics {
         }
     }
 
-    /** `follower(events, world)` after each step; what it returns ends that. */
+    /** `follower(events, world)` after each step, with all that is known; what it returns ends that. */
     follow(follower) {
         this.#followers.add(follower);
         return () => this.#followers.delete(follower);
@@ -214,9 +220,7 @@ export class Haptics {
 
     /** Events since the last take: final ones, a step late; or, `atOnce`, all. */
     take(atOnce = false) {
-        const events = this.#waiting;
-        this.#waiting = [];
-        return atOnce ? [...events, ...this.guarded(() => this.world.take(true), true) ?? []] : events;
+        return [...this.#waiting.splice(0), ...this.#held.splice(0, atOnce ? Infinity : 0)];
     }
 
     /** Why nothing is felt of what happened since the last call; see World.explain. */

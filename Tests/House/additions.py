@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""CONTRIBUTING.md's table of additions is true: does what its rows say in a clone of the last commit, builds it, and runs every quiet test there.
+Only what a row names is touched. Prints each row with its files, then the tests that failed; exit code 1 if one did.
+Usage: additions.py FOLDER [ROW...]; FOLDER is made, and kept with its build: run again, it begins from the last commit.
+"""
+import json
+import os
+import re
+import subprocess
+import sys
+
+root = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
+folder = os.path.realpath(sys.argv[1])
+
+
+def text(path):
+    with open(os.path.join(folder, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def put(path, content):
+    with open(os.path.join(folder, path), "w", encoding="utf-8") as file:
+        file.write(content)
+
+
+def change(path, before, after):
+    """The first `before` becomes `after`; a table that has moved is an error, since the row is read by people."""
+    old = text(path)
+    if before not in old:
+        sys.exit(f"additions.py: {path}: expected {before!r}")
+    put(path, old.replace(before, after, 1))
+
+
+def after_line(path, start, line):
+    """`line` behind the last line that begins so."""
+    lines = text(path).split("\n")
+    places = [i for i, each in enumerate(lines) if each.startswith(start)]
+    if not places:
+        sys.exit(f"additions.py: {path}: no line begins with {start!r}")
+    lines.insert(places[-1] + 1, line)
+    put(path, "\n".join(lines))
+
+
+def run(*words):
+    subprocess.run(words, cwd=folder, check=True)
+
+
+def law():
+    laws = "Source/Core/PanningLaws.h"
+    change(laws, "    triangles ///<", "    triangles, ///<")
+    change(laws, "              ///< direction of; `neighbours` on a flat layout\n", "              ///< direction of; `neighbours` on a flat layout\n    squared, ///< (1 - u)^2\n")
+    after_line(laws, '    {PanningLaw::triangles, "triangles"', '    {PanningLaw::squared, "squared", [](double u) noexcept { return (1.0 - u) * (1.0 - u); }},')
+    after_line("Docs/panning.md", "| `triangles` |", "| `squared` | (1 - u)^2 | 0.5625 0.2500 0.0625 | falls fastest |")
+    after_line("Source/Api/C/physvib.h", "#define PHYSVIB_LAW_TRIANGLES", "#define PHYSVIB_LAW_SQUARED 8    /**< of panning: falls fastest */")
+    run("python3", "Source/Api/bindings.py")
+    change("Source/Api/JavaScript/package/physvib.d.ts", "| 'triangles'", "| 'triangles' | 'squared'")
+    change("Docs/web.md", "`distance`, `triangles`", "`distance`, `triangles`, `squared`")
+    change("Tests/Calls/RenderWordsTest.cpp", "auto, distance or triangles", "auto, distance, triangles or squared")
+
+
+def scene():
+    drop = json.loads(text("Source/Scene/Scenes/drop.json"))
+    put("Source/Scene/Scenes/knock.json", text("Source/Scene/Scenes/drop.json").replace('"name": "drop"', '"name": "knock"', 1).replace(drop["description"], "as drop, under another name", 1))
+    change("Plugin/PluginSettings.cpp", 'Drive{"drop", {', 'Drive{"knock", {17.0, 34.0, 38.0, 48.5, 89.3}},\n                                       Drive{"drop", {')
+
+
+def material():
+    table = json.loads(text("Source/Scene/Materials/table-5-1.json"))
+    table.update(name="kitchen", source="a trial of this table's row: not measured", materials=[{"name": "pan lid", "density_kg_per_m2": 900, "friction": 0.3, "restitution": 0.5, "frequency_hz": 310, "decay_per_s": 22}])
+    put("Source/Scene/Materials/kitchen.json", json.dumps(table, indent=2) + "\n")
+
+
+def layout():
+    presets = "Source/Core/EnchanterLayout.cpp"
+    after_line(presets, "constexpr std::array<ActuatorPlace, 4> corners", "constexpr std::array<ActuatorPlace, 5> cross{{{0.0, 1.0}, {1.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}, {0.5, 0.5}}};")
+    change(presets, '    Preset{"phone4", phone, corners},', '    Preset{"phone4", phone, corners}, Preset{"phone5", phone, cross},')
+    after_line("Docs/panning.md", "| `phone4`, `ring4` |", "| `phone5` | | as `phone4`, and E in the centre |")
+    change("Source/Api/JavaScript/package/physvib.d.ts", "| 'phone4'", "| 'phone4' | 'phone5'")
+    change("Source/Api/Godot/WorldClasses.cpp", "phone3,phone4,ring4", "phone3,phone4,phone5,ring4")
+
+
+def command():
+    put("Standalone/CommandLine/Measure/KnockCommand.cpp", """// SPDX-License-Identifier: GPL-3.0-or-later
+// The command `physvib knock`, which says so.
+#include "CommandLine/Command.h"
+#include <iostream>
+
+namespace physvib {
+
+Command knockCommand() {
+    return {"knock", "say knock", [](OptionTable&) -> std::function<int()> {
+                return [] {
+                    std::cout << "knock\\n";
+                    return exitDone;
+                };
+            }};
+}
+
+} // namespace physvib
+""")
+    main = "Standalone/CommandLine/Main.cpp"
+    change(main, "thesisCommand();", "thesisCommand(), knockCommand();")
+    change(main, "thesisCommand};", "thesisCommand,\n    knockCommand};")
+
+
+def language():
+    for name, english in ("aa", "Afar"), ("zz", "Zaza"):
+        words = json.loads(text("Source/Lab/Words/ko.json"))
+        words.update(name=name, language=english, in_english=english)
+        put(f"Source/Lab/Words/{name}.json", json.dumps(words, indent=2, ensure_ascii=False) + "\n")
+
+
+def page():
+    put("Docs/knocking.md", "<!-- SPDX-License-Identifier: MIT -->\n# Knocking\n\nHow to knock: `physvib render drop --out drop.wav` ([render](render.md)).\n")
+    after_line("Docs/README.md", "- [Render](render.md)", "- [Knocking](knocking.md): by hand.")
+
+
+rows = {row.__name__: row for row in (law, scene, material, layout, command, language, page)}
+wanted = sys.argv[2:] or list(rows)
+if not set(wanted) <= set(rows):
+    sys.exit(f"additions.py: expected rows of {', '.join(rows)}")
+if not os.path.isdir(os.path.join(folder, ".git")):
+    subprocess.run(["git", "clone", "-q", root, folder], check=True)
+run("git", "fetch", "-q", "origin", "HEAD")
+run("git", "reset", "-q", "--hard", "FETCH_HEAD")
+run("git", "clean", "-qfd")
+for name in wanted:
+    rows[name]()
+    run("git", "add", "-A")
+    changed = subprocess.run(["git", "diff", "--cached", "--name-only"], cwd=folder, check=True, capture_output=True, text=True).stdout.split()
+    run("git", "-c", "user.name=additions", "-c", "user.email=additions@example.invalid", "commit", "-qm", name)
+    print(f"{name}: {len(changed)} files: {' '.join(changed)}", flush=True)
+for path in ("Source/Core/PanningLaws.h", "Source/Core/EnchanterLayout.cpp", "Plugin/PluginSettings.cpp", "Standalone/CommandLine/Main.cpp"):
+    run("clang-format-14", "-i", path)
+subprocess.run(["cmake", "--preset", "release"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+run("cmake", "--build", "--preset", "release", "--target", "all")
+run("cp", "build/release/PhysVib.jucer", ".")
+told = subprocess.run(["ctest", "--preset", "release", "-j2", "-LE", "live|display"], cwd=folder, capture_output=True, text=True)
+failed = re.findall(r"^\s*\d+ - (.*) \((?:Failed|Timeout|Not Run|SEGFAULT)\)", told.stdout, re.M)
+print("\n".join(told.stdout.split("\n")[-40:]))
+sys.exit(1 if failed or told.returncode else 0)
