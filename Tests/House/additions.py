@@ -133,8 +133,7 @@ for name in wanted:
     print(f"{name}: {len(changed)} files: {' '.join(changed)}", flush=True)
 for path in ("Source/Core/PanningLaws.h", "Source/Core/EnchanterLayout.cpp", "Plugin/PluginSettings.cpp", "Standalone/CommandLine/Main.cpp"):
     run("clang-format-14", "-i", path)
-subprocess.run(["cmake", "--preset", "release"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-run("cmake", "--build", "--preset", "release", "--target", "all")
+run("sh", "-c", ". .ci/packages.sh && ensure_build_packages $physvib_test_packages && build release all")
 run("cp", "build/release/PhysVib.jucer", ".")
 told = subprocess.run(["ctest", "--preset", "release", "-j2", "-LE", "live|display"], cwd=folder, capture_output=True, text=True)
 failed = re.findall(r"^\s*\d+ - (.*) \((?:Failed|Timeout|Not Run|SEGFAULT)\)", told.stdout, re.M)
