@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# One hash per render, the same on every machine: of a list on several layouts and of all scenes, in double precision (scalar) and by
+# One hash of the samples of each render, the same on every machine: of a list on several layouts and of all scenes, in double precision (scalar) and by
 # vectors (SSE4, AVX2, AVX-512, NEON). What differs from hashes.txt is printed, and is the exit code for lists; for scenes where the C
 # library is Debian 12's, unless PHYSVIB_OTHER_SINE is set: Box2D turns bodies by its sinf and cosf.
 # usage: hashes.sh PATH/physvib-render [WORD...]   (words before the program, as: wine)
@@ -32,7 +32,8 @@ row() {
     shift 3
     rm -f a.wav
     $run "$render" "$@" --instructions "$set" --seconds 6 --out a.wav </dev/null >/dev/null 2>error.txt || { grep -q "has no" error.txt || cat error.txt >&2; return 0; }
-    printf '%s,%s,%s\n' "$name" "$column" "$(sha256sum <a.wav | cut -c1-16)"
+    begin=$(grep -abo data a.wav | head -n 1 | cut -d: -f1) # of the samples: what is before them names the version
+    printf '%s,%s,%s\n' "$name" "$column" "$(tail -c "+$((begin + 9))" a.wav | sha256sum | cut -c1-16)"
 }
 for set in scalar sse4 avx2 avx512 neon; do
     [ $set = scalar ] && column=scalar || column=vectors
