@@ -9,29 +9,29 @@ namespace physvib {
 namespace {
 
 struct Name {
-    std::string_view inC, inCpp, inScene;
+    std::string_view inC, inCpp, inScene, inMixer = inScene;
 };
 
 // Where a name is the beginning of another, the longer one comes first.
 constexpr std::array names{
     Name{"field_width_m and field_height_m", "fieldWidthMetres and fieldHeightMetres", "the field (--field)"},
+    Name{"set is_camera of", "set isCamera of", "set camera of", "with Select, tick 'haptic source' of"},
+    Name{"set frequency_hz and decay_per_s", "set frequencyHz and decayPerSecond",
+         "set frequency_hz and decay_per_s", "set, under Materials, frequency and decay"},
+    Name{"mass_kg or static_mass_kg", "massKg or staticMassKg", "mass_kg", "density"},
     Name{"physvib_world_set_body", "ContactFeed::set", "a body"},
     Name{"physvib_world_begin_step", "beginStep", "--steps"},
     Name{"physvib_world_end_step", "endStep", "--steps"},
     Name{"physvib_world_touch", "ContactFeed::touch", "contacts"},
     Name{"physvib_world_move", "ContactFeed::move", "motions"},
-    Name{"threshold_m_per_s", "thresholdMetresPerSecond", "the threshold"},
+    Name{"threshold_m_per_s", "thresholdMetresPerSecond", "the threshold", "the scene's threshold"},
     Name{"approach_m_per_s", "approachMetresPerSecond", "the approach"},
-    Name{"static_mass_kg", "staticMassKg", "mass_kg"},
     Name{"hits_per_step", "hitsPerStep", "the hits per step"},
     Name{"field_width_m", "fieldWidthMetres", "field_m"},
-    Name{"frequency_hz", "frequencyHz", "frequency_hz"},
-    Name{"decay_per_s", "decayPerSecond", "decay_per_s"},
     Name{"settling_s", "settlingSeconds", "the settling time"},
     Name{"impulse_n_s", "impulseNewtonSeconds", "the impulse"},
-    Name{"is_camera", "isCamera", "camera"},
     Name{"is_muted", "isMuted", "mute"},
-    Name{"mass_kg", "massKg", "mass_kg"},
+    Name{"mass_kg", "massKg", "mass_kg", "the density"},
 };
 
 } // namespace
@@ -106,7 +106,9 @@ std::string inNames(std::string sentence, Names wanted) {
             std::ranges::find_if(names, [&](const Name& name) { return rest.starts_with(name.inC); });
         const bool isWord = known != names.end();
         if (isWord)
-            made += wanted == Names::cpp ? known->inCpp : known->inScene;
+            made += wanted == Names::cpp     ? known->inCpp
+                    : wanted == Names::scene ? known->inScene
+                                             : known->inMixer;
         else
             made += rest.front();
         rest.remove_prefix(isWord ? known->inC.size() : 1);

@@ -135,8 +135,8 @@ std::string threeDigits(double value);
 /// `1 event`, `2 events`. Any thread.
 std::string counted(std::uint64_t count, std::string_view what);
 
-/// Whose names an explanation uses: those of the C++ classes, or of scene files.
-enum class Names { cpp, scene };
+/// Whose names an explanation uses: those of the C++ classes, of scene files, or of the mixer's controls.
+enum class Names { cpp, scene, mixer };
 
 /// Replaces the names of physvib.h in an explanation. Languages with bindings do so themselves, by the names
 /// of their bindings. Any thread.

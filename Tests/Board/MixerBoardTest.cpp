@@ -48,7 +48,7 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
         return window.model().trouble().contains(board.port()) &&
                window.model().trouble().contains("is gone");
     })) << window.model().trouble();
-    ASSERT_TRUE(runUntil([&] { return boardText().contains("not there"); }));
+    ASSERT_TRUE(runUntil([&] { return boardText().contains("No board"); }));
     EXPECT_FALSE(beside(window.model()).isReady);
     ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Four-channel board"));
     ASSERT_NE(ports, nullptr);

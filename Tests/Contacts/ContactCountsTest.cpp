@@ -53,6 +53,8 @@ TEST(ContactCounts, NameTheMostFrequentReason) {
     EXPECT_NE(explain(unfelt).find("haptic source: set is_camera"), std::string::npos);
     EXPECT_NE(inNames(explain(unfelt), Names::cpp).find("haptic source: set isCamera"), std::string::npos);
     EXPECT_NE(inNames(explain(unfelt), Names::scene).find("haptic source: set camera"), std::string::npos);
+    EXPECT_NE(inNames(explain(unfelt), Names::mixer).find("with Select, tick 'haptic source' of"),
+              std::string::npos);
 }
 
 TEST(ContactCounts, NameTheOptionOfTheCommandLine) {

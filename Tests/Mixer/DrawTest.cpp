@@ -112,17 +112,86 @@ TEST(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
     EXPECT_EQ(board.drawn().bodies.size(), before + 9) << "one rain, one step";
 }
 
-TEST(Drawing, AConveyorCarriesTheWayOfItsDragAndIsOneStep) {
+TEST(Drawing, AConveyorCarriesBallsOfAnySizeTheWayOfItsDragAndIsOneStep) {
+    for (const double size : {0.02, 0.06, 0.12})
+        for (const double to : {0.15, 0.85}) {
+            Board board;
+            const auto before = board.drawn().bodies.size();
+            const double from = 1.0 - to, height = board.drawn().fieldHeightMetres;
+            const auto at = board.share(from + 0.1 * (to > from ? 1.0 : -1.0), 0.4);
+            board.key('c');
+            board.drag(board.share(from, 0.4), board.share(to, 0.4));
+            ASSERT_GE(board.pane.chosen().size(), 3u) << "all rollers are selected";
+            ASSERT_EQ(board.pane.chosen().size(), board.drawn().bodies.size() - before) << "and nothing else";
+            board.key('b');
+            const double above = at.y + (0.035 + size) * height;
+            board.drag({at.x, above}, {at.x + size * height, above});
+            Simulation simulation{board.drawn(), 0, 100};
+            std::vector<CollisionEvent> events;
+            for (int k = 0; k < 200; ++k) simulation.step(events);
+            const auto pose = simulation.pose(board.drawn().bodies.size() - 1);
+            const double way = (pose.xMetres - at.x) * (to > from ? 1.0 : -1.0);
+            EXPECT_GT(way, 0.2 * height) << size << ' ' << to;
+            EXPECT_GT(pose.yMetres, at.y) << "and stays on it";
+            for (int k = 0; k < 2; ++k) board.model.undoManager().undo();
+            EXPECT_EQ(board.drawn().bodies.size(), before);
+        }
+}
+
+TEST(Drawing, BesideTheFieldNothingIsDrawnAndAtItsEdgeItIs) {
     Board board;
-    const auto before = board.drawn().joints.size();
-    board.key('c');
-    for (const double to : {0.3, 0.9}) {
-        board.drag(board.share(0.6, 0.4), board.share(to, 0.4));
-        ASSERT_GE(board.pane.chosen().size(), 3u) << "all rollers are selected";
-        for (const std::string& roller : board.pane.chosen())
-            EXPECT_EQ(driveOf(*motorOf(board.drawn(), roller)).radiansPerSecond > 0.0, to < 0.6) << roller;
-        board.model.undoManager().undo();
-        EXPECT_EQ(board.drawn().joints.size(), before);
+    const auto before = board.drawn().bodies.size();
+    const double edge = 5.0 / static_cast<double>(board.world.pixelsPerMetre());
+    for (const char tool : {'b', 'x', 'p', 'l', 'w', 'n', 'c'}) {
+        board.key(static_cast<juce::juce_wchar>(tool));
+        for (const auto& [x, y] : {std::pair{-0.1, 0.5}, {1.1, 0.5}, {0.5, 1.1}})
+            board.drag(board.share(x, y), board.share(x, y));
+    }
+    EXPECT_EQ(board.drawn().bodies.size(), before);
+    board.key('w');
+    board.drag({-edge, board.share(0.0, 0.5).y}, board.share(0.2, 0.5));
+    EXPECT_EQ(board.drawn().bodies.size(), before + 1) << "a wall from the edge";
+}
+
+TEST(Drawing, TheMaterialsStayWhereTheyAreWhateverIsChosen) {
+    Board board;
+    for (const int wide : {1440, 1000}) {
+        board.view.setSize(wide, 800);
+        std::vector<juce::Rectangle<int>> first;
+        for (const DrawTool tool : {DrawTool::ball, DrawTool::wall, DrawTool::rain, DrawTool::choose})
+            for (int m = 0; m < std::ssize(board.drawn().materials); ++m) {
+                board.pane.use(tool);
+                board.pane.setMaterial(m);
+                std::vector<juce::Rectangle<int>> places;
+                for (const auto& material : board.drawn().materials)
+                    places.push_back(find(board.view, "Material " + utf8(material.name))->getBounds());
+                if (first.empty()) first = places;
+                EXPECT_EQ(places, first) << wide << " tool " << static_cast<int>(tool) << " material " << m;
+            }
+    }
+}
+
+TEST(Drawing, ANewMaterialIsMadeBesideTheMaterialsAndForWhatIsChosen) {
+    Board board;
+    for (const juce::String plus : {"New material", "New material for what is chosen"}) {
+        board.key('b');
+        board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
+        auto* const button = dynamic_cast<juce::Button*>(find(board.view, plus));
+        ASSERT_TRUE(button != nullptr && button->isVisible()) << plus;
+        const auto before = board.drawn().materials;
+        button->onClick();
+        ASSERT_NE(board.view.question(), nullptr);
+        board.view.question()->setValue("Name", "mine, " + plus);
+        board.view.question()->answer("Make it");
+        ASSERT_TRUE(runUntil([&] { return board.drawn().materials.size() == before.size() + 1; }))
+            << board.model.trouble();
+        board.settle();
+        const int made = static_cast<int>(before.size());
+        EXPECT_EQ(board.drawn().materials.back().name, ("mine, " + plus).toStdString());
+        if (plus == "New material")
+            EXPECT_EQ(board.pane.material(), made);
+        else
+            EXPECT_EQ(board.drawn().bodies.back().fixtures[0].material, made);
     }
 }
 

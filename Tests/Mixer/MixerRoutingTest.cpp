@@ -356,6 +356,39 @@ TEST(MixerRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
     says("Actuators: 1 of 4 have an output there");
 }
 
+TEST(MixerRouting, WithoutADeviceNoOutputIsMissedAndNoneIsSaidToBeThere) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    model.change("None", [](Mix& mix) { mix.strips[1].output = -1; });
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(model.rig().output().maintain(), "");
+    view.tabs().choose("Output");
+    view.refresh();
+    const auto facts = find(view, "What follows from it")->getDescription();
+    EXPECT_TRUE(facts.contains("Actuators: without a device none has an output")) << facts;
+    EXPECT_EQ(dynamic_cast<juce::ComboBox&>(*find(view, "Device")).getText(), "No device: seen, not felt");
+}
+
+TEST(Headphones, AreInTheListAgainAfterNoDevice) {
+    FakeInterface hands;
+    MixerModel model{withNoDevice(fakeDrivers({&hands})), {"Fake:hands", 0, 0}};
+    MixerView view{model};
+    view.tabs().choose("Output");
+    auto& list = dynamic_cast<juce::ComboBox&>(*find(view, "Device"));
+    const auto choose = [&](const juce::String& words) {
+        for (int k = 0; k < list.getNumItems(); ++k)
+            if (list.getItemText(k).startsWith(words))
+                return list.setSelectedItemIndex(k, juce::sendNotificationSync), list.getText();
+        return juce::String{"not in the list: "} + words;
+    };
+    for (int k = 0; k < 2; ++k) {
+        EXPECT_EQ(choose("Headphones"), "Headphones: Fake:hands (L and R)");
+        EXPECT_TRUE(model.device().choice().isHeadphones);
+        EXPECT_EQ(model.device().choice().name, "Fake:hands");
+        EXPECT_EQ(choose("No device"), "No device: seen, not felt");
+        EXPECT_FALSE(model.device().choice().isHeadphones);
+    }
+}
+
 TEST(MixerRouting, AnOutputThatIsDisconnectedIsNeitherCountedNorShownAsThere) {
     FakeInterface hands;
     MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};

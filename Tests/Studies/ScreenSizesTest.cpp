@@ -126,5 +126,25 @@ TEST_F(OnASmallDisplay, WhatAProtocolAsksForHasALineUntilItIsChosen) {
     EXPECT_FALSE(p.tab().advice().joinIntoString("|").contains("pink noise"));
 }
 
+TEST_F(OnASmallDisplay, HowMuchWeakerHitsAreIsToldBesideBeginWhereTheLevelIsRaised) {
+    p.view.tabs().choose("Studies");
+    auto* const fader = dynamic_cast<juce::Slider*>(find(p.tab(), "Master gain, in a row"));
+    ASSERT_NE(fader, nullptr);
+    for (const auto& [width, height] :
+         {std::pair{1440, 900 - titleBar}, {MixerView::minWidth, MixerView::minHeight}}) {
+        p.view.setSize(width, height);
+        p.pump();
+        EXPECT_TRUE(fader->isShowing() && fader->getWidth() >= 60) << width << ": " << fader->getWidth();
+        EXPECT_TRUE(p.tab().getLocalBounds().contains(p.tab().getLocalArea(fader, fader->getLocalBounds())));
+    }
+    fader->setValue(-20.0);
+    p.pump();
+    EXPECT_TRUE(p.tab().master().remark() == "10 times weaker") << p.tab().master().remark();
+    fader->setValue(0.0);
+    p.pump();
+    EXPECT_EQ(p.model.mix().levelDb, 0.0);
+    EXPECT_EQ(p.tab().master().remark(), "");
+}
+
 } // namespace
 } // namespace physvib

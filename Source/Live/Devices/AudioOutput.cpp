@@ -164,6 +164,7 @@ std::string AudioOutput::maintain(Clock::time_point now) {
     }
     const bool isStill = watch_.losses() == before && !isPlaying();
     std::string changed = follow();
+    if (!keeper_.device()->isReal()) return changed; // nothing is felt there, whatever it lacks
     if (changed.empty() && isStill && map_.unfelt() < map_.enchanters())
         changed = settings_.device + " does not ask for samples: nothing is felt, and time stands still";
     if (changed.empty() && guard_.hasNews(status().guarded))
@@ -185,11 +186,13 @@ bool AudioOutput::hasGone(Clock::time_point now) {
     return watch_.hasGone(now, load_.read().blocks, wasConnected_ && !isConnected);
 }
 
-// A block longer than all before needs a longer output latency; a new sample rate, the session's time anew.
+// A block longer than all before needs a longer output latency, and so does a sink that has come; a new
+// sample rate, the session's time anew.
 std::string AudioOutput::follow() {
     const int rate = keeper_.device()->sampleRateHz(), before = sampleRateHz();
     const bool isChanged = rate != before && rate > 0;
-    if (isChanged || std::min(largestBlock_.load(), limits::maxBlockFrames) > blockFrames())
+    if (isChanged || std::min(largestBlock_.load(), limits::maxBlockFrames) > blockFrames() ||
+        !coversSinks(played_.now()))
         keeper_.restart();
     return isChanged ? settings_.device + ": runs at " + std::to_string(rate) + " Hz now, at " +
                            std::to_string(before) + " Hz before"

@@ -33,7 +33,7 @@ public:
     void begin(int sampleRateHz, int maxBlockFrames, int latencyFrames, bool isReal) {
         if (rate_ == 0)
             now().prepare(sampleRateHz, maxBlockFrames);
-        else if (sampleRateHz != rate_ || maxBlockFrames != block_)
+        else if (sampleRateHz != rate_ || maxBlockFrames != block_ || !coversSinks(now()))
             now().resume(sampleRateHz, maxBlockFrames);
         rate_ = sampleRateHz;
         block_ = maxBlockFrames;

@@ -55,6 +55,7 @@ void HidOutput::connect() {
     hasSent_ = false;
     node_ = pad_->place().node.string();
     lastName_ = pad_->place().name;
+    leadSeconds_ = feed_->leadSeconds();
     ++counts_.connections;
 }
 

@@ -23,7 +23,7 @@ public:
     ~HidOutput() override;
 
     std::string awaitReady(const std::function<bool()>& keepGoing) override;
-    double latencySeconds() const noexcept override { return feed_->leadSeconds(); }
+    double latencySeconds() const noexcept override { return leadSeconds_; } ///< 0 until one is there
     void follow(OutputClock* device) override;
     void made(const CollisionEvent& event) noexcept override { feed_->made(event); }
     void posted(const RenderControl& control) noexcept override { feed_->posted(control); }
@@ -58,6 +58,7 @@ private:
     std::string lastName_, refusal_{"none is there"};
     HidCounts counts_;
 
+    std::atomic<double> leadSeconds_{0.0};
     std::atomic<bool> stop_{false};
     std::thread thread_; // last: it uses the other members
 };

@@ -30,7 +30,6 @@ PadOutput::PadOutput(const std::string& where, const PhantomPanner& panner)
     } else {
         profile_ = builtInPads().front();
     }
-    leadSeconds_ = profile_.law.leadSeconds;
     if (fault_.empty()) thread_ = std::thread{[this] { run(); }};
 }
 
@@ -97,7 +96,7 @@ void PadOutput::connect(GamePads& pads) {
     ++counts_.connections;
     if (!isProfileGiven_)
         if (auto suits = findPad(there_->profile)) profile_ = std::move(suits.value);
-    if (counts_.connections == 1) leadSeconds_ = profile_.law.leadSeconds; // output latency: never changes
+    if (counts_.connections == 1) leadSeconds_ = profile_.law.leadSeconds; // it stays, plugged in or not
     begin();
 }
 

@@ -37,7 +37,7 @@ public:
     ~PadOutput() override;
 
     std::string awaitReady(const std::function<bool()>& keepGoing) override;
-    double latencySeconds() const noexcept override { return leadSeconds_; }
+    double latencySeconds() const noexcept override { return leadSeconds_; } ///< 0 until one is there
     void follow(OutputClock* device) override;
     void made(const CollisionEvent& event) noexcept override { events_.push(event); }
     void posted(const RenderControl& control) noexcept override { controls_.push(control); }

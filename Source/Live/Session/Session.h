@@ -144,4 +144,9 @@ private:
     std::int64_t leastMarginFrames_ = noMargin; // R
 };
 
+/// The output latency is as long as its sinks need; one that has come since needs Session::resume(). M.
+inline bool coversSinks(const Session& session) {
+    return session.sinks().latencySeconds() <= session.timeline().sinkSeconds();
+}
+
 } // namespace physvib

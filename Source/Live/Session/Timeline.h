@@ -26,6 +26,12 @@ public:
         return static_cast<double>(outputLatencyFrames()) / law_.sampleRateHz;
     }
 
+    /// What of it is for sinks, at most. Any thread but R.
+    double sinkSeconds() const {
+        const std::lock_guard lock{mutex_};
+        return law_.sinkSeconds;
+    }
+
     /// Of the renderer. Any thread but R.
     int sampleRateHz() const {
         const std::lock_guard lock{mutex_};

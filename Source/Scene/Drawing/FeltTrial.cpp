@@ -93,8 +93,8 @@ std::string whyNotFelt(const Scene& scene, const BodyDescription& body) {
         all += countsOf(scene, body, surface);
         if (all.events > 0) return {};
     }
-    if (all.steps == 0) return "Its material has no sound: set frequency_hz and decay_per_s.";
-    return inNames(explain(all), Names::scene);
+    if (all.steps == 0) return "Its material has no sound: give it a frequency under Materials.";
+    return inNames(explain(all), Names::mixer);
 }
 
 std::string whyNotFelt(const Scene& scene, int material) {

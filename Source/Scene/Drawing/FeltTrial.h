@@ -8,9 +8,9 @@
 namespace physvib {
 
 /// Why a body is not felt when it meets what the scene has, at the speed of a fall from a third of the
-/// field's height: the explanation of a world that has no more than both, in names of scene files. Empty: it
-/// is felt. A body that moves, alone in its scene, meets a floor of its own material; of a body that
-/// is fixed nothing is said before something moves. Any thread; takes milliseconds.
+/// field's height: the explanation of a world that has no more than both, in names of the mixer's controls.
+/// Empty: it is felt. A body that moves, alone in its scene, meets a floor of its own material; of a body
+/// that is fixed nothing is said before something moves. Any thread; takes milliseconds.
 std::string whyNotFelt(const Scene& scene, const BodyDescription& body);
 
 /// The same for a ball that is drawn with this material; see startsAsSource().

@@ -5,7 +5,6 @@
 #include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/SceneLimits.h"
-#include "Scene/SceneValidation.h"
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +14,6 @@ namespace {
 constexpr int rowPixels = 28, headPixels = 20;
 constexpr int tallPixels = 300; // of the tab
 constexpr double arrowRatio = 1.01;
-constexpr double usualHz = 165.0, usualDecay = 22.0; // of a material that begins as a silent one
 
 } // namespace
 
@@ -237,43 +235,9 @@ void MaterialsTab::browse() {
                [this](const juce::File& file) { measure(file); });
 }
 
-bool MaterialsTab::changeList(const juce::String& name,
-                              const std::function<void(std::vector<Material>&)>& change) {
-    Scene scene = model_.world().drawing().drawn();
-    change(scene.materials);
-    if (const auto fault = validate(scene); !fault.empty()) return model_.report(utf8(fault)), false;
-    model_.change(name, [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
-    model_.dispatchPendingMessages();
-    return true;
-}
-
-/// A copy of the chosen one is made, or that itself is named.
 void MaterialsTab::askName(bool isCopy) {
-    const auto* material = chosen();
-    if (material == nullptr) return;
-    static const juce::StringArray colours{"by its place", "red",  "amber", "light blue", "mauve",
-                                           "tan",          "blue", "brown", "olive"};
-    const auto name = utf8(material->name);
-    askForValues(
-        *this, isCopy ? "A material of one's own" : "Name and colour", isCopy ? "Make it" : "Change",
-        {{"Name", isCopy ? "own " + name : name}, {"Colour", colours[material->colour], {}, colours}},
-        [this, isCopy, index = chosenIndex()](const juce::StringArray& values) {
-            int at = index;
-            const auto change = [&](std::vector<Material>& all) {
-                if (isCopy) {
-                    all.push_back(
-                        all[static_cast<std::size_t>(std::exchange(at, static_cast<int>(all.size())))]);
-                    if (all.back().frequencyHz <= 0.0)
-                        all.back().frequencyHz = usualHz, all.back().decayPerSecond = usualDecay;
-                }
-                Material& own = all[static_cast<std::size_t>(at)];
-                own.name = values[0].toStdString(), own.colour = colours.indexOf(values[1]);
-            };
-            if (changeList(isCopy ? "New material" : "Name and colour", change)) choose(at);
-        },
-        isCopy ? "It begins as a copy of " + name +
-                     ": set its frequency, decay and surface, or measure a recording. The world begins anew."
-               : "The world begins anew.");
+    if (chosen() != nullptr)
+        askMaterial(*this, model_, chosenIndex(), isCopy, [this](int material) { choose(material); });
 }
 
 void MaterialsTab::showMenu() {

@@ -82,8 +82,6 @@ private:
     void showChosen();
     void showSpot();
     void browse();
-    /// The world begins anew with another list of materials.
-    bool changeList(const juce::String& name, const std::function<void(std::vector<Material>&)>& change);
     void askName(bool isCopy);
     void showMenu();
     void measureNext();

@@ -56,7 +56,7 @@ juce::String MixerDevice::withoutClips() const {
 
 void MixerDevice::maintain() {
     const double now = nowMs();
-    if (now - maintainedAtMs_ <= maintainMs) return;
+    if (now - maintainedAtMs_ <= maintainMs && coversSinks(rig_.session())) return;
     maintainedAtMs_ = now;
     listening_.hearWanted(); // the device may have disappeared or returned
     rig_.maintain();

@@ -21,6 +21,8 @@ namespace physvib {
 
 class MixerModel;
 
+constexpr const char* noDeviceTitle = "No device: seen, not felt"; ///< in lists of devices
+
 /// Audio for ears and machines (monitor, noise, markers), on outputs without an actuator. Message thread.
 class MixerListening {
 public:

@@ -127,12 +127,11 @@ void hintOnMaterial(MixerModel& model, int material) {
 
 juce::String whySilent(const Mix& mix) {
     const auto all = std::views::iota(0, mix.count());
-    if (masterGain(mix) == 0.0f)
-        return "the master is at " + number(leastStripDb, 0) + " dB, which is silent";
+    if (masterGain(mix) == 0.0f) return "the master is at " + number(leastStripDb, 0) + " dB";
     if (std::ranges::all_of(all, [&](int j) { return mix.isSilent(j); })) return "every strip is muted";
     const bool areDown = std::ranges::all_of(
         all, [&](int j) { return loudestDb(mix, static_cast<std::size_t>(j)) <= leastStripDb; });
-    return areDown ? "every strip's fader is at silence" : "";
+    return areDown ? "every strip's fader is down" : "";
 }
 
 void hintOnLevels(MixerModel& model, const juce::String& why) {

@@ -112,27 +112,27 @@ Mix MixerModel::firstMix() {
 /// An undoable edit of the mixer state; repeated edits of one fader merge into one.
 class MixerModel::MixEdit final : public juce::UndoableAction {
 public:
-    MixEdit(MixerModel& model, Mix before, Mix after)
-        : model_{model}
+    MixEdit(MixerHistory& history, Mix before, Mix after)
+        : history_{history}
         , before_{std::move(before)}
         , after_{std::move(after)} {}
     // JUCE keeps no step of an action that fails at first, but forgets all steps if one fails later
     bool perform() override {
-        const bool isDone = model_.apply(after_);
+        const bool isDone = history_.model->apply(after_);
         return std::exchange(isRepeated_, true) || isDone;
     }
-    bool undo() override { return model_.apply(before_), true; }
+    bool undo() override { return history_.model->apply(before_), true; }
     int getSizeInUnits() override { return 1; }
     juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
         const auto* other = dynamic_cast<MixEdit*>(next);
         if (other == nullptr) return nullptr;
-        auto* both = new MixEdit{model_, before_, other->after_};
+        auto* both = new MixEdit{history_, before_, other->after_};
         both->isRepeated_ = true;
         return both;
     }
 
 private:
-    MixerModel& model_;
+    MixerHistory& history_;
     Mix before_, after_;
     bool isRepeated_ = false;
 };
@@ -142,8 +142,8 @@ MixerModel::MixerModel(AudioDrivers drivers, const DeviceChoice& device, Mix mix
     , rig_{rigOf(mix_, device), drivers}
     , device_{rig_, std::move(drivers), mix_, [this] { sendChangeMessage(); }}
     , recording_{session(), output(), mix_, [this] { sendChangeMessage(); }}
-    , undo_{1000, 30}
-    , world_{session(), mix_, undo_, [this](bool isShown) { edited(isShown); },
+    , history_{start.history ? std::move(start.history) : std::make_shared<MixerHistory>()}
+    , world_{session(), mix_, *history_, [this](bool isShown) { edited(isShown); },
              [this](const std::string& fault) { report(utf8(fault)); }}
     , lastSent_{std::make_unique<SentMix>(mix_.panner())}
     , strikes_{session(),
@@ -152,6 +152,7 @@ MixerModel::MixerModel(AudioDrivers drivers, const DeviceChoice& device, Mix mix
                world_,
                [this] { edited(true); },
                [this](const Result<std::string>& note) { clipWasRead(note); }} {
+    history_->model = this;
     const auto without = settleOutputs(mix_.strips);
     saved_.run = setupOf(mix_).run();
     saved_.panner = mix_.panner();
@@ -180,21 +181,25 @@ MixerModel::~MixerModel() {
 }
 
 void MixerModel::edit(const juce::String& name, const Mix& next, bool continuesEdit) {
-    if (!continuesEdit || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
+    auto& undo = history_->undo;
+    if (!continuesEdit || undo.getCurrentTransactionName() != name) undo.beginNewTransaction(name);
     // undo restores the scene as it was drawn
-    if (const Scene& drawn = world_.drawing().drawn(); next.scene != mix_.scene && drawn != *mix_.scene)
-        mix_.scene = std::make_shared<const Scene>(drawn);
+    if (const Scene& drawn = world_.drawing().drawn(); next.scene != mix_.scene && drawn != *mix_.scene) {
+        const auto before = std::exchange(mix_.scene, std::make_shared<const Scene>(drawn));
+        history_->drawn.emplace_back(before, mix_.scene);
+    }
     Mix settled = next;
     quietenNew(mix_.strips, settled.strips);
     const auto withoutEar = placeNew(device_.choice(), settled.strips, mix_.strips.size());
     const auto without = settleOutputs(settled.strips);
-    undo_.perform(new MixEdit{*this, mix_, std::move(settled)});
+    undo.perform(new MixEdit{*history_, mix_, std::move(settled)});
     reportWithout(*this, without);
     reportNoEar(*this, withoutEar);
 }
 
 bool MixerModel::apply(const Mix& next) {
     const Mix before = std::exchange(mix_, next);
+    if (history_->isSame(mix_.scene, before.scene)) mix_.scene = before.scene; // with what is drawn there
     bool isRefused = false;
     ++edits_;
     maxEnchanters_ = std::max(maxEnchanters_, mix_.count());

@@ -44,7 +44,9 @@ public:
         change(next);
         edit(name, next, continuesEdit);
     }
-    juce::UndoManager& undoManager() noexcept { return undo_; }
+    juce::UndoManager& undoManager() noexcept { return history_->undo; }
+    /// For a model that begins with this one's mix and drawing.
+    std::shared_ptr<MixerHistory> history() const { return history_; }
     bool attach(double shareX, double shareY); ///< at shares of the field, at a low level; false if there is
                                                ///< no channel left
     void detach(int enchanter);                ///< the last actuator cannot be detached
@@ -105,7 +107,7 @@ private:
     MixerDevice device_;
     MixerExposure exposure_{rig_.output()};
     MixerRecording recording_;
-    juce::UndoManager undo_;
+    std::shared_ptr<MixerHistory> history_;
     MixerWorld world_;
     MixerMessages messages_{[this] { sendChangeMessage(); }};
     std::vector<RigTrouble> troubles_; // as shown

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,10 +32,13 @@ struct MixerMoment {
     AudioOutputStatus device;
 };
 
+struct MixerHistory;
+
 /// How a session begins.
 struct MixerStart {
-    bool isSilent = false; ///< nothing is felt until the silence is lifted
-    bool isPaused = false; ///< the world stands still
+    bool isSilent = false;                   ///< nothing is felt until the silence is lifted
+    bool isPaused = false;                   ///< the world stands still
+    std::shared_ptr<MixerHistory> history{}; ///< of the session before; null: none
 };
 
 /// The requested device.

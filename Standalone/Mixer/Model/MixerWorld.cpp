@@ -16,8 +16,8 @@ namespace physvib {
 /// An edit of the drawing in JUCE's undo history.
 class MixerWorld::Edit final : public juce::UndoableAction {
 public:
-    Edit(MixerWorld& world, SceneEdit edit)
-        : world_{world}
+    Edit(MixerHistory& history, SceneEdit edit)
+        : history_{history}
         , edit_{std::move(edit)} {}
     // refused: JUCE keeps no step
     bool perform() override {
@@ -25,7 +25,7 @@ public:
         return std::exchange(isRepeated_, true) || isDone;
     }
     bool undo() override { // of one that fails JUCE would forget all of them
-        if (!run(false)) world_.onFault_("Undo: " + std::exchange(world_.refused_, {}));
+        if (!run(false)) world().onFault_("Undo: " + std::exchange(world().refused_, {}));
         return true;
     }
     int getSizeInUnits() override { return 1; }
@@ -34,7 +34,7 @@ public:
         const auto* other = dynamic_cast<Edit*>(next);
         if (other == nullptr || !(isTurned<SoundAction>(*other) || isTurned<TextureAction>(*other)))
             return nullptr;
-        auto* both = new Edit{world_, edit_.followedBy(other->edit_)};
+        auto* both = new Edit{history_, edit_.followedBy(other->edit_)};
         both->isRepeated_ = true;
         return both;
     }
@@ -49,30 +49,32 @@ private:
     }
     // To the world at once: in one that is slow each would wait for a step, and Esc for all of them.
     bool run(bool isForth) {
-        const SceneDrawing before = world_.drawing_;
+        MixerWorld& world = this->world();
+        const SceneDrawing before = world.drawing_;
         std::vector<Action> actions;
-        edit_.run(isForth, world_.drawing_, world_.posesNow(), [&](std::span<const Action> some) {
-            world_.drawing_.take(some);
+        edit_.run(isForth, world.drawing_, world.posesNow(), [&](std::span<const Action> some) {
+            world.drawing_.take(some);
             actions.insert(actions.end(), some.begin(), some.end());
         });
-        if (auto fault = world_.session_.submit({std::span<const Action>{actions}}).error; !fault.empty()) {
-            world_.drawing_ = before;
-            return world_.refused_ = std::move(fault), false;
+        if (auto fault = world.session_.submit({std::span<const Action>{actions}}).error; !fault.empty()) {
+            world.drawing_ = before;
+            return world.refused_ = std::move(fault), false;
         }
-        for (const Action& action : actions) world_.acted(isLasting(action));
+        for (const Action& action : actions) world.acted(isLasting(action));
         return true;
     }
-    MixerWorld& world_;
+    MixerWorld& world() const { return history_.model->world(); }
+    MixerHistory& history_;
     SceneEdit edit_;
     bool isRepeated_ = false;
 };
 
-MixerWorld::MixerWorld(Session& session, const Mix& mix, juce::UndoManager& undo,
+MixerWorld::MixerWorld(Session& session, const Mix& mix, MixerHistory& history,
                        std::function<void(bool isShown)> onInput,
                        std::function<void(const std::string&)> onFault)
     : session_{session}
     , mix_{mix}
-    , undo_{undo}
+    , history_{history}
     , onInput_{std::move(onInput)}
     , onFault_{std::move(onFault)}
     , drawing_{*mix.scene} {}
@@ -110,9 +112,10 @@ std::string MixerWorld::edit(const juce::String& name, std::vector<Action> actio
             spawn->body.name = drawing_.freeName("added");
     if (actions.empty()) return {};
     if (auto fault = drawing_.check(actions); !fault.empty()) return fault;
-    if (!continuesEdit || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
+    auto& undo = history_.undo;
+    if (!continuesEdit || undo.getCurrentTransactionName() != name) undo.beginNewTransaction(name);
     refused_.clear();
-    undo_.perform(new Edit{*this, SceneEdit{std::move(actions)}});
+    undo.perform(new Edit{history_, SceneEdit{std::move(actions)}});
     return std::exchange(refused_, {});
 }
 

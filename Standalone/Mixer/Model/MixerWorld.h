@@ -46,12 +46,34 @@ private:
     std::int64_t sessionNs_ = 0, behindNs_ = 0;
 };
 
+/// The undo steps. They act on the model that has them now, which may be another than made them: one with
+/// another output goes on with them. Message thread.
+struct MixerHistory {
+    MixerModel* model = nullptr;
+    std::vector<std::pair<std::shared_ptr<const Scene>, std::shared_ptr<const Scene>>> drawn; ///< a scene,
+                                                                                              ///< and the
+                                                                                              ///< same as
+                                                                                              ///< drawn later
+    juce::UndoManager undo{1000, 30};
+
+    bool isSame(const std::shared_ptr<const Scene>& a, const std::shared_ptr<const Scene>& b) const {
+        return latest(a) == latest(b);
+    }
+
+private:
+    const Scene* latest(std::shared_ptr<const Scene> scene) const {
+        for (const auto& [before, after] : drawn) // in the order in which they were drawn
+            if (before == scene) scene = after;
+        return scene.get();
+    }
+};
+
 /// Message thread.
 class MixerWorld {
 public:
     /// All references outlive it. `onInput` is called after each input to the world, with whether it changes
     /// the display.
-    MixerWorld(Session& session, const Mix& mix, juce::UndoManager& undo,
+    MixerWorld(Session& session, const Mix& mix, MixerHistory& history,
                std::function<void(bool isShown)> onInput, std::function<void(const std::string&)> onFault);
 
     /// The scene with the bodies spawned since its start, indexed as in events.
@@ -84,7 +106,7 @@ private:
 
     Session& session_;
     const Mix& mix_;
-    juce::UndoManager& undo_;
+    MixerHistory& history_;
     std::function<void(bool isShown)> onInput_;
     std::function<void(const std::string&)> onFault_;
     SceneDrawing drawing_;

@@ -105,17 +105,18 @@ void OutputTab::list(SinkChoice& sink) {
     sink.places.clear();
     sink.box.clear(juce::dontSendNotification);
     sink.box.addItem("none", noSinkId);
-    sink.box.addItem("the first there", anySinkId);
     const auto add = [&sink](const SinkPlace& place) {
         sink.box.addItem(utf8(place.where) +
                              (place.about.empty() ? juce::String{} : "  " + utf8(place.about)),
                          firstSinkId + static_cast<int>(sink.places.size()));
         sink.places.push_back(place.where);
     };
-    for (const SinkPlace& place : sink.kind.places()) add(place);
+    const auto there = sink.kind.places();
+    sink.box.addItem(there.empty() ? "none is plugged in" : "the first there", anySinkId);
+    for (const SinkPlace& place : there) add(place);
     if (!wanted.empty() && wanted != sink.kind.any &&
         std::ranges::find(sink.places, wanted) == sink.places.end())
-        add({wanted});
+        add({wanted, "not plugged in"});
     if (!sink.kind.other.empty())
         sink.box.addItem("another " + juce::String{sink.kind.other.data()}.toLowerCase() + dots(),
                          otherSinkId);
@@ -154,6 +155,7 @@ void OutputTab::open() {
             found_[static_cast<std::size_t>(index)].type + ":" + found_[static_cast<std::size_t>(index)].name;
     const bool wereEars = choice.isHeadphones;
     if (index >= 0) choice.isHeadphones = index == static_cast<int>(found_.size()); // the last item
+    if (choice.isHeadphones) choice.name = worn_;
     choice.sampleRateHz = rate_.getSelectedId() > 1 ? rate_.getSelectedId() : 0;
     choice.blockFrames = block_.getSelectedId() > 1 ? block_.getSelectedId() : 0;
     choice.isHeadphones && !wereEars ? useHeadphones(model_, choice) : model_.open(choice);
@@ -258,21 +260,23 @@ void OutputTab::mixChanged() {
     const auto& choice = model_.device().choice();
     device_.clear(juce::dontSendNotification);
     int chosen = 0;
+    const bool isNone = choice.name.starts_with(noDeviceType);
+    if (!isNone) worn_ = choice.name;
     for (int id = 1; const auto& d : found_) {
-        const bool isNone = d.type == noDeviceType;
-        device_.addItem(isNone ? juce::String{"No device: seen, not felt"}
-                               : utf8(d.type + ":" + d.name) + " (" + juce::String{d.channels} + " outputs)",
+        const auto name = d.type + ":" + d.name;
+        device_.addItem(d.type == noDeviceType ? juce::String{noDeviceTitle}
+                                               : utf8(name) + " (" + juce::String{d.channels} + " outputs)",
                         id);
-        if (d.type + ":" + d.name == choice.name) chosen = id;
+        if (name == choice.name) chosen = id;
+        if (worn_.empty() && d.type != noDeviceType && d.channels >= DeviceChoice::ears) worn_ = name;
         ++id;
     }
-    const bool isNone = choice.name.starts_with(noDeviceType);
-    if (!isNone)
-        device_.addItem("Headphones: " + utf8(choice.name) + " (L and R)",
-                        static_cast<int>(found_.size()) + 1);
-    if (choice.isHeadphones && !isNone) chosen = static_cast<int>(found_.size()) + 1;
+    const int earsId = static_cast<int>(found_.size()) + 1;
+    if (!worn_.empty()) device_.addItem("Headphones: " + utf8(worn_) + " (L and R)", earsId);
+    if (choice.isHeadphones && !isNone) chosen = earsId;
     device_.setSelectedId(chosen, juce::dontSendNotification);
-    if (chosen == 0) device_.setText(utf8(choice.name), juce::dontSendNotification);
+    if (chosen == 0)
+        device_.setText(isNone ? juce::String{noDeviceTitle} : utf8(choice.name), juce::dontSendNotification);
     rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
     listHeard();
@@ -282,7 +286,7 @@ void OutputTab::mixChanged() {
 void OutputTab::refresh(const MixerMoment& moment) {
     const auto& output = model_.output();
     const double rate = std::max(1, output.sampleRateHz());
-    const bool isNone = juce::String{utf8(output.device())}.startsWith(noDeviceType);
+    const bool isNone = model_.device().isNone();
     const auto& r = moment.session.render;
     const int all = model_.mix().count();
     int connected = 0;
@@ -307,8 +311,10 @@ void OutputTab::refresh(const MixerMoment& moment) {
          !model_.device().choice().monitor.empty() && model_.device().listening().settings().contacts.empty()
              ? Shade::now
              : Shade::text},
-        {"Actuators", juce::String{connected} + " of " + juce::String{all} + " have an output there",
-         connected < all ? Shade::now : Shade::text},
+        {"Actuators",
+         isNone ? juce::String{"without a device none has an output"}
+                : juce::String{connected} + " of " + juce::String{all} + " have an output there",
+         isNone || connected < all ? Shade::now : Shade::text},
         {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " +
                      number(100.0 * moment.device.worstLoad, 1) + " % at most"},
         {"Late",
@@ -324,6 +330,10 @@ void OutputTab::refresh(const MixerMoment& moment) {
                      (model_.inputs().status() ? 1 : static_cast<std::ptrdiff_t>(facts.size())), // in sight
                  {"Messages", osc, oscShade});
     facts_.set(std::move(facts));
+    const auto sinks = model_.session().sinks().states();
+    if (const auto ready = std::ranges::count_if(sinks, &SinkState::isReady);
+        std::exchange(ready_, ready) != ready && isScanned_)
+        for (const auto& sink : sinks_) list(*sink);
 }
 
 void OutputTab::resized() {
@@ -404,7 +414,10 @@ void OutputTab::listen() {
     if (!osc || choice.use == before || choice.use != OscUse::anyComputer || host == nullptr) return;
     const auto address = reachedAt(osc->address), first = address.upToFirstOccurrenceOf(" ", false, false);
     auto card = std::make_unique<QuestionCard>(
-        "A phone by OSC", "It sends its messages to " + address + ". The code is " + first + " as text.",
+        "A phone by OSC",
+        "Type " + address +
+            " into the phone's OSC program: the host before the colon, the port behind it. The code has " +
+            first + " as text.",
         std::vector<QuestionCard::Answer>{
             {"Close", [host] { host->setCard(nullptr); }, true, juce::KeyPress{juce::KeyPress::escapeKey}}});
     card->setPicture(qrPicture(first.toStdString()));

@@ -49,7 +49,9 @@ private:
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;
+    std::string worn_; // what headphones are on: the device last played, else the first that has two outputs
     std::vector<std::unique_ptr<SinkChoice>> sinks_; // one per entry of the table of sinks
+    std::ptrdiff_t ready_ = 0;                       // how many sinks are there
     bool isScanned_ = false;
 };
 

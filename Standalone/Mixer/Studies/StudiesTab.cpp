@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mixer tab that selects and checks a study, and opens its screens.
 #include "Mixer/Studies/StudiesTab.h"
+#include "Core/Units.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
+#include "Live/Documents/Mix.h"
 #include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Studies/StudyParts.h"
 #include "Mixer/Widgets/Cards.h"
@@ -87,10 +89,11 @@ StudiesTab::StudiesTab(MixerModel& model)
         editor->setEscapeAndReturnKeysConsumed(false); // Esc must reach the silence button from here, too
         editor->onTextChange = [this] { look(); };
     }
-    addAll(*this, {&choiceName_,  &choice_,         &codeName_,   &code_,         &numberName_,
-                   &number_,      &folderName_,     &folder_,     browse_.get(),  &noiseName_,
-                   &noise_,       &noiseLevelName_, &noiseLevel_, &wordsName_,    &wordsChoice_,
-                   &answersName_, &answersChoice_,  &begin_,      analyse_.get(), findings_.get()});
+    addAll(*this,
+           {&choiceName_,   &choice_,        &codeName_,    &code_,        &numberName_,    &number_,
+            &folderName_,   &folder_,        browse_.get(), &noiseName_,   &noise_,         &noiseLevelName_,
+            &noiseLevel_,   &wordsName_,     &wordsChoice_, &answersName_, &answersChoice_, &begin_,
+            analyse_.get(), findings_.get(), &master_});
     setFolder(juce::SharedResourcePointer<UserFolder> {} -> place());
     setParticipant("P01", 1);
     chooseProtocol(knownProtocols().front().name);
@@ -458,12 +461,16 @@ void StudiesTab::end() {
 void StudiesTab::mixChanged() {
     if (noiseOutputs_ != noiseChoices() || noise_.getNumItems() == 0) listNoise();
     const auto& mix = model_.mix();
-    const bool isFelt = !model_.device().isNone();
-    level_ = mix.levelDb < 0.0
-                 ? "Felt " + number(-mix.levelDb, 1) +
-                       " dB below the protocol's g: set the master level to 0 dB if those are meant."
-                 : juce::String{};
-    if (!isFelt) level_ = "There is no device: the study can be seen, and is felt by nobody.";
+    const double times = fromDecibels(-mix.levelDb);
+    const auto weak = mix.levelDb <= leastStripDb ? juce::String{"nothing is felt"}
+                                                  : number(times, times < 10.0 ? 1 : 0) + " times weaker";
+    level_ = times > 1.0 ? "The master is at " + number(mix.levelDb, 1) + " dB: " + weak +
+                               " than the protocol says. Its g are those at 0 dB; raise it beside Begin."
+                         : juce::String{};
+    if (model_.device().isNone())
+        level_ = "There is no device: the study can be seen, and is felt by nobody.";
+    master_.setRemark(times > 1.0 ? weak : juce::String{});
+    master_.mixChanged();
     outputs_ = protocol_ ? utf8(outputsFault(*protocol_, model_)) : juce::String{};
     if (refused_.isNotEmpty() && refused_ != outputs_) look(); // the cause of a refusal may be gone
     repaint();
@@ -503,10 +510,10 @@ void StudiesTab::paint(juce::Graphics& g) {
     auto about = aboutArea_, room = levelArea_;
     for (const juce::String& words : juce::StringArray::fromLines(about_))
         if (!add(about, words, Shade::muted)) break;
-    const bool isRefusal = wordsShade_ == Shade::limit; // has the width of all, and comes first
-    if (isRefusal) add(room, words_, wordsShade_);
+    const bool isFirst = wordsShade_ == Shade::limit || !begin_.isEnabled(); // why it does not begin
+    if (isFirst) add(room, words_, wordsShade_);
     for (const juce::String& words : advice()) add(room, words, Shade::now);
-    if (!isRefusal) write(words_, wordsShade_, wordsArea_);
+    if (!isFirst) add(room, words_, wordsShade_);
 }
 
 void StudiesTab::resized() {
@@ -542,11 +549,11 @@ void StudiesTab::resized() {
     area.removeFromTop(space);
     pair(wordsName_, wordsChoice_, answersName_, answersChoice_);
     area.removeFromTop(space + 2);
-    levelArea_ = area.removeFromTop(std::clamp(area.getHeight() - foot, 0, 42));
+    levelArea_ = area.removeFromTop(std::clamp(area.getHeight() - foot, 0, 63));
     row = area.removeFromTop(std::min(foot, area.getHeight()));
-    begin_.setBounds(row.removeFromLeft(100));
+    begin_.setBounds(row.removeFromLeft(84));
     analyse_->setBounds(row.removeFromRight(72));
-    wordsArea_ = row.withTrimmedLeft(gap);
+    master_.setBounds(row.reduced(gap, 0));
 }
 
 } // namespace physvib

@@ -4,6 +4,7 @@
 #pragma once
 #include "Mixer/Studies/AnalysisScreen.h"
 #include "Mixer/Studies/StudyScreen.h"
+#include "Mixer/Widgets/MasterStrip.h"
 #include "Mixer/Widgets/Parts.h"
 #include "Mixer/Widgets/Typefaces.h"
 #include "Studies/StudyCheck.h"
@@ -52,13 +53,16 @@ public:
     juce::StringArray advice() const;
     juce::Rectangle<int> adviceArea() const noexcept { return levelArea_; }
 
+    const MasterStrip& master() const noexcept { return master_; } ///< beside Begin
+
     void mixChanged() override;
     int minHeight(int) const override { return controlsHeight; }
     /// The check of the protocol; none while it is made. It is made while the tab is seen.
     const std::optional<StudyCheck>& check() const noexcept { return check_; }
 
-    void refresh(const MixerMoment&) override {
+    void refresh(const MixerMoment& moment) override {
         updateCheck();
+        master_.refresh(moment);
         if (screen_) screen_->refresh();
         if (analysis_) analysis_->refresh();
     }
@@ -100,8 +104,9 @@ private:
     juce::TextEditor code_, number_, folder_;
     std::unique_ptr<juce::TextButton> browse_, analyse_, findings_;
     std::optional<StudyCheck> check_; // of protocol_
+    MasterStrip master_{model_, true};
     juce::TextButton begin_{"Begin"};
-    juce::Rectangle<int> aboutArea_, levelArea_, wordsArea_;
+    juce::Rectangle<int> aboutArea_, levelArea_;
     std::unique_ptr<StudyFont> font_; // of the study screen
     std::unique_ptr<StudyScreen> screen_;
     std::unique_ptr<AnalysisScreen> analysis_;

@@ -2,6 +2,7 @@
 // Finds the window's host of cards, and closes a card before its answer is used.
 #include "Mixer/Widgets/Cards.h"
 #include "Io/Text/QrCode.h"
+#include "Scene/SceneValidation.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -465,5 +466,34 @@ void RenderTask::paint(juce::Graphics& g) {
 }
 
 void RenderTask::resized() { cancel_.setBounds(getLocalBounds().reduced(12, 13).removeFromRight(84)); }
+
+void askMaterial(juce::Component& from, MixerModel& model, int material, bool isCopy,
+                 std::function<void(int material)> made) {
+    static const juce::StringArray colours{"by its place", "red",  "amber", "light blue", "mauve",
+                                           "tan",          "blue", "brown", "olive"};
+    const Material asked = model.world().drawing().drawn().materials[static_cast<std::size_t>(material)];
+    const auto name = utf8(asked.name);
+    askForValues(
+        from, isCopy ? "A material of one's own" : "Name and colour", isCopy ? "Make it" : "Change",
+        {{"Name", isCopy ? "own " + name : name}, {"Colour", colours[asked.colour], {}, colours}},
+        [&model, material, isCopy, made = std::move(made)](const juce::StringArray& values) {
+            constexpr double usualHz = 165.0, usualDecay = 22.0; // of one that begins as a silent one
+            Scene scene = model.world().drawing().drawn();
+            auto& all = scene.materials;
+            const auto at = static_cast<std::size_t>(isCopy ? std::ssize(all) : material);
+            if (isCopy) all.push_back(Material{all[static_cast<std::size_t>(material)]});
+            Material& own = all[at];
+            if (isCopy && own.frequencyHz <= 0.0) own.frequencyHz = usualHz, own.decayPerSecond = usualDecay;
+            own.name = values[0].toStdString(), own.colour = colours.indexOf(values[1]);
+            if (model.reportFault(validate(scene))) return;
+            model.change(isCopy ? "New material" : "Name and colour",
+                         [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
+            model.dispatchPendingMessages();
+            made(static_cast<int>(at));
+        },
+        isCopy ? "It begins as a copy of " + name +
+                     ": set its frequency, decay and surface, or measure a recording. The world begins anew."
+               : "The world begins anew.");
+}
 
 } // namespace physvib

@@ -207,6 +207,11 @@ void askForValues(juce::Component& from, const juce::String& title, const juce::
                   const std::vector<QuestionCard::Field>& fields,
                   std::function<void(const juce::StringArray&)> use, const juce::String& words = {});
 
+/// Asks for the name and colour of a material of the scene, or of a copy of it; the world begins anew with
+/// it. `made` gets its index. Message thread.
+void askMaterial(juce::Component& from, MixerModel& model, int material, bool isCopy,
+                 std::function<void(int material)> made);
+
 /// Keeps the keyboard and the mouse from what is behind an open card.
 /// Gives a card the keyboard, its first text field if it has one, and keeps it there. What would take it
 /// away: a menu that is pressed by the mouse has a window of its own, and when that closes, JUCE gives the
@@ -239,10 +244,20 @@ private:
     juce::Component::SafePointer<juce::Component> card_;
 };
 
-/// Lies between a card and the window: only the button that silences is reached through it. Message thread.
+/// Lies between a card or an open menu and the window: only the button that silences is reached through it,
+/// and a press that closes a menu does nothing else. Message thread.
 class Curtain final : public juce::Component {
 public:
+    /// Seen only behind a card.
+    void draw(bool isBehindCard, bool isBehindMenu) {
+        if (isBehindCard != std::exchange(isBehindCard_, isBehindCard)) repaint();
+        if (const bool isDrawn = isBehindCard || isBehindMenu; isDrawn != isVisible()) {
+            setVisible(isDrawn);
+            if (isDrawn && !isBehindCard) toFront(false);
+        }
+    }
     void paint(juce::Graphics& g) override {
+        if (!isBehindCard_) return;
         if (const auto* stop = stopButton(*getParentComponent()))
             g.excludeClipRegion(getLocalArea(stop, stop->getLocalBounds()));
         g.fillAll(shade(*this, Shade::ground).withAlpha(0.6f));
@@ -260,6 +275,7 @@ private:
                 if (const auto* found = stopButton(*child)) return found;
         return nullptr;
     }
+    bool isBehindCard_ = false;
 };
 
 } // namespace physvib

@@ -53,10 +53,12 @@ void MasterStrip::paintFlat(juce::Graphics& g) const {
     g.setFont(text::font(text::small, juce::Font::bold));
     g.drawText("Master " + number(model_.mix().levelDb, 1) + " dB", words.removeFromTop(getHeight() / 2),
                juce::Justification::centredLeft, false);
-    g.setColour(shade(*this, isHeld ? Shade::limit : Shade::muted));
+    g.setColour(shade(*this, isHeld ? Shade::limit : remark_.isNotEmpty() ? Shade::now : Shade::muted));
     g.setFont(text::font(text::small));
-    g.drawText(isHeld ? limiterWords() : "at most " + inG(mostG()) + " g", words,
-               juce::Justification::centredLeft, false);
+    g.drawText(isHeld                 ? limiterWords()
+               : remark_.isNotEmpty() ? remark_
+                                      : "at most " + inG(mostG()) + " g",
+               words, juce::Justification::centredLeft, false);
 }
 
 void MasterStrip::paint(juce::Graphics& g) {

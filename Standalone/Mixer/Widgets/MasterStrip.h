@@ -19,6 +19,9 @@ public:
 
     /// `isFlat`: in one row without a meter, for where there are no strips.
     explicit MasterStrip(MixerModel& model, bool isFlat = false);
+    /// A warning in place of the most that can come, in a row; empty: none. Before mixChanged().
+    void setRemark(const juce::String& remark) { remark_ = remark; }
+    const juce::String& remark() const noexcept { return remark_; }
     void mixChanged();
     void refresh(const MixerMoment& moment);
     void paint(juce::Graphics& g) override;
@@ -33,6 +36,7 @@ private:
 
     MixerModel& model_;
     const bool isFlat_;
+    juce::String remark_;
     PeakMeter meter_{"Master level"};
     LimiterBar limiter_;
     Fader fader_;

@@ -144,6 +144,8 @@ void onSlide(juce::Slider& slider, std::function<void(bool)> use) {
 void prepareControls(juce::Component& root) {
     auto* slider = dynamic_cast<juce::Slider*>(&root);
     if (slider != nullptr) slider->setWantsKeyboardFocus(true);
+    if (auto* editor = dynamic_cast<juce::TextEditor*>(&root); editor != nullptr && !editor->isMultiLine())
+        editor->setJustification(juce::Justification::centredLeft); // in the middle of its height
     // also controls that are disabled now
     const bool isBox = dynamic_cast<juce::ComboBox*>(&root) != nullptr;
     const bool isControl = slider != nullptr || isBox || root.getWantsKeyboardFocus() ||

@@ -110,7 +110,7 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
     }
     all = std::move(many);
     all.insert(all.end(), few.begin(), few.end());
-    all.push_back({"No device: seen, not felt", {std::string{noDeviceType} + ":" + noDeviceName}, 0});
+    all.push_back({noDeviceTitle, {std::string{noDeviceType} + ":" + noDeviceName}, 0});
     return all;
 }
 
@@ -174,7 +174,8 @@ void FirstStart::test(int outputs) {
 
 // A sink may not be ready yet, and then its first pulse would be lost.
 bool FirstStart::isPlayed() const {
-    return std::ranges::all_of(model_.session().sinks().states(), &SinkState::isReady);
+    return coversSinks(model_.session()) &&
+           std::ranges::all_of(model_.session().sinks().states(), &SinkState::isReady);
 }
 
 void FirstStart::timerCallback() {

@@ -250,7 +250,13 @@ void MixerView::showLetters() {
     repaint();
 }
 
+void MixerView::drawCurtain() {
+    const auto* const modal = juce::Component::getCurrentlyModalComponent();
+    curtain_.draw(openCard() != nullptr, modal != nullptr && modal->isOnDesktop());
+}
+
 void MixerView::look() {
+    drawCurtain();
     latest_ = model_.look();
     for (std::size_t j = 0; j < peaks_.size(); ++j) peaks_[j] = std::max(peaks_[j], latest_.meters.peaks[j]);
     world_.refresh(latest_);
@@ -308,7 +314,7 @@ bool MixerView::onlyCloses() {
 
 void MixerView::raiseCard() {
     auto* const open = openCard();
-    curtain_.setVisible(open != nullptr);
+    drawCurtain();
     if (open == nullptr) return grabKeyboardFocus();
     curtain_.toFront(false);
     addAndMakeVisible(*open);

@@ -116,7 +116,8 @@ public:
     bool shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details,
                                               juce::StringArray& files, bool& canMoveFiles) override;
 
-    void mouseDown(const juce::MouseEvent& e) override { releaseAtRightClick(e); }
+    void mouseDown(const juce::MouseEvent& e) override { releaseAtRightClick(e), drawCurtain(); }
+    void mouseUp(const juce::MouseEvent&) override { drawCurtain(); }
     void mouseDrag(const juce::MouseEvent& e) override { releaseAtRightClick(e); }
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
@@ -131,6 +132,7 @@ private:
     static void releaseAtRightClick(const juce::MouseEvent& e);
     bool onlyCloses();
     void raiseCard();
+    void drawCurtain();
     void showPanels();
     void placeCards();
     void mixChanged();

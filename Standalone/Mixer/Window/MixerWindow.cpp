@@ -95,8 +95,9 @@ MixerWindow::~MixerWindow() {
     model_.reset();
 }
 
-// A document gets a new MixerModel: its session starts at 0, without undo steps.
-void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
+// A document gets a new MixerModel: its session starts at 0, and without undo steps unless they are given.
+void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused,
+                       std::shared_ptr<MixerHistory> history) {
     const bool wasSilent = model_ ? model_->isSilent() : files_.settings().getBoolValue(silentSetting);
     const bool wasAsked = view_ && view_->question() != nullptr;
     const double exposure = model_ ? model_->exposure().squareGSeconds() : files_.exposureToday();
@@ -105,7 +106,8 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
     clearContentComponent();
     view_.reset();
     model_.reset();
-    model_ = std::make_unique<MixerModel>(drivers_, device_, std::move(mix), MixerStart{wasSilent, isPaused});
+    model_ = std::make_unique<MixerModel>(drivers_, device_, std::move(mix),
+                                          MixerStart{wasSilent, isPaused, std::move(history)});
     model_->exposure().goOnFrom(exposure);
     view_ = std::make_unique<MixerView>(*model_);
     view_->setProgress(rendering_.get()); // of another session, which goes on
@@ -127,7 +129,8 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused) {
         lastRecording_ = file;
         view_->topBar().setRecording(false);
         if (error.isEmpty())
-            announceSaved("Recorded, with its events beside it:", file);
+            announceSaved("Recorded, with its events beside it:", file,
+                          {"Play", [this, file] { model_->strikes().playTake(file); }});
         else
             say(file.getFileName() + ": " + error);
     };
@@ -154,13 +157,16 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
         for (const SinkKind& kind : sinkKinds())
             files_.settings().setValue(kind.setting.data(), utf8(choice.placeOf(kind)));
         const bool isFirst = view_->firstStart() != nullptr, wasChanged = isChanged();
-        play(mixOf(model_->saved()), document_, model_->session().world().slowness() == 0);
+        Mix mix = mixOf(model_->saved());
+        const auto history = model_->history();
+        history->drawn.emplace_back(model_->mix().scene, mix.scene);
+        play(std::move(mix), document_, model_->session().world().slowness() == 0, history);
         if (wasChanged) savedEdits_ = neverSaved;
         if (isFirst && !choice.sinks.empty()) return testBeside(kindOf(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // the tab where it was chosen
     };
-    askThen(use, "Another output begins the session anew: mix and drawing stay, its past and its undo steps "
-                 "are lost.");
+    askThen(use, "Another output begins the session anew: mix, drawing and undo steps stay, its past is "
+                 "lost.");
 }
 
 void MixerWindow::showFirstStart() { addFirstStart(feltChoices(drivers_, likelySinks())); }
@@ -612,9 +618,9 @@ static juce::String fromHome(const juce::File& file) {
     return file.isAChildOf(home) ? "~/" + file.getRelativePathFrom(home) : file.getFullPathName();
 }
 
-void MixerWindow::announceSaved(const juce::String& words, const juce::File& file) {
-    MixerMessage message{
-        words + " " + fromHome(file), true, {"Show", [file] { file.revealToUser(); }}, "saved"};
+void MixerWindow::announceSaved(const juce::String& words, const juce::File& file, MixerAct act) {
+    if (!act.run) act = {"Show", [file] { file.revealToUser(); }};
+    MixerMessage message{words + " " + fromHome(file), true, std::move(act), "saved"};
     model_->isNews() ? model_->messages().show(std::move(message))
                      : model_->messages().add(std::move(message));
 }

@@ -74,7 +74,8 @@ private:
     void testBeside(int outputs);
     void reportInstead();
     void start(const juce::File& file);
-    void play(Mix mix, const juce::File& document, bool isPaused = false);
+    void play(Mix mix, const juce::File& document, bool isPaused = false,
+              std::shared_ptr<MixerHistory> history = {});
     /// `isOwn`: a copy of the run that crashed is lowered to the levels at its end.
     bool load(const juce::File& file, const juce::File& document, bool isOwn = false);
     /// Plays a file with its levels lowered to `most`. Reports what was lowered; a button restores it.
@@ -119,8 +120,8 @@ private:
     void askDisplayWidth();
     void nameWindow();
     void say(const juce::String& words) { model_->report(words); }
-    void announceSaved(const juce::String& words, const juce::File& file); ///< with a button that shows the
-                                                                           ///< file
+    /// With a button that shows the file, or `act`.
+    void announceSaved(const juce::String& words, const juce::File& file, MixerAct act = {});
     void serve();
     void chooseFolder();
     juce::File folderOfDocuments() const;

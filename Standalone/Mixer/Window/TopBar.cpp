@@ -191,11 +191,10 @@ void TopBar::refresh(const MixerMoment& moment) {
     isToldOfLoad_ = lost > 0 || moment.device.load > 0.5f;
     const auto sinks = model_.session().sinks().states();
     const bool areReady = std::ranges::all_of(sinks, &SinkState::isReady);
-    const auto sink = sinks.empty() ? juce::String{"Board"} : titleOf(sinks.front().name);
     board_.set(
-        sink + (sinks.empty() ? ": none"
-                : areReady    ? ": ready"
-                              : ": not there"),
+        sinks.empty() ? juce::String{"Board: none"}
+        : areReady    ? titleOf(sinks.front().name) + ": ready"
+                      : "No " + utf8(std::ranges::find(sinks, false, &SinkState::isReady)->name),
         count(static_cast<std::uint64_t>(r.liveModes), r.liveModes == 1 ? "mode sounds" : "modes sound"),
         sinks.empty() ? Shade::muted
         : areReady    ? Shade::accent

@@ -3,6 +3,7 @@
 #include "Mixer/World/DrawBar.h"
 #include "Host/Views/Look.h"
 #include "Mixer/Model/MixerMessages.h"
+#include "Mixer/Widgets/Cards.h"
 #include "Scene/Drawing/FeltTrial.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>
@@ -106,14 +107,8 @@ public:
                            : getName() + " is not felt at usual impacts: " + utf8(why));
         repaint();
     }
-    enum class Show { picture, name, remark }; ///< a remark says in words that it is not felt
-    int wanted(Show show) const {
-        return show == Show::picture ? 32 : 38 + text::pixels(text::font(text::small), words(show));
-    }
-    void setShow(Show show) {
-        show_ = show;
-        repaint();
-    }
+    static constexpr int pictureWide = 32;
+    int namedWide() const { return 38 + text::pixels(text::font(text::small), getName()); }
     std::function<void()> onEnter;
     void mouseEnter(const juce::MouseEvent& e) override {
         juce::Button::mouseEnter(e);
@@ -127,19 +122,17 @@ public:
         g.setColour(shade(*this, Shade::accent));
         if (getToggleState()) g.drawRoundedRectangle(getLocalBounds().toFloat().reduced(0.75f), 6.0f, 1.5f);
         g.setColour(colour_);
-        g.strokePath(decay(), juce::PathStrokeType{1.6f},
-                     juce::AffineTransform::translation(7.0f, 0.5f * static_cast<float>(getHeight())));
+        const float middle = 0.5f * static_cast<float>(getHeight());
+        g.strokePath(decay(), juce::PathStrokeType{1.6f}, juce::AffineTransform::translation(7.0f, middle));
         g.setColour(shade(*this, getToggleState() ? Shade::text : Shade::muted));
+        if (!isFelt_) g.drawLine(5.0f, middle + 8.0f, 27.0f, middle - 8.0f, 1.5f); // struck out
         g.setFont(text::font(text::small));
-        g.drawText(words(show_), getLocalBounds().withTrimmedLeft(30), juce::Justification::centredLeft,
-                   true);
+        if (getWidth() >= namedWide())
+            g.drawText(getName(), getLocalBounds().withTrimmedLeft(30), juce::Justification::centredLeft,
+                       true);
     }
 
 private:
-    juce::String words(Show show) const {
-        return show == Show::picture ? juce::String{}
-                                     : getName() + (show == Show::remark && !isFelt_ ? ": not felt" : "");
-    }
     /// The first tenth of a second, with fewer waves than it has, so that they can be told apart.
     juce::Path decay() const {
         constexpr double wide = 18.0, high = 8.0, seconds = 0.1, wavesPerHertz = 0.012;
@@ -158,7 +151,6 @@ private:
 
     const Material material_;
     const juce::Colour colour_;
-    Show show_ = Show::name;
     bool isFelt_ = true;
 };
 
@@ -239,8 +231,12 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
     onSlide(spring_, [this](bool continuesEdit) {
         edit("Spring", sprung(model_.world().drawing(), springJoint_, spring_.getValue()), continuesEdit);
     });
-    addAll(*this, {&name_, &moves_, &source_, &densityName_, &density_, &bounceName_, &bounce_, &speedName_,
-                   &speed_, &torqueName_, &torque_, &springName_, &spring_});
+    new_.onClick = [this] {
+        askMaterial(*this, model_, pane_.material(), true,
+                    [this](int material) { pane_.giveMaterial(material), show(); });
+    };
+    addAll(*this, {&new_, &name_, &moves_, &source_, &densityName_, &density_, &bounceName_, &bounce_,
+                   &speedName_, &speed_, &torqueName_, &torque_, &springName_, &spring_});
 }
 
 BodyPanel::~BodyPanel() = default;
@@ -304,7 +300,6 @@ void BodyPanel::show() {
                 shown_[static_cast<std::size_t>(i)], palette::material(shown_, i)));
             describe(swatch, "Made of " + swatch.getName(),
                      swatch.getName() + ": what is chosen is made of it");
-            swatch.setShow(MaterialSwatch::Show::picture);
             swatch.onClick = [this, i] { pane_.giveMaterial(i), show(); };
             addAndMakeVisible(swatch);
             prepareControls(swatch);
@@ -338,6 +333,8 @@ void BodyPanel::resized() {
         if (k++ % perRow == 0) row = area.removeFromTop(rowHigh);
         swatch->setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1));
     }
+    if (std::ssize(materials_) % perRow == 0) row = area.removeFromTop(rowHigh);
+    new_.setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1));
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},
                                         {&speedName_, &speed_},
@@ -385,6 +382,13 @@ MaterialPalette::MaterialPalette(MixerModel& model, DrawPane& pane)
         if (const int k = way_.getSelectedItemIndex(); k >= 0)
             pane_.setRainPattern(rainPatterns[static_cast<std::size_t>(k)]);
     };
+    new_.onClick = [this] {
+        askMaterial(*this, model_, pane_.material(), true, [this](int material) {
+            pane_.setMaterial(material);
+            hintOnMaterial(model_, material);
+        });
+    };
+    addAll(*this, {&new_, &name_});
     addChildComponent(count_);
     addChildComponent(way_);
 }
@@ -421,37 +425,31 @@ void MaterialPalette::show() {
     way_.setSelectedItemIndex(
         static_cast<int>(std::ranges::find(rainPatterns, pane_.rainPattern()) - rainPatterns.begin()),
         juce::dontSendNotification);
-    if (const bool isRain = pane_.tool() == DrawTool::rain; isRain != count_.isVisible()) {
-        count_.setVisible(isRain);
-        way_.setVisible(isRain);
-        resized();
+    count_.setVisible(pane_.tool() == DrawTool::rain);
+    way_.setVisible(pane_.tool() == DrawTool::rain);
+    for (int i = 0; i < static_cast<int>(swatches_.size()); ++i) {
+        auto& swatch = *swatches_[static_cast<std::size_t>(i)];
+        swatch.setToggleState(i == pane_.material(), juce::dontSendNotification);
+        if (i == pane_.material()) name_.setText(swatch.getName(), juce::dontSendNotification);
     }
-    for (std::size_t i = 0; i < swatches_.size(); ++i)
-        swatches_[i]->setToggleState(static_cast<int>(i) == pane_.material(), juce::dontSendNotification);
-    if (std::exchange(chosen_, pane_.material()) != pane_.material()) resized(); // its name may need room
 }
 
+// What is chosen, and the tool, move nothing: a hand is on its way there.
 void MaterialPalette::resized() {
-    constexpr int between = 4;
+    constexpr int between = 4, countWide = 106, wayWide = 150, newWide = 28;
     auto area = getLocalBounds();
-    for (auto [list, wide] : {std::pair{&count_, 106}, {&way_, 150}})
-        if (list->isVisible()) list->setBounds(area.removeFromLeft(wide)), area.removeFromLeft(between);
-    using Show = MaterialSwatch::Show;
-    const auto showOf = [](const MaterialSwatch& swatch, Show others) { // the selected one keeps its name
-        return others == Show::picture && swatch.getToggleState() ? Show::name : others;
-    };
-    Show show = Show::remark;
-    for (; show != Show::picture; show = show == Show::remark ? Show::name : Show::picture) {
-        int wide = -between;
-        for (const auto& swatch : swatches_) wide += swatch->wanted(show) + between;
-        if (wide <= area.getWidth()) break;
-    }
+    way_.setBounds(area.removeFromRight(wayWide));
+    count_.setBounds(area.removeFromRight(countWide + between).withTrimmedRight(between));
+    int named = newWide + between;
+    for (const auto& swatch : swatches_) named += swatch->namedWide() + between;
+    const bool areNamed = named <= area.getWidth();
     for (auto& swatch : swatches_) {
-        const Show its = showOf(*swatch, show);
-        swatch->setShow(its);
-        swatch->setBounds(area.removeFromLeft(std::min(swatch->wanted(its), area.getWidth())));
+        swatch->setBounds(area.removeFromLeft(areNamed ? swatch->namedWide() : MaterialSwatch::pictureWide));
         area.removeFromLeft(between);
     }
+    new_.setBounds(area.removeFromLeft(newWide));
+    name_.setVisible(!areNamed);
+    name_.setBounds(area);
 }
 
 } // namespace physvib

@@ -34,8 +34,8 @@ private:
 /// A material's chip, which shows its decay.
 class MaterialSwatch;
 
-/// Name and colour of each material: a click selects it for drawing, and hovering plays it once. With the
-/// rain, also its number of balls. Message thread.
+/// Name and colour of each material: a click selects it for drawing, and hovering plays it once; and one that
+/// makes another. With the rain, also its number of balls. Message thread.
 class MaterialPalette final : public juce::Component {
 public:
     MaterialPalette(MixerModel& model, DrawPane& pane);
@@ -49,8 +49,9 @@ private:
     std::vector<Material> shown_;
     std::set<std::tuple<bool, int, bool>> surfaces_; // those that the remarks are about
     std::vector<std::unique_ptr<MaterialSwatch>> swatches_;
+    SignButton new_{Sign::plus, "New material"};
+    Caption name_; // of the chosen one, where there is no room for all of them
     juce::ComboBox count_, way_;
-    int chosen_ = -1;
 };
 
 /// Static or moving, haptic source or not, material, density and restitution of the selected bodies; of a
@@ -63,14 +64,14 @@ public:
     void paint(juce::Graphics& g) override;
     void resized() override;
     int wantedHeight() const {
-        const int rows = (static_cast<int>(materials_.size()) + perRow - 1) / perRow;
+        const int rows = static_cast<int>(materials_.size()) / perRow + 1; // with the one that makes another
         return high + rows * rowHigh + (drivenJoint_.empty() ? 0 : 2 * rowHigh) +
                (springJoint_.empty() ? 0 : rowHigh);
     }
     static constexpr int wide = 230;
 
 private:
-    static constexpr int high = 122, rowHigh = 28, perRow = 6;
+    static constexpr int high = 122, rowHigh = 28, perRow = 7;
     void edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit);
 
     MixerModel& model_;
@@ -78,6 +79,7 @@ private:
     std::vector<Material> shown_;
     std::vector<std::unique_ptr<MaterialSwatch>> materials_;
     std::string drivenJoint_, springJoint_; // of the single selected body; empty: none
+    SignButton new_{Sign::plus, "New material for what is chosen"};
     juce::Label name_;
     Caption densityName_{"density"}, bounceName_{"bounce"}, speedName_{"motor"}, torqueName_{"torque"},
         springName_{"spring"};

@@ -131,10 +131,20 @@ std::optional<BodyPlace> DrawPane::placeNow(const std::string& name) const {
     return pose ? std::optional{BodyPlace{{pose->xMetres, pose->yMetres}, pose->angleRadians}} : std::nullopt;
 }
 
+/// Shapes are drawn in the field, at its edge too.
+bool DrawPane::isBeside(juce::Point<float> place) const {
+    constexpr float edge = 10.0f;
+    return (isStroke(tool_) || tool_ == DrawTool::polygon) &&
+           !juce::Rectangle<float>{view_.placeOfShare({0.0, 1.0}), view_.placeOfShare({1.0, 0.0})}
+                .expanded(edge)
+                .contains(place);
+}
+
 void DrawPane::mouseDown(const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu()) return onMenu ? onMenu(e.position) : void();
     to_ = at(e);
     if (tool_ != DrawTool::choose) choose({});
+    if (isBeside(e.position)) return;
     if (tool_ == DrawTool::polygon) {
         stroke_.push_back(to_);
         isDrawing_ = true;
@@ -149,6 +159,9 @@ void DrawPane::mouseDown(const juce::MouseEvent& e) {
 
 void DrawPane::mouseMove(const juce::MouseEvent& e) {
     to_ = at(e);
+    if (tool_ != DrawTool::choose)
+        setMouseCursor(isBeside(e.position) ? juce::MouseCursor::NormalCursor
+                                            : juce::MouseCursor::CrosshairCursor);
     if (tool_ == DrawTool::polygon && !stroke_.empty()) repaint();
 }
 
@@ -193,8 +206,6 @@ void DrawPane::mouseDoubleClick(const juce::MouseEvent&) {
 
 namespace {
 
-constexpr double rollerShare = 0.03; // radius, of the field's height
-
 double between(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 } // namespace
@@ -233,51 +244,33 @@ Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
     return drawnRain({x - wide, y - high}, {x + wide, y + high}, rainCount_);
 }
 
-// Rollers of a conveyor, from the start of the drag to its end; a click gives some of them to the right.
+// Rollers of a conveyor, from the start of the drag to its end; a click gives some of them to the right. Each
+// turns at its own speed, whatever lies on it, so that its upper side goes the way of the drag. They overlap:
+// in a dip between two a ball would turn on its place.
 std::vector<BodyDescription> DrawPane::rollersNow() const {
-    constexpr double usual = 8.0, most = 60.0;
-    const double radius = rollerShare * model_.world().scene().fieldHeightMetres, apart = 2.2 * radius;
+    constexpr double radiusShare = 0.03, speedShare = 0.8; // of the field's height, in a second; a ball that
+                                                           // rolls gets a third
+    constexpr double apartShare = 0.8, usual = 16.0, most = 80.0;
+    const double radius = radiusShare * model_.world().scene().fieldHeightMetres;
     const Vector from = stroke_.empty() ? to_ : stroke_[0];
     const double length = between(from, to_);
-    const bool isClick = length < apart;
+    const bool isClick = length < 2.0 * radius;
+    const double apart = std::max(apartShare * radius, isClick ? 0.0 : length / most);
     const double x = isClick ? apart : (to_.x - from.x) / length * apart,
                  y = isClick ? 0.0 : (to_.y - from.y) / length * apart;
     std::vector<BodyDescription> all;
-    for (int k = 0; k < (isClick ? usual : std::min(most, 1.0 + length / apart)); ++k)
-        if (const Vector at{from.x + k * x, from.y + k * y}; auto ball = drawnBall(at, {at.x + radius, at.y}))
+    for (int k = 0; k < (isClick ? usual : 1.0 + length / apart); ++k)
+        if (const Vector at{from.x + k * x, from.y + k * y};
+            auto ball = drawnBall(at, {at.x + radius, at.y})) {
+            ball.value.type = BodyType::kinematicBody;
+            ball.value.spinRadiansPerSecond = (x < 0.0 ? 1.0 : -1.0) * speedShare / radiusShare;
             all.push_back(std::move(ball.value));
+        }
     return all;
 }
 
-// Each turns by a motor on the field, so that its upper side goes the way of the drag.
-void DrawPane::addConveyor() {
-    constexpr double turn = 0.3 / rollerShare, strength = 20.0; // rad/s; of a lone motor's torque
-    auto rollers = rollersNow();
-    if (rollers.empty() || !prepare(rollers)) return;
-    std::vector<Action> actions;
-    std::vector<std::string> names;
-    const auto field = fieldBody(actions, rollers.front().positionMetres);
-    SceneDrawing trial = drawing();
-    for (const Action& action : actions) trial.take(action);
-    const BodyPlace there{trial.find(field)->positionMetres, trial.find(field)->angleRadians};
-    for (auto& roller : rollers) {
-        const Vector at = roller.positionMetres;
-        names.push_back(roller.name);
-        trial.take(actions.emplace_back(SpawnAction{std::move(roller), {}}));
-        auto made = joined(trial, JointKind::motor, {field, there}, {names.back(), {at, 0.0}}, at, at);
-        if (!made) return model_.report(utf8(made.error));
-        auto& motor = std::get<RevoluteJoint>(std::get<JoinAction>(made.value.back()).joint.joint);
-        motor.motorRadiansPerSecond = !stroke_.empty() && to_.x < stroke_[0].x ? turn : -turn;
-        motor.maxTorqueNewtonMetres =
-            std::min(sceneLimits::maxTorqueNewtonMetres, strength * motor.maxTorqueNewtonMetres);
-        trial.take(actions.emplace_back(std::move(made.value.back())));
-    }
-    edit("Draw a conveyor", std::move(actions));
-    if (drawing().find(names.front()) != nullptr) choose(names);
-}
-
 void DrawPane::addStroke() {
-    if (tool_ == DrawTool::conveyor) return addConveyor();
+    if (tool_ == DrawTool::conveyor) return add(rollersNow());
     if (tool_ == DrawTool::rain) {
         auto bodies = rainNow();
         if (!bodies || rain_.pattern().perSecond == 0) return add(std::move(bodies));
@@ -310,11 +303,13 @@ void DrawPane::add(Result<std::vector<BodyDescription>> bodies) {
     if (!bodies) return model_.report(utf8(bodies.error));
     if (!prepare(bodies.value)) return;
     std::vector<Action> actions;
-    const std::string first = bodies.value.front().name;
+    std::vector<std::string> names{bodies.value.front().name};
+    if (tool_ == DrawTool::conveyor)
+        for (std::size_t k = 1; k < bodies.value.size(); ++k) names.push_back(bodies.value[k].name);
     for (auto& body : bodies.value) actions.push_back(SpawnAction{std::move(body), {}});
     edit("Draw a " + juce::String{wordsOf(tool_).name}.toLowerCase(), std::move(actions));
-    hintOnBody(model_, first);
-    if (drawing().find(first) != nullptr) choose({first}); // its panel is there while the next one is drawn
+    if (tool_ != DrawTool::conveyor) hintOnBody(model_, names.front()); // what it carries is felt
+    if (drawing().find(names.front()) != nullptr) choose(names); // the panel is there while one draws on
 }
 
 void DrawPane::closePolygon() {

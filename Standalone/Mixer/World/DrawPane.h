@@ -79,6 +79,7 @@ private:
     const SceneDrawing& drawing() const noexcept { return model_.world().drawing(); }
     Vector at(const juce::MouseEvent& e) const;
     double grid() const;
+    bool isBeside(juce::Point<float> place) const;
     std::optional<Handles> handles() const;
     std::optional<BodyPlace> placeNow(const std::string& name) const;
     BodyDescription sizedNow() const;
@@ -86,7 +87,6 @@ private:
     Result<BodyDescription> drawnNow() const;
     Result<std::vector<BodyDescription>> rainNow() const;
     std::vector<BodyDescription> rollersNow() const;
-    void addConveyor();
     void addStroke();
     bool prepare(std::vector<BodyDescription>& bodies);
     void add(Result<std::vector<BodyDescription>> bodies);

@@ -346,9 +346,7 @@ juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     return lines.size() <= 2 ? lines.joinIntoString("\n") : juce::String{};
 }
 
-juce::String WorldPanel::whyMuted() const {
-    return model_.isSilent() ? "silent" : whySilent(model_.mix()).isNotEmpty() ? "levels down" : "";
-}
+juce::String WorldPanel::whyMuted() const { return model_.isSilent() ? "silent" : whySilent(model_.mix()); }
 
 /// Empty: something is felt, or may be at once.
 juce::String WorldPanel::whyNothing(double nowMs, bool isRunning) const {

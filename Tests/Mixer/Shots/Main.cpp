@@ -152,6 +152,12 @@ std::vector<State> sheetStates() {
                  {"A has no output: another actuator has it", false, {"Give a free output", [] {}}});
          }},
         {"sheet-rain", 1440, 900, 1.0, showRain},
+        {"sheet-phone", 1280, 800, 0.5,
+         [](MixerModel&, MixerView& v) {
+             v.tabs().choose("Output");
+             if (auto* list = dynamic_cast<juce::ComboBox*>(find(v, "OSC")))
+                 list->setSelectedItemIndex(2, juce::sendNotificationSync);
+         }},
         {"sheet-takes", 1440, 900, 1.0, [](MixerModel&, MixerView& v) { v.scope().choose("Takes"); }},
         {"sheet-card", 1440, 900, 1.0,
          [](MixerModel&, MixerView& v) {

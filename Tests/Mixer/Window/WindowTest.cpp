@@ -481,9 +481,9 @@ TEST(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     next(-6.0, MixerModel::firstMix().levelDb, false);
 }
 
-TEST(Window, AnotherOutputKeepsWhatWasDrawn) {
-    TestFolder folder;
+TEST(Window, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
     for (const char* answer : {"Do not save", "Save"}) {
+        TestFolder folder; // a card asks for what the first leaves behind
         MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
         Hand hand{window};
         auto& view = window.view().world().view();
@@ -495,7 +495,9 @@ TEST(Window, AnotherOutputKeepsWhatWasDrawn) {
                   hand.placeOf(view, view.placeOfShare({0.6, 0.4})));
         runFor(0.3);
         const Scene drawn = window.model().world().drawing().drawn();
-        ASSERT_FALSE(drawn.bodies.empty());
+        ASSERT_EQ(drawn.bodies.size(), 2u) << window.model().trouble();
+        const double level = window.model().mix().levelDb;
+        window.model().change("Master gain", [](Mix& mix) { mix.levelDb -= 6.0; });
         DeviceChoice other = window.model().device().choice();
         other.sinks = {{"BOARD", "/dev/not-there"}};
         window.model().device().onSinksWanted(other);
@@ -503,6 +505,16 @@ TEST(Window, AnotherOutputKeepsWhatWasDrawn) {
         window.view().question()->answer(answer);
         ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.size() == 1; }));
         EXPECT_EQ(window.model().world().drawing().drawn().bodies.size(), drawn.bodies.size()) << answer;
+        auto& undo = window.model().undoManager();
+        EXPECT_TRUE(undo.undo()) << "the fader";
+        EXPECT_EQ(window.model().mix().levelDb, level);
+        EXPECT_EQ(window.model().world().drawing().drawn().bodies.size(), drawn.bodies.size())
+            << "what was drawn before it stays";
+        EXPECT_TRUE(undo.undo()) << "the box";
+        EXPECT_EQ(window.model().world().drawing().drawn().bodies.size(), drawn.bodies.size() - 1);
+        EXPECT_TRUE(undo.redo() && undo.redo());
+        EXPECT_EQ(window.model().world().drawing().drawn().bodies.size(), drawn.bodies.size());
+        EXPECT_EQ(window.model().mix().levelDb, level - 6.0);
     }
 }
 
@@ -542,7 +554,12 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
         const auto documents = juce::File::getSpecialLocation(juce::File::userDocumentsDirectory);
         EXPECT_EQ(window.lastRecording().getParentDirectory(), documents.getChildFile("PhysVib"));
         EXPECT_TRUE(window.model().trouble().contains(window.lastRecording().getFileName()));
-        EXPECT_EQ(window.model().messages().shown().act.name, "Show");
+        ASSERT_EQ(window.model().messages().shown().act.name, "Play");
+        window.model().setSlowness(0); // what is felt is the recording
+        runFor(0.3);
+        const auto inputs = window.model().edits();
+        window.model().messages().shown().act.run();
+        EXPECT_TRUE(runUntil([&] { return window.model().edits() > inputs; })) << "it is played";
         names.add(window.lastRecording().getFileName());
     }
     EXPECT_NE(names[0], names[1]);
@@ -669,6 +686,31 @@ TEST(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
     }
     hand.click(*find(view, "Mute A"));
     EXPECT_TRUE(model.mix().strips[0].isMuted) << "without a card it does";
+}
+
+TEST(Window, APressThatClosesAMenuDrawsNothing) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    Hand hand{window};
+    auto& view = window.view().world().view();
+    window.model().setSlowness(0);
+    window.newScene(SceneGround::floor);
+    runFor(0.5);
+    window.view().world().drawing().use(DrawTool::ball);
+    const auto bodies = [&] { return window.model().world().drawing().drawn().bodies.size(); };
+    const auto before = bodies();
+    const auto place = view.placeOfShare({0.5, 0.5});
+    for (const char* title : {"Menu", "Scene"}) {
+        hand.click(*find(window.view(), title));
+        ASSERT_TRUE(runUntil([] { return juce::Component::getCurrentlyModalComponent() != nullptr; }))
+            << title;
+        hand.click(view, place);
+        EXPECT_EQ(juce::Component::getCurrentlyModalComponent(), nullptr) << title;
+        EXPECT_EQ(bodies(), before) << title;
+        runFor(0.3);
+    }
+    hand.click(view, place);
+    EXPECT_EQ(bodies(), before + 1) << "the next one does";
 }
 
 TEST(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
