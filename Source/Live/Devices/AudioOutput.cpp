@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opens, feeds and supervises the audio device that plays a session on the actuators.
 #include "Live/Devices/AudioOutput.h"
+#include "Live/Devices/NoDevice.h"
 #include "Live/Devices/PicoDevice.h"
 #include "Live/Devices/Taps.h"
 #include <algorithm>
@@ -164,7 +165,8 @@ std::string AudioOutput::maintain(Clock::time_point now) {
     }
     const bool isStill = watch_.losses() == before && !isPlaying();
     std::string changed = follow();
-    if (!keeper_.device()->isReal()) return changed; // nothing is felt there, whatever it lacks
+    if (settings_.device.starts_with(std::string{noDeviceType} + ":"))
+        return changed; // nothing is felt there
     if (changed.empty() && isStill && map_.unfelt() < map_.enchanters())
         changed = settings_.device + " does not ask for samples: nothing is felt, and time stands still";
     if (changed.empty() && guard_.hasNews(status().guarded))
