@@ -334,9 +334,10 @@ factor.names <- function(column, d) {
   cells <- unique(d[[column]]); words <- unlist(strsplit(cells, " ", fixed = TRUE)); parts <- parts.of(cells)
   if (length(words) > 0 && all(grepl("=", words, fixed = TRUE))) return(unique(sub("=.*", "", words)))
   if (length(cells) > 1 && all(grepl("^A[VF]-F[VF]-DR[VF]$", cells))) return(c("A", "F", "DR"))
-  if (all(lengths(parts) == 2) && (column == "condition" || all(lengths(strsplit(cells, " ", fixed = TRUE)) == 2))) {
+  isWords <- all(lengths(strsplit(cells, " ", fixed = TRUE)) == 2)
+  if (all(lengths(parts) == 2) && (column == "condition" || isWords)) {
     first <- unique(sapply(parts, `[`, 1)); second <- unique(sapply(parts, `[`, 2))
-    if (length(second) > 1 && length(first) * length(second) == length(cells)) return(paste0(column, c(".1", ".2")))
+    if (length(second) > 1 && (length(first) > 1 || !isWords) && length(first) * length(second) == length(cells)) return(paste0(column, c(".1", ".2")))
   }
   column
 }
@@ -561,10 +562,11 @@ study <- function(study, scales = character(), points = character(), half = "thr
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
     compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"), over = "target")
+    targets <- c("target_y", "target_x"); if (!all(targets %in% names(own))) targets <- c("target_row", "target_column") # which number those of other programs
+    for (t in targets) own[[t]] <- as.character(signif(as.numeric(own[[t]]), 4))
     for (one in split(own, if ("condition" %in% names(own)) factor(own$condition, unique(own$condition)) else rep("", nrow(own)))) {
       place <- if (length(unique(own$condition)) > 1) paste(words, "of", one$condition[1]) else words
       for (m in c("x", "y")) {
-        targets <- c("target_y", "target_x"); if (!all(targets %in% names(one))) targets <- c("target_row", "target_column") # which number those of other programs
         compare(paste0(m, place), one, m, columns = c("group", targets))
         if (grepl("protocol phantom-places-thesis", study, fixed = TRUE)) single.trials(paste0(m, place, ", single trials as in Table 4.1"), one, m)
       }
