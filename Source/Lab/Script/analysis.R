@@ -207,9 +207,10 @@ mixed <- function(test, file, measure, within, between, where) {
   own <- names(d)[-c(1, ncol(d))]
   x <- model.matrix(as.formula(paste("~", paste(own, collapse = "*"))), d, lapply(d[own], function(f) "contr.sum"))
   terms <- attr(x, "assign"); labels <- unlist(lapply(seq_along(own), function(m) combn(factors, m, paste, collapse = ":")))
-  slopes <- if (length(within) > 1) sprintf(" + (1 | id:w%d)", seq_along(within))
-  cat("  mixed model: by maximum likelihood, random ", paste(c("(1 | participant)", if (length(within) > 1) paste0("(1 | participant:", within, ")")), collapse = " + "), " alone\n", sep = "")
-  model <- as.formula(paste(c("y ~ 0 + x + (1 | id)", slopes), collapse = ""))
+  several <- unlist(lapply(seq_len(length(within) - 1), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE) # all of them are what is left
+  random <- function(id, names) paste0("(1 | ", c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), "")), ")", collapse = " + ")
+  cat("  mixed model: by maximum likelihood, random ", random("participant", within), "\n", sep = "")
+  model <- as.formula(paste("y ~ 0 + x +", random("id", sprintf("w%d", seq_along(within)))))
   of <- function(x) suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE))
   fit <- function(x) as.numeric(logLik(of(x)))
   if (lme4::VarCorr(of(x))$id[1] == 0) stop("participants' variance is estimated as 0, so cells would count as people")

@@ -420,7 +420,7 @@ ours <- whole(d, character()); unlink("psychometric-stimuli.csv"); if (!any(grep
 d <- expand.grid(trial = 1:2, target_x = c(100, 700), target_y = c(50, 90), participant = person(6)); d$target_column <- d$target_x %/% 300 + 1; d$target_row <- d$target_y %/% 60 + 1; d$x <- rnorm(48); d$y <- rnorm(48)
 if (nrow(line(whole(d, character()), "target_x: 100 - 700")) != 2) fault("which column is 1 is not told")
 # What the mixed model has is told.
-if (requireNamespace("lme4", quietly = TRUE)) { rows(whole.rows); if (!any(grepl("mixed model: by maximum likelihood, random (1 | participant) + (1 | participant:condition) + (1 | participant:stimulus) alone",
+if (requireNamespace("lme4", quietly = TRUE)) { rows(whole.rows); if (!any(grepl("mixed model: by maximum likelihood, random (1 | participant) + (1 | participant:condition) + (1 | participant:stimulus)",
   capture.output(anova.test("t", "trials.csv", "y", c("condition", "stimulus"))), fixed = TRUE))) fault("a mixed model without its random part") }
 cat(faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)
