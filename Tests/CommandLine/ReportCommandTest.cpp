@@ -145,7 +145,7 @@ TEST_F(Report, PlacesBeyondTheEdgesHaveErrorsAndWhoIsInTwoGroupsIsNamed) {
     EXPECT_TRUE(has(page(), "distance from the target: ") && has(page(), "<h2>Perceived places"));
     EXPECT_FALSE(has(page(), "expected a number from 0 to 1"));
     EXPECT_FALSE(has(page(), "no ratings are looked at")) << "true places are none";
-    EXPECT_TRUE(has(page(), "Groups: 1 g, 1 h, in several C."));
+    EXPECT_TRUE(has(page(), "Groups: 1 g, 1 h, 1 in several (C)."));
     ASSERT_EQ(call("report t.csv --out out --columns "
                    "participant=who,target_x=tx:0:800,target_y=ty:0:100,x=px:0:800,y=py:0:100")
                   .exitCode,

@@ -149,7 +149,7 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
         for (const auto& [participant, threshold] : s.thresholds)
             each.row(s.kind == LevelTrial::Kind::quest ? "quest" : "staircase", s.condition, participant,
                      threshold);
-        const auto known = [&s](double spread) {
+        const auto known = [&s](double spread) { // of one value there is none
             return s.participants > 1 || spread > 0.0 ? std::optional{spread} : std::nullopt;
         };
         table.row(kindWord(s.kind), s.condition, s.stimulus, s.trials, s.participants, s.reversals,
@@ -157,8 +157,7 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
     }
     if (std::ranges::any_of(summaries, [](const auto& s) { return s.reversals > 0; }))
         out << "thresholds of staircases: means of the later half of their reversals (of an odd number also "
-               "the "
-               "middle one); of several staircases their mean\n";
+               "the middle one); of several staircases their mean\n";
     if (std::ranges::any_of(
             summaries, [](const auto& s) { return s.kind == LevelTrial::Kind::quest && s.participants > 1; }))
         out << "thresholds by QUEST+: of each participant with the widths that all answers in the condition "

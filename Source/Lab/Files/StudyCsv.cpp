@@ -232,9 +232,9 @@ bool isOfPeople(const CsvTable& table, std::size_t column) {
     if (!who || table.column(trialColumns::task)) return false;
     std::map<std::string, std::set<std::string>> values;
     for (const CsvRow& row : table.rows) values[row.cells[*who]].insert(row.cells[column]);
+    const auto isAlike = [&](const auto& own) { return own.second == values.begin()->second; };
     return values.size() < table.rows.size() &&
-           std::ranges::any_of(values,
-                               [&](const auto& own) { return own.second != values.begin()->second; }) &&
+           (values.size() == 1 || !std::ranges::all_of(values, isAlike)) &&
            std::ranges::all_of(values, [](const auto& own) { return own.second.size() == 1; });
 }
 

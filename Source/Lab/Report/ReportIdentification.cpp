@@ -8,7 +8,6 @@
 #include "Lab/Study/Places.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
-#include <array>
 
 namespace physvib {
 namespace {
@@ -215,13 +214,12 @@ void tellPlaces(ReportBuilder& report) {
     auto data = report.read(readLocations);
     const Cells cell{report.trials.all};
     if (!data && cell.has("target_x")) { // of another program: errors need no edges
-        const auto isOutside = [&](const CsvRow& row) {
-            return std::ranges::any_of(std::array{"x", "y"}, [&](const char* axis) {
-                const auto at = parseNumber<double>(cell(row, axis));
-                return at && (*at < 0.0 || *at > 1.0);
-            });
+        const auto lies = [&](const CsvRow& row, const char* axis) {
+            const double at = parseNumber<double>(cell(row, axis)).value_or(0.0);
+            return at < 0.0 || at > 1.0;
         };
-        const auto outside = std::ranges::count_if(report.trials.all.rows, isOutside);
+        const auto outside = std::ranges::count_if(
+            report.trials.all.rows, [&](const CsvRow& row) { return lies(row, "x") || lies(row, "y"); });
         tellPlaceErrors(report);
         return report.page.note(
             std::to_string(outside) + " of " + counted(report.trials.all.rows.size(), "place") +

@@ -17,8 +17,6 @@
 namespace physvib {
 namespace {
 
-constexpr const char* inSeveral = "in several"; // groups
-
 struct Attended {
     std::string number, observer, group;
     std::size_t main = 0, training = 0, unanswered = 0, ranOut = 0;
@@ -46,7 +44,9 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
                 own.number = number->second;
             own.observer = cell(row, trialColumns::observer);
             if (const std::string& group = cell(row, trialColumns::group); !group.empty())
-                own.group = own.group.empty() || own.group == group ? group : inSeveral;
+                own.group = own.group.empty() || own.group == group
+                                ? group
+                                : "in several (" + cell(row, "participant") + ")";
             const bool isTraining = cell(row, trialColumns::phase) == trialColumns::training,
                        ranOut = cell(row, trialColumns::ranOut) == "1";
             ++(isTraining ? own.training : own.main);
@@ -165,18 +165,12 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
             notes.push_back("participant " + person.participant +
                             " of the table of people has no trials here");
     std::map<std::string, std::size_t> groups;
-    std::vector<std::string> several;
     for (const auto& [code, own] : attended) // in rows, or in the table of people
-        if (const auto* const person = facts.person(code); !facts.isExcluded(code) && own.main > 0) {
-            if (own.group == inSeveral)
-                several.push_back(code);
-            else
-                ++groups[own.group.empty() && person ? person->group : own.group];
-        }
+        if (const auto* const person = facts.person(code); !facts.isExcluded(code) && own.main > 0)
+            ++groups[own.group.empty() && person ? person->group : own.group];
     std::vector<std::string> sizes;
     for (const auto& [group, size] : groups)
         sizes.push_back(std::to_string(size) + (group.empty() ? " not known" : " " + group));
-    if (!several.empty()) sizes.push_back(std::string{inSeveral} + " " + listed(several));
     if (groups.size() > groups.count("")) report.page.paragraph("Groups: " + listed(sizes) + ".");
     const Moments moments{ages};
     if (!ages.empty())

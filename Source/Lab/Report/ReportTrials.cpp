@@ -369,22 +369,18 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
                 const bool isOver =
                     !isUnfinished(plan, answers, most - std::min(most, notLeft[key]), cutShort);
                 const bool isFixed = plan.adaptedAlternative() == nullptr && plan.untilCorrect == 0;
-                if (const std::string missing = missingOf(key, isFixed ? static_cast<int>(most) : 0);
-                    !isOver || !missing.empty())
-                    unfinished.push_back({who, planned.name, plan.name, answers.size(), most,
-                                          plan.adaptedAlternative() != nullptr, missing, isOver,
-                                          plan.isTraining});
-                if (isOver && !cutShort.empty() && !plan.isTraining)
-                    unfinished.push_back({who,
-                                          planned.name,
-                                          plan.name,
-                                          answers.size(),
-                                          most,
-                                          true,
-                                          {},
-                                          true,
-                                          false,
-                                          cutShort});
+                UnfinishedRun run{who,
+                                  planned.name,
+                                  plan.name,
+                                  answers.size(),
+                                  most,
+                                  plan.adaptedAlternative() != nullptr,
+                                  missingOf(key, isFixed ? static_cast<int>(most) : 0),
+                                  isOver,
+                                  plan.isTraining};
+                if (!isOver || !run.missing.empty()) unfinished.push_back(run);
+                run.cutShort = cutShort;
+                if (isOver && !cutShort.empty() && !plan.isTraining) unfinished.push_back(std::move(run));
             }
     return unfinished;
 }
