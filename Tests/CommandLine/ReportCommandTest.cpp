@@ -119,12 +119,12 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
 TEST_F(Report, NamesAreAsTheyAreWrittenAndOneScoreHasNoSpread) {
     std::string rows = "participant,condition,stimulus,rough\n";
     for (const char* who : {"A", "B"})
-        for (const char* where : {"Handfl\xc3\xa4che", "\xec\x86\x90"})
+        for (const char* where : {"Gl\xc3\xa4tte", "\xec\x86\x90"})
             for (const char* what : {"soft", "hard"})
                 rows += std::string{who} + "," + where + "," + what + ",40\n";
     write("t.csv", rows + "A,tin,soft,44\n");
     ASSERT_EQ(call("report t.csv --out out").exitCode, 0);
-    EXPECT_TRUE(has(page(), "condition=Handfl\xc3\xa4che stimulus=soft: 2 trials") &&
+    EXPECT_TRUE(has(page(), "condition=Gl\xc3\xa4tte stimulus=soft: 2 trials") &&
                 has(page(), "condition=\xec\x86\x90: 4 trials"));
     EXPECT_FALSE(has(page(), "\\x"));
     EXPECT_TRUE(has(read("out/ratings.csv"), "condition=tin stimulus=soft,rough,1,1,44,,\n"))
