@@ -116,6 +116,57 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
     EXPECT_TRUE(has(ease, "participant C: 1 trial without a score of fun, left out of its means and tests"));
 }
 
+TEST_F(Report, NamesAreAsTheyAreWrittenAndOneScoreHasNoSpread) {
+    std::string rows = "participant,condition,stimulus,rough\n";
+    for (const char* who : {"A", "B"})
+        for (const char* where : {"Gl\xc3\xa4tte", "\xec\x86\x90"})
+            for (const char* what : {"soft", "hard"})
+                rows += std::string{who} + "," + where + "," + what + ",40\n";
+    write("t.csv", rows + "A,tin,soft,44\n");
+    ASSERT_EQ(call("report t.csv --out out").exitCode, 0);
+    EXPECT_TRUE(has(page(), "condition=Gl\xc3\xa4tte stimulus=soft: 2 trials") &&
+                has(page(), "condition=\xec\x86\x90: 4 trials"));
+    EXPECT_FALSE(has(page(), "\\x"));
+    EXPECT_TRUE(has(read("out/ratings.csv"), "condition=tin stimulus=soft,rough,1,1,44,,\n"))
+        << read("out/ratings.csv");
+}
+
+TEST_F(Report, PlacesBeyondTheEdgesHaveErrorsAndWhoIsInTwoGroupsIsNamed) {
+    std::string rows = "who,team,tx,ty,px,py\n";
+    for (const char* who : {"A,g", "B,h", "C,g"})
+        for (const char* at : {"100,50,", "100,90,", "700,50,", "700,90,"})
+            for (const char* touch : {"400,60\n", "450,70\n"}) rows += std::string{who} + "," + at + touch;
+    rows.replace(rows.rfind("C,g"), 3, "C,h");
+    write("t.csv", rows);
+    const std::string columns =
+        "report t.csv --out out --columns participant=who,group=team,target_x=tx,target_y=ty,x=px,y=py";
+    ASSERT_EQ(call(columns).exitCode, 0);
+    EXPECT_TRUE(has(page(), "24 of 24 places lie outside 0 to 1, so nothing is shown of territories"));
+    EXPECT_TRUE(has(page(), "distance from the target: ") && has(page(), "<h2>Perceived places"));
+    EXPECT_FALSE(has(page(), "expected a number from 0 to 1"));
+    EXPECT_FALSE(has(page(), "no ratings are looked at")) << "true places are none";
+    EXPECT_TRUE(has(page(), "Groups: 1 g, 1 h, 1 in several (C)."));
+    ASSERT_EQ(call("report t.csv --out out --columns "
+                   "participant=who,target_x=tx:0:800,target_y=ty:0:100,x=px:0:800,y=py:0:100")
+                  .exitCode,
+              0);
+    EXPECT_FALSE(has(page(), "lie outside 0 to 1") || has(page(), "Groups: "));
+}
+
+TEST_F(Report, APlanHasTheExclusionsAndCorrections) {
+    const std::string grids = call("study plan phantom-grids --participants 4 --out plan.txt").out;
+    std::filesystem::remove(folder_ / "analysis.R");
+    const std::string steps = call("study plan level-steps --participants 4 --out plan.txt").out;
+    for (const char* words : {"fewer than two reversals", "at an end of the levels (half or more of"}) {
+        EXPECT_TRUE(has(steps, words)) << words << steps;
+        EXPECT_FALSE(has(grids, words)) << words;
+    }
+    for (const char* words : {"ran out of time or have no answer", "scores also have a mixed model of all",
+                              "Greenhouse and Geisser's", "of the pairs of a factor Holm's"})
+        EXPECT_TRUE(has(grids, words)) << words << grids;
+    EXPECT_FALSE(has(grids, "with their corrections"));
+}
+
 TEST_F(Report, ANotebookOfTheTestsIsWrittenOnRequestAndStaysOnceEdited) {
     simulate("eight-methods", 2);
     const std::string make = "report eight-methods-P*.csv --out out";

@@ -80,6 +80,12 @@ std::vector<Sentence> sentences() {
     told.name = "told", told.sessions.back().task = StudyTask::describe;
     matched.conditions.push_back(matched.conditions.front()); // the chart compares means
     matched.conditions.back().name = "two";
+    Protocol cut = interleaved;
+    cut.name = "cut", cut.sessions.back().staircase->mostTrials = 6;
+    const Edit halfATraining = [](Row& row) {
+        if (row["participant"] == "P2" && row["phase"] == "training" && row["trial"] == "2")
+            row["participant"].clear();
+    };
     Protocol unknown = steps, mixed = steps;
     mixed.sessions.push_back(quest.sessions.front());
     mixed.sessions.back().name = "by quest", mixed.name = "mixed";
@@ -249,6 +255,12 @@ std::vector<Sentence> sentences() {
          of(steps, 3)},
         {"one participant, or no column participant: intervals are over trials", of(fits, 1), of(fits, 3)},
         {"no response; trials left out for that: ", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
+        {": 1 of 2 trials, a training", of(grid, 3, halfATraining, true), of(grid, 3)},
+        {"staircase 1 ended at 6 trials with ", of(cut, 3, {}, true), of(interleaved, 3, {}, true)},
+        {"thresholds of staircases: means of the later half of their reversals (of an odd number also the "
+         "middle "
+         "one)",
+         of(steps, 3), of(quest, 3)},
         {"participant P2 did not finish main in ", of(interleaved, 3, stopsEarly, true),
          of(interleaved, 3, {}, true)},
         {"no means are known of these columns", of(grid, 2, set("phase", "training")), of(grid, 3)},
@@ -270,11 +282,17 @@ std::vector<Sentence> sentences() {
 }
 
 /// Sentences that other tests have with their counter-examples, and words of the rows and of the protocol.
-const char* const toldElsewhere[] = {"to be filled in: ",        "without a file of times",
-                                     "Every table below is CSV", "report: physvib",
-                                     "trials: physvib",          "protocol: ",
-                                     "seed of all orders: ",     "left out: a step ",
-                                     "left out: the share ",     "left out: the answers "};
+const char* const toldElsewhere[] = {"to be filled in: ",
+                                     "without a file of times",
+                                     "Every table below is CSV",
+                                     "report: physvib",
+                                     "trials: physvib",
+                                     "protocol: ",
+                                     "seed of all orders: ",
+                                     "left out: a step ",
+                                     "left out: the share ",
+                                     "left out: the f",
+                                     "of main has fewer than two reversals"};
 
 bool isKnown(const std::string& sentence, const std::vector<Sentence>& all,
              const std::set<std::string>& plan) {
@@ -309,6 +327,20 @@ TEST(ReportSentences, AGroupChangesTheNameOfAPlannedTest) {
             .value;
     EXPECT_EQ(withGroup.back(), "Planned as Friedman's test of x by a, b, done as Friedman's and Kruskal and "
                                 "Wallis' test of x by a, b, group");
+}
+
+TEST(ReportSentences, StaircasesThatRanOutOfTimeAreNoChoices) {
+    Protocol timed = findProtocol("level-steps").value;
+    timed.name = "timed-steps", timed.sessions.back().answerSeconds = 1.5;
+    const std::string page = pageOf(of(
+        timed, 2,
+        [](Row& row) {
+            if (row["trial"] == "2") row["ran_out"] = "1", row["correct"].clear();
+        },
+        true));
+    EXPECT_NE(page.find("ran out of time, without an answer"), std::string::npos);
+    for (const char* untrue : {"<h2>Choices", "expected trials of this kind"})
+        EXPECT_EQ(page.find(untrue), std::string::npos) << untrue;
 }
 
 TEST(ReportSentences, EachIsThereOnlyWhereRowsMakeItTrue) {

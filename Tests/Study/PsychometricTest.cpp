@@ -92,8 +92,9 @@ TEST(Psychometric, WhatCannotBeFittedIsNamed) {
         EXPECT_NEAR(fit.function.threshold, threshold, 0.003);
     }
     EXPECT_EQ(faultOf({{1, 4, 40}, {2, 7, 40}, {3, 10, 40}}, 0.0).find("the fitted threshold lies"), 0u);
-    EXPECT_EQ(faultOf({{1, 60, 100}, {2, 60, 100}, {3, 61, 100}}, 0.0),
-              "the answers hardly change within the levels that were played");
+    EXPECT_EQ(faultOf({{1, 50, 100}, {2, 55, 100}, {3, 60, 100}}, 0.0),
+              "the function fits no better than a constant (likelihood ratio, p = 0.155)")
+        << "2 (sum of h log(p / 0.55) + ...) = 2.02, chi-squared";
     EXPECT_EQ(faultOf({{1, 4, 40}, {2, 20, 40}, {3, 35, 40}}, 0.0), "");
 }
 

@@ -64,7 +64,10 @@ TEST(StudyCsv, RatingsAreTheColumnsThatNoTrialFileHas) {
         readRatings, "participant,condition,realism,liking,age\nP1,AV-FV-DRV,70,80.5,31\nP1,b,7,8,31\n");
     ASSERT_TRUE(ratings) << ratings.error;
     EXPECT_EQ(ratings.value.warnings.front(),
-              "f.csv: column age has one value of each participant: no scale");
+              "f.csv: column age has one value of each participant: a fact of people, no scale");
+    const auto alike = readOne(
+        readRatings, "participant,condition,realism,calm\nP1,a,70,50\nP1,b,7,50\nP2,a,6,50\nP2,b,5,50\n");
+    EXPECT_EQ(alike.value.scales, (std::vector<std::string>{"realism", "calm"})) << "of all people one score";
     EXPECT_EQ(ratings.value.scales, (std::vector<std::string>{"realism", "liking"}));
     EXPECT_EQ(ratings.value.conditions.front().trials.front().scores, (std::vector<double>{70, 80.5}));
     const auto once = readOne(readRatings, "condition,group,stimulus,load\nbare,a,,3\nglove,b,,4\n");

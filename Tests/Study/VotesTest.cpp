@@ -100,16 +100,21 @@ TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
     add("P3", {1, 1, 0, 0, 0, 1, 1, 0, 1}, "rrrrwrrwr"); // two right at 0, which is as low as it goes
     add("P4", {8, 8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrrwrrwrrw", "main/1");
     add("P4", {2, 1}, "rr", "main/2");
-    add("P5", {8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrwrrwrrw", "", 1); // its first row is not there
+    add("P5", {8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrwrrwrrw", "", 1);      // its first row is not there
+    add("P6", {2, 2, 1, 2, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0}, "rrwrrrrrrrrrrr"); // turned above, held at 0
     const auto summaries = summariseLevels(trials);
+    ASSERT_EQ(summaries.at(0).leftOut.size(), 4u);
+    EXPECT_EQ(
+        summaries[0].leftOut[3].find("participant P6 left out: a staircase had half or more of its trials"),
+        0u);
     EXPECT_EQ(summaries.at(0).reversals, 8u) << "of who has a threshold";
     EXPECT_EQ(summaries[0].trials, 21u);
     EXPECT_EQ(summaries[0].participants, 2u);
     EXPECT_NEAR(summaries[0].estimate, 4.75, 1e-12);
     EXPECT_EQ(summaries[0].leftOut.at(0),
               "participant P2 left out: a staircase has fewer than two reversals");
-    EXPECT_EQ(summaries[0].leftOut.at(1), "participant P3 left out: a staircase had half or more of the "
-                                          "reversals that count at an end of its levels");
+    EXPECT_EQ(summaries[0].leftOut.at(1), "participant P3 left out: a staircase had half or more of its "
+                                          "trials, or of the reversals that count, at an end of its levels");
     EXPECT_EQ(summaries[0].leftOut.at(2), "participant P4 left out: staircase 2 of main has fewer than two "
                                           "reversals; a threshold is the mean of 2 staircases");
 }

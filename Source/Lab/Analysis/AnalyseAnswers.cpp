@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Analyses of choices, ratings and levels, and of functions fitted to them, as text and tables.
+#include "Io/Text/CleanText.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Study/Psychometric.h"
@@ -15,9 +16,9 @@ namespace physvib {
 namespace {
 
 void tell(std::ostream& out, const ChoiceSummary& summary) {
-    out << wholeLabel(summary.condition) << ':';
+    out << cleanLine(summary.condition) << ':';
     for (const ChoiceShare& share : summary.shares)
-        out << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' '
+        out << (&share == &summary.shares.front() ? " " : ", ") << cleanLine(share.alternative) << ' '
             << percent(share.share) << " % (" << percent(share.least) << " to " << percent(share.most) << ')';
     out << ", " << counted(summary.trials, "trial") << " of " << counted(summary.participants, "participant");
     out << '\n';
@@ -31,8 +32,8 @@ const char* kindWord(LevelTrial::Kind kind) {
 
 void tell(std::ostream& out, const LevelSummary& s) {
     const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
-    out << wholeLabel(s.condition) << (s.stimulus.empty() || s.condition.empty() ? "" : ", ")
-        << wholeLabel(s.stimulus) << ": " << kindWord(s.kind) << ' ';
+    out << cleanLine(s.condition) << (s.stimulus.empty() || s.condition.empty() ? "" : ", ")
+        << cleanLine(s.stimulus) << ": " << kindWord(s.kind) << ' ';
     const bool isThreshold = s.kind == LevelTrial::Kind::staircase || s.kind == LevelTrial::Kind::quest;
     if (isThreshold && s.thresholds.empty()) {
         out << "of nobody, " << counted(s.trials, "trial") << '\n';
@@ -96,23 +97,26 @@ void analyseRatings(const RatingData& data, const Findings& to) {
         }
     for (const auto& [where, count] : lacking)
         report.warnings.push_back(inSession("participant " + where[1], where[0]) + ": " +
-                                  counted(count, "trial") + " without a score of " + printable(where[2]) +
+                                  counted(count, "trial") + " without a score of " + cleanLine(where[2]) +
                                   ", left out of its means and tests");
     std::set<bool> intervals; // true: over participants
     for (const auto& summary : summaries) {
         if (std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; }))
             intervals.insert(summary.participants > 1);
-        out << wholeLabel(summary.condition) << ": " << counted(summary.trials, "trial") << " of "
+        out << cleanLine(summary.condition) << ": " << counted(summary.trials, "trial") << " of "
             << counted(summary.participants, "participant");
         for (std::size_t s = 0; s < scales.size(); ++s) {
             if (std::isnan(summary.means[s])) continue;
-            out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
+            out << ", " << cleanLine(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
             if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
             if (summary.scored[s] < summary.trials)
                 out << " (of " << counted(summary.scored[s], "trial") << " of "
                     << counted(summary.raters[s], "participant") << ')';
+            const auto known = [&](double spread) { // of one score there is none
+                return summary.scored[s] > 1 ? std::optional{spread} : std::nullopt;
+            };
             table.row(summary.condition, scales[s], summary.scored[s], summary.raters[s], summary.means[s],
-                      summary.deviations[s], summary.halfIntervals[s]);
+                      known(summary.deviations[s]), known(summary.halfIntervals[s]));
         }
         out << '\n';
     }
@@ -141,13 +145,19 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
     for (const LevelSummary& s : summaries) {
         tell(out, s);
         for (const std::string& words : s.leftOut)
-            report.warnings.push_back(printable(s.condition) + ": " + words);
+            report.warnings.push_back(cleanLine(s.condition) + ": " + words);
         for (const auto& [participant, threshold] : s.thresholds)
             each.row(s.kind == LevelTrial::Kind::quest ? "quest" : "staircase", s.condition, participant,
                      threshold);
+        const auto known = [&s](double spread) { // of one value there is none
+            return s.participants > 1 || spread > 0.0 ? std::optional{spread} : std::nullopt;
+        };
         table.row(kindWord(s.kind), s.condition, s.stimulus, s.trials, s.participants, s.reversals,
-                  s.estimate, s.deviation, s.halfInterval);
+                  s.estimate, known(s.deviation), known(s.halfInterval));
     }
+    if (std::ranges::any_of(summaries, [](const auto& s) { return s.reversals > 0; }))
+        out << "thresholds of staircases: means of the later half of their reversals (of an odd number also "
+               "the middle one); of several staircases their mean\n";
     if (std::ranges::any_of(
             summaries, [](const auto& s) { return s.kind == LevelTrial::Kind::quest && s.participants > 1; }))
         out << "thresholds by QUEST+: of each participant with the widths that all answers in the condition "
@@ -190,12 +200,12 @@ std::string meanWords(const char* name, const std::vector<double>& values, int d
 }
 
 std::string prefixOf(const std::string& condition) {
-    return condition.empty() ? "" : printable(condition) + ": ";
+    return condition.empty() ? "" : cleanLine(condition) + ": ";
 }
 
 void warnOf(AnalysisReport& report, const std::string& condition, const std::string& participant,
             const std::string& words) {
-    report.warnings.push_back(prefixOf(condition) + "participant " + printable(participant) + words);
+    report.warnings.push_back(prefixOf(condition) + "participant " + cleanLine(participant) + words);
 }
 
 /// Four standard errors below what guessing gives.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Analyses of identification: confusion matrices, information transfer and icons, as text and tables.
+#include "Io/Text/CleanText.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Study/Identification.h"
@@ -32,12 +33,12 @@ std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const Inf
     const auto [fewest, most] = std::ranges::minmax(totals);
     if (fewest != most) {
         const auto at = static_cast<std::size_t>(std::ranges::find(totals, fewest) - totals.begin());
-        words.push_back("stimuli were not answered equally often: " + printable(matrix.label(at)) + " " +
+        words.push_back("stimuli were not answered equally often: " + cleanLine(matrix.label(at)) + " " +
                         std::to_string(fewest) + " times, others up to " + std::to_string(most));
     }
     if (matrix.responses() > matrix.stimuli())
         words.push_back(
-            "responses that are no stimulus count as wrong: " + printable(matrix.label(matrix.stimuli())) +
+            "responses that are no stimulus count as wrong: " + cleanLine(matrix.label(matrix.stimuli())) +
             (matrix.responses() > matrix.stimuli() + 1 ? " and others" : ""));
     if (matrix.stimuli() == 1) words.push_back("only one stimulus: nothing can be transferred");
     if (!it.canBeCorrected())
@@ -108,7 +109,7 @@ void tellAndExport(std::ostream& out, const std::string& indent,
         if (own.matrix.stimuli() == stimuli)
             transferred.push_back(own.transfer.bestBits());
         else
-            lacking += (lacking.empty() ? "; without " : ", ") + printable(own.participant);
+            lacking += (lacking.empty() ? "; without " : ", ") + cleanLine(own.participant);
     }
     if (!lacking.empty()) lacking += ", for lack of a stimulus";
     const Moments moments{transferred};
@@ -154,9 +155,9 @@ void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings
     for (const auto& condition : data.conditions) {
         const ConfusionMatrix matrix{condition.trials};
         const InformationTransfer it = informationTransfer(matrix);
-        const std::string prefix = condition.name.empty() ? "" : printable(condition.name) + ": ";
+        const std::string prefix = condition.name.empty() ? "" : cleanLine(condition.name) + ": ";
         for (const auto& words : matrixWarnings(matrix, it)) report.warnings.push_back(prefix + words);
-        if (!condition.name.empty()) out << printable(condition.name) << '\n';
+        if (!condition.name.empty()) out << cleanLine(condition.name) << '\n';
         tell(out, condition.name.empty() ? "" : "  ", matrix, it, transferByParticipant(condition.trials));
         if (job.tolerance > 0) tellChance(out, condition.name.empty() ? "" : "  ", matrix, job.tolerance);
         tellAndExport(out, condition.name.empty() ? "" : "  ", condition, matrix.stimuli(), table, each);
@@ -183,13 +184,13 @@ void analyseIcons(const StudyData<IdentificationTrial>& data, const Findings& to
     for (const auto& [name, matrix] : matrices) {
         const InformationTransfer it = informationTransfer(matrix);
         const bool isEnough = it.bestBits() >= bitsFor(job.meanings);
-        out << printable(nameOr(name, "all trials")) << ": " << patternsOf(matrix) << ", "
+        out << cleanLine(nameOr(name, "all trials")) << ": " << patternsOf(matrix) << ", "
             << bits(it.bestBits()) << ": " << (isEnough ? "enough" : "too little") << '\n';
         if (!isEnough || !icons.groups.empty()) continue;
         icons.frame.title += nameOr(name, "all trials");
         for (const std::size_t i : leastConfused(matrix, job.meanings)) {
             const double share = shareCorrect(matrix, i);
-            out << "  " << printable(matrix.label(i)) << "  " << percent(share) << " % correct\n";
+            out << "  " << cleanLine(matrix.label(i)) << "  " << percent(share) << " % correct\n";
             table.row(name, matrix.label(i), 100.0 * share);
             icons.add(matrix.label(i), ChartValue::around(100.0 * share));
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Analyses of pointing as text and tables: errors (means over participants of means over targets), perceptual
 // resolution, percent counts.
+#include "Io/Text/CleanText.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Study/Summaries.h"
@@ -40,7 +41,7 @@ void tellErrors(std::ostream& out, const std::string& condition, const std::vect
     const auto people = participantErrors(trials);
     const auto most = std::ranges::max_element(people, {}, &ParticipantError::targets);
     const bool hasY = !isOnALine(trials);
-    out << printable(condition) << ": " << trials.size() << " trials of "
+    out << cleanLine(condition) << ": " << trials.size() << " trials of "
         << counted(people.size(), "participant") << ", up to " << most->targets << " targets\n"
         << "  distance from the target: " << overParticipants(people, &ParticipantError::distance) << '\n'
         << "  constant error, x: " << overParticipants(people, &ParticipantError::constantX) << '\n';
@@ -98,7 +99,7 @@ std::string mergeWords(const GridMerge& merge) {
 
 void tell(std::ostream& out, const PercentCounts& counts, const PerceptualResolution& resolution,
           double threshold) {
-    out << printable(counts.condition) << ": ";
+    out << cleanLine(counts.condition) << ": ";
     if (resolution.ties.empty()) {
         out << "0 x 0\n  even the whole field does not reach " << numberText(threshold) << " %\n";
         return;
@@ -132,7 +133,7 @@ void exportNormals(ExportTable& table, const ConditionResolution& made) {
 void warnOfSum(const PercentCounts& counts, std::vector<std::string>& warnings) {
     const double printed = 0.005 * static_cast<double>(counts.percent.size()); // rounding to two decimals
     if (std::abs(counts.sum() - 100.0) > printed + 1e-9)
-        warnings.push_back(printable(counts.condition) + ": percent counts sum to " +
+        warnings.push_back(cleanLine(counts.condition) + ": percent counts sum to " +
                            fixedNumber(counts.sum(), 2) + ", expected 100 within " + fixedNumber(printed, 2));
 }
 
@@ -156,10 +157,10 @@ void analyseResolution(const StudyData<LocationTrial>& data, const Findings& to)
                                         condition.trials, job.thresholdPercent));
         const auto& one = made.back();
         for (const auto& words : one.normals.warnings)
-            report.warnings.push_back(printable(one.condition) + ": " + words);
+            report.warnings.push_back(cleanLine(one.condition) + ": " + words);
         if (!one.normals.fault.empty())
             return void(report.error =
-                            job.files.front() + ": " + printable(one.condition) + ": " + one.normals.fault);
+                            job.files.front() + ": " + cleanLine(one.condition) + ": " + one.normals.fault);
         counts.push_back(one.counts);
         exportNormals(table, one);
     }

@@ -106,10 +106,10 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
     const auto has = [&](std::string_view column) { return table.column(column).has_value(); };
     if (const auto task = table.column(trialColumns::task)) {
         const auto phase = table.column(trialColumns::phase), correct = table.column("correct"),
-                   level = table.column("level_db");
+                   level = table.column("level_db"), ranOut = table.column(trialColumns::ranOut);
         for (const CsvRow& row : table.rows) {
             const StudyTaskDescription* const did = studyTaskNamed(row.cells[*task]);
-            if (did == nullptr) continue;
+            if (did == nullptr || (ranOut && row.cells[*ranOut] == "1")) continue;
             const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
             const bool isAdapted = did->answer == AnswerKind::choice && correct &&
                                    !row.cells[*correct].empty() && !(level && row.cells[*level].empty());

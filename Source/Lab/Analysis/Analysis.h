@@ -3,6 +3,7 @@
 #pragma once
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
+#include "Io/Text/CleanText.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/StudyCsv.h"
@@ -24,14 +25,6 @@ namespace physvib {
 // Helpers of the analyses: reading input files, formatting text, and writing tables.
 
 inline std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
-
-/// A printable label of any length. It is not truncated, so labels that differ only at the end stay distinct.
-inline std::string wholeLabel(std::string_view label) {
-    constexpr std::size_t piece = 40; // printable() truncates longer text
-    std::string words;
-    for (; label.size() > piece; label.remove_prefix(piece)) words += printable(label.substr(0, piece));
-    return words + printable(label);
-}
 
 /// Input files of an analysis.
 struct StudySources {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Readers for each kind of study table.
 #include "Lab/Files/StudyCsv.h"
+#include "Io/Text/CleanText.h"
 #include "Lab/Files/StudyTables.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/QuestMethod.h"
@@ -225,13 +226,15 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     return taken;
 }
 
-/// Whether another program's column tells of people, as age does: one value of each, more rows.
+/// Whether another program's column tells of people, as age does: one value of each, not of all, more rows.
 bool isOfPeople(const CsvTable& table, std::size_t column) {
     const auto who = table.column("participant");
     if (!who || table.column(trialColumns::task)) return false;
     std::map<std::string, std::set<std::string>> values;
     for (const CsvRow& row : table.rows) values[row.cells[*who]].insert(row.cells[column]);
+    const auto isAlike = [&](const auto& own) { return own.second == values.begin()->second; };
     return values.size() < table.rows.size() &&
+           (values.size() == 1 || !std::ranges::all_of(values, isAlike)) &&
            std::ranges::all_of(values, [](const auto& own) { return own.second.size() == 1; });
 }
 
@@ -241,8 +244,8 @@ std::vector<std::size_t> scaleColumns(const CsvTable& table, std::vector<std::st
         if (!trialColumns::has(table.columns[c])) (isOfPeople(table, c) ? ofPeople : scales).push_back(c);
     if (scales.empty()) return ofPeople;
     for (const std::size_t c : ofPeople)
-        warnings.push_back(table.name + ": column " + printable(table.columns[c]) +
-                           " has one value of each participant: no scale");
+        warnings.push_back(table.name + ": column " + cleanLine(table.columns[c]) +
+                           " has one value of each participant: a fact of people, no scale");
     return scales;
 }
 
@@ -377,7 +380,7 @@ struct LevelSource {
         const std::string_view found = markedIn(row.cells[column]);
         return found.empty() && alsoIn ? markedIn(row.cells[*alsoIn]) : found;
     }
-    std::string expected() const { return mark.empty() ? "a level" : "a word " + printable(mark) + "..."; }
+    std::string expected() const { return mark.empty() ? "a level" : "a word " + cleanLine(mark) + "..."; }
 
 private:
     std::string_view markedIn(std::string_view rest) const {

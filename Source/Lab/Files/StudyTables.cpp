@@ -141,7 +141,7 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, Rows
     std::vector<std::string> columns;
     for (const ColumnName& name : names) {
         const auto found = table.column(name.theirs);
-        if (!found) return table.name + ": expected a column " + printable(name.theirs) + ", found none";
+        if (!found) return table.name + ": expected a column " + cleanLine(name.theirs) + ", found none";
         from.push_back(*found);
         columns.push_back(name.ours);
     }
@@ -289,7 +289,7 @@ std::string SharedParticipants::add(const CsvTable& head, const std::set<std::st
         const auto [at, isNew] = trialFiles_.try_emplace({protocol->second, code->second}, head.name);
         if (!isNew)
             return head.name + ": expected trials of somebody else than " + at->second +
-                   ", found participant " + printable(code->second) +
+                   ", found participant " + cleanLine(code->second) +
                    " in both: leave one of them out; two people need two codes";
     }
     for (const std::string& participant : participants)
@@ -317,7 +317,7 @@ std::string SharedParticipants::note() const {
     for (const auto& [participant, tables] : tables_) {
         if (tables.size() < 2 || ++shared > mostNamed) continue;
         words.append(shared > 1 ? "; " : "")
-            .append(printable(participant))
+            .append(cleanLine(participant))
             .append(" in ")
             .append(tablesOf(tables));
     }

@@ -3,6 +3,7 @@
 #include "Lab/Files/TrialLog.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/ReadFile.h"
+#include "Io/Text/CleanText.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
@@ -195,12 +196,12 @@ std::string headFault(std::string_view found, std::string_view expected) {
     for (const std::string_view key : {"protocol", "participant", "number", "observer", "seed"})
         if (valueOf(found, key) != valueOf(expected, key))
             return "expected trials of " + std::string(key) + " " +
-                   printable(std::string(valueOf(expected, key))) + ", found " +
-                   printable(std::string(valueOf(found, key)));
+                   cleanLine(std::string(valueOf(expected, key))) + ", found " +
+                   cleanLine(std::string(valueOf(found, key)));
     if (valueOf(found, "hash") == valueOf(expected, "hash"))
         return "expected the columns of a trial file of this protocol, found others";
     return "was begun with another version of the protocol " + std::string(valueOf(expected, "protocol")) +
-           " (hash " + printable(std::string(valueOf(found, "hash"))) + ", now " +
+           " (hash " + cleanLine(std::string(valueOf(found, "hash"))) + ", now " +
            std::string(valueOf(expected, "hash")) +
            "), so it does not go on: keep it, and begin anew in another folder";
 }

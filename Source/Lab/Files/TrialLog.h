@@ -134,8 +134,9 @@ constexpr bool isApparatus(std::string_view name) {
     return std::ranges::find(apparatus, name) != apparatus.end();
 }
 constexpr bool has(std::string_view name) {
-    return name == quest || name == staircase || name == ranOut || name == group || isMeasured(name) ||
-           isApparatus(name) || isReceipt(name) || std::ranges::find(names, name) != names.end();
+    return name == quest || name == staircase || name == ranOut || name == group || name == "target_x" ||
+           name == "target_y" || isMeasured(name) || isApparatus(name) || isReceipt(name) ||
+           std::ranges::find(names, name) != names.end();
 }
 } // namespace physvib::trialColumns
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Report sections on identification (information transfer, percent correct) and on pointing.
+#include "Io/Text/NumberText.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ReportBuilder.h"
@@ -210,8 +211,23 @@ std::string perceivedChart(ReportBuilder& report, const Places& places, bool isR
 } // namespace
 
 void tellPlaces(ReportBuilder& report) {
-    report.page.heading("Perceived places");
     auto data = report.read(readLocations);
+    const Cells cell{report.trials.all};
+    if (!data && cell.has("target_x")) { // of another program: errors need no edges
+        const auto lies = [&](const CsvRow& row, const char* axis) {
+            const double at = parseNumber<double>(cell(row, axis)).value_or(0.0);
+            return at < 0.0 || at > 1.0;
+        };
+        const auto outside = std::ranges::count_if(
+            report.trials.all.rows, [&](const CsvRow& row) { return lies(row, "x") || lies(row, "y"); });
+        tellPlaceErrors(report);
+        return report.page.note(
+            std::to_string(outside) + " of " + counted(report.trials.all.rows.size(), "place") +
+            " lie outside 0 to 1, so nothing is shown of territories and grids, which need all within the "
+            "field's edges: name these (--columns x=COLUMN:LEFT:RIGHT,y=COLUMN:TOP:BOTTOM, targets "
+            "likewise)");
+    }
+    report.page.heading("Perceived places");
     if (!data) return report.page.note(data.error);
     AnalysisReport resolution = report.analysis("resolution", report.options(), "resolution.csv");
     if (!resolution.error.empty()) return;
@@ -249,7 +265,7 @@ void tellPlaces(ReportBuilder& report) {
 void tellPlaceErrors(ReportBuilder& report) {
     report.page.heading("Perceived places");
     report.page.paragraph(
-        "Targets on no grid, in the table's own units. Constant error: mean of answered minus true place. "
+        "Places in the table's own units. Constant error: mean of answered minus true place. "
         "Variable error: standard deviation around a target's own mean, both axes together. Gain: slope of "
         "answered over true places; 1 is neither drawn together nor apart. Means over participants of their "
         "means over targets; each target counts as much.");

@@ -43,7 +43,10 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
             if (const auto number = file.head.find("number"); number != file.head.end() && own.number.empty())
                 own.number = number->second;
             own.observer = cell(row, trialColumns::observer);
-            own.group = cell(row, trialColumns::group);
+            if (const std::string& group = cell(row, trialColumns::group); !group.empty())
+                own.group = own.group.empty() || own.group == group
+                                ? group
+                                : "in several (" + cell(row, "participant") + ")";
             const bool isTraining = cell(row, trialColumns::phase) == trialColumns::training,
                        ranOut = cell(row, trialColumns::ranOut) == "1";
             ++(isTraining ? own.training : own.main);

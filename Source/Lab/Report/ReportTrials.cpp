@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Combines trial files into one table and checks their first lines; reads the facts of people.
 #include "Lab/Report/ReportTrials.h"
+#include "Io/Text/CleanText.h"
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
@@ -72,7 +73,7 @@ void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) 
     else if (name.empty())
         trials.protocolNote = "the tables name no protocol";
     else
-        trials.protocolNote = "protocol " + printable(name) + " (hash " + printable(hash) +
+        trials.protocolNote = "protocol " + cleanLine(name) + " (hash " + cleanLine(hash) +
                               ") is no built-in one: give it by --protocol, and its own words stand here";
 }
 
@@ -277,7 +278,8 @@ struct RunAnswer {
 using Answers = std::vector<RunAnswer>;
 using RunKey = std::tuple<std::string, std::string, std::string>; // participant, condition, session
 
-bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t planned) {
+bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t planned,
+                  std::string& cutShort) {
     if (plan.untilCorrect > 0) { // the last so many are right
         const auto wrong = std::ranges::find(answers.rbegin(), answers.rend(), false, &RunAnswer::isCorrect);
         if (wrong - answers.rbegin() >= plan.untilCorrect) return false;
@@ -289,6 +291,7 @@ bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t p
         level.choose(answer.staircase);
         level.answer(answer.isCorrect);
     }
+    cutShort = level.cutShort();
     return !level.isDone();
 }
 
@@ -304,11 +307,14 @@ bool hasAdaptiveRows(const ReportTrials& trials) {
 }
 
 std::string UnfinishedRun::words() const {
+    if (!cutShort.empty())
+        return "participant " + participant + ": " + session + " in " + condition + ": " + cutShort;
     return "participant " + participant +
            (missing.empty() ? " did not finish " + session + " in " + condition
                             : ": the file lacks " + missing + " of " + session + " in " + condition) +
            ": " + std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +
-           (isOver       ? ", which bring it to its end"
+           (isTraining   ? ", a training"
+            : isOver     ? ", which bring it to its end"
             : isAdaptive ? ", so this threshold is left out of means and tests"
             : trials > 0 ? ", which means count like the whole, and tests where no level is lacking"
                          : "");
@@ -359,12 +365,22 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
                 const std::size_t most =
                     static_cast<std::size_t>(mostTrialsOf(plan, stimuliOf(planned).size()));
                 const RunKey key{who, planned.name, plan.name};
-                const bool isOver = !isUnfinished(plan, answers, most - std::min(most, notLeft[key]));
+                std::string cutShort;
+                const bool isOver =
+                    !isUnfinished(plan, answers, most - std::min(most, notLeft[key]), cutShort);
                 const bool isFixed = plan.adaptedAlternative() == nullptr && plan.untilCorrect == 0;
-                if (const std::string missing = missingOf(key, isFixed ? static_cast<int>(most) : 0);
-                    !isOver || !missing.empty())
-                    unfinished.push_back({who, planned.name, plan.name, answers.size(), most,
-                                          plan.adaptedAlternative() != nullptr, missing, isOver});
+                UnfinishedRun run{who,
+                                  planned.name,
+                                  plan.name,
+                                  answers.size(),
+                                  most,
+                                  plan.adaptedAlternative() != nullptr,
+                                  missingOf(key, isFixed ? static_cast<int>(most) : 0),
+                                  isOver,
+                                  plan.isTraining};
+                if (!isOver || !run.missing.empty()) unfinished.push_back(run);
+                run.cutShort = cutShort;
+                if (isOver && !cutShort.empty() && !plan.isTraining) unfinished.push_back(std::move(run));
             }
     return unfinished;
 }

@@ -101,6 +101,8 @@ struct UnfinishedRun {
     bool isAdaptive = false; ///< its threshold rests on too few trials
     std::string missing{};   ///< "trials 3, 8 to 9": not in the file, though later ones are
     bool isOver = false;     ///< its other rows bring it to its end
+    bool isTraining = false;
+    std::string cutShort{}; ///< "a staircase ended at 40 trials with 5 of 6 reversals": nothing else is amiss
 
     std::string words() const;
 };

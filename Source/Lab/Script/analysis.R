@@ -43,9 +43,9 @@ level <- function(d, factor) {
   if (column != factor && column %in% names(d)) return(sapply(parts.of(d[[column]]), `[`, as.integer(sub(".*\\.", "", factor))))
   unname(found)
 }
-parts.of <- function(cells) { # PHONE-3x3, index_60Hz
-  parts <- strsplit(cells, "-", fixed = TRUE)
-  if (all(lengths(parts) == 2)) parts else strsplit(cells, "_", fixed = TRUE)
+parts.of <- function(cells) { # PHONE-3x3, index_60Hz, grit=60 wet
+  for (between in c("-", "_", " ")) { parts <- strsplit(cells, between, fixed = TRUE); if (all(lengths(parts) == 2)) break }
+  parts
 }
 in.order <- function(levels) { # numbers by size
   levels <- sort(unique(levels), method = "radix"); numbers <- suppressWarnings(as.numeric(levels))
@@ -53,7 +53,7 @@ in.order <- function(levels) { # numbers by size
 }
 # The rows of a measure; "choice=RM" is 1 where the column says so, else 0. Rows without the measure are left out.
 where.is <- function(d, where) { for (words in where) d <- d[which(level(d, sub("=.*", "", words)) == sub("^[^=]*=", "", words)), ]; d }
-# Whose group is not known is in no test of a model that has it.
+# Whose group is not known, or who is in several where most are in one, is in no test of a model that has it.
 rows.of <- function(file, measure, factors, where = character(), between = character()) {
   d <- if (is.data.frame(file)) file else table.of(file)
   d <- where.is(d, where)
@@ -68,7 +68,10 @@ rows.of <- function(file, measure, factors, where = character(), between = chara
   for (i in seq_along(factors)) { own <- level(d, factors[i]); rows[[paste0("w", i)]] <- factor(own, levels = in.order(own)) }
   structure(rows, unknown = unknown, absent = setdiff(all, c(rows$id, unknown)))
 }
-groupless <- function(d) unique(d$participant[d$group %in% c("", NA)])
+groupless <- function(d) {
+  several <- tapply(d$group, d$participant, function(g) length(unique(g)) > 1)
+  unique(c(d$participant[d$group %in% c("", NA)], if (isTRUE(mean(several) < 0.5)) names(which(several))))
+}
 # A participant per row, a combination of levels per column (the last factor varies fastest): means over rows. Who lacks a combination is left out.
 cells.of <- function(rows) {
   id <- factor(rows$id, levels = unique(rows$id))
@@ -128,7 +131,7 @@ tell.lacking <- function(test, cells) { # once of the same cells
   lacking <- c(attr(cells, "lacking"), attr(cells, "absent")); unknown <- attr(cells, "unknown")
   of <- function(test) sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|.* test|pairs by (t|ranks)) of ", "", test))
   if (any(results$effect == "left out" & of(results$test) == of(test))) return(invisible())
-  if (length(unknown) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = paste0(paste(unknown, collapse = ", "), ": group not known, left out of tests by group and of those within people beside it"))
+  if (length(unknown) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of tests by group and of those within people beside it"))
   if (length(lacking) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = values.lacking(lacking))
 }
 
@@ -204,8 +207,10 @@ mixed <- function(test, file, measure, within, between, where) {
   own <- names(d)[-c(1, ncol(d))]
   x <- model.matrix(as.formula(paste("~", paste(own, collapse = "*"))), d, lapply(d[own], function(f) "contr.sum"))
   terms <- attr(x, "assign"); labels <- unlist(lapply(seq_along(own), function(m) combn(factors, m, paste, collapse = ":")))
-  slopes <- if (length(within) > 1) sprintf(" + (1 | id:w%d)", seq_along(within))
-  model <- as.formula(paste(c("y ~ 0 + x + (1 | id)", slopes), collapse = ""))
+  several <- unlist(lapply(seq_len(length(within) - 1), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE) # all of them are what is left
+  random <- function(id, names) paste0("(1 | ", c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), "")), ")", collapse = " + ")
+  cat("  mixed model: by maximum likelihood, random ", random("participant", within), "\n", sep = "")
+  model <- as.formula(paste("y ~ 0 + x +", random("id", sprintf("w%d", seq_along(within)))))
   of <- function(x) suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE))
   fit <- function(x) as.numeric(logLik(of(x)))
   if (lme4::VarCorr(of(x))$id[1] == 0) stop("participants' variance is estimated as 0, so cells would count as people")
@@ -297,7 +302,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   words.of <- function(f) { words <- paste0(f, "=", level(d, f)); words[f == "group" & d$participant %in% unknown] <- NA; words }
   marks <- lapply(factors, words.of)
   if (length(factors) > 1) { all <- do.call(paste, marks); all[d$participant %in% unknown] <- NA; marks <- c(marks, list(all)) }
-  if (length(unknown) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = paste0(paste(unknown, collapse = ", "), ": group not known, left out of lines of a group"))
+  if (length(unknown) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of lines of a group"))
   if (length(absent <- setdiff(everybody, d$participant)) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = values.lacking(absent))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
   if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
@@ -330,9 +335,10 @@ factor.names <- function(column, d) {
   cells <- unique(d[[column]]); words <- unlist(strsplit(cells, " ", fixed = TRUE)); parts <- parts.of(cells)
   if (length(words) > 0 && all(grepl("=", words, fixed = TRUE))) return(unique(sub("=.*", "", words)))
   if (length(cells) > 1 && all(grepl("^A[VF]-F[VF]-DR[VF]$", cells))) return(c("A", "F", "DR"))
-  if (column == "condition" && all(lengths(parts) == 2)) {
+  isWords <- all(lengths(strsplit(cells, " ", fixed = TRUE)) == 2)
+  if (all(lengths(parts) == 2) && (column == "condition" || isWords)) {
     first <- unique(sapply(parts, `[`, 1)); second <- unique(sapply(parts, `[`, 2))
-    if (length(second) > 1 && length(first) * length(second) == length(cells)) return(c("condition.1", "condition.2"))
+    if (length(second) > 1 && (length(first) > 1 || !isWords) && length(first) * length(second) == length(cells)) return(paste0(column, c(".1", ".2")))
   }
   column
 }
@@ -348,24 +354,40 @@ design.of <- function(d, columns = c("group", "condition", "stimulus")) {
   if (!("task" %in% names(d))) for (f in runs.of(d)) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste0(runs.words(d, f), "averaged over, level by level")) }
   for (f in unlist(lapply(columns, factor.names, d))) {
     own <- level(d, f); levels <- unique(own)
-    if (f == "group") { own[is.na(own)] <- ""; levels <- setdiff(levels, c("", NA)) }
+    if (f == "group") { own[d$participant %in% groupless(d)] <- ""; levels <- setdiff(own, "") }
     if (length(levels) < 2) next
     if (any(vapply(seen, function(other) nrow(unique(data.frame(other, own))) == length(levels) && length(unique(other)) == length(levels), NA))) next
     if (anyNA(own)) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste(f, "is not of every trial: averaged over, level by level")); next }
     if (f == "stimulus" && length(levels) > 12 && length(seen) > 0) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste0("stimulus (", length(levels), "): averaged over, level by level")); next }
-    if (all(tapply(own, d$participant, function(l) length(unique(l))) == 1)) out$between <- c(out$between, f)
-    else {
+    if (all(tapply(own, d$participant, function(l) length(unique(l))) == 1)) {
+      sizes <- tapply(d$participant, factor(own, levels), function(who) length(unique(who)))
+      if (sum(sizes > 1) == 1) { out$notes <- c(out$notes, paste0(f, ": ", paste(names(sizes)[sizes == 1], collapse = ", "), " of one participant alone: not tested")); next }
+      out$between <- c(out$between, f)
+    } else {
       counts <- do.call(table, unname(c(list(d$participant), lapply(c(out$within, f), function(one) level(d, one)))))
       whole <- sum(apply(counts > 0, 1, all))
-      if (whole < max(2, people / 2)) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste0(f, ": ", whole, " of ", people, " participants have all its levels with those of other factors: averaged over, level by level")); next }
+      if (whole < max(2, people / 2)) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste0(f, ": of ", people, " participants ", whole, if (whole == 1) " has" else " have", " all its levels", if (length(out$within) > 0) paste(" with those of", paste(out$within, collapse = ", ")), ": averaged over, level by level")); next }
       out$within <- c(out$within, f)
     }
     seen[[f]] <- own
   }
   out
 }
+# Levels that one person alone has are left out by name: their rows would take the factor from all the others.
+lone.levels <- function(d, columns) {
+  notes <- character(); before <- d$participant
+  for (f in unlist(lapply(columns, factor.names, d))) {
+    own <- level(d, f); own[own %in% ""] <- NA
+    sizes <- tapply(d$participant, own, function(who) length(unique(who))); lone <- names(sizes)[sizes == 1]
+    if (length(sizes) > most.levels || length(sizes) - length(lone) < 2) next # items, or nothing else to compare
+    notes <- c(notes, vapply(lone, function(l) paste0(f, ": ", l, " is of ", d$participant[own %in% l][1], " alone: left out"), ""))
+    d <- d[!(own %in% lone), ]
+  }
+  list(d = d, notes = unname(notes), gone = setdiff(before, d$participant))
+}
 # Means are compared that are of the same levels: who lacks some of what is averaged over is left out. Where fewer than half of the people have them all, levels count that a participant has
-# with all those of the factors within people, and nothing is compared between people. Of more than 12 (items), or of levels of one participant each, those count that there are.
+# with all those of the factors within people, and nothing is compared between people; who has no such level is left out. Where nobody has two, or of more than 12 (items) or of levels of one
+# participant each few people have some, those count that there are.
 alike.for <- function(d, design) {
   key <- function(factors) do.call(paste, c(list(character(nrow(d))), lapply(factors, function(f) level(d, f)), sep = "\r"))
   block <- key(design$over); cell <- key(c(design$over, design$within)); own <- paste(d$participant, block)
@@ -374,9 +396,17 @@ alike.for <- function(d, design) {
   if (length(design$over) == 0 || all(whole)) return(list(d = d, design = design))
   are.items <- length(unique(block)) > most.levels || all(tapply(d$participant, block, function(who) length(unique(who))) == 1)
   if (!are.items && sum(whole) >= max(2, length(whole) / 2)) return(list(d = d[d$participant %in% names(whole)[whole], ], design = design))
-  kept <- number(own)[own] == number(block)[block]
-  if (setequal(d$participant[kept], d$participant)) d <- d[kept, ]
-  design$notes <- sub("level by level", "those that each has", design$notes)
+  full <- number(block); cells <- length(unique(key(design$within)))
+  if (any(full == cells)) full[] <- cells # a level that nobody has with all of them counts for nobody
+  kept <- number(own)[own] == full[block]; people <- unique(d$participant[kept])
+  over <- paste(design$over, collapse = ", "); applies <- length(people) >= if (are.items) length(whole) / 2 else 2
+  design$notes <- sub("level by level", if (applies) "those that each has" else "unequal ones, which is right where they were balanced", design$notes)
+  if (applies) {
+    gone <- unique(data.frame(who = d$participant, block)[!kept & d$participant %in% people, ]); by <- split(gone$who, gone$block)
+    design$notes <- c(design$notes, if (length(by) > most.levels) paste0(over, ": ", nrow(gone), " levels of ", length(unique(gone$who)), " participants left out, who lack them elsewhere")
+      else if (length(by) > 0) paste0(over, ": ", gsub("\r", " ", substring(names(by), 2), fixed = TRUE), " left out of ", vapply(by, paste, "", collapse = ", "), ", who lack", ifelse(lengths(by) == 1, "s", ""), " it elsewhere"))
+    d <- d[kept, ]
+  }
   if (!are.items && length(design$between) > 0) {
     design$notes <- c(design$notes, paste0(paste(design$between, collapse = ", "), ": not tested, as people's means are of unequal levels of ", paste(design$over, collapse = ", ")))
     design$between <- character()
@@ -399,7 +429,9 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   if (below > 0) { kind <- "scores"; what <- sub("magnitudes", "values", what) }
   zeros <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) == 0) else 0
   if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
-  design <- design.of(d, columns); design$over <- c(design$over, over)
+  lone <- lone.levels(d, columns); d <- lone$d
+  design <- design.of(d, columns); design$notes <- c(lone$notes, design$notes)
+  for (f in over) if ((k <- length(unique(level(d, f)))) > 1) { design$over <- c(design$over, f); design$notes <- c(design$notes, paste0(f, " (", k, "): averaged over, level by level")) }
   if (below > 0) design$notes <- c(design$notes, paste(below, if (below == 1) "value is" else "values are", "below 0, so these are no magnitudes: compared as they are (a column task, with adjust, tells of levels that were set)"))
   if (kind == "magnitudes" && length(unique(d$level_db)) > 1) { design$over <- c(design$over, "level_db"); design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over, level by level")) }
   if (zeros > 0) design$notes <- c(design$notes, paste(zeros, if (zeros == 1) "magnitude" else "magnitudes", "of 0, which has no logarithm, left out"))
@@ -412,7 +444,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
     own <- do.call(paste, c(list(d$participant), lapply(c(factors, design$over), function(f) level(d, f)), sep = "\r"))
     d[[measure]] <- ave(y, own); d <- d[!duplicated(own), ]
   }
-  attr(d, "absent") <- setdiff(all, d$participant)
+  attr(d, "absent") <- setdiff(all, c(d$participant, lone$gone))
   if (kind == "magnitudes" && length(factors) > 1) kind <- "scores"
   few <- function(some) Filter(function(f) length(unique(level(d, f))) <= most.levels, some)
   name <- paste(what, "by", paste(factors, collapse = ", "))
@@ -455,9 +487,9 @@ side.by.side <- function(own, objects, words) {
     " unnamed was rated below 90 in more than 15 % of trials by ", paste(who, collapse = ", "), ", whom ITU-R BS.1534 would exclude: not excluded here"))
 }
 # Stimuli that were compared in pairs: means over people as a matrix, and a map by classical scaling. Scores whose scale begins with "dis" or "diff"
-# are distances; of others what they lack of the largest mean is.
+# are distances; of others what they lack of the scale's end is.
 similarity <- data.frame(); places <- data.frame()
-in.pairs <- function(own, scale, words) for (one in split(own, if ("condition" %in% names(own)) factor(own$condition, unique(own$condition)) else rep("", nrow(own)))) {
+in.pairs <- function(own, scale, words, end) for (one in split(own, if ("condition" %in% names(own)) factor(own$condition, unique(own$condition)) else rep("", nrow(own)))) {
   two <- do.call(rbind, strsplit(one$stimulus, " & ", fixed = TRUE)); all <- in.order(c(two)); condition <- c(one$condition[1], "")[1]
   means <- aggregate(y ~ id + a + b, data.frame(y = as.numeric(one[[scale]]), id = one$participant, a = two[, 1], b = two[, 2]), mean)
   means <- aggregate(y ~ a + b, means, mean)
@@ -467,13 +499,14 @@ in.pairs <- function(own, scale, words) for (one in split(own, if ("condition" %
   cat("means of ", scale, words, " in pairs", if (condition != "") paste0(", ", condition), "\n", sep = "")
   attempt(paste0("map of ", scale, words), condition, {
     if (length(all) < 3) stop("expected three stimuli or more")
-    d <- if (grepl("^(dis|diff)", scale)) m else max(m, na.rm = TRUE) - m
+    is.distance <- grepl("^(dis|diff)", scale)
+    d <- if (is.distance) m else end - m
     diag(d) <- 0
     map <- cmdscale(as.dist(d), k = 2, eig = TRUE)
     at <- map$points[, seq_len(min(2, sum(map$eig > 1e-9 * max(abs(map$eig))))), drop = FALSE] # rounding makes no dimension
     if (ncol(at) < 1) stop("no map: no eigenvalue is positive")
-    stress <- sqrt(sum((dist(at) - as.dist(d))^2) / sum(as.dist(d)^2))
-    cat("  ", if (ncol(at) < 2) "no map in two dimensions: only one eigenvalue is positive; in one dimension" else "map in two dimensions", ": stress-1 ", signif(stress, 3), "\n", sep = "")
+    stress <- sqrt(sum((dist(at) - as.dist(d))^2) / sum(dist(at)^2)) # Kruskal's
+    cat("  ", if (ncol(at) < 2) "no map in two dimensions: only one eigenvalue is positive; in one dimension" else "map in two dimensions", ": stress-1 ", signif(stress, 3), ", distances are ", if (is.distance) "the means" else paste(end, "less the means"), "\n", sep = "")
     places <<- rbind(places, data.frame(scale, session = sub("^ in ", "", words), condition, stimulus = all, x = at[, 1], y = if (ncol(at) < 2) NA else at[, 2], stress))
   })
 }
@@ -530,10 +563,12 @@ study <- function(study, scales = character(), points = character(), half = "thr
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
     compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"), over = "target")
+    targets <- c("target_y", "target_x"); if (!all(targets %in% names(own))) targets <- c("target_row", "target_column") # which number those of other programs
+    for (t in targets) own[[t]] <- as.character(signif(as.numeric(own[[t]]), 4))
     for (one in split(own, if ("condition" %in% names(own)) factor(own$condition, unique(own$condition)) else rep("", nrow(own)))) {
       place <- if (length(unique(own$condition)) > 1) paste(words, "of", one$condition[1]) else words
       for (m in c("x", "y")) {
-        compare(paste0(m, place), one, m, columns = c("group", "target_row", "target_column"))
+        compare(paste0(m, place), one, m, columns = c("group", targets))
         if (grepl("protocol phantom-places-thesis", study, fixed = TRUE)) single.trials(paste0(m, place, ", single trials as in Table 4.1"), one, m)
       }
     }
@@ -546,8 +581,9 @@ study <- function(study, scales = character(), points = character(), half = "thr
     choices(paste0("shares of the alternatives", words, " against chance"), own)
     names <- alternatives.of(own)
     before <- unique(results$test)
-    columns <- c("group", "condition", if (!file.exists("psychometric-stimuli.csv")) "stimulus") # of levels the function tells more
-    for (a in if (length(names) == 2) names[1] else names) compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks", columns)
+    stimuli <- if ("stimulus" %in% names(own)) "stimulus"; isFunction <- file.exists("psychometric-stimuli.csv") # which tells more of levels
+    for (a in if (length(names) == 2) names[1] else names)
+      compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks", c("group", "condition", if (!isFunction) stimuli), if (isFunction) stimuli)
     across(setdiff(unique(results$test), before), "alternatives")
   })
   before <- unique(results$test)
@@ -561,7 +597,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
   for (scale in scales) each("rate", scale, function(own, words) {
     if (is.told && own$session[1] %in% aside) return()
     if ("stimulus" %in% names(own) && all(grepl(" & ", own$stimulus, fixed = TRUE))) {
-      in.pairs(own, scale, words)
+      in.pairs(own, scale, words, if (is.told && !(scale %in% points)) 100 else max(as.numeric(own[[scale]]))) # of points, and of other programs, the largest that was given
       compare(paste0(scale, words), own, scale, columns = c("group", "condition"))
     } else compare(paste0(scale, words), own, scale, if (scale %in% points) "ranks" else "scores")
   })

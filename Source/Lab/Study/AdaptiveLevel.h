@@ -5,6 +5,7 @@
 #include "Lab/Study/Protocol.h"
 #include "Stimuli/SeededRandom.h"
 #include <algorithm>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -42,6 +43,14 @@ public:
     }
 
     const std::vector<double>& reversals() const noexcept { return reversals_; }
+    /// "ended at 40 trials with 5 of 6 reversals"; else empty.
+    std::string cutShort() const {
+        const int found = static_cast<int>(reversals_.size());
+        return !isDone() || found >= plan_.reversals
+                   ? std::string{}
+                   : "ended at " + std::to_string(plan_.mostTrials) + " trials with " +
+                         std::to_string(found) + " of " + std::to_string(plan_.reversals) + " reversals";
+    }
 
 private:
     StaircasePlan plan_;
@@ -87,6 +96,16 @@ public:
         return std::visit([](const auto& m) { return m.levelDb(); }, methods_[at_]);
     }
     bool isDone() const { return std::ranges::all_of(methods_, isOver); }
+    /// Of staircases that ended before their reversals; else empty.
+    std::string cutShort() const {
+        std::string words;
+        for (std::size_t i = 0; i < methods_.size(); ++i)
+            if (const auto* const one = std::get_if<Staircase>(&methods_[i]); one && !one->cutShort().empty())
+                words += (words.empty() ? "" : "; ") +
+                         (methods_.size() > 1 ? "staircase " + std::to_string(i + 1) : "the staircase") +
+                         " " + one->cutShort();
+        return words;
+    }
     void answer(bool isCorrect) {
         std::visit([=](auto& m) { m.answer(isCorrect); }, methods_[at_]);
     }

@@ -169,10 +169,11 @@ std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricFun
     }
     if (product - level * hits / trials <= 0.0) return "the share of answers does not rise with the level";
     const double flat = hits * std::log(hits / trials) + (trials - hits) * std::log1p(-hits / trials);
-    const bool isFlat = 2.0 * (likeliest - flat) < 3.84; // chi-squared, 5 %
-    const bool isWide = f.width > 19.5 * range;
-    if (isWide || (isFlat && f.threshold >= least && f.threshold <= most))
-        return "the answers hardly change within the levels that were played";
+    const double gain = std::max(0.0, 2.0 * (likeliest - flat));
+    if (f.width > 19.5 * range) return "the fitted width is 20 times the range of the levels, or more";
+    if (gain < 3.84 && f.threshold >= least && f.threshold <= most)
+        return "the function fits no better than a constant (likelihood ratio, p = " +
+               fixedNumber(std::erfc(std::sqrt(0.5 * gain)), 3) + ")"; // chi-squared of one degree of freedom
     if (f.threshold < least || f.threshold > most)
         return "the fitted threshold lies outside the levels that were played, " + plainNumber(least) +
                " to " + plainNumber(most);

@@ -2,6 +2,7 @@
 // Runs an experiment and writes each answer to its trial file.
 #include "Lab/Study/StudyRun.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Io/Text/CleanText.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <chrono>
@@ -62,7 +63,7 @@ StudyInProgress::StudyInProgress(StudyRun run)
         const std::string fault = experiment_.redo(record);
         if (fault.empty()) continue;
         error_ = path_.string() + ": session " +
-                 printable(run_.protocol.sessions[record.trial.session].name) + ", trial " +
+                 cleanLine(run_.protocol.sessions[record.trial.session].name) + ", trial " +
                  std::to_string(record.trial.number) + ": " + fault;
         return;
     }

@@ -289,7 +289,8 @@ std::set<double> endsOf(const Run& run) {
     return ends;
 }
 
-/// NaN: of fewer than two reversals; infinite: of half of the later ones at an end of the levels.
+/// NaN: of fewer than two reversals; infinite: of half of the later ones, or of all trials, at an end of the
+/// levels.
 double staircaseThreshold(const Run& run, LevelSummary& summary) {
     std::vector<double> levels;
     for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
@@ -300,8 +301,10 @@ double staircaseThreshold(const Run& run, LevelSummary& summary) {
                           reversals.end()};
     const auto ends = endsOf(run);
     const auto atEnd = std::ranges::count_if(later, [&](double level) { return ends.contains(level); });
-    return 2 * static_cast<std::size_t>(atEnd) >= later.size() ? std::numeric_limits<double>::infinity()
-                                                               : meanOf(reversals, reversals.size() / 2);
+    const auto heldAtEnd = std::ranges::count_if(levels, [&](double level) { return ends.contains(level); });
+    return 2 * static_cast<std::size_t>(atEnd) >= later.size() || 2 * heldAtEnd >= std::ssize(levels)
+               ? std::numeric_limits<double>::infinity()
+               : meanOf(reversals, reversals.size() / 2);
 }
 
 double questThreshold(const Run& run, LevelSummary& summary) {
@@ -362,14 +365,14 @@ std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
             const double own = each[at++];
             if (std::isfinite(own)) continue;
             const std::size_t slash = key.first.find('/');
-            words +=
-                (bad++ > 0 ? "; " : "") +
-                (each.size() == 1 ? std::string{"a staircase"}
-                 : slash == std::string::npos
-                     ? "the staircase of " + key.first
-                     : "staircase " + key.first.substr(slash + 1) + " of " + key.first.substr(0, slash)) +
-                (std::isnan(own) ? " has fewer than two reversals"
-                                 : " had half or more of the reversals that count at an end of its levels");
+            words += (bad++ > 0 ? "; " : "") +
+                     (each.size() == 1             ? std::string{"a staircase"}
+                      : slash == std::string::npos ? "the staircase of " + key.first
+                                                   : "staircase " + key.first.substr(slash + 1) + " of " +
+                                                         key.first.substr(0, slash)) +
+                     (std::isnan(own) ? " has fewer than two reversals"
+                                      : " had half or more of its trials, or of the reversals that count, at "
+                                        "an end of its levels");
         }
         if (bad < each.size() && bad > 0)
             words += "; a threshold is the mean of " + std::to_string(each.size()) + " staircases";

@@ -253,7 +253,7 @@ for (i in 1:2) { same("two levels over scales", own$p_across[i], p.adjust(own$p,
 people <- data.frame(participant = person(8)[-8], group = c("g", "h", "g", "h", "g", "h", "")); d <- d[d$stimulus == "s", ]
 for (kind in list("effort", character())) {
   ours <- whole(d, "effort", kind, people); g <- rowMeans(tapply(d$effort, list(d$participant, d$condition), mean))
-  if (!any(grepl("07, 08: group not known, left out", ours$note)) || !all(line(ours, "group: g - h")$n == 6) || !all(line(ours, "condition")$n == 6)) fault("who has no group is in a test by group, or goes without a word")
+  if (!any(grepl("07, 08: group not known, or several: left out", ours$note)) || !all(line(ours, "group: g - h")$n == 6) || !all(line(ours, "condition")$n == 6)) fault("who has no group is in a test by group, or goes without a word")
   same("known groups", line(ours, "group: g - h")$p, if (length(kind) > 0) exact.p(g[c(1, 3, 5)], g[c(2, 4, 6)]) else t.test(g[c(1, 3, 5)], g[c(2, 4, 6)], var.equal = TRUE)$p.value)
 }
 if (!any(grepl("each group counts alike; SD within groups", ours$note))) fault("differences beside groups are not said to be of groups alike")
@@ -380,5 +380,47 @@ d <- expand.grid(condition = c("x", "y"), participant = person(5)); d$y <- 2; ro
 if (any(grepl("power", capture.output(pairs.test("t", "trials.csv", "y", "condition"))))) fault("a test that was not made has power")
 d$y <- rnorm(10); rows(d[-1, ])
 if (!requireNamespace("lme4", quietly = TRUE) && !any(grepl("lme4", told(anova.test("t", "trials.csv", "y", "condition"))$note))) fault("that lme4 is lacking is not told")
+# A level that one person alone has is left out by name, and takes the factor from nobody; who lacks levels, too.
+d <- expand.grid(stimulus = c("high", "low"), condition = c("felt", "glass", "sand"), participant = person(20), stringsAsFactors = FALSE)
+d$y <- rnorm(120, 30 * (d$condition == "sand")); d <- d[!(d$participant < "10" & d$condition == "sand" & d$stimulus == "high"), ]; whole.rows <- d
+stray <- function(who, condition, stimulus = "low") data.frame(participant = who, condition, stimulus, y = 44)
+rows(rbind(d, stray("02", "tin"), stray("21", "glass"))); ours <- told(compare("y", table.of("trials.csv"), "y")); m <- d[d$participant >= "10", ]; wide <- tapply(m$y, list(m$participant, m$stimulus), mean)
+same("beside a stray level", line(ours, "stimulus: high - low")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
+if (nrow(line(ours, "condition: felt - sand")) != 1 || !any(grepl("condition: tin is of 02 alone: left out", ours$note)) || !any(grepl("lacking of .*09, 21$", ours$note))) fault("one row of a level takes its factor from all")
+# Of what is averaged over the same levels are compared of each, though somebody has none of them; a level that nobody has whole counts for nobody.
+rows(rbind(d, stray(c("02", "03"), "tin"), stray("21", "glass"))); ours <- told(compare("y", table.of("trials.csv"), "y"))
+m <- d[d$condition != "sand" | d$participant >= "10", ]; wide <- tapply(m$y, list(m$participant, m$stimulus), mean); own <- line(ours, "stimulus: high - low")
+same("levels that each has whole", own$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
+if (!identical(own$n, 20L) || !any(grepl("lacking of 21$", ours$note))) fault("who has nothing whole switches the rule off")
+for (words in c("condition: sand left out of 01, 02, .*, 09, who lack it elsewhere", "condition: tin left out of 02, 03, who", "^condition: of 21 participants 2 have all its levels: averaged")) if (!any(grepl(words, ours$note))) fault("not told:", words)
+# Where each person had a stimulus in one condition, that is said.
+rows(d[(d$stimulus == "high") == ((d$condition == "felt") == (as.integer(d$participant) %% 2 == 0)) & d$condition != "sand", ])
+if (!any(grepl("stimulus: .* unequal ones, which is right where they were balanced", told(compare("y", table.of("trials.csv"), "y"))$note))) fault("conditions are compared over other stimuli without a word")
+# A group of one person is not tested, nor is one that a person shares with another.
+d <- expand.grid(trial = 1:2, condition = c("x", "y"), participant = person(9), stringsAsFactors = FALSE); d$y <- rnorm(36); d$group <- ifelse(d$participant == "01", "solo", ifelse(d$participant < "05", "g", "h")); rows(d)
+ours <- told(compare("y", table.of("trials.csv"), "y"))
+if (any(grepl("solo", ours$effect)) || !any(grepl("solo is of 01 alone", ours$note)) || line(ours, "group: g - h")$n != 8) fault("a group of one person is tested")
+rows(d[d$group != "h", ]); ours <- told(compare("y", table.of("trials.csv"), "y"))
+if (any(grepl("group", ours$effect)) || !any(grepl("group: solo of one participant alone: not tested", ours$note)) || line(ours, "condition: x - y")$n != 4) fault("two groups, of which one is of one person, are tested")
+d <- d[d$group != "solo", ]; d$group[d$participant == "07" & d$trial == 2] <- "g"; rows(d); ours <- told(compare("y", table.of("trials.csv"), "y"))
+if (line(ours, "group: g - h")$n != 7 || !any(grepl("^07: group not known, or several", ours$note))) fault("who is in two groups takes the test of groups away")
+d$choice <- sample(c("A", "B"), nrow(d), TRUE); rows(d); if (line(told(choices("t", "trials.csv")), "group=h")$n != 4) fault("who is in two groups is in both")
+# Two words that are crossed are two factors, though only some have a name.
+d <- expand.grid(stimulus = c("grit=60 wet", "grit=60 dry", "1000 wet", "1000 dry"), participant = person(7), stringsAsFactors = FALSE); d$y <- rnorm(28); rows(d); wide <- tapply(d$y, list(d$participant, sub(".* ", "", d$stimulus)), mean)
+same("two words", line(told(compare("y", table.of("trials.csv"), "y")), "stimulus.2: dry - wet")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
+# Likenesses: distances are of the scale's end, so that the most alike are not at one place; the stress is Kruskal's.
+d <- expand.grid(pair = 1:6, participant = person(3), stringsAsFactors = FALSE); d$stimulus <- paste(letters[two[1, d$pair]], "&", letters[two[2, d$pair]]); d$alike <- c(77, 60, 41, 72, 52, 66)[d$pair]
+d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$condition <- "c"; d$parts <- sub(" & ", "|", d$stimulus); invisible(whole(d, "alike"))
+map <- read.csv("mds.csv", comment.char = "#"); far <- 100 - c(77, 60, 41, 72, 52, 66); shown <- as.vector(dist(map[c("x", "y")]))
+same("Kruskal's stress", map$stress[1], sqrt(sum((shown - far)^2) / sum(shown^2)))
+if (!any(grepl("distances are 100 less the means", spoken.words))) fault("how likeness becomes distance is not told")
+# Levels that have a function are averaged over by name; places of other programs' targets are named as they are.
+d <- expand.grid(trial = 1:3, stimulus = c("1", "2"), condition = c("c1", "c2"), participant = person(7), stringsAsFactors = FALSE); d$choice <- sample(c("A", "B"), nrow(d), TRUE); rows(data.frame(participant = "01", condition = "c1", threshold = 1, jnd = 1), "psychometric-stimuli.csv")
+ours <- whole(d, character()); unlink("psychometric-stimuli.csv"); if (!any(grepl("stimulus (2): averaged over, level by level", ours$note[grepl("choice", ours$test)], fixed = TRUE))) fault("levels are averaged over without a word")
+d <- expand.grid(trial = 1:2, target_x = c(100, 700), target_y = c(50, 90), participant = person(6)); d$target_column <- d$target_x %/% 300 + 1; d$target_row <- d$target_y %/% 60 + 1; d$x <- rnorm(48); d$y <- rnorm(48)
+if (nrow(line(whole(d, character()), "target_x: 100 - 700")) != 2) fault("which column is 1 is not told")
+# What the mixed model has is told.
+if (requireNamespace("lme4", quietly = TRUE)) { rows(whole.rows); if (!any(grepl("mixed model: by maximum likelihood, random (1 | participant) + (1 | participant:condition) + (1 | participant:stimulus)",
+  capture.output(anova.test("t", "trials.csv", "y", c("condition", "stimulus"))), fixed = TRUE))) fault("a mixed model without its random part") }
 cat(faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)
