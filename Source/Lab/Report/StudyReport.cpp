@@ -279,29 +279,29 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
     text += listOf("Participants", {counted(static_cast<std::size_t>(participants), "participant") +
                                     ", numbers from 1, each once; nobody more or fewer, whatever is found"});
     std::vector<std::string> exclusions{
-        "those who are excluded have a reason in the table of people, and all their trials are left out",
+        "all trials of those for whom the table of people has a reason",
         "trials that did not leave as planned, ran out of time or have no answer",
         "tests leave out who lacks a combination of levels; where somebody does, scores also have a mixed "
         "model of all (r-cran-lme4); who did not finish is named"};
     const auto has = [&](auto is) { return std::ranges::any_of(protocol.sessions, is); };
     if (has([](const SessionPlan& s) { return s.adaptedAlternative() != nullptr; }))
         exclusions.emplace_back(
-            "thresholds of a staircase of fewer than two reversals, of a session that was not "
-            "finished, or at an end of the levels (half or more of a staircase's trials or of "
-            "the reversals that count; of QUEST+ the threshold within half a step)");
+            "thresholds of sessions that were not finished, of staircases of fewer than two "
+            "reversals, or at an end of the levels (half or more of a staircase's trials or of "
+            "the reversals that count; of QUEST+ within half a step)");
     if (has([](const SessionPlan& s) { return !s.correct.empty() || s.answers.size() == 2; }))
         exclusions.emplace_back(
-            "functions, where levels are numbers: of answers that do not rise with the level, "
-            "that a constant fits as well (likelihood ratio, p > 0.05), of a width of 20 times "
-            "the range of the levels, of a threshold outside them; of a step the JND");
+            "functions of levels that are numbers: of answers that do not rise, that a constant "
+            "fits as well (likelihood ratio, p > 0.05), of widths of 20 times the range of the "
+            "levels, of thresholds outside it; of steps the JND");
     text += listOf("Exclusions", exclusions);
-    const bool isPublished = protocol.name.ends_with(thesisSuffix);
-    text += listOf("Corrections",
-                   {"of an analysis of variance Greenhouse and Geisser's, of factors of more than two levels "
-                    "within people",
-                    std::string{"of the pairs of a factor "} + (isPublished ? "Bonferroni's" : "Holm's") +
-                        ", of shares against chance Holm's over all lines, of several scales or alternatives "
-                        "Holm's over them"});
+    text += listOf(
+        "Corrections",
+        {"of factors of more than two levels within people Greenhouse and Geisser's, in an analysis of "
+         "variance",
+         std::string{"of the pairs of a factor "} +
+             (protocol.name.ends_with(thesisSuffix) ? "Bonferroni's" : "Holm's") +
+             "; Holm's of shares against chance, over all lines, and of several scales or alternatives"});
     text += listOf("Tests over participants, as analysis.R runs them in R", tests);
     if (tests.empty())
         text += report.value.files.contains(testsTable) ? "none\n" : std::string{notListed} + "\n";
