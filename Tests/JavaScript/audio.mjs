@@ -338,6 +338,7 @@ test('two worlds of other ages follow one output: each is on time', async () => 
             follower(isHit ? [{ timeNs: ns, frequencyHz: 100, decayPerSecond: 200, amplitude: 0.5, x: 0.5, y: 0.5 }] : [], { timeNs: ns += 6 * quantum / rate * 1e9 });
         } };
     };
+    assert.equal(output.latency, 0.06); // until somebody follows
     const worlds = [world()];
     for (let i = 0; i < 700; ++i) {
         context.run(6);
@@ -348,6 +349,7 @@ test('two worlds of other ages follow one output: each is on time', async () => 
     await null;
     assert.ok(felt.length > 30 && felt.every((at, i) => at - due[i] > 0 && at - due[i] < 0.1), felt.map((at, i) => (at - due[i]).toFixed(3)).join(' '));
     assert.deepEqual([output.moves, output.status.late], [0, 0]);
+    assert.ok(output.latency > 0.016 && output.latency < 0.045, String(output.latency)); // a step of 16 ms, the clock's grain, a reserve
     worlds[1].end();
     assert.equal(output.moves, 0);
 });

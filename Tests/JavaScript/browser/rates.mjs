@@ -56,7 +56,7 @@ export async function rateOf(pictures, seconds, isSmallest = false) {
         for (const follower of followers) follower(events, world);
     }
     await new Promise(done => setTimeout(done, 800));
-    const latencies = struck.map(time => heard.find(onset => onset > time)).map((onset, i) => 1000 * (onset - struck[i])).filter(ms => ms < 1000 * between).sort((a, b) => a - b), told = {
+    const latencies = struck.map(time => heard.find(onset => onset >= time - 1e-9)).map((onset, i) => 1000 * (onset - struck[i])).filter(ms => ms < 1000 * between).sort((a, b) => a - b), told = {
         struck: struck.length, heard: latencies.length, late: output.status.late - lateBefore, moves: output.moves - movesBefore, stutters, asked: 1000 * output.latency, median: latencies[latencies.length >> 1], least: latencies[0], most: latencies.at(-1),
     };
     output.close();

@@ -16,7 +16,7 @@ const waitMs = 500; // what is meant for now waits as long for a context that re
 const expectLevel = level => expectThat(level >= 0 && level <= 1, 'level', '0 to 1', level);
 
 class Output extends EventTarget {
-    #physvib; #context; #node; #mix; #level; #meter; #gain; #muted = new Set(); #route; #outputs; #watch; #receipts; #latency; #clocks = new Set(); #moves = 0; #size; #ends = new Set(); #arrivals = []; #told = 'running'; #lateAt = -Infinity;
+    #physvib; #context; #node; #mix; #level; #meter; #gain; #muted = new Set(); #route; #outputs; #watch; #receipts; #latency; #clocks = new Set(); #idle; #moves = 0; #size; #ends = new Set(); #arrivals = []; #told = 'running'; #lateAt = -Infinity;
     /** Frames by which samples lag the events' times: the limiter's look-ahead. */
     latencyFrames = 0;
     /** What the audio thread has done, four times a second. */
@@ -39,7 +39,7 @@ class Output extends EventTarget {
         this.#physvib = physvib;
         this.#context = context;
         this.#latency = latency;
-        this.#clocks.add(new Clock(latency)); // of nobody: says the latency until somebody follows
+        this.#idle = new Clock(latency); // says the latency until somebody follows
         this.settings = settings;
         this.channels = channels;
         this.#outputs = outputs;
@@ -110,7 +110,7 @@ class Output extends EventTarget {
     }
     /** Whether the context runs within a second, on another device where its own is gone. To be called in a click. */
     resume() { return this.#watch.resume(); }
-    get #latencyNs() { return Math.max(...Array.from(this.#clocks, ({ latencyNs }) => latencyNs)); }
+    get #latencyNs() { return Math.max(...Array.from(this.#clocks.size > 0 ? this.#clocks : [this.#idle], ({ latencyNs }) => latencyNs)); }
     /** From a collision to its vibration, in seconds, before the device's own latency; of several worlds that follow, the longest. */
     get latency() { return this.#latencyNs / nsPerSecond; }
     get context() { return this.#context; }
