@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 extends SceneTree
-# The smallest scene, which only looks at the clock: how late a tick comes against a pace that never changes, and how late the hit of a step
-# that has just been told can be felt at the earliest if all hits are to have one latency. godot -s pace.gd -- seconds=20
+# The smallest scene, which only looks at the clock: over how much its ticks spread against a pace that never changes. One latency for all
+# hits is at least that and a tick. Twenty seconds: godot -s pace.gd
 var times: PackedInt64Array = []
 var began := 0
 
