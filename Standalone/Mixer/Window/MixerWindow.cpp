@@ -250,10 +250,11 @@ Mix MixerWindow::firstMix() {
     const DeskLimits left = limits();
     mix.levelDb = std::min(mix.levelDb, left.loudestOutputDb());
     if (device_.isHeadphones) mix.levelDb = std::min(mix.levelDb, safeContactDb);
-    for (Strip& strip : mix.strips)
-        if (std::ranges::find(left.strips, strip.output, &Strip::output) == left.strips.end() ||
-            std::ranges::find(device_.monitor, strip.output) != device_.monitor.end())
-            strip.output = -1;
+    std::vector<int> routes; // as they were chosen: no output that was not in use
+    for (const Strip& strip : left.strips)
+        routes.push_back(
+            std::ranges::find(device_.monitor, strip.output) == device_.monitor.end() ? strip.output : -1);
+    showPlayedOutputs(routes, mix.strips);
     return mix;
 }
 
@@ -563,9 +564,12 @@ bool MixerWindow::load(const juce::File& file, const juce::File& document, bool 
 }
 
 void MixerWindow::playLowered(const DeskLimits& most, Mix mix, const juce::File& document, bool isPaused) {
+    std::vector<std::size_t> withoutEar;
+    if (device_.isHeadphones) withoutEar = placeNew(device_, mix.strips, 0); // L and R, whatever it played on
     const Mix asked = mix;
     const auto lowered = lowerTo(most, mix);
     play(std::move(mix), document, isPaused);
+    reportNoEar(*model_, withoutEar);
     reportLowered(lowered, asked);
 }
 

@@ -806,6 +806,84 @@ TEST(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
     EXPECT_EQ(levels(window.model().mix()), (std::vector{-32.0, 0.0, 0.0, 0.0, 0.0}));
 }
 
+TEST(Window, ARouteThatWasChosenIsKeptByTheNextSessions) {
+    TestFolder folder;
+    FakeInterface hands; // of eight outputs
+    const auto routes = [](MixerWindow& window) {
+        std::vector<int> all;
+        for (const Strip& strip : window.model().mix().strips) all.push_back(strip.output);
+        return all;
+    };
+    {
+        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("left.json"), folder("config")};
+        window.model().change("Output", [](Mix& mix) { giveOutput(mix.strips, 0, 5); });
+        window.save();
+        runFor(0.7); // the settings are written twice a second
+        window.newDocument();
+        EXPECT_EQ(routes(window), (std::vector{5, 1, 2, 3})) << "new";
+    }
+    for (const char* device : {"", "None:no device", "Fake:hands"}) {
+        MixerWindow window{fakeDrivers({&hands}), device, {}, folder("config")};
+        EXPECT_EQ(routes(window), (std::vector{5, 1, 2, 3})) << device;
+        runFor(0.7);
+    }
+    {
+        MixerWindow window{fakeDrivers({&hands}), "", folder("left.json"), folder("config")};
+        window.model().change("Preset", [](Mix& mix) {
+            mix.layout = presetLayout("phone2");
+            mix.resizeStrips();
+            giveOutput(mix.strips, 1, 2);
+        });
+        window.save();
+    }
+    MixerWindow window{fakeDrivers({&hands}), "", {}, folder("config")};
+    EXPECT_EQ(routes(window), (std::vector{5, 2, -1, -1})) << "no output that was not in use";
+}
+
+TEST(Window, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextStartsAreNoLower) {
+    TestFolder folder;
+    FakeInterface hands; // of eight outputs
+    const auto mine = folder("mine.json");
+    {
+        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", mine, folder("config")};
+        window.model().change("Mine", [](Mix& mix) {
+            giveOutput(mix.strips, 0, 5);
+            mix.strips[1].gainDb = -19.5;
+        });
+        window.save();
+        ASSERT_EQ(useHeadphones(window.model(), window.model().device().choice()), "");
+        window.save();
+        runFor(0.7);
+    }
+    const auto theirs = folder("theirs.json");
+    {
+        auto session = loadSession(mine.getFullPathName().toStdString());
+        ASSERT_TRUE(session) << session.error;
+        for (std::size_t j = 0; j < 4; ++j)
+            session.value.mix->strips[j].output = j == 0 ? 5 : static_cast<int>(j);
+        ASSERT_EQ(writeFile(theirs.getFullPathName().toStdString(), sessionJson(session.value)), "");
+    }
+    {
+        MixerWindow window{fakeDrivers({&hands}), "", theirs, folder("config")};
+        const auto& strips = window.model().mix().strips;
+        ASSERT_EQ(strips.size(), 4u);
+        EXPECT_EQ(strips[0].output, 0);
+        EXPECT_EQ(strips[1].output, 1);
+        EXPECT_EQ(strips[2].output, -1);
+        EXPECT_EQ(strips[3].output, -1);
+        EXPECT_EQ(strips[1].gainDb, -19.5);
+        EXPECT_EQ(window.model().mix().levelDb, safeContactDb);
+        EXPECT_FALSE(window.model().trouble().contains("without")) << window.model().trouble();
+        runFor(0.7);
+    }
+    for (int start = 0; start < 3; ++start) {
+        MixerWindow window{fakeDrivers({&hands}), "", {}, folder("config")};
+        EXPECT_EQ(window.model().mix().levelDb, safeContactDb) << start;
+        EXPECT_EQ(window.model().output().channelMap(), (std::vector{0, 1})) << start;
+        runFor(0.7);
+    }
+}
+
 TEST(Window, HeadphonesAreKept) {
     TestFolder folder;
     FakeInterface hands; // of eight outputs
