@@ -426,6 +426,9 @@ TEST(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
     }
     MixerWindow again{onlyNoDevice(), "None:no device", theirs, folder("config")};
     expectLowered(again.model().mix());
+    again.newDocument();
+    EXPECT_EQ(again.model().mix().strips[3].output, 3) << "what a file took is the user's still";
+    EXPECT_EQ(again.model().mix().levelDb, -30.0);
 }
 
 TEST(Window, ASessionOfOnesOwnComesBackAsItWasSavedUnlessItWasChangedSince) {
@@ -549,6 +552,7 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
         window.record();
         ASSERT_TRUE(window.model().recording().isRunning()) << window.model().trouble();
         runUntil([&] { return window.model().recording().seconds() > 0.2; });
+        reportNoEar(window.model(), {2, 3}); // waits behind what was recorded
         window.record();
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
         const auto documents = juce::File::getSpecialLocation(juce::File::userDocumentsDirectory);
@@ -561,6 +565,8 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
         window.model().messages().shown().act.run();
         EXPECT_TRUE(runUntil([&] { return window.model().edits() > inputs; })) << "it is played";
         names.add(window.lastRecording().getFileName());
+        window.model().report({});
+        EXPECT_TRUE(window.model().trouble().startsWith("C, D have no output")) << window.model().trouble();
     }
     EXPECT_NE(names[0], names[1]);
     EXPECT_EQ(cwd.getNumberOfChildFiles(juce::File::findFilesAndDirectories), 0);
