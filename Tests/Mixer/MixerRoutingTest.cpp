@@ -387,6 +387,9 @@ TEST(Headphones, AreInTheListAgainAfterNoDevice) {
         EXPECT_EQ(choose("No device"), "No device: seen, not felt");
         EXPECT_FALSE(model.device().choice().isHeadphones);
     }
+    EXPECT_TRUE(model.undoManager().undo());
+    EXPECT_EQ(model.mix().strips[2].output, 2) << "the second time has changed nothing";
+    EXPECT_FALSE(model.undoManager().canUndo());
 }
 
 TEST(MixerRouting, AnOutputThatIsDisconnectedIsNeitherCountedNorShownAsThere) {

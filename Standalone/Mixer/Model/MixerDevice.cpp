@@ -189,14 +189,16 @@ std::string useHeadphones(MixerModel& model, DeviceChoice choice) {
     choice.monitor.clear();
     if (choice.marker < DeviceChoice::ears) choice.marker = -1;
     std::vector<std::size_t> others;
-    model.change("Headphones", [&](Mix& mix) {
-        for (std::size_t j = 0; j < mix.strips.size(); ++j) {
-            const bool hasEar = j < DeviceChoice::ears;
-            mix.strips[j].output = hasEar ? static_cast<int>(j) : -1;
-            if (!hasEar) others.push_back(j);
-        }
-        mix.levelDb = std::min(mix.levelDb, safeContactDb);
-    });
+    Mix mix = model.mix();
+    for (std::size_t j = 0; j < mix.strips.size(); ++j) {
+        const bool hasEar = j < DeviceChoice::ears;
+        mix.strips[j].output = hasEar ? static_cast<int>(j) : -1;
+        if (!hasEar) others.push_back(j);
+    }
+    mix.levelDb = std::min(mix.levelDb, safeContactDb);
+    if (mix.levelDb != model.mix().levelDb || // else a step of undo would show nothing
+        !std::ranges::equal(mix.strips, model.mix().strips, {}, &Strip::output, &Strip::output))
+        model.edit("Headphones", mix);
     auto error = model.open(choice);
     reportNoEar(model, others);
     return error;

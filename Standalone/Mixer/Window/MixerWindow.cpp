@@ -30,6 +30,7 @@ OscUse oscUseNamed(const juce::String& name) {
 constexpr const char* chosenSetting = "device-chosen"; // the user has chosen a device, or none
 constexpr const char* silentSetting = "silent";
 constexpr const char* orderSetting = "mode";          // and which panels are unfolded; none: to play
+constexpr const char* noEarLabel = "ears";            // as reportNoEar() names it
 constexpr const char* folderSetting = "files-folder"; // of recordings and documents; empty: UserFolder's own
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system reports
 /// Size of borders and title bar; the exact size is known only after the window exists.
@@ -250,10 +251,11 @@ Mix MixerWindow::firstMix() {
     const DeskLimits left = limits();
     mix.levelDb = std::min(mix.levelDb, left.loudestOutputDb());
     if (device_.isHeadphones) mix.levelDb = std::min(mix.levelDb, safeContactDb);
-    for (Strip& strip : mix.strips)
-        if (std::ranges::find(left.strips, strip.output, &Strip::output) == left.strips.end() ||
-            std::ranges::find(device_.monitor, strip.output) != device_.monitor.end())
-            strip.output = -1;
+    std::vector<int> routes; // as they were chosen: no output that was not in use
+    for (const Strip& strip : left.strips)
+        routes.push_back(
+            std::ranges::find(device_.monitor, strip.output) == device_.monitor.end() ? strip.output : -1);
+    showPlayedOutputs(routes, mix.strips);
     return mix;
 }
 
@@ -563,19 +565,41 @@ bool MixerWindow::load(const juce::File& file, const juce::File& document, bool 
 }
 
 void MixerWindow::playLowered(const DeskLimits& most, Mix mix, const juce::File& document, bool isPaused) {
+    std::vector<std::size_t> withoutEar;
+    if (device_.isHeadphones) withoutEar = placeNew(device_, mix.strips, 0); // L and R, whatever it played on
     const Mix asked = mix;
     const auto lowered = lowerTo(most, mix);
     play(std::move(mix), document, isPaused);
-    reportLowered(lowered, asked);
+    reportNoEar(*model_, withoutEar);
+    reportLowered(lowered, asked, most);
 }
 
-void MixerWindow::reportLowered(const std::string& lowered, const Mix& asked) {
+void MixerWindow::reportLowered(const std::string& lowered, const Mix& asked, const DeskLimits& most) {
+    desk_ = most.strips;
     asked_ = lowered.empty() ? std::nullopt : std::optional{asked};
     if (asked_)
         model_->messages().add({"Lowered to this desk: " + utf8(lowered),
                                 false,
                                 {"Levels of the file", [this] { useAskedLevels(); }},
                                 "levels"});
+}
+
+// An output that an actuator lost to a file is still the user's: the next session has it again, no louder
+// than what was played meanwhile.
+DeskLimits MixerWindow::limits() const {
+    if (!model_) return files_.limits();
+    DeskLimits now = DeskLimits::of(model_->mix());
+    if (!asked_) return now;
+    const double loudestDb = now.loudestOutputDb() - now.levelDb;
+    for (std::size_t j = 0; j < std::min({now.strips.size(), desk_.size(), asked_->strips.size()}); ++j) {
+        const bool wasLost = now.strips[j].output < 0 && asked_->strips[j].output >= 0;
+        if (!wasLost || desk_[j].output < 0 ||
+            std::ranges::find(now.strips, desk_[j].output, &Strip::output) != now.strips.end())
+            continue;
+        now.strips[j] = desk_[j];
+        now.strips[j].gainDb = std::min(now.strips[j].gainDb, loudestDb);
+    }
+    return now;
 }
 
 // The user may set levels that a file may not.
@@ -621,8 +645,8 @@ static juce::String fromHome(const juce::File& file) {
 void MixerWindow::announceSaved(const juce::String& words, const juce::File& file, MixerAct act) {
     if (!act.run) act = {"Show", [file] { file.revealToUser(); }};
     MixerMessage message{words + " " + fromHome(file), true, std::move(act), "saved"};
-    model_->isNews() ? model_->messages().show(std::move(message))
-                     : model_->messages().add(std::move(message));
+    const bool isInFront = model_->isNews() || model_->messages().shown().label == noEarLabel; // which waits
+    isInFront ? model_->messages().show(std::move(message)) : model_->messages().add(std::move(message));
 }
 
 void MixerWindow::chooseFile(const juce::String& title, const juce::String& ending, bool isSaving,
@@ -691,9 +715,10 @@ void MixerWindow::openFile(const juce::File& file) {
     auto mix = mixWith(model_->mix(), file);
     if (!mix) return say(utf8(mix.error));
     const Mix asked = mix.value;
-    const auto lowered = lowerTo(limits(), mix.value);
+    const DeskLimits most = limits();
+    const auto lowered = lowerTo(most, mix.value);
     model_->edit(file.getFileName(), mix.value);
-    reportLowered(lowered, asked);
+    reportLowered(lowered, asked, most);
 }
 
 void MixerWindow::save(std::function<void()> then) {

@@ -80,9 +80,9 @@ private:
     bool load(const juce::File& file, const juce::File& document, bool isOwn = false);
     /// Plays a file with its levels lowered to `most`. Reports what was lowered; a button restores it.
     void playLowered(const DeskLimits& most, Mix mix, const juce::File& document, bool isPaused = false);
-    void reportLowered(const std::string& lowered, const Mix& asked);
+    void reportLowered(const std::string& lowered, const Mix& asked, const DeskLimits& most);
     void useAskedLevels();
-    DeskLimits limits() const { return model_ ? DeskLimits::of(model_->mix()) : files_.limits(); }
+    DeskLimits limits() const;
     void useSinks(const DeviceChoice& choice);
     /// The device and how it is worn: levels saved for one are not right for another.
     std::string outputInUse() const { return device_.name + (device_.isHeadphones ? " on the ears" : ""); }
@@ -138,6 +138,7 @@ private:
     std::unique_ptr<MixerView> view_;
     juce::File document_, lastRecording_;
     std::optional<Mix> asked_;         // state of the last file, if its levels were lowered
+    std::vector<Strip> desk_;          // what they were lowered to
     std::optional<DeskLimits> before_; // limits before a run that crashed
     static constexpr std::uint64_t neverSaved = UINT64_MAX; // never equals a count of edits
     std::uint64_t savedEdits_ = 0;

@@ -426,6 +426,9 @@ TEST(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
     }
     MixerWindow again{onlyNoDevice(), "None:no device", theirs, folder("config")};
     expectLowered(again.model().mix());
+    again.newDocument();
+    EXPECT_EQ(again.model().mix().strips[3].output, 3) << "what a file took is the user's still";
+    EXPECT_EQ(again.model().mix().levelDb, -30.0);
 }
 
 TEST(Window, ASessionOfOnesOwnComesBackAsItWasSavedUnlessItWasChangedSince) {
@@ -549,6 +552,7 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
         window.record();
         ASSERT_TRUE(window.model().recording().isRunning()) << window.model().trouble();
         runUntil([&] { return window.model().recording().seconds() > 0.2; });
+        reportNoEar(window.model(), {2, 3}); // waits behind what was recorded
         window.record();
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
         const auto documents = juce::File::getSpecialLocation(juce::File::userDocumentsDirectory);
@@ -561,6 +565,8 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
         window.model().messages().shown().act.run();
         EXPECT_TRUE(runUntil([&] { return window.model().edits() > inputs; })) << "it is played";
         names.add(window.lastRecording().getFileName());
+        window.model().report({});
+        EXPECT_TRUE(window.model().trouble().startsWith("C, D have no output")) << window.model().trouble();
     }
     EXPECT_NE(names[0], names[1]);
     EXPECT_EQ(cwd.getNumberOfChildFiles(juce::File::findFilesAndDirectories), 0);
@@ -804,6 +810,84 @@ TEST(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
     });
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     EXPECT_EQ(levels(window.model().mix()), (std::vector{-32.0, 0.0, 0.0, 0.0, 0.0}));
+}
+
+TEST(Window, ARouteThatWasChosenIsKeptByTheNextSessions) {
+    TestFolder folder;
+    FakeInterface hands; // of eight outputs
+    const auto routes = [](MixerWindow& window) {
+        std::vector<int> all;
+        for (const Strip& strip : window.model().mix().strips) all.push_back(strip.output);
+        return all;
+    };
+    {
+        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("left.json"), folder("config")};
+        window.model().change("Output", [](Mix& mix) { giveOutput(mix.strips, 0, 5); });
+        window.save();
+        runFor(0.7); // the settings are written twice a second
+        window.newDocument();
+        EXPECT_EQ(routes(window), (std::vector{5, 1, 2, 3})) << "new";
+    }
+    for (const char* device : {"", "None:no device", "Fake:hands"}) {
+        MixerWindow window{fakeDrivers({&hands}), device, {}, folder("config")};
+        EXPECT_EQ(routes(window), (std::vector{5, 1, 2, 3})) << device;
+        runFor(0.7);
+    }
+    {
+        MixerWindow window{fakeDrivers({&hands}), "", folder("left.json"), folder("config")};
+        window.model().change("Preset", [](Mix& mix) {
+            mix.layout = presetLayout("phone2");
+            mix.resizeStrips();
+            giveOutput(mix.strips, 1, 2);
+        });
+        window.save();
+    }
+    MixerWindow window{fakeDrivers({&hands}), "", {}, folder("config")};
+    EXPECT_EQ(routes(window), (std::vector{5, 2, -1, -1})) << "no output that was not in use";
+}
+
+TEST(Window, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextStartsAreNoLower) {
+    TestFolder folder;
+    FakeInterface hands; // of eight outputs
+    const auto mine = folder("mine.json");
+    {
+        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", mine, folder("config")};
+        window.model().change("Mine", [](Mix& mix) {
+            giveOutput(mix.strips, 0, 5);
+            mix.strips[1].gainDb = -19.5;
+        });
+        window.save();
+        ASSERT_EQ(useHeadphones(window.model(), window.model().device().choice()), "");
+        window.save();
+        runFor(0.7);
+    }
+    const auto theirs = folder("theirs.json");
+    {
+        auto session = loadSession(mine.getFullPathName().toStdString());
+        ASSERT_TRUE(session) << session.error;
+        for (std::size_t j = 0; j < 4; ++j)
+            session.value.mix->strips[j].output = j == 0 ? 5 : static_cast<int>(j);
+        ASSERT_EQ(writeFile(theirs.getFullPathName().toStdString(), sessionJson(session.value)), "");
+    }
+    {
+        MixerWindow window{fakeDrivers({&hands}), "", theirs, folder("config")};
+        const auto& strips = window.model().mix().strips;
+        ASSERT_EQ(strips.size(), 4u);
+        EXPECT_EQ(strips[0].output, 0);
+        EXPECT_EQ(strips[1].output, 1);
+        EXPECT_EQ(strips[2].output, -1);
+        EXPECT_EQ(strips[3].output, -1);
+        EXPECT_EQ(strips[1].gainDb, -19.5);
+        EXPECT_EQ(window.model().mix().levelDb, safeContactDb);
+        EXPECT_FALSE(window.model().trouble().contains("without")) << window.model().trouble();
+        runFor(0.7);
+    }
+    for (int start = 0; start < 3; ++start) {
+        MixerWindow window{fakeDrivers({&hands}), "", {}, folder("config")};
+        EXPECT_EQ(window.model().mix().levelDb, safeContactDb) << start;
+        EXPECT_EQ(window.model().output().channelMap(), (std::vector{0, 1})) << start;
+        runFor(0.7);
+    }
 }
 
 TEST(Window, HeadphonesAreKept) {
