@@ -128,7 +128,7 @@ TEST_F(OnASmallDisplay, WhatAProtocolAsksForHasALineUntilItIsChosen) {
 
 TEST_F(OnASmallDisplay, HowMuchWeakerHitsAreIsToldBesideBeginWhereTheLevelIsRaised) {
     p.view.tabs().choose("Studies");
-    auto* const fader = dynamic_cast<juce::Slider*>(find(p.tab(), "Master gain, in a row"));
+    auto* const fader = dynamic_cast<juce::Slider*>(p.find("Master gain, in a row"));
     ASSERT_NE(fader, nullptr);
     for (const auto& [width, height] :
          {std::pair{1440, 900 - titleBar}, {MixerView::minWidth, MixerView::minHeight}}) {
