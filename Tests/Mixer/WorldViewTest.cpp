@@ -37,10 +37,11 @@ TEST(WorldView, AGlowIsOfWhatIsFelt) {
                              .amplitude = 1.0,
                              .x = 0.5 * scene.fieldWidthMetres,
                              .y = 0.5 * scene.fieldHeightMetres};
+    double nowMs = 0.0;
     const auto glows = [&](bool isFelt, std::vector<bool> muted) {
         view.show(mix.layout, mix.panner(), std::move(muted));
-        juce::Thread::sleep(500); // longer than one is seen
-        view.update({{}, 0, 0, std::span{&hit, 1}, {}, isFelt});
+        nowMs += 500.0; // longer than one is seen
+        view.update({{}, 0, 0, std::span{&hit, 1}, {}, isFelt, nowMs});
         const auto at = view.placeOfShare({0.5, 0.5}).toInt();
         return view.createComponentSnapshot(view.getLocalBounds()).getPixelAt(at.x, at.y).getBrightness() >
                0.9f;

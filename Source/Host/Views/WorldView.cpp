@@ -26,11 +26,6 @@ float levelOf(double amplitude) {
         1.0f + static_cast<float>(juce::Decibels::gainToDecibels(std::abs(amplitude), -50.0)) / 50.0f);
 }
 
-float ageOf(double shownAtMs) {
-    return static_cast<float>(
-        juce::jlimit(0.0, 1.0, (juce::Time::getMillisecondCounterHiRes() - shownAtMs) / hitMs));
-}
-
 bool isSame(const std::vector<BodyPose>& a, const std::vector<BodyPose>& b) {
     return std::ranges::equal(a, b, [](const BodyPose& p, const BodyPose& q) {
         return p.xMetres == q.xMetres && p.yMetres == q.yMetres && p.angleRadians == q.angleRadians &&
@@ -115,7 +110,7 @@ void WorldView::update(WorldMoment moment) {
     while (ahead_.size() > 1 && ahead_[1].timeNs + moment.aheadNs <= moment.sessionNs) ahead_.pop_front();
     bool isOther = !hits_.empty() || !traces_.empty() || !moment.hits.empty() ||
                    (!ahead_.empty() && !isSame(before, ahead_.front().poses));
-    const double now = juce::Time::getMillisecondCounterHiRes();
+    const double now = nowMs_ = moment.nowMs;
     for (const auto& event : moment.hits) addHit(event, now, moment.isFelt);
     while (!hits_.empty() && (hits_.size() > maxHits || now - hits_.front().shownAtMs > hitMs))
         hits_.pop_front();
@@ -385,6 +380,10 @@ void WorldView::addHit(const CollisionEvent& event, double nowMs, bool isFelt) {
 }
 
 // Drawn over the outlines that they follow, with a white core like hits. Even the weakest are visible.
+float WorldView::ageOf(double shownAtMs) const {
+    return static_cast<float>(juce::jlimit(0.0, 1.0, (nowMs_ - shownAtMs) / hitMs));
+}
+
 void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
     for (const auto& trace : traces_) {
         const float level = levelOf(trace.amplitude),
@@ -433,7 +432,7 @@ void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
 
 // Lines from the strongest current hit to each actuator; width and brightness show the actuator's gain.
 void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
-    const auto light = [](const Hit& hit) {
+    const auto light = [this](const Hit& hit) {
         return hit.isFelt ? levelOf(hit.event.amplitude) * (1.0f - ageOf(hit.shownAtMs)) : 0.0f;
     };
     const auto strongest = std::ranges::max_element(hits_, {}, light);

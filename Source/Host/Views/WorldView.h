@@ -21,10 +21,11 @@ namespace physvib {
 struct WorldMoment {
     std::vector<BodyPose> poses; ///< of the bodies, at `sessionNs`
     std::int64_t sessionNs = 0;
-    std::int64_t aheadNs = 0;             ///< output latency of these poses
-    std::span<const CollisionEvent> hits; ///< that have been played
-    std::span<const float> peaks;         ///< per actuator, 1 = full scale
-    bool isFelt = true;                   ///< false: these hits are seen, and are silenced
+    std::int64_t aheadNs = 0;                                ///< output latency of these poses
+    std::span<const CollisionEvent> hits;                    ///< that have been played
+    std::span<const float> peaks;                            ///< per actuator, 1 = full scale
+    bool isFelt = true;                                      ///< false: these hits are seen, and are silenced
+    double nowMs = juce::Time::getMillisecondCounterHiRes(); ///< time of the picture, for ages of glows
 };
 
 /// A place in the field, each coordinate 0 to 1 from its lower left corner.
@@ -195,6 +196,7 @@ private:
                    const juce::AffineTransform& place, const Map& at);
     void drawHits(juce::Graphics& g, const Map& at) const;
     void addHit(const CollisionEvent& event, double nowMs, bool isFelt);
+    float ageOf(double shownAtMs) const; ///< 0: just shown, 1: faded
     bool isMuted(int enchanter) const {
         return static_cast<std::size_t>(enchanter) < muted_.size() &&
                muted_[static_cast<std::size_t>(enchanter)];
@@ -224,7 +226,7 @@ private:
     std::deque<Hit> hits_;
     std::deque<Trace> traces_;
     std::array<float, limits::maxEnchanters> peaks_{};
-    double displayWidthMetres_ = 0.0, worldScale_ = 0.0;
+    double displayWidthMetres_ = 0.0, worldScale_ = 0.0, nowMs_ = 0.0;
     std::vector<MaterialPicture> pictures_;
     juce::BorderSize<int> room_;
     int shownGains_ = -1, selected_ = -1, margin_ = 38;
