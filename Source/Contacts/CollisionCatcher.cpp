@@ -2,6 +2,7 @@
 // Sorts an engine's contact reports into collisions and resting loads.
 #include "Contacts/CollisionCatcher.h"
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 
@@ -171,13 +172,18 @@ ChainLoads::Place& ChainLoads::add(const TouchingPairs::Name& pair, std::int32_t
     return place;
 }
 
+inline std::array<float, 4> ChainLoads::Contact::squares() const noexcept {
+    using Four = float __attribute__((vector_size(sizeof x)));
+    const auto of = [](const std::array<float, 4>& axis) { return std::bit_cast<Four>(axis); };
+    return std::bit_cast<std::array<float, 4>>(of(x) * of(x) + of(y) * of(y) + of(z) * of(z));
+}
+
 void ChainLoads::settle() {
     passed_.resize(static_cast<std::size_t>(table_.size()));
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const Contact& contact = contacts_[i];
         if (contact.step != step_ || contact.isUnknown) continue;
-        std::array<float, 4> squares;
-        for (unsigned k = 0; k < 4; ++k) squares[k] = contact.push(k).lengthSquared();
+        const std::array<float, 4> squares = contact.squares();
         const auto before = [&](unsigned steps) { return (contact.newest - steps) % 4; };
         const unsigned one = before(1), two = before(2), three = before(3),
                        newer = squares[two] < squares[one] ? two : one,

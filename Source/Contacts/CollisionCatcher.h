@@ -144,6 +144,7 @@ public:
         bool isUnknown = false; // first seen in mid-contact: its load is its first impulse
         bool isUsual = false;
         Vector3 push(unsigned turn) const noexcept { return {x[turn], y[turn], z[turn]}; }
+        std::array<float, 4> squares() const noexcept; ///< of their magnitudes
         void set(Vector3 push) noexcept { x[newest] = push.x, y[newest] = push.y, z[newest] = push.z; }
     };
 
@@ -180,9 +181,10 @@ public:
     const std::vector<std::int32_t>& receivers() const noexcept { return receivers_; }
 
     /// The impulse that a haptic source received through existing contacts in this step. After settle().
-    Passed passed(std::int32_t slot) const noexcept {
+    const Passed& passed(std::int32_t slot) const noexcept {
+        static constexpr Passed nothing{};
         const auto index = static_cast<std::size_t>(slot);
-        return index < passed_.size() ? passed_[index] : Passed{};
+        return index < passed_.size() ? passed_[index] : nothing;
     }
     /// Where most of it was transmitted, in the same step; 0 if nothing was.
     Vector3 pointOf(const Passed& passed) const noexcept {

@@ -4,6 +4,7 @@
 #include "Physics/CollisionFinder.h"
 #include "Physics/WorldBodies.h"
 #include <algorithm>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -66,7 +67,7 @@ CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair
     }
     Known& known = known_[static_cast<std::size_t>(at)];
     known = {&contact, contact.GetFixtureA(),   contact.GetFixtureB(), pair,
-             0,        pairKey(pair.a, pair.b), partOf(contact)};
+             0,        pairKey(pair.a, pair.b), partOf(contact),       known.after};
     return known;
 }
 
@@ -263,14 +264,12 @@ SurfacePath around(const b2Fixture& disc, b2Vec2 direction, float radiansPerSeco
 } // namespace
 
 // Impulses at new points belong to the collision, if there is one; all others are load.
-// `known`: of the contact, or null.
-void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known* known) {
+void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known& known) {
     CollisionCatcher& catcher = events_.catcher();
     const unsigned fresh = fresh_.solved(contact); // the points are old from the next step on
-    if (known == nullptr) return;
-    const Pair& pair = pairOf(*known);
+    const Pair& pair = pairOf(known);
     const TouchingPairs::Pair& stored = catcher[pair];
-    known->load = std::max(stored.load, 0);
+    known.load = std::max(stored.load, 0);
     const unsigned traits = events_.fixtures().traits(pair.a) | events_.fixtures().traits(pair.b);
     const bool isOfSource = (traits & FixtureTable::source) != 0;
     const bool isRelevant = isOfSource || stored.last != TouchingPairs::none;
@@ -293,7 +292,7 @@ void CollisionFinder::solve(const b2Contact& contact, const b2ContactImpulse& im
                 solved.note(0, place->setFace());
         }
     if (LastingContacts::isRelevant(traits)) // only pairs whose load matters
-        tell(contact, impulse, collisions, *known);
+        tell(contact, impulse, collisions, known);
 }
 
 /// One point on a face, which touches there.
@@ -318,30 +317,49 @@ inline void CollisionFinder::tellFace(const b2Contact& contact, const b2ContactI
     told.feature = known.part ^ contact.GetManifold()->points[i].id.key;
 }
 
-// The usual contact, without a call: its points are old, one of its fixtures is a source, a face touches.
+// Engines solve contacts in nearly the same order in each step: the search is seldom needed.
 void CollisionFinder::onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse) {
-    CollisionCatcher& catcher = events_.catcher();
+    Known& next = known_[next_];
+    if (!next.isOf(contact) || fresh_.mayHave(contact)) return solveOutOfTurn(contact, impulse);
+    last_ = std::exchange(next_, next.after);
+    solveKnown(contact, impulse, next);
+}
+
+void CollisionFinder::solveOutOfTurn(const b2Contact& contact, const b2ContactImpulse& impulse) {
     const bool isNew = fresh_.mayHave(contact);
-    if (!catcher.hasSources()) {
+    Known* known = nullptr;
+    if (events_.catcher().hasSources() &&
+        (isNew ||
+         events_.catcher().mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))))
+        known = find(contact);
+    if (known == nullptr) {
         if (isNew) fresh_.solved(contact);
         return;
     }
-    if (!isNew && !catcher.mayBeRelevant(idOf(*contact.GetFixtureA()), idOf(*contact.GetFixtureB()))) return;
-    Known* const known = find(contact);
-    if (isNew || known == nullptr) return solve(contact, impulse, known);
-    ChainLoads::Contact* const usual = catcher.loads().usual(known->pair, known->load);
+    known_[last_].after = static_cast<std::uint32_t>(known - known_.data());
+    next_ = known->after;
+    last_ = static_cast<std::uint32_t>(known - known_.data());
+    if (isNew) return solve(contact, impulse, *known);
+    solveKnown(contact, impulse, *known);
+}
+
+// The usual contact, without a call: its points are old, one of its fixtures is a source, a face touches.
+inline void CollisionFinder::solveKnown(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                        Known& known) {
+    CollisionCatcher& catcher = events_.catcher();
+    ChainLoads::Contact* const usual = catcher.loads().usual(known.pair, known.load);
     const unsigned traits =
-        events_.fixtures().traits(known->pair.a) | events_.fixtures().traits(known->pair.b);
-    if (usual == nullptr || contact.GetManifold()->type == b2Manifold::e_circles ||
-        (traits & FixtureTable::source) == 0)
+        events_.fixtures().traits(known.pair.a) | events_.fixtures().traits(known.pair.b);
+    if (usual == nullptr || (traits & FixtureTable::source) == 0 ||
+        contact.GetManifold()->type == b2Manifold::e_circles)
         return solve(contact, impulse, known);
     const SolvedContact solved{contact};
     FaceTouch& touch = catcher.push(*usual, solved.push(impulse, 0U)).setFace();
     solved.note(0, touch);
     if (!LastingContacts::isRelevant(traits)) return;
-    tellFace(contact, impulse, 0, *known, touch);
+    tellFace(contact, impulse, 0, known, touch);
     if (impulse.count > 1) [[unlikely]]
-        tell(contact, impulse, 1U, *known);
+        tell(contact, impulse, 1U, known);
 }
 
 /// Reports the points to LastingContacts, except those in `collisions` (a bit each), which belong to a

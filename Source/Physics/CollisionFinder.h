@@ -172,8 +172,9 @@ private:
         std::int32_t load = 0;  // of the pair, where it last was
         std::uint64_t key = 0;  // of the pair
         std::uint64_t part = 0; // hash of which parts of the two surfaces (segments of a chain) touch
+        std::uint32_t after = 0; // index of the one that was solved after this one, in the last step
         bool isOf(const b2Contact& of) const noexcept {
-            return fixtureA == of.GetFixtureA() && fixtureB == of.GetFixtureB();
+            return contact == &of && fixtureA == of.GetFixtureA() && fixtureB == of.GetFixtureB();
         }
     };
     Known* find(const b2Contact& contact) { // nullptr: one of the fixtures is not registered
@@ -198,7 +199,10 @@ private:
     void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
                   Collision& collision) const;
-    [[gnu::noinline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known* known);
+    [[gnu::noinline]] void solveOutOfTurn(const b2Contact& contact, const b2ContactImpulse& impulse);
+    [[gnu::always_inline]] void solveKnown(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                           Known& known);
+    [[gnu::noinline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known& known);
     [[gnu::noinline]] void tell(const b2Contact& contact, const b2ContactImpulse& impulse,
                                 unsigned collisions, const Known& known);
     void tellDiscs(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known);
@@ -213,6 +217,7 @@ private:
     std::vector<Known> known_; // contacts that touch, then room for more
     std::size_t knownCount_ = 0;
     IntegerMap knownAt_{expectedContacts}; // by contact
+    std::uint32_t last_ = 0, next_ = 0;    // indices of the one that was solved last, and of its successor
 };
 
 } // namespace physvib
