@@ -101,28 +101,25 @@ public:
     EventMaker& operator=(const EventMaker&) = delete;
     ~EventMaker() { counts_.made(made_); }
     void add(const Impact& impact) {
-        const SmallImpact one{impact.timeNs, impact.newtonSeconds, impact.point, impact.kind};
-        add(impact.camera, impact.other, {&one, 1});
+        meet(impact.camera, impact.other);
+        add(SmallImpact{impact.timeNs, impact.newtonSeconds, impact.point, impact.kind});
     }
-    /// Impacts of the same two.
-    void add(std::int32_t camera, std::int32_t other, std::span<const SmallImpact> impacts) {
+    /// Whose impacts the next ones are.
+    [[gnu::always_inline]] void meet(std::int32_t camera, std::int32_t other) {
         if (camera != camera_) setSource(camera);
-        if (isMuted_) {
-            counts_.muted += impacts.size();
+        if (!isMuted_ && (!hasMet_ || other != other_)) setPartner(other);
+    }
+    [[gnu::always_inline]] void add(const SmallImpact& impact) {
+        if (isMuted_) [[unlikely]] {
+            ++counts_.muted;
             return;
         }
-        if (!hasMet_ || other != other_) setPartner(other);
-        if (modeCount_ == 1) [[likely]] {
-            const Mode mode = modes_[0];
-            for (const SmallImpact& impact : impacts) sound(mode, impact, amplitudeOf(impact));
-            return;
-        }
-        for (const SmallImpact& impact : impacts) {
-            const double amplitude = amplitudeOf(impact);
-            for (int i = 0; i < modeCount_; ++i) {
-                setMode(modes_[static_cast<std::size_t>(i)]);
-                sound(modes_[static_cast<std::size_t>(i)], impact, amplitude);
-            }
+        const double amplitude = amplitudeOf(impact);
+        if (modeCount_ == 1) [[likely]]
+            return sound(modes_[0], impact, amplitude);
+        for (const Mode& mode : std::span{modes_.data(), static_cast<std::size_t>(modeCount_)}) {
+            setMode(mode);
+            sound(mode, impact, amplitude);
         }
     }
 

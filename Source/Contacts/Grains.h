@@ -79,6 +79,8 @@ struct GrainChance {
 struct GrainGap {
     double fromMetres = 0.0; ///< along the path, as SurfaceMotion's metres
     double toMetres = 0.0;   ///< its other end
+    std::int64_t next = 0;   ///< index of the grain at that end to which the point moved
+    bool isUp = true;        ///< that is `toMetres`
 
     /// True if a motion that does not reverse certainly stays within.
     bool holds(const SurfaceMotion& motion) const noexcept {
@@ -113,16 +115,19 @@ public:
     }
 
     /// Calls `passed(index, t)` for each grain whose index is a multiple of `every`, in the order in which
-    /// they are passed. Returns where the point is then.
+    /// they are passed. Returns where the point is then. `gap`: the same of the step before, of these grains
+    /// and this `every`, which saves a search; or null.
     template <class Passed>
     [[gnu::always_inline]] GrainGap along(const SurfaceMotion& motion, std::int64_t every,
-                                          Passed&& passed) const {
+                                          const GrainGap* gap, Passed&& passed) const {
         double from = 0.0, to = motion.turn();
+        GrainGap at;
         for (;;) { // there, and back
-            const GrainGap gap = walk(motion, from, to, every, passed);
-            if (!(to < motion.seconds)) return gap;
+            at = walk(motion, from, to, every, gap, passed);
+            if (!(to < motion.seconds)) return at;
             from = to;
             to = motion.seconds;
+            gap = &at;
         }
     }
 
@@ -161,12 +166,18 @@ private:
 
     template <class Passed>
     [[gnu::always_inline]] GrainGap walk(const SurfaceMotion& motion, double from, double to,
-                                         std::int64_t every, Passed& passed) const {
+                                         std::int64_t every, const GrainGap* gap, Passed& passed) const {
         const double start = motion.metresAt(from), end = motion.metresAt(to), speed = motion.speedAt(from);
         const bool isUp = end > start;
         const double sign = isUp ? 1.0 : -1.0;
         double behind = start;
-        Grain grain = next(start, isUp, every, behind);
+        Grain grain;
+        if (gap != nullptr && gap->isUp == isUp && gap->fromMetres < start && start < gap->toMetres) {
+            behind = isUp ? gap->fromMetres : gap->toMetres;
+            grain = {gap->next, isUp ? gap->toMetres : gap->fromMetres};
+        } else {
+            grain = next(start, isUp, every, behind);
+        }
         for (; sign * (end - grain.metres) >= 0.0; grain = at(grain.index + (isUp ? every : -every))) {
             behind = grain.metres;
             const double far = grain.metres - start;
@@ -176,7 +187,8 @@ private:
             const double t = denominator == 0.0 ? to : from + 2.0 * far / denominator;
             passed(grain.index, std::min(std::max(from, t), to));
         }
-        return isUp ? GrainGap{behind, grain.metres} : GrainGap{grain.metres, behind};
+        return isUp ? GrainGap{behind, grain.metres, grain.index, true}
+                    : GrainGap{grain.metres, behind, grain.index, false};
     }
 
     static constexpr std::uint64_t seedFactor = 0xD1342543DE82EF95U;

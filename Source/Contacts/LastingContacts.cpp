@@ -40,9 +40,10 @@ LastingContacts::LastingContacts(const FixtureTable& table)
 void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     struct List {
         std::vector<Impact>& impacts;
-        void add(std::int32_t camera, std::int32_t other, std::span<const SmallImpact> grains) {
-            for (const SmallImpact& of : grains)
-                impacts.push_back({camera, other, of.timeNs, of.newtonSeconds, of.point, of.kind});
+        std::int32_t camera = FixtureTable::none, other = FixtureTable::none;
+        void meet(std::int32_t one, std::int32_t two) noexcept { camera = one, other = two; }
+        void add(const SmallImpact& of) {
+            impacts.push_back({camera, other, of.timeNs, of.newtonSeconds, of.point, of.kind});
         }
     } list{impacts};
     collectFor(span, list);
@@ -125,8 +126,6 @@ void LastingContacts::weigh(Pair& pair, double seconds) const noexcept {
                            ? 0.0
                            : std::min(1.0, pairs_.before(pair.before).newtons / pair.newtons);
 }
-
-void LastingContacts::grow() { grains_.resize(2 * grains_.size() + 32); }
 
 void LastingContacts::endStep() {
     compute();

@@ -216,16 +216,15 @@ public:
         points_.reserve(24);
         pairs_.reserve(24);
         passages_.reserve(24);
-        if (grains_.empty()) grow();
     }
 
     /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
-    /// The same for `makers.add(camera, other, impacts)`, without a list between.
-    template <class Makers>
-    void collectFor(const StepSpan& span, Makers& makers) {
+    /// The same for `maker.meet(camera, other)` and then `maker.add(SmallImpact)`, without a list between.
+    template <class Maker>
+    void collectFor(const StepSpan& span, Maker& maker) {
         follow(span.seconds());
-        for (const Passage& passage : passages_) pass(passage, span, makers);
+        for (const Passage& passage : passages_) pass(passage, span, maker);
     }
     void endStep();
 
@@ -299,24 +298,18 @@ private:
     [[gnu::always_inline]] double follow(Told& told, std::int32_t surface, double seconds);
     void weigh(Pair& pair, double seconds) const noexcept;
     void forgetStep() noexcept;
-    void grow();
-    static bool isSlow(const Passage& passage) noexcept { return passage.grains < 0.75; }
-    /// True, at little cost, where a slow point surely passes no grain.
-    [[gnu::always_inline]] bool isBetweenGrains(const Passage& passage) noexcept {
-        Told& told = *passage.told;
-        if (!isSlow(passage) || told.before == StepMemory<Told>::none) return false;
-        const Told& before = points_.before(told.before);
-        if (before.inGapOf != passage.surface || before.every != passage.every ||
-            before.revision != table_.revision() || !before.gap.holds(passage.motion))
-            return false;
-        told.inGapOf = before.inGapOf;
-        told.revision = before.revision;
-        told.every = before.every;
-        told.gap = before.gap;
-        return true;
+    /// Where the passage's point was between grains of this surface at the end of the last step, if that is
+    /// known.
+    [[gnu::always_inline]] const GrainGap* gapBefore(const Passage& passage) const noexcept {
+        if (passage.told->before == StepMemory<Told>::none) return nullptr;
+        const Told& before = points_.before(passage.told->before);
+        return before.inGapOf == passage.surface && before.every == passage.every &&
+                       before.revision == table_.revision()
+                   ? &before.gap
+                   : nullptr;
     }
-    template <class Makers>
-    void pass(const Passage& passage, const StepSpan& span, Makers& makers);
+    template <class Maker>
+    void pass(const Passage& passage, const StepSpan& span, Maker& maker);
 
     const FixtureTable& table_;
     std::array<FacePoint, 32> faces_; // reported, not yet computed; so many stay in the first-level cache
@@ -325,30 +318,35 @@ private:
     StepMemory<Told> points_;
     StepMemory<Pair> pairs_;
     std::vector<Passage> passages_;
-    std::vector<SmallImpact> grains_; // a buffer
     std::uint64_t thinned_ = 0;
 };
 
-template <class Makers>
-void LastingContacts::pass(const Passage& passage, const StepSpan& span, Makers& makers) {
-    if (isBetweenGrains(passage)) return;
+template <class Maker>
+void LastingContacts::pass(const Passage& passage, const StepSpan& span, Maker& maker) {
     Told& told = *passage.told;
+    told.inGapOf = passage.surface;
+    told.revision = table_.revision();
+    told.every = passage.every;
+    const SurfaceMotion motion = passage.motion;
+    const GrainGap* const gap = gapBefore(passage);
+    if (gap != nullptr && passage.grains < 0.75 && gap->holds(motion)) { // most slow points
+        told.gap = *gap;
+        return;
+    }
     const LastingPoint& point = told.point;
     const KnownFixture& surface = table_[passage.surface];
     const Texture& texture = surface.values.texture;
     const Grains grains{static_cast<std::uint64_t>(surface.id), texture};
-    const SurfaceMotion motion = passage.motion;
+    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
+    const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
     struct Constants {
         double power, perSecond, backSeconds, slipping, perSpeed, rolling;
         Vector3 from, velocity;
     } of; // computed at the first grain: many points pass none
-    std::size_t passed = 0, felt = 0;
-    const GrainGap gap = grains.along(
-        motion, passage.every, [&](std::int64_t index, double t) __attribute__((always_inline)) {
-            ++passed;
-            const double speed = std::abs(motion.speedAt(t));
-            if (speed < leastMetresPerSecond) return;
-            if (felt == 0)
+    std::size_t passed = 0;
+    told.gap = grains.along(
+        motion, passage.every, gap, [&](std::int64_t index, double t) __attribute__((always_inline)) {
+            if (passed++ == 0)
                 of = {std::sqrt(static_cast<double>(passage.every)),
                       1.0 / motion.seconds,
                       1.5 * motion.seconds,
@@ -357,34 +355,21 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, Makers&
                       texture.rolling,
                       point.point,
                       point.metresPerSecond};
+            const double speed = std::abs(motion.speedAt(t));
+            if (speed < leastMetresPerSecond || !(isFeltByA || isFeltByB)) return;
             const double slip = std::min(speed, of.slipping);
-            if (felt == grains_.size()) grow();
-            grains_[felt++] = {span.laterNs(t * of.perSecond),
-                               of.power * grains.strengthOf(index) *
-                                   (of.perSpeed * (slip + of.rolling * (speed - slip))),
-                               of.from + static_cast<float>(t - of.backSeconds) * of.velocity,
-                               slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
+            const SmallImpact grain{span.laterNs(t * of.perSecond),
+                                    of.power * grains.strengthOf(index) *
+                                        (of.perSpeed * (slip + of.rolling * (speed - slip))),
+                                    of.from + static_cast<float>(t - of.backSeconds) * of.velocity,
+                                    slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
+            maker.meet(one, other);
+            maker.add(grain);
+            if (!(isFeltByA && isFeltByB)) return;
+            maker.meet(other, one); // by turns, which matters where there is no room for all
+            maker.add(grain);
         });
-    if (isSlow(passage)) {
-        told.inGapOf = passage.surface;
-        told.revision = table_.revision();
-        told.every = passage.every;
-        told.gap = gap;
-    }
     thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
-    const std::span<const SmallImpact> all{grains_.data(), felt};
-    if (felt == 0) return;
-    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
-    if (isFeltByA && isFeltByB) { // by turns, which matters where there is no room for all
-        for (std::size_t i = 0; i < felt; ++i) {
-            makers.add(point.a, point.b, all.subspan(i, 1));
-            makers.add(point.b, point.a, all.subspan(i, 1));
-        }
-    } else if (isFeltByA) {
-        makers.add(point.a, point.b, all);
-    } else if (isFeltByB) {
-        makers.add(point.b, point.a, all);
-    }
 }
 
 } // namespace physvib

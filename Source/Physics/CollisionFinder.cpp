@@ -348,8 +348,7 @@ inline void CollisionFinder::solveKnown(const b2Contact& contact, const b2Contac
                                         Known& known) {
     CollisionCatcher& catcher = events_.catcher();
     ChainLoads::Contact* const usual = catcher.loads().usual(known.pair, known.load);
-    const unsigned traits =
-        events_.fixtures().traits(known.pair.a) | events_.fixtures().traits(known.pair.b);
+    const unsigned traits = events_.fixtures().traits(known.pair.a) | events_.fixtures().traits(known.pair.b);
     if (usual == nullptr || (traits & FixtureTable::source) == 0 ||
         contact.GetManifold()->type == b2Manifold::e_circles)
         return solve(contact, impulse, known);

@@ -168,10 +168,10 @@ private:
     struct alignas(64) Known {              // cache, which saves a search for both fixtures in every step
         const b2Contact* contact = nullptr; // null: of none
         const b2Fixture *fixtureA = nullptr, *fixtureB = nullptr;
-        Pair pair{};            // its number: none until it is needed
-        std::int32_t load = 0;  // of the pair, where it last was
-        std::uint64_t key = 0;  // of the pair
-        std::uint64_t part = 0; // hash of which parts of the two surfaces (segments of a chain) touch
+        Pair pair{};             // its number: none until it is needed
+        std::int32_t load = 0;   // of the pair, where it last was
+        std::uint64_t key = 0;   // of the pair
+        std::uint64_t part = 0;  // hash of which parts of the two surfaces (segments of a chain) touch
         std::uint32_t after = 0; // index of the one that was solved after this one, in the last step
         bool isOf(const b2Contact& of) const noexcept {
             return contact == &of && fixtureA == of.GetFixtureA() && fixtureB == of.GetFixtureB();
