@@ -89,7 +89,8 @@ def main(build, count):
     ours = peers.program("ours")
     work = count * CHANNELS * RATE * 1e-9  # 10^9 mode-sample-channels in a second of sound
     entries = [("PhysVib, whole chain", peers.program("chain"), 120), ("naive, double, -O3", peers.program("naive-O3"), 20),
-               ("naive, float, -Ofast -march=native", peers.program("naive-Ofast"), 120), ("Faust, float", peers.program("faust-float"), 120),
+               ("naive, float, -Ofast -march=native", peers.program("naive-Ofast"), 120),
+               ("plain SIMD, float, -Ofast -march=native", peers.program("simd"), 300), ("Faust, float", peers.program("faust-float"), 120),
                ("Faust, double", peers.program("faust-double"), 120), ("STK SineWave * Asymp", peers.program("stk"), 40),
                ("Csound poscil * expon", peers.csound, 40), ("SuperCollider SinOsc * XLine", peers.supercollider, 60),
                ("Pd cpole~", peers.pure_data, 40)]

@@ -28,6 +28,7 @@ compile ours ours.cpp -O3 -ISource
 compile chain ours.cpp -O3 -ISource -DCHAIN
 libraries=
 compile naive-O3 naive.cpp -O3 -DREAL=double
+compile simd simd.cpp -Ofast -march=native
 compile naive-Ofast naive.cpp -Ofast -march=native -DREAL=float
 for precision in single double; do
     name=faust-$([ $precision = single ] && echo float || echo double)
