@@ -54,7 +54,7 @@ alone=$(per_step balls 100 -1)
 echo "| 100 balls roll, Box2D alone | $alone |"
 smooth=$(per_step balls 100 0)
 echo "| the same attached, a smooth floor | $smooth ($(more "$alone" "$smooth")) |"
-for mm in 20 5 2; do
+for mm in 10000 20 5 2; do
     rough=$(per_step balls 100 $mm)
     echo "| the same attached, grains of $mm mm | $rough ($(more "$alone" "$rough"); over the smooth floor $(more "$smooth" "$rough")) |"
 done
