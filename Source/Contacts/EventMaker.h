@@ -100,12 +100,12 @@ public:
     EventMaker(const EventMaker&) = delete;
     EventMaker& operator=(const EventMaker&) = delete;
     ~EventMaker() { counts_.made(made_); }
-    void add(const Impact& impact) {
+    [[gnu::noinline]] void add(const Impact& impact) {
         meet(impact.camera, impact.other);
         add(SmallImpact{impact.timeNs, impact.newtonSeconds, impact.point, impact.kind});
     }
     /// Whose impacts the next ones are.
-    [[gnu::always_inline]] void meet(std::int32_t camera, std::int32_t other) {
+    void meet(std::int32_t camera, std::int32_t other) {
         if (camera != camera_) setSource(camera);
         if (!isMuted_ && (!hasMet_ || other != other_)) setPartner(other);
     }

@@ -42,8 +42,9 @@ void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts
         std::vector<Impact>& impacts;
         std::int32_t camera = FixtureTable::none, other = FixtureTable::none;
         void meet(std::int32_t one, std::int32_t two) noexcept { camera = one, other = two; }
+        void add(const Impact& of) { impacts.push_back(of); }
         void add(const SmallImpact& of) {
-            impacts.push_back({camera, other, of.timeNs, of.newtonSeconds, of.point, of.kind});
+            add({camera, other, of.timeNs, of.newtonSeconds, of.point, of.kind});
         }
     } list{impacts};
     collectFor(span, list);

@@ -220,7 +220,8 @@ public:
 
     /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
-    /// The same for `maker.meet(camera, other)` and then `maker.add(SmallImpact)`, without a list between.
+    /// The same for `maker.meet(camera, other)` and then `maker.add(SmallImpact)`, or `maker.add(Impact)`,
+    /// without a list between.
     template <class Maker>
     void collectFor(const StepSpan& span, Maker& maker) {
         follow(span.seconds());
@@ -365,9 +366,8 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, Maker& 
                                     slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
             maker.meet(one, other);
             maker.add(grain);
-            if (!(isFeltByA && isFeltByB)) return;
-            maker.meet(other, one); // by turns, which matters where there is no room for all
-            maker.add(grain);
+            if (isFeltByA && isFeltByB) // by turns, which matters where there is no room for all
+                maker.add({other, one, grain.timeNs, grain.newtonSeconds, grain.point, grain.kind});
         });
     thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
 }
