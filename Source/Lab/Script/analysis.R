@@ -488,8 +488,8 @@ across <- function(tests, what, all, pairs = TRUE) {
   effect <- ifelse(pair, paste("pairs of", factor), ifelse(ranks, factor, lines$effect)); words <- ifelse(pair, paste(name, substring(lines$effect, nchar(factor) + 3)), name)
   for (one in unique(effect[pairs | !pair])) {
     i <- which(effect == one); results$p_across[at[i]] <<- p.adjust(p[i], "holm"); p.across <- results$p_across[at[i]]
-    if (length(all) > 1) cat("over ", what, ", ", one, ": Holm's p of ", length(i), if (length(i) == 1) " test: " else " tests: ", paste(words[i], ifelse(p.across < 1e-4, "< 0.0001",
-                             signif(p.across, 3)), collapse = ", "), if (length(no <- setdiff(all, name[i])) > 0) paste("; none could be made of", paste(no, collapse = ", ")), "\n", sep = "")
+    if (length(i) > 1 || (length(all) > 1 && !grepl("mixed model", one))) cat("over ", what, ", ", one, ": Holm's p of ", length(i), if (length(i) == 1) " test: " else " tests: ", paste(words[i], ifelse(p.across < 1e-4, "< 0.0001",
+                             signif(p.across, 3)), collapse = ", "), if (length(no <- setdiff(all, name[i])) > 0) paste("; none was made of", paste(no, collapse = ", ")), "\n", sep = "")
   }
 }
 # Objects that were rated side by side are levels of a factor; one that was also felt openly, the hidden reference, is looked at.
@@ -579,6 +579,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
+    cat("variable error: standard deviation of a participant's answers around their own mean of a target, both axes together\n")
     compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"), over = "target")
     targets <- c("target_y", "target_x"); if (!all(targets %in% names(own))) targets <- c("target_row", "target_column") # which number those of other programs
     for (t in targets) own[[t]] <- as.character(signif(as.numeric(own[[t]]), 4))
